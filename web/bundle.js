@@ -1,13 +1,14 @@
-// Puts the page together: `node bundle.js MODULE_FOLDER OUT_FOLDER [--quick]`.
+// Builds the page: `node bundle.js MODULE_FOLDER OUT_FOLDER [--quick]`.
 //
-// `--quick` compresses in a moment, and less: for tests, which ask for what the page does.
+// `--quick` compresses fast and less well, for tests of the page's behaviour.
 //
-// MODULE_FOLDER is what `wasm-bindgen --target web` made. In OUT_FOLDER every file but index.html
-// and worker.js bears a hash of its content in its name, so that browsers may keep it and never mix
-// two versions; beside each lie what gzip and Brotli make of it, for servers that give that.
+// MODULE_FOLDER is the output of `wasm-bindgen --target web`. In OUT_FOLDER every file but
+// index.html and worker.js has a hash of its content in its name, so that browsers can cache it and
+// never mix two versions. Beside each file are its forms compressed by gzip and Brotli, for servers
+// that offer them.
 //
-// $CAROM_PAGE is the address that the page will have, where it is known: other sites show the page's
-// picture only by a whole address.
+// $CAROM_PAGE is the address of the published page, if it is known: other sites show the page's
+// picture only by an absolute address.
 
 import { createHash } from "node:crypto";
 import { mkdir, readFile, readdir, rm, writeFile } from "node:fs/promises";
@@ -22,32 +23,35 @@ const PAGE = fileURLToPath(new URL("page/", import.meta.url));
 /** The scenes that come with Carom. */
 const SCENES = fileURLToPath(new URL("../crates/carom-scene/scenes/", import.meta.url));
 
-/** What other sites show beside a link to the page. */
+/** The picture that other sites show beside a link to the page. */
 const PICTURE = fileURLToPath(new URL("../docs/pictures/tutorial4.png", import.meta.url));
 
-/** The oldest with all that module and page use: reference types, TransformStream, box sizes. */
+/**
+ * The oldest browsers with everything that module and page use: reference types, TransformStream,
+ * box sizes.
+ */
 export const BROWSERS = ["chrome96", "firefox102", "safari15.4"];
 
 /**
- * How well files are compressed.
+ * Levels of compression.
  *
  * @typedef {object} Levels
  * @property {number} gzip
  * @property {number} brotli
  */
 
-/** For the page that is published. @type {Levels} */
+/** For the published page. @type {Levels} */
 const BEST = { gzip: constants.Z_BEST_COMPRESSION, brotli: constants.BROTLI_MAX_QUALITY };
 
 /** For tests. @type {Levels} */
 const QUICK = { gzip: constants.Z_BEST_SPEED, brotli: constants.BROTLI_MIN_QUALITY };
 
 /**
- * Puts the page together.
+ * Builds the page.
  *
  * @param {string} moduleFolder
  * @param {string} out
- * @param {{ quick?: boolean }} [options] whether to compress in a moment, and less
+ * @param {{ quick?: boolean }} [options] whether to compress fast and less well
  */
 export async function bundle(moduleFolder, out, { quick = false } = {}) {
   await rm(out, { recursive: true, force: true });
@@ -72,7 +76,7 @@ export async function bundle(moduleFolder, out, { quick = false } = {}) {
   }
   html = html.replace("  </head>", `    <link id="module" ${preload} ${size} />\n  </head>`);
   const files = await readdir(out);
-  // After the list: only other sites ask for it.
+  // After the list, because only other sites fetch it.
   const picture = await writeHashed(out, "picture.png", await readFile(PICTURE));
   html = html.replace('"picture.png"', JSON.stringify(whole(picture)));
   await writeFile(join(out, "index.html"), html);
@@ -81,7 +85,7 @@ export async function bundle(moduleFolder, out, { quick = false } = {}) {
 }
 
 /**
- * The address of a file of the page, as whole as it can be known.
+ * Returns the address of a file of the page, absolute if the page's address is known.
  *
  * @param {string} name
  */
@@ -90,7 +94,7 @@ function whole(name) {
     return name;
   }
   const page = new URL(process.env.CAROM_PAGE);
-  // A folder, with or without its slash, or a document in it.
+  // The page is a folder, with or without a slash at the end, or a document in one.
   if (!/\/$|\.html$/.test(page.pathname)) {
     page.pathname += "/";
   }
@@ -98,11 +102,11 @@ function whole(name) {
 }
 
 /**
- * Makes one script of all that the page needs at once, and others of what comes later.
+ * Makes one script of everything that the page needs at its start, and others of the rest.
  *
  * @param {string} moduleFolder
  * @param {string} out
- * @returns {Promise<Map<string, string>>} the names that index.html knows to those that they got
+ * @returns {Promise<Map<string, string>>} the names in index.html, with those of the written files
  */
 async function bundleScripts(moduleFolder, out) {
   const { metafile } = await build({
@@ -116,7 +120,7 @@ async function bundleScripts(moduleFolder, out) {
     entryNames: "[name]-[hash]",
     chunkNames: "[name]-[hash]",
     alias: { "carom-web": join(moduleFolder, "carom_web.js") },
-    // A string twice: an object would become a script of its own, fetched after the first.
+    // Encoded twice: an object would become a separate script, fetched after the first.
     define: { TITLES: JSON.stringify(JSON.stringify(await sceneTitles())) },
     legalComments: "eof",
     metafile: true,
@@ -127,8 +131,8 @@ async function bundleScripts(moduleFolder, out) {
 }
 
 /**
- * Makes the worker that keeps this version of the page: its name stays, and its content is another
- * for every version, by which browsers know that there is a new one.
+ * Makes the service worker of this version of the page. Its name stays the same, but its content
+ * differs for every version, which shows browsers that there is a new one.
  *
  * @param {string[]} files
  * @param {string} html
@@ -147,12 +151,13 @@ async function bundleWorker(files, html, out) {
   });
 }
 
-/** @returns {Promise<Record<string, string>>} by the names of the scenes */
+/** @returns {Promise<Record<string, string>>} titles by the names of the scenes */
 async function sceneTitles() {
   /** @type {Record<string, string>} */
   const titles = {};
   for (const file of await readdir(SCENES)) {
-    // Before the first table, as in all that `carom` writes, and a string that JSON reads as well.
+    // The title comes before the first table, as `carom` writes it, and its string is valid JSON,
+    // too.
     const title = /^title = (".*")$/m.exec(await readFile(join(SCENES, file), "utf8"));
     if (title !== null) {
       titles[file.replace(/\.toml$/, "")] = JSON.parse(title[1]);
@@ -165,7 +170,7 @@ async function sceneTitles() {
  * @param {string} out
  * @param {string} name
  * @param {Buffer} content
- * @returns {Promise<string>} the name under which it was written
+ * @returns {Promise<string>} the name of the written file
  */
 async function writeHashed(out, name, content) {
   const hash = createHash("sha256").update(content).digest("hex").slice(0, 8);
@@ -176,13 +181,13 @@ async function writeHashed(out, name, content) {
 }
 
 /**
- * Puts what gzip and Brotli make of each file beside it.
+ * Writes the forms compressed by gzip and Brotli beside each file.
  *
  * @param {string} out
  * @param {Levels} levels
  */
 async function compressAll(out, { gzip, brotli }) {
-  // A picture is compressed already.
+  // A picture is already compressed.
   const names = (await readdir(out)).filter((name) => extname(name) !== ".png");
   for (const name of names) {
     const path = join(out, name);

@@ -1,8 +1,8 @@
-// Puts the interface together for notebooks: `node notebook.js MODULE_FOLDER OUT_FOLDER`.
+// Builds the interface for notebooks: `node notebook.js MODULE_FOLDER OUT_FOLDER`.
 //
-// MODULE_FOLDER is what `wasm-bindgen --target web` made. OUT_FOLDER gets `page.js.gz`, a module of
-// JavaScript without imports that starts the interface on a canvas, and `carom.wasm.gz`, the module
-// that it starts: the Python package hands both to the browser.
+// MODULE_FOLDER is the output of `wasm-bindgen --target web`. OUT_FOLDER gets `page.js.gz`, a
+// JavaScript module without imports that starts the interface on a canvas, and `carom.wasm.gz`, the
+// WebAssembly module that it starts. The Python package sends both to the browser.
 
 import { mkdir, readFile, rm, writeFile } from "node:fs/promises";
 import { join, resolve } from "node:path";
@@ -28,7 +28,7 @@ async function bundleForNotebooks(moduleFolder, out) {
     format: "esm",
     target: BROWSERS,
     alias: { "carom-web": join(resolve(moduleFolder), "carom_web.js") },
-    // Only for modules that are fetched from beside the script; this one is handed over.
+    // Needed only to fetch a module from beside the script; here the module is passed in.
     define: { "import.meta.url": '"blob:"' },
     legalComments: "eof",
     logLevel: "warning",

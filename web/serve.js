@@ -6,7 +6,7 @@ import { createServer } from "node:http";
 import { extname, join, normalize, sep } from "node:path";
 import { fileURLToPath } from "node:url";
 
-/** Media types by the end of the name. */
+/** Media types by file extension. */
 const TYPES = new Map([
   [".css", "text/css; charset=utf-8"],
   [".html", "text/html; charset=utf-8"],
@@ -19,20 +19,20 @@ const TYPES = new Map([
   [".webmanifest", "application/manifest+json"],
 ]);
 
-/** Compressed forms that may lie beside a file, the smallest first, and the ends of their names. */
+/** Compressed forms that may be beside a file, the smallest first, with their extensions. */
 const ENCODINGS = [
   ["br", ".br"],
   ["gzip", ".gz"],
 ];
 
-/** Names that `bundle.js` gave: what they hold never changes. */
+/** Names made by `bundle.js`: the content of these files never changes. */
 const HASHED = /-[0-9A-Za-z]{8}\.\w+$/;
 
 /**
- * Serves a folder, to this machine only.
+ * Serves a folder to this machine only.
  *
  * @param {string} folder
- * @param {number} port 0 for any that is free
+ * @param {number} port 0 for any free one
  * @returns {Promise<{ url: string, close: () => Promise<void> }>}
  */
 export async function serve(folder, port) {
@@ -84,7 +84,7 @@ async function answer(folder, request, response) {
 }
 
 /**
- * The smallest form of a file that there is and that a client takes.
+ * Returns the smallest existing form of a file that the client accepts.
  *
  * @param {string} path
  * @param {string | string[] | undefined} accepted
@@ -101,7 +101,7 @@ async function bestForm(path, accepted) {
 }
 
 /**
- * The file that an address means, or null for none inside the folder.
+ * Returns the file for an address, or null if it is not inside the folder.
  *
  * @param {string} folder
  * @param {string} url
@@ -119,7 +119,7 @@ function fileOf(folder, url) {
 
 /**
  * @param {string} path
- * @returns {Promise<number | null>} bytes of a file, null if there is none
+ * @returns {Promise<number | null>} size of a file in bytes, or null if there is none
  */
 async function sizeOf(path) {
   try {

@@ -1,17 +1,18 @@
-// What takes the space in a module: `node sizes.js MODULE.wasm`, of a module that bears names.
+// Shows the size of each crate in a module: `node sizes.js MODULE.wasm`; the module must contain
+// names.
 //
-// A function counts for the crate that its name begins with; the parts of a type, as in
-// `<alloc::vec::Vec<T> as Drop>::drop`, count for the crate of the type.
+// A function counts for the crate at the start of its name. A type in it, as in
+// `<alloc::vec::Vec<T> as Drop>::drop`, counts for the crate of the type.
 
 import { readFile } from "node:fs/promises";
 import { gzipSync } from "node:zlib";
 
-/** Crates that are shown by name; what is smaller is added up. */
+/** Number of crates shown by name; smaller ones are added up. */
 const SHOWN = 25;
 
 const SECTION = { custom: 0, import: 2, code: 10, data: 11 };
 
-/** Reads the numbers of a module, one after another. */
+/** Reads the numbers of a module in order. */
 class Reader {
   /** @param {Buffer} bytes */
   constructor(bytes) {
@@ -23,7 +24,7 @@ class Reader {
     return this.bytes[this.at++];
   }
 
-  /** An unsigned number in LEB128. */
+  /** Reads an unsigned number in LEB128. */
   number() {
     let value = 0;
     for (let shift = 1; ; shift *= 128) {
@@ -70,7 +71,7 @@ function sections(module) {
 }
 
 /**
- * Names of functions by number.
+ * Returns the names of functions by number.
  *
  * @param {Buffer} content of the section "name"
  */

@@ -1,17 +1,18 @@
-// The part of the page's address behind `#`: what is shown, so that a link shows it to others.
+// The part of the page's address behind `#`: what the page shows, so that the address is a link to
+// it.
 
 import { titleOf } from "./title.js";
 
-/** Least time between two changes [ms]: browsers refuse more than a hundred in half a minute. */
+/** Shortest time between two changes [ms]: browsers refuse more than a hundred in half a minute. */
 const PAUSE = 400;
 
-/** What is to be written next, and the timer that will do so; none while nothing waits. */
+/** The next text to write, and the timer that will write it, or null. */
 let waiting = "";
 /** @type {ReturnType<typeof setTimeout> | null} */
 let timer = null;
 let last = -Infinity;
 
-/** What stands behind `#` now. */
+/** Returns the present text behind `#`. */
 export function address() {
   return fragmentOf(location);
 }
@@ -22,8 +23,8 @@ function fragmentOf({ hash }) {
 }
 
 /**
- * Puts this behind `#`, soon: a step in the browser's history where it leads to another scene than
- * what stands there.
+ * Writes this text behind `#` soon. If it shows another scene than the present text, the browser's
+ * history gets a new entry.
  *
  * @param {string} fragment
  */
@@ -44,12 +45,12 @@ function write() {
   } else {
     history.replaceState(null, "", url);
   }
-  // Last: the entry of the history that is left keeps its own.
+  // Last, because the history entry that is left keeps its own title.
   document.title = title;
 }
 
 /**
- * What a fragment says of the scene: its name, or the whole file.
+ * Returns the scene in a fragment: its name, or the whole file.
  *
  * @param {string} fragment
  */
@@ -59,16 +60,16 @@ function sceneOf(fragment) {
 }
 
 /**
- * Tells when something else changes it: a link, or typing into the address bar.
+ * Calls `tell` when something else changes the address: a link, or typing into the address bar.
  *
  * @param {(fragment: string) => void} tell
  */
 export function onAddressChange(tell) {
   addEventListener("hashchange", ({ newURL }) => {
-    // What was shown until now must not be written over the new address.
+    // The last view must not overwrite the new address.
     clearTimeout(timer ?? undefined);
     timer = null;
-    // The event comes later than the change, and the page may have written its own in between.
+    // The event comes after the change; the page may have written its own text in between.
     tell(fragmentOf(new URL(newURL)));
   });
 }

@@ -1,10 +1,10 @@
-// What `bundle.js` puts into the scripts in place of these names.
+// Values that `bundle.js` inserts into the scripts for these names.
 
-/** Titles of the scenes that come with Carom, by their names: an object, as JSON. */
+/** Titles of the built-in scenes by their names: an object, as JSON. */
 declare const TITLES: string;
 
-/** The page's document, as it stands in `index.html`. */
+/** The page's document `index.html`. */
 declare const INDEX: string;
 
-/** Names of the files that the document and its scripts ask for. */
+/** Names of the files that the document and its scripts fetch. */
 declare const FILES: string[];

@@ -1,4 +1,4 @@
-// The interface in a canvas of some other document, like the output of a notebook.
+// The interface in a canvas of another document, for example the output of a notebook.
 
 import init, { Page } from "carom-web";
 
@@ -10,17 +10,17 @@ import { services } from "./services.js";
 import { inWords } from "./trouble.js";
 
 /**
- * @typedef {object} Ears what the document hears of the interface
- * @property {(fragment: string) => void} link gets the part after `#` of a link to what is shown
- * @property {(message: string, detail: string | null) => void} end gets why it cannot go on
+ * @typedef {object} Ears callbacks of the document
+ * @property {(fragment: string) => void} link gets the part after `#` of a link to the present view
+ * @property {(message: string, detail: string | null) => void} end gets the reason if it cannot continue
  */
 
 /**
- * Starts the interface on a canvas; the module is compiled once for all canvases of a document.
+ * Starts the interface on a canvas. The module is compiled once for all canvases of a document.
  *
  * @param {HTMLCanvasElement} canvas in the document, with a size
  * @param {WebAssembly.Module} module
- * @param {string} fragment of a link to what is to be shown
+ * @param {string} fragment of the link to open
  * @param {Ears} ears
  * @returns {Promise<Page>}
  */

@@ -1,4 +1,4 @@
-// The module on its way here.
+// Fetches the module.
 
 import { Stall } from "./stall.js";
 import { Trouble } from "./trouble.js";
@@ -6,10 +6,11 @@ import { Trouble } from "./trouble.js";
 /**
  * Fetches the module and compiles it while it arrives.
  *
- * Its address and its size are in the page's head, where `bundle.js` wrote them: a server that
- * compresses does not tell the size that arrives here.
+ * Its address and size are in the page's head, where `bundle.js` wrote them: a server that
+ * compresses does not tell the uncompressed size.
  *
- * @param {(arrived: number, all: number) => void} progress gets how many bytes have arrived
+ * @param {(arrived: number, all: number) => void} progress gets the number of bytes that have
+ * arrived
  * @returns {Promise<WebAssembly.Module>}
  */
 export async function fetchModule(progress) {
@@ -40,12 +41,12 @@ async function download(progress, stall) {
         progress(arrived, all);
         controller.enqueue(piece);
       },
-      // Compilers may still take their time.
+      // The compiler may need more time after the download.
       flush: () => stall.end(),
     }),
     { signal: stall.signal },
   );
-  // Compilers demand this type, whatever the server says.
+  // Compilers require this type, whatever the server sends.
   const headers = { "Content-Type": "application/wasm" };
   try {
     return await WebAssembly.compileStreaming(new Response(counted, { headers }));

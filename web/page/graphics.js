@@ -1,13 +1,13 @@
-// Whether there is anything to draw with; the page checks it before it fetches megabytes.
+// Checks whether the browser can draw, before the page fetches megabytes.
 
-/** Whether the browser offers WebGL 2 or WebGPU. */
+/** Returns whether the browser offers WebGL 2 or WebGPU. */
 export async function canDraw() {
   return hasWebGl2() || (await hasWebGpu());
 }
 
 function hasWebGl2() {
   const context = document.createElement("canvas").getContext("webgl2");
-  // Browsers keep few contexts: this one is given back at once.
+  // Browsers allow few contexts, so this one is released at once.
   context?.getExtension("WEBGL_lose_context")?.loseContext();
   return context !== null;
 }

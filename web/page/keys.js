@@ -1,4 +1,4 @@
-// Keys that scroll pages, and here do not.
+// Keys that scroll pages, but not this one.
 
 const SCROLLING = new Set([
   " ",
@@ -13,9 +13,9 @@ const SCROLLING = new Set([
 ]);
 
 /**
- * Keeps keys that are meant for the interface from scrolling the page, or one that embeds it.
+ * Prevents keys for the interface from scrolling the page, or a page that embeds it.
  *
- * @param {...EventTarget} ours elements that hand keys to the interface
+ * @param {...EventTarget} ours elements that pass keys to the interface
  */
 export function keepKeysFromScrolling(...ours) {
   addEventListener("keydown", (event) => {

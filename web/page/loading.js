@@ -1,4 +1,4 @@
-// What is seen before the interface is, and when it cannot be.
+// The screen shown before the interface, and if it cannot start.
 
 const element = (/** @type {string} */ id) =>
   /** @type {HTMLElement} */ (document.getElementById(id));
@@ -28,14 +28,14 @@ export const loading = {
   /** Makes way for the interface. */
   finish() {
     screen.classList.add("done");
-    // Screen readers, too, have the interface now.
+    // Hides the screen from screen readers, too.
     screen.setAttribute("aria-hidden", "true");
   },
 
   /**
-   * Says why there is no interface (any more).
+   * Shows why there is no interface (any more).
    *
-   * @param {string} text for people
+   * @param {string} text for the user
    * @param {string | null} [more] for experts
    */
   fail(text, more) {

@@ -1,4 +1,5 @@
-// The page: fetches the module, starts it on the canvas, and hands it what only a page can do.
+// The page: fetches the module, starts it on the canvas, and provides services that only a page
+// has.
 
 import init, { Page } from "carom-web";
 
@@ -25,12 +26,12 @@ async function start() {
   const page = await Page.start(canvas, own, address());
   onAddressChange((fragment) => page.openFragment(fragment));
   watchForTheEnd(canvas, loading.fail);
-  // For scripts and the curious: `carom.status()` in the console.
+  // For scripts and for experiments: `carom.status()` in the console.
   Object.assign(globalThis, { carom: page });
   offerMirror(page);
   canvas.focus({ preventScroll: true });
   loading.finish();
-  // Last: what it fetches would hold the interface up.
+  // Last, because its downloads would delay the interface.
   keepForOffline();
 }
 

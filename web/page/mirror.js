@@ -1,25 +1,25 @@
-// The interface as elements of the document, for those who do not see the canvas: switched on by the
-// first button of the page, which a keyboard or a screen reader finds.
+// Mirrors the interface as elements of the document, for people who do not see the canvas. The
+// first button of the page, which a keyboard or a screen reader finds, switches it on.
 
-/** Time between two looks at the interface [ms]. */
+/** Time between two updates from the interface [ms]. */
 const PAUSE = 250;
 
 /**
- * @typedef {object} Widget what `Page.widgets` tells of a part of the interface, in CSS pixels
+ * @typedef {object} Widget a control of the interface, as in `Page.widgets`, in CSS pixels
  * @property {string} id
  * @property {string} role
  * @property {string} label
  * @property {string | null} value
  * @property {[least: number, largest: number] | null} range
  * @property {boolean} disabled
- * @property {boolean} readOnly whether its text is only for reading
+ * @property {boolean} readOnly whether its text cannot be edited
  * @property {number} x
  * @property {number} y
  * @property {number} width
  * @property {number} height
  */
 
-/** Roles of AccessKit that are pressed, and what the document calls them. */
+/** Roles of AccessKit that can be pressed, and their kinds in the document. */
 const PRESSED = new Map([
   ["Button", "button"],
   ["Link", "button"],
@@ -30,7 +30,7 @@ const PRESSED = new Map([
   ["RadioButton", "checkbox"],
 ]);
 
-/** Elements that are no buttons. */
+/** Tags of elements that are not buttons. */
 const TAGS = new Map([
   ["slider", "input"],
   ["number", "input"],
@@ -41,7 +41,7 @@ const TAGS = new Map([
 ]);
 
 /**
- * Lets the switch start the mirror of a page.
+ * Shows the switch that starts the mirror of a page.
  *
  * @param {import("carom-web").Page} page
  */
@@ -55,7 +55,7 @@ export function offerMirror(page) {
   });
 }
 
-/** The interface has a field of its own into which keyboards on screens type: it needs a name. */
+/** Names the interface's own text field for virtual keyboards, which has no label. */
 function nameTheField() {
   document
     .querySelectorAll("body > input:not([aria-label])")
@@ -68,14 +68,14 @@ function start(page) {
   const news = /** @type {HTMLElement} */ (document.getElementById("news"));
   const canvas = /** @type {HTMLElement} */ (document.getElementById("carom"));
   mirror.hidden = false;
-  // Tab goes through the elements, and leaves the page after the last one.
+  // Tab moves through the elements and leaves the page after the last one.
   canvas.tabIndex = -1;
   canvas.setAttribute("aria-hidden", "true");
   /** @type {Map<string, HTMLElement>} */
   let elements = new Map();
   const update = () => {
     elements = show(page, mirror, elements);
-    // `undefined` while a picture is being made.
+    // `undefined` while a frame is being drawn.
     const notices = page.status()?.notices.join(" ");
     if (notices !== undefined && notices !== news.textContent) news.textContent = notices;
   };
@@ -86,12 +86,12 @@ function start(page) {
 }
 
 /**
- * Brings the elements up to date; each stays the same as long as its widget is there, so that it
- * keeps the focus.
+ * Updates the elements. Each stays the same as long as its widget exists, so that it keeps the
+ * focus.
  *
  * @param {import("carom-web").Page} page
  * @param {HTMLElement} mirror
- * @param {Map<string, HTMLElement>} before by the ids of their widgets
+ * @param {Map<string, HTMLElement>} before elements by the ids of their widgets
  * @returns {Map<string, HTMLElement>}
  */
 function show(page, mirror, before) {
@@ -106,7 +106,7 @@ function show(page, mirror, before) {
     describe(element, widget, kind);
     elements.set(widget.id, element);
   }
-  // First: an element that is moved to make place loses the focus.
+  // First, because moving an element would take its focus.
   for (const [id, element] of before) {
     if (elements.get(id) !== element) element.remove();
   }
@@ -195,13 +195,13 @@ function describe(element, widget, kind) {
     if (range && element instanceof HTMLInputElement)
       [element.min, element.max] = range.map(String);
     element.readOnly = readOnly || disabled;
-    // What is being set is not set back by what was shown a moment ago.
+    // The value being edited must not be replaced by an older one.
     if (document.activeElement !== element) element.value = value ?? "";
   } else if (kind === "checkbox") {
     element.setAttribute("aria-checked", String(isOn));
   } else if (kind === "button" && isSwitch) {
     element.setAttribute("aria-pressed", String(isOn));
   }
-  // Not `disabled`, which would take the focus away.
+  // Not `disabled`, which would remove the focus.
   if (kind !== "img") element.setAttribute("aria-disabled", String(disabled));
 }

@@ -1,12 +1,12 @@
-// The page without a network: `worker.js` keeps it.
+// Keeps the page for use without a network; `worker.js` does the work.
 
-/** Keeps the page for later, where the browser lets it: over https, or on this machine. */
+/** Keeps the page if the browser allows it: over https, or on this machine. */
 export function keepForOffline() {
   if (!isSecureContext || !("serviceWorker" in navigator)) {
     return;
   }
   navigator.serviceWorker.register("worker.js").catch((error) => {
-    // Browsers refuse it in private windows, for one; all else works.
+    // Browsers refuse it in private windows, for example; everything else works.
     console.info(`Carom is not kept for use without a network: ${error.message}`);
   });
 }

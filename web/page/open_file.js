@@ -1,12 +1,12 @@
-// Files that the user chooses.
+// Lets the user choose a file.
 
 import { noteTrouble } from "./trouble.js";
 
-/** Endings of what can be opened: scenes and mazes. */
+/** Extensions of files that can be opened: scenes and mazes. */
 const ENDINGS = ".toml,.txt";
 
 /**
- * Asks for a file, and gives its name and content; nothing where none is chosen.
+ * Asks for a file and passes its name and content to `take`; no call if none is chosen.
  *
  * @param {(name: string, content: Uint8Array) => void} take
  */

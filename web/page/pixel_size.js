@@ -1,11 +1,11 @@
-// How many pixels the canvas has.
+// The number of pixels of the canvas.
 
 /**
- * Makes browsers tell the truth about pixels.
+ * Corrects browsers that report a wrong number of pixels.
  *
- * Chromium counts the pixels of an element for itself, but as those of the screen it is on when it
- * feigns another, as its tools for developers do to show a page as on a telephone. Where the count
- * is wrong it is taken away; the interface then multiplies lengths with `devicePixelRatio`.
+ * Chromium reports the size of an element in device pixels, but uses the real screen even if its
+ * developer tools simulate another, such as that of a telephone. If the number is wrong it is
+ * removed; the interface then multiplies lengths with `devicePixelRatio`.
  *
  * @param {HTMLCanvasElement} canvas
  */
@@ -17,7 +17,7 @@ export async function checkPixelSize(canvas) {
   const { contentBoxSize, devicePixelContentBoxSize } = await measured(canvas);
   const told = devicePixelContentBoxSize[0].inlineSize;
   const due = contentBoxSize[0].inlineSize * devicePixelRatio;
-  // A whole pixel is what rounding may do at both edges.
+  // Rounding at both edges may change a whole pixel.
   if (Math.abs(told - due) > 1) {
     Reflect.deleteProperty(prototype, "devicePixelContentBoxSize");
   }

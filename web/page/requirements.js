@@ -1,9 +1,9 @@
-// What a browser must have; checked before it gets megabytes.
+// Requirements of the browser, checked before it fetches megabytes.
 
 import { canDraw } from "./graphics.js";
 import { Trouble } from "./trouble.js";
 
-/** Throws an error in words for people where the browser cannot run the module or draw. */
+/** Throws an error with a message for the user if the browser cannot run the module or draw. */
 export async function checkBrowser() {
   if (typeof WebAssembly !== "object") {
     throw new Trouble(

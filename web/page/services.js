@@ -1,4 +1,4 @@
-// What the page does for the module, which cannot do it by itself: `Services` in carom-web.
+// Services of the page for the module: `Services` in carom-web.
 
 import { save } from "./download.js";
 import { beginFilm } from "./film/film.js";
@@ -7,7 +7,7 @@ import { offersTilt, tilt, useTilt } from "./tilt.js";
 import { takeTrouble } from "./trouble.js";
 
 /**
- * All but what depends on where the canvas is.
+ * All services that do not depend on where the canvas is.
  *
  * @type {Omit<import("carom-web").Services, "showFragment" | "isEmbedded">}
  */
@@ -23,7 +23,7 @@ export const services = {
 };
 
 /**
- * How many spheres the run of a link may have, as the document says, if it does: `<meta
+ * Returns the largest number of spheres in the run of a link, if the document sets it: `<meta
  * name="carom-max-spheres" content="500000">`.
  *
  * @returns {number | null}

@@ -1,24 +1,24 @@
-// A download that has come to a stop without an end, as on a train in a tunnel.
+// Detects a download that stops without an end, as on a train in a tunnel.
 
 import { Trouble } from "./trouble.js";
 
 /**
- * How long nothing may arrive [ms]: slow networks pause for seconds, and people who see no bar move
- * for longer leave.
+ * Longest time without data [ms]: slow networks pause for seconds, but users do not wait longer for
+ * a bar that stands still.
  */
 const PATIENCE = 20_000;
 
-/** Notices when a download stalls. */
+/** Detects when a download stalls. */
 export class Stall {
   #abort = new AbortController();
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   #timer;
   #fail = (/** @type {Trouble} */ _) => {};
 
-  /** Begins to wait for a sign of life. */
+  /** Starts to wait for data. */
   constructor() {
     /**
-     * Fails when the download stalls, and does nothing else.
+     * Rejects when the download stalls; never resolves.
      *
      * @type {Promise<never>}
      */
@@ -26,12 +26,12 @@ export class Stall {
     this.signOfLife();
   }
 
-  /** Ends the download once it has stalled: what arrives after that would be shown as progress. */
+  /** Returns a signal that ends a stalled download: later data would look like progress. */
   get signal() {
     return this.#abort.signal;
   }
 
-  /** Something has arrived. */
+  /** Reports that data has arrived. */
   signOfLife() {
     this.end();
     this.#timer = setTimeout(() => {
@@ -45,7 +45,7 @@ export class Stall {
     }, PATIENCE);
   }
 
-  /** All has arrived, or nothing more will. */
+  /** Stops waiting: the download is complete or has failed. */
   end() {
     clearTimeout(this.#timer);
   }

@@ -1,38 +1,41 @@
-// How the device is held.
+// Measures the tilt of the device.
 
 import { noteTrouble } from "./trouble.js";
 
-/** The sine of an angle that tilts fully: 20 degrees, which a hand does without effort. */
+/** Sine of the angle of a full tilt: 20 degrees, which is easy for a hand. */
 const FULL = Math.sin((20 * Math.PI) / 180);
 
-/** How long a device with sensors takes at most until it tells of them [ms]. */
+/** Longest time until a device with sensors reports [ms]. */
 const PATIENCE = 1000;
 
-/** @typedef {[right: number, down: number]} Slope where a ball would roll on the screen */
+/**
+ * @typedef {[right: number, down: number]} Slope the direction in which a ball would roll on the
+ * screen
+ */
 
 let isUsed = false;
 
 /**
- * The slope now, as sines of its angles; null until known.
+ * The present slope, as sines of its angles; null while unknown.
  *
  * @type {Slope | null}
  */
 let slope = null;
 
 /**
- * The slope when tilting began: a telephone is never held level.
+ * The slope when tilting began; it counts as level, because a telephone is never held level.
  *
  * @type {Slope | null}
  */
 let level = null;
 
-/** Whether this may be a device that is held in a hand, and knows how. */
+/** Returns whether this may be a hand-held device with sensors. */
 export function offersTilt() {
   return "DeviceOrientationEvent" in globalThis && navigator.maxTouchPoints > 0;
 }
 
 /**
- * Begins or ends to feel how the device is held; the pose it begins with is level.
+ * Starts or ends the measurement; the pose at the start counts as level.
  *
  * @param {boolean} on
  */
@@ -50,8 +53,8 @@ export function useTilt(on) {
 }
 
 /**
- * How far the device is tilted from where it was level, to the right and to the lower edge of the
- * screen, each in [-1, 1]; null if it does not tell.
+ * Returns the tilt relative to the level pose, to the right and to the lower edge of the screen,
+ * each in [-1, 1]; null if the device does not report it.
  *
  * @returns {Slope | null}
  */
@@ -64,7 +67,7 @@ export function tilt() {
   return [part(right), part(down)];
 }
 
-/** Some browsers ask the user for permission, and do so only in answer to a touch. */
+/** Asks for permission. Some browsers require it, and ask the user only after a touch. */
 async function askForLeave() {
   const { requestPermission } = /** @type {{ requestPermission?: () => Promise<string> }} */ (
     /** @type {unknown} */ (DeviceOrientationEvent)
@@ -78,7 +81,8 @@ async function askForLeave() {
     }
   };
   await ask().catch(async () => {
-    // The interface answers to a touch a frame later, which may be too late: so with the next one.
+    // The interface reacts to a touch one frame later, which may be too late; then the next touch
+    // asks.
     await new Promise((resolve) => addEventListener("touchend", resolve, { once: true }));
     await ask();
   });
@@ -112,10 +116,11 @@ function feel({ beta, gamma }) {
 }
 
 /**
- * The direction of gravity along the device's x, to its right, and against its y, downwards.
+ * Returns the direction of gravity along the device's x, to its right, and against its y,
+ * downwards.
  *
- * Of the world's down, (0, 0, -1), after the rotations by beta about x and gamma about y, as
- * W3C's "Device Orientation" orders them; alpha, about the vertical, does not change it.
+ * It is the world's down, (0, 0, -1), after the rotations by beta about x and gamma about y, in the
+ * order of W3C's "Device Orientation"; alpha, about the vertical, has no effect.
  *
  * @param {number} beta [degrees]
  * @param {number} gamma [degrees]
@@ -127,8 +132,8 @@ export function inDevice(beta, gamma) {
 }
 
 /**
- * Turned from the device's axes to those of the screen, which turns in steps of 90 degrees against
- * the device.
+ * Converts from the device's axes to those of the screen, which turns in steps of 90 degrees
+ * against the device.
  *
  * @param {Slope} slope
  * @param {number} angle of the screen [degrees]; 90 with the device's right edge up

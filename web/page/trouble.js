@@ -1,10 +1,10 @@
-// What goes wrong, in words for people.
+// Errors with messages for the user.
 
-/** Its message is a sentence or two for people; `cause` may say more. */
+/** An error whose message is a sentence or two for the user; `cause` may say more. */
 export class Trouble extends Error {}
 
 /**
- * What to tell people of an error: a sentence, and what only experts understand.
+ * Returns the texts for an error: a message for the user, and a detail for experts.
  *
  * @param {unknown} error
  * @returns {[message: string, detail: string | null]}
@@ -17,7 +17,7 @@ export function inWords(error) {
   if (error instanceof WebAssembly.CompileError || error instanceof WebAssembly.LinkError) {
     return ["This browser cannot run Carom's module; a newer one may.", error.message];
   }
-  // The module's own words, which are for people.
+  // The module's own messages are for the user.
   return [error instanceof Error ? error.message : String(error), null];
 }
 
@@ -25,15 +25,15 @@ export function inWords(error) {
 const noted = [];
 
 /**
- * Notes what went wrong after it was said to be done, for the interface to tell.
+ * Notes an error of an action that was reported as done; the interface shows it.
  *
- * @param {string} text for people
+ * @param {string} text for the user
  */
 export function noteTrouble(text) {
   noted.push(text);
 }
 
-/** What was noted first, and is not taken yet. */
+/** Removes and returns the oldest note. */
 export function takeTrouble() {
   return noted.shift() ?? null;
 }

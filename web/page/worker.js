@@ -1,24 +1,24 @@
 // The service worker: keeps the page, so that it opens without a network as well.
 //
-// Each version of the page has its own, which `bundle.js` gives the document and the names of all
-// files of that version. The next version waits until no window shows this one any more, and then
-// takes what this one kept away.
+// Each version of the page has its own worker, into which `bundle.js` writes the document and the
+// names of all files of that version. The worker of the next version waits until no window shows
+// this one, then removes the files of this one.
 
 /**
  * @typedef {Event & { waitUntil: (done: Promise<unknown>) => void }} Lasting
  * @typedef {Lasting & { request: Request, respondWith: (answer: Promise<Response>) => void }} Asking
  */
 
-/** Where the page lies; a site may have several, and all of them share what is kept. */
+/** The folder of the page; a site may have several pages, which share the caches. */
 const PLACE = new URL("./", location.href).href;
 
-/** How long the server may take for the document [ms]: all is here to be shown meanwhile. */
+/** How long the server may take for the document [ms]; after that the kept one is shown. */
 const PATIENCE = 4_000;
 
-/** What the names of all versions of this page begin with. */
+/** Common start of the cache names of all versions of this page. */
 const FAMILY = `carom ${PLACE} `;
 
-/** The names of the files hold hashes of what is in them, so that they name the version. */
+/** File names contain hashes of their content, so together they identify the version. */
 const VERSION = FAMILY + [...FILES].sort().join(" ");
 
 const kept = new Set(FILES.map((name) => PLACE + name));
@@ -41,7 +41,9 @@ addEventListener("fetch", (event) => {
   }
 });
 
-/** The page has just fetched most of them: the browser has them still, and asks no server again. */
+/**
+ * Keeps all files. The page has just fetched most of them, so they come from the browser's cache.
+ */
 async function keepFiles() {
   const cache = await caches.open(VERSION);
   await cache.addAll(kept);
@@ -60,13 +62,13 @@ function isDocument({ mode, url }) {
 }
 
 /**
- * The server's document, which names the files of the newest version; without a network, or with one
- * that answers nothing, the one that goes with the files kept here.
+ * Returns the server's document, which names the files of the newest version; without a network, or
+ * if the server does not answer, the document of the files kept here.
  *
  * @param {Request} request
  */
 async function newestDocument(request) {
-  // One that the browser keeps may name files that are gone by now.
+  // A document from the browser's cache may name files that no longer exist.
   const asked = fetch(request, { cache: "no-cache" });
   const inTime = new Promise((resolve) => setTimeout(resolve, PATIENCE));
   const answer = await Promise.race([asked, inTime]).catch(() => undefined);
@@ -78,7 +80,7 @@ async function newestDocument(request) {
 
 /** @param {Request} request */
 async function keptFile(request) {
-  // A name stands for one content, whatever headers say of it.
+  // A name stands for one content, whatever the headers say.
   const found = await caches.match(request, { cacheName: VERSION, ignoreVary: true });
   return found ?? fetch(request);
 }

@@ -1,4 +1,4 @@
-// The page without eyes and without a mouse: by keyboard, and as a screen reader finds it.
+// The page works by keyboard and for screen readers.
 
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
@@ -19,7 +19,7 @@ before(async () => {
 after(() => desk?.clear());
 
 /**
- * What an audit finds that keeps people out.
+ * Returns the serious faults that an audit finds.
  *
  * @param {import("playwright-core").Page} page
  */
@@ -30,11 +30,11 @@ async function faults(page) {
   return violations.filter(isGrave).map((/** @type {any} */ it) => `${it.id}: ${it.help}`);
 }
 
-/** The audit is a script from elsewhere, which the page's own policy refuses. */
+/** The audit is a foreign script, which the page's own policy refuses. */
 const AUDITED = { bypassCSP: true };
 
 /**
- * Shows a scene, and switches the mirror on by keyboard where it is not yet.
+ * Shows a scene and switches the mirror on by keyboard, unless it is on.
  *
  * @param {string} fragment
  */
@@ -50,7 +50,7 @@ async function mirror(page) {
     await page.locator("#mirror-switch").focus();
     await page.keyboard.press("Enter");
   } else {
-    // As the switch does.
+    // The switch moves the focus there, too.
     await page.locator("#mirror").focus();
   }
   await page.waitForSelector("#mirror button");

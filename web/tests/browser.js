@@ -1,20 +1,20 @@
-// Chromium for tests, as Debian has it, with graphics in software.
+// Chromium for tests, as Debian installs it, with software graphics.
 
 import { mkdir } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
 
 import { chromium } from "playwright-core";
 
-/** Pictures and films that tests leave, to be looked at after a change of the page. */
+/** Pictures and films from tests, for inspection after a change of the page. */
 const RESULTS = fileURLToPath(new URL("../test-results/", import.meta.url));
 
-/** A name of this machine that browsers do not take for it. */
+/** A name of this machine that browsers do not recognise as local. */
 export const STRANGE_NAME = "carom.test";
 
-/** For the address of a browser that several files of tests share. */
+/** Environment variable with the address of a browser that several test files share. */
 const SHARED = "CAROM_BROWSER";
 
-/** What keeps a browser from requests to the network of its own. */
+/** Switches that keep a browser from its own network requests. */
 const QUIET = [
   "--disable-background-networking",
   "--disable-component-update",
@@ -26,7 +26,7 @@ const QUIET = [
   "--no-pings",
 ];
 
-/** Sets of switches with which Chromium draws, and shows what it drew, without a graphics card. */
+/** Switches with which Chromium draws and shows pictures without a graphics card. */
 export const GRAPHICS = {
   webgl2: ["--use-angle=gl-egl", "--ignore-gpu-blocklist"],
   webgpu: [
@@ -38,11 +38,11 @@ export const GRAPHICS = {
   none: ["--disable-gpu", "--disable-software-rasterizer", "--disable-3d-apis"],
 };
 
-/** Of the browser that is shared: what most tests draw with. */
+/** Graphics of the shared browser, which most tests use. */
 const SHARED_GRAPHICS = "webgl2";
 
 /**
- * Returns a browser: the one that is shared, where there is one with these graphics, or a new one.
+ * Returns the shared browser, if it exists and has these graphics, or a new one.
  *
  * @param {keyof typeof GRAPHICS} graphics
  */
@@ -54,7 +54,7 @@ export function launch(graphics) {
   return chromium.launch(options(graphics));
 }
 
-/** Starts a browser that this process and those that it starts share until it is closed. */
+/** Starts a browser that this process and its children share until it is closed. */
 export async function share() {
   const server = await chromium.launchServer(options(SHARED_GRAPHICS));
   process.env[SHARED] = server.wsEndpoint();
@@ -66,15 +66,15 @@ function options(graphics) {
   return {
     executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
     args: [...QUIET, ...GRAPHICS[graphics], `--host-resolver-rules=MAP ${STRANGE_NAME} 127.0.0.1`],
-    // A busy machine takes its time.
+    // A busy machine needs more time.
     timeout: 120_000,
-    // Without it Chromium starts for root under no circumstances.
+    // As root, Chromium does not start with its sandbox.
     chromiumSandbox: process.getuid?.() !== 0,
   };
 }
 
 /**
- * Keeps a file that a page gives; a browser that is shared tells no place of its own.
+ * Keeps a file that a page saves; a shared browser does not tell its own path.
  *
  * @param {import("playwright-core").Download} download
  * @param {string} name
@@ -87,10 +87,10 @@ export async function keepDownload(download, name) {
 }
 
 /**
- * Collects what a page complains of, in its console or by errors that were not caught.
+ * Collects errors of a page: from its console, and uncaught ones.
  *
  * @param {import("playwright-core").Page} page
- * @returns {string[]} grows as the page complains
+ * @returns {string[]} grows with every error
  */
 export function complaints(page) {
   /** @type {string[]} */
@@ -105,7 +105,7 @@ export function complaints(page) {
 }
 
 /**
- * Keeps a picture of the page as it is shown.
+ * Keeps a picture of the page.
  *
  * @param {import("playwright-core").Page} page
  * @param {string} name

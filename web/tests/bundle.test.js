@@ -1,4 +1,4 @@
-// The files that the page is put together of.
+// The files of the built page.
 
 import assert from "node:assert/strict";
 import { mkdtemp, readFile, readdir, rm, stat, writeFile } from "node:fs/promises";
@@ -21,7 +21,7 @@ after(() => rm(folder, { recursive: true }));
 
 beforeEach(() => void delete process.env.CAROM_PAGE);
 
-/** Puts the page together, quickly unless said otherwise, and reads what there is. */
+/** Builds the page, quickly by default, and reads its files. */
 async function bundled({ quick = true } = {}) {
   const out = join(folder, "dist");
   await bundle(folder, out, { quick });
@@ -52,10 +52,10 @@ test("the picture for other sites has a whole address where one is known", async
 
 test("the picture for other sites costs those who open the page nothing", async () => {
   const { names, html, worker } = await bundled();
-  // Only the document, which the worker holds, names it.
+  // Only the document, which the worker contains, names it.
   const namings = (/** @type {string} */ text) => text.match(/picture-\w+\.png/g)?.length;
   assert.deepEqual([namings(html), namings(worker)], [1, 1]);
-  // What the size of the page is counted by.
+  // The size of the page is counted by these.
   const compressed = names.filter((name) => /\.png\.(gz|br)$/.test(name));
   assert.deepEqual(compressed, []);
 });

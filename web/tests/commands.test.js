@@ -1,4 +1,4 @@
-// What scripts of the page tell the interface to do.
+// Commands from scripts of the page to the interface.
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
@@ -14,7 +14,7 @@ before(async () => {
 
 after(() => desk?.clear());
 
-/** @type {any} The page, in a script of it. */
+/** @type {any} The page, in its own scripts. */
 let carom;
 
 test("a script plays, pauses, goes elsewhere and follows a ball", async () => {
@@ -49,7 +49,7 @@ test("a script edits the scene, reads it, and hears what is no edit", async () =
     }
   });
   assert.match(heard, /explode/);
-  // To look again changes nothing.
+  // Reading the status changes nothing.
   assert.equal((await viewer.status()).version, after.version);
   await viewer.close();
 });

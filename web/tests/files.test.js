@@ -1,4 +1,4 @@
-// Scene files that are dropped on the page, and films that leave it.
+// Scene files are dropped on the page, and films are saved.
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
@@ -57,7 +57,7 @@ test("a scene file that is chosen is opened", async () => {
   await viewer.click("Open a file...");
   const buffer = Buffer.from(text.replace('name = "simtest3"', ""));
   await (await asked).setFiles({ name: "chosen.toml", mimeType: "application/toml", buffer });
-  // It says no name of its own.
+  // The file contains no name.
   await viewer.until(({ watching }) => watching?.scene === "chosen");
   await viewer.close();
 });
@@ -110,7 +110,7 @@ test("a film is saved, and plays", async () => {
   const args = ["-v", "error", "-count_frames", "-show_entries", asked, "-of", "json", path];
   const [stream] = JSON.parse(execFileSync("ffprobe", args, { encoding: "utf8" })).streams;
   assert.deepEqual([stream.width, stream.height], [1280, 720]);
-  // Thirty frames to a second of simulated time, and one at its beginning.
+  // Thirty frames per second of simulated time, and one at the start.
   const { watching: ended } = await viewer.status();
   const frames = Number(stream.nb_read_frames);
   const most = (ended.time - begun.time) * 30 + 35;

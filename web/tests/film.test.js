@@ -1,4 +1,4 @@
-// Films that the page makes of frames: what FFmpeg finds in the files.
+// Films that the page makes from frames, checked with FFmpeg.
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
@@ -17,7 +17,7 @@ before(async () => {
 after(() => standIn?.clear());
 
 /**
- * A page, without those of the browser's abilities that are named.
+ * Opens a page without the named abilities of the browser.
  *
  * @param {string[]} without
  */
@@ -35,7 +35,7 @@ async function open(without = []) {
 }
 
 /**
- * Films a square that moves to the right by two pixels a frame, on grey.
+ * Films a square on grey that moves to the right by two pixels a frame.
  *
  * @param {import("playwright-core").Page} page
  * @param {{ width: number, height: number, frames: number }} film
@@ -45,7 +45,7 @@ async function film(page, film) {
   const download = page.waitForEvent("download");
   await page.evaluate(({ width, height, frames }) => {
     const film = /** @type {any} */ (globalThis).carom.services.beginFilm(width, height, 30);
-    // One buffer for all frames, as the module has it: the page must have copied it.
+    // One buffer for all frames, as in the module: the page must copy it.
     const pixels = new Uint8Array(width * height * 4);
     for (let frame = 0; frame < frames; frame += 1) {
       pixels.fill(128);
@@ -77,7 +77,7 @@ function probe(path) {
 }
 
 /**
- * Brightness of a pixel in the last frame of a film.
+ * Returns the brightness of a pixel in the last frame of a film.
  *
  * @param {string} path
  * @param {number} x
@@ -96,7 +96,7 @@ test("every frame is in the film, at its own time, and the last is the last", as
   assert.deepEqual([found.codec_name, found.width, found.height], ["h264", 640, 360]);
   assert.equal(found.times.length, 90);
   found.times.forEach((/** @type {number} */ time, /** @type {number} */ i) =>
-    // The file counts time in whole ticks, of a ten-thousandth of a second or less.
+    // The file counts time in whole ticks of a ten-thousandth of a second or less.
     assert.ok(Math.abs(time - i / 30) < 1e-4, `frame ${i} at ${time}`),
   );
   assert.ok(lastBrightness(path, 2 * 89 + 10, 30) > 230);
@@ -186,7 +186,7 @@ test("frames that come faster than they are encoded end the film before memory d
   const { said, frames } = await page.evaluate(() => {
     const film = /** @type {any} */ (globalThis).carom.services.beginFilm(1920, 1080, 30);
     const pixels = new Uint8Array(1920 * 1080 * 4);
-    // Nothing is encoded while this runs.
+    // Nothing is encoded while this loop runs.
     for (let frames = 0; ; frames += 1) {
       try {
         film.add(pixels, frames);

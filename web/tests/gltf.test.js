@@ -1,5 +1,5 @@
-// Runs that leave Carom as animations in glTF: valid by the validator of Khronos, and in three.js each
-// ball is, at each frame, where the run has it.
+// Runs exported as glTF animations are valid for the validator of Khronos, and in three.js each
+// ball is at its position in the run at every frame.
 
 import assert from "node:assert/strict";
 import { mkdtemp, readFile, rm } from "node:fs/promises";
@@ -9,7 +9,7 @@ import { fileURLToPath } from "node:url";
 import { after, before, test } from "node:test";
 
 import { build } from "esbuild";
-// @ts-expect-error: it comes without types.
+// @ts-expect-error: it has no types.
 import { validateBytes } from "gltf-validator";
 import { AnimationMixer, LoopOnce, Vector3 } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
@@ -41,7 +41,7 @@ async function recorded(scene, ...more) {
 }
 
 /**
- * Where each ball is after each frame, as a table says it.
+ * Returns the position of each ball after each frame from a table.
  *
  * @param {string} scene
  * @param {string[]} more of the command line
@@ -77,11 +77,11 @@ function playing(scene, animations) {
   return mixer;
 }
 
-/** Half of what the last of 24 bits counts, of a number of this size. */
+/** Half of the last of 24 bits, relative to the number. */
 const ROUNDING = 2 ** -24;
 
 /**
- * Plays a file, and compares where it has the balls with a table.
+ * Plays a file and compares the positions of the balls with a table.
  *
  * @param {Buffer} bytes
  * @param {Awaited<ReturnType<typeof table>>} rows
@@ -104,7 +104,7 @@ async function compare(bytes, rows) {
     assert.ok(node.scale.x > 0, `ball ${ball} has no size at ${time} s`);
     for (const axis of /** @type {const} */ (["x", "y", "z"])) {
       const expected = position[axis];
-      // Keys are rounded once, and the time is that of the key to the bit.
+      // Keys are rounded once, and the time is exactly that of the key.
       const near = ROUNDING * Math.abs(expected) + 1e-12;
       const away = Math.abs(node.position[axis] - expected);
       assert.ok(away <= near, `ball ${ball}.${axis} is ${away} m away at ${time} s`);

@@ -1,4 +1,4 @@
-// The page with each way of drawing, and how long its pictures take.
+// The page draws with each kind of graphics; measures the frame times.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -6,19 +6,19 @@ import { test } from "node:test";
 import { difference, read } from "./pixels.js";
 import { Desk } from "./viewer.js";
 
-/** The middle of the page, where scenes are shown. */
+/** The middle of the page, where scenes are. */
 const MIDDLE = { left: 0.3, top: 0.1, right: 0.7, bottom: 0.9 };
 
-/** Scenes of a dozen spheres and of many, and from which time on pictures are counted [s]. */
+/** Scenes with a dozen spheres and with many, and the time from which frames are counted [s]. */
 const LOADS = /** @type {const} */ ([
   ["simtest3", 4],
   ["tutorial4", 0.5],
 ]);
 
-/** How long pictures are counted [ms]. */
+/** How long frames are counted [ms]. */
 const COUNTED = 1500;
 
-/** As many pixels as the numbers are printed for: few, at which software draws more than a few pictures. */
+/** Size for the measurement: few pixels, so that software draws more than a few frames. */
 const SIZE = { width: 640, height: 400 };
 
 /** @param {import("./viewer.js").Viewer} viewer */

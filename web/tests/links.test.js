@@ -1,4 +1,4 @@
-// Links to runs: the same bits in the browser as outside.
+// Links to runs give the same bits in the browser as outside.
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
@@ -16,16 +16,16 @@ before(async () => {
 
 after(() => desk?.clear());
 
-/** A window in which next to nothing is drawn: states do not depend on pictures, but wait for them. */
+/** A window with almost nothing to draw: states do not depend on pictures, but wait for them. */
 const TINY = { viewport: { width: 160, height: 120 } };
 
 /**
- * The state hash that a page shows of a run that has come to where its link says.
+ * Returns the state hash that a page shows when a run has reached the time of its link.
  *
  * @param {import("./viewer.js").Viewer} viewer
  */
 async function shownHash(viewer) {
-  // On one thread ten seconds of a heap take a minute.
+  // On one thread, ten seconds of a heap take a minute.
   const { watching } = await viewer.until(
     ({ watching }) => watching && !watching.seeking && watching.stateHash !== null,
     4 * PATIENCE,
@@ -34,7 +34,7 @@ async function shownHash(viewer) {
 }
 
 /**
- * The chooser is open, and says what was wrong.
+ * Checks that the chooser is open and shows the error.
  *
  * @param {import("./viewer.js").Viewer} viewer
  * @param {RegExp} trouble
@@ -87,7 +87,7 @@ test("the camera is where it was after the page is loaded again", async () => {
   const camera = () => new URLSearchParams(new URL(viewer.page.url()).hash.slice(1)).get("camera");
   await viewer.page.waitForURL(/&camera=/);
   const before = camera();
-  // With the field of view of the scene, which is not the usual one.
+  // With the field of view of the scene, which is not the default.
   assert.equal(before?.split(",").length, 7);
   await viewer.page.reload();
   await viewer.page.waitForSelector("#loading.done", { state: "attached" });
@@ -114,7 +114,7 @@ test("what was changed by hand goes with the link, and gives the same bits elsew
   );
   const link = viewer.page.url();
   assert.equal(await stateHash("--link", link), hash);
-  // The dialog would stay open, and take keys.
+  // The dialog would stay open and take keys.
   await viewer.page.keyboard.press("Escape");
   await viewer.redraw();
   await viewer.close();
@@ -185,7 +185,7 @@ test("a link that makes no sense is said to, and the chooser opens", async () =>
 });
 
 /**
- * The part of an address with a scene file in it.
+ * Returns the part of an address that contains a scene file.
  *
  * @param {string} text
  */

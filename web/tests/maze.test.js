@@ -5,7 +5,7 @@ import { after, before, test } from "node:test";
 
 import { Desk } from "./viewer.js";
 
-/** A window that is drawn in no time, so that keys are felt at once. */
+/** A window that is drawn fast, so that keys take effect at once. */
 const SMALL = { width: 720, height: 500 };
 
 /** @type {Desk} */
@@ -21,7 +21,7 @@ test("arrow keys take the ball to the first collectible", async () => {
   const viewer = await desk.open("#scene=maze", { viewport: SMALL });
   await viewer.until(({ maze }) => maze?.collected === 0);
   await viewer.keepPicture("maze-start");
-  // Each way ends at a wall or in an open place: slow pictures do no harm.
+  // Each way ends at a wall or in an open area, so slow frames do no harm.
   await viewer.hold("ArrowLeft", ({ maze }) => maze.ball[0] < -0.7);
   await viewer.hold("ArrowDown", ({ maze }) => maze.ball[2] > 2.3);
   await viewer.hold("ArrowLeft", ({ maze }) => maze.ball[0] < -3.9);
@@ -42,7 +42,7 @@ test("a game goes on where it was when the page is loaded again", async () => {
   await viewer.page.waitForSelector("#loading.done", { state: "attached" });
   await viewer.widget("Here you were", "Label");
   const { maze: after } = await viewer.until(({ maze }) => maze);
-  // It stands still, no earlier than the page was left.
+  // The game waits, no earlier than where the page was left.
   assert.ok(after.elapsed >= before.elapsed, `${after.elapsed} ${before.elapsed}`);
   assert.ok(after.ball[0] < -0.7);
   await viewer.keepPicture("maze-again");

@@ -1,21 +1,21 @@
-// The command `carom`, which says what a run gives outside of browsers.
+// The command `carom`, for results outside of browsers.
 
 import { execFile, execFileSync } from "node:child_process";
 import { promisify } from "node:util";
 
-/** What `cargo xtask web --test` has built; or the one on the path. */
+/** The program that `cargo xtask web --test` has built, or the one on the path. */
 const COMMAND = process.env.CAROM ?? "carom";
 
 /**
  * @param {string[]} args
- * @returns {string} what it prints
+ * @returns {string} its output
  */
 export function carom(...args) {
   return execFileSync(COMMAND, args, { encoding: "utf8" });
 }
 
 /**
- * Runs a scene or link, beside what the browser does meanwhile.
+ * Runs a scene or link while the browser works.
  *
  * @param {string[]} args
  * @returns {Promise<string>} the hash of the state at the end

@@ -1,4 +1,4 @@
-// The page without a network, and the versions of it that browsers keep.
+// The page without a network, and its versions in the browser.
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
@@ -123,7 +123,7 @@ test("where a browser keeps no pages, the page does without", async (context) =>
   context.after(() => browsing.close());
   const page = await browsing.newPage();
   const heard = complaints(page);
-  // Neither https nor this machine, by its name.
+  // This address is neither https nor recognised as this machine.
   await page.goto(standIn.site.url.replace("127.0.0.1", STRANGE_NAME));
   await isShown(page);
   assert.equal(await page.evaluate(() => isSecureContext), false);

@@ -1,4 +1,4 @@
-// The page around the module: how it loads, what it says when it cannot, what the module gets.
+// The page around the module: loading, errors, and services for the module.
 
 import assert from "node:assert/strict";
 import { after, before, describe, test } from "node:test";
@@ -16,7 +16,7 @@ before(async () => {
 after(() => standIn?.clear());
 
 /**
- * A page with this preparation that has been opened and has come to rest.
+ * Opens a page with this preparation and waits until it has loaded or failed.
  *
  * @param {string} fragment
  * @param {(page: import("playwright-core").Page) => Promise<unknown>} [prepare]
@@ -45,7 +45,7 @@ describe("the page", () => {
     const heard = complaints(page);
     const client = await context.newCDPSession(page);
     await client.send("Network.enable");
-    // Slow enough for the bar to be seen on its way.
+    // Slow enough to see the progress bar.
     const throughput = 3e6;
     await client.send("Network.emulateNetworkConditions", {
       offline: false,
@@ -103,7 +103,7 @@ describe("the page", () => {
   });
 
   test("says that the module did not arrive whole", async () => {
-    // Breaks off inside the module's first section.
+    // Ends inside the module's first section.
     const body = Buffer.from([0, 0x61, 0x73, 0x6d, 1, 0, 0, 0, 0, 100]);
     const { page, close } = await open("", (page) =>
       page.route(isModule, (route) => route.fulfill({ body })),

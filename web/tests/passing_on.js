@@ -1,16 +1,17 @@
-// A server that passes requests on to another one, but for those that a test takes.
+// A server that passes requests on to another one, except those that a test takes.
 
 import { createServer } from "node:http";
 
 /**
  * @param {string} site the address of the other server
  * @param {(request: import("node:http").IncomingMessage, response: import("node:http").ServerResponse) => boolean} takes
- *   whether the test answers a request itself, or leaves it without an answer
+ *   whether the test handles a request itself, with or without an answer
  */
 export async function passOn(site, takes) {
   const server = createServer((request, response) => {
     if (!takes(request, response)) {
-      // What the other server breaks off, as it does when it is closed, is broken off here.
+      // If the other server aborts an answer, for example because it closes, this one aborts it,
+      // too.
       answer(site, request.url ?? "", response).catch(() => response.destroy());
     }
   });
@@ -26,7 +27,7 @@ export async function passOn(site, takes) {
 }
 
 /**
- * Answers as another server does.
+ * Answers as the other server does.
  *
  * @param {string} site
  * @param {string} path

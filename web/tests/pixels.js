@@ -1,4 +1,4 @@
-// PNG files as pixels, read by FFmpeg.
+// Pixels of PNG files, read by FFmpeg.
 
 import { execFileSync } from "node:child_process";
 
@@ -6,7 +6,7 @@ import { execFileSync } from "node:child_process";
  * @typedef {object} Picture
  * @property {number} width
  * @property {number} height
- * @property {Buffer} rgb three bytes a pixel, rows from above
+ * @property {Buffer} rgb three bytes per pixel, rows from the top
  */
 
 /**
@@ -14,7 +14,7 @@ import { execFileSync } from "node:child_process";
  * @returns {Picture}
  */
 export function read(png) {
-  // Width and height stand at the beginning of the first chunk, after signature and chunk header.
+  // Width and height are at the start of the first chunk, after signature and chunk header.
   const [width, height] = [png.readUInt32BE(16), png.readUInt32BE(20)];
   const args = [
     "-v",
@@ -34,8 +34,8 @@ export function read(png) {
 }
 
 /**
- * The part of the pixels in a rectangle, in parts of width and height, that differ between two
- * pictures of one size by more than noise.
+ * Returns the part of the pixels in a rectangle, given in parts of width and height, that differ by
+ * more than noise between two pictures of one size.
  *
  * @param {Picture} a
  * @param {Picture} b
@@ -55,5 +55,5 @@ export function difference(a, b, { left, top, right, bottom }) {
   return different / all;
 }
 
-/** What rounding in two drawings of the same may make of a colour. */
+/** Largest difference of a colour by rounding between two drawings of the same picture. */
 const NOISE = 8;

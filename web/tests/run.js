@@ -1,6 +1,6 @@
-// Tests the page: `node tests/run.js [FILE...]`, by default all files of tests beside this one.
+// Tests the page: `node tests/run.js [FILE...]`, by default all test files in this folder.
 //
-// All of them share one browser, and the tests that took longest are listed at the end.
+// All files share one browser; the slowest tests are listed at the end.
 
 import { setMaxListeners } from "node:events";
 import { readdir } from "node:fs/promises";
@@ -14,14 +14,15 @@ import { withSlowest } from "./slowest.js";
 
 const FOLDER = fileURLToPath(new URL(".", import.meta.url));
 
-/** The files that hold tests, by name. */
+/** Returns the test files in order of name. */
 async function allFiles() {
   const names = (await readdir(FOLDER)).filter((name) => name.endsWith(".test.js"));
   return names.sort().map((name) => join(FOLDER, name));
 }
 
 /**
- * Runs files one after another: frame times are measured, and a browser uses all there is.
+ * Runs files one after another, because frame times are measured and a browser uses the whole
+ * machine.
  *
  * @param {string[]} files
  * @param {AbortSignal} signal ends the run early
@@ -29,7 +30,7 @@ async function allFiles() {
 async function test(files, signal) {
   const events = run({ files, concurrency: 1, signal });
   events.on("test:fail", () => void (process.exitCode = 1));
-  // What Node.js itself would choose.
+  // The default of Node.js.
   const reporter = process.stdout.isTTY ? new spec() : tap;
   for await (const text of events.compose(withSlowest).compose(reporter)) {
     process.stdout.write(text);
@@ -38,9 +39,9 @@ async function test(files, signal) {
 
 const asked = process.argv.slice(2).map((file) => resolve(file));
 const browser = await share();
-// With the browser, as on a signal, the tests end.
+// The tests end when the browser does, as after a signal.
 const ending = new AbortController();
-// Each file listens to it.
+// Each file adds a listener.
 setMaxListeners(0, ending.signal);
 browser.on("close", () => ending.abort());
 try {

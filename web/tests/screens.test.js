@@ -1,4 +1,4 @@
-// The page on screens of all sizes: windows that change, fine pixels, phones and fingers.
+// The page on screens of all sizes: resized windows, fine pixels, telephones and fingers.
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
@@ -32,7 +32,7 @@ const pixels = (viewer) =>
   });
 
 /**
- * Touches the screen with these fingers.
+ * Sends touches of these fingers.
  *
  * @param {import("./viewer.js").Viewer} viewer
  */
@@ -105,7 +105,7 @@ test("on a phone a tap chooses, a finger turns the camera, and two come nearer",
 test("on a phone a finger tilts the maze", async () => {
   const viewer = await desk.open("#scene=maze", { ...PHONE, colorScheme: "dark" });
   const { maze: before } = await viewer.until(({ maze }) => maze);
-  // A finger finds what has been drawn.
+  // A finger can touch only what has been drawn.
   await viewer.redraw();
   const { send } = await fingers(viewer);
   await send("touchStart", [250, 500]);

@@ -1,4 +1,4 @@
-// The server of static files.
+// The server serves static files and nothing outside of its folder.
 
 import assert from "node:assert/strict";
 import { mkdir, mkdtemp, rm, writeFile } from "node:fs/promises";
@@ -38,7 +38,7 @@ after(async () => {
 });
 
 /**
- * Requests a path as it stands, without the tidying that `fetch` does.
+ * Requests a path without the normalisation of `fetch`.
  *
  * @param {string} path
  * @param {Record<string, string>} [headers]

@@ -1,4 +1,4 @@
-// Which tests took longest.
+// Lists the slowest tests.
 
 /** How many are listed. */
 const MOST = 30;
@@ -6,7 +6,7 @@ const MOST = 30;
 /** @typedef {{ name: string, seconds: number }} Timed */
 
 /**
- * Passes on what a run of tests tells, and puts the tests that took longest before its summary.
+ * Passes on the events of a test run, and lists the slowest tests before its summary.
  *
  * @param {AsyncIterable<import("node:test/reporters").TestEvent>} events
  */
@@ -30,7 +30,7 @@ export async function* withSlowest(events) {
 }
 
 /**
- * Whether this is the first line of the summary.
+ * Returns whether this is the first line of the summary.
  *
  * @param {import("node:test/reporters").TestEvent} event
  */
@@ -45,7 +45,7 @@ function slowest(tests) {
 
 /**
  * @param {Timed} test
- * @returns {import("node:test/reporters").TestEvent} a line of its own in every report
+ * @returns {import("node:test/reporters").TestEvent} a separate line in every report
  */
 function told({ name, seconds }) {
   const message = `${seconds.toFixed(1).padStart(6)} s  ${name}`;

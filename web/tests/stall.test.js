@@ -1,4 +1,4 @@
-// A module that stops on its way: the page says so, and fetches it again at a click.
+// A module whose download stops: the page says so, and fetches it again at a click.
 
 import assert from "node:assert/strict";
 import { readFile, readdir } from "node:fs/promises";
@@ -19,9 +19,9 @@ before(async () => {
 after(() => standIn?.clear());
 
 /**
- * The site of the stand-in, but its module comes only so far until the network is mended.
+ * Serves the site of the stand-in, but only a part of its module until the network is mended.
  *
- * @param {number} part of the module; 0 for no answer at all
+ * @param {number} part of the module; 0 for no answer
  */
 async function serveStalling(part) {
   const { dist } = standIn.site;
@@ -48,9 +48,9 @@ for (const [part, what] of /** @type {const} */ ([
     context.after(site.close);
     const page = await standIn.browser.newPage();
     const heard = complaints(page);
-    // Time that the test does not have to wait for.
+    // A simulated clock, so that the test need not wait.
     await page.clock.install();
-    // Its scripts have run; the module delays what browsers take for the end of loading.
+    // The scripts have run by then; the module delays the browser's load event.
     await page.goto(site.url, { waitUntil: "domcontentloaded" });
     await page.waitForFunction(
       (part) => (document.querySelector("progress")?.value || 0) >= 0.9 * part,

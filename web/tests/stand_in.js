@@ -1,4 +1,4 @@
-// Stands in for the module, so that the page is tested without it: keeps what the page gives.
+// Stands in for the module, so that the page is tested without it; records its arguments.
 
 /** @param {{ module_or_path: WebAssembly.Module }} module */
 export default async function init({ module_or_path }) {

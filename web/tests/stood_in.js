@@ -1,4 +1,4 @@
-// The page with a module that stands in for the real one.
+// The page with a stand-in for the real module.
 
 import { randomFillSync } from "node:crypto";
 import { copyFile, mkdtemp, rm, writeFile } from "node:fs/promises";
@@ -13,7 +13,7 @@ import { launch } from "./browser.js";
 /** Size of the stand-in's module [bytes]: enough to arrive in several pieces. */
 const SIZE = 4_000_000;
 
-/** A browser and the page, for the tests of one file. */
+/** A browser and the page for the tests of one file. */
 export class StandIn {
   /**
    * @param {import("playwright-core").Browser} browser
@@ -35,7 +35,7 @@ export class StandIn {
   }
 }
 
-/** Serves it; `close` takes all of it away. */
+/** Serves the page; `close` removes everything. */
 async function serveStandIn() {
   const folder = await mkdtemp(join(tmpdir(), "carom-page-"));
   await copyFile(
@@ -43,7 +43,7 @@ async function serveStandIn() {
     join(folder, "carom_web.js"),
   );
   const dist = join(folder, "dist");
-  // Another version of the page every time: no two modules are the same.
+  // Makes another version of the page every time: no two modules are the same.
   const renew = async () => {
     await writeFile(join(folder, "carom_web_bg.wasm"), emptyModule(SIZE));
     await bundle(folder, dist, { quick: true });
@@ -58,7 +58,7 @@ async function serveStandIn() {
 }
 
 /**
- * A WebAssembly module with nothing but a custom section that fills it with what gzip cannot press.
+ * Returns a WebAssembly module with one custom section of random bytes, which gzip cannot compress.
  *
  * @param {number} size [bytes]
  */

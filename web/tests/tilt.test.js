@@ -1,4 +1,4 @@
-// Where a ball would roll on the screen of a device that is held so and so.
+// The direction in which a ball would roll on the screen of a tilted device.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";

@@ -1,4 +1,4 @@
-// Carom in a page, looked at and used by tests.
+// Carom in a page, controlled and read by tests.
 
 import assert from "node:assert/strict";
 import { fileURLToPath } from "node:url";
@@ -6,16 +6,16 @@ import { fileURLToPath } from "node:url";
 import { serve } from "../serve.js";
 import { complaints, keepPicture, launch } from "./browser.js";
 
-/** The page as `cargo xtask web` made it. */
+/** The page built by `cargo xtask web`. */
 const DIST = process.env.CAROM_DIST ?? fileURLToPath(new URL("../dist/", import.meta.url));
 
 /**
- * Pixels of the canvas to one of CSS: few, since they are drawn in software. With $CAROM_FINE pictures
- * that tests leave are as fine as on a screen.
+ * Canvas pixels per CSS pixel: few, because software draws them. With $CAROM_FINE, pictures from
+ * tests are as fine as on a screen.
  */
 export const COARSE = process.env.CAROM_FINE ? 1 : 0.5;
 
-/** How long the slowest machine may take for an action [ms]: it draws in software. */
+/** Longest time for an action on the slowest machine [ms], which draws in software. */
 export const PATIENCE = 60_000;
 
 /**
@@ -29,7 +29,7 @@ export const PATIENCE = 60_000;
  * @property {number} height
  */
 
-/** A browser and a server, for the tests of one file. */
+/** A browser and a server for the tests of one file. */
 export class Desk {
   /**
    * @param {import("playwright-core").Browser} browser
@@ -38,9 +38,9 @@ export class Desk {
   constructor(browser, server) {
     this.browser = browser;
     this.server = server;
-    /** The page that [`show`] has opened last. @type {Viewer | null} */
+    /** The page that [`show`] opened last. @type {Viewer | null} */
     this.shared = null;
-    /** What that was opened with, as text. */
+    /** The options of that page, as text. */
     this.sharedOptions = "";
   }
 
@@ -55,13 +55,13 @@ export class Desk {
   }
 
   /**
-   * Opens the page anew and waits until the interface is there.
+   * Opens a new page and waits for the interface.
    *
    * @param {string} [fragment] of the address, with `#`
    * @param {import("playwright-core").BrowserContextOptions} [options]
    */
   async open(fragment = "", options = {}) {
-    // Others would go on drawing: the one that is shared, and that of a test that failed.
+    // Other pages would continue to draw: the shared one, and that of a failed test.
     this.shared = null;
     await Promise.all(this.browser.contexts().map((context) => context.close()));
     const viewport = { width: 1280, height: 800 };
@@ -81,9 +81,9 @@ export class Desk {
   }
 
   /**
-   * Shows a scene of a link, or the chooser without one, in a page that tests share one after
-   * another: for what does not depend on how a page starts. Its panels, and dialogs but the chooser,
-   * are as they were left.
+   * Shows the scene of a link, or the chooser without one, in a page that tests share one after
+   * another; for tests that do not depend on how a page starts. Panels, and dialogs except the
+   * chooser, stay as they were left.
    *
    * @param {string} [fragment] of the address, with `#`
    * @param {import("playwright-core").BrowserContextOptions} [options]
@@ -101,7 +101,7 @@ export class Desk {
   }
 
   /**
-   * Watches a scene from its beginning, in the page that tests share.
+   * Opens a scene at its start in the shared page.
    *
    * @param {string} scene
    * @param {import("playwright-core").BrowserContextOptions} [options]
@@ -114,7 +114,7 @@ export class Desk {
   }
 
   /**
-   * Chooses a scene, as a user does, in the page that tests share.
+   * Chooses a scene as a user does, in the shared page.
    *
    * @param {string} scene
    */
@@ -123,7 +123,7 @@ export class Desk {
     await viewer.type(scene);
     await viewer.page.keyboard.press("Enter");
     await viewer.until(({ watching, choosing }) => watching?.scene === scene && !choosing);
-    // Keys belong to the chooser's text until the next picture.
+    // Keys go to the chooser's text until the next frame.
     await viewer.page.waitForFunction(() => document.activeElement?.id === "carom");
     return viewer;
   }
@@ -135,13 +135,13 @@ export class Viewer {
   constructor(page) {
     this.page = page;
     this.complaints = complaints(page);
-    /** Whether other tests go on with the page. */
+    /** Whether other tests use the page afterwards. */
     this.isShared = false;
     /** Whether a test has left the page to others. */
     this.isLeft = false;
   }
 
-  /** Leaves the page, and closes it unless it is shared; it must not have complained. */
+  /** Leaves the page, and closes it unless it is shared; fails if the page reported errors. */
   async close() {
     assert.deepEqual(this.complaints, []);
     if (this.isShared) {
@@ -153,21 +153,21 @@ export class Viewer {
   }
 
   /**
-   * Goes on with the page where another test has left it.
+   * Continues with the page where another test has left it.
    *
    * @param {string} fragment of the address, with `#`; empty for the chooser
    */
   async goOn(fragment) {
     this.isLeft = false;
     if (fragment === "") {
-      // Another scene takes away messages, and a chooser that is open.
+      // Another scene removes messages and an open chooser.
       await this.goOn("#scene=simtest1");
       await this.redraw();
       await this.page.keyboard.press("Enter");
       await this.until(({ choosing }) => choosing);
       return this.redraw();
     }
-    // At once, and not only where the address is another than before.
+    // Directly, because the same address would change nothing.
     await this.page.evaluate((fragment) => {
       history.replaceState(null, "", fragment);
       /** @type {any} */ (globalThis).carom.openFragment(fragment.slice(1));
@@ -179,11 +179,11 @@ export class Viewer {
     return new Promise((resolve) => setTimeout(resolve, time));
   }
 
-  /** @returns {Promise<any>} what the interface says that it shows */
+  /** @returns {Promise<any>} the status of the interface */
   async status() {
     for (;;) {
       const status = await this.page.evaluate(() => /** @type {any} */ (globalThis).carom.status());
-      // There is none while a picture is being made.
+      // There is none while a frame is being drawn.
       if (status !== undefined) {
         return status;
       }
@@ -191,10 +191,10 @@ export class Viewer {
   }
 
   /**
-   * Waits until the interface shows something.
+   * Waits until the status fulfils a condition.
    *
    * @param {(status: any) => unknown} isShown
-   * @param {number} patience how long at most [ms]
+   * @param {number} patience longest time [ms]
    * @returns {Promise<any>} the status
    */
   async until(isShown, patience = PATIENCE) {
@@ -210,14 +210,14 @@ export class Viewer {
     }
   }
 
-  /** Lets the interface draw again, twice: what was done has been shown then. */
+  /** Waits for two more frames, after which an action has been drawn. */
   async redraw() {
     const { pictures } = await this.status();
     await this.page.evaluate(() => /** @type {any} */ (globalThis).carom.widgets());
     await this.until((status) => status.pictures > pictures + 1);
   }
 
-  /** @returns {Promise<Widget[]>} what can be used and read now */
+  /** @returns {Promise<Widget[]>} the present controls */
   async widgets() {
     const end = performance.now() + PATIENCE;
     for (;;) {
@@ -225,7 +225,7 @@ export class Viewer {
       const widgets = await this.page.evaluate(() =>
         /** @type {any} */ (globalThis).carom.widgets(),
       );
-      // There are none until a picture has been made since somebody asked first.
+      // There are none until a frame after the first call.
       if (widgets.length > 0 || performance.now() > end) {
         return widgets;
       }
@@ -251,7 +251,7 @@ export class Viewer {
   }
 
   /**
-   * A point on a part of the interface, by default its middle, that a user can see.
+   * Returns a visible point on a control, by default its middle.
    *
    * @param {string} label
    * @param {{ role?: string, part?: number }} where part of its width
@@ -267,19 +267,19 @@ export class Viewer {
   }
 
   /**
-   * Types the name of a scene into the chooser, until it is the one that Enter takes.
+   * Types the name of a scene into the chooser until Enter would choose it.
    *
    * @param {string} scene
    */
   async type(scene) {
     await this.page.keyboard.type(scene);
     while ((await this.widget(scene, "Button")).value !== "true") {
-      // The choice follows the letters with the next picture.
+      // The selection changes one frame after the letters.
     }
   }
 
   /**
-   * Clicks on a part of the interface.
+   * Clicks on a control.
    *
    * @param {string} label
    * @param {{ role?: string, part?: number }} [where] part of its width
@@ -289,7 +289,7 @@ export class Viewer {
   }
 
   /**
-   * Taps on a part of the interface.
+   * Taps on a control.
    *
    * @param {string} label
    * @param {{ role?: string, part?: number }} [where] part of its width
@@ -299,7 +299,7 @@ export class Viewer {
   }
 
   /**
-   * Holds a key until the interface shows something.
+   * Holds a key until the status fulfils a condition.
    *
    * @param {string} key
    * @param {(status: any) => unknown} isShown
@@ -338,7 +338,7 @@ export class Viewer {
   }
 
   /**
-   * Does something and waits for the file that comes of it.
+   * Performs an action and waits for its download.
    *
    * @param {() => Promise<unknown>} act
    */

@@ -1,4 +1,4 @@
-// Scenes, watched in the page.
+// Scenes are watched in the page.
 
 import assert from "node:assert/strict";
 import { readFile, readdir } from "node:fs/promises";
@@ -11,7 +11,7 @@ import { Desk } from "./viewer.js";
 
 const SCENES = fileURLToPath(new URL("../../crates/carom-scene/scenes/", import.meta.url));
 
-/** The middle of the page, where scenes are shown. */
+/** The middle of the page, where scenes are. */
 const MIDDLE = { left: 0.3, top: 0.1, right: 0.7, bottom: 0.9 };
 
 /** @type {Desk} */
@@ -86,7 +86,7 @@ test("a picture is saved as a PNG with the time on it", async () => {
   for (const { width, height } of pictures) {
     assert.deepEqual([width, height], [1280, 800]);
   }
-  // In two frames without a ball only the time at the lower left is another.
+  // Two frames without a ball differ only in the time at the lower left.
   const stamp = { left: 0, top: 0.85, right: 0.5, bottom: 1 };
   const rest = { left: 0.5, top: 0.85, right: 1, bottom: 1 };
   assert.ok(difference(first, second, stamp) > 0);

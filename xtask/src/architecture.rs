@@ -1,4 +1,4 @@
-//! Keeps the crate list of `ARCHITECTURE.md` true.
+//! Keeps the list of crates in `ARCHITECTURE.md` complete.
 
 use std::collections::BTreeSet;
 

@@ -10,7 +10,7 @@ use crate::shell::{
 };
 use crate::{native_hashes, setup};
 
-/// Makes the libraries for programs, and says where they are.
+/// Builds the libraries for programs, and prints their paths.
 pub fn build() -> Outcome {
     cargo(&["build", "--release", "--package", "carom-c"])?;
     eprintln!("\n{}", target_folder().join("release").display());
@@ -18,7 +18,7 @@ pub fn build() -> Outcome {
     Ok(())
 }
 
-/// Writes the header anew; a test in `carom-c` tells when that is due.
+/// Rewrites the header; a test in `carom-c` fails if the header is outdated.
 pub fn write_header() -> Outcome {
     let test = ["test", "--quiet", "--package", "carom-c", "--test", "header", "the_header_is"];
     cargo_with(&test, &[("CAROM_WRITE_HEADER", "1")])
@@ -30,14 +30,14 @@ pub fn test() -> Outcome {
     run_programs(&["--package", "carom-c"])
 }
 
-/// Runs the programs with the library that the tests of all crates have left.
+/// Runs the programs with the library that the build of all tests has made.
 pub fn test_built() -> Outcome {
     programs::build()?;
     run_programs(&["--workspace"])
 }
 
-/// Compiles the programs in a folder among what is built, and runs them. `packages` are those that the library was built
-/// with.
+/// Compiles the programs in a folder below the target folder, and runs them. `packages` are those
+/// that the library was built with.
 fn run_programs(packages: &[&str]) -> Outcome {
     if cfg!(windows) {
         eprintln!("xtask: the programs of the C interface are not compiled on Windows");
@@ -58,17 +58,17 @@ fn run_programs(packages: &[&str]) -> Outcome {
     programs.run_csharp()
 }
 
-/// Options of compilers: all that they warn of is an error.
+/// Compiler options: every warning is an error.
 const STRICT: [&str; 5] = ["-Wall", "-Wextra", "-Werror", "-pedantic", "-g"];
-/// A checker of memory, which fails for whatever it finds, memory that is never freed among it.
+/// A memory checker, which fails for every finding, also for memory that is never freed.
 const VALGRIND: &str = "valgrind --quiet --error-exitcode=9 --leak-check=full \
                         --show-leak-kinds=definite --errors-for-leak-kinds=definite";
 
-/// Programs on the C interface, and the library that they use.
+/// Programs that use the C interface, and the library.
 struct Programs {
-    /// Where they are.
+    /// Folder of the compiled programs.
     folder: PathBuf,
-    /// Where the libraries are.
+    /// Folder of the libraries.
     libraries: PathBuf,
     sources: PathBuf,
 }
@@ -77,12 +77,12 @@ impl Programs {
     fn new() -> Outcome<Self> {
         let folder = target_folder().join("c");
         fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-        // Tests link against the library, which lies there then.
+        // Building tests leaves the library in this folder.
         let libraries = ci_folder().join("deps");
         Ok(Self { folder, libraries, sources: root().join("crates/carom-c") })
     }
 
-    /// A program that is compiled.
+    /// Returns the command of a compiled program.
     fn program(&self, name: &str) -> Command {
         Command::new(self.folder.join(name))
     }
@@ -105,7 +105,7 @@ impl Programs {
         finish("cc", command.arg("-o").arg(self.folder.join(program)))
     }
 
-    /// A compiler of a program, without what it links to.
+    /// Returns the command of a compiler for a program, without libraries.
     fn compiler(&self, program: &str, standard: &str, source: &str) -> Command {
         let mut command = Command::new(program);
         command.arg(standard).args(STRICT).arg("-I").arg(self.sources.join("include"));
@@ -113,7 +113,7 @@ impl Programs {
         command
     }
 
-    /// Links to the shared library, where it is.
+    /// Adds the shared library to a command, with its path at run time.
     fn link(&self, command: &mut Command) {
         command.arg("-L").arg(&self.libraries).args(["-lcarom_c", "-lm"]);
         command.arg(format!("-Wl,-rpath,{}", self.libraries.display()));
@@ -136,7 +136,8 @@ impl Programs {
         Ok(())
     }
 
-    /// Calls every function of the header, and makes ten thousand wrong calls, under a checker of memory.
+    /// Calls every function of the header, and makes ten thousand wrong calls, under a memory
+    /// checker.
     fn check_memory(&self, packages: &[&str]) -> Outcome {
         if !cfg!(target_os = "linux") {
             return finish("every_function", &mut self.program("every_function"));
@@ -150,7 +151,7 @@ impl Programs {
         cargo_with(&test, &[(&format!("CARGO_TARGET_{target}_RUNNER"), VALGRIND)])
     }
 
-    /// Compiles and runs the program in C#, with the part for Unity and without.
+    /// Compiles and runs the program in C#, with and without the part for Unity.
     fn run_csharp(&self) -> Outcome {
         if !cfg!(target_os = "linux") && !succeeds("mcs", &["--version"]) {
             eprintln!("xtask: there is no mono, so the program in C# is not run");
@@ -178,6 +179,6 @@ impl Programs {
     }
 }
 
-/// What names the folder of shared libraries to a program that loads them.
+/// Environment variable with the folders of shared libraries.
 const LIBRARY_PATH: &str =
     if cfg!(target_os = "macos") { "DYLD_LIBRARY_PATH" } else { "LD_LIBRARY_PATH" };

@@ -1,9 +1,9 @@
-//! Runs the commands that documents show, in the order in which a reader meets them.
+//! Runs the commands in documents, in the order of reading.
 //!
-//! A block tagged `sh` holds commands; those that begin with `carom` are run. A block that begins
-//! with `# file: NAME` is a file that the reader writes. A block tagged `text` below commands holds
-//! lines that they print. Comments at the end of a command are marks: `# opens a window`,
-//! `# takes minutes` and `# needs a recording` leave it out, `# fails` says that it must fail.
+//! A block tagged `sh` holds commands; those that start with `carom` are run. A block that starts
+//! with `# file: NAME` is a file to be written. A block tagged `text` below commands holds lines of
+//! their output. Comments at the end of a command are marks: `# opens a window`, `# takes minutes`
+//! and `# needs a recording` skip it, and `# fails` means that it must fail.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,29 +13,37 @@ use crate::documents;
 use crate::markdown::{Block, Markdown};
 use crate::shell::{CI, Outcome, cargo, ci_folder, succeeds, target_folder};
 
-/// Documents whose commands run.
-const DOCUMENTS: [&str; 6] = [
+/// Documents whose commands are run.
+const DOCUMENTS: [&str; 14] = [
     "README.md",
     "docs/tutorial.md",
     "docs/command-line.md",
     "docs/scenes.md",
     "docs/viewer.md",
     "docs/courses.md",
+    "docs/physics/motion.md",
+    "docs/physics/contact-times.md",
+    "docs/physics/impacts.md",
+    "docs/physics/persistent-contacts.md",
+    "docs/physics/exact.md",
+    "docs/physics/zones.md",
+    "docs/physics/contact.md",
+    "docs/physics/bisect-and-discrete.md",
 ];
-/// Marks of commands that are left out.
+/// Marks of commands that are skipped.
 const LEFT_OUT: [&str; 3] = ["# opens a window", "# takes minutes", "# needs a recording"];
-/// Subcommands that a build without pictures does not have.
+/// Subcommands that a build without pictures lacks.
 const DRAWING: [&str; 4] = ["picture", "record", "maze", "view"];
 
-/// Where the programs lie that documents call `carom`.
+/// Folders of the programs that documents call `carom`.
 pub struct Programs {
-    /// The folder of one without pictures and window.
+    /// Folder of the program without pictures and window.
     pub plain: PathBuf,
-    /// The folder of one with them; none leaves out what draws.
+    /// Folder of the program with them; `None` skips commands that draw.
     pub drawing: Option<PathBuf>,
 }
 
-/// What a reader of a document does next.
+/// A step of a reader of a document.
 #[derive(Debug, PartialEq, Eq)]
 enum Step {
     Write { file: String, text: String },
@@ -43,7 +51,7 @@ enum Step {
     Read { line: usize, printed: String },
 }
 
-/// Builds the program without pictures, and runs the commands that it has.
+/// Builds the program without pictures, and runs the commands that it supports.
 pub fn check_plain() -> Outcome {
     let plain = ["--package", "carom-cli", "--no-default-features"];
     cargo(&[&["build", "--profile", CI, "--quiet"], &plain[..]].concat())?;
@@ -69,7 +77,7 @@ pub fn check(programs: &Programs) -> Outcome {
     Ok(())
 }
 
-/// What a reader does, from the top of a document to its end.
+/// Returns the steps of a document from top to bottom.
 fn steps(document: &Markdown) -> Vec<Step> {
     document.blocks.iter().flat_map(steps_of).collect()
 }
@@ -93,9 +101,9 @@ fn steps_of(block: &Block) -> Vec<Step> {
     }
 }
 
-/// Goes through a document in a folder; a fault begins with its line.
+/// Follows the steps in a folder; an error begins with its line.
 fn follow(steps: &[Step], programs: &Programs, folder: &Path) -> Outcome {
-    // What the commands since the last block of text have printed.
+    // Output of the commands since the last block of text.
     let mut printed = String::new();
     for step in steps {
         match step {
@@ -119,7 +127,7 @@ fn follow(steps: &[Step], programs: &Programs, folder: &Path) -> Outcome {
     Ok(())
 }
 
-/// Runs a command, and gives back what it prints.
+/// Runs a command. Returns its output.
 fn run(command: &str, programs: &Programs, folder: &Path) -> Outcome<String> {
     let Some(program) = programs.folder_for(command) else {
         eprintln!("   left out: {command}");
@@ -144,25 +152,25 @@ fn run(command: &str, programs: &Programs, folder: &Path) -> Outcome<String> {
 }
 
 impl Programs {
-    /// The folder of the program that a command needs.
+    /// Returns the folder of the program that a command needs.
     fn folder_for(&self, command: &str) -> Option<&Path> {
         if draws(command) { self.drawing.as_deref() } else { Some(&self.plain) }
     }
 }
 
-/// Whether a command draws, or has to do with windows.
+/// Returns whether a command draws or opens windows.
 fn draws(command: &str) -> bool {
     let words: Vec<&str> = command.split_whitespace().collect();
     words.windows(2).any(|pair| pair[0] == "carom" && DRAWING.contains(&pair[1]))
 }
 
-/// A line that was to be printed, and was not.
+/// Returns the first expected line that was not printed.
 fn missing_line<'a>(expected: &'a str, printed: &str) -> Option<&'a str> {
     let printed = without_durations(printed);
     expected.lines().find(|line| !printed.contains(&without_durations(line)))
 }
 
-/// A text with one space between words and without seconds, which differ from run to run.
+/// Returns a text with single spaces between words and without seconds, which differ between runs.
 fn without_durations(text: &str) -> String {
     let words: Vec<&str> = text.split_whitespace().collect();
     let is_second = |place: usize| {

@@ -1,4 +1,4 @@
-//! The main job, shown: scenes run, drawn and filmed, and the window where there is a display.
+//! Demonstrates Carom: runs, draws and films scenes, and opens the window if there is a display.
 
 use serde_json::Value;
 
@@ -8,7 +8,7 @@ use crate::shell::{CI, Outcome, cargo, finish, output, program};
 /// Runs every built-in scene and prints its table, makes pictures and a film in `out/`, and opens
 /// the window.
 pub fn demo() -> Outcome {
-    // Scenes need no graphics: their tables come first, while nothing else is built or installed.
+    // Scenes need no graphics, so their tables come before anything else is built or installed.
     build(&["--no-default-features", "--features", "rayon"])?;
     for scene in scenes()? {
         carom(&["run", &scene])?;
@@ -40,7 +40,7 @@ fn carom(arguments: &[&str]) -> Outcome {
     finish("carom", program("carom").args(arguments))
 }
 
-/// The names of the built-in scenes, in the order of the chooser.
+/// Returns the names of the built-in scenes in the order of the chooser.
 fn scenes() -> Outcome<Vec<String>> {
     let listed = output(program("carom").get_program(), &["scenes", "--json"]);
     let listed = listed.and_then(|text| serde_json::from_str::<Vec<Value>>(&text).ok());

@@ -1,11 +1,11 @@
-//! What Carom is built of: every crate comes from the registry, under a licence that lets anyone use it.
+//! Checks that every crate comes from the registry and has a free licence.
 
 use serde_json::Value;
 use spdx::{Expression, ParseMode};
 
 use crate::shell::{Outcome, metadata};
 
-/// Licences under which anyone may use, change and pass on what is built of a crate.
+/// Licences that allow everyone to use, change and distribute a product that contains the crate.
 const LICENCES: [&str; 13] = [
     "0BSD",
     "Apache-2.0",
@@ -22,16 +22,16 @@ const LICENCES: [&str; 13] = [
     "Zlib",
 ];
 
-/// Where crates come from.
+/// The only allowed source of crates.
 const REGISTRY: &str = "registry+https://github.com/rust-lang/crates.io-index";
 
-/// Checks the crates that `Cargo.lock` names.
+/// Checks the crates in `Cargo.lock`.
 pub fn check() -> Outcome {
     let mut faults = Vec::new();
     for package in packages()? {
         let text = |field: &str| package[field].as_str().unwrap_or_default().to_owned();
         let (name, version) = (text("name"), text("version"));
-        // Those of Carom have no source.
+        // Crates of the workspace have no source.
         let source = package["source"].as_str().unwrap_or(REGISTRY);
         if source != REGISTRY {
             faults.push(format!("{name} {version} comes from {source}"));
@@ -43,13 +43,13 @@ pub fn check() -> Outcome {
     if faults.is_empty() { Ok(()) } else { Err(faults.join("\n")) }
 }
 
-/// Every crate of the lock file, as cargo describes it.
+/// Returns the metadata of every crate in the lock file.
 fn packages() -> Outcome<Vec<Value>> {
     let packages = metadata(&[])?["packages"].as_array().cloned();
     packages.ok_or_else(|| "cargo metadata lists no packages".into())
 }
 
-/// Whether a licence, in the words of SPDX, leaves a choice that is free.
+/// Returns whether an SPDX licence expression allows a free licence.
 fn is_free(licence: &str) -> bool {
     let expression = Expression::parse_mode(licence, ParseMode::LAX);
     expression.is_ok_and(|it| {

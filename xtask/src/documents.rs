@@ -1,4 +1,5 @@
-//! Keeps documents true: links lead somewhere, and what they name is there.
+//! Checks that links of documents lead somewhere, and that the files and types that they name
+//! exist.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -8,7 +9,7 @@ use crate::files::normal;
 use crate::markdown::{Markdown, Spot};
 use crate::shell::{Outcome, root};
 
-/// Folders of what others wrote, or programs made.
+/// Folders of foreign or generated files.
 const FOREIGN: [&str; 9] = [
     ".git",
     "__pycache__",
@@ -20,16 +21,16 @@ const FOREIGN: [&str; 9] = [
     "target",
     "test-results",
 ];
-/// Documents that name files and types as they were.
+/// Documents that name past files and types.
 const HISTORIES: [&str; 1] = ["CHANGELOG.md"];
-/// Names of other codes, of programs that a document cites, and of what programs make.
+/// Names from other codes, from cited programs, and of generated files.
 const FOREIGN_NAMES: [&str; 2] = ["GetTimeOfIntersection", "out/"];
-/// Endings of files that a document names.
+/// Extensions of files that a document may name.
 const ENDINGS: [&str; 8] = ["rs", "md", "py", "pyi", "toml", "txt", "wgsl", "yml"];
-/// Endings of sources, whose words are the names that a document may use.
+/// Extensions of sources, whose words are the names that a document may use.
 const SOURCES: [&str; 8] = ["rs", "py", "pyi", "js", "ts", "toml", "h", "cs"];
 
-/// Refuses links that lead nowhere, and names of files and types that are not there.
+/// Reports dead links, and names of files and types that do not exist.
 pub fn check() -> Outcome {
     let files = Files::of_repository()?;
     let mut faults = Vec::new();
@@ -48,12 +49,12 @@ pub fn check() -> Outcome {
     if faults.is_empty() { Ok(()) } else { Err(format!("documents:\n{}", faults.join("\n"))) }
 }
 
-/// A document of the repository.
+/// Reads and parses a document of the repository.
 pub fn read(file: &str) -> Outcome<Markdown> {
     Ok(Markdown::parse(&text(file)?))
 }
 
-/// The text of a document of the repository.
+/// Reads the text of a document of the repository.
 pub fn text(file: &str) -> Outcome<String> {
     fs::read_to_string(root().join(file)).map_err(|error| format!("{file}: {error}"))
 }
@@ -62,13 +63,13 @@ fn at(file: &str, spot: &Spot, fault: &str) -> String {
     format!("  {file}:{}: {fault}", spot.line)
 }
 
-/// Whether users read a document away from the repository.
+/// Returns whether a document is part of a package, so that users read it away from the repository.
 fn is_of_a_package(file: &str) -> bool {
     file.starts_with("python/") || file.starts_with("web/")
 }
 
-/// The code of a document that speaks of Carom: the last column of the glossary's tables speaks of
-/// other codes.
+/// Returns the code in a document that is about Carom. The last column of the glossary's tables is
+/// about other codes.
 fn own_code(file: &str, document: &Markdown) -> Outcome<Vec<Spot>> {
     if file != "docs/glossary.md" {
         return Ok(document.code.clone());
@@ -83,7 +84,7 @@ fn without_last_cell(line: &str) -> &str {
     row.map_or(line, |(rest, _)| rest)
 }
 
-/// What is wrong with a link to a place in the repository, if something is.
+/// Returns the fault of a link to a place in the repository, if it has one.
 fn fault_of_link(files: &Files, from: &str, link: &Spot) -> Outcome<Option<String>> {
     let target = link.text.as_str();
     if target.contains("://") || target.starts_with("mailto:") {
@@ -99,19 +100,19 @@ fn fault_of_link(files: &Files, from: &str, link: &Spot) -> Outcome<Option<Strin
     Ok((!is_there).then(|| format!("{file} has no heading #{anchor}")))
 }
 
-/// A relative path of a document, seen from the root of the repository.
+/// Converts a relative path in a document to one from the root of the repository.
 fn resolved(from: &str, path: &str) -> String {
     let folder = Path::new(from).parent().unwrap_or(Path::new(""));
     normal(&folder.join(path)).to_string_lossy().into_owned()
 }
 
-/// What there is to be named.
+/// Files, folders and words that documents may name.
 #[derive(Default)]
 struct Files {
-    /// From the root of the repository, with `/`.
+    /// Paths from the root of the repository, with `/`.
     paths: BTreeSet<String>,
     folders: BTreeSet<String>,
-    /// Every word of the sources.
+    /// All words of the sources.
     words: BTreeSet<String>,
 }
 
@@ -155,7 +156,7 @@ impl Files {
         path.is_empty() || self.paths.contains(path) || self.folders.contains(path)
     }
 
-    /// What is wrong with code in a sentence, if it names a file, a folder or a type.
+    /// Returns the fault of code in a sentence, if it names a missing file, folder or type.
     fn fault_of_name(&self, document: &Markdown, code: &Spot) -> Option<String> {
         let name = code.text.as_str();
         if FOREIGN_NAMES.contains(&name) {
@@ -175,7 +176,7 @@ impl Files {
     }
 }
 
-/// Whether one of these paths is this one, or ends in it.
+/// Returns whether one of these paths equals this one or ends in it.
 fn ends_in(paths: &BTreeSet<String>, name: &str) -> bool {
     let name = name.trim_start_matches("./");
     paths.contains(name) || paths.iter().any(|path| path.ends_with(&format!("/{name}")))
@@ -202,8 +203,8 @@ fn is_folder(name: &str) -> bool {
     is_path(name) && name.ends_with('/') && name.len() > 1
 }
 
-/// The words of a name such as `World::step` or `MAX_STEPS`; none of what names no type, function
-/// or constant.
+/// Returns the words of a name such as `World::step` or `MAX_STEPS`; none if it names no type,
+/// function or constant.
 fn names_of_types(name: &str) -> Vec<&str> {
     let name = name.strip_suffix("()").unwrap_or(name);
     let name = name.strip_prefix("carom.").unwrap_or(name);
@@ -213,7 +214,7 @@ fn names_of_types(name: &str) -> Vec<&str> {
             && word.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '_')
             && !word.starts_with(|first: char| first.is_ascii_digit())
     };
-    // Letters alone are abbreviations, as in `CSV`.
+    // Capitals alone are abbreviations, for example `CSV`.
     let is_long = name.len() > 3 || name.contains(|letter: char| letter.is_ascii_lowercase());
     let begins_large = name.starts_with(|first: char| first.is_ascii_uppercase());
     if is_long && begins_large && words.iter().all(is_name) { words } else { Vec::new() }

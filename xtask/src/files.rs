@@ -1,11 +1,11 @@
-//! Files and folders: copied, made anew, found.
+//! Copies, makes and finds files and folders.
 
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use crate::shell::Outcome;
 
-/// Copies a file, or a folder with all that is in it.
+/// Copies a file, or a folder with its contents.
 pub fn copy(from: &Path, to: &Path) -> Outcome {
     if !from.is_dir() {
         return fs::copy(from, to).map(drop).map_err(|error| said(from, &error));
@@ -18,7 +18,7 @@ pub fn copy(from: &Path, to: &Path) -> Outcome {
     Ok(())
 }
 
-/// Removes a folder with all that is in it, if it is there.
+/// Removes a folder with its contents, if it exists.
 pub fn remove(folder: &Path) -> Outcome {
     if folder.exists() {
         fs::remove_dir_all(folder).map_err(|error| said(folder, &error))?;
@@ -26,19 +26,19 @@ pub fn remove(folder: &Path) -> Outcome {
     Ok(())
 }
 
-/// Makes a folder unless it is there. Returns it.
+/// Makes a folder if it does not exist. Returns it.
 pub fn made(folder: PathBuf) -> Outcome<PathBuf> {
     fs::create_dir_all(&folder).map_err(|error| said(&folder, &error))?;
     Ok(folder)
 }
 
-/// Makes a folder empty. Returns it.
+/// Makes a folder, or empties it. Returns it.
 pub fn emptied(folder: PathBuf) -> Outcome<PathBuf> {
     remove(&folder)?;
     made(folder)
 }
 
-/// The only file of a folder.
+/// Returns the only file in a folder.
 pub fn only_file(folder: &Path) -> Outcome<PathBuf> {
     let entries = fs::read_dir(folder).map_err(|error| said(folder, &error))?;
     let mut files: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
@@ -48,7 +48,7 @@ pub fn only_file(folder: &Path) -> Outcome<PathBuf> {
     }
 }
 
-/// A path without steps back.
+/// Returns a path without `.` and `..`.
 pub fn normal(path: &Path) -> PathBuf {
     let mut whole = PathBuf::new();
     for component in path.components() {
@@ -61,7 +61,7 @@ pub fn normal(path: &Path) -> PathBuf {
     whole
 }
 
-/// An error of a file or folder, for people.
+/// Returns the message for an error of a file or folder.
 pub fn said(path: &Path, error: &std::io::Error) -> String {
     format!("{}: {error}", path.display())
 }

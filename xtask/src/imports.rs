@@ -1,7 +1,7 @@
-//! Which modules of a crate use names that other modules of it define.
+//! Finds which modules of a crate use names that other modules of it define.
 //!
-//! A name belongs to the module whose file defines it: a re-export is looked through, wherever it
-//! stands. Code for tests does not count.
+//! A name belongs to the module whose file defines it; re-exports are followed. Test code is
+//! ignored.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -13,13 +13,13 @@ use crate::sources::{Source, is_for_tests};
 
 /// One use of a name that another module defines.
 pub struct Import {
-    /// The name, as the code writes it.
+    /// The name as the code writes it.
     pub path: String,
     pub line: usize,
 }
 
-/// For each module, the modules whose names it uses, with the first use of each; modules by their
-/// place among the sources.
+/// Returns for each module the modules whose names it uses, with the first use of each. Modules are
+/// identified by their index in `sources`.
 pub fn imports(sources: &[Source]) -> Vec<BTreeMap<usize, Import>> {
     let modules: Vec<Module> = sources.iter().map(|source| Module::new(&source.syntax)).collect();
     let places = sources.iter().enumerate().map(|(place, source)| (&source.module[..], place));
@@ -39,24 +39,24 @@ pub fn imports(sources: &[Source]) -> Vec<BTreeMap<usize, Import>> {
     (0..sources.len()).map(imports_of).collect()
 }
 
-/// A path that the code of a module names, without the steps that lead out of an inline module.
+/// A path that a module uses, without steps out of an inline module.
 struct Used {
     path: Vec<String>,
     line: usize,
 }
 
-/// What a module says about names.
+/// Names in a module.
 #[derive(Default)]
 struct Module {
-    /// Names that it brings into scope, and the path of each.
+    /// Names in scope, with the path of each.
     bindings: HashMap<String, Vec<String>>,
-    /// Modules all of whose names it brings into scope.
+    /// Modules that are imported with a glob.
     globs: Vec<Vec<String>>,
-    /// Names that it defines.
+    /// Names that the module defines.
     items: Vec<String>,
-    /// Paths that it names, but in re-exports, which use nothing themselves.
+    /// Paths that the module uses, except those of re-exports, which use nothing themselves.
     uses: Vec<Used>,
-    /// How many inline modules are open where the visit is.
+    /// Number of inline modules around the visited item.
     depth: usize,
 }
 
@@ -72,7 +72,7 @@ impl Module {
         self.uses.push(Used { path, line });
     }
 
-    /// Sees a path from the module of the file.
+    /// Removes steps out of inline modules, so that a path starts at the file's module.
     fn leave_inline_modules(&self, path: &mut Vec<String>) {
         for _ in 0..self.depth {
             if path.first().is_some_and(|first| first == "super") {
@@ -81,7 +81,7 @@ impl Module {
         }
     }
 
-    /// Takes in what one branch of a `use` brings into scope.
+    /// Records the names that one branch of a `use` brings into scope.
     fn add_use(&mut self, tree: &UseTree, mut path: Vec<String>, is_private: bool, line: usize) {
         let (name, renamed) = match tree {
             UseTree::Path(tree) => {
@@ -112,7 +112,7 @@ impl Module {
         self.bindings.insert(renamed.unwrap_or_default(), path);
     }
 
-    /// Takes in the paths of tokens that only a macro understands.
+    /// Records the paths in the tokens of a macro.
     fn add_tokens(&mut self, tokens: TokenStream) {
         let mut path: Vec<String> = Vec::new();
         let mut colons = 0;
@@ -187,7 +187,7 @@ impl<'ast> Visit<'ast> for Module {
     }
 }
 
-/// The modules of a crate, by name.
+/// The modules of a crate by name.
 struct Names<'a> {
     sources: &'a [Source],
     modules: Vec<Module>,
@@ -195,10 +195,10 @@ struct Names<'a> {
 }
 
 impl Names<'_> {
-    /// The module that defines what a path means in this module; none if that is no module of the
-    /// crate. A path to a module alone uses nothing of it.
+    /// Returns the module that defines the meaning of a path in this module; `None` if it is not in
+    /// this crate. A path to a module alone uses none of its names.
     fn definer(&self, place: usize, path: &[String], depth: usize) -> Option<usize> {
-        // Names that lead to each other in a circle lead nowhere.
+        // Names that refer to each other in a circle have no definition.
         if depth > 16 {
             return None;
         }
@@ -219,7 +219,7 @@ impl Names<'_> {
         self.definer_in(place, path, depth)
     }
 
-    /// As [`Self::definer`], of a path whose first name is one of this module.
+    /// As [`Self::definer`], for a path whose first name is in this module.
     fn definer_in(&self, place: usize, path: &[String], depth: usize) -> Option<usize> {
         let (first, rest) = path.split_first()?;
         let module = &self.modules[place];
@@ -229,20 +229,20 @@ impl Names<'_> {
         {
             return self.definer_in(child, rest, depth);
         }
-        // A function may have the name of a module that is in scope.
+        // A function may have the same name as a module in scope.
         let is_item = module.items.contains(first);
         if is_item && (rest.is_empty() || !module.bindings.contains_key(first)) {
             return Some(place);
         }
         if let Some(bound) = module.bindings.get(first)
-            // A name that stands for itself is one of another crate.
+            // A name bound to itself comes from another crate.
             && bound.first() != Some(first)
         {
             let path = [&bound[..], rest].concat();
             return self.definer(place, &path, depth + 1);
         }
-        // Another crate brings no name of this one: to look there for a path through its own glob, and
-        // so on, would take ages where there are several.
+        // Globs of other crates define no name of this one. Following them would take very long,
+        // because a path through a glob is searched in all globs again.
         let mut globs = module.globs.iter().filter(|glob| self.is_of_crate(place, glob));
         globs.find_map(|glob| {
             let path = [&glob[..], path].concat();
@@ -250,7 +250,7 @@ impl Names<'_> {
         })
     }
 
-    /// Whether a path that this module names may lead to a module of the crate.
+    /// Returns whether a path in this module may lead to a module of the crate.
     fn is_of_crate(&self, place: usize, path: &[String]) -> bool {
         let Some(first) = path.first() else { return false };
         let bound = self.modules[place].bindings.get(first);
@@ -261,7 +261,7 @@ impl Names<'_> {
     }
 }
 
-/// The name that an item defines in its module.
+/// Returns the name that an item defines in its module.
 fn name_of(item: &Item) -> Option<String> {
     let ident = match item {
         Item::Const(item) => &item.ident,

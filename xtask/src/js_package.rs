@@ -1,4 +1,4 @@
-//! The JavaScript package `carom`: put together, packed, tested, measured.
+//! Builds, packs, tests and measures the JavaScript package `carom`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ use crate::wasm_toolchain::TARGET;
 use crate::web_tools::{folder, npm_packages, wasm_bindgen};
 use crate::{native_hashes, notices, setup};
 
-/// What stands in the package as it stands in the repository: from where, to where.
+/// Files of the repository that are copied into the package: source and destination.
 const FILES: [(&str, &str); 5] = [
     ("web/package/package.json", "package.json"),
     ("web/package/README.md", "README.md"),
@@ -20,7 +20,7 @@ const FILES: [(&str, &str); 5] = [
     ("LICENSE-MIT", "LICENSE-MIT"),
 ];
 
-/// Puts the package together, and packs it as the registry of npm takes it. Returns the archive.
+/// Builds the package and packs it for the npm registry. Returns the archive.
 pub fn build(purpose: Purpose) -> Outcome<PathBuf> {
     setup::page()?;
     check_version()?;
@@ -34,7 +34,7 @@ pub fn build(purpose: Purpose) -> Outcome<PathBuf> {
     pack(&package)
 }
 
-/// Makes the package, and tests what a user of the archive gets, in Node.js.
+/// Builds the package, and tests the content of the archive in Node.js.
 pub fn test() -> Outcome {
     let archive = build(Purpose::Test)?;
     npm_packages()?;
@@ -51,7 +51,7 @@ pub fn test() -> Outcome {
     finish("node", Command::new("node").arg("--test").args(files).current_dir(&user))
 }
 
-/// Measures the package in Node.js against the native engine, frame by frame.
+/// Compares frame times of the package in Node.js with those of the native engine.
 pub fn bench() -> Outcome {
     build(Purpose::Use)?;
     cargo(&["build", "--release", "--package", "carom-js", "--example", "frame_times"])?;
@@ -61,7 +61,7 @@ pub fn bench() -> Outcome {
     finish("node", Command::new("node").arg(script).arg(native).arg(package))
 }
 
-/// The package bears the version of the engine.
+/// Checks that the package has the version of the engine.
 fn check_version() -> Outcome {
     let version = format!("\"version\": \"{}\"", env!("CARGO_PKG_VERSION"));
     let file = folder().join("package/package.json");
@@ -72,8 +72,8 @@ fn check_version() -> Outcome {
     Err(format!("{} must say {version}, as Cargo.toml does", file.display()))
 }
 
-/// Has `wasm-bindgen` make a module of JavaScript around the engine. Where the engine is fetched
-/// from, the package says itself.
+/// Runs `wasm-bindgen`, which writes a JavaScript module around the engine. The package itself
+/// decides where the engine is loaded from.
 fn bind(module: &Path, out: &Path) -> Outcome {
     let options = ["--target", "web", "--omit-default-module-path", "--no-typescript"];
     let mut command = Command::new(wasm_bindgen()?);
@@ -82,7 +82,7 @@ fn bind(module: &Path, out: &Path) -> Outcome {
     finish("wasm-bindgen", command.arg("--out-dir").arg(out).arg(module))
 }
 
-/// Packs a folder. Returns the archive, beside it.
+/// Packs a folder. Returns the archive, which is beside the folder.
 fn pack(package: &Path) -> Outcome<PathBuf> {
     let folder = package.parent().unwrap_or(package);
     let mut command = Command::new("npm");
@@ -91,13 +91,13 @@ fn pack(package: &Path) -> Outcome<PathBuf> {
     Ok(folder.join(concat!("carom-", env!("CARGO_PKG_VERSION"), ".tgz")))
 }
 
-/// An empty folder among what is built.
+/// Returns an empty folder below the target folder.
 fn anew(name: &str) -> Outcome<PathBuf> {
     emptied(target_folder().join(name))
 }
 
-/// The files in `tests/` of a folder that hold tests, by name: not every version of Node.js finds
-/// them by their folder.
+/// Returns the test files in `tests/` of a folder by name, because not every version of Node.js
+/// finds them by the folder.
 fn test_files(folder: &Path) -> Outcome<Vec<String>> {
     let mut names = Vec::new();
     let entries = fs::read_dir(folder.join("tests")).map_err(|error| error.to_string())?;

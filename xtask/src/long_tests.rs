@@ -1,35 +1,36 @@
-//! Tests that take minutes, hours of simulated time, and hostile input: what no change waits for.
+//! Long tests, outside of the usual checks: hours of simulated time, and hostile input.
 
 use std::fs;
 
 use crate::shell::{Outcome, cargo, cargo_with, target_folder};
 
-/// Arguments that name the command line without pictures.
+/// Cargo arguments for the command line without pictures.
 const PLAIN: [&str; 4] = ["--package", "carom-cli", "--no-default-features", "--quiet"];
-/// Arguments that test a package, optimised.
+/// Cargo arguments that test a package, optimised.
 const OPTIMISED: [&str; 4] = ["test", "--release", "--quiet", "--package"];
 
-/// Runs the tests of the physics that take minutes, optimised, and all that stands for users: the size
-/// of the page, the package of the physics, the bits of a release.
+/// Runs the long tests of the physics, optimised, and checks of what users get: the package of the
+/// physics, and the bits of a release.
 pub fn run() -> Outcome {
     for package in ["carom", "carom-scene"] {
         let heaps = [package, "--test", "heaps", "--", "--ignored"];
         cargo(&[&OPTIMISED[..], &heaps].concat())?;
     }
     hashes_of_releases()?;
-    // The crate of the physics can be published: it builds from what its package holds.
+    // The package of the physics must be complete for publishing: it is built from its content
+    // alone.
     cargo(&["package", "--package", "carom", "--allow-dirty", "--offline", "--quiet"])?;
     cargo(&[&["run", "--release"], &PLAIN[..], &["--", "verify", "--full"]].concat())
 }
 
-/// The bits of a release are those of every build.
+/// Checks that release builds give the same bits as other builds.
 fn hashes_of_releases() -> Outcome {
     let tests = ["carom", "--test", "world", "--test", "exact", "--test", "contact_rule"];
     cargo(&[&OPTIMISED[..], &tests].concat())?;
     cargo(&[&OPTIMISED[..], &["carom-scene", "--test", "scenes"]].concat())
 }
 
-/// Runs scenes for a number of hours of simulated time, optimised, and keeps the state after each hour.
+/// Simulates scenes for a number of hours, optimised, and keeps the state after each hour.
 pub fn soak(hours: &str) -> Outcome {
     if !hours.parse::<u32>().is_ok_and(|hours| hours > 0) {
         return Err(format!("--hours takes a whole number of hours, not {hours:?}"));
@@ -37,7 +38,7 @@ pub fn soak(hours: &str) -> Outcome {
     soak_test("a_day_is_what_it_is_everywhere_and_takes_no_more_memory_than_an_hour", hours)
 }
 
-/// Runs each hour of a day once more, from the states that [`soak`] kept, optimised.
+/// Repeats each hour of a day from the states that [`soak`] kept, optimised.
 pub fn soak_again() -> Outcome {
     soak_test("every_hour_of_a_day_is_the_same_again_from_the_state_before_it", "24")
 }
@@ -51,13 +52,13 @@ fn soak_test(name: &str, hours: &str) -> Outcome {
     cargo_with(&[&OPTIMISED[..], &soak].concat(), &set)
 }
 
-/// Tries hostile input; `options` are those of `carom-fuzz`.
+/// Runs the program with hostile input; `options` are those of `carom-fuzz`.
 pub fn fuzz(options: &[&str]) -> Outcome {
     cargo(&[&["build", "--release"], &PLAIN[..]].concat())?;
     cargo(&[&["run", "--release", "--package", "carom-fuzz", "--"], options].concat())
 }
 
-/// Kills runs that record, a hundred in each format, and as many that film.
+/// Kills recording runs, a hundred in each format, and as many filming runs.
 pub fn kills() -> Outcome {
     let test = |features, name| {
         let test = ["--features", features, "--test", name, "--", "--nocapture"];

@@ -1,8 +1,9 @@
-//! `cargo xtask`: sets up what is missing, then demonstrates, checks, or brings files up to date.
+//! `cargo xtask`: installs what is missing, then runs demonstrations or checks, or updates files.
 
 #![warn(clippy::unwrap_used)]
 
 mod architecture;
+mod book;
 mod c_interface;
 mod checks;
 mod circles;
@@ -21,12 +22,14 @@ mod native_hashes;
 mod notices;
 mod python;
 mod release;
+mod scene_reference;
 mod schema;
 mod setup;
 mod shell;
 mod sizes;
 mod sources;
 mod stages;
+mod tools;
 mod wasm;
 mod wasm_toolchain;
 mod web;
@@ -58,7 +61,8 @@ Usage: cargo xtask COMMAND
   lint      the checks that need no build: format, words, links and names in documents, modules that
             use each other in a circle, files and functions that are too long
   documents run the commands that README.md and docs/ show, except those that draw
-  schema    write crates/carom-scene/scenes/scene.schema.json anew from the scene types
+  docs      make a site with a search of all documents, in target/book/book (installs mdbook: minutes)
+  schema    write scene.schema.json and fields.md in crates/carom-scene/scenes from the scene types
   release   `release --dry-run` makes and checks all that a release publishes, in
             target/release-files, and publishes nothing (many minutes; `--part NAME` makes one part of it,
             `--full` builds once more from every package, `--keep-viewer` takes the viewer for notebooks that
@@ -102,6 +106,7 @@ fn main() -> ExitCode {
         ["notebook"] => web::build_for_notebooks(Purpose::Use),
         ["lint"] => checks::lint(),
         ["documents"] => commands::check_plain(),
+        ["docs"] => book::build(),
         ["schema"] => schema::write(),
         ["soak"] => long_tests::soak("24"),
         ["soak", "--hours", hours] => long_tests::soak(hours),

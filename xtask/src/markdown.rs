@@ -1,17 +1,17 @@
-//! Documents in Markdown: what checks read of them.
+//! Parses Markdown documents for checks.
 
-/// A document, taken apart.
+/// A parsed document.
 #[derive(Debug, Default)]
 pub struct Markdown {
-    /// Where links can lead to, as GitHub names headings.
+    /// Targets of links: the headings, with the names that GitHub gives them.
     pub anchors: Vec<String>,
     pub links: Vec<Spot>,
-    /// What stands between single backticks, outside of blocks.
+    /// Code between single backticks, outside of blocks.
     pub code: Vec<Spot>,
     pub blocks: Vec<Block>,
 }
 
-/// A piece of text, and its line, from 1.
+/// A piece of text with its line number, from 1.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Spot {
     pub line: usize,
@@ -21,15 +21,15 @@ pub struct Spot {
 /// A fenced block.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Block {
-    /// Line of its first line of text, from 1.
+    /// Line number of its first line of text, from 1.
     pub line: usize,
-    /// The word after the fence; empty without one.
+    /// The word after the fence; empty if there is none.
     pub tag: String,
     pub text: String,
 }
 
 impl Markdown {
-    /// Takes a text apart.
+    /// Parses a text.
     pub fn parse(text: &str) -> Self {
         let mut document = Self::default();
         let mut prose = String::new();
@@ -51,7 +51,7 @@ impl Markdown {
                     prose.push_str(line);
                 }
             }
-            // Lines of blocks are empty in the prose, so that its lines keep their numbers.
+            // Lines of blocks stay empty in the prose, so that other lines keep their numbers.
             prose.push('\n');
         }
         document.read_prose(&prose);
@@ -68,7 +68,7 @@ impl Markdown {
         self.anchors.push(if again == 0 { name } else { format!("{name}-{again}") });
     }
 
-    /// Finds links and code, which may go on over the end of a line.
+    /// Finds links and code, which may continue on the next line.
     fn read_prose(&mut self, prose: &str) {
         let mut line = 1;
         for (number, part) in prose.split('`').enumerate() {
@@ -83,7 +83,7 @@ impl Markdown {
     }
 }
 
-/// The targets of links in a text that begins in this line.
+/// Returns the targets of links in a text that begins on line `first_line`.
 fn links_of(text: &str, first_line: usize) -> Vec<Spot> {
     let starts = text.match_indices("](");
     let link = |(at, _): (usize, &str)| {
@@ -94,14 +94,14 @@ fn links_of(text: &str, first_line: usize) -> Vec<Spot> {
     starts.filter_map(link).collect()
 }
 
-/// How GitHub names a heading in an address.
+/// Returns GitHub's name of a heading in an address.
 fn anchor_of(heading: &str) -> String {
     let is_kept = |letter: &char| letter.is_alphanumeric() || " -_".contains(*letter);
     let letters = heading.chars().flat_map(char::to_lowercase).filter(is_kept);
     letters.map(|letter| if letter == ' ' { '-' } else { letter }).collect()
 }
 
-/// An anchor without the number that tells headings of one name apart.
+/// Returns an anchor without the number that distinguishes equal headings.
 fn without_count(anchor: &str) -> &str {
     match anchor.rsplit_once('-') {
         Some((name, count)) if count.parse::<u32>().is_ok() => name,

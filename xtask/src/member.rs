@@ -1,4 +1,4 @@
-//! The crates of the workspace, as cargo describes them.
+//! The crates of the workspace, from cargo's metadata.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -12,27 +12,27 @@ use crate::shell::{Outcome, metadata};
 pub struct Member {
     pub name: String,
     pub version: String,
-    /// Where its `Cargo.toml` lies.
+    /// Folder of its `Cargo.toml`.
     pub folder: PathBuf,
-    /// Whether registries may have it.
+    /// Whether it may be published.
     pub is_published: bool,
-    /// The other members that it uses.
+    /// The other members that it depends on.
     pub uses: Vec<Use>,
-    /// All that cargo says of it.
+    /// Its metadata from cargo.
     pub described: Value,
 }
 
-/// How a member uses another one.
+/// A dependency of a member on another one.
 #[derive(Debug, Clone)]
 pub struct Use {
     pub name: String,
-    /// The versions that it takes, as in `^1.0`.
+    /// Accepted versions, for example `^1.0`.
     pub versions: String,
-    /// Whether tests alone use it.
+    /// Whether it is only a dependency of tests.
     pub is_for_tests: bool,
 }
 
-/// All members of the workspace, by name.
+/// Returns all members of the workspace by name.
 pub fn all() -> Outcome<Vec<Member>> {
     let described = metadata(&["--no-deps"])?;
     let packages = described["packages"].as_array().ok_or("cargo metadata lists no packages")?;
@@ -41,7 +41,7 @@ pub fn all() -> Outcome<Vec<Member>> {
     Ok(members)
 }
 
-/// The members that registries may have, each after all that it uses.
+/// Returns the members that may be published, each after its dependencies.
 pub fn in_order_of_publishing(members: &[Member]) -> Outcome<Vec<&Member>> {
     let mut ahead: Vec<&Member> = members.iter().filter(|it| it.is_published).collect();
     let mut done: BTreeSet<&str> = BTreeSet::new();
@@ -63,7 +63,7 @@ pub fn in_order_of_publishing(members: &[Member]) -> Outcome<Vec<&Member>> {
     Ok(order)
 }
 
-/// The members that the one of this name is built from, itself among them.
+/// Returns the members that a member is built from, including itself.
 pub fn built_from<'a>(members: &'a [Member], name: &str) -> Vec<&'a Member> {
     let mut found: BTreeSet<&str> = BTreeSet::new();
     let mut ahead = vec![name];
@@ -80,7 +80,7 @@ pub fn built_from<'a>(members: &'a [Member], name: &str) -> Vec<&'a Member> {
 fn member(package: &Value) -> Member {
     let manifest = PathBuf::from(text(&package["manifest_path"]));
     let dependencies = package["dependencies"].as_array().into_iter().flatten();
-    // Those of the workspace have a path.
+    // Dependencies in the workspace have a path.
     let own = dependencies.filter(|dependency| dependency["path"].is_string());
     let uses = own.map(|dependency| Use {
         name: text(&dependency["name"]),
@@ -91,7 +91,7 @@ fn member(package: &Value) -> Member {
         name: text(&package["name"]),
         version: text(&package["version"]),
         folder: manifest.parent().map(PathBuf::from).unwrap_or_default(),
-        // No registry: an empty list. Any: nothing.
+        // An empty list of registries means none; no list means any.
         is_published: package["publish"].is_null(),
         uses: uses.collect(),
         described: package.clone(),
@@ -102,7 +102,7 @@ fn text(value: &Value) -> String {
     value.as_str().unwrap_or_default().to_owned()
 }
 
-/// A crate for tests, which uses others.
+/// Returns a crate with dependencies, for tests.
 #[cfg(test)]
 pub fn crate_of(name: &str, is_published: bool, uses: &[&str]) -> Member {
     let used = |name: &&str| Use {

@@ -1,4 +1,4 @@
-//! The licences of the crates that a program or library is built of, for those who get it compiled.
+//! Collects the licences of crates in a compiled program or library, for those who receive it.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -8,15 +8,16 @@ use serde_json::Value;
 
 use crate::shell::{Outcome, metadata};
 
-/// The name of the file in archives.
+/// Name of the file in archives.
 pub const FILE: &str = "THIRD-PARTY-NOTICES.txt";
 
-/// How names of files with licences begin, in capitals.
+/// First words of the names of licence files, in capitals.
 const BEGINNINGS: [&str; 8] =
     ["LICENSE", "LICENCE", "COPYING", "COPYRIGHT", "NOTICE", "UNLICENSE", "OFL", "UFL"];
 
-/// What a crate of the workspace is built of for a target, with the text of each licence. Features that other members
-/// ask for count as well: it may list more than there is, never less.
+/// Returns the dependencies of a workspace crate for a target, with the text of each licence.
+/// Features that other members request are included, so the list may be too long but never too
+/// short.
 pub fn of(member: &str, target: &str) -> Outcome<String> {
     let described = metadata(&["--filter-platform", target])?;
     let used = used_by(member, &described);
@@ -42,7 +43,7 @@ pub fn of(member: &str, target: &str) -> Outcome<String> {
     Ok(whole)
 }
 
-/// The identities of all packages that are compiled into one of the workspace.
+/// Returns the ids of all packages that are compiled into a workspace crate.
 fn used_by<'a>(member: &str, described: &'a Value) -> BTreeSet<&'a str> {
     let packages = described["packages"].as_array().into_iter().flatten();
     let own = packages.filter(|it| it["name"] == *member && it["source"].is_null());
@@ -61,13 +62,13 @@ fn used_by<'a>(member: &str, described: &'a Value) -> BTreeSet<&'a str> {
     used
 }
 
-/// Whether a dependency is neither for tests nor for a build alone.
+/// Returns whether a dependency is compiled in, not only used by tests or build scripts.
 fn is_compiled_in(dependency: &Value) -> bool {
     let kinds = dependency["dep_kinds"].as_array();
     kinds.is_some_and(|kinds| kinds.iter().any(|kind| kind["kind"].is_null()))
 }
 
-/// The files with licences in a folder, and in the folders in it.
+/// Returns the licence files in a folder and its subfolders.
 fn licences_in(folder: Option<&Path>) -> Vec<PathBuf> {
     let entries = |folder: &Path| -> Vec<PathBuf> {
         let entries = fs::read_dir(folder).into_iter().flatten();

@@ -23,10 +23,10 @@ pub fn build() -> Outcome<PathBuf> {
 pub fn test() -> Outcome {
     // Notebooks are shown in it.
     setup::browser()?;
-    let environment = Environment::new("python/test")?;
-    environment.pip(&["install", "--requirement", REQUIREMENTS])?;
+    let environment = Environment::with_requirements("python/test")?;
     let wheel = wheel_for_tests(&environment)?;
-    environment.pip(&["install", "--no-deps", &wheel.to_string_lossy()])?;
+    let wheel = wheel.to_string_lossy();
+    environment.pip(&["install", "--no-deps", "--force-reinstall", &wheel])?;
     let hashes = environment.folder.join("native_hashes.json");
     fs::write(&hashes, native_hashes::json()?).map_err(|error| said(&hashes, &error))?;
 
@@ -120,6 +120,29 @@ impl Environment {
         let python = setup::python_program();
         finish(&python, Command::new(&python).args(["-m", "venv"]).arg(place))?;
         Ok(Self { folder })
+    }
+
+    /// Returns one in which [`REQUIREMENTS`] are installed: the one that is there, if it was made of the same
+    /// ones by the same Python, or a new one.
+    fn with_requirements(name: &str) -> Outcome<Self> {
+        let folder = target_folder().join(name);
+        let file = root().join(REQUIREMENTS);
+        let requirements = fs::read_to_string(&file).map_err(|error| said(&file, &error))?;
+        let python = printed("python", Command::new(setup::python_program()).arg("--version"))?;
+        let made_of = format!("{python}\n{requirements}");
+        let note = folder.join("made_of.txt");
+        if fs::read_to_string(&note).is_ok_and(|text| text == made_of) {
+            setup::graphics()?;
+            for leftover in ["wheels", "unpacked", "reference"] {
+                remove(&folder.join(leftover))?;
+            }
+            return Ok(Self { folder });
+        }
+        let environment = Self::new(name)?;
+        environment.pip(&["install", "--requirement", REQUIREMENTS])?;
+        // Last, so that one half made is made anew.
+        fs::write(&note, made_of).map_err(|error| said(&note, &error))?;
+        Ok(environment)
     }
 
     /// Installs or builds with the versions that [`REQUIREMENTS`] names, in the root of the

@@ -1,4 +1,4 @@
-//! What the checks need besides the toolchain itself.
+//! Installs what the checks need besides the toolchain.
 
 use std::fs::File;
 use std::path::Path;
@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::files::{made, said};
 use crate::shell::{Outcome, output, run, succeeds, target_folder};
 
-/// Adds the toolchain's formatter and linter where they are missing.
+/// Installs the toolchain's formatter and linter if they are missing.
 pub fn toolchain() -> Outcome {
     for (command, component) in [("fmt", "rustfmt"), ("clippy", "clippy")] {
         if !succeeds("cargo", &[command, "--version"]) {
@@ -16,17 +16,18 @@ pub fn toolchain() -> Outcome {
     Ok(())
 }
 
-/// Something outside of Rust: how to tell that it is there, and the Debian packages that bring it.
+/// A requirement outside of Rust: a test whether it is met, and the Debian packages that provide
+/// it.
 #[derive(Clone, Copy)]
 struct Need {
     is_met: fn() -> bool,
     packages: &'static [&'static str],
 }
 
-/// What pictures, films and windows need to be built and drawn.
+/// Requirements of pictures, films and windows.
 const GRAPHICS: &[Need] = &[
     Need { is_met: || succeeds("c++", &["--version"]), packages: &["g++"] },
-    // Films are encoded three times as fast with it.
+    // Encoding films is three times as fast with it.
     Need { is_met: || succeeds("nasm", &["-v"]), packages: &["nasm"] },
     Need {
         is_met: || succeeds("pkg-config", &["--exists", "libudev"]),
@@ -35,14 +36,14 @@ const GRAPHICS: &[Need] = &[
     Need { is_met: has_vulkan_driver, packages: &["libvulkan1", "mesa-vulkan-drivers"] },
 ];
 
-/// What tests of films look at them with.
+/// Requirements of tests of films.
 const FILM_TESTS: &[Need] =
     &[Need { is_met: || succeeds("ffprobe", &["-version"]), packages: &["ffmpeg"] }];
 
-/// What puts the page together.
+/// Requirements of building the page.
 const PAGE: &[Need] = &[Need { is_met: has_node, packages: &["nodejs", "npm"] }];
 
-/// What tests of the page look at it with: a browser, graphics in software, letters.
+/// Requirements of tests of the page: a browser, software graphics, fonts.
 const BROWSER: &[Need] = &[
     Need { is_met: || succeeds("/usr/bin/chromium", &["--version"]), packages: &["chromium"] },
     Need {
@@ -52,10 +53,10 @@ const BROWSER: &[Need] = &[
     Need { is_met: || has_files("/usr/share/fonts"), packages: &["fonts-dejavu-core"] },
 ];
 
-/// What builds and tests the Python package.
+/// Requirements of building and testing the Python package.
 const PYTHON: &[Need] = &[Need { is_met: has_python, packages: &["python3", "python3-venv"] }];
 
-/// What programs of the C interface are compiled and run with: compilers, a runtime of C#, a checker of memory, which
+/// Requirements of programs of the C interface: compilers, a C# runtime, a memory checker, which
 /// needs the symbols of the C library.
 const C_INTERFACE: &[Need] = &[
     Need { is_met: || succeeds("c++", &["--version"]), packages: &["g++"] },
@@ -69,23 +70,23 @@ const C_INTERFACE: &[Need] = &[
     },
 ];
 
-/// What compiles for browsers where the standard library for them cannot be fetched.
+/// Debian's compiler for browsers, used if the standard library for them cannot be downloaded.
 const DEBIAN_WASM: &[Need] = &[Need {
     is_met: || succeeds("/usr/bin/wasm-ld-22", &["--version"]) && has_files("/usr/lib/rustlib/src"),
     packages: &["rustc-web", "cargo-web", "rust-web-src", "lld-22"],
 }];
 
-/// Installs what pictures, films and windows need.
+/// Installs the requirements of pictures, films and windows.
 pub fn graphics() -> Outcome {
     install(GRAPHICS)
 }
 
-/// Installs what the tests need besides.
+/// Installs the additional requirements of tests of films.
 pub fn film_tests() -> Outcome {
     install(FILM_TESTS)
 }
 
-/// Installs what puts the page together.
+/// Installs the requirements of building the page.
 pub fn page() -> Outcome {
     install(PAGE)?;
     if has_node() {
@@ -95,12 +96,12 @@ pub fn page() -> Outcome {
     }
 }
 
-/// Installs what the tests of the page need besides.
+/// Installs the additional requirements of tests of the page.
 pub fn browser() -> Outcome {
     install(BROWSER)
 }
 
-/// Installs what builds and tests the Python package.
+/// Installs the requirements of building and testing the Python package.
 pub fn python() -> Outcome {
     install(PYTHON)?;
     if has_python() {
@@ -110,12 +111,12 @@ pub fn python() -> Outcome {
     }
 }
 
-/// Installs what the programs of the C interface are compiled and run with.
+/// Installs the requirements of programs of the C interface.
 pub fn c_interface() -> Outcome {
     install(C_INTERFACE)
 }
 
-/// Installs what all of it takes, at once.
+/// Installs all requirements at once.
 pub fn everything() -> Outcome {
     install(&[GRAPHICS, FILM_TESTS, PAGE, BROWSER, PYTHON, C_INTERFACE].concat())
 }
@@ -125,13 +126,13 @@ pub fn debian_wasm() -> Outcome {
     install(DEBIAN_WASM)
 }
 
-/// Installs what is missing with the system's package manager, if that is Debian's or one like it;
-/// elsewhere says what is needed and goes on.
+/// Installs missing requirements with Debian's package manager. On other systems prints what is
+/// needed and continues.
 fn install(needs: &[Need]) -> Outcome {
     if missing(needs).is_empty() || !cfg!(target_os = "linux") {
         return Ok(());
     }
-    // One at a time: another part of the checks may be installing the same.
+    // Only one process at a time: another part of the checks may install the same packages.
     let path = made(target_folder())?.join("install.lock");
     let lock = File::create(&path).map_err(|error| said(&path, &error))?;
     lock.lock().map_err(|error| said(&path, &error))?;
@@ -153,23 +154,23 @@ fn install(needs: &[Need]) -> Outcome {
         run(program, &all)
     };
     with(&["update", "-qq"])?;
-    // Rather fail than remove what another program uses.
+    // Fails rather than remove packages that other programs use.
     let install = ["install", "-y", "-qq", "--no-install-recommends", "--no-remove"];
     with(&[&install[..], &missing].concat())
 }
 
-/// The packages of what is not there.
+/// Returns the packages of unmet requirements.
 fn missing(needs: &[Need]) -> Vec<&'static str> {
     let missing = needs.iter().filter(|need| !(need.is_met)());
     missing.flat_map(|need| need.packages.iter().copied()).collect()
 }
 
-/// Whether the loader of Vulkan finds a driver.
+/// Returns whether the Vulkan loader finds a driver.
 fn has_vulkan_driver() -> bool {
     has_files("/usr/share/vulkan/icd.d") || has_files("/etc/vulkan/icd.d")
 }
 
-/// Whether the loader of EGL finds a driver.
+/// Returns whether the EGL loader finds a driver.
 fn has_opengl_driver() -> bool {
     has_files("/usr/share/glvnd/egl_vendor.d")
 }
@@ -178,23 +179,23 @@ fn has_files(folder: &str) -> bool {
     Path::new(folder).read_dir().is_ok_and(|mut files| files.next().is_some())
 }
 
-/// Oldest version of Node.js whose test runner takes files one after another.
+/// Oldest version of Node.js whose test runner runs files one after another.
 const NODE: u32 = 20;
 
-/// Whether Node.js is there, new enough, with its package manager.
+/// Returns whether Node.js is installed, recent enough, with npm.
 fn has_node() -> bool {
     let major = output("node", &["--version"])
         .and_then(|text| text.trim_start_matches('v').split('.').next()?.parse::<u32>().ok());
     major.is_some_and(|major| major >= NODE) && succeeds("npm", &["--version"])
 }
 
-/// The Python of this machine: `$PYTHON`, or the usual one.
+/// Returns the Python of this machine: `$PYTHON`, or the default one.
 pub fn python_program() -> String {
     let usual = if cfg!(windows) { "python" } else { "python3" };
     std::env::var("PYTHON").unwrap_or_else(|_| usual.to_owned())
 }
 
-/// Whether Python is there, new enough, and can make environments.
+/// Returns whether Python is installed, recent enough, and can make environments.
 fn has_python() -> bool {
     let program = "import ensurepip, sys, venv; print(sys.version_info >= (3, 10))";
     output(python_program(), &["-c", program]).is_some_and(|answer| answer.trim() == "True")

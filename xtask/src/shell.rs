@@ -1,4 +1,4 @@
-//! Running other programs, in the root of the repository.
+//! Runs other programs in the root of the repository.
 
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
@@ -7,16 +7,16 @@ use std::time::Instant;
 
 use serde_json::Value;
 
-/// What went wrong, for people.
+/// The result of a command, with an error message for people.
 pub type Outcome<T = ()> = Result<T, String>;
 
-/// The root of the repository.
+/// Returns the root of the repository.
 pub fn root() -> PathBuf {
     let own = Path::new(env!("CARGO_MANIFEST_DIR"));
     own.parent().unwrap_or(own).to_owned()
 }
 
-/// Where cargo puts what it builds.
+/// Returns cargo's target folder.
 pub fn target_folder() -> PathBuf {
     match std::env::var_os("CARGO_TARGET_DIR") {
         Some(folder) => root().join(folder),
@@ -24,44 +24,44 @@ pub fn target_folder() -> PathBuf {
     }
 }
 
-/// The profile of what is built to be tried.
+/// Name of the build profile for checks.
 pub const CI: &str = "ci";
 
-/// Where programs lie that are built to be tried.
+/// Returns the folder of programs built with the profile for checks.
 pub fn ci_folder() -> PathBuf {
     target_folder().join(CI)
 }
 
-/// A program that was built to be tried.
+/// Returns the command of a program built with the profile for checks.
 pub fn program(name: &str) -> Command {
     Command::new(ci_folder().join(format!("{name}{}", std::env::consts::EXE_SUFFIX)))
 }
 
-/// What this machine is to compilers, as in `x86_64-unknown-linux-gnu`.
+/// Returns the target triple of this machine, for example `x86_64-unknown-linux-gnu`.
 pub fn host() -> Outcome<String> {
     let about = output("rustc", &["-vV"]).unwrap_or_default();
     let host = about.lines().find_map(|line| line.strip_prefix("host: "));
     host.map(str::to_owned).ok_or_else(|| "rustc does not say what it compiles for".to_owned())
 }
 
-/// The cargo that runs this.
+/// Returns the cargo program that runs this one.
 pub fn cargo_program() -> OsString {
     std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into())
 }
 
-/// Runs `cargo` with these arguments, and says so.
+/// Runs `cargo` with these arguments and prints the command.
 pub fn cargo(arguments: &[&str]) -> Outcome {
     cargo_with(arguments, &[])
 }
 
-/// Runs `cargo` with these arguments and environment variables, and says so.
+/// Runs `cargo` with these arguments and environment variables and prints the command.
 pub fn cargo_with(arguments: &[&str], variables: &[(&str, &str)]) -> Outcome {
     let mut command = Command::new(cargo_program());
     command.args(arguments).envs(variables.iter().copied());
     finish("cargo", &mut command)
 }
 
-/// Runs `cargo` with these arguments, and says so. Returns what it prints, but for errors.
+/// Runs `cargo` with these arguments and prints the command. Returns its standard output.
 pub fn cargo_output(arguments: &[&str]) -> Outcome<String> {
     let line = format!("cargo {}", arguments.join(" "));
     eprintln!("\n== {line}");
@@ -77,11 +77,11 @@ pub fn cargo_output(arguments: &[&str]) -> Outcome<String> {
     }
 }
 
-/// What a program prints, run in the root of the repository unless it is to run elsewhere; `name` is
-/// what people call it.
+/// Returns the output of a program, which runs in the root of the repository by default. `name` is
+/// its name in messages.
 ///
 /// # Errors
-/// What it prints as errors, where it fails.
+/// The error output of the program, if it fails.
 pub fn printed(name: &str, command: &mut Command) -> Outcome<String> {
     if command.get_current_dir().is_none() {
         command.current_dir(root());
@@ -93,7 +93,7 @@ pub fn printed(name: &str, command: &mut Command) -> Outcome<String> {
     Ok(String::from_utf8_lossy(&output.stdout).into_owned())
 }
 
-/// What cargo says of the packages that it knows.
+/// Returns cargo's metadata of the packages.
 pub fn metadata(arguments: &[&str]) -> Outcome<Value> {
     let mut command = Command::new(cargo_program());
     command.args(["metadata", "--format-version", "1", "--locked"]).args(arguments);
@@ -101,12 +101,12 @@ pub fn metadata(arguments: &[&str]) -> Outcome<Value> {
     serde_json::from_str(&described).map_err(|error| format!("cargo metadata: {error}"))
 }
 
-/// Whether a program runs and succeeds; says nothing.
+/// Returns whether a program runs and succeeds; prints nothing.
 pub fn succeeds(program: impl AsRef<OsStr>, arguments: &[&str]) -> bool {
     output(program, arguments).is_some()
 }
 
-/// What a program prints, if it runs and succeeds; says nothing.
+/// Returns the output of a program, if it runs and succeeds; prints nothing.
 pub fn output(program: impl AsRef<OsStr>, arguments: &[&str]) -> Option<String> {
     let mut command = Command::new(program);
     command.args(arguments).current_dir(root()).stdin(Stdio::null());
@@ -114,13 +114,13 @@ pub fn output(program: impl AsRef<OsStr>, arguments: &[&str]) -> Option<String> 
     String::from_utf8(output.stdout).ok()
 }
 
-/// Runs a program, and says so.
+/// Runs a program and prints the command.
 pub fn run(program: &str, arguments: &[&str]) -> Outcome {
     finish(program, Command::new(program).args(arguments))
 }
 
-/// Runs a command in the root of the repository unless it is to run elsewhere, and says so; `name`
-/// is what people call its program.
+/// Runs a command, in the root of the repository by default, and prints it. `name` is the program's
+/// name in messages.
 pub fn finish(name: &str, command: &mut Command) -> Outcome {
     let arguments: Vec<_> = command.get_args().map(OsStr::to_string_lossy).collect();
     let line = format!("{name} {}", arguments.join(" "));
@@ -134,7 +134,7 @@ pub fn finish(name: &str, command: &mut Command) -> Outcome {
     if status.success() { Ok(()) } else { Err(format!("{line} failed")) }
 }
 
-/// Says how long a command took, if somebody waited for it.
+/// Prints how long a command took, unless it was short.
 fn say_duration(start: Instant) {
     let seconds = start.elapsed().as_secs();
     if seconds >= 5 {

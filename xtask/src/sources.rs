@@ -1,4 +1,4 @@
-//! The sources of the workspace, parsed.
+//! Reads and parses the sources of the workspace.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,16 +7,16 @@ use syn::{Attribute, Item, Meta};
 
 use crate::shell::{Outcome, root};
 
-/// A module that has a file of its own.
+/// A module with its own file.
 pub struct Source {
-    /// The names that lead to it from the root of its crate; the root has none.
+    /// Path of the module from the root of its crate; empty for the root.
     pub module: Vec<String>,
-    /// Its file, seen from the root of the repository.
+    /// Path of the file from the root of the repository.
     pub file: PathBuf,
     pub syntax: syn::File,
 }
 
-/// The folders that hold the sources of a crate.
+/// Returns the source folders of all crates.
 pub fn folders() -> Outcome<Vec<PathBuf>> {
     let crates = root().join("crates");
     let entries = fs::read_dir(&crates).map_err(|error| said(&crates, &error))?;
@@ -28,13 +28,13 @@ pub fn folders() -> Outcome<Vec<PathBuf>> {
     Ok(folders)
 }
 
-/// The crates made of a folder, a library and a program: the modules of each, without tests.
+/// Returns the crates in a folder, a library and a program: the modules of each, without tests.
 pub fn crates_of(folder: &Path) -> Outcome<Vec<Vec<Source>>> {
     let roots = ["lib.rs", "main.rs"].map(|name| folder.join(name));
     roots.iter().filter(|file| file.exists()).map(|file| modules_from(file)).collect()
 }
 
-/// Every file of a folder, and of the folders in it.
+/// Returns every Rust file in a folder and its subfolders.
 pub fn files_of(folder: &Path) -> Outcome<Vec<PathBuf>> {
     let mut files = Vec::new();
     for entry in fs::read_dir(folder).map_err(|error| said(folder, &error))? {
@@ -49,12 +49,12 @@ pub fn files_of(folder: &Path) -> Outcome<Vec<PathBuf>> {
     Ok(files)
 }
 
-/// What a file holds.
+/// Reads a file.
 pub fn read(file: &Path) -> Outcome<String> {
     fs::read_to_string(file).map_err(|error| said(file, &error))
 }
 
-/// What a file says, parsed.
+/// Reads and parses a file.
 pub fn parse(file: &Path) -> Outcome<syn::File> {
     syn::parse_file(&read(file)?).map_err(|error| {
         let at = error.span().start();
@@ -62,12 +62,12 @@ pub fn parse(file: &Path) -> Outcome<syn::File> {
     })
 }
 
-/// A file, seen from the root of the repository.
+/// Returns the path of a file from the root of the repository.
 pub fn seen_from_root(file: &Path) -> &Path {
     file.strip_prefix(root()).unwrap_or(file)
 }
 
-/// Whether this is there for tests only.
+/// Returns whether an item with these attributes is only for tests.
 pub fn is_for_tests(attributes: &[Attribute]) -> bool {
     attributes.iter().any(|attribute| match &attribute.meta {
         Meta::Path(path) => path.is_ident("test"),
@@ -78,7 +78,7 @@ pub fn is_for_tests(attributes: &[Attribute]) -> bool {
     })
 }
 
-/// The module of this file and all that it declares, without tests.
+/// Returns the module in a file and all modules that it declares, without tests.
 fn modules_from(file: &Path) -> Outcome<Vec<Source>> {
     let mut sources = Vec::new();
     let mut ahead = vec![(Vec::new(), file.to_owned())];
@@ -101,7 +101,7 @@ fn modules_from(file: &Path) -> Outcome<Vec<Source>> {
     Ok(sources)
 }
 
-/// The file of a module that the file of its parent declares.
+/// Returns the file of a module that the file of its parent declares.
 fn file_of(parent: &Path, module: &[String]) -> Outcome<PathBuf> {
     let name = module.last().map_or("", String::as_str);
     let stem = parent.file_stem().unwrap_or_default();

@@ -1,17 +1,17 @@
-//! Keeps the stages of the rules `exact` and `contact` under one name in code, documents and reports.
+//! Checks that the stages of the rules `exact` and `contact` have the same names in code, documents
+//! and reports.
 
 use crate::documents;
 use crate::shell::Outcome;
 
-/// Of each rule, the document that describes its stages, and the code that puts them together.
+/// For each rule, the document that describes its stages, and the code that runs them.
 const RULES: [[&str; 2]; 2] = [
     ["docs/physics/exact.md", "crates/carom/src/rule/exact/mod.rs"],
     ["docs/physics/contact.md", "crates/carom/src/rule/contact/mod.rs"],
 ];
 const REPORT: &str = "crates/carom/src/report.rs";
 
-/// Compares the stages that the document describes with those of the code, and with what the report
-/// counts.
+/// Compares the stages in the documents with those in the code and in the report.
 pub fn check() -> Outcome {
     let mut known = Vec::new();
     for [document, code] in RULES {
@@ -36,7 +36,7 @@ pub fn check() -> Outcome {
     }
 }
 
-/// The names in bold with which the points of a numbered list begin, of the first list that has such.
+/// Returns the bold names at the start of the items of the first such numbered list.
 fn stages(text: &str) -> Vec<String> {
     let mut stages = Vec::new();
     for line in text.lines() {
@@ -49,7 +49,7 @@ fn stages(text: &str) -> Vec<String> {
     stages
 }
 
-/// The stage that the documentation of each field of `StageCounts` begins with.
+/// Returns the stage at the start of the documentation of each field of `StageCounts`.
 fn counted_stages(report: &str) -> Vec<String> {
     let body = report.split_once("pub struct StageCounts {").map_or("", |(_, rest)| rest);
     let body = body.split_once("\n}").map_or("", |(body, _)| body);

@@ -1,4 +1,4 @@
-//! Where a compiler with a standard library for browsers comes from.
+//! Finds a compiler with a standard library for browsers.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -6,24 +6,25 @@ use std::process::Command;
 use crate::setup;
 use crate::shell::{Outcome, cargo_program, finish, output, succeeds};
 
-/// The target that browsers run.
+/// The compilation target of browsers.
 pub const TARGET: &str = "wasm32-unknown-unknown";
 
 /// A compiler for browsers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum WasmToolchain {
-    /// The one that runs this, with the standard library of the target installed.
+    /// The compiler that runs this program, with the target's standard library installed.
     Installed,
-    /// Debian's, which brings its standard library as source: it is compiled along.
+    /// Debian's compiler, which compiles its standard library from source.
     Debian,
 }
 
-/// Debian's own programs, whatever else is on the path.
+/// Debian's own programs, whatever comes first on the path.
 const DEBIAN_CARGO: &str = "/usr/bin/cargo";
 const DEBIAN_RUSTC: &str = "/usr/bin/rustc";
 
 impl WasmToolchain {
-    /// The installed one, with its target added if need be; where that cannot be fetched, Debian's.
+    /// Returns the installed compiler, and adds its target if needed; if the target cannot be
+    /// downloaded, returns Debian's.
     pub fn find() -> Outcome<Self> {
         if has_standard_library("rustc") || succeeds("rustup", &["target", "add", TARGET]) {
             return Ok(Self::Installed);
@@ -53,7 +54,7 @@ impl WasmToolchain {
                     .args(["--target", TARGET, "-Z", "build-std=std,panic_abort"])
                     .env("PATH", with_first("/usr/bin"))
                     .env("RUSTC", DEBIAN_RUSTC)
-                    // Only so does a stable compiler build its own standard library.
+                    // A stable compiler needs this to build its own standard library.
                     .env("RUSTC_BOOTSTRAP", "1")
                     .env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER", "wasm-ld-22");
                 finish(DEBIAN_CARGO, &mut command)
@@ -62,20 +63,20 @@ impl WasmToolchain {
     }
 }
 
-/// Whether a compiler comes with the standard library of the target.
+/// Returns whether a compiler has the standard library of the target.
 fn has_standard_library(rustc: &str) -> bool {
     output(rustc, &["--print", "target-libdir", "--target", TARGET])
         .is_some_and(|folder| Path::new(folder.trim()).is_dir())
 }
 
-/// Where Debian's compiler finds the source of its standard library.
+/// Returns the folder of the standard library's source of Debian's compiler.
 fn standard_library_source() -> Option<PathBuf> {
     let sysroot = output(DEBIAN_RUSTC, &["--print", "sysroot"])?;
     let source = Path::new(sysroot.trim()).join("lib/rustlib/src/rust/library/std");
     source.is_dir().then_some(source)
 }
 
-/// The path on which programs are looked for, with a folder put first.
+/// Returns the search path of programs with a folder put first.
 fn with_first(folder: &str) -> std::ffi::OsString {
     let path = std::env::var_os("PATH").unwrap_or_default();
     let folders = std::iter::once(PathBuf::from(folder)).chain(std::env::split_paths(&path));

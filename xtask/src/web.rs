@@ -1,4 +1,4 @@
-//! The page: built, served, tested.
+//! Builds, serves and tests the page.
 
 use std::fs;
 use std::path::Path;
@@ -13,31 +13,31 @@ use crate::web_tools::{folder, node, npm_packages, wasm_bindgen};
 /// The default port of the page's server.
 pub const PORT: &str = "8042";
 
-/// What a browser fetches at most to show the page, compressed \[bytes\].
+/// Largest compressed size of everything that a browser fetches to show the page \[bytes\].
 const BUDGET: u64 = 4_000_000;
 
-/// Makes the page in `web/dist`, and says how large it is.
+/// Builds the page in `web/dist`, and checks its size.
 pub fn build() -> Outcome {
     build_module(&folder().join("module"), Purpose::Use)?;
     node(&["bundle.js", "module", "dist"], &[])?;
     check_size(&folder().join("dist"))
 }
 
-/// Makes a page in `web/dist` that works as that of [`build`] does, and is large.
+/// Builds a page in `web/dist` faster, which behaves like that of [`build`] but is large.
 pub fn build_for_tests() -> Outcome {
     build_module(&folder().join("module"), Purpose::Test)?;
     node(&["bundle.js", "module", "dist", "--quick"], &[])
 }
 
-/// Puts the interface for notebooks into the Python package, whose wheel takes it along.
+/// Builds the interface for notebooks into the Python package, whose wheel contains it.
 pub fn build_for_notebooks(purpose: Purpose) -> Outcome {
-    // Not where the page's lies: both may be made at a time.
+    // Not in the folder of the page, because both may be built at the same time.
     let module = target_folder().join("notebook-module");
     build_module(&module, purpose)?;
     node(&["notebook.js", &module.to_string_lossy(), "../python/carom/notebook/built"], &[])
 }
 
-/// Makes the module in a folder.
+/// Builds the module in a folder.
 fn build_module(out: &Path, purpose: Purpose) -> Outcome {
     setup::page()?;
     npm_packages()?;
@@ -45,13 +45,13 @@ fn build_module(out: &Path, purpose: Purpose) -> Outcome {
     bind(&module, out, &["--remove-name-section"])
 }
 
-/// Makes the page, and serves it on this machine.
+/// Builds the page, and serves it on this machine.
 pub fn serve(port: &str) -> Outcome {
     build()?;
     node(&["serve.js", "dist", port], &[])
 }
 
-/// Makes the page, and puts it into a folder, for any server of static files.
+/// Builds the page, and copies it into a folder for any server of static files.
 pub fn publish(out: &Path) -> Outcome {
     build()?;
     let dist = folder().join("dist");
@@ -69,7 +69,7 @@ pub fn publish(out: &Path) -> Outcome {
     Ok(())
 }
 
-/// Says what takes the space in the module.
+/// Prints the size of each crate in the module.
 pub fn sizes() -> Outcome {
     npm_packages()?;
     let module = wasm::build("carom-web", Purpose::Use)?;
@@ -78,30 +78,30 @@ pub fn sizes() -> Outcome {
     node(&["sizes.js", &named.join("carom_web_bg.wasm").to_string_lossy()], &[])
 }
 
-/// Makes the page, and tests it in a browser.
+/// Builds the page, and tests it in a browser.
 pub fn test() -> Outcome {
     build_for_tests()?;
     setup::browser()?;
     let prettier = "node_modules/prettier/bin/prettier.cjs";
     let of_notebooks = "../python/carom/notebook/*.{js,css}";
-    // The settings of this folder, for those outside of it as well.
+    // Files outside of this folder are formatted by its settings, too.
     node(&[prettier, "--check", "--config", "package.json", ".", of_notebooks], &[])?;
     node(&["node_modules/typescript/bin/tsc", "--project", "."], &[])?;
-    // What a run gives outside of browsers.
+    // Tests compare the page with the native program.
     programs::build()?;
     let carom = ci_folder().join("carom");
     let carom = carom.to_string_lossy();
     node(&["tests/run.js"], &[("CAROM", &carom)])
 }
 
-/// Has `wasm-bindgen` make a module of JavaScript around one of WebAssembly.
+/// Runs `wasm-bindgen`, which writes a JavaScript module around a WebAssembly module.
 fn bind(module: &Path, out: &Path, options: &[&str]) -> Outcome {
     let mut command = Command::new(wasm_bindgen()?);
     command.args(["--target", "web", "--remove-producers-section"]).args(options);
     finish("wasm-bindgen", command.arg("--out-dir").arg(out).arg(module))
 }
 
-/// Prints what the page is made of, and fails if it is too large.
+/// Prints the sizes of the page's files, and fails if the page is too large.
 fn check_size(dist: &Path) -> Outcome {
     let size = |path: &Path| fs::metadata(path).map(|it| it.len());
     let mut files = Vec::new();

@@ -1,37 +1,25 @@
-//! The programs that the page is put together and tested with.
+//! Programs that build and test the page.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::shell::{Outcome, cargo_with, finish, output, root, target_folder};
+use crate::shell::{Outcome, finish, root};
+use crate::tools::Tool;
 
-/// The folder of the page.
+/// Returns the folder of the page.
 pub fn folder() -> PathBuf {
     root().join("web")
 }
 
-/// The command `wasm-bindgen` of the version that the modules are built with, installed into the
-/// target folder where the system has another or none.
+/// Returns the command `wasm-bindgen` in the version of the modules. Installs it into the target
+/// folder if the system has another version or none.
 pub fn wasm_bindgen() -> Outcome<PathBuf> {
-    let version = locked_version("wasm-bindgen")?;
-    let own = target_folder().join("tools");
-    let installed = own.join("bin/wasm-bindgen");
-    for program in [PathBuf::from("wasm-bindgen"), installed.clone()] {
-        let is_same = |text: String| text.trim() == format!("wasm-bindgen {version}");
-        if output(&program, &["--version"]).is_some_and(is_same) {
-            return Ok(program);
-        }
-    }
-    let root = own.to_string_lossy();
-    // Unlocked, as it comes: what it was locked with is not in every registry. As it is quickest built:
-    // it runs for seconds.
-    let install = ["install", "wasm-bindgen-cli", "--version", &version, "--root", &root];
-    let quick = [("CARGO_PROFILE_DEV_DEBUG", "false"), ("CARGO_INCREMENTAL", "0")];
-    cargo_with(&[&install[..], &["--force", "--debug"]].concat(), &quick)?;
-    Ok(installed)
+    let version = &locked_version("wasm-bindgen")?;
+    Tool { package: "wasm-bindgen-cli", program: "wasm-bindgen", version, arguments: &[] }
+        .installed()
 }
 
-/// The version of a package in `Cargo.lock`.
+/// Returns the version of a package in `Cargo.lock`.
 fn locked_version(package: &str) -> Outcome<String> {
     let lock = read(&root().join("Cargo.lock"))?;
     let heading = format!("name = \"{package}\"\nversion = \"");
@@ -41,8 +29,7 @@ fn locked_version(package: &str) -> Outcome<String> {
         .ok_or_else(|| format!("Cargo.lock holds no {package}"))
 }
 
-/// Installs the packages of JavaScript that `package-lock.json` names into `web/node_modules`,
-/// unless they are there.
+/// Installs the packages in `package-lock.json` into `web/node_modules`, unless that is up to date.
 pub fn npm_packages() -> Outcome {
     let installed = folder().join("node_modules/.package-lock.json");
     let wanted = folder().join("package-lock.json");

@@ -1,16 +1,15 @@
-//! Keeps comments and documents in plain words: the subject of a sentence is the thing that acts, and
-//! each doc comment stands alone.
+//! Checks that comments and documents use plain words.
 
 use std::fs;
 use std::path::Path;
 
 use crate::shell::{Outcome, root};
 
-/// Words without which every sentence here can do.
+/// Words that are not needed anywhere.
 const WORDS: [&str; 5] = ["whoever", "nobody", "reckoned", "vicinity", "outlook"];
-/// Openings that send a reader elsewhere.
+/// Openings that refer to another comment.
 const OPENINGS: [&str; 3] = ["Likewise", "As there.", "The same."];
-/// Phrases in which nothing acts, or that have a word of the field.
+/// Phrases without an actor, or with a wrong term.
 const PHRASES: [&str; 12] = [
     "are asked",
     "are told",
@@ -26,14 +25,14 @@ const PHRASES: [&str; 12] = [
     "whom",
 ];
 
-/// What is read: folders, and the documents beside them.
+/// Folders and documents that are checked.
 const PLACES: [&str; 8] =
     ["crates", "xtask", "python", "docs", "web", "README.md", "ARCHITECTURE.md", "CHANGELOG.md"];
 const ENDINGS: [&str; 7] = ["rs", "py", "pyi", "md", "ts", "mjs", "js"];
-/// Folders of what others wrote, or programs made.
+/// Folders of foreign or generated files.
 const FOREIGN: [&str; 5] = ["node_modules", "target", "dist", "module", "test-results"];
 
-/// Refuses such words, openings and phrases in sources and documents.
+/// Reports such words, openings and phrases in sources and documents.
 pub fn check() -> Outcome {
     let mut faults = Vec::new();
     for place in PLACES {
@@ -67,7 +66,7 @@ fn check_place(path: &Path, faults: &mut Vec<String>) -> std::io::Result<()> {
     Ok(())
 }
 
-/// The word or opening of a line that is refused, if there is one.
+/// Returns the refused word or opening of a line, if there is one.
 fn fault_of(line: &str) -> Option<&'static str> {
     let mut words = line.split(|letter: char| !letter.is_alphanumeric() && letter != '_');
     let is_refused = |word: &&str| WORDS.iter().any(|it| is_word(it, word));
@@ -79,7 +78,7 @@ fn fault_of(line: &str) -> Option<&'static str> {
     OPENINGS.into_iter().find(|opening| text.starts_with(opening))
 }
 
-/// The phrase of a line that is refused, small or at the beginning of a sentence, if there is one.
+/// Returns the refused phrase of a line, if there is one; capitals do not matter.
 fn phrase_of(line: &str) -> Option<&'static str> {
     let line = line.to_ascii_lowercase();
     let is_within_a_word =
@@ -92,7 +91,8 @@ fn phrase_of(line: &str) -> Option<&'static str> {
     })
 }
 
-/// Whether this is the word, small or at the beginning of a sentence; names in capitals are others.
+/// Returns whether `found` is the word, with a small or capital first letter. Names in capitals do
+/// not count.
 fn is_word(word: &str, found: &str) -> bool {
     let mut letters = found.chars();
     let first = letters.next().map(|letter| letter.to_ascii_lowercase());

@@ -1,25 +1,26 @@
-//! Cells: points by the place where they are.
+//! Groups points by grid cell.
 
 use std::ops::Range;
 
-/// Cells are no more along each axis than this times the cube root of the number of points: most would be empty.
+/// Most cells along each axis, relative to the cube root of the number of points; with more, most
+/// cells would be empty.
 const CELLS_PER_ROOT: f64 = 2.0;
 
-/// Points in cells at least as wide as a distance.
+/// Points grouped by cells at least as wide as a given distance.
 pub struct Cells {
-    /// Along each axis.
+    /// Number of cells along each axis.
     counts: [usize; 3],
     is_periodic: [bool; 3],
-    /// Points by cell, wrapped into the box along axes that are periodic \[m\].
+    /// Points by cell, wrapped into the box along periodic axes \[m\].
     pub points: Vec<[f64; 3]>,
-    /// Which point each was.
+    /// Original index of each point.
     pub order: Vec<usize>,
-    /// Where the points of each cell begin, and behind the last one their end.
+    /// Start of the points of each cell, followed by the end of the last one.
     starts: Vec<usize>,
 }
 
 impl Cells {
-    /// Puts points \[m\] into cells of a box with these sides \[m\], infinite along axes that are open.
+    /// Groups points \[m\] in a box with these sides \[m\]; sides are infinite along open axes.
     pub fn new(points: &[[f64; 3]], sides: [f64; 3], distance: f64) -> Self {
         let is_periodic = sides.map(f64::is_finite);
         let wrapped: Vec<[f64; 3]> = points.iter().map(|&point| wrap(point, sides)).collect();
@@ -37,7 +38,7 @@ impl Cells {
         let cell_of = |point: &[f64; 3]| {
             let coordinate = |axis: usize| {
                 let part = (point[axis] - low[axis]) / extents[axis];
-                // Along an axis without extent it is not a number, and the first cell.
+                // Along an axis without extent, `part` is NaN, which the cast turns into cell 0.
                 ((part * counts[axis] as f64) as usize).min(counts[axis] - 1)
             };
             number(counts, [0, 1, 2].map(coordinate))
@@ -54,17 +55,18 @@ impl Cells {
         Self { counts, is_periodic, points, order, starts }
     }
 
-    /// How many cells there are.
+    /// Number of cells.
     pub fn len(&self) -> usize {
         self.starts.len() - 1
     }
 
-    /// The points of a cell, by their places in [`Self::points`].
+    /// Points of a cell, as indices of [`Self::points`].
     pub fn points_of(&self, cell: usize) -> Range<usize> {
         self.starts[cell]..self.starts[cell + 1]
     }
 
-    /// The cells around one whose numbers are greater, each once: every two neighbours come together once.
+    /// Neighbours of a cell with greater numbers, each once, so that every pair of neighbours
+    /// occurs once.
     pub fn greater_neighbours(&self, cell: usize) -> Vec<usize> {
         let [_, rows, columns] = self.counts;
         let place = [cell / (rows * columns), cell / columns % rows, cell % columns];
@@ -79,7 +81,7 @@ impl Cells {
         greater
     }
 
-    /// The coordinates next to one along an axis, and its own, each once.
+    /// The coordinate and its neighbours along an axis, each once.
     fn near(&self, axis: usize, coordinate: usize) -> Vec<usize> {
         let count = self.counts[axis];
         match (self.is_periodic[axis], count) {
@@ -94,7 +96,7 @@ fn number([_, rows, columns]: [usize; 3], [x, y, z]: [usize; 3]) -> usize {
     (x * rows + y) * columns + z
 }
 
-/// A point in the box, from 0 to its sides along axes that are periodic.
+/// Wraps a point into the box along periodic axes.
 fn wrap(point: [f64; 3], sides: [f64; 3]) -> [f64; 3] {
     [0, 1, 2].map(|axis| {
         let (x, side) = (point[axis], sides[axis]);

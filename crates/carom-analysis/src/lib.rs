@@ -1,8 +1,8 @@
-//! What is counted of recorded states, where there are too many pairs for a language that is interpreted.
+//! Analysis of recorded states over pairs of spheres, which would be slow in Python.
 //!
 //! ```
 //! let points = [[0.0, 0.0, 0.0], [9.0, 0.0, 0.0]];
-//! // Across a face of the box they are 1 m apart.
+//! // Across a face of the box, their distance is 1 m.
 //! assert_eq!(carom_analysis::pair_histogram(&points, [10.0; 3], 2.0, 2), [0, 1]);
 //! ```
 

@@ -1,21 +1,22 @@
-//! Pairs of points that are near each other.
+//! Pairs of points within a distance.
 
 use crate::cells::Cells;
 
-/// Two points, by their places in the list, and the square of their distance \[m²\].
+/// Two points, as indices, and the square of their distance \[m²\].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pair {
-    /// The points.
+    /// Indices of the points.
     pub points: [usize; 2],
-    /// \[m²\]
+    /// Square of their distance \[m²\].
     pub squared_distance: f64,
 }
 
-/// Every pair of points \[m\] nearer than a `distance` \[m\], once, in an order that depends on the points alone.
+/// Finds every pair of points \[m\] closer than `distance` \[m\], once, in an order that depends on
+/// the points only.
 ///
-/// `sides` are those of a periodic box \[m\], infinite along axes that are open. A pair counts at the nearest image,
-/// so the distance must be at most half the smallest side; where it is more, some pairs are missing. Points that
-/// are not finite are near none.
+/// `sides` are the sides of a periodic box \[m\], infinite along open axes. Distances are those of
+/// the nearest images; so `distance` must be at most half the smallest side, else some pairs are
+/// missing. Points that are not finite belong to no pair.
 pub fn pairs_within(points: &[[f64; 3]], sides: [f64; 3], distance: f64) -> Vec<Pair> {
     let mut pairs = Vec::new();
     for_each_pair(points, sides, distance, |points, squared_distance| {
@@ -24,14 +25,14 @@ pub fn pairs_within(points: &[[f64; 3]], sides: [f64; 3], distance: f64) -> Vec<
     pairs
 }
 
-/// How many pairs of points \[m\] there are in each of so many bins of their distance, from 0 to `r_max` \[m\], all of
-/// the same width. `sides` and `r_max` are as in [`pairs_within`].
+/// Counts pairs of points \[m\] by distance, in `bins` of equal width from 0 to `r_max` \[m\].
+/// `sides` and `r_max` are as in [`pairs_within`].
 pub fn pair_histogram(points: &[[f64; 3]], sides: [f64; 3], r_max: f64, bins: usize) -> Vec<u64> {
     let mut counts = vec![0; bins];
     let per_metre = bins as f64 / r_max;
     for_each_pair(points, sides, r_max, |_, squared_distance| {
         let bin = (squared_distance.sqrt() * per_metre) as usize;
-        // Rounding may put the last ones beyond.
+        // Rounding may put the largest distances beyond the last bin.
         if let Some(count) = counts.get_mut(bin.min(bins.saturating_sub(1))) {
             *count += 1;
         }

@@ -1,10 +1,10 @@
-//! The cell list finds the pairs that a comparison of all with all finds.
+//! The cell list finds the same pairs as a comparison of all points.
 #![allow(missing_docs)]
 
 use carom_analysis::{pair_histogram, pairs_within};
 use proptest::prelude::*;
 
-/// All pairs nearer than a distance, by comparing all with all at the nearest image.
+/// Finds all pairs closer than a distance by comparing all points with all, at the nearest images.
 fn by_all(points: &[[f64; 3]], sides: [f64; 3], distance: f64) -> Vec<[usize; 2]> {
     let mut pairs = Vec::new();
     for first in 0..points.len() {

@@ -46,20 +46,20 @@ using System.Text;
 
 namespace Carom
 {
-    /// <summary>How a call of the library ended, as carom.h explains.</summary>
+    /// <summary>Result of a call of the library, as in carom.h.</summary>
     public enum CaromStatus
     {
         Ok, Null, Handle, Busy, Length, Argument, Invalid, Unknown, Scene, Step, Stopped, Snapshot, Memory, Abi, Panic,
     }
 
-    /// <summary>A quantity that all spheres have: so many numbers of each as carom.h says.</summary>
+    /// <summary>A quantity that all spheres have, with as many numbers per sphere as in carom.h.</summary>
     public enum CaromQuantity
     {
         Positions, Velocities, Radii, Masses, Restitutions, Orientations, AngularVelocities, InertiaFactors, Frictions,
         RollingFrictions, SpinningFrictions, TangentialRestitutions, AppliedForces,
     }
 
-    /// <summary>The form of a collider.</summary>
+    /// <summary>The shape of a collider.</summary>
     public enum CaromShape
     {
         Sphere, Rectangle, HalfSpace, Box, Container, Other,
@@ -71,8 +71,8 @@ namespace Carom
         Spheres, Colliders, Forces, Emitters, Emitted, Retired, LeftOut, Springs,
     }
 
-    /// <summary>Why the library refused a call. The world is as it was before, but for <see cref="CaromWorld.Advance"/>,
-    /// which keeps the frames before the one that was refused.</summary>
+    /// <summary>Why the library refused a call. The world is unchanged, but <see cref="CaromWorld.Advance"/> keeps the
+    /// frames before the refused one.</summary>
     public sealed class CaromException : Exception
     {
         public CaromStatus Status { get; private set; }
@@ -103,7 +103,8 @@ namespace Carom
         public Double4(double x, double y, double z, double w) { X = x; Y = y; Z = z; W = w; }
     }
 
-    /// <summary>A sphere; <see cref="Default"/> has usual values. SI units; friction is NaN where nothing is said.</summary>
+    /// <summary>A sphere; <see cref="Default"/> has default values. SI units; friction is NaN for a sphere without its
+    /// own.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public struct CaromSphere
     {
@@ -118,7 +119,7 @@ namespace Carom
         public static CaromSphere Default { get { return Native.carom_sphere(); } }
     }
 
-    /// <summary>A collider; <see cref="Default"/> has usual values.</summary>
+    /// <summary>A collider; <see cref="Default"/> has default values.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public struct CaromCollider
     {
@@ -134,8 +135,8 @@ namespace Carom
         public static CaromCollider Default { get { return Native.carom_collider(); } }
     }
 
-    /// <summary>A spring with a damper beside it, from a sphere to another one (ToPoint 0) or to a fixed point (ToPoint 1).
-    /// With OnlyPulls 1 it is a thread. <see cref="Between"/> and <see cref="To"/> make one.</summary>
+    /// <summary>A spring with a damper from a sphere to another one (ToPoint 0) or to a fixed point (ToPoint 1). With
+    /// OnlyPulls 1 it is a thread. <see cref="Between"/> and <see cref="To"/> make one.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public struct CaromSpring
     {
@@ -144,7 +145,7 @@ namespace Carom
         public Double3 Point;
         public double RestLength, Stiffness, Damping;
 
-        /// <summary>A spring between two spheres, without damping. SI units.</summary>
+        /// <summary>Makes a spring between two spheres, without damping. SI units.</summary>
         public static CaromSpring Between(ulong sphere, ulong other, double restLength, double stiffness)
         {
             var spring = Native.carom_spring();
@@ -156,7 +157,7 @@ namespace Carom
             return spring;
         }
 
-        /// <summary>A spring from a sphere to a fixed point, without damping. SI units.</summary>
+        /// <summary>Makes a spring from a sphere to a fixed point, without damping. SI units.</summary>
         public static CaromSpring To(ulong sphere, Double3 point, double restLength, double stiffness)
         {
             var spring = Between(sphere, 0, restLength, stiffness);
@@ -166,7 +167,7 @@ namespace Carom
         }
     }
 
-    /// <summary>What a force may depend on.</summary>
+    /// <summary>The state of a sphere that a force may depend on.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public struct CaromSphereState
     {
@@ -174,7 +175,7 @@ namespace Carom
         public double Radius, Mass;
     }
 
-    /// <summary>What a text has added: the first id of each kind, and how many.</summary>
+    /// <summary>Ids that a text has added: the first id and the number of each kind.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public struct CaromAdded
     {
@@ -199,7 +200,7 @@ namespace Carom
         public Double3 TangentialImpulse;
     }
 
-    /// <summary>A contact that persists.</summary>
+    /// <summary>A persistent contact.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public struct CaromContact
     {
@@ -218,18 +219,18 @@ namespace Carom
         public Double3 Momentum, AngularMomentum;
     }
 
-    /// <summary>A world of spheres, moved exactly. One thread at a time may use it.</summary>
+    /// <summary>A world of spheres with exact motion. Only one thread at a time may use it.</summary>
     public sealed partial class CaromWorld : IDisposable
     {
         readonly Native.Handle handle;
 
         CaromWorld(WorldId id) { handle = new Native.Handle(id.Id, 0); }
 
-        /// <summary>An empty world at time 0.</summary>
+        /// <summary>Makes an empty world at time 0.</summary>
         public CaromWorld() : this(Made(Native.carom_world_new)) { }
 
-        /// <summary>The world of a scene: a built-in one by its name, or a file by its path. Overrides are texts like
-        /// "simulation.rule=contact".</summary>
+        /// <summary>Makes the world of a built-in scene, by its name, or of a scene file, by its path. Overrides are
+        /// texts like "simulation.rule=contact".</summary>
         public static CaromWorld FromScene(string name, params string[] overrides)
         {
             using (var texts = new Native.Texts(overrides))
@@ -241,7 +242,7 @@ namespace Carom
             }
         }
 
-        /// <summary>The world of the text of a scene file (TOML).</summary>
+        /// <summary>Makes the world of a scene file's text (TOML).</summary>
         public static CaromWorld FromToml(string toml, params string[] overrides)
         {
             using (var texts = new Native.Texts(overrides))
@@ -253,7 +254,7 @@ namespace Carom
             }
         }
 
-        /// <summary>A copy, which goes on by itself.</summary>
+        /// <summary>Returns an independent copy.</summary>
         public CaromWorld Copy()
         {
             WorldId copy;
@@ -265,7 +266,7 @@ namespace Carom
 
         WorldId Id { get { return new WorldId { Id = handle.Id }; } }
 
-        // Until a call has ended, nothing may free the world: the last use of an object is the last that keeps it.
+        // Keeps the world alive until a call has ended: an object may be freed after its last use.
         void Check(CaromStatus status)
         {
             GC.KeepAlive(handle);
@@ -284,26 +285,26 @@ namespace Carom
         /// <summary>Advances the world by dt seconds.</summary>
         public void Step(double dt) { Check(Native.carom_world_step(Id, dt)); }
 
-        /// <summary>Advances the world by frames of its own frame time.</summary>
+        /// <summary>Advances the world by a number of frames of its frame time.</summary>
         public void Advance(ulong frames)
         {
             ulong taken;
             Check(Native.carom_world_advance(Id, frames, out taken));
         }
 
-        /// <summary>Advances the world to its next impact, by so many seconds at most.</summary>
+        /// <summary>Advances the world to its next impact, at most by this many seconds.</summary>
         public void StepToNextEvent(double within) { Check(Native.carom_world_step_to_next_event(Id, within)); }
 
-        /// <summary>Stops the step at work in another thread, and refuses further ones; or lets them go on.</summary>
+        /// <summary>Stops the step in another thread and refuses further ones, or allows steps again.</summary>
         public bool Stop { set { Check(Native.carom_world_set_stop(Id, value ? 1 : 0)); } }
 
-        /// <summary>Time since the beginning [s].</summary>
+        /// <summary>Time since the start [s].</summary>
         public double Time { get { double it; Check(Native.carom_world_time(Id, out it)); return it; } }
 
-        /// <summary>Length of a frame [s].</summary>
+        /// <summary>Frame time [s].</summary>
         public double FrameTime { get { double it; Check(Native.carom_world_frame_time(Id, out it)); return it; } }
 
-        /// <summary>The state as one number, equal for equal states everywhere.</summary>
+        /// <summary>State hash, equal for equal states everywhere.</summary>
         public ulong StateHash { get { ulong it; Check(Native.carom_world_state_hash(Id, out it)); return it; } }
 
         /// <summary>The number of spheres.</summary>
@@ -332,7 +333,7 @@ namespace Carom
             return ids;
         }
 
-        /// <summary>One sphere.</summary>
+        /// <summary>Returns a sphere.</summary>
         public CaromSphere Sphere(ulong id)
         {
             CaromSphere sphere;
@@ -340,10 +341,10 @@ namespace Carom
             return sphere;
         }
 
-        /// <summary>Changes a sphere.</summary>
+        /// <summary>Replaces a sphere.</summary>
         public void SetSphere(ulong id, CaromSphere sphere) { Check(Native.carom_world_set_sphere(Id, id, ref sphere)); }
 
-        /// <summary>Takes spheres out of the world.</summary>
+        /// <summary>Removes spheres.</summary>
         public void RemoveSpheres(params ulong[] ids)
         {
             Check(Native.carom_world_remove_spheres(Id, ids, (UIntPtr)ids.Length));
@@ -357,7 +358,7 @@ namespace Carom
             return id;
         }
 
-        /// <summary>One collider, where it is now.</summary>
+        /// <summary>Returns a collider in its present pose.</summary>
         public CaromCollider Collider(ulong id)
         {
             CaromCollider collider;
@@ -365,13 +366,13 @@ namespace Carom
             return collider;
         }
 
-        /// <summary>Changes a collider: its place, and all else.</summary>
+        /// <summary>Replaces all properties of a collider; it moves at once.</summary>
         public void SetCollider(ulong id, CaromCollider collider)
         {
             Check(Native.carom_world_set_collider(Id, id, ref collider));
         }
 
-        /// <summary>Takes a collider out of the world.</summary>
+        /// <summary>Removes a collider.</summary>
         public void RemoveCollider(ulong id) { Check(Native.carom_world_remove_collider(Id, id)); }
 
         /// <summary>Adds gravity [m/s^2]. Returns its id.</summary>
@@ -390,8 +391,8 @@ namespace Carom
             return id;
         }
 
-        /// <summary>Adds a force [N] that is a function of a sphere's state and of time, with its potential energy [J] or
-        /// null. Returns its id. What the functions throw is thrown by the step that calls them.</summary>
+        /// <summary>Adds a force [N] that is a function of a sphere's state and of time, with its potential energy [J]
+        /// or null. Returns its id. The step that calls the functions throws their exceptions.</summary>
         public ulong AddForce(
             Func<CaromSphereState, double, Double3> force, Func<CaromSphereState, double, double> potentialEnergy = null)
         {
@@ -400,7 +401,7 @@ namespace Carom
             return id;
         }
 
-        /// <summary>Takes a force out of the world.</summary>
+        /// <summary>Removes a force.</summary>
         public void RemoveForce(ulong id) { Check(Native.carom_world_remove_force(Id, id)); }
 
         /// <summary>Adds a spring. Returns its id.</summary>
@@ -411,7 +412,7 @@ namespace Carom
             return id;
         }
 
-        /// <summary>One spring.</summary>
+        /// <summary>Returns a spring.</summary>
         public CaromSpring Spring(ulong id)
         {
             CaromSpring spring;
@@ -419,10 +420,10 @@ namespace Carom
             return spring;
         }
 
-        /// <summary>Changes a spring.</summary>
+        /// <summary>Replaces a spring.</summary>
         public void SetSpring(ulong id, CaromSpring spring) { Check(Native.carom_world_set_spring(Id, id, ref spring)); }
 
-        /// <summary>Takes a spring out of the world; its spheres stay.</summary>
+        /// <summary>Removes a spring; its spheres stay.</summary>
         public void RemoveSpring(ulong id) { Check(Native.carom_world_remove_spring(Id, id)); }
 
         /// <summary>Adds the spheres, generators, springs, colliders, forces and emitters of a text (TOML).</summary>
@@ -433,7 +434,7 @@ namespace Carom
             return added;
         }
 
-        /// <summary>Steps the world as the table [simulation] of a text says (TOML).</summary>
+        /// <summary>Sets the simulation settings from the table [simulation] of a text (TOML).</summary>
         public void SetSimulation(string toml)
         {
             Check(Native.carom_world_set_simulation(Id, Native.Text(toml)));
@@ -467,7 +468,7 @@ namespace Carom
             Check(Native.carom_world_write(Id, quantity, values, UIntPtr.Zero, (UIntPtr)values.Length));
         }
 
-        /// <summary>A list of ids.</summary>
+        /// <summary>Returns a list of ids.</summary>
         public ulong[] Ids(CaromList list)
         {
             UIntPtr count;
@@ -477,7 +478,7 @@ namespace Carom
             return ids;
         }
 
-        /// <summary>The impacts of the last step, in order of time.</summary>
+        /// <summary>Returns the impacts of the last step in order of time.</summary>
         public CaromImpact[] Impacts()
         {
             UIntPtr count;
@@ -487,7 +488,7 @@ namespace Carom
             return impacts;
         }
 
-        /// <summary>The contacts that persist, with their forces.</summary>
+        /// <summary>Returns the persistent contacts with their forces.</summary>
         public CaromContact[] Contacts()
         {
             UIntPtr count;
@@ -497,7 +498,7 @@ namespace Carom
             return contacts;
         }
 
-        /// <summary>Everything the future depends on, to return to.</summary>
+        /// <summary>Returns a snapshot of everything that the future depends on.</summary>
         public CaromSnapshot Snapshot()
         {
             SnapshotId id;
@@ -505,7 +506,7 @@ namespace Carom
             return new CaromSnapshot(id);
         }
 
-        /// <summary>Returns to a snapshot, bit for bit.</summary>
+        /// <summary>Restores a snapshot, bit for bit.</summary>
         public void Restore(CaromSnapshot snapshot)
         {
             var status = Native.carom_world_restore(Id, snapshot.Id);
@@ -514,7 +515,7 @@ namespace Carom
         }
     }
 
-    /// <summary>The state of a world at one moment.</summary>
+    /// <summary>The state of a world at one time.</summary>
     public sealed class CaromSnapshot : IDisposable
     {
         readonly Native.Handle handle;
@@ -523,14 +524,14 @@ namespace Carom
 
         internal SnapshotId Id { get { return new SnapshotId { Id = handle.SnapshotId }; } }
 
-        // As that of a world.
+        // As for a world.
         void Check(CaromStatus status)
         {
             GC.KeepAlive(handle);
             Native.Check(status);
         }
 
-        /// <summary>The snapshot that <see cref="ToBytes"/> has written. Read only bytes that you trust.</summary>
+        /// <summary>Makes a snapshot from bytes of <see cref="ToBytes"/>. Read only bytes that you trust.</summary>
         public static CaromSnapshot FromBytes(byte[] bytes)
         {
             SnapshotId id;
@@ -538,7 +539,7 @@ namespace Carom
             return new CaromSnapshot(id);
         }
 
-        /// <summary>The snapshot as bytes. A force that is a function has none.</summary>
+        /// <summary>Returns the snapshot as bytes; not possible with a force that is a function.</summary>
         public byte[] ToBytes()
         {
             UIntPtr size;
@@ -552,40 +553,40 @@ namespace Carom
     }
 
 #if UNITY_5_3_OR_NEWER
-    /// <summary>In the coordinates of Unity: z is mirrored.</summary>
+    /// <summary>Methods in the coordinates of Unity, with z mirrored.</summary>
     public sealed partial class CaromWorld
     {
-        /// <summary>A place or a velocity of Unity in Carom's coordinates.</summary>
+        /// <summary>Converts a position or velocity from Unity to Carom.</summary>
         public static Double3 FromUnity(UnityEngine.Vector3 it) { return new Double3(it.x, it.y, -it.z); }
 
-        /// <summary>A place or a velocity of Carom in Unity's coordinates.</summary>
+        /// <summary>Converts a position or velocity from Carom to Unity.</summary>
         public static UnityEngine.Vector3 ToUnity(Double3 it)
         {
             return new UnityEngine.Vector3((float)it.X, (float)it.Y, (float)-it.Z);
         }
 
-        /// <summary>A rotation of Unity in Carom's coordinates.</summary>
+        /// <summary>Converts a rotation from Unity to Carom.</summary>
         public static Double4 FromUnity(UnityEngine.Quaternion it) { return new Double4(-it.x, -it.y, it.z, it.w); }
 
-        /// <summary>A rotation of Carom in Unity's coordinates.</summary>
+        /// <summary>Converts a rotation from Carom to Unity.</summary>
         public static UnityEngine.Quaternion ToUnity(Double4 it)
         {
             return new UnityEngine.Quaternion((float)-it.X, (float)-it.Y, (float)it.Z, (float)it.W);
         }
 
-        /// <summary>An angular velocity of Unity in Carom's coordinates: the sense of rotation is mirrored, too.</summary>
+        /// <summary>Converts an angular velocity from Unity to Carom; its sense of rotation is mirrored, too.</summary>
         public static Double3 AngularFromUnity(UnityEngine.Vector3 it) { return new Double3(-it.x, -it.y, it.z); }
 
-        /// <summary>An angular velocity of Carom in Unity's coordinates.</summary>
+        /// <summary>Converts an angular velocity from Carom to Unity.</summary>
         public static UnityEngine.Vector3 AngularToUnity(Double3 it)
         {
             return new UnityEngine.Vector3((float)-it.X, (float)-it.Y, (float)it.Z);
         }
 
-        /// <summary>Adds gravity, as Physics.gravity has it.</summary>
+        /// <summary>Adds gravity, for example Physics.gravity.</summary>
         public ulong AddGravity(UnityEngine.Vector3 acceleration) { return AddGravity(FromUnity(acceleration)); }
 
-        /// <summary>Adds the floor: everything below y = height.</summary>
+        /// <summary>Adds a floor: everything below y = height.</summary>
         public ulong AddFloor(float height, float restitution)
         {
             var floor = CaromCollider.Default;
@@ -623,7 +624,7 @@ namespace Carom
             return AddSphere(ball);
         }
 
-        /// <summary>Reads where all balls are.</summary>
+        /// <summary>Reads the positions of all balls.</summary>
         public void ReadPositions(UnityEngine.Vector3[] positions) { Read(CaromQuantity.Positions, positions); }
 
         /// <summary>Reads the velocities of all balls.</summary>
@@ -636,7 +637,7 @@ namespace Carom
             for (int i = 0; i < values.Length; i++) values[i].z = -values[i].z;
         }
 
-        /// <summary>Reads how all balls are turned.</summary>
+        /// <summary>Reads the orientations of all balls.</summary>
         public void ReadRotations(UnityEngine.Quaternion[] rotations)
         {
             var count = (UIntPtr)rotations.Length;
@@ -663,7 +664,7 @@ namespace Carom
         public ulong Id;
     }
 
-    /// <summary>What marks a function that the library calls, for Unity's compiler to C++.</summary>
+    /// <summary>Marks a function that the library calls, for Unity's compiler to C++.</summary>
     [AttributeUsage(AttributeTargets.Method)]
     sealed class MonoPInvokeCallbackAttribute : Attribute
     {
@@ -718,10 +719,10 @@ namespace Carom
             return Encoding.UTF8.GetString(bytes);
         }
 
-        /// <summary>A text as the library reads it.</summary>
+        /// <summary>Returns a text in the form that the library reads.</summary>
         internal static byte[] Text(string text) { return Encoding.UTF8.GetBytes(text + "\0"); }
 
-        /// <summary>Texts as the library reads them.</summary>
+        /// <summary>Returns texts in the form that the library reads.</summary>
         internal sealed class Texts : IDisposable
         {
             internal readonly IntPtr[] Pointers;
@@ -742,7 +743,7 @@ namespace Carom
             public void Dispose() { foreach (var pointer in Pointers) Marshal.FreeHGlobal(pointer); }
         }
 
-        /// <summary>How many numbers of a quantity a sphere has.</summary>
+        /// <summary>Returns the number of values of a quantity per sphere.</summary>
         static int Width(CaromQuantity quantity)
         {
             switch (quantity)
@@ -759,7 +760,7 @@ namespace Carom
             }
         }
 
-        /// <summary>How many rows so many numbers are.</summary>
+        /// <summary>Returns the number of rows in an array of values.</summary>
         internal static UIntPtr Rows(CaromQuantity quantity, int numbers)
         {
             int width = Width(quantity);
@@ -797,12 +798,13 @@ namespace Carom
             internal Func<CaromSphereState, double, double> PotentialEnergy;
         }
 
-        // Kept here for as long as the library may call them.
+        // Kept alive as long as the library may call them.
         static readonly ForceFunction forceFunction = OnForce;
         static readonly PotentialFunction potentialFunction = OnPotentialEnergy;
         static readonly DestroyFunction destroyFunction = OnDestroy;
 
-        /// <summary>What a function of a force has thrown: an exception must not leave it.</summary>
+        /// <summary>The exception that a function of a force has thrown; exceptions must not reach the
+        /// library.</summary>
         [ThreadStatic] static Exception thrown;
 
         static Functions FunctionsOf(IntPtr data) { return (Functions)GCHandle.FromIntPtr(data).Target; }
@@ -816,7 +818,7 @@ namespace Carom
             }
             catch (Exception exception)
             {
-                // What is not finite has the step refused.
+                // A value that is not finite makes the library refuse the step.
                 force = new Double3(double.NaN, double.NaN, double.NaN);
                 thrown = exception;
             }

@@ -46,7 +46,7 @@ public:
         auto held = std::make_unique<Force>(std::move(force));
         CaromForce function{};
         function.force = [](const CaromSphereState *sphere, double time, double *out, void *data) {
-            // An exception must not leave this function: what is not finite has the step refused.
+            // An exception must not leave this function. A value that is not finite makes the step fail.
             out[0] = out[1] = out[2] = NAN;
             try {
                 const Vector force = (*static_cast<Force *>(data))(*sphere, time);
@@ -80,7 +80,7 @@ void expect(bool holds, const std::string &what) {
     }
 }
 
-// Five balls that touch; the first comes in with 1 m/s.
+// Five touching balls; the first arrives with 1 m/s.
 void cradle() {
     World world;
     for (int i = 0; i < 5; i++) {
@@ -101,7 +101,7 @@ void cradle() {
     expect(copy.read(CAROM_QUANTITY_VELOCITIES)[0].x == 1.0, "the copy is where it was");
 }
 
-// A spring that a lambda makes: half a period later the ball is on the other side.
+// A spring defined by a lambda: half a period later the ball is on the other side.
 void spring() {
     World world;
     CaromSphere ball = carom_sphere();
@@ -119,7 +119,7 @@ void spring() {
     const double x = moved.read(CAROM_QUANTITY_POSITIONS)[0].x;
     std::cout << "half a period later: " << x << " m\n";
     expect(std::abs(x + 1.0) < 1e-3, "half a period later it is on the other side");
-    // An error is an exception, also where the function of a force throws.
+    // An error is an exception, also if the function of a force throws.
     moved.add([](const CaromSphereState &, double) -> Vector { throw std::runtime_error("no"); });
     try {
         moved.step(1.0);

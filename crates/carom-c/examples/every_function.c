@@ -1,4 +1,4 @@
-// Calls every function of carom.h, as it is meant and with a mistake; `cargo xtask c --test` runs it under valgrind.
+// Calls every function of carom.h correctly and with a mistake; `cargo xtask c --test` runs it under valgrind.
 
 #include <carom.h>
 #include <math.h>
@@ -17,7 +17,7 @@
 #define OK(call) EXPECT((call) == CAROM_STATUS_OK)
 #define FAILS(status, call) EXPECT((call) == (status) && carom_last_error()[0] != '\0')
 
-// A row as a game may have it: more than a position.
+// A row of a game, with more than a position.
 struct Body {
     char name[12];
     float position[3];
@@ -39,7 +39,7 @@ static void pull(const CaromSphereState *sphere, double time, double *force, voi
         force[i] = -spring->stiffness * sphere->position[i];
     }
     spring->calls++;
-    // The world that it acts in is at work.
+    // The world that it acts in is being stepped.
     double now;
     spring->own_status = carom_world_time(spring->own_world, &now);
 }
@@ -325,7 +325,7 @@ static void forces(void) {
     EXPECT(spring.destroyed == 0);
     OK(carom_snapshot_free(snapshot));
     EXPECT(spring.destroyed == 1);
-    // One that is refused is not destroyed.
+    // A refused force is not destroyed.
     force.force = NULL;
     FAILS(CAROM_STATUS_NULL, carom_world_add_force(copy, &force, NULL));
     force.force = pull;
@@ -354,7 +354,7 @@ static void springs(void) {
     OK(carom_world_add_spring(world, &spring, &id));
     CaromTotals totals;
     OK(carom_world_totals(world, &totals));
-    // Half of k (l - l0)^2 of each.
+    // The sum of k (l - l0)^2 / 2.
     EXPECT(totals.potential_energy == 4.5 + 0.5);
     CaromSpring read;
     OK(carom_world_spring(world, id, &read));
@@ -374,7 +374,7 @@ static void springs(void) {
     size_t count;
     OK(carom_world_ids(world, CAROM_LIST_SPRINGS, NULL, 0, 0, &count));
     EXPECT(count == 1);
-    // Springs go with their spheres.
+    // Springs are removed with their spheres.
     OK(carom_world_remove_spheres(world, &first, 1));
     OK(carom_world_ids(world, CAROM_LIST_SPRINGS, NULL, 0, 0, &count));
     EXPECT(count == 0);
@@ -418,7 +418,7 @@ static void snapshots(void) {
     OK(carom_world_state_hash(world, &again));
     EXPECT(again == then);
     FAILS(CAROM_STATUS_NULL, carom_world_restore(world, none));
-    // The handle of a world is that of no snapshot.
+    // The handle of a world is no handle of a snapshot.
     none.id = world.id;
     FAILS(CAROM_STATUS_HANDLE, carom_world_restore(world, none));
     OK(carom_snapshot_free(snapshot));

@@ -1,4 +1,4 @@
-//! Colliders: what spheres bounce off.
+//! Colliders, the surfaces that spheres bounce off.
 
 use carom::{Collider, ColliderId, DQuat, DVec3, Pose, Shape, Sides};
 use carom_scene::scene;
@@ -8,21 +8,23 @@ use crate::sphere::{coefficients, friction_of};
 use crate::status::{CaromStatus, Failure, call};
 use crate::world::CaromWorld;
 
-/// The form of a collider in its own frame.
+/// The shape of a collider in its own frame.
 #[repr(i32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CaromShape {
     /// A sphere of `radius`.
     Sphere = 0,
-    /// A rectangle of size[0] by size[2] in the local xz plane, which faces local +y; from behind spheres pass it.
+    /// A rectangle of size[0] by size[2] in the local xz plane, which faces local +y. Spheres pass
+    /// through it from behind.
     Rectangle = 1,
     /// Everything below the local xz plane.
     HalfSpace = 2,
     /// A box of `size`.
     Box = 3,
-    /// A hollow box of `size`, off whose walls spheres bounce on either side; without the walls of `open_sides`.
+    /// A hollow box of `size`: spheres bounce off its walls on both sides. The walls in
+    /// `open_sides` are missing.
     Container = 4,
-    /// A form that only the text of a scene can give. carom_world_set_collider() leaves it as it is.
+    /// A shape that only the text of a scene can describe. carom_world_set_collider() keeps it.
     Other = 5,
 }
 
@@ -44,33 +46,34 @@ pub enum CaromSide {
     Front = 32,
 }
 
-/// A collider: a shape that never gives way, at rest or moved. carom_collider() makes one with usual values.
+/// A collider: a shape that spheres do not move, at rest or in motion. carom_collider() returns one
+/// with default values.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CaromCollider {
-    /// The form (CaromShape).
+    /// The shape (CaromShape).
     pub shape: i32,
-    /// 1 for a trigger, which reports spheres and deflects none; 0 for a solid collider.
+    /// 1 for a trigger, which reports spheres but does not deflect them; 0 for a solid collider.
     pub trigger: u32,
-    /// Walls that a container does not have: bits (CaromSide).
+    /// Missing walls of a container: bits (CaromSide).
     pub open_sides: u32,
-    /// 0.
+    /// Must be 0.
     pub reserved: u32,
     /// Radius of a sphere [m], > 0.
     pub radius: f64,
-    /// Full lengths along local x, y, z [m], each > 0 where the shape has it.
+    /// Full lengths along local x, y, z [m], each > 0 if the shape has it.
     pub size: [f64; 3],
     /// Origin of the local frame [m].
     pub position: [f64; 3],
-    /// Rotation from the local frame to the world: a quaternion x, y, z, w, of any length but zero.
+    /// Rotation from the local frame to the world: a quaternion x, y, z, w of any length but zero.
     pub rotation: [f64; 4],
-    /// Velocity of the origin [m/s]: steps move the collider on.
+    /// Velocity of the origin [m/s]; steps move the collider.
     pub velocity: [f64; 3],
-    /// Angular velocity about the origin, along the axis [rad/s].
+    /// Angular velocity about the origin [rad/s].
     pub angular_velocity: [f64; 3],
     /// Coefficient of restitution in [0, 1].
     pub restitution: f64,
-    /// Coefficient of friction, >= 0; not a number (NAN) leaves it to what touches the collider.
+    /// Coefficient of friction, >= 0; not a number (NAN) if the touching body decides.
     pub friction: f64,
     /// Coefficient of rolling friction, as `friction`.
     pub rolling_friction: f64,
@@ -128,15 +131,15 @@ impl From<Collider> for CaromCollider {
     }
 }
 
-/// The bits of sides.
+/// Returns the bits of sides.
 fn bits(sides: Sides) -> u32 {
     let bits = sides.to_array().into_iter().enumerate();
     bits.map(|(bit, is_there)| u32::from(is_there) << bit).sum()
 }
 
 impl CaromCollider {
-    /// The collider as the physics knows it, its numbers not checked. `before` has its form where only text
-    /// could give that.
+    /// Converts to the collider of the physics, without checking numbers. `before` supplies the
+    /// shape if only text can describe it.
     fn physical(&self, before: Option<Shape>) -> Result<Collider, Failure> {
         let invalid = |problem: &str| Failure::new(CaromStatus::Invalid, problem);
         let size = DVec3::from_array(self.size);
@@ -175,7 +178,7 @@ impl CaromCollider {
         Ok(if self.trigger == 1 { collider.as_trigger() } else { collider })
     }
 
-    /// The sides of a container without a wall.
+    /// Returns the sides of a container without a wall.
     fn open(&self) -> Result<Sides, Failure> {
         let invalid = |problem: &str| Failure::new(CaromStatus::Invalid, problem);
         let open = Sides::from_array([0, 1, 2, 3, 4, 5].map(|bit| self.open_sides >> bit & 1 == 1));
@@ -189,7 +192,7 @@ impl CaromCollider {
     }
 }
 
-/// Puts a collider into a description, whose name, colour and finish stay.
+/// Writes a collider into a description, which keeps its name, colour and finish.
 fn describe(collider: &Collider, described: &mut scene::Collider) {
     match collider.shape {
         Shape::Sphere { radius } => described.shape = scene::Shape::Sphere { radius },
@@ -203,7 +206,7 @@ fn describe(collider: &Collider, described: &mut scene::Collider) {
             let (size, open) = (size.to_array(), open.map(|(side, _)| side).collect());
             described.shape = scene::Shape::Container { size, open };
         }
-        // Described already: only text gives it.
+        // A shape that only text can describe is in the description already.
         _ => {}
     }
     described.position = collider.pose.position.to_array();
@@ -225,14 +228,14 @@ const SIDES: [scene::Side; 6] = [
     scene::Side::Front,
 ];
 
-/// A solid half-space below y = 0, at rest, with restitution 1, that leaves friction to what touches it. Its `radius` and
-/// `size` are 1 m.
+/// Returns a solid half-space below y = 0, at rest, with restitution 1 and without its own
+/// friction. Its `radius` and `size` are 1 m.
 #[unsafe(no_mangle)]
 pub extern "C" fn carom_collider() -> CaromCollider {
     Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO)).into()
 }
 
-/// Adds a collider. Its id goes to `id`, which may be null.
+/// Adds a collider. Writes its id to `id`, which may be null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_add_collider(
     world: CaromWorld,
@@ -255,7 +258,7 @@ pub unsafe extern "C" fn carom_world_add_collider(
     })
 }
 
-/// One collider, where it is now, by its id.
+/// Reads a collider in its present pose by its id.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_collider(
     world: CaromWorld,
@@ -272,7 +275,7 @@ pub unsafe extern "C" fn carom_world_collider(
     })
 }
 
-/// Changes a collider, which keeps its id: its place, at once, and all else.
+/// Replaces all properties of a collider, which keeps its id; it moves at once.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_set_collider(
     world: CaromWorld,
@@ -296,7 +299,7 @@ pub unsafe extern "C" fn carom_world_set_collider(
     })
 }
 
-/// Takes a collider out of a world.
+/// Removes a collider.
 #[unsafe(no_mangle)]
 pub extern "C" fn carom_world_remove_collider(world: CaromWorld, id: u64) -> CaromStatus {
     call(|| {

@@ -1,4 +1,4 @@
-//! What is known of a world besides its physics: what its snapshots tell other programs.
+//! Data about a world besides its physics, which snapshots carry to other programs.
 
 use std::sync::Arc;
 
@@ -11,14 +11,14 @@ use crate::status::Failure;
 /// Names, colours and the like of a world. Copies share what is not changed.
 #[derive(Debug, Clone)]
 pub(crate) struct Described {
-    /// What there is besides spheres. Forces, colliders and emitters are those of the world, in its
-    /// order; colliders stand where they were when they were described.
+    /// The scene without spheres. Its forces, colliders and emitters have the order of the world;
+    /// colliders have the poses of their descriptions.
     scene: Arc<Scene>,
     palette: Arc<Palette>,
 }
 
 impl Described {
-    /// The world of a scene, and what is known of it.
+    /// Makes the world of a scene and its description.
     pub fn of(mut scene: Scene) -> Result<(World, Self), Failure> {
         let world = scene.world()?;
         let palette = Palette::new(&scene)?;
@@ -41,22 +41,23 @@ impl Described {
         &self.palette
     }
 
-    /// The description, to be changed together with the world.
+    /// Returns the description for changes, which must match those of the world.
     pub fn scene_mut(&mut self) -> &mut Scene {
         Arc::make_mut(&mut self.scene)
     }
 
-    /// The colours, to be changed together with the world.
+    /// Returns the colours for changes, which must match those of the world.
     pub fn palette_mut(&mut self) -> &mut Palette {
         Arc::make_mut(&mut self.palette)
     }
 
-    /// Adds a force that is a function: it has no description, and a world with one has no bytes.
+    /// Adds a placeholder for a force that is a function: it has no description, and its world
+    /// cannot be written as bytes.
     pub fn add_function(&mut self) {
         self.scene_mut().forces.push(Force::Constant { force: [0.0; 3] });
     }
 
-    /// Changes the colliders, and their colours with them.
+    /// Changes the colliders and updates their colours.
     pub fn change_colliders(&mut self, change: impl FnOnce(&mut Vec<Collider>)) {
         let Self { scene, palette } = self;
         let colliders = &mut Arc::make_mut(scene).colliders;

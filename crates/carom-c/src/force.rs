@@ -10,7 +10,7 @@ use crate::pointer::{Rows, Strided, tell};
 use crate::status::{CaromStatus, Failure, call};
 use crate::world::CaromWorld;
 
-/// What a force may depend on.
+/// The state of a sphere that a force may depend on.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CaromSphereState {
@@ -24,7 +24,8 @@ pub struct CaromSphereState {
     pub mass: f64,
 }
 
-/// Writes the force [N] on a sphere in this state, at this time [s], to the three numbers of `force`.
+/// A function that writes the force [N] on a sphere in this state at this time [s] to the three
+/// numbers of `force`.
 pub type CaromForceFunction = Option<
     unsafe extern "C" fn(
         sphere: *const CaromSphereState,
@@ -34,38 +35,40 @@ pub type CaromForceFunction = Option<
     ),
 >;
 
-/// The potential energy [J] of a sphere in this state, at this time [s].
+/// A function that returns the potential energy [J] of a sphere in this state at this time [s].
 pub type CaromPotentialFunction = Option<
     unsafe extern "C" fn(sphere: *const CaromSphereState, time: f64, user_data: *mut c_void) -> f64,
 >;
 
-/// Lets go of what a force has used.
+/// A function that frees the data of a force.
 pub type CaromDestroyFunction = Option<unsafe extern "C" fn(user_data: *mut c_void)>;
 
-/// A force that is a function of the program. It must depend on nothing but its arguments and `user_data`, must return
-/// (no exception, no longjmp), and must not use the world that it acts in.
+/// A force that is a function of the program. It may depend only on its arguments and `user_data`,
+/// must return (no exception, no longjmp), and must not use the world that it acts in.
 ///
-/// The thread that steps a world calls it; so do others where the library was built with the feature `rayon`. For the
-/// same bits everywhere it must use no function whose result depends on the platform (sin, exp, ...). Under the rule
-/// `exact` such a force is held constant from one force tick to the next.
+/// The thread that steps a world calls it; if the library was built with the feature `rayon`, other
+/// threads do so, too. For the same bits everywhere it must not use functions whose result depends
+/// on the platform (sin, exp, ...). Under the rule `exact` such a force is held constant from one
+/// force tick to the next.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct CaromForce {
-    /// The force.
+    /// The function.
     pub force: CaromForceFunction,
-    /// Its potential energy; null for none.
+    /// The function of its potential energy, or null.
     pub potential_energy: CaromPotentialFunction,
-    /// What the functions get.
+    /// Passed to the functions.
     pub user_data: *mut c_void,
-    /// Called once, when no world and no snapshot has the force any more; null for nothing to be done. Only a force
-    /// that was added is destroyed.
+    /// Called once when no world and no snapshot uses the force any more; may be null. Called only
+    /// for a force that was added.
     pub destroy: CaromDestroyFunction,
 }
 
 /// A force of the program in a world.
 struct Function(CaromForce);
 
-// SAFETY: `CaromForce` says which threads call its functions; the program answers for `user_data` there.
+// SAFETY: `CaromForce` states which threads call its functions; the program is responsible for
+// `user_data` there.
 unsafe impl Send for Function {}
 // SAFETY: as `Send`.
 unsafe impl Sync for Function {}
@@ -110,7 +113,7 @@ fn told(sphere: &SphereState) -> CaromSphereState {
     CaromSphereState { position, velocity, radius, mass }
 }
 
-/// Adds a force that is a function of the program. Its id goes to `id`, which may be null.
+/// Adds a force that is a function of the program. Writes its id to `id`, which may be null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_add_force(
     world: CaromWorld,
@@ -137,7 +140,8 @@ pub unsafe extern "C" fn carom_world_add_force(
     })
 }
 
-/// Adds gravity: the same acceleration [m/s^2], three numbers, for every sphere. Its id goes to `id`, which may be null.
+/// Adds gravity: the same acceleration [m/s^2], three numbers, for every sphere. Writes its id to
+/// `id`, which may be null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_add_gravity(
     world: CaromWorld,
@@ -146,7 +150,7 @@ pub unsafe extern "C" fn carom_world_add_gravity(
 ) -> CaromStatus {
     call(|| {
         let one = Strided { stride: 0, count: 1 };
-        // SAFETY: the caller's array is null or lies so, as the header demands.
+        // SAFETY: the caller's array is null or has this layout, as the header demands.
         let acceleration = unsafe { Rows::new(acceleration, one, 3, "acceleration") }?.row(0);
         let number = add_described(world, scene::Force::Gravity { acceleration })?;
         // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
@@ -155,8 +159,8 @@ pub unsafe extern "C" fn carom_world_add_gravity(
     })
 }
 
-/// Adds viscous drag: a force against the velocity, proportional to it by a coefficient [kg/s], >= 0. Its id goes to
-/// `id`, which may be null.
+/// Adds viscous drag: a force against the velocity, in proportion to a coefficient [kg/s], >= 0.
+/// Writes its id to `id`, which may be null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_add_drag(
     world: CaromWorld,
@@ -179,12 +183,12 @@ fn add_described(world: CaromWorld, force: scene::Force) -> Result<u64, Failure>
     })
 }
 
-/// Takes a force out of a world.
+/// Removes a force.
 #[unsafe(no_mangle)]
 pub extern "C" fn carom_world_remove_force(world: CaromWorld, id: u64) -> CaromStatus {
     call(|| {
         world.with(|inner| {
-            // Looked up first: to remove what is not there would let all flights begin anew.
+            // Looked up first, because removing an unknown force would restart all flights.
             let place = inner.world.forces().position(|(own, _)| own.number() == id);
             let place = place.ok_or_else(|| Failure::unknown("force", id))?;
             inner.world.remove_force(ForceId::from_number(id))?;

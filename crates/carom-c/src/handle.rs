@@ -1,4 +1,4 @@
-//! Handles: the numbers by which a program holds what it has made.
+//! Handles: numbers with which a program refers to its objects.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -6,12 +6,13 @@ use std::sync::{Arc, PoisonError, RwLock};
 
 use crate::status::{CaromStatus, Failure};
 
-/// The next handle, of anything: none is given twice, and that of a snapshot names no world.
+/// The next handle of any type: no handle is used twice, and that of a snapshot is no handle of a
+/// world.
 static NEXT: AtomicU64 = AtomicU64::new(1);
 
-/// What programs hold of one type, by handle.
+/// Objects of one type that programs hold, by handle.
 pub(crate) struct Registry<T> {
-    /// What such a thing is called in messages.
+    /// Name of the type in messages.
     kind: &'static str,
     held: RwLock<BTreeMap<u64, Arc<T>>>,
 }
@@ -21,7 +22,7 @@ impl<T> Registry<T> {
         Self { kind, held: RwLock::new(BTreeMap::new()) }
     }
 
-    /// Holds something. Returns its handle.
+    /// Stores an object. Returns its handle.
     pub fn add(&self, it: T) -> u64 {
         let handle = NEXT.fetch_add(1, Ordering::Relaxed);
         let mut held = self.held.write().unwrap_or_else(PoisonError::into_inner);
@@ -34,7 +35,8 @@ impl<T> Registry<T> {
         held.get(&handle).cloned().ok_or_else(|| self.nothing(handle))
     }
 
-    /// Lets go of something. The caller drops it, when nothing is locked: that may run code of the program.
+    /// Removes and returns an object. The caller drops it after all locks, because that may run
+    /// code of the program.
     pub fn take(&self, handle: u64) -> Result<Arc<T>, Failure> {
         let mut held = self.held.write().unwrap_or_else(PoisonError::into_inner);
         held.remove(&handle).ok_or_else(|| self.nothing(handle))

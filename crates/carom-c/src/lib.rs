@@ -1,13 +1,13 @@
-//! The C interface of Carom: what `include/carom.h` declares. It converts, and holds no physics.
+//! The C interface of Carom, declared in `include/carom.h`: conversions only, no physics.
 //!
-//! - A program holds worlds and snapshots by handles: numbers that are given once and never again
-//!   (`handle`), so that a stale one is an error.
-//! - Each function ends in a [`CaromStatus`]; the message of the last error waits in the thread
+//! - A program holds worlds and snapshots by handles (`handle`). A handle is never reused, so that
+//!   a stale one is an error.
+//! - Each function returns a [`CaromStatus`]; the message of the last error is stored per thread
 //!   (`status`). No panic leaves a function.
-//! - Memory of the program is read and written in one module (`pointer`), which refuses null.
+//! - One module reads and writes memory of the program (`pointer`) and refuses null.
 //!
-//! `cargo xtask header` makes the header of the comments here: they are read in C, where units stand
-//! in plain brackets.
+//! `cargo xtask header` writes the header from the comments here. C programmers read them, so units
+//! stand in plain brackets.
 
 #![warn(clippy::unwrap_used)]
 #![allow(rustdoc::broken_intra_doc_links)]

@@ -1,4 +1,4 @@
-//! Ids: which spheres, colliders, forces, emitters and springs there are.
+//! Lists of ids: spheres, colliders, forces, emitters and springs.
 
 use carom::{EmitterId, SphereId};
 
@@ -18,18 +18,20 @@ pub enum CaromList {
     Forces = 2,
     /// Emitters, in the order in which they emit.
     Emitters = 3,
-    /// Spheres that emitters put into the world in the last step, ascending.
+    /// Spheres that emitters added in the last step, ascending.
     Emitted = 4,
-    /// Spheres that emitters took out of the world in the last step.
+    /// Spheres that emitters removed in the last step.
     Retired = 5,
-    /// Ids of spheres that emitters left out in the last step, for there was no room: no sphere ever has them.
+    /// Ids of spheres that emitters left out in the last step for lack of space; no sphere ever has
+    /// them.
     LeftOut = 6,
     /// Springs, in the order in which their forces add up.
     Springs = 7,
 }
 
-/// Reads a list of ids (CaromList), `stride` bytes from one to the next (0: no gaps), and their number to `count`. Null for
-/// `ids` reads the number only. Ids that do not fit into `capacity` places are an error.
+/// Reads a list of ids (CaromList), with `stride` bytes from one to the next (0: no gaps), and
+/// writes their number to `count`. If `ids` is null, only the number is written. More than
+/// `capacity` ids are an error.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_ids(
     world: CaromWorld,
@@ -40,7 +42,7 @@ pub unsafe extern "C" fn carom_world_ids(
     count: *mut usize,
 ) -> CaromStatus {
     call(|| {
-        // SAFETY: the caller's array and pointer are null or lead there, as the header demands.
+        // SAFETY: the caller's array and pointer are null or valid, as the header demands.
         let room = unsafe { Room::new(ids, Strided { stride, count: capacity }, count, "ids") }?;
         world.with(|inner| room.fill(of_list(inner, list)?.into_iter()))
     })
@@ -76,7 +78,7 @@ fn of_list(inner: &Inner, list: i32) -> Result<Vec<u64>, Failure> {
     })
 }
 
-/// Takes an emitter out of a world; its spheres stay.
+/// Removes an emitter; its spheres stay.
 #[unsafe(no_mangle)]
 pub extern "C" fn carom_world_remove_emitter(world: CaromWorld, id: u64) -> CaromStatus {
     call(|| {

@@ -1,4 +1,4 @@
-//! What is measured of a world: energies, momenta, overlaps.
+//! Measured quantities of a world: energies, momenta, overlaps.
 
 use crate::pointer::{Out, Room, Strided};
 use crate::report::{CaromOverlap, overlap};
@@ -9,19 +9,19 @@ use crate::world::CaromWorld;
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CaromTotals {
-    /// Kinetic energy [J], that of rotation included.
+    /// Kinetic energy, with rotation [J].
     pub kinetic_energy: f64,
     /// Kinetic energy of rotation [J].
     pub rotational_energy: f64,
-    /// Potential energy [J] in all forces that have one.
+    /// Potential energy in all forces that have one [J].
     pub potential_energy: f64,
     /// Momentum [kg m/s].
     pub momentum: [f64; 3],
-    /// Angular momentum about the origin [kg m^2/s], that of spin included.
+    /// Angular momentum about the origin, with spin [kg m^2/s].
     pub angular_momentum: [f64; 3],
 }
 
-/// Energies and momenta of all spheres together.
+/// Reads the total energies and momenta of all spheres.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_totals(
     world: CaromWorld,
@@ -37,8 +37,8 @@ pub unsafe extern "C" fn carom_world_totals(
     })
 }
 
-/// Reads which spheres overlap each other (where spheres collide) or a solid collider by more than `tolerance` [m], as
-/// carom_world_ids() reads ids.
+/// Reads which spheres overlap each other (if spheres collide) or a solid collider by more than
+/// `tolerance` [m], in the way of carom_world_ids().
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_overlaps(
     world: CaromWorld,
@@ -50,7 +50,7 @@ pub unsafe extern "C" fn carom_world_overlaps(
 ) -> CaromStatus {
     call(|| {
         let array = Strided { stride, count: capacity };
-        // SAFETY: the caller's array and pointer are null or lead there, as the header demands.
+        // SAFETY: the caller's array and pointer are null or valid, as the header demands.
         let room = unsafe { Room::new(overlaps, array, count, "overlaps") }?;
         if tolerance.is_nan() || tolerance < 0.0 {
             let problem = format!("`tolerance` must be zero or positive, not {tolerance}");

@@ -1,8 +1,8 @@
-//! Memory of the program: values, texts and arrays behind pointers. All that the interface reads and writes
-//! through pointers is read and written here.
+//! Memory of the program: values, texts and arrays behind pointers. All reads and writes through
+//! pointers are in this module.
 //!
-//! Null is refused. Any other pointer is taken at its word: it must lead to what the function says, as the
-//! top of the header states. Nothing has to be aligned.
+//! Null is refused. Any other pointer must lead to what the function states, as the top of the
+//! header demands. Nothing needs to be aligned.
 
 use std::ffi::{CStr, c_char};
 use std::marker::PhantomData;
@@ -10,10 +10,10 @@ use std::mem;
 
 use crate::status::{CaromStatus, Failure};
 
-/// Numbers, and structures of numbers: any bits are a value.
+/// Numbers and structures of numbers, for which any bits are a value.
 ///
 /// # Safety
-/// Every pattern of bits is a value of the type, and it has no references.
+/// Every pattern of bits must be a value of the type, and the type must have no references.
 pub(crate) unsafe trait Plain: Copy {}
 
 // SAFETY: a number.
@@ -25,14 +25,14 @@ unsafe impl Plain for f32 {}
 // SAFETY: a number.
 unsafe impl Plain for f64 {}
 
-/// A place of the program for one value.
+/// Memory of the program for one value.
 pub(crate) struct Out<'a, T> {
     place: *mut T,
     life: PhantomData<&'a mut T>,
 }
 
 impl<T: Copy> Out<'_, T> {
-    /// A place that a function knows as `name`.
+    /// Wraps the pointer of a function's parameter `name`.
     ///
     /// # Safety
     /// `place` is null, or can be written to until the call ends.
@@ -47,7 +47,7 @@ impl<T: Copy> Out<'_, T> {
     }
 }
 
-/// Writes a value where the program wants to have it.
+/// Writes a value to a pointer of the program, unless it is null.
 ///
 /// # Safety
 /// `place` is null, or can be written to.
@@ -58,7 +58,7 @@ pub(crate) unsafe fn tell<T: Copy>(place: *mut T, value: T) {
     }
 }
 
-/// The value behind a pointer that a function knows as `name`.
+/// Reads the value behind the pointer of a parameter `name`.
 ///
 /// # Safety
 /// `place` is null, or can be read.
@@ -68,10 +68,10 @@ pub(crate) unsafe fn read<T: Plain>(place: *const T, name: &str) -> Result<T, Fa
     Ok(unsafe { place.read_unaligned() })
 }
 
-/// A text that ends in a zero.
+/// Reads a text that ends in a zero.
 ///
 /// # Safety
-/// `text` is null, or points to bytes up to a zero, which stay as they are for `'a`.
+/// `text` is null, or points to bytes up to a zero, which do not change during `'a`.
 pub(crate) unsafe fn text<'a>(text: *const c_char, name: &str) -> Result<&'a str, Failure> {
     refuse_null(text, name)?;
     // SAFETY: the caller promises a zero at the end.
@@ -79,10 +79,10 @@ pub(crate) unsafe fn text<'a>(text: *const c_char, name: &str) -> Result<&'a str
     text.to_str().map_err(|_| Failure::new(CaromStatus::Argument, format!("{name} is not UTF-8")))
 }
 
-/// Texts that end in a zero each.
+/// Reads texts that end in a zero each.
 ///
 /// # Safety
-/// `texts` is null, or points to so many pointers as [`text`] takes.
+/// `texts` is null, or points to `count` pointers that [`text`] accepts.
 pub(crate) unsafe fn texts<'a>(
     texts: *const *const c_char,
     count: usize,
@@ -91,7 +91,7 @@ pub(crate) unsafe fn texts<'a>(
     let layout = Layout::new::<*const c_char>(Strided { stride: 0, count }, 1, name)?;
     layout.refuse_null(texts, name)?;
     let one = |index: usize| {
-        // SAFETY: the caller promises so many pointers.
+        // SAFETY: the caller promises `count` pointers.
         let pointer = unsafe { texts.add(index) };
         // SAFETY: it leads to one of these pointers.
         let pointer = unsafe { pointer.read_unaligned() };
@@ -101,20 +101,20 @@ pub(crate) unsafe fn texts<'a>(
     (0..count).map(one).collect()
 }
 
-/// How the rows of an array lie: so many bytes from one to the next, 0 for one right after the other.
+/// Layout of an array: bytes from one row to the next (0: no gaps), and number of rows.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Strided {
     pub stride: usize,
     pub count: usize,
 }
 
-/// How the rows of an array lie, checked.
+/// Checked layout of an array.
 #[derive(Debug, Clone, Copy)]
 struct Layout {
     /// Bytes from one row to the next.
     stride: usize,
     count: usize,
-    /// Values of a row.
+    /// Values per row.
     width: usize,
 }
 
@@ -136,15 +136,15 @@ impl Layout {
         }
     }
 
-    /// Refuses null, but for an array without rows.
+    /// Refuses null unless the array has no rows.
     fn refuse_null<T>(&self, first: *const T, name: &str) -> Result<(), Failure> {
         if self.count == 0 { Ok(()) } else { refuse_null(first, name) }
     }
 
-    /// Where the first value of a row is, in bytes.
+    /// Returns the position of the first value of a row in bytes.
     ///
     /// # Panics
-    /// If there is no such row, or if a row has other than `width` values.
+    /// If there is no such row, or if a row does not have `width` values.
     fn offset(&self, row: usize, width: usize) -> usize {
         assert!(row < self.count && width == self.width, "no row {row} of {width} values");
         row * self.stride
@@ -159,10 +159,10 @@ pub(crate) struct Rows<'a, T> {
 }
 
 impl<T: Plain> Rows<'_, T> {
-    /// An array that a function knows as `name`, with `width` values in a row.
+    /// Wraps the array of a parameter `name`, with `width` values per row.
     ///
     /// # Safety
-    /// `first` is null, or points to an array that lies so and can be read until the call ends.
+    /// `first` is null, or points to an array of this layout that can be read until the call ends.
     pub unsafe fn new(
         first: *const T,
         array: Strided,
@@ -178,16 +178,16 @@ impl<T: Plain> Rows<'_, T> {
         self.layout.count
     }
 
-    /// The values of a row.
+    /// Returns the values of a row.
     pub fn row<const N: usize>(&self, row: usize) -> [T; N] {
         let offset = self.layout.offset(row, N);
         // SAFETY: `new` was promised that the array has this row.
         let place = unsafe { self.first.byte_add(offset) };
-        // SAFETY: a row is so many values, one after another, and any bits are values.
+        // SAFETY: a row is this many values, one after another, and any bits are values.
         unsafe { place.cast::<[T; N]>().read_unaligned() }
     }
 
-    /// Each row, where a row is one value.
+    /// Returns all rows of an array with one value per row.
     pub fn values(&self) -> impl Iterator<Item = T> {
         (0..self.count()).map(|row| self.row::<1>(row)[0])
     }
@@ -201,10 +201,11 @@ pub(crate) struct RowsMut<'a, T> {
 }
 
 impl<T: Copy> RowsMut<'_, T> {
-    /// An array that a function knows as `name`, with `width` values in a row.
+    /// Wraps the array of a parameter `name`, with `width` values per row.
     ///
     /// # Safety
-    /// `first` is null, or points to an array that lies so and can be written to until the call ends.
+    /// `first` is null, or points to an array of this layout that can be written to until the call
+    /// ends.
     pub unsafe fn new(
         first: *mut T,
         array: Strided,
@@ -220,30 +221,31 @@ impl<T: Copy> RowsMut<'_, T> {
         self.layout.count
     }
 
-    /// Writes the values of a row, and nothing between two rows.
+    /// Writes the values of a row; bytes between rows stay unchanged.
     pub fn set_row<const N: usize>(&mut self, row: usize, values: [T; N]) {
         let offset = self.layout.offset(row, N);
         // SAFETY: `new` was promised that the array has this row.
         let place = unsafe { self.first.byte_add(offset) };
-        // SAFETY: a row has room for so many values, one after another.
+        // SAFETY: a row has space for this many values, one after another.
         unsafe { place.cast::<[T; N]>().write_unaligned(values) }
     }
 }
 
-/// Room of the program for a list, and the place for its length.
+/// Memory of the program for a list and its length.
 pub(crate) struct Room<'a, T> {
-    /// None where only the length is sought.
+    /// `None` if the program wants only the length.
     rows: Option<RowsMut<'a, T>>,
     length: Out<'a, usize>,
     name: &'static str,
 }
 
 impl<T: Copy> Room<'_, T> {
-    /// Room that lies so for a list that a function knows as `name`. Null for `first` seeks its length only.
+    /// Wraps the memory for a list of a parameter `name`. If `first` is null, only the length is
+    /// written.
     ///
     /// # Safety
-    /// `first` is null, or points to an array that lies so and can be written to until the call ends; `length`
-    /// is null, or can be written to.
+    /// `first` is null, or points to an array of this layout that can be written to until the call
+    /// ends; `length` is null, or can be written to.
     pub unsafe fn new(
         first: *mut T,
         array: Strided,
@@ -260,7 +262,7 @@ impl<T: Copy> Room<'_, T> {
         Ok(Self { rows, length, name })
     }
 
-    /// Writes a list and its length. Where it does not fit, only the length.
+    /// Writes a list and its length; only the length if the list does not fit.
     pub fn fill(mut self, list: impl ExactSizeIterator<Item = T>) -> Result<(), Failure> {
         let length = list.len();
         self.length.set(length);
@@ -275,7 +277,7 @@ impl<T: Copy> Room<'_, T> {
     }
 }
 
-/// Refuses another number of rows than there are things.
+/// Checks that the number of rows is that of the spheres.
 pub(crate) fn require_count(name: &str, count: usize, wanted: usize) -> Result<(), Failure> {
     if count == wanted {
         return Ok(());

@@ -1,6 +1,6 @@
-//! Quantities of all spheres, as arrays with a row for each sphere.
+//! Quantities of all spheres as arrays with a row for each sphere.
 
-use carom::{DQuat, DVec3, SOLID_BALL, Sphere, SphereId, Spheres, World};
+use carom::{DQuat, DVec3, SOLID_BALL, Sphere, SphereMotion, Spheres, World};
 
 use crate::pointer::{Plain, Rows, RowsMut, Strided, require_count};
 use crate::sphere::{coefficients, friction_of, refused};
@@ -21,21 +21,22 @@ pub enum CaromQuantity {
     Masses = 3,
     /// Coefficients of restitution: 1 number.
     Restitutions = 4,
-    /// How spheres are turned: 4 numbers, a quaternion x, y, z, w.
+    /// Orientations: 4 numbers, a quaternion x, y, z, w.
     Orientations = 5,
     /// Angular velocities [rad/s]: 3 numbers.
     AngularVelocities = 6,
     /// Moments of inertia divided by m r^2: 1 number.
     InertiaFactors = 7,
-    /// Coefficients of friction: 1 number, not a number where nothing is said.
+    /// Coefficients of friction: 1 number, not a number if a sphere has none of its own.
     Frictions = 8,
-    /// Coefficients of rolling friction: 1 number, not a number where nothing is said.
+    /// Coefficients of rolling friction: 1 number, as for friction.
     RollingFrictions = 9,
-    /// Coefficients of spinning friction: 1 number, not a number where nothing is said.
+    /// Coefficients of spinning friction: 1 number, as for friction.
     SpinningFrictions = 10,
-    /// Coefficients of tangential restitution: 1 number, not a number where nothing is said.
+    /// Coefficients of tangential restitution: 1 number, as for friction.
     TangentialRestitutions = 11,
-    /// Forces [N] of their own, which act until they are set again, or taken away by writing no rows: 3 numbers.
+    /// Applied forces [N]: 3 numbers. They act until they are set again or removed by writing no
+    /// rows.
     AppliedForces = 12,
 }
 
@@ -56,7 +57,7 @@ impl CaromQuantity {
         (Self::AppliedForces, "applied_forces"),
     ];
 
-    /// The quantity of this number, and its name.
+    /// Returns the quantity with this number, and its name.
     fn of(number: i32) -> Result<(Self, &'static str), Failure> {
         let found = usize::try_from(number).ok().and_then(|number| Self::ALL.get(number));
         let unknown =
@@ -64,7 +65,7 @@ impl CaromQuantity {
         found.copied().ok_or_else(unknown)
     }
 
-    /// How many numbers of it a sphere has.
+    /// Returns how many numbers a row has.
     fn width(self) -> usize {
         match self {
             Self::Positions | Self::Velocities | Self::AngularVelocities => 3,
@@ -74,7 +75,7 @@ impl CaromQuantity {
         }
     }
 
-    /// A quantity of one number.
+    /// Returns a quantity of one number.
     fn number(self, spheres: &Spheres, index: usize) -> f64 {
         let coefficient = |which: usize| {
             let friction = spheres.frictions().get(index).copied().unwrap_or_default();
@@ -88,12 +89,12 @@ impl CaromQuantity {
             Self::RollingFrictions => coefficient(1),
             Self::SpinningFrictions => coefficient(2),
             Self::TangentialRestitutions => coefficient(3),
-            // Where all are solid balls, there are none.
+            // The list is empty if all are solid balls.
             _ => spheres.inertia_factors().get(index).copied().unwrap_or(SOLID_BALL),
         }
     }
 
-    /// A quantity of three numbers. Where no sphere has it, there are none.
+    /// Returns a quantity of three numbers; empty if no sphere has it.
     fn vectors(self, spheres: &Spheres) -> &[DVec3] {
         match self {
             Self::Positions => spheres.positions(),
@@ -103,7 +104,7 @@ impl CaromQuantity {
         }
     }
 
-    /// A sphere with another value of it.
+    /// Returns a sphere with another value of this quantity.
     fn changed(self, sphere: Sphere, values: &[f64]) -> Sphere {
         let value = values[0];
         let coefficient = |which: usize| {
@@ -129,7 +130,7 @@ impl CaromQuantity {
     }
 }
 
-/// A number of an array of the program: of 64 or of 32 bits.
+/// A number in an array of the program, with 64 or 32 bits.
 trait Number: Plain + Into<f64> {
     fn of(number: f64) -> Self;
 }
@@ -146,7 +147,7 @@ impl Number for f32 {
     }
 }
 
-/// The number of spheres: the number of rows in every array.
+/// Reads the number of spheres, which is the number of rows in every array.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_count(world: CaromWorld, count: *mut usize) -> CaromStatus {
     // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
@@ -154,8 +155,8 @@ pub unsafe extern "C" fn carom_world_count(world: CaromWorld, count: *mut usize)
     world.measure(place, |inner| inner.world.spheres().len())
 }
 
-/// Reads a quantity (CaromQuantity) of all spheres, in ascending order of id: a row for each, `stride` bytes after the one
-/// before (0: rows without gaps). `count` must be the number of spheres.
+/// Reads a quantity (CaromQuantity) of all spheres into rows in ascending order of id, with
+/// `stride` bytes from one row to the next (0: no gaps). `count` must be the number of spheres.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_read(
     world: CaromWorld,
@@ -164,11 +165,11 @@ pub unsafe extern "C" fn carom_world_read(
     stride: usize,
     count: usize,
 ) -> CaromStatus {
-    // SAFETY: the caller's array is null or lies so, as the header demands.
+    // SAFETY: the caller's array is null or has this layout, as the header demands.
     unsafe { read(world, quantity, values, Strided { stride, count }) }
 }
 
-/// Reads a quantity as carom_world_read() does, in numbers of 32 bits, to draw.
+/// Reads a quantity as carom_world_read() does, in 32-bit numbers for drawing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_read_f32(
     world: CaromWorld,
@@ -177,12 +178,12 @@ pub unsafe extern "C" fn carom_world_read_f32(
     stride: usize,
     count: usize,
 ) -> CaromStatus {
-    // SAFETY: the caller's array is null or lies so, as the header demands.
+    // SAFETY: the caller's array is null or has this layout, as the header demands.
     unsafe { read(world, quantity, values, Strided { stride, count }) }
 }
 
-/// Writes a quantity (CaromQuantity) of all spheres from rows that lie as carom_world_read() writes them. If a number is
-/// refused, none is written.
+/// Writes a quantity (CaromQuantity) of all spheres from rows in the layout of carom_world_read().
+/// If a number is refused, none is written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_write(
     world: CaromWorld,
@@ -191,11 +192,11 @@ pub unsafe extern "C" fn carom_world_write(
     stride: usize,
     count: usize,
 ) -> CaromStatus {
-    // SAFETY: the caller's array is null or lies so, as the header demands.
+    // SAFETY: the caller's array is null or has this layout, as the header demands.
     unsafe { write(world, quantity, values, Strided { stride, count }) }
 }
 
-/// Writes a quantity as carom_world_write() does, from numbers of 32 bits.
+/// Writes a quantity as carom_world_write() does, from 32-bit numbers.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_write_f32(
     world: CaromWorld,
@@ -204,7 +205,7 @@ pub unsafe extern "C" fn carom_world_write_f32(
     stride: usize,
     count: usize,
 ) -> CaromStatus {
-    // SAFETY: the caller's array is null or lies so, as the header demands.
+    // SAFETY: the caller's array is null or has this layout, as the header demands.
     unsafe { write(world, quantity, values, Strided { stride, count }) }
 }
 
@@ -263,7 +264,7 @@ unsafe fn write<T: Number>(
         // SAFETY: the caller promises such an array.
         let rows = unsafe { Rows::new(values, array, quantity.width(), name) }?;
         world.with(|inner| {
-            // Forces that no sphere has are no rows.
+            // No rows remove the applied forces.
             if quantity == CaromQuantity::AppliedForces && rows.count() == 0 {
                 return Ok(inner.world.set_applied_forces(&[])?);
             }
@@ -280,7 +281,7 @@ unsafe fn write<T: Number>(
     })
 }
 
-/// Sets vectors of all spheres, or none.
+/// Sets vectors of all spheres, or of none.
 fn set_vectors(
     world: &mut World,
     (quantity, name): (CaromQuantity, &str),
@@ -293,24 +294,25 @@ fn set_vectors(
         return Err(Failure::new(CaromStatus::Invalid, problem));
     }
     let ids = spheres.ids().iter();
-    let motions: Vec<(SphereId, DVec3, DVec3)> = match quantity {
+    let motion = |(&id, (&position, &velocity))| SphereMotion { id, position, velocity };
+    let motions: Vec<SphereMotion> = match quantity {
         CaromQuantity::AppliedForces => return Ok(world.set_applied_forces(&new)?),
         CaromQuantity::AngularVelocities => {
             return set_others(world, (quantity, name), |row| new[row].to_array());
         }
         CaromQuantity::Positions => {
             let both = new.iter().zip(spheres.velocities());
-            ids.zip(both).map(|(&id, (&position, &velocity))| (id, position, velocity)).collect()
+            ids.zip(both).map(motion).collect()
         }
         _ => {
             let both = spheres.positions().iter().zip(&new);
-            ids.zip(both).map(|(&id, (&position, &velocity))| (id, position, velocity)).collect()
+            ids.zip(both).map(motion).collect()
         }
     };
     Ok(world.set_motions(&motions)?)
 }
 
-/// Sets a quantity of all spheres that is no motion, or of none.
+/// Sets a quantity that is no motion, for all spheres or for none.
 fn set_others<T: Into<f64>, const N: usize>(
     world: &mut World,
     (quantity, name): (CaromQuantity, &str),
@@ -320,7 +322,7 @@ fn set_others<T: Into<f64>, const N: usize>(
     let (ids, mut check) = (spheres.ids().to_vec(), World::default());
     let changed = |row: usize| quantity.changed(spheres.get(row), &values(row).map(T::into));
     let changed: Vec<Sphere> = (0..ids.len()).map(changed).collect();
-    // A world of their own checks them.
+    // A separate world checks them first.
     for (row, &sphere) in changed.iter().enumerate() {
         check.add_sphere(sphere).map_err(|error| refused(name, row, error))?;
     }

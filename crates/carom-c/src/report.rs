@@ -1,4 +1,4 @@
-//! What happened in the last step, and which contacts persist.
+//! Events of the last step, and persistent contacts.
 
 use carom::{BodyPair, Impact, Overlap, PersistentContact, TriggerContact};
 
@@ -39,17 +39,18 @@ pub struct CaromImpact {
     pub time: f64,
     /// The two bodies.
     pub bodies: CaromBodyPair,
-    /// Where on the surface of body 1 [m].
+    /// Point on the surface of body 1 [m].
     pub point: [f64; 3],
     /// Unit normal from body 1 to body 2.
     pub normal: [f64; 3],
     /// Speed of approach along the normal before the impact [m/s], > 0.
     pub approach_speed: f64,
-    /// Speed of separation along the normal after it, and after all others at the same instant in its group [m/s].
+    /// Speed of separation along the normal after the impact and all simultaneous ones in its group
+    /// [m/s].
     pub separation_speed: f64,
-    /// Impulse on body 2 along the normal, and against it on body 1 [N s].
+    /// Impulse along the normal [N s], on body 2; the opposite acts on body 1.
     pub impulse: f64,
-    /// Impulse of friction on body 2, and against it on body 1, across the normal [N s].
+    /// Impulse of friction across the normal [N s], on body 2; the opposite acts on body 1.
     pub tangential_impulse: [f64; 3],
 }
 
@@ -72,17 +73,17 @@ fn impact(impact: &Impact) -> CaromImpact {
 pub struct CaromContact {
     /// The two bodies.
     pub bodies: CaromBodyPair,
-    /// Where on the surface of body 1 [m].
+    /// Point on the surface of body 1 [m].
     pub point: [f64; 3],
     /// Unit normal from body 1 to body 2.
     pub normal: [f64; 3],
-    /// Distance of the two surfaces [m], negative where they overlap.
+    /// Distance of the two surfaces [m], negative if they overlap.
     pub gap: f64,
-    /// Force along the normal on body 2 [N], >= 0; body 1 feels the opposite one.
+    /// Force along the normal on body 2 [N], >= 0; the opposite acts on body 1.
     pub normal_force: f64,
     /// Force of friction on body 2, across the normal [N].
     pub tangential_force: [f64; 3],
-    /// 1 if the surfaces slide on each other, or would at the least touch; or 0.
+    /// 1 if the surfaces slide on each other, or would under the smallest tangential force; else 0.
     pub is_sliding: u64,
 }
 
@@ -108,7 +109,7 @@ pub struct CaromTrigger {
     pub sphere: u64,
     /// Unit normal from the trigger's surface to the sphere.
     pub normal: [f64; 3],
-    /// Where on the trigger's surface [m].
+    /// Point on the trigger's surface [m].
     pub point: [f64; 3],
 }
 
@@ -127,48 +128,52 @@ fn trigger(trigger: &TriggerContact) -> CaromTrigger {
 pub struct CaromOverlap {
     /// The two bodies.
     pub bodies: CaromBodyPair,
-    /// How far their surfaces overlap [m], > 0.
+    /// Depth of the overlap of their surfaces [m], > 0.
     pub depth: f64,
 }
 
-/// An overlap as C reads it.
+/// Converts an overlap for C.
 pub(crate) fn overlap(overlap: &Overlap) -> CaromOverlap {
     CaromOverlap { bodies: overlap.between.into(), depth: overlap.depth }
 }
 
-/// The last step in numbers.
+/// Counts and energies of the last step.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CaromReport {
-    /// Impacts.
+    /// Number of impacts.
     pub impacts: u64,
-    /// Under the rule `exact`: spheres that were in a stepped zone at the end of the step, not moved from impact to
-    /// impact.
+    /// Under the rule `exact`: number of spheres in a stepped zone at the end of the step, which
+    /// are not moved from impact to impact.
     pub zone_spheres: u64,
-    /// Under the rule `exact`: 1 if spheres were in stepped zones in any step so far, or 0.
+    /// Under the rule `exact`: 1 if any sphere was in a stepped zone in any step so far, else 0.
     pub was_stepped: u64,
-    /// Under the rule `bisect`: groups of spheres in which two bodies met as often as they may in a frame.
+    /// Under the rule `bisect`: number of groups in which two bodies met as often as a frame
+    /// allows.
     pub unfinished_islands: u64,
-    /// Under the rule `contact`: spheres that sleep at the end of the step.
+    /// Under the rule `contact`: number of sleeping spheres at the end of the step.
     pub asleep: u64,
-    /// Under the rule `contact`: how often a sphere was pressed into a surface by half its radius, in each sub-step.
+    /// Under the rule `contact`: how often a sphere was pressed into a surface by half its radius,
+    /// summed over sub-steps.
     pub squeezed: u64,
-    /// Work of contacts [J]: what restitution and friction took.
+    /// Work of contacts [J]: the energy change by restitution and friction.
     pub contact_work: f64,
     /// Work of moving colliders [J].
     pub collider_work: f64,
-    /// Work of moving spheres out of what they overlap [J].
+    /// Work of the correction of overlaps [J].
     pub correction_work: f64,
-    /// Energy of emitted spheres, less that of those taken out [J]. The total energy changes by these four, by the
-    /// work of forces without a potential, and by the error of the integration.
+    /// Energy of emitted spheres minus that of removed ones [J]. The total energy changes by these
+    /// four, by the work of forces without a potential, and by the error of the integration.
     pub emission_energy: f64,
-    /// Under the rule `contact`: largest change of an impulse in the last sweep, as a part of the largest impulse.
+    /// Under the rule `contact`: largest change of an impulse in the last sweep, relative to the
+    /// largest impulse.
     pub residual: f64,
-    /// Under the rule `contact`: largest overlap before it was corrected, as a part of the sum of radii.
+    /// Under the rule `contact`: largest overlap before its correction, relative to the sum of
+    /// radii.
     pub largest_overlap: f64,
 }
 
-/// The last step in numbers: counts, and what became of energy. It is empty after carom_world_restore().
+/// Reads counts and energies of the last step; all are 0 after carom_world_restore().
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_report(
     world: CaromWorld,
@@ -195,7 +200,7 @@ pub unsafe extern "C" fn carom_world_report(
     })
 }
 
-/// Reads the impacts of the last step in order of time, as carom_world_ids() reads ids.
+/// Reads the impacts of the last step in order of time, in the way of carom_world_ids().
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_impacts(
     world: CaromWorld,
@@ -206,14 +211,14 @@ pub unsafe extern "C" fn carom_world_impacts(
 ) -> CaromStatus {
     call(|| {
         let array = Strided { stride, count: capacity };
-        // SAFETY: the caller's array and pointer are null or lead there, as the header demands.
+        // SAFETY: the caller's array and pointer are null or valid, as the header demands.
         let room = unsafe { Room::new(impacts, array, count, "impacts") }?;
         world.with(|inner| room.fill(inner.world.report().impacts.iter().map(impact)))
     })
 }
 
-/// Reads the contacts that persist, with their forces, as carom_world_ids() reads ids. They are known under the rules
-/// `exact` and `contact` after a step.
+/// Reads the persistent contacts with their forces, in the way of carom_world_ids(). They exist
+/// under the rules `exact` and `contact` after a step.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_contacts(
     world: CaromWorld,
@@ -224,13 +229,14 @@ pub unsafe extern "C" fn carom_world_contacts(
 ) -> CaromStatus {
     call(|| {
         let array = Strided { stride, count: capacity };
-        // SAFETY: the caller's array and pointer are null or lead there, as the header demands.
+        // SAFETY: the caller's array and pointer are null or valid, as the header demands.
         let room = unsafe { Room::new(contacts, array, count, "contacts") }?;
         world.with(|inner| room.fill(inner.world.contacts().iter().map(contact)))
     })
 }
 
-/// Reads which spheres are inside triggers at the end of the last step, as carom_world_ids() reads ids.
+/// Reads which spheres are inside triggers at the end of the last step, in the way of
+/// carom_world_ids().
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_triggers(
     world: CaromWorld,
@@ -241,7 +247,7 @@ pub unsafe extern "C" fn carom_world_triggers(
 ) -> CaromStatus {
     call(|| {
         let array = Strided { stride, count: capacity };
-        // SAFETY: the caller's array and pointer are null or lead there, as the header demands.
+        // SAFETY: the caller's array and pointer are null or valid, as the header demands.
         let room = unsafe { Room::new(triggers, array, count, "triggers") }?;
         world.with(|inner| room.fill(inner.world.report().triggers.iter().map(trigger)))
     })

@@ -1,4 +1,4 @@
-//! Scenes: worlds of built-in scenes and of the text of scene files, and what text adds to worlds.
+//! Scenes: worlds of built-in scenes and scene files, and additions from text.
 
 use std::collections::BTreeMap;
 use std::ffi::{CString, c_char};
@@ -12,8 +12,8 @@ use crate::pointer::{Out, tell, text, texts};
 use crate::status::{CaromStatus, Failure, call};
 use crate::world::{CaromWorld, Inner};
 
-/// What carom_world_add_toml() has added. Ids of each kind follow one another: those of the spheres are
-/// first_sphere, first_sphere + 1, ...
+/// Ids that carom_world_add_toml() has added. Ids of each kind are consecutive: those of the
+/// spheres are first_sphere, first_sphere + 1, ...
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct CaromAdded {
@@ -36,7 +36,7 @@ pub struct CaromAdded {
 }
 
 impl CaromAdded {
-    /// Counts something that was added with this id.
+    /// Counts an added id.
     fn count(first: &mut u64, count: &mut u64, id: u64) {
         if *count == 0 {
             *first = id;
@@ -45,7 +45,7 @@ impl CaromAdded {
     }
 }
 
-/// The name of a built-in scene, in the order in which `carom scenes` lists them; null past the last one.
+/// Returns the name of a built-in scene in the order of `carom scenes`; null after the last one.
 #[unsafe(no_mangle)]
 pub extern "C" fn carom_scene_name(index: usize) -> *const c_char {
     static NAMES: OnceLock<Vec<CString>> = OnceLock::new();
@@ -56,8 +56,9 @@ pub extern "C" fn carom_scene_name(index: usize) -> *const c_char {
     names.get(index).map_or(std::ptr::null(), |name| name.as_ptr())
 }
 
-/// Makes the world of a scene: a built-in one by its name or title, or a scene file by its path. Overrides
-/// are texts like "simulation.rule=contact", which change values of the scene; null for none.
+/// Makes the world of a built-in scene, found by name or title, or of a scene file, found by its
+/// path. Overrides are texts like "simulation.rule=contact" that replace values of the scene; they
+/// may be null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_from_scene(
     name: *const c_char,
@@ -70,7 +71,7 @@ pub unsafe extern "C" fn carom_world_from_scene(
         let mut world = unsafe { Out::new(world, "world") }?;
         // SAFETY: the caller's text is null or ends in a zero, as the header demands.
         let name = unsafe { text(name, "name") }?;
-        // SAFETY: the caller's texts are null or so many, as the header demands.
+        // SAFETY: the caller's texts are null or `override_count` texts, as the header demands.
         let overrides = unsafe { texts(overrides, override_count, "overrides") }?;
         let (scene, _) = Library::new().find(name, &parsed(&overrides)?)?;
         world.set(made(scene)?);
@@ -78,8 +79,8 @@ pub unsafe extern "C" fn carom_world_from_scene(
     })
 }
 
-/// Makes the world of the text of a scene file (TOML), with overrides as carom_world_from_scene() takes them. The
-/// message of an error has the line of what is wrong.
+/// Makes the world of a scene file's text (TOML), with overrides as in carom_world_from_scene().
+/// The message of an error has the line of the fault.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_from_toml(
     toml: *const c_char,
@@ -92,7 +93,7 @@ pub unsafe extern "C" fn carom_world_from_toml(
         let mut world = unsafe { Out::new(world, "world") }?;
         // SAFETY: the caller's text is null or ends in a zero, as the header demands.
         let toml = unsafe { text(toml, "toml") }?;
-        // SAFETY: the caller's texts are null or so many, as the header demands.
+        // SAFETY: the caller's texts are null or `override_count` texts, as the header demands.
         let overrides = unsafe { texts(overrides, override_count, "overrides") }?;
         world.set(made(Scene::from_toml_with(toml, "scene", &parsed(&overrides)?)?)?);
         Ok(())
@@ -108,9 +109,9 @@ fn made(scene: Scene) -> Result<CaromWorld, Failure> {
     Ok(CaromWorld::hold(Inner { world, described }))
 }
 
-/// Adds the spheres, generators, springs, colliders, forces and emitters that a text describes as scene files do
-/// (TOML). Spheres may overlap others; springs join spheres of the text. What was added goes to `added`, which may be
-/// null.
+/// Adds the spheres, generators, springs, colliders, forces and emitters of a text in the format of
+/// scene files (TOML). Spheres may overlap others; springs join spheres of the text. Writes the ids
+/// to `added`, which may be null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_add_toml(
     world: CaromWorld,
@@ -128,13 +129,13 @@ pub unsafe extern "C" fn carom_world_add_toml(
     })
 }
 
-/// Adds what a part of a scene describes.
+/// Adds the content of a part of a scene.
 fn add(inner: &mut Inner, mut part: Scene) -> Result<CaromAdded, Failure> {
     let Inner { world, described } = inner;
     part.colors.clone_from(&described.scene().colors);
     let (source, palette) = (part.world()?, Palette::new(&part)?);
     let mut added = CaromAdded::default();
-    // All is checked by now: nothing below is refused.
+    // Everything has been checked: nothing below fails.
     for force in &part.forces {
         let id = force.add_to(world)?.number();
         CaromAdded::count(&mut added.first_force, &mut added.forces, id);
@@ -146,7 +147,7 @@ fn add(inner: &mut Inner, mut part: Scene) -> Result<CaromAdded, Failure> {
     }
     let colliders = part.all_colliders().into_owned();
     described.change_colliders(|all| all.extend(colliders));
-    // The spheres of the world by their ids in the part.
+    // Ids of spheres in the part, with their ids in the world.
     let mut spheres = BTreeMap::new();
     for (index, &own) in source.spheres().ids().iter().enumerate() {
         let id = world.add_sphere(source.spheres().get(index))?;
@@ -170,8 +171,8 @@ fn add(inner: &mut Inner, mut part: Scene) -> Result<CaromAdded, Failure> {
     Ok(added)
 }
 
-/// Steps a world from now on as the table `[simulation]` of a scene file says (TOML): "[simulation]\nrule =
-/// \"contact\"". What the text does not say is as in a scene file that does not say it.
+/// Sets the simulation settings from the table `[simulation]` of a scene file (TOML):
+/// "[simulation]\nrule = \"contact\"". Missing settings get their defaults.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_set_simulation(
     world: CaromWorld,

@@ -1,4 +1,4 @@
-//! Snapshots: states of worlds to return to, in this process or as bytes.
+//! Snapshots of worlds, in this process or as bytes.
 
 use carom::Snapshot;
 use carom_scene::Checkpoint;
@@ -9,7 +9,8 @@ use crate::pointer::{Out, Room, Rows, Strided};
 use crate::status::{CaromStatus, call};
 use crate::world::CaromWorld;
 
-/// The state of a world at one moment, by a handle that is never given twice. Zero is no snapshot.
+/// A handle of a snapshot, the state of a world at one time. It is never reused; zero is no
+/// snapshot.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct CaromSnapshot {
@@ -20,13 +21,13 @@ pub struct CaromSnapshot {
 /// All snapshots of this process.
 static SNAPSHOTS: Registry<Held> = Registry::new("snapshot");
 
-/// All that the future of a world depends on, and what is known of it besides.
+/// Everything that the future of a world depends on, and its description.
 struct Held {
     snapshot: Snapshot,
     described: Described,
 }
 
-/// Takes a snapshot: everything the future of a world depends on.
+/// Takes a snapshot of everything that the future of a world depends on.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_snapshot(
     world: CaromWorld,
@@ -36,7 +37,7 @@ pub unsafe extern "C" fn carom_world_snapshot(
         // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
         let mut place = unsafe { Out::new(snapshot, "snapshot") }?;
         let held = world.with(|inner| {
-            // Bytes have the colours of spheres that were emitted, too.
+            // Bytes contain the colours of emitted spheres, too.
             let time = inner.world.time();
             inner.described.palette_mut().follow(time);
             let (snapshot, described) = (inner.world.snapshot(), inner.described.clone());
@@ -47,8 +48,8 @@ pub unsafe extern "C" fn carom_world_snapshot(
     })
 }
 
-/// Returns a world to a snapshot, of itself or of another world, bit for bit. What happened in the last step is
-/// forgotten.
+/// Restores a snapshot of this or another world, bit for bit. The report of the last step is
+/// removed.
 #[unsafe(no_mangle)]
 pub extern "C" fn carom_world_restore(world: CaromWorld, snapshot: CaromSnapshot) -> CaromStatus {
     call(|| {
@@ -67,7 +68,7 @@ pub extern "C" fn carom_snapshot_free(snapshot: CaromSnapshot) -> CaromStatus {
     call(|| SNAPSHOTS.take(snapshot.id).map(drop))
 }
 
-/// When a snapshot was taken [s].
+/// Reads the time of a snapshot [s].
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_snapshot_time(
     snapshot: CaromSnapshot,
@@ -81,8 +82,9 @@ pub unsafe extern "C" fn carom_snapshot_time(
     })
 }
 
-/// Writes a snapshot as bytes, the same ones on every platform, and their number to `size`; null for `bytes` gives the
-/// number only. The same version of Carom reads them, in Python and Rust, too. A force that is a function has no bytes.
+/// Writes a snapshot as bytes, which are the same on every platform, and their number to `size`. If
+/// `bytes` is null, only the number is written. The same version of Carom can read them, in Python
+/// and Rust, too. A snapshot with a force that is a function cannot be written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_snapshot_to_bytes(
     snapshot: CaromSnapshot,
@@ -92,7 +94,7 @@ pub unsafe extern "C" fn carom_snapshot_to_bytes(
 ) -> CaromStatus {
     call(|| {
         let array = Strided { stride: 0, count: capacity };
-        // SAFETY: the caller's array and pointer are null or lead there, as the header demands.
+        // SAFETY: the caller's array and pointer are null or valid, as the header demands.
         let room = unsafe { Room::new(bytes, array, size, "bytes") }?;
         let held = SNAPSHOTS.get(snapshot.id)?;
         let Held { snapshot, described } = &*held;
@@ -101,8 +103,8 @@ pub unsafe extern "C" fn carom_snapshot_to_bytes(
     })
 }
 
-/// Makes the snapshot that carom_snapshot_to_bytes() wrote. A checksum notices damage, but not what was made to mislead: read
-/// only bytes that you trust.
+/// Makes a snapshot from bytes of carom_snapshot_to_bytes(). A checksum detects damage, but not
+/// malicious bytes: read only bytes that you trust.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_snapshot_from_bytes(
     bytes: *const u8,
@@ -113,7 +115,7 @@ pub unsafe extern "C" fn carom_snapshot_from_bytes(
         // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
         let mut place = unsafe { Out::new(snapshot, "snapshot") }?;
         let array = Strided { stride: 0, count: size };
-        // SAFETY: the caller's array is null or lies so, as the header demands.
+        // SAFETY: the caller's array is null or has this layout, as the header demands.
         let bytes: Vec<u8> = unsafe { Rows::new(bytes, array, 1, "bytes") }?.values().collect();
         let Checkpoint { snapshot, scene, palette } = Checkpoint::from_bytes(&bytes)?;
         let described = Described::new(scene, palette);

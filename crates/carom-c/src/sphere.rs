@@ -1,4 +1,4 @@
-//! Spheres, one by one: added, read, changed, removed.
+//! Single spheres: add, read, change, remove.
 
 use carom::{DQuat, DVec3, Error, Friction, Mass, Sphere, SphereId, World};
 use carom_scene::Budget;
@@ -7,7 +7,7 @@ use crate::pointer::{Out, Plain, Rows, RowsMut, Strided, read, tell};
 use crate::status::{CaromStatus, Failure, call};
 use crate::world::{CaromWorld, Inner};
 
-/// A sphere. carom_sphere() makes one with usual values.
+/// A sphere. carom_sphere() returns one with default values.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CaromSphere {
@@ -19,11 +19,12 @@ pub struct CaromSphere {
     pub radius: f64,
     /// Mass [kg], > 0.
     pub mass: f64,
-    /// Density [kg/m^3], which makes the mass; 0 leaves it to `mass`. A world tells 0.
+    /// Density [kg/m^3], from which the mass is computed; 0 if `mass` is given. Reading a sphere
+    /// gives 0.
     pub density: f64,
     /// Coefficient of restitution in [0, 1].
     pub restitution: f64,
-    /// Coefficient of friction, >= 0; not a number (NAN) leaves it to what the sphere touches.
+    /// Coefficient of friction, >= 0; not a number (NAN) if the touching body decides.
     pub friction: f64,
     /// Coefficient of rolling friction, as `friction`.
     pub rolling_friction: f64,
@@ -31,9 +32,9 @@ pub struct CaromSphere {
     pub spinning_friction: f64,
     /// Coefficient of tangential restitution in [0, 1], or not a number.
     pub tangential_restitution: f64,
-    /// How it is turned: a quaternion x, y, z, w, of any length but zero.
+    /// Orientation: a quaternion x, y, z, w of any length but zero.
     pub orientation: [f64; 4],
-    /// Angular velocity, along the axis [rad/s].
+    /// Angular velocity [rad/s].
     pub angular_velocity: [f64; 3],
     /// Moment of inertia divided by m r^2, > 0: 2/5 for a solid ball, 2/3 for a thin shell.
     pub inertia_factor: f64,
@@ -65,7 +66,7 @@ impl From<Sphere> for CaromSphere {
 }
 
 impl From<CaromSphere> for Sphere {
-    /// Its numbers are not checked.
+    /// Converts without checking numbers.
     fn from(sphere: CaromSphere) -> Self {
         let mass = match sphere.density {
             0.0 => Mass::Kilograms(sphere.mass),
@@ -87,14 +88,14 @@ impl From<CaromSphere> for Sphere {
     }
 }
 
-/// Coefficients of sliding, rolling and spinning friction, and of tangential restitution: not a number where
-/// nothing is said.
+/// Returns the coefficients of sliding, rolling and spinning friction, and of tangential
+/// restitution; not a number for a missing one.
 pub(crate) fn coefficients(friction: Friction) -> [f64; 4] {
     let Friction { sliding, rolling, spinning, tangential_restitution, .. } = friction;
     [sliding, rolling, spinning, tangential_restitution].map(|it| it.unwrap_or(f64::NAN))
 }
 
-/// The friction of these coefficients.
+/// Returns the friction with these coefficients.
 pub(crate) fn friction_of(coefficients: [f64; 4]) -> Friction {
     let mut friction = Friction::default();
     [friction.sliding, friction.rolling, friction.spinning, friction.tangential_restitution] =
@@ -102,14 +103,15 @@ pub(crate) fn friction_of(coefficients: [f64; 4]) -> Friction {
     friction
 }
 
-/// A solid ball of 1 kg and radius 1 m at rest at the origin, with restitution 1, that leaves friction to what it
-/// touches.
+/// Returns a solid ball of 1 kg and radius 1 m at rest at the origin, with restitution 1 and
+/// without its own friction.
 #[unsafe(no_mangle)]
 pub extern "C" fn carom_sphere() -> CaromSphere {
     Sphere::new(DVec3::ZERO, 1.0).into()
 }
 
-/// Adds a sphere, which may overlap others. Its id, which is never given twice, goes to `id`, which may be null.
+/// Adds a sphere, which may overlap others. Writes its id, which is never reused, to `id`, which
+/// may be null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_add_sphere(
     world: CaromWorld,
@@ -126,8 +128,8 @@ pub unsafe extern "C" fn carom_world_add_sphere(
     })
 }
 
-/// Adds `count` spheres, each `stride` bytes after the one before (0: sizeof(CaromSphere)), all or none. Their ids go
-/// to `ids`, `count` of them one after another, which may be null.
+/// Adds `count` spheres, with `stride` bytes from one to the next (0: sizeof(CaromSphere)), all or
+/// none. Writes their ids to `ids`, `count` of them without gaps; it may be null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_add_spheres(
     world: CaromWorld,
@@ -138,11 +140,11 @@ pub unsafe extern "C" fn carom_world_add_spheres(
 ) -> CaromStatus {
     call(|| {
         refuse_too_many(count)?;
-        // SAFETY: the caller's array is null or lies so, as the header demands.
+        // SAFETY: the caller's array is null or has this layout, as the header demands.
         let spheres = unsafe { Rows::new(spheres, Strided { stride, count }, 1, "spheres") }?;
         let added = world.with(|inner| add_all(inner, &spheres))?;
         if !ids.is_null() {
-            // SAFETY: the caller's array is null or lies so, as the header demands.
+            // SAFETY: the caller's array is null or has this layout, as the header demands.
             let mut ids = unsafe { RowsMut::new(ids, Strided { stride: 0, count }, 1, "ids") }?;
             added.iter().enumerate().for_each(|(row, id)| ids.set_row(row, [id.number()]));
         }
@@ -150,7 +152,8 @@ pub unsafe extern "C" fn carom_world_add_spheres(
     })
 }
 
-/// More than a scene may have is a slip, and would be read from memory that is not there.
+/// Refuses more spheres than a scene may have: such a count is a mistake and would read beyond the
+/// array.
 pub(crate) fn refuse_too_many(count: usize) -> Result<(), Failure> {
     let most = Budget::MOST.spheres;
     if count as u64 > most {
@@ -163,7 +166,8 @@ pub(crate) fn refuse_too_many(count: usize) -> Result<(), Failure> {
 /// Adds all spheres, or none.
 fn add_all(inner: &mut Inner, rows: &Rows<'_, CaromSphere>) -> Result<Vec<SphereId>, Failure> {
     let spheres: Vec<Sphere> = rows.values().map(Sphere::from).collect();
-    // A world of their own checks them: one that refuses a sphere in the middle would have given ids.
+    // A separate world checks them first, because ids of the world would be used up before an
+    // invalid sphere.
     let mut check = World::default();
     for (row, &sphere) in spheres.iter().enumerate() {
         check.add_sphere(sphere).map_err(|error| refused("spheres", row, error))?;
@@ -172,7 +176,7 @@ fn add_all(inner: &mut Inner, rows: &Rows<'_, CaromSphere>) -> Result<Vec<Sphere
     spheres.into_iter().map(add).collect()
 }
 
-/// What is wrong with a row of an array.
+/// Returns the error of a row of an array.
 pub(crate) fn refused(name: &str, row: usize, error: Error) -> Failure {
     let problem = match &error {
         Error::Invalid { source, .. } => source.to_string(),
@@ -181,7 +185,7 @@ pub(crate) fn refused(name: &str, row: usize, error: Error) -> Failure {
     Failure { message: format!("{name}[{row}]: {problem}"), ..Failure::from(error) }
 }
 
-/// One sphere, by its id.
+/// Reads a sphere by its id.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_sphere(
     world: CaromWorld,
@@ -197,7 +201,7 @@ pub unsafe extern "C" fn carom_world_sphere(
     })
 }
 
-/// Changes a sphere to another one, which keeps the id and the force applied to it.
+/// Replaces a sphere, which keeps its id and its applied force.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_set_sphere(
     world: CaromWorld,
@@ -211,8 +215,8 @@ pub unsafe extern "C" fn carom_world_set_sphere(
     })
 }
 
-/// Takes spheres out of a world by their ids, `count` of them one after another: all or none. Spheres after them move
-/// up in the arrays.
+/// Removes `count` spheres by their ids, which are without gaps: all or none. Later spheres move up
+/// in the arrays.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_remove_spheres(
     world: CaromWorld,
@@ -221,14 +225,14 @@ pub unsafe extern "C" fn carom_world_remove_spheres(
 ) -> CaromStatus {
     call(|| {
         refuse_too_many(count)?;
-        // SAFETY: the caller's array is null or lies so, as the header demands.
+        // SAFETY: the caller's array is null or has this layout, as the header demands.
         let ids = unsafe { Rows::new(ids, Strided { stride: 0, count }, 1, "ids") }?;
         let ids: Vec<SphereId> = ids.values().map(SphereId::from_number).collect();
         world.with(|inner| Ok(inner.world.remove_spheres(&ids)?))
     })
 }
 
-/// The index of a sphere in all arrays, which changes when spheres before it are removed.
+/// Reads the index of a sphere in all arrays. It changes when earlier spheres are removed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_index_of(
     world: CaromWorld,

@@ -1,4 +1,4 @@
-//! Springs: between two spheres, or from one to a fixed point.
+//! Springs between two spheres, or from one to a fixed point.
 
 use carom::{DVec3, SphereId, Spring, SpringEnd, SpringId};
 
@@ -6,21 +6,22 @@ use crate::pointer::{Out, Plain, read, tell};
 use crate::status::{CaromStatus, Failure, call};
 use crate::world::CaromWorld;
 
-/// A spring with a damper beside it, between the centres of two spheres or from one to a fixed point. At the length l
-/// it pulls with stiffness (l - rest_length) + damping dl/dt. It goes with either sphere. carom_spring() makes one
-/// with usual values.
+/// A spring with a damper, between the centres of two spheres or from one to a fixed point. At the
+/// length l it pulls with stiffness (l - rest_length) + damping dl/dt. It is removed with either
+/// sphere. carom_spring() returns one with default values.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CaromSpring {
-    /// Id of the sphere at its first end.
+    /// Id of the sphere at the first end.
     pub sphere: u64,
-    /// Id of the sphere at its second end, another one; not read where `to_point` is 1.
+    /// Id of the sphere at the second end, a different one; ignored if `to_point` is 1.
     pub other: u64,
     /// 1 for a spring that ends at `point`, 0 for one that ends at the sphere `other`.
     pub to_point: u32,
-    /// 1 for a thread, which only pulls: it is slack up to its rest length; 0 for a spring that pushes, too.
+    /// 1 for a thread, which only pulls and is slack up to its rest length; 0 for a spring that
+    /// pushes, too.
     pub only_pulls: u32,
-    /// The fixed point [m]; not read where `to_point` is 0.
+    /// The fixed point [m]; ignored if `to_point` is 0.
     pub point: [f64; 3],
     /// Length without force [m], >= 0.
     pub rest_length: f64,
@@ -53,7 +54,7 @@ impl From<Spring> for CaromSpring {
 }
 
 impl CaromSpring {
-    /// The spring as the physics knows it, its numbers not checked.
+    /// Converts to the spring of the physics, without checking numbers.
     fn physical(&self) -> Result<Spring, Failure> {
         if self.to_point > 1 || self.only_pulls > 1 {
             let problem = "`to_point` and `only_pulls` must be 0 or 1 each";
@@ -69,13 +70,13 @@ impl CaromSpring {
     }
 }
 
-/// A spring of 1 N/m without damping, of no length without force, from sphere 0 to the origin.
+/// Returns a spring of 1 N/m without damping and with rest length 0, from sphere 0 to the origin.
 #[unsafe(no_mangle)]
 pub extern "C" fn carom_spring() -> CaromSpring {
     Spring::to_point(SphereId::from_number(0), DVec3::ZERO, 0.0).into()
 }
 
-/// Adds a spring. Its id, which is never given twice, goes to `id`, which may be null.
+/// Adds a spring. Writes its id, which is never reused, to `id`, which may be null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_add_spring(
     world: CaromWorld,
@@ -92,7 +93,7 @@ pub unsafe extern "C" fn carom_world_add_spring(
     })
 }
 
-/// One spring, by its id.
+/// Reads a spring by its id.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_spring(
     world: CaromWorld,
@@ -108,7 +109,7 @@ pub unsafe extern "C" fn carom_world_spring(
     })
 }
 
-/// Changes a spring to another one, which keeps the id.
+/// Replaces a spring, which keeps its id.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_set_spring(
     world: CaromWorld,
@@ -122,7 +123,7 @@ pub unsafe extern "C" fn carom_world_set_spring(
     })
 }
 
-/// Takes a spring out of a world; its spheres stay.
+/// Removes a spring; its spheres stay.
 #[unsafe(no_mangle)]
 pub extern "C" fn carom_world_remove_spring(world: CaromWorld, id: u64) -> CaromStatus {
     call(|| {

@@ -1,4 +1,4 @@
-//! How calls end: a status, and a message for people.
+//! Results of calls: a status, and a message for people.
 
 use std::any::Any;
 use std::cell::RefCell;
@@ -9,35 +9,35 @@ use carom::Error;
 use carom_scene::part::PartError;
 use carom_scene::{CheckpointError, SceneError};
 
-/// How a call ended. After any status but CAROM_STATUS_OK the world is as it was before the call, unless
-/// the function says otherwise, and carom_last_error() says what was wrong.
+/// Result of a call. After any status but CAROM_STATUS_OK the world is unchanged, unless the
+/// function states otherwise, and carom_last_error() returns the reason.
 #[repr(i32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum CaromStatus {
-    /// Done.
+    /// The call succeeded.
     Ok = 0,
     /// A pointer is null, or a handle is zero.
     Null = 1,
-    /// A handle names nothing: what it named was freed, or it was never given.
+    /// A handle is unknown: its object was freed or never existed.
     Handle = 2,
-    /// The world is in the middle of another call: of another thread, or of the one that called the
-    /// function of a force.
+    /// Another call is using the world: one of another thread, or the one that called the function
+    /// of a force.
     Busy = 3,
     /// A count, capacity or stride does not fit.
     Length = 4,
-    /// A text is not UTF-8, or a constant is none of its enumeration.
+    /// A text is not UTF-8, or a number is no constant of its enumeration.
     Argument = 5,
-    /// A number makes no sense: not finite, negative where it must not be, ...
+    /// A number is invalid: not finite, negative where it must not be, ...
     Invalid = 6,
-    /// An id names nothing in this world, or no scene has this name.
+    /// An id is unknown in this world, or no scene has this name.
     Unknown = 7,
-    /// The text of a scene makes no sense; the message names line and field.
+    /// The text of a scene is invalid; the message has line and field.
     Scene = 8,
-    /// The step was refused: a number would overflow, or there are more impacts than are allowed.
+    /// The step was refused: a number would overflow, or there were more impacts than allowed.
     Step = 9,
-    /// The step was stopped by carom_world_set_stop().
+    /// carom_world_set_stop() stopped the step.
     Stopped = 10,
-    /// Bytes are no snapshot, or the snapshot has no bytes.
+    /// Bytes are no snapshot, or a snapshot cannot be written as bytes.
     Snapshot = 11,
     /// There is not enough memory.
     Memory = 12,
@@ -59,12 +59,12 @@ impl Failure {
         Self { status, message: message.to_string() }
     }
 
-    /// An id that names nothing.
+    /// Returns the failure of an unknown id.
     pub fn unknown(kind: &str, id: u64) -> Self {
         Self::new(CaromStatus::Unknown, format!("there is no {kind} {id} in this world"))
     }
 
-    /// A fault of the engine, which it tells in a panic.
+    /// Returns the failure of a panic of the engine.
     fn of_panic(panic: &(dyn Any + Send)) -> Self {
         let text = panic.downcast_ref::<String>().map(String::as_str);
         let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
@@ -111,10 +111,10 @@ impl From<CheckpointError> for Failure {
     }
 }
 
-/// What a function of the interface does, between C and the engine: no panic leaves it, and the message of
-/// a failure is kept for carom_last_error().
+/// Runs the work of a function of the interface: no panic leaves it, and carom_last_error() keeps
+/// the message of a failure.
 pub(crate) fn call(work: impl FnOnce() -> Result<(), Failure>) -> CaromStatus {
-    // What a panic may have left half done is a world, whose lock is poisoned then.
+    // A panic may leave a world half done; its lock is then poisoned.
     let done = catch_unwind(AssertUnwindSafe(work));
     match done.unwrap_or_else(|panic| Err(Failure::of_panic(&*panic))) {
         Ok(()) => CaromStatus::Ok,
@@ -126,24 +126,25 @@ pub(crate) fn call(work: impl FnOnce() -> Result<(), Failure>) -> CaromStatus {
 }
 
 thread_local! {
-    /// The message of the last failure of this thread.
+    /// The message of the last failure in this thread.
     static LAST: RefCell<CString> = RefCell::default();
 }
 
 fn remember(message: &str) {
     let text = CString::new(message.replace('\0', "\u{fffd}")).unwrap_or_default();
-    // A thread that is about to end remembers nothing.
+    // A thread that is ending keeps no message.
     let _ = LAST.try_with(|last| last.replace(text));
 }
 
-/// What was wrong in the last call of this thread that was refused, in UTF-8; empty if none was. The text
-/// holds until the next refused call of this thread.
+/// Returns the message of the last refused call of this thread, in UTF-8; empty if none was
+/// refused. The text is valid until the next refused call of this thread.
 #[unsafe(no_mangle)]
 pub extern "C" fn carom_last_error() -> *const c_char {
     LAST.try_with(|last| last.borrow().as_ptr()).unwrap_or(c"".as_ptr())
 }
 
-/// The name of a status, as in CAROM_STATUS_OK: "ok", "null", ...; "unknown status" for any other number.
+/// Returns the name of a status: "ok" for CAROM_STATUS_OK, "null", ...; "unknown status" for any
+/// other number.
 #[unsafe(no_mangle)]
 pub extern "C" fn carom_status_name(status: i32) -> *const c_char {
     const NAMES: [&CStr; 15] = [

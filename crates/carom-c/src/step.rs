@@ -1,4 +1,4 @@
-//! Time: steps of a world.
+//! Steps and time of a world.
 
 use crate::pointer::{Out, tell};
 use crate::status::{CaromStatus, call};
@@ -10,8 +10,9 @@ pub extern "C" fn carom_world_step(world: CaromWorld, dt: f64) -> CaromStatus {
     call(|| world.with(|inner| Ok(inner.world.step(dt).map(drop)?)))
 }
 
-/// Advances a world by so many frames of its own frame time (carom_world_frame_time()). If a frame is refused, those
-/// before it are kept; `taken`, which may be null, gets their number.
+/// Advances a world by `frames` frames of its frame time (carom_world_frame_time()). If a frame is
+/// refused, those before it are kept. Writes the number of frames taken to `taken`, which may be
+/// null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_advance(
     world: CaromWorld,
@@ -34,15 +35,15 @@ pub unsafe extern "C" fn carom_world_advance(
     })
 }
 
-/// Advances a world to its next impact and answers it, with all others at that instant; by `within` [s] if none
-/// comes before. Only under the rule `exact`.
+/// Advances a world to its next impact and resolves it with all others at that time, at most by
+/// `within` [s]. Only under the rule `exact`.
 #[unsafe(no_mangle)]
 pub extern "C" fn carom_world_step_to_next_event(world: CaromWorld, within: f64) -> CaromStatus {
     call(|| world.with(|inner| Ok(inner.world.step_to_next_event(within).map(drop)?)))
 }
 
-/// The time of the next impact [s], infinity if none comes within so many seconds. Only under the rule `exact`; the
-/// world stays as it is.
+/// Reads the time of the next impact [s]; infinity if none comes within `within` [s]. Only under
+/// the rule `exact`; the world does not change.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_next_event_time(
     world: CaromWorld,
@@ -58,20 +59,20 @@ pub unsafe extern "C" fn carom_world_next_event_time(
     })
 }
 
-/// Time since the beginning [s]: the sum of all steps.
+/// Reads the time since the start [s]: the sum of all steps.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_time(world: CaromWorld, time: *mut f64) -> CaromStatus {
     // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
     world.measure(unsafe { Out::new(time, "time") }, |inner| inner.world.time())
 }
 
-/// Sets the clock [s], for forces that depend on time. A world with emitters refuses it.
+/// Sets the time [s], for forces that depend on it. Refused for a world with emitters.
 #[unsafe(no_mangle)]
 pub extern "C" fn carom_world_set_time(world: CaromWorld, time: f64) -> CaromStatus {
     call(|| world.with(|inner| Ok(inner.world.set_time(time)?)))
 }
 
-/// Length of a frame [s], as the scene says; 1/60 s unless it does.
+/// Reads the frame time [s] of the scene; the default is 1/60 s.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_frame_time(
     world: CaromWorld,
@@ -82,8 +83,8 @@ pub unsafe extern "C" fn carom_world_frame_time(
     world.measure(place, |inner| inner.described.scene().simulation.frame_time)
 }
 
-/// The state of a world as one number, equal for equal states on every platform and in every language: what `carom
-/// run` prints, in hexadecimal digits.
+/// Reads the state hash of a world, equal for equal states on every platform and in every language.
+/// `carom run` prints it in hexadecimal digits.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_state_hash(world: CaromWorld, hash: *mut u64) -> CaromStatus {
     // SAFETY: the caller's pointer is null or leads to its value, as the header demands.

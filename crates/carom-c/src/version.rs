@@ -1,14 +1,14 @@
-//! Which version of the interface this is.
+//! The version of the interface.
 
 use std::ffi::{CStr, c_char};
 
 use crate::status::{CaromStatus, Failure, call};
 
-/// The version of the interface that this header declares. Within one version functions are only added:
-/// structures, constants and what functions take stay as they are.
+/// The version of the interface in this header. Within one version functions are only added:
+/// structures, constants and parameters stay the same.
 pub const CAROM_ABI_VERSION: u32 = 2;
 
-/// The version of Carom, like "0.1.0".
+/// Returns the version of Carom, for example "0.1.0".
 #[unsafe(no_mangle)]
 pub extern "C" fn carom_version() -> *const c_char {
     const VERSION: &CStr =
@@ -19,13 +19,13 @@ pub extern "C" fn carom_version() -> *const c_char {
     VERSION.as_ptr()
 }
 
-/// The version of the interface that the library has.
+/// Returns the version of the library's interface.
 #[unsafe(no_mangle)]
 pub extern "C" fn carom_abi_version() -> u32 {
     CAROM_ABI_VERSION
 }
 
-/// Checks that the library has the interface that a program was compiled for: call it first, with
+/// Checks that the library has the interface that the program was compiled for. Call it first, with
 /// CAROM_ABI_VERSION.
 #[unsafe(no_mangle)]
 pub extern "C" fn carom_check_abi(version: u32) -> CaromStatus {

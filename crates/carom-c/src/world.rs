@@ -1,4 +1,4 @@
-//! Worlds by handle: made, copied, freed.
+//! Worlds by handle: make, copy, free.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, TryLockError};
@@ -11,10 +11,10 @@ use crate::handle::Registry;
 use crate::pointer::Out;
 use crate::status::{CaromStatus, Failure, call};
 
-/// A world, by a handle that is never given twice. Zero is no world.
+/// A handle of a world. It is never reused; zero is no world.
 ///
-/// One thread at a time may use a world: a call while another is at work on it ends in CAROM_STATUS_BUSY. Different
-/// worlds are independent.
+/// Only one thread at a time may use a world: a call during another one returns CAROM_STATUS_BUSY.
+/// Different worlds are independent.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct CaromWorld {
@@ -25,27 +25,27 @@ pub struct CaromWorld {
 /// All worlds of this process.
 static WORLDS: Registry<Held> = Registry::new("world");
 
-/// A world, and what stops it.
+/// A world, and the flag that stops it.
 struct Held {
     stop: Arc<AtomicBool>,
     inner: Mutex<Inner>,
 }
 
-/// A world, and what is known of it besides.
+/// A world and its description.
 pub(crate) struct Inner {
     pub world: World,
     pub described: Described,
 }
 
 impl CaromWorld {
-    /// Holds a world, and says by which handle.
+    /// Stores a world. Returns its handle.
     pub(crate) fn hold(mut inner: Inner) -> Self {
         let stop = Arc::new(AtomicBool::new(false));
         inner.world.set_stop_request(Some(StopRequest::from(Arc::clone(&stop))));
         Self { id: WORLDS.add(Held { stop, inner: Mutex::new(inner) }) }
     }
 
-    /// Works on the world, unless another call is at it.
+    /// Runs `work` on the world, unless another call is using it.
     pub(crate) fn with<T>(
         self,
         work: impl FnOnce(&mut Inner) -> Result<T, Failure>,
@@ -64,7 +64,7 @@ impl CaromWorld {
         work(&mut inner)
     }
 
-    /// Writes what is measured of the world to a place.
+    /// Writes a measured value of the world to memory of the program.
     pub(crate) fn measure<T: Copy>(
         self,
         out: Result<Out<'_, T>, Failure>,
@@ -77,7 +77,7 @@ impl CaromWorld {
     }
 }
 
-/// Makes an empty world at time 0, stepped by the rule `exact`.
+/// Makes an empty world at time 0 under the rule `exact`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_new(world: *mut CaromWorld) -> CaromStatus {
     call(|| {
@@ -89,8 +89,7 @@ pub unsafe extern "C" fn carom_world_new(world: *mut CaromWorld) -> CaromStatus 
     })
 }
 
-/// Makes a copy of a world, which goes on from the same state by itself. Forces that are functions act on
-/// both.
+/// Makes an independent copy of a world in the same state. Forces that are functions act on both.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_copy(world: CaromWorld, copy: *mut CaromWorld) -> CaromStatus {
     call(|| {
@@ -104,7 +103,7 @@ pub unsafe extern "C" fn carom_world_copy(world: CaromWorld, copy: *mut CaromWor
     })
 }
 
-/// Frees a world. A step that is at work on it in another thread is stopped.
+/// Frees a world, and stops a step of another thread on it.
 #[unsafe(no_mangle)]
 pub extern "C" fn carom_world_free(world: CaromWorld) -> CaromStatus {
     call(|| {
@@ -113,14 +112,15 @@ pub extern "C" fn carom_world_free(world: CaromWorld) -> CaromStatus {
     })
 }
 
-/// Whether a handle is that of a world: 1, or 0.
+/// Returns 1 if a handle is that of a world, else 0.
 #[unsafe(no_mangle)]
 pub extern "C" fn carom_world_is_valid(world: CaromWorld) -> i32 {
     i32::from(WORLDS.get(world.id).is_ok())
 }
 
-/// Stops the step that is at work on a world, within milliseconds under the rule `exact`, and refuses further ones
-/// with CAROM_STATUS_STOPPED: 1. Lets it step again: 0. This can be called from any thread, at any time.
+/// With `stop` 1, stops the step in progress on a world, within milliseconds under the rule
+/// `exact`, and refuses further ones with CAROM_STATUS_STOPPED. With 0, allows steps again. Any
+/// thread can call this at any time.
 #[unsafe(no_mangle)]
 pub extern "C" fn carom_world_set_stop(world: CaromWorld, stop: i32) -> CaromStatus {
     call(|| {

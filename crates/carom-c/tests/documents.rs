@@ -1,4 +1,4 @@
-//! What documents and C# say of the interface is what it is.
+//! Documents and C# agree with the interface.
 
 use std::fs;
 use std::path::Path;
@@ -7,29 +7,25 @@ fn read(file: &str) -> String {
     fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(file)).unwrap()
 }
 
-/// The blocks of C in a document.
+/// Returns the blocks of C code in a document.
 fn blocks(document: &str) -> Vec<String> {
     let starts = document.split("\n```c\n").skip(1);
     starts.map(|rest| format!("{}\n", rest.split("\n```").next().unwrap())).collect()
 }
 
 #[test]
-fn the_first_program_of_the_guide_is_one_that_tests_run() {
-    let program = read("examples/bouncing_ball.c");
-    assert_eq!(blocks(&read("../../docs/c.md"))[0], program);
-}
-
-#[test]
-fn the_lines_of_the_readme_are_of_a_program_that_tests_run() {
+fn the_first_lines_of_guide_and_readme_are_of_a_program_that_tests_run() {
     let program = read("examples/bouncing_ball.c");
     let lines: Vec<&str> = program.lines().map(str::trim).collect();
-    let block = &blocks(&read("../../README.md"))[0];
-    for line in block.lines() {
-        assert!(lines.contains(&line.trim()), "{line}");
+    for document in ["../../docs/c.md", "../../README.md"] {
+        for line in blocks(&read(document))[0].lines() {
+            assert!(lines.contains(&line.trim()), "{document}: {line}");
+        }
     }
 }
 
-/// The names of an enumeration of the header in their order: `CAROM_LIST_LEFT_OUT = 6` is `leftout`. They count up from 0.
+/// Returns the names of an enumeration of the header in order: `CAROM_LIST_LEFT_OUT = 6` becomes
+/// `leftout`. They must count up from 0.
 fn of_header(name: &str) -> Vec<String> {
     let (header, prefix) = (read("include/carom.h"), format!("CAROM_{name}_"));
     let numbered =
@@ -43,7 +39,7 @@ fn of_header(name: &str) -> Vec<String> {
     numbered.into_iter().map(|(name, _)| name).collect()
 }
 
-/// The names of an enumeration of C#, in their order.
+/// Returns the names of an enumeration of C# in order.
 fn of_csharp(name: &str) -> Vec<String> {
     let source = read("csharp/CaromWorld.cs");
     let (_, rest) = source.split_once(&format!("public enum {name}")).unwrap();

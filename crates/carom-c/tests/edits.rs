@@ -1,5 +1,5 @@
-//! What is written is read, through every quantity and every structure; and a snapshot of a world that was changed in every way
-//! describes what is in it.
+//! Written values are read back, through every quantity and every structure; a snapshot of a world
+//! after every kind of change describes its contents.
 
 use std::ffi::c_void;
 use std::ptr::{null, null_mut};
@@ -22,7 +22,7 @@ fn empty() -> CaromWorld {
     world
 }
 
-/// Spheres that differ in everything, five of them.
+/// Returns five spheres that differ in every property.
 fn spheres() -> [CaromSphere; 5] {
     [0.0, 1.0, 2.0, 3.0, 4.0].map(|i| CaromSphere {
         position: [3.0 * i, 0.25 * i, -i],
@@ -41,7 +41,7 @@ fn spheres() -> [CaromSphere; 5] {
     })
 }
 
-/// The numbers of a quantity of a sphere.
+/// Returns the numbers of a quantity of a sphere.
 fn numbers(sphere: &CaromSphere, quantity: i32) -> Vec<f64> {
     match quantity {
         0 => sphere.position.to_vec(),
@@ -59,7 +59,7 @@ fn numbers(sphere: &CaromSphere, quantity: i32) -> Vec<f64> {
     }
 }
 
-/// The bits of numbers: not a number equals itself there.
+/// Returns the bits of numbers, by which NaN equals itself.
 fn bits(numbers: &[f64]) -> Vec<u64> {
     numbers.iter().map(|number| number.to_bits()).collect()
 }
@@ -94,21 +94,21 @@ fn every_quantity_is_read_as_it_was_written_and_gaps_are_left_alone() {
         let rows: Vec<f64> =
             all.iter().flat_map(|it| [numbers(it, quantity), vec![GAP]].concat()).collect();
         let (width, mut read) = (rows.len() / 5, vec![GAP; rows.len()]);
-        // SAFETY: five rows that lie so.
+        // SAFETY: five rows of this layout.
         ok(unsafe { carom_world_write(world, quantity, rows.as_ptr(), 8 * width, 5) });
-        // SAFETY: room for five rows that lie so.
+        // SAFETY: room for five rows of this layout.
         ok(unsafe { carom_world_read(world, quantity, read.as_mut_ptr(), 8 * width, 5) });
         assert_eq!(bits(&read), bits(&rows), "quantity {quantity}");
         // All numbers above fit into 32 bits.
         let mut narrow = vec![GAP as f32; rows.len()];
-        // SAFETY: room for five rows that lie so.
+        // SAFETY: room for five rows of this layout.
         ok(unsafe { carom_world_read_f32(world, quantity, narrow.as_mut_ptr(), 4 * width, 5) });
-        // SAFETY: five rows that lie so.
+        // SAFETY: five rows of this layout.
         ok(unsafe { carom_world_write_f32(world, quantity, narrow.as_ptr(), 4 * width, 5) });
         let narrow: Vec<f64> = narrow.into_iter().map(f64::from).collect();
         assert_eq!(bits(&narrow), bits(&rows), "quantity {quantity}");
     }
-    // What was written last of each is what the spheres have.
+    // The last write of each quantity is in the spheres.
     for (id, sphere) in (0..).zip(&all) {
         let mut read = carom_sphere();
         // SAFETY: a place for a sphere.
@@ -128,7 +128,7 @@ unsafe extern "C" fn nothing(
 ) {
 }
 
-/// Colliders of every shape, with values that are not usual.
+/// Returns colliders of every shape with unusual values.
 fn colliders() -> [CaromCollider; 5] {
     let usual = CaromCollider {
         size: [1.0, 2.0, 3.0],
@@ -155,14 +155,14 @@ fn colliders() -> [CaromCollider; 5] {
     ]
 }
 
-/// Fields of a collider without those that are no number.
+/// Returns a collider without the fields that are not a number.
 fn comparable(collider: CaromCollider) -> CaromCollider {
     assert!(collider.friction.is_nan() && collider.spinning_friction.is_nan());
     let (friction, spinning_friction, tangential_restitution) = (0.0, 0.0, 0.0);
     CaromCollider { friction, spinning_friction, tangential_restitution, ..collider }
 }
 
-/// The state hash of a world of this text, to which `more` is added, after a step.
+/// Returns the state hash after a step of a world from `text` with `more` added.
 fn hash_after_a_step(text: &std::ffi::CStr, more: &std::ffi::CStr) -> u64 {
     let (mut world, mut hash) = (CaromWorld::default(), 0);
     // SAFETY: a text, and a place for a world.
@@ -246,7 +246,7 @@ fn a_snapshot_of_an_edited_world_describes_what_is_in_it() {
     ok(carom_world_free(world));
 }
 
-/// A snapshot by its bytes.
+/// Returns a snapshot by way of its bytes.
 fn read(snapshot: CaromSnapshot) -> Checkpoint {
     let mut size = 0;
     // SAFETY: a place for a size.

@@ -1,4 +1,5 @@
-//! Forces that are functions: under every rule they are those of the engine, and what is no number is an error.
+//! Forces that are functions equal those of the engine under every rule; a force that is not a
+//! number is an error.
 
 use std::ffi::{CString, c_void};
 use std::ptr::{null, null_mut};
@@ -110,14 +111,14 @@ fn applied_forces_are_taken_away_by_no_rows() {
     // SAFETY: a place for a count.
     unsafe { carom_world_count(world, &raw mut count) };
     let (quantity, forces) = (CaromQuantity::AppliedForces as i32, vec![1.0; 3 * count]);
-    // SAFETY: so many rows.
+    // SAFETY: as many rows as stated.
     let written = unsafe { carom_world_write(world, quantity, forces.as_ptr(), 0, count) };
     assert_eq!(written, CaromStatus::Ok);
     // SAFETY: no rows.
     let written = unsafe { carom_world_write(world, quantity, null(), 0, 0) };
     assert_eq!(written, CaromStatus::Ok);
     let mut read = vec![7.0; 3 * count];
-    // SAFETY: so many rows.
+    // SAFETY: as many rows as stated.
     unsafe { carom_world_read(world, quantity, read.as_mut_ptr(), 0, count) };
     assert_eq!(read, vec![0.0; 3 * count]);
     assert_eq!(carom_world_free(world), CaromStatus::Ok);

@@ -1,5 +1,5 @@
-//! Worlds through the C interface are, to the bit, worlds of the engine: built-in scenes step by step, and a world that
-//! is put together call by call.
+//! Worlds through the C interface have the bits of the engine's worlds: built-in scenes step by
+//! step, and a world that is built by calls.
 
 use std::ffi::CString;
 use std::ptr;
@@ -31,7 +31,7 @@ fn from_scene(name: &str) -> CaromWorld {
 
 #[test]
 fn scenes_have_the_hashes_of_the_engine_in_every_frame() {
-    // Of each rule, with emitters, friction, a periodic box.
+    // Scenes of each rule, with emitters, friction, a periodic box.
     let names = ["simtest1", "simtest3", "tutorial3", "cradle", "billiards", "masse", "pour"];
     for name in names {
         let (scene, _) = Library::new().find(name, &[]).unwrap();

@@ -1,6 +1,6 @@
-//! The header is what the sources declare, and `examples/every_function.c` calls each function in it.
+//! The header matches the sources, and `examples/every_function.c` calls each of its functions.
 //!
-//! `cargo xtask header` has the first test write the header anew.
+//! `cargo xtask header` lets the first test rewrite the header.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -8,12 +8,12 @@ use std::path::Path;
 
 use cbindgen::{Builder, Config};
 
-/// The sources, in the order in which the header has what they declare.
+/// The sources in the order of their declarations in the header.
 const SOURCES: [&str; 14] = [
     "version", "status", "world", "scene", "step", "sphere", "quantity", "collider", "force",
     "spring", "listing", "report", "measures", "snapshot",
 ];
-/// Sources that declare nothing of the header.
+/// Sources without declarations in the header.
 const OTHERS: [&str; 4] = ["described", "handle", "lib", "pointer"];
 
 fn folder() -> &'static Path {
@@ -53,7 +53,7 @@ fn every_source_is_in_the_header_or_declares_nothing() {
     }
 }
 
-/// The names of all functions that the header declares.
+/// Returns the names of all functions in the header.
 fn functions() -> BTreeSet<String> {
     let text = fs::read_to_string(folder().join("include/carom.h")).unwrap();
     let code: Vec<&str> = text.lines().filter(|line| !line.trim().starts_with("//")).collect();
@@ -61,7 +61,7 @@ fn functions() -> BTreeSet<String> {
     names.collect()
 }
 
-/// The functions of the interface that a line of C declares or calls.
+/// Returns the functions of the interface that a line of C declares or calls.
 fn called(line: &str) -> Vec<String> {
     let starts = line.match_indices("carom_").map(|(start, _)| &line[start..]);
     let names = starts.filter_map(|rest| {

@@ -1,5 +1,5 @@
-//! What programs were compiled for: the layout of structures and the numbers of constants. A change here is another
-//! `CAROM_ABI_VERSION`.
+//! The layout of structures and the numbers of constants stay as programs were compiled for. A
+//! change here needs a new `CAROM_ABI_VERSION`.
 
 use std::mem::{align_of, offset_of, size_of};
 

@@ -1,5 +1,5 @@
-//! Misuse is an error, whatever it is: ten thousand wrong calls, drawn from a fixed seed, each end in a status with a
-//! message, and leave a world as it was.
+//! Every misuse is an error: ten thousand wrong calls from a fixed seed each return a status with a
+//! message and leave the world unchanged.
 
 #![allow(
     clippy::multiple_unsafe_ops_per_block,
@@ -13,13 +13,13 @@ use carom_c::*;
 use rand_core::{Rng, SeedableRng};
 use rand_pcg::Pcg32;
 
-/// What wrong calls are made with.
+/// Values for wrong calls.
 struct Bench {
     random: Pcg32,
     world: CaromWorld,
-    /// Handles that name no world: zero, freed, of a snapshot, never given.
+    /// Handles that are no world: zero, freed, of a snapshot, never used.
     bad: [CaromWorld; 4],
-    /// Handles that name no snapshot.
+    /// Handles that are no snapshot.
     bad_snapshots: [CaromSnapshot; 4],
 }
 
@@ -52,12 +52,12 @@ impl Bench {
         list[self.below(list.len() as u32) as usize]
     }
 
-    /// A number that is nowhere allowed.
+    /// Returns a number that is allowed nowhere.
     fn no_number(&mut self) -> f64 {
         self.pick(&[f64::NAN, f64::INFINITY, f64::NEG_INFINITY])
     }
 
-    /// An id that names nothing.
+    /// Returns an unknown id.
     fn no_id(&mut self) -> u64 {
         let far = u64::from(self.random.next_u32()) << 20;
         self.pick(&[u64::MAX, 1 << 40, far + 1_000_000])
@@ -88,7 +88,7 @@ fn hash(world: CaromWorld) -> u64 {
     hash
 }
 
-/// A wrong call, and the statuses that it may end in.
+/// A wrong call with the statuses that it may return.
 type Misuse = fn(&mut Bench) -> (CaromStatus, &'static [CaromStatus]);
 
 const HANDLE: &[CaromStatus] = &[CaromStatus::Null, CaromStatus::Handle];
@@ -137,12 +137,12 @@ fn ten_thousand_wrong_calls_are_errors_and_change_nothing() {
     }
     assert_eq!(hash(bench.world), before);
     assert_eq!(seen[CaromStatus::Ok as usize] + seen[CaromStatus::Panic as usize], 0);
-    // The world is as good as ever.
+    // The world still works.
     ok(carom_world_step(bench.world, 0.01));
     ok(carom_world_free(bench.world));
 }
 
-/// A handle that names no world, to any function.
+/// Passes a handle that is no world to any function.
 fn bad_handle(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatus]) {
     let world = bench.pick(&bench.bad.clone());
     let (mut number, mut count, mut id) = (0.0, 0_usize, 0_u64);
@@ -172,7 +172,7 @@ fn bad_handle(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatus]) {
     (status, HANDLE)
 }
 
-/// A handle that names no snapshot.
+/// Passes a handle that is no snapshot.
 fn bad_snapshot(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatus]) {
     let snapshot = bench.pick(&bench.bad_snapshots.clone());
     let (mut time, mut size) = (0.0, 0);
@@ -189,7 +189,7 @@ fn bad_snapshot(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatus]) {
     (status, HANDLE)
 }
 
-/// No place for a result.
+/// Passes null for a result.
 fn null_result(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatus]) {
     let (world, function) = (bench.world, bench.below(14));
     // SAFETY: null is refused.
@@ -214,7 +214,7 @@ fn null_result(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatus]) {
     (status, NULL)
 }
 
-/// Nothing where something is read.
+/// Passes null for an argument.
 fn null_argument(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatus]) {
     let (world, function, mut made) = (bench.world, bench.below(12), CaromWorld::default());
     let mut snapshot = CaromSnapshot::default();
@@ -240,19 +240,19 @@ fn null_argument(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatus]) {
     (status, NULL)
 }
 
-/// Another number of rows than there are spheres.
+/// Passes a number of rows that is not that of the spheres.
 fn wrong_count(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatus]) {
     let (world, count) = (bench.world, bench.count());
     let mut rows = vec![0.0; 4 * (count + 40)];
     let wrong = match bench.below(3) {
         0 => count + 1 + bench.below(30) as usize,
         1 => count - 1,
-        // No array has so many.
+        // No array is that long.
         _ => usize::MAX - bench.below(9) as usize,
     };
-    // The force that is applied to a sphere is taken away by no rows.
+    // Writing no rows would remove the applied forces.
     let (quantity, is_read) = (bench.below(12) as i32, bench.below(2) == 0);
-    // SAFETY: there is more room than is spoken of, or so little that it is refused.
+    // SAFETY: the rows are longer than the stated count, or the count is refused.
     let status = unsafe {
         if is_read {
             carom_world_read(world, quantity, rows.as_mut_ptr(), 0, wrong)
@@ -263,7 +263,7 @@ fn wrong_count(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatus]) {
     (status, LENGTH)
 }
 
-/// Rows that would lie over each other.
+/// Passes a stride with which rows would overlap.
 fn wrong_stride(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatus]) {
     let (world, count) = (bench.world, bench.count());
     let mut rows = vec![0.0; 4 * count];
@@ -285,7 +285,7 @@ fn wrong_stride(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatus]) {
     (status, LENGTH)
 }
 
-/// Less room than a list needs, or more spheres than are allowed.
+/// Passes too little memory for a list, or too many spheres.
 fn no_room(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatus]) {
     let (world, sphere, function) = (bench.world, carom_sphere(), bench.below(3));
     let (mut id, mut length) = (0, 0);
@@ -301,7 +301,7 @@ fn no_room(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatus]) {
     (status, LENGTH)
 }
 
-/// A number that is none of an enumeration.
+/// Passes a number that is no constant of an enumeration.
 fn no_constant(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatus]) {
     let (world, mut length, mut number) = (bench.world, 0, 0.0);
     let wrong = bench.pick(&[-1, 13, 99, i32::MIN, i32::MAX]);
@@ -364,7 +364,7 @@ fn no_number_in_a_sphere(bench: &mut Bench) -> (CaromStatus, &'static [CaromStat
 
 fn first_id(world: CaromWorld) -> u64 {
     let (mut ids, mut length) = (vec![0; 1000], 0);
-    // SAFETY: so many places.
+    // SAFETY: as many places as stated.
     ok(unsafe { carom_world_ids(world, 0, ids.as_mut_ptr(), 0, 1000, &raw mut length) });
     ids[0]
 }
@@ -391,7 +391,7 @@ fn no_number_in_a_collider(bench: &mut Bench) -> (CaromStatus, &'static [CaromSt
 fn no_number_in_an_array(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatus]) {
     let (count, quantity) = (bench.count(), bench.below(13) as i32);
     let is_friction = (8..12).contains(&quantity);
-    // Not a number is what says nothing of friction.
+    // NaN is valid there: a sphere without its own friction.
     let number = if is_friction { f64::INFINITY } else { bench.no_number() };
     let width = match quantity {
         0 | 1 | 6 | 12 => 3,
@@ -402,7 +402,7 @@ fn no_number_in_an_array(bench: &mut Bench) -> (CaromStatus, &'static [CaromStat
     rows[bench.below((width * count) as u32) as usize] = number;
     let narrow: Vec<f32> = rows.iter().map(|&number| number as f32).collect();
     let is_narrow = bench.below(2) == 0;
-    // SAFETY: so many rows.
+    // SAFETY: as many rows as stated.
     let status = unsafe {
         if is_narrow {
             carom_world_write_f32(bench.world, quantity, narrow.as_ptr(), 0, count)
@@ -488,7 +488,7 @@ fn no_bytes(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatus]) {
         bytes.splice(0..0, *b"carom\x1a\r\n");
     }
     let mut snapshot = CaromSnapshot::default();
-    // SAFETY: so many bytes, and a place for a snapshot.
+    // SAFETY: as many bytes as stated, and a place for a snapshot.
     let status =
         unsafe { carom_snapshot_from_bytes(bytes.as_ptr(), bytes.len(), &raw mut snapshot) };
     (status, &[CaromStatus::Snapshot])

@@ -1,4 +1,4 @@
-//! Springs by calls: the bits of a scene that has them, read as they were added, and refused where they make no sense.
+//! Springs by calls: the same bits as in a scene, read as they were added, and refused if invalid.
 
 #![allow(
     clippy::multiple_unsafe_ops_per_block,
@@ -15,7 +15,7 @@ const BALLS: &str = "name = \"springs\"\nspheres = [{ radius = 0.1 }, { position
 const SPRINGS: &str = "springs = [{ spheres = [0, 1], rest_length = 0.5, stiffness = 10, damping = 0.25 }, \
                        { sphere = 2, anchor = [4, 0, 0], rest_length = 1.25, stiffness = 20, only_pulls = true }]";
 
-/// What `SPRINGS` describes.
+/// Returns the springs that `SPRINGS` describes.
 fn springs() -> [CaromSpring; 2] {
     let pair = CaromSpring {
         to_point: 0,
@@ -76,7 +76,7 @@ fn read(world: CaromWorld, id: u64) -> CaromSpring {
     spring
 }
 
-/// The balls, with both springs added by calls.
+/// Makes a world with the balls, and adds both springs by calls.
 fn joined() -> CaromWorld {
     let world = of_text(BALLS);
     for (number, spring) in (0..).zip(springs()) {
@@ -171,7 +171,7 @@ fn springs_that_make_no_sense_are_refused_and_change_nothing() {
         assert_eq!(set, status, "{spring:?}: {}", message());
     }
     assert_eq!([0, 1].map(|id| read(world, id)), springs());
-    // SAFETY: null is refused, and so is what is not there.
+    // SAFETY: null and unknown ids are refused.
     unsafe {
         assert_eq!(carom_world_add_spring(world, null(), null_mut()), CaromStatus::Null);
         assert_eq!(carom_world_set_spring(world, 0, null()), CaromStatus::Null);

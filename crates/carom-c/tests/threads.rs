@@ -1,5 +1,5 @@
-//! Several threads: a world that is at work refuses other calls, can be stopped and freed; different worlds do not know of
-//! each other.
+//! Several threads: a world in use refuses other calls, and can be stopped and freed; different
+//! worlds are independent.
 
 #![allow(
     clippy::multiple_unsafe_ops_per_block,
@@ -20,9 +20,9 @@ fn scene(name: &std::ffi::CStr) -> CaromWorld {
     world
 }
 
-/// Waits until a world is at work.
+/// Waits until a world is being stepped.
 fn wait_for_work(world: CaromWorld) {
-    // A hang is what this limits.
+    // Limits a hang.
     let end = Instant::now() + Duration::from_secs(60);
     let mut time = 0.0;
     // SAFETY: a place for a time.
@@ -32,7 +32,7 @@ fn wait_for_work(world: CaromWorld) {
     }
 }
 
-/// Steps a world until that ends otherwise than by a call of another thread that was at work at that moment.
+/// Steps a world until a call ends with another status than busy.
 fn step_for_days(world: CaromWorld) -> CaromStatus {
     loop {
         match carom_world_step(world, 1e6) {
@@ -48,7 +48,7 @@ fn a_step_at_work_is_stopped_from_another_thread_and_changes_nothing() {
     let (mut before, mut after) = (0, 0);
     // SAFETY: a place for a hash.
     unsafe { carom_world_state_hash(world, &raw mut before) };
-    // Days of a gas: it does not end by itself.
+    // Days of a gas: the step does not end by itself in time.
     let step = thread::spawn(move || step_for_days(world));
     wait_for_work(world);
     assert_eq!(carom_world_set_stop(world, 1), CaromStatus::Ok);

@@ -1,38 +1,38 @@
-//! What would have made a run better: another rule, or something that moves.
+//! Advice after a run: another rule or other settings that would suit the scene better.
 
 use carom::World;
 use carom_scene::scene::{Bisect, Contact, Discrete, Exact, Rule, Simulation};
 
 use crate::written::written;
 
-/// Under the rules that know nothing but frames, balls may overlap by this part of their radius before it
-/// shows.
+/// Largest overlap, as a fraction of the radius, that is not yet visible. Rules that only compare
+/// the ends of frames may cause overlaps.
 const OVERLAP: f64 = 0.5;
-/// More impacts than this of a ball in a second \[1/s\], under forces, are those of balls that lie on each
+/// Impacts of a ball per second \[1/s\] above which, under forces, balls probably lie on each
 /// other.
 const IMPACT_RATE: f64 = 300.0;
 
-/// What a run was like.
+/// Properties of a run on which advice depends.
 #[derive(Debug, Clone, Copy)]
 pub struct Conduct {
     pub rule: Rule,
-    /// Whether there are spheres, or emitters that may give some.
+    /// Whether there are spheres, or emitters that can create some.
     pub has_spheres: bool,
-    /// Whether the world is a periodic box, which no rule but `exact` knows.
+    /// Whether the world is a periodic box, which only the rule `exact` supports.
     pub is_periodic: bool,
     /// Whether there are forces.
     pub has_forces: bool,
-    /// Largest overlap at the end of a frame, as a part of the mean radius.
+    /// Largest overlap at the end of a frame, as a fraction of the mean radius.
     pub overlap: f64,
-    /// Impacts of a sphere in a second \[1/s\].
+    /// Impacts per sphere and second \[1/s\].
     pub impact_rate: f64,
     /// Whether an emitter put a ball into another one.
     pub emitted_into_another: bool,
-    /// The length of frames, and the longest in which motion on springs is stable \[s\].
+    /// Length of a frame, and the longest one for which springs are stable \[s\].
     pub frames: [f64; 2],
 }
 
-/// What would have been better, in a sentence; `None` where all is well.
+/// Advice for a run, in a sentence; `None` if there is none.
 pub fn advice(conduct: Conduct) -> Option<String> {
     let Conduct { rule, has_spheres, has_forces, overlap, impact_rate, .. } = conduct;
     if !has_spheres {
@@ -61,7 +61,7 @@ pub fn advice(conduct: Conduct) -> Option<String> {
     }
 }
 
-/// What a scene says that its rule does not read; `None` where that is nothing.
+/// Parts of a scene that its rule ignores, in a sentence; `None` if there are none.
 pub fn unread(simulation: &Simulation, world: &World) -> Option<String> {
     let Simulation { rule, exact, contact, discrete, bisect, .. } = simulation;
     let has_friction = world.settings().rule.has_friction();
@@ -79,8 +79,8 @@ pub fn unread(simulation: &Simulation, world: &World) -> Option<String> {
         .then(|| format!("the rule {} does not read {}", written(rule), all.join(", ")))
 }
 
-/// What would keep motion on springs from growing without bound, in frames that long and of the longest
-/// length in which it is stable \[s\].
+/// Advice if frames are too long for springs. Takes the length of a frame and the longest stable
+/// length \[s\].
 pub fn advice_for_springs([frame, stable]: [f64; 2]) -> Option<String> {
     let text = || {
         format!(

@@ -43,7 +43,7 @@ pub struct Args {
 }
 
 impl Args {
-    /// Where scenes come from, and what to do.
+    /// Splits the command line into the sources of scenes and the command.
     pub fn split(self) -> (Sources, Command) {
         #[cfg(not(feature = "view"))]
         let command = self.command;
@@ -53,15 +53,15 @@ impl Args {
     }
 }
 
-/// Where scenes come from, and how many spheres they may ask for, as the command line says.
+/// Folders of scenes, and the limit on their spheres, from the command line.
 pub struct Sources {
     folders: Vec<PathBuf>,
     max_spheres: Option<u64>,
 }
 
 impl Sources {
-    /// This budget, with as many spheres as the command line, the environment or a user's
-    /// configuration allows.
+    /// Returns `usual` with the limit on spheres of the command line, the environment or the
+    /// configuration file.
     pub fn budget(&self, usual: Budget, config: &Config) -> Result<Budget, Failure> {
         const VARIABLE: &str = "CAROM_MAX_SPHERES";
         let from_environment = std::env::var(VARIABLE).ok().filter(|it| !it.is_empty());
@@ -82,7 +82,7 @@ impl Sources {
         Ok(Budget { spheres, ..usual })
     }
 
-    /// All scenes that can be found, those in the folders of a user's configuration, too.
+    /// Creates the library of all scenes, including those in the folders of the configuration file.
     pub fn library(&self, config: &Config) -> Result<Library, Failure> {
         let mut library = Library::new().within(self.budget(Budget::FILE, config)?);
         let from_environment = std::env::var_os("CAROM_SCENES").unwrap_or_default();
@@ -107,20 +107,21 @@ pub enum Command {
     },
     /// Write a scene file to start from: balls fall into a box, with a comment on every part.
     New(New),
-    /// Make a scene file of a scene of Unity, or of a glTF file; lists what has no counterpart.
+    /// Make a scene file from a scene of Unity or a glTF file; list the parts without a counterpart.
     Import(Import),
-    /// Check scene files; says what is wrong, and in which line.
+    /// Check scenes; print each error with its line.
     Check {
-        /// Scene files; `-` is the standard input.
-        #[arg(required = true, value_name = "FILE")]
+        /// Scene files, or names of scenes; `-` is the standard input.
+        #[arg(required = true, value_name = "SCENE")]
         files: Vec<PathBuf>,
     },
-    /// Print a scene as TOML, every default written out.
+    /// Print a scene as TOML, with every default.
     Show(Show),
-    /// Run a scene, or what a link leads to, and print what became of it.
+    /// Run a scene, or the run of a link, and print a summary.
     Run(Box<Run>),
-    /// Make the complete file of what a killed run left: an .npz file of NAME.npz.0.unfinished, a film of
-    /// NAME.mp4.0.unfinished. Of a .csv table, take out a last line that is cut short.
+    /// Complete the file that a killed run left unfinished: an .npz file from
+    /// NAME.npz.0.unfinished, a film from NAME.mp4.0.unfinished. In a .csv table, remove a last
+    /// line that is cut short.
     Recover(Recover),
     /// Print a link that opens a run of a scene in a browser; `carom run --link` runs it here.
     Link(Link),
@@ -130,11 +131,11 @@ pub enum Command {
     /// Check this build against exact results and published values of physics. Ends with code 1 if
     /// it misses one, whichever rule `--rule` names.
     Verify(Verify),
-    /// Run a scene under several rules and print how far they come apart.
+    /// Run a scene under several rules and print the distances between their results.
     Compare(Box<Compare>),
     /// Measure how fast gases of spheres and the built-in scenes run on one core.
     Bench(Bench),
-    /// Print what a shell reads to complete words of this command line.
+    /// Print a script with which a shell completes words of this command line.
     Completions(Completions),
     /// Write manual pages, one for each command, into a folder.
     Man {
@@ -147,12 +148,11 @@ pub enum Command {
     /// Film a scene, a recorded run, or the maze game: H.264 in an mp4 file.
     ///
     /// Frames of the film are exactly 1/fps of simulated time apart. The scene is stepped by its
-    /// own frame time, as `carom run` does it: where a frame of the film falls between two of
-    /// these, balls and surfaces are shown on the straight way from one to the other. Ctrl-C ends
-    /// the film early.
+    /// own frame time, as in `carom run`. If a frame of the film falls between two of these, balls
+    /// and colliders are interpolated linearly. Ctrl-C ends the film early.
     ///
-    /// Until the film is complete, its frames are in PATH.0.unfinished, which players open, too; `carom
-    /// recover PATH` makes the film of what a killed run left there.
+    /// Until the film is complete, its frames are in PATH.0.unfinished, which players can open, too.
+    /// After a killed run, `carom recover PATH` creates the film from it.
     #[cfg(feature = "pictures")]
     Record(Box<Record>),
     /// Play the maze game in a window, or print a random maze.
@@ -168,7 +168,7 @@ pub enum Command {
 pub struct New {
     /// What the scene is called; the file is NAME.toml.
     pub name: PathBuf,
-    /// Whether a file that is there is replaced.
+    /// Whether an existing file is replaced.
     #[command(flatten)]
     pub replacing: Replacing,
 }
@@ -196,7 +196,7 @@ pub struct Import {
     /// Time worth watching in s; 10 by default.
     #[arg(long, value_name = "S", value_parser = positive)]
     pub seconds: Option<f64>,
-    /// Whether files that are there are replaced.
+    /// Whether existing files are replaced.
     #[command(flatten)]
     pub replacing: Replacing,
 }
@@ -211,7 +211,7 @@ pub struct Completions {
 /// Print a scene.
 #[derive(Debug, clap::Args)]
 pub struct Show {
-    /// Which scene.
+    /// The scene.
     #[command(flatten)]
     pub choice: Choice,
     /// Write out every sphere that generators make.
@@ -225,11 +225,11 @@ pub struct Run {
     /// Name or title of a scene, or a scene file; `-` reads the file from the standard input.
     #[arg(required_unless_present = "link")]
     pub scene: Option<String>,
-    /// What is different.
+    /// Overrides of the scene.
     #[command(flatten)]
     pub changes: Changes,
-    /// Run what a link leads to, as long as it says, with all that was changed on the way; `-`
-    /// reads the link from the standard input, where it is too long for a command line.
+    /// Run the scene of a link for the time of the link, with the edits made during its run; `-`
+    /// reads the link from the standard input, if it is too long for a command line.
     #[arg(long, value_name = "URL")]
     #[arg(conflicts_with_all = ["scene", "overrides", "rule", "frame_time", "seconds", "frames"])]
     pub link: Option<String>,
@@ -237,10 +237,10 @@ pub struct Run {
     /// unless the scene says simulation.bisect.wind_back = "all", the tutorial's way.
     #[arg(long, short, value_parser = RULES)]
     pub rule: Option<String>,
-    /// How long, in which frames.
+    /// Length of the run and of its frames.
     #[command(flatten)]
     pub length: Length,
-    /// Write the trajectory; the ending tells the format: .csv, .npz (NumPy), .pvd (a series
+    /// Write the trajectory; the ending selects the format: .csv, .npz (NumPy), .pvd (a series
     /// of .vtp files for ParaView, in a folder beside it), or .glb (an animation in glTF, for Blender, three.js
     /// and Unity). `-` writes CSV to the standard output, and
     /// the summary to the standard error stream.
@@ -256,14 +256,15 @@ pub struct Run {
     /// before and after; `-` as by --out. Kept by the rule `exact` only.
     #[arg(long, value_name = "PATH")]
     pub ledger: Option<PathBuf>,
-    /// Whether files that are there are replaced.
+    /// Whether existing files are replaced.
     #[command(flatten)]
     pub replacing: Replacing,
-    /// Run again whenever the scene file is changed, until Ctrl-C; files are written anew each time.
+    /// Run again whenever the scene file is changed, until Ctrl-C; files are rewritten each time.
     #[arg(long, short, conflicts_with = "link")]
     pub watch: bool,
-    /// End with code 1 if the run did not keep what its rule keeps: balls overlap under `exact`, an impact
-    /// loses momentum, balls are pressed through surfaces, `bisect` gives up. The summary says so in any case.
+    /// End with code 1 if the run violates a guarantee of its rule: balls overlap under `exact`, an
+    /// impact loses momentum, balls are pressed through surfaces, `bisect` gives up. The summary
+    /// reports it in any case.
     #[arg(long)]
     pub strict: bool,
     /// Print the summary as JSON.
@@ -279,7 +280,7 @@ pub struct Recover {
     /// Write here, instead of under the name that the file was to have.
     #[arg(long, short, value_name = "PATH")]
     pub out: Option<PathBuf>,
-    /// Whether a file that is there is replaced.
+    /// Whether an existing file is replaced.
     #[command(flatten)]
     pub replacing: Replacing,
 }
@@ -304,19 +305,19 @@ pub struct Verify {
 /// Run a scene under several rules.
 #[derive(Debug, clap::Args)]
 pub struct Compare {
-    /// Which scene.
+    /// The scene.
     #[command(flatten)]
     pub choice: Choice,
     /// The rules; the others are compared with the first.
     #[arg(long, value_delimiter = ',', value_parser = RULES, default_values = RULES)]
     pub rules: Vec<String>,
-    /// How long, in which frames.
+    /// Length of the run and of its frames.
     #[command(flatten)]
     pub length: Length,
     /// Write a row for each frame to a .csv file.
     #[arg(long, short, value_name = "PATH")]
     pub out: Option<PathBuf>,
-    /// Whether a file that is there is replaced.
+    /// Whether an existing file is replaced.
     #[command(flatten)]
     pub replacing: Replacing,
     /// Print JSON instead of a table.

@@ -1,34 +1,38 @@
-//! What a rule keeps, and a run did not.
+//! Checks whether a run kept what its rule guarantees.
 
 use carom_scene::scene::Rule;
 
-/// Part of the smallest radius by which balls may overlap under `exact`: curved surfaces are followed in pieces.
+/// Largest overlap under `exact` as a fraction of the smallest radius: curved surfaces are followed
+/// in pieces.
 const OVERLAP: f64 = 1e-6;
 
-/// What a group of impacts may change of the momentum, as a part of the momenta at work: rounding, many times
-/// over.
+/// Largest change of momentum by a group of impacts, relative to the momenta involved: many times
+/// the rounding error.
 const MOMENTUM: f64 = 1e-6;
 
-/// What it may change of the energy against what restitution demands, as a part of the energy at work.
+/// Largest deviation of the energy from the change that restitution requires, relative to the
+/// energy involved.
 const ENERGY: f64 = 1e-6;
 
-/// How a run went.
+/// Results of a run that are checked.
 #[derive(Debug, Clone, Copy)]
 pub struct Course {
     pub rule: Rule,
-    /// Largest overlap at the end of a frame, as a part of the smallest radius.
+    /// Largest overlap at the end of a frame, as a fraction of the smallest radius.
     pub overlap: f64,
-    /// Whether spheres may overlap: the scene allows it, or some were stepped, which leaves a little.
+    /// Whether overlaps are allowed: by the scene, or because zones were stepped, which leaves
+    /// small ones.
     pub may_overlap: bool,
-    /// Largest errors of any group of impacts.
+    /// Largest errors of a group of impacts.
     pub momentum_error: f64,
     pub energy_error: f64,
     pub unfinished_islands: u64,
-    /// How often a ball was pressed into a surface by half its radius, where the scene begins without overlaps.
+    /// How often a ball was pressed into a surface by half its radius, if the scene starts without
+    /// overlaps.
     pub squeezed: u64,
 }
 
-/// What was not kept, a line each.
+/// Describes each violated guarantee in a line.
 pub fn breaches(course: Course) -> Vec<String> {
     let Course { rule, overlap, may_overlap, momentum_error, energy_error, .. } = course;
     let Course { unfinished_islands, squeezed, .. } = course;

@@ -1,4 +1,4 @@
-//! Which scene the command line chooses, and what is different in it.
+//! The scene that the command line names, and its overrides.
 
 use carom_scene::{Library, Override, Scene, SceneText, Source};
 
@@ -13,13 +13,13 @@ pub const RULES: [&str; 4] = carom_scene::scene::Rule::NAMES;
 pub struct Choice {
     /// Name or title of a scene, or a scene file; `-` reads the file from the standard input.
     scene: String,
-    /// What is different.
+    /// Overrides of the scene.
     #[command(flatten)]
     changes: Changes,
 }
 
 impl Choice {
-    /// The scene with its changes, and then those of `more`.
+    /// Finds the scene and applies its overrides, then those of `more`.
     pub fn find(
         &self,
         library: &Library,
@@ -33,7 +33,7 @@ impl Choice {
         &self.scene
     }
 
-    /// What is different in it.
+    /// Overrides of the scene.
     pub fn changes(&self) -> &Changes {
         &self.changes
     }
@@ -50,7 +50,7 @@ pub struct Changes {
 }
 
 impl Changes {
-    /// A scene with these changes, and then those of `more`.
+    /// Finds a scene and applies these overrides, then those of `more`.
     pub fn find(
         &self,
         library: &Library,
@@ -67,7 +67,7 @@ impl Changes {
         Ok(library.find(scene, &overrides)?)
     }
 
-    /// These changes, and then those of `more`.
+    /// Returns these overrides, followed by those of `more`.
     pub fn overrides(
         &self,
         more: impl IntoIterator<Item = String>,

@@ -1,4 +1,4 @@
-//! The command `compare`: the same scene under several rules, side by side.
+//! The command `compare`: runs the same scene under several rules.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
@@ -13,9 +13,10 @@ use serde::Serialize;
 use crate::args::Compare;
 use crate::failure::Failure;
 use crate::machine::Machine;
+use crate::standard_input::is_standard;
 use crate::table::{Side, Table};
 
-/// Runs a scene under several rules and prints how far they come apart.
+/// Runs a scene under several rules and prints the distance of their results.
 pub fn compare(library: &Library, args: &Compare) -> Result<(), Failure> {
     if args.rules.len() < 2 {
         return Err(Failure::Usage("two rules are needed to compare".to_owned()));
@@ -31,8 +32,9 @@ pub fn compare(library: &Library, args: &Compare) -> Result<(), Failure> {
         runs.push(Run::new(rule, scene.world()?));
         name = scene.name;
     }
-    args.replacing.check(args.out.as_deref())?;
-    let mut rows = args.out.as_deref().map(|path| Rows::create(path, &args.rules)).transpose()?;
+    let out = args.out.as_deref();
+    args.replacing.check(out.filter(|path| !is_standard(path)))?;
+    let mut rows = out.map(|path| Rows::create(path, &args.rules)).transpose()?;
     for _ in 0..frames {
         for run in &mut runs {
             run.step(h)?;
@@ -45,7 +47,13 @@ pub fn compare(library: &Library, args: &Compare) -> Result<(), Failure> {
         }
     }
     rows.map_or(Ok(()), Rows::finish)?;
-    Comparison::new(name, h, frames, &runs).print(args.json)?;
+    let comparison = Comparison::new(name, h, frames, &runs);
+    // If rows go to the standard output, the result goes elsewhere.
+    if out.is_some_and(is_standard) {
+        comparison.print(&mut io::stderr(), args.json)?;
+    } else {
+        comparison.print(&mut io::stdout(), args.json)?;
+    }
     Ok(())
 }
 
@@ -55,16 +63,16 @@ struct Run {
     world: World,
     impacts: u64,
     stepping: Duration,
-    /// To the reference, now.
+    /// Distance from the reference in the present frame.
     now: Distance,
-    /// The largest distance of all frames.
+    /// Largest distance in any frame.
     largest: Distance,
 }
 
-/// How far the spheres of two worlds are from each other, matched by id \[m\].
+/// Distance between the spheres of two worlds, matched by id \[m\].
 #[derive(Debug, Clone, Copy, Default, Serialize)]
 struct Distance {
-    /// Root of the mean square.
+    /// Root mean square.
     rms: f64,
     max: f64,
 }
@@ -100,7 +108,7 @@ impl Run {
 }
 
 impl Distance {
-    /// Of the spheres that are in both worlds.
+    /// Computes the distance over the spheres that both worlds have.
     fn between(first: &World, second: &World) -> Self {
         let (a, b) = (first.spheres(), second.spheres());
         let (mut squares, mut max, mut count) = (0.0, 0.0_f64, 0_u32);
@@ -115,17 +123,21 @@ impl Distance {
     }
 }
 
-/// A file with a row for each frame.
+/// A table with a row for each frame.
 struct Rows<'a> {
     path: &'a Path,
-    out: BufWriter<File>,
+    out: BufWriter<Box<dyn Write>>,
 }
 
 impl<'a> Rows<'a> {
     fn create(path: &'a Path, rules: &[String]) -> Result<Self, Failure> {
-        let file = create_folders_of(path).and_then(|()| File::create(path));
-        let file = file.map_err(|error| cannot_write(path, &error))?;
-        let mut rows = Self { path, out: BufWriter::new(file) };
+        let out: Box<dyn Write> = if is_standard(path) {
+            Box::new(io::stdout())
+        } else {
+            let file = create_folders_of(path).and_then(|()| File::create(path));
+            Box::new(file.map_err(|error| cannot_write(path, &error))?)
+        };
+        let mut rows = Self { path, out: BufWriter::new(out) };
         let mut header = "t".to_owned();
         for rule in rules {
             header += &format!(",{rule}_rms,{rule}_max,{rule}_energy,{rule}_impacts");
@@ -156,31 +168,31 @@ fn cannot_write(path: &Path, error: &io::Error) -> Failure {
     Failure::Fault(format!("cannot write {}: {error}", path.display()))
 }
 
-/// What came out.
+/// Result of the command.
 #[derive(Debug, Serialize)]
 struct Comparison {
     machine: Machine,
     scene: String,
     frame_time: f64,
     frames: u64,
-    /// The rule that the others are compared with.
+    /// Rule with which the others are compared.
     reference: String,
     rules: Vec<Row>,
 }
 
-/// What came of a rule.
+/// Result of a rule.
 #[derive(Debug, Serialize)]
 struct Row {
     rule: String,
     spheres: usize,
     impacts: u64,
     energy: f64,
-    /// From that of the reference \[J\].
+    /// Difference from the energy of the reference \[J\].
     energy_error: f64,
-    /// From the places of the reference \[m\].
+    /// Distance from the spheres of the reference \[m\].
     final_distance: Distance,
     largest_distance: Distance,
-    /// Spent in steps \[s\].
+    /// Time spent in steps \[s\].
     stepping_time: f64,
     state_hash: String,
 }
@@ -209,8 +221,7 @@ impl Comparison {
         }
     }
 
-    fn print(&self, json: bool) -> io::Result<()> {
-        let mut out = io::stdout().lock();
+    fn print(&self, mut out: &mut dyn Write, json: bool) -> io::Result<()> {
         if json {
             serde_json::to_writer_pretty(&mut out, self)?;
             return writeln!(out);

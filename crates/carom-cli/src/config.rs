@@ -1,4 +1,4 @@
-//! What a user has settled for all calls: the configuration file.
+//! Configuration file: a user's settings for all calls.
 
 use std::io::ErrorKind;
 use std::path::PathBuf;
@@ -7,7 +7,7 @@ use serde::Deserialize;
 
 use crate::failure::Failure;
 
-/// The configuration file. What the command line or the environment says comes before it.
+/// Content of the configuration file. The command line and the environment take precedence.
 #[derive(Debug, Default, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Config {
@@ -22,8 +22,8 @@ pub struct Config {
 }
 
 impl Config {
-    /// Reads the file, if there is one: that which $CAROM_CONFIG names, else `carom/config.toml` in the
-    /// folder of configurations.
+    /// Reads the configuration file, if it exists: the one that $CAROM_CONFIG names, else
+    /// `carom/config.toml` in the user's configuration folder.
     pub fn load() -> Result<Self, Failure> {
         let named = std::env::var_os("CAROM_CONFIG").filter(|it| !it.is_empty());
         let is_named = named.is_some();
@@ -45,7 +45,7 @@ impl Config {
         })
     }
 
-    /// Reads its text; an error has the line, where it has one.
+    /// Parses the text; an error contains the line, if it is known.
     fn read(text: &str) -> Result<Self, (Option<usize>, String)> {
         toml::from_str(text).map_err(|error| {
             let line = error.span().map(|span| 1 + text[..span.start].matches('\n').count());
@@ -54,7 +54,7 @@ impl Config {
     }
 }
 
-/// Where the file is unless another one is named.
+/// Default path of the file.
 fn usual_path() -> Option<PathBuf> {
     let folder = |name| std::env::var_os(name).filter(|it| !it.is_empty()).map(PathBuf::from);
     let of_user = || folder("HOME").map(|home| home.join(".config"));

@@ -1,23 +1,23 @@
-//! How good the solutions of the rule `contact` were in a run.
+//! Quality of the solutions of the rule `contact` over a run.
 
 use carom::{ContactAccount, StepReport};
 use serde::Serialize;
 
-/// The accounts of all frames of a run under the rule `contact`, as JSON has them.
+/// Totals over all frames of a run under the rule `contact`, as in JSON.
 #[derive(Debug, Clone, Copy, Default, Serialize)]
 pub struct ContactTotals {
-    /// Sub-steps in which impulses were scaled down for them not to add energy, summed.
+    /// Number of sub-steps in which impulses were scaled down so as not to add energy.
     limited_sub_steps: u64,
-    /// Change of a normal impulse in the last sweep, as a part of the largest; the largest of all.
+    /// Largest change of a normal impulse in a last sweep, relative to the largest impulse.
     residual: f64,
-    /// Overlap before it was corrected, as a part of the sum of radii; the largest of all.
+    /// Largest overlap before correction, as a fraction of the sum of radii.
     largest_overlap: f64,
-    /// How often a ball was pressed into a surface by half its radius, in each sub-step; summed.
+    /// How often a ball was pressed into a surface by half its radius, summed over sub-steps.
     pub squeezed: u64,
 }
 
 impl ContactTotals {
-    /// Takes in what a step reports.
+    /// Adds the report of a step.
     pub fn add(&mut self, report: &StepReport) {
         let ContactAccount { limited_sub_steps, residual, largest_overlap, squeezed, .. } =
             report.contact_account;
@@ -27,7 +27,7 @@ impl ContactTotals {
         self.squeezed += u64::from(squeezed);
     }
 
-    /// The lines of a summary.
+    /// Lines of the summary.
     pub fn rows(&self) -> Vec<(&'static str, String)> {
         let Self { residual, largest_overlap, .. } = self;
         vec![

@@ -1,36 +1,36 @@
-//! What became of the energy in a run.
+//! Energy balance of a run.
 
 use carom::{EnergyAccount, Rule, World};
 use carom_scene::scene::{Force, Scene};
 use serde::Serialize;
 
-/// The energy accounts of all frames of a run, as JSON has them: the energy at the end is that at the start and
-/// all of these.
+/// Energy accounts of a run, as in JSON: the energy at the end is the energy at the start plus all
+/// of these.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct EnergyBalance {
-    /// Work of contacts \[J\]: what restitution and friction took.
+    /// Work of contacts \[J\]: energy lost by restitution and friction.
     contacts: f64,
     /// Work of moving colliders \[J\].
     colliders: f64,
-    /// Work of moving spheres out of what they overlap \[J\].
+    /// Work of separating overlapping spheres \[J\].
     correction: f64,
-    /// Energy of emitted spheres, less that of those taken out \[J\].
+    /// Energy of emitted spheres minus that of removed spheres \[J\].
     emission: f64,
-    /// What is left \[J\]: see `remainder_is`.
+    /// Change of energy in no other account \[J\]; `remainder_is` says where it comes from.
     remainder: f64,
-    /// What the remainder is, in words.
+    /// Origin of the remainder, in words.
     remainder_is: &'static str,
 }
 
 impl EnergyBalance {
-    /// The balance of a run with these accounts, and this change of energy \[J\].
+    /// Creates the balance from the accounts and the total `change` of energy \[J\].
     pub fn new(account: EnergyAccount, change: f64, remainder_is: &'static str) -> Self {
         let EnergyAccount { contacts, colliders, correction, emission, .. } = account;
         let remainder = change - account.total();
         Self { contacts, colliders, correction, emission, remainder, remainder_is }
     }
 
-    /// The lines of a summary. Entries that are zero are left out, but for the first and the last.
+    /// Lines of the summary. Zero entries are left out, except the first and the last.
     pub fn rows(&self) -> Vec<(&'static str, String)> {
         let entries = [
             ("  contacts", self.contacts, "taken by restitution and friction"),
@@ -47,7 +47,7 @@ impl EnergyBalance {
     }
 }
 
-/// What of the change of energy in a run is in no account, in words.
+/// Describes the origin of the energy that is in no account.
 pub fn remainder_of(scene: &Scene, world: &World, edits: usize) -> &'static str {
     let has_potential = |force: &Force| {
         matches!(
@@ -63,7 +63,7 @@ pub fn remainder_of(scene: &Scene, world: &World, edits: usize) -> &'static str 
     let is_damped = scene.springs.iter().any(|spring| spring.damping != 0.0);
     let (conserving, others): (Vec<_>, Vec<_>) =
         scene.forces.iter().partition(|force| has_potential(force));
-    // Across the faces of a box potentials jump.
+    // Potentials jump at the faces of a periodic box.
     let jumps = world.settings().boundary.is_periodic() && !conserving.is_empty();
     if edits > 0 {
         return "by edits, forces without a potential, and errors of integration";

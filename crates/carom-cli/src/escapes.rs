@@ -1,11 +1,11 @@
-//! Balls that leave closed containers, which no ball can do without going through a wall.
+//! Detects balls that leave closed containers, which is impossible without passing a wall.
 
 use carom::{Collider, ColliderId, DVec3, Shape, Sides, SphereId, World};
 
-/// Watches which balls are in which closed container.
+/// Tracks which balls are inside each closed container.
 #[derive(Debug, Default)]
 pub struct Escapes {
-    /// The balls inside each closed container at the last look, ascending.
+    /// Ids of the balls inside each closed container at the last check, ascending.
     inside: Vec<(ColliderId, Vec<SphereId>)>,
     first: Option<Escape>,
     count: u64,
@@ -16,12 +16,12 @@ pub struct Escapes {
 struct Escape {
     sphere: SphereId,
     container: ColliderId,
-    /// When it was found outside \[s\].
+    /// Time at which it was found outside \[s\].
     time: f64,
 }
 
 impl Escapes {
-    /// Looks where all balls are, and counts those that have left a container since the last look.
+    /// Finds the balls inside each container, and counts those that left since the last call.
     pub fn look(&mut self, world: &World) {
         let inside: Vec<_> = world
             .colliders()
@@ -42,7 +42,8 @@ impl Escapes {
         self.inside = inside;
     }
 
-    /// What happened, in a sentence that calls colliders by name; `None` if no ball left a container.
+    /// Describes the escapes in a sentence; `name_of` names a collider. Returns `None` if there are
+    /// none.
     pub fn breach(&self, name_of: impl Fn(ColliderId) -> String) -> Option<String> {
         let Escape { sphere, container, time } = self.first?;
         let (container, count) = (name_of(container), self.count);
@@ -56,7 +57,7 @@ impl Escapes {
     }
 }
 
-/// The size of a container that keeps in what is in it \[m\]; `None` for other colliders.
+/// Size of a closed container \[m\]; `None` for another collider.
 fn closed_size(collider: &Collider) -> Option<DVec3> {
     match collider.shape {
         Shape::Container { size, open } if open == Sides::NONE && !collider.trigger => Some(size),
@@ -64,7 +65,7 @@ fn closed_size(collider: &Collider) -> Option<DVec3> {
     }
 }
 
-/// The balls with their centre in a container of this size \[m\], ascending.
+/// Ids of the balls whose centre is in a container of this size \[m\], ascending.
 fn inside(collider: &Collider, size: DVec3, world: &World) -> Vec<SphereId> {
     let to_local = collider.pose.rotation.normalize().inverse();
     let is_inside = |center: DVec3| {

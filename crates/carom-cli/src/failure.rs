@@ -1,4 +1,4 @@
-//! How a command fails: one line on the standard error stream, and an exit code.
+//! Failures of commands: a line on the standard error stream, and an exit code.
 
 use std::io::{self, Write};
 
@@ -6,26 +6,26 @@ use carom_scene::SceneError;
 use carom_scene::recording::RecordingError;
 use carom_session::{LinkError, SessionError};
 
-/// Why a command stops before its end.
+/// Why a command failed.
 #[derive(Debug)]
 pub enum Failure {
-    /// The command line names something that does not exist or makes no sense: code 2.
+    /// The command line names something that does not exist or is invalid: code 2.
     Usage(String),
-    /// Something went wrong on the way: code 1.
+    /// Another error: code 1.
     Fault(String),
-    /// What was compared is not the same, as the output says: code 1, silently.
+    /// Compared results differ, and the output says so: code 1, without a message.
     Differs,
-    /// The reader of the output has closed it: code 0, silently.
+    /// The reader of the output closed it: code 0, without a message.
     OutputClosed,
-    /// Stopped by the user; what was written is complete: code 130, as shells expect.
+    /// The user interrupted the command; written files are complete: code 130, as shells expect.
     Interrupted,
 }
 
-/// The code of a command line that names what does not exist or makes no sense.
+/// Exit code of a command line that names something that does not exist or is invalid.
 pub const USAGE: u8 = 2;
 
 impl Failure {
-    /// Says what went wrong and with which code to end.
+    /// Prints the error; returns the exit code.
     pub fn report(self) -> u8 {
         match self {
             Self::Usage(message) => {
@@ -43,27 +43,27 @@ impl Failure {
     }
 }
 
-/// Says why the command stops; in colour where a terminal shows it, unless `NO_COLOR` or another of
-/// the usual variables says otherwise.
+/// Prints an error; in colour if the terminal supports it and `NO_COLOR` or a similar variable does
+/// not forbid it.
 fn refuse(message: &str) {
     let red = clap::builder::styling::AnsiColor::Red.on_default().bold();
     let message = legible(message);
     writeln!(anstream::stderr(), "{red}carom:{red:#} {message}").ok();
 }
 
-/// Writes a line to the standard error stream. If that is gone too, the line is lost.
+/// Writes a line to the standard error stream. If the stream is closed, the line is lost.
 pub fn complain(line: &str) {
     writeln!(io::stderr(), "{}", legible(line)).ok();
 }
 
-/// A message in one line, as a terminal shows it.
+/// Converts a message to one line that is safe for a terminal.
 pub fn legible(message: &str) -> String {
-    /// In characters.
+    /// Most characters.
     const LONGEST: usize = 4000;
     carom_scene::legible(&message.trim_end().lines().collect::<Vec<_>>().join(" "), LONGEST)
 }
 
-/// Two results as one: if both failed, one line says so.
+/// Combines two results; if both failed, into one line.
 pub fn both(first: Result<(), Failure>, second: Result<(), Failure>) -> Result<(), Failure> {
     match (first, second) {
         (Err(Failure::Fault(first)), Err(Failure::Fault(second))) => {
@@ -91,11 +91,11 @@ impl From<RecordingError> for Failure {
     fn from(error: RecordingError) -> Self {
         let message = error.to_string();
         match error {
-            // The command line knows one more.
+            // The command line supports one format more.
             RecordingError::UnknownFormat { .. } => {
                 Self::Usage(format!("{message}, or .glb (an animation in glTF)"))
             }
-            // The reader of the standard output has seen enough.
+            // The reader of the standard output closed it.
             RecordingError::Unwritable { source, .. }
                 if source.kind() == io::ErrorKind::BrokenPipe =>
             {
@@ -137,7 +137,7 @@ impl From<carom::Error> for Failure {
     }
 }
 
-/// Errors in writing to the standard output.
+/// Converts errors of writing to the standard output.
 impl From<io::Error> for Failure {
     fn from(error: io::Error) -> Self {
         if error.kind() == io::ErrorKind::BrokenPipe {

@@ -1,5 +1,5 @@
-//! The gas of hard spheres that figures of the literature are about: equal spheres of diameter 1
-//! and mass 1, at temperature kT = 1, in a periodic cube.
+//! The gas of hard spheres in the literature: equal spheres of diameter 1 and mass 1, at
+//! temperature kT = 1, in a periodic cube.
 
 use std::f64::consts::PI;
 
@@ -7,32 +7,32 @@ use carom::{Boundary, DVec3, Error, Rule, Settings, Sphere, World};
 
 use crate::numbers::Numbers;
 
-/// Part of the volume above which equal spheres have no room on any lattice, `π / (3 √2)`.
+/// Largest fraction of the volume that equal spheres can fill, `π / (3 √2)`.
 const CLOSEST_PACKING: f64 = 0.740_480_489_693_061;
 
-/// Collisions that a sphere has seen when the gas has forgotten its start: speeds take a few, the
+/// Collisions per sphere after which the gas no longer depends on its start: speeds need a few, the
 /// lattice, below freezing, about ten.
 pub const COLLISIONS_TO_EQUILIBRIUM: f64 = 20.0;
 
-/// How many spheres there are in how much space.
+/// Number and density of the spheres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Filling {
     pub count: usize,
-    /// Part of the volume that the spheres fill.
+    /// Fraction of the volume that the spheres fill.
     pub packing_fraction: f64,
 }
 
-/// How fast the spheres are at the start.
+/// Distribution of the speeds at the start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Speeds {
     /// Distributed as in equilibrium (Maxwell and Boltzmann).
     Equilibrium,
-    /// All alike, in random directions.
+    /// Equal speeds in random directions.
     Equal,
 }
 
 impl Filling {
-    /// Edge of the cube.
+    /// Length of an edge of the cube.
     pub fn edge(&self) -> f64 {
         libm::cbrt(self.count as f64 * PI / 6.0 / self.packing_fraction)
     }
@@ -42,13 +42,13 @@ impl Filling {
         (1..).find(|n| 4 * n * n * n >= self.count).unwrap_or(1)
     }
 
-    /// Largest packing fraction at which this many spheres have place on the lattice.
+    /// Largest packing fraction at which this number of spheres fits on the lattice.
     pub fn most(&self) -> f64 {
         let cells = self.cells();
         CLOSEST_PACKING * self.count as f64 / (4 * cells * cells * cells) as f64
     }
 
-    /// Centres on a face-centred cubic lattice; sites that stay empty are spread over all of it.
+    /// Centres on a face-centred cubic lattice; empty sites are spread evenly.
     fn places(&self) -> impl Iterator<Item = DVec3> {
         let (cells, count) = (self.cells(), self.count);
         let sites = 4 * cells * cells * cells;
@@ -77,19 +77,19 @@ impl Filling {
         4.0 * PI.sqrt() * (6.0 * p / PI) * contact_value
     }
 
-    /// A frame in which a sphere takes part in 0.2 impacts on average, so that there are 0.1 per
-    /// sphere: few enough for a short report, enough that frames cost little.
+    /// Length of a frame with 0.2 collisions per sphere, which are 0.1 impacts per sphere: few
+    /// enough for a short report, and enough that the cost of a frame is small.
     pub fn frame_time(&self) -> f64 {
         self.time_of(0.2)
     }
 
-    /// A time in which a sphere takes part in so many impacts on average.
+    /// Time in which a sphere has this number of collisions on average.
     pub fn time_of(&self, collisions: f64) -> f64 {
         collisions / self.collision_rate()
     }
 }
 
-/// The gas at its start: no momentum, temperature 1, on a lattice.
+/// Creates the gas on a lattice, with zero momentum and temperature 1.
 pub fn gas(filling: Filling, speeds: Speeds, rule: Rule, seed: u64) -> Result<World, Error> {
     let boundary = Boundary::Periodic { size: DVec3::splat(filling.edge()) };
     let mut world = World::new(Settings::default().with_rule(rule).with_boundary(boundary))?;
@@ -111,8 +111,8 @@ pub fn add_spheres(
     Ok(())
 }
 
-/// Velocities of mean 0, and of mean square 3 but for what rounding and, for equal speeds, taking
-/// out the mean does.
+/// Random velocities of mean 0. The mean square is 3, up to rounding and, for equal speeds, the
+/// subtraction of the mean.
 fn velocities(count: usize, speeds: Speeds, seed: u64) -> Vec<DVec3> {
     let mut numbers = Numbers::new(seed);
     let mut velocities: Vec<DVec3> = (0..count)
@@ -129,8 +129,8 @@ fn velocities(count: usize, speeds: Speeds, seed: u64) -> Vec<DVec3> {
     velocities
 }
 
-/// Steps until there were at least this many collisions per sphere, two for each impact; gives how
-/// many there were.
+/// Steps until each sphere has had at least this number of collisions on average (two for each
+/// impact); returns their actual number.
 pub fn run_collisions(world: &mut World, h: f64, collisions: f64) -> Result<f64, Error> {
     let wanted = 0.5 * collisions * world.spheres().len() as f64;
     let mut impacts = 0;

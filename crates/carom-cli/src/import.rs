@@ -1,4 +1,4 @@
-//! Scenes of Unity, and glTF, to scene files.
+//! The command `import`: converts scenes of Unity and glTF to scene files.
 
 use std::collections::BTreeSet;
 use std::io::{self, Write};
@@ -55,7 +55,7 @@ pub fn import(import: &Import) -> Result<(), Failure> {
     }
 }
 
-/// Writes the one scene of an import where it is to be.
+/// Writes the scene to the output file, or prints it if there is none.
 fn one(import: &Import, scene: &Scene) -> Result<(), Failure> {
     match &import.out {
         Some(file) => {
@@ -66,7 +66,7 @@ fn one(import: &Import, scene: &Scene) -> Result<(), Failure> {
     }
 }
 
-/// Whether a file is glTF, by its ending.
+/// Whether the ending of the file is that of glTF.
 fn is_gltf(path: &Path) -> bool {
     let is = |ending: &str| path.extension().is_some_and(|it| it.eq_ignore_ascii_case(ending));
     is("gltf") || is("glb")
@@ -97,14 +97,14 @@ fn rule(import: &Import) -> Option<Rule> {
     rules.into_iter().find(|rule| import.rule.as_deref() == Some(rule.name()))
 }
 
-/// Imports a scene of Unity, and lists on the standard error stream what it leaves out.
+/// Imports a scene of Unity, and prints omissions on the standard error stream.
 fn of_unity(scene: &Path, project: &Project, options: &Options) -> Result<Scene, Failure> {
     let imported = carom_unity::import(scene, project, options).map_err(refused)?;
     list(scene, &imported.omissions);
     Ok(imported.scene)
 }
 
-/// Lists what an import leaves out on the standard error stream.
+/// Prints the omissions of an import on the standard error stream.
 fn list(path: &Path, omissions: &[Omission]) {
     for omission in omissions {
         complain(&format!("{}: {omission}", path.display()));

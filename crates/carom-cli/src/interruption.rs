@@ -1,11 +1,11 @@
-//! Ctrl-C and SIGTERM.
+//! Interruptions by Ctrl-C and SIGTERM.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::failure::Failure;
 
-/// Becomes true on Ctrl-C or SIGTERM. On a second one the program ends at once.
+/// Returns a flag that becomes true on Ctrl-C or SIGTERM. A second signal ends the program at once.
 pub fn interruption() -> Result<Arc<AtomicBool>, Failure> {
     let flag = Arc::new(AtomicBool::new(false));
     let handler_flag = Arc::clone(&flag);

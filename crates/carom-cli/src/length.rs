@@ -1,4 +1,4 @@
-//! How long the command line has a scene run.
+//! Length of a run in the arguments of commands.
 
 use crate::failure::Failure;
 
@@ -17,12 +17,12 @@ pub struct Length {
 }
 
 impl Length {
-    /// What it changes in a scene.
+    /// Override of the frame time, if one is given.
     pub fn overrides(&self) -> Option<String> {
         self.frame_time.map(|h| format!("simulation.frame_time={h:?}"))
     }
 
-    /// How many frames of a scene that is `duration` long, in frames of `h` \[s\].
+    /// Number of frames of a run that lasts `duration` by default, with frames of `h` \[s\].
     pub fn frames(&self, duration: f64, h: f64) -> Result<u64, Failure> {
         if let Some(frames) = self.frames {
             return Ok(frames);
@@ -31,13 +31,13 @@ impl Length {
     }
 }
 
-/// How many frames of `h` \[s\] take this long \[s\], up to whole ones.
+/// Number of frames of `h` \[s\] in this time \[s\], rounded up.
 pub fn whole_frames(seconds: f64, h: f64) -> Result<u64, Failure> {
-    // A billionth of a frame is rounding.
+    // 1e-9 of a frame is a rounding error.
     countable((seconds / h - 1e-9).ceil(), h)
 }
 
-/// As many frames of `h` \[s\], if they can be counted one by one.
+/// Converts a number of frames of `h` \[s\]; refuses one that cannot be counted exactly.
 pub fn countable(frames: f64, h: f64) -> Result<u64, Failure> {
     if frames < 2f64.powi(53) {
         Ok(frames as u64)

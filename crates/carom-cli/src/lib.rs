@@ -1,5 +1,5 @@
-//! The command line of Carom: what the program `carom` does, and `python -m carom`. What draws is
-//! a library, too (`pictures`).
+//! The command line of Carom: the programs `carom` and `python -m carom`. The drawing code is also
+//! available as a library (`pictures`).
 
 #![warn(clippy::unwrap_used)]
 
@@ -50,8 +50,8 @@ use args::{Args, Command};
 use config::Config;
 use failure::Failure;
 
-/// Does what `arguments` say, the name of the program first, and returns with which code the
-/// program is to end. `registered` are scenes that are found by name besides those on the disk.
+/// Runs the command in `arguments`, which start with the name of the program; returns the exit
+/// code. Scenes in `registered` are found by name besides those on the disk.
 pub fn main(arguments: impl IntoIterator<Item = OsString>, registered: Vec<Scene>) -> u8 {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
     let result = match Args::try_parse_from(&arguments) {
@@ -60,10 +60,11 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>, registered: Vec<Scene
             let text = refusal.render().to_string();
             let steers = |it: &OsString| it.to_string_lossy().contains(carom_scene::steers);
             if refusal.use_stderr() && arguments.iter().any(steers) {
-                // It may quote such an argument, which may come from a link.
+                // The message may quote an argument with control characters, which may come from a
+                // link.
                 text.lines().for_each(failure::complain);
             } else {
-                // If the output is gone, the text is lost.
+                // If the output is closed, the text is lost.
                 refusal.print().ok();
             }
             return refusal.exit_code().try_into().unwrap_or(failure::USAGE);
@@ -87,7 +88,9 @@ fn obey(args: Args, registered: Vec<Scene>) -> Result<(), Failure> {
         Command::Scenes { json } => scenes::list(&library()?, *json),
         Command::New(new) => new::new(new),
         Command::Import(it) => import::import(it),
-        Command::Check { files } => scenes::check(files, sources.budget(Budget::FILE, &config)?),
+        Command::Check { files } => {
+            scenes::check(&library()?, files, sources.budget(Budget::FILE, &config)?)
+        }
         Command::Show(show) => scenes::show(&library()?, show),
         Command::Run(run) => run::run(&library()?, run, sources.budget(Budget::LINK, &config)?),
         Command::Recover(it) => recover::recover(it),

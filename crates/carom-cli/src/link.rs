@@ -1,4 +1,4 @@
-//! Links: the command `link` prints one, and `run --link` begins with one.
+//! The command `link`, and reading links for `run --link`.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -15,7 +15,7 @@ use crate::standard_input::{self, STANDARD};
 /// Print a link.
 #[derive(Debug, clap::Args)]
 pub struct Link {
-    /// Which scene; the whole text of a scene file goes into the link.
+    /// The scene; the link contains the whole text of a scene file.
     #[command(flatten)]
     choice: Choice,
     /// Step rule, instead of the scene's own.
@@ -49,7 +49,7 @@ pub fn link(library: &Library, args: &Link, config: &Config) -> Result<(), Failu
             carom_session::Link::new(LinkSource::File { name, text }).with_overrides(overrides)
         }
         Source::BuiltIn => {
-            // As it is called without overrides, which may change its name, too.
+            // The name without overrides, because they may change the name.
             let name = library.find(args.choice.scene(), &[])?.0.name;
             carom_session::Link::new(LinkSource::BuiltIn(name)).with_overrides(overrides)
         }
@@ -67,15 +67,15 @@ pub fn link(library: &Library, args: &Link, config: &Config) -> Result<(), Failu
     Ok(())
 }
 
-/// A scene file with those that it includes, whole.
+/// Reads a scene file together with the files that it includes.
 fn file(path: &Path) -> Result<LinkSource, Failure> {
     let text = SceneText::from_file(path)?.whole().into_owned();
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     Ok(LinkSource::File { name, text })
 }
 
-/// Address of the page that opens links: the one that is given, that of the environment or the
-/// configuration file, or the one on this machine.
+/// Address of the page that opens links: `given`, else that of the environment, of the
+/// configuration file, or of this machine.
 pub fn page(given: Option<&str>, config: &Config) -> Result<String, Failure> {
     let from_environment = || std::env::var("CAROM_PAGE").ok().filter(|page| !page.is_empty());
     let page = given.map(str::to_owned).or_else(from_environment).or_else(|| config.page.clone());
@@ -87,8 +87,7 @@ pub fn page(given: Option<&str>, config: &Config) -> Result<String, Failure> {
     Ok(page)
 }
 
-/// What a link leads to, at the beginning of its run, and how many frames of it to take. Its
-/// scene may ask for `budget`.
+/// Opens a link within `budget`; returns the run at its start and the number of frames to take.
 pub fn begin(link: &str, budget: Budget) -> Result<(Replay, u64), Failure> {
     let link = read(link)?;
     let scene = link.open_within(budget)?;
@@ -106,7 +105,7 @@ pub fn read(link: &str) -> Result<carom_session::Link, Failure> {
     Ok(carom_session::Link::parse(&written(link)?)?)
 }
 
-/// A link as it is written: `-` stands for the standard input.
+/// Returns the text of a link; reads it from the standard input if it is `-`.
 fn written(link: &str) -> Result<String, Failure> {
     Ok(if link == STANDARD { standard_input::text()?.to_owned() } else { link.to_owned() })
 }

@@ -1,8 +1,8 @@
-//! What figures depend on besides the program: the machine.
+//! Description of the machine on which figures were measured.
 
 use serde::Serialize;
 
-/// Where figures were measured, and with what.
+/// Machine and version with which figures were measured.
 #[derive(Debug, Clone, Serialize)]
 pub struct Machine {
     pub carom: &'static str,
@@ -29,12 +29,12 @@ impl std::fmt::Display for Machine {
     }
 }
 
-/// Cores this program may use.
+/// Number of cores that the program may use.
 pub fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// The most memory this program has held so far, in bytes, where the system tells.
+/// Peak memory of this program \[bytes\], if the system reports it.
 pub fn peak_memory() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;

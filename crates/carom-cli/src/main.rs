@@ -4,8 +4,8 @@
 
 use std::process::ExitCode;
 
-/// Requests large pages, which many Linux systems give only on request: a world of many spheres
-/// then waits less for addresses to be translated.
+/// Uses large pages, which many Linux systems provide only on request: address translation in a
+/// world of many spheres then costs less.
 #[cfg(target_os = "linux")]
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
@@ -16,9 +16,9 @@ fn main() -> ExitCode {
     ExitCode::from(carom_cli::main(std::env::args_os(), Vec::new()))
 }
 
-/// Starts the program anew with a folder in `$XDG_RUNTIME_DIR`, where it is to draw and the system
-/// names none: a graphics library prints an error line then. A program cannot safely change a
-/// variable of its own, for a library may read it meanwhile.
+/// Restarts the program with a folder in `$XDG_RUNTIME_DIR` if it draws and the variable is not
+/// set: otherwise a graphics library prints an error. A program cannot safely change a variable of
+/// its own process, because libraries may read it at the same time.
 #[cfg(all(target_os = "linux", feature = "pictures"))]
 fn name_runtime_folder() {
     use std::os::unix::process::CommandExt;
@@ -34,6 +34,6 @@ fn name_runtime_folder() {
     }
     let Ok(program) = std::env::current_exe() else { return };
     let mut anew = std::process::Command::new(program);
-    // This returns only where it fails; the error line does no harm then.
+    // `exec` returns only if it fails; then the line of the graphics library is harmless.
     let _ = anew.arg0(name).args(arguments).env(FOLDER, std::env::temp_dir()).exec();
 }

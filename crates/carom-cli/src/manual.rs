@@ -1,4 +1,4 @@
-//! What others read of the command line: shells its words, `man` its pages.
+//! Shell completions and manual pages.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -8,7 +8,7 @@ use clap::CommandFactory;
 use crate::args::{Args, Completions};
 use crate::failure::Failure;
 
-/// Prints what a shell reads to complete words.
+/// Prints the completion script of a shell.
 pub fn completions(completions: &Completions) -> Result<(), Failure> {
     let mut script = Vec::new();
     clap_complete::generate(completions.shell, &mut Args::command(), "carom", &mut script);

@@ -1,4 +1,4 @@
-//! A scene file to start from.
+//! The command `new`: writes a scene file to start from.
 
 use std::fs::OpenOptions;
 use std::io::{self, ErrorKind, Write};
@@ -10,7 +10,7 @@ use crate::args::New;
 use crate::failure::Failure;
 use crate::replacing::already_there;
 
-/// The scene, called `NAME`.
+/// Text of the scene; its name is `NAME`.
 const TEMPLATE: &str = include_str!("new.toml");
 
 /// Writes a scene file to start from.
@@ -23,7 +23,7 @@ pub fn new(new: &New) -> Result<(), Failure> {
         name.into()
     };
     let name = file.file_stem().unwrap_or_default().to_string_lossy();
-    // A name may hold what ends a text in TOML.
+    // A name may contain quotation marks.
     let name = toml_text(&name);
     write(&file, &TEMPLATE.replace("\"NAME\"", &name), new.replacing.force)?;
     let mut out = io::stdout().lock();
@@ -32,9 +32,9 @@ pub fn new(new: &New) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A text as TOML has it.
+/// Quotes a text for TOML.
 fn toml_text(text: &str) -> String {
-    // Texts of TOML escape what those of JSON do.
+    // Strings of JSON are valid in TOML.
     serde_json::Value::from(text).to_string()
 }
 

@@ -1,4 +1,4 @@
-//! Random numbers, the same on every platform.
+//! Random numbers that are the same on every platform.
 
 use carom::DVec3;
 use rand_core::{Rng, SeedableRng};
@@ -12,23 +12,23 @@ impl Numbers {
         Self(Pcg64::seed_from_u64(seed))
     }
 
-    /// In [0, 1).
+    /// Returns a number in [0, 1).
     pub fn unit(&mut self) -> f64 {
         // The top 53 bits: every value is a multiple of 2^-53, so this is exact.
         (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// In [low, high).
+    /// Returns a number in [low, high).
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
 
-    /// One of 0 .. count.
+    /// Returns an index in 0 .. count.
     pub fn index(&mut self, count: usize) -> usize {
         (self.unit() * count as f64) as usize
     }
 
-    /// A unit vector, all directions alike: from the points of a ball.
+    /// Returns a unit vector, uniformly distributed: a random point of the unit ball, normalized.
     pub fn direction(&mut self) -> DVec3 {
         loop {
             let point = 2.0 * DVec3::new(self.unit(), self.unit(), self.unit()) - 1.0;
@@ -39,7 +39,7 @@ impl Numbers {
         }
     }
 
-    /// A unit vector across another one.
+    /// Returns a unit vector perpendicular to `axis`.
     pub fn direction_across(&mut self, axis: DVec3) -> DVec3 {
         loop {
             let across = self.direction().cross(axis);
@@ -49,8 +49,8 @@ impl Numbers {
         }
     }
 
-    /// A vector whose parts are normally distributed, of mean 0 and variance 1. Polar method of
-    /// Marsaglia and Bray, SIAM Review 6, 260 (1964).
+    /// Returns a vector of normally distributed components with mean 0 and variance 1. Polar method
+    /// of Marsaglia and Bray, SIAM Review 6, 260 (1964).
     pub fn normal_vector(&mut self) -> DVec3 {
         let ([x, y], [z, _]) = (self.normal_pair(), self.normal_pair());
         DVec3::new(x, y, z)

@@ -1,21 +1,21 @@
-//! How far a long command has come.
+//! Progress of long commands.
 
 use std::io::{self, IsTerminal};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// What takes less than this shows no progress bar.
+/// Shorter commands show no progress bar.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// A progress bar on a terminal; none where the output is no terminal.
+/// A progress bar; hidden if the standard error stream is no terminal.
 pub struct Progress {
     bar: ProgressBar,
     began: Instant,
 }
 
 impl Progress {
-    /// A bar for so many frames.
+    /// Creates a bar for this number of frames.
     pub fn new(frames: u64) -> Self {
         let style = ProgressStyle::with_template("{wide_bar} {msg}, {eta} left");
         let bar = ProgressBar::with_draw_target(Some(frames), ProgressDrawTarget::hidden());
@@ -23,7 +23,7 @@ impl Progress {
         Self { bar, began: Instant::now() }
     }
 
-    /// A frame is done, at this time of the scene \[s\].
+    /// Records that `frame` is complete, at `time` of the scene \[s\].
     pub fn show(&self, frame: u64, time: f64) {
         if self.bar.is_hidden() && self.began.elapsed() > PATIENCE && io::stderr().is_terminal() {
             self.bar.set_draw_target(ProgressDrawTarget::stderr());

@@ -1,4 +1,4 @@
-//! The command `recover`: complete files of what killed runs left.
+//! The command `recover`: completes files that killed runs left unfinished.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use carom_scene::unfinished;
 use crate::args::Recover;
 use crate::failure::Failure;
 
-/// Makes the complete file of an unfinished one, and prints a line about it.
+/// Creates the complete file of an unfinished one, and prints a line about it.
 pub fn recover(args: &Recover) -> Result<(), Failure> {
     let is_table = args.file.extension().is_some_and(|it| it.eq_ignore_ascii_case("csv"));
     if is_table && args.out.is_none() && args.file.is_file() {
@@ -28,7 +28,7 @@ pub fn recover(args: &Recover) -> Result<(), Failure> {
     Ok(tell(&unfinished, &target, recovered?)?)
 }
 
-/// Makes a film of what is no recording.
+/// Completes a film.
 #[cfg(feature = "pictures")]
 fn film(unfinished: &Path, target: &Path) -> Result<Recovered, Failure> {
     carom_render::recover_film(unfinished, target).map_err(refused)
@@ -41,7 +41,7 @@ fn film(unfinished: &Path, _target: &Path) -> Result<Recovered, Failure> {
     Err(Failure::Usage(text))
 }
 
-/// The unfinished file, and the one to make of it, which is another one.
+/// Returns the unfinished file and the target; refuses if they are the same file.
 fn places(args: &Recover) -> Result<(PathBuf, PathBuf), Failure> {
     let (unfinished, target) = named(args)?;
     let is_same = match (unfinished.canonicalize(), target.canonicalize()) {
@@ -56,7 +56,7 @@ fn places(args: &Recover) -> Result<(PathBuf, PathBuf), Failure> {
     Ok((unfinished, target))
 }
 
-/// The unfinished file that is named, and the one that it is to become.
+/// Returns the unfinished file that the arguments name, and the target.
 fn named(args: &Recover) -> Result<(PathBuf, PathBuf), Failure> {
     let Recover { file, out, .. } = args;
     if let Some(target) = unfinished::target_of(file) {
@@ -78,7 +78,7 @@ fn named(args: &Recover) -> Result<(PathBuf, PathBuf), Failure> {
     }
 }
 
-/// Cuts off the last line of a table if it has no end.
+/// Removes the last line of a table if it is incomplete.
 fn table(path: &Path) -> Result<(), Failure> {
     let cut = recording::recover_table(path).map_err(refused)?;
     let name = path.display();

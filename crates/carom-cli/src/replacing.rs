@@ -1,4 +1,4 @@
-//! Files that are there already.
+//! Protection of existing files.
 
 use std::path::Path;
 
@@ -13,14 +13,14 @@ pub struct Replacing {
 }
 
 impl Replacing {
-    /// Refuses to write where a file is that is not to be replaced. A device is none.
+    /// Refuses to replace existing files, unless forced. Devices are no such files.
     pub fn check<'a>(self, files: impl IntoIterator<Item = &'a Path>) -> Result<(), Failure> {
         let there = files.into_iter().find(|file| file.is_file() && !self.force);
         there.map_or(Ok(()), |file| Err(already_there(file)))
     }
 }
 
-/// Why a file is not written.
+/// Error for an existing file.
 pub fn already_there(file: &Path) -> Failure {
     Failure::Usage(format!("{} is there already; --force replaces it", file.display()))
 }

@@ -1,4 +1,4 @@
-//! The command `run`: steps a scene, records it, sums it up.
+//! The command `run`: steps a scene, records it and prints a summary.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -18,16 +18,16 @@ use crate::failure::{Failure, both, complain};
 use crate::interruption::interruption;
 use crate::link;
 use crate::progress::Progress;
-use crate::standard_input::STANDARD;
+use crate::standard_input::{STANDARD, is_standard};
 use crate::summary::{Observer, Summary};
 
-/// Runs a scene and prints what became of it; again and again, if its file is watched. What a link
-/// leads to may ask for `links`.
+/// Runs a scene and prints a summary; repeatedly, if its file is watched. `links` limits the scene
+/// of a link.
 pub fn run(library: &Library, args: &Run, links: Budget) -> Result<(), Failure> {
     let series = args.out.as_deref().into_iter().flat_map(series);
     let tables = [&args.out, &args.impacts, &args.ledger].into_iter().flatten().cloned();
     let files: Vec<PathBuf> = tables.chain(series).collect();
-    // What the shell has the standard output written to is its own affair.
+    // The shell is responsible for the file to which the standard output is redirected.
     let named = files.iter().map(PathBuf::as_path).filter(|file| !is_standard(file));
     args.replacing.check(named)?;
     let interrupted = interruption()?;
@@ -48,10 +48,10 @@ pub fn run(library: &Library, args: &Run, links: Budget) -> Result<(), Failure> 
     }
 }
 
-/// How often a file that is watched is looked at.
+/// Interval between checks of a watched file.
 const INTERVAL: Duration = Duration::from_millis(200);
 
-/// Waits until a file is changed, or until `interrupted`. Returns whether it was changed.
+/// Waits until the file is changed or `interrupted` is set; returns whether it was changed.
 fn wait_for_change(file: &mut ChangedFile, interrupted: &AtomicBool) -> bool {
     while !interrupted.load(Ordering::Relaxed) {
         if file.look() {
@@ -62,13 +62,13 @@ fn wait_for_change(file: &mut ChangedFile, interrupted: &AtomicBool) -> bool {
     false
 }
 
-/// The file that is watched.
+/// Path of the file to watch.
 fn watched(library: &Library, args: &Run) -> Result<PathBuf, Failure> {
     let scene = args.scene.as_deref().unwrap_or_default();
     match args.changes.find(library, scene, []) {
         Ok((_, Source::File(path))) => Ok(path),
         Ok(_) => Err(Failure::Usage(format!("--watch needs a scene file, which {scene} is not"))),
-        // What is wrong with it may be mended while it is watched.
+        // An invalid file may be corrected while it is watched.
         Err(failure) => {
             let files = [PathBuf::from(scene), PathBuf::from(format!("{scene}.toml"))];
             files.into_iter().find(|file| file.is_file()).ok_or(failure)
@@ -84,7 +84,7 @@ fn once(
 ) -> Result<(), Failure> {
     let (mut replay, frames) = match (&args.link, &args.scene) {
         (Some(link), _) => link::begin(link, links)?,
-        // Without a link there is a scene: the command line demands it.
+        // Without a link there is a scene: the arguments require it.
         (None, scene) => begin(library, scene.as_deref().unwrap_or_default(), args)?,
     };
 
@@ -105,11 +105,11 @@ fn once(
         }
     }
     if matches!(result, Err(Failure::Interrupted)) {
-        // The frame at work was given up; what was before it counts.
+        // The current frame was abandoned; earlier ones count.
         result = Ok(());
     }
     drop(progress);
-    // Whatever happened, what was written so far is made readable.
+    // Completes the files even after an error.
     let finished = outputs.finish();
     both(result, finished)?;
     check_energy(replay.world())?;
@@ -131,7 +131,7 @@ fn once(
     Ok(())
 }
 
-/// Refuses to sum up a run whose numbers have grown too large for a computer.
+/// Refuses to summarize a run whose numbers have overflowed.
 fn check_energy(world: &World) -> Result<(), Failure> {
     if world.total_energy().is_finite() {
         return Ok(());
@@ -142,7 +142,7 @@ fn check_energy(world: &World) -> Result<(), Failure> {
     Err(Failure::Fault(problem))
 }
 
-/// A scene at its beginning, and how many frames of it to take.
+/// Returns a scene at its start, and the number of frames to take.
 fn begin(library: &Library, scene: &str, args: &Run) -> Result<(Replay, u64), Failure> {
     let rule = args.rule.iter().map(|rule| format!("simulation.rule={rule}"));
     let (scene, _) = args.changes.find(library, scene, rule.chain(args.length.overrides()))?;
@@ -151,7 +151,7 @@ fn begin(library: &Library, scene: &str, args: &Run) -> Result<(Replay, u64), Fa
     Ok((Replay::new(scene)?, frames))
 }
 
-/// What a series for ParaView is written to besides: its list, and the first of its frames.
+/// Other files of a series for ParaView: its list, and its first frame.
 fn series(out: &Path) -> Vec<PathBuf> {
     let is_one = out.extension().is_some_and(|it| it == "pvd" || it == "vtp");
     let stem = out.file_stem().unwrap_or_default().to_string_lossy().into_owned();
@@ -159,20 +159,12 @@ fn series(out: &Path) -> Vec<PathBuf> {
     if is_one { vec![out.with_extension("pvd"), first] } else { Vec::new() }
 }
 
-/// Whether this stands for the standard output: `-`, or the name that the system has for it. Opened by that
-/// name, a file behind it would be written from its beginning, under the summary.
-fn is_standard(path: &Path) -> bool {
-    let names: &[&str] =
-        if cfg!(unix) { &["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"] } else { &[] };
-    path.as_os_str() == STANDARD || names.iter().any(|name| path.as_os_str() == *name)
-}
-
-/// Whether a trajectory of this name is an animation.
+/// Whether the ending of a trajectory is that of an animation.
 fn is_animation(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("glb"))
 }
 
-/// The file of a trajectory; what its ending means, `recording` says, but for animations.
+/// Creates the file of a trajectory. Animations are handled here, other formats by `recording`.
 fn trajectory(path: &Path, replay: &Replay) -> Result<Trajectory, Failure> {
     if is_standard(path) {
         return Ok(Trajectory::csv(io::stdout(), STANDARD));
@@ -202,7 +194,7 @@ fn ledger_table(path: &Path) -> Result<LedgerTable, RecordingError> {
     LedgerTable::create(path)
 }
 
-/// Where a file is or will be, the same for all paths to it.
+/// Canonical path of a file, which may not exist yet.
 fn place_of(file: &Path) -> PathBuf {
     if is_standard(file) {
         return PathBuf::from(STANDARD);
@@ -215,7 +207,7 @@ fn place_of(file: &Path) -> PathBuf {
     file.canonicalize().ok().or_else(in_folder).unwrap_or_else(|| file.to_owned())
 }
 
-/// Why a trajectory cannot go on, and what there is of it.
+/// Converts an error of a trajectory, and adds the number of frames kept.
 fn with_kept(error: RecordingError, frames: u64) -> Failure {
     match Failure::from(error) {
         Failure::Fault(message) => {
@@ -225,7 +217,7 @@ fn with_kept(error: RecordingError, frames: u64) -> Failure {
     }
 }
 
-/// The files of a run.
+/// Files of a run.
 struct Outputs {
     trajectory: Option<Trajectory>,
     impacts: Option<ImpactTable>,
@@ -234,7 +226,7 @@ struct Outputs {
 }
 
 impl Outputs {
-    /// Creates the files of a run. `frames` is the number of its frames.
+    /// Creates the files of a run.
     fn create(args: &Run, replay: &Replay, frames: u64) -> Result<Self, Failure> {
         let files =
             [("--out", &args.out), ("--impacts", &args.impacts), ("--ledger", &args.ledger)];
@@ -262,7 +254,7 @@ impl Outputs {
             let message = "--ledger needs the rule exact: the other rules keep no ledger";
             return Err(Failure::Usage(message.to_owned()));
         }
-        // The trajectory last: one that is dropped leaves an unfinished file.
+        // The trajectory comes last: if it is dropped, an unfinished file remains.
         Ok(Self {
             impacts: args.impacts.as_deref().map(impact_table).transpose()?,
             ledger: args.ledger.as_deref().map(ledger_table).transpose()?,
@@ -287,14 +279,14 @@ impl Outputs {
         Ok(())
     }
 
-    /// Completes all files, and tells of all that fail.
+    /// Completes all files; reports all errors.
     fn finish(self) -> Result<(), Failure> {
         let trajectory = self.trajectory.map_or(Ok(()), Trajectory::finish);
         let impacts = self.impacts.map_or(Ok(()), ImpactTable::finish);
         let ledger = self.ledger.map_or(Ok(()), LedgerTable::finish);
         let [trajectory, impacts, ledger] =
             [trajectory, impacts, ledger].map(|it| it.map_err(Failure::from));
-        // A reader of the trajectory that has gone away does not hide what else failed.
+        // If the reader of the trajectory closed it, other errors are still reported.
         both(both(impacts, ledger), trajectory)
     }
 }

@@ -1,4 +1,4 @@
-//! The commands about scenes themselves: list, check, show.
+//! The commands `scenes`, `check` and `show`.
 
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -11,7 +11,7 @@ use crate::args::Show;
 use crate::failure::{Failure, complain, legible};
 use crate::standard_input::{self, STANDARD};
 
-/// Lists every scene found.
+/// Lists every scene.
 pub fn list(library: &Library, json: bool) -> Result<(), Failure> {
     let entries = library.entries()?;
     let mut out = io::stdout().lock();
@@ -56,19 +56,23 @@ fn as_json(entry: &Entry) -> serde_json::Value {
     }
 }
 
-/// Checks scene files; reports every broken one before the command fails.
-pub fn check(files: &[PathBuf], budget: Budget) -> Result<(), Failure> {
+/// Checks scenes, each of a file or a name; reports every broken one before the command fails.
+pub fn check(library: &Library, files: &[PathBuf], budget: Budget) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     let mut broken = 0;
     for file in files {
         let is_standard = file.as_os_str() == STANDARD;
         let name = if is_standard { standard_input::NAME.into() } else { file.to_string_lossy() };
-        let text = if is_standard {
-            SceneText::new(standard_input::text()?, &name)
+        let scene = if is_standard {
+            let text = SceneText::new(standard_input::text()?, &name);
+            text.and_then(|text| text.within(budget).scene(&[]))
+        } else if file.exists() {
+            let text = SceneText::from_file_within(file, budget);
+            text.and_then(|text| text.within(budget).scene(&[]))
         } else {
-            SceneText::from_file_within(file, budget)
+            library.find(&name, &[]).map(|(scene, _)| scene)
         };
-        match text.and_then(|text| text.within(budget).scene(&[])) {
+        match scene {
             Ok(scene) => {
                 writeln!(out, "{}: ok, \"{}\"", legible(&name), scene.name)?;
                 for advice in advice_for(&scene) {
@@ -81,7 +85,7 @@ pub fn check(files: &[PathBuf], budget: Budget) -> Result<(), Failure> {
                 } else {
                     Scene::faults_of_file(file, budget).unwrap_or_default()
                 };
-                // What a single fault says is the error itself.
+                // A single fault is identical to the error.
                 if faults.len() > 1 {
                     faults.iter().for_each(|fault| complain(&fault.to_string()));
                 } else {
@@ -93,11 +97,11 @@ pub fn check(files: &[PathBuf], budget: Budget) -> Result<(), Failure> {
     }
     match broken {
         0 => Ok(()),
-        _ => Err(Failure::Fault(format!("{broken} of {} scene files are broken", files.len()))),
+        _ => Err(Failure::Fault(format!("{broken} of {} scenes are broken", files.len()))),
     }
 }
 
-/// What would make a sound scene better, and what in it means nothing.
+/// Advice for a valid scene, and the fields that its rule ignores.
 fn advice_for(scene: &Scene) -> Vec<String> {
     let Ok(world) = scene.world() else { return Vec::new() };
     let frames = [scene.simulation.frame_time, world.longest_stable_frame()];

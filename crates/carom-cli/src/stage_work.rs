@@ -1,10 +1,9 @@
-//! The work of a run, counted by stage.
+//! Work of a run, by stage.
 
 use carom::StageCounts;
 use serde::{Deserialize, Serialize};
 
-/// The work of a run by stage, as JSON has it: counts, or counts per impact. What each of them is,
-/// [`StageCounts`] says.
+/// Work of a run by stage, as in JSON: counts, or counts per impact. [`StageCounts`] explains them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct StageWork<T> {
     pub predictions: T,
@@ -35,7 +34,7 @@ impl From<StageCounts> for StageWork<u64> {
 }
 
 impl StageWork<f64> {
-    /// Counts of a run per impact; `None` without impacts.
+    /// Divides counts by the number of impacts; `None` without impacts.
     pub fn per_impact(counts: StageCounts, impacts: u64) -> Option<Self> {
         let per_impact = |count: u64| count as f64 / impacts as f64;
         (impacts > 0).then(|| Self {

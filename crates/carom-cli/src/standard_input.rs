@@ -1,20 +1,21 @@
-//! What a command reads from the standard input, where `-` names it.
+//! Reads the standard input for commands whose argument is `-`.
 
 use std::fmt::Display;
 use std::io::{self, Read};
+use std::path::Path;
 use std::sync::OnceLock;
 
 use carom_scene::{Budget, NotText, text_of};
 
 use crate::failure::Failure;
 
-/// What stands for the standard input, or the standard output.
+/// Argument for the standard input or the standard output.
 pub const STANDARD: &str = "-";
 
-/// What errors call it, and a scene there that has no name.
+/// Name of the standard input in errors, and of a scene there that has no name.
 pub const NAME: &str = "stdin";
 
-/// The whole text, which is read once.
+/// Returns the whole text. It is read once and kept.
 pub fn text() -> Result<&'static str, Failure> {
     static TEXT: OnceLock<String> = OnceLock::new();
     if let Some(text) = TEXT.get() {
@@ -34,4 +35,12 @@ pub fn text() -> Result<&'static str, Failure> {
         read => read.map_err(|error| refused(&error))?,
     };
     Ok(TEXT.get_or_init(|| text))
+}
+
+/// Whether the path is the standard output: `-`, or the name that the system has for it. A file
+/// opened by that name would be overwritten from its start, with the summary on top.
+pub fn is_standard(path: &Path) -> bool {
+    let names: &[&str] =
+        if cfg!(unix) { &["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"] } else { &[] };
+    path.as_os_str() == STANDARD || names.iter().any(|name| path.as_os_str() == *name)
 }

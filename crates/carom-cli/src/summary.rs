@@ -1,4 +1,4 @@
-//! What became of a run, in a few lines.
+//! Summary of a run.
 
 use std::io::{self, Write};
 use std::time::{Duration, Instant};
@@ -17,16 +17,17 @@ use crate::stage_work::StageWork;
 use crate::written::written;
 use crate::zone_totals::ZoneTotals;
 
-/// Overlaps are looked for after each frame, but with more spheres than this, where the rule prevents
-/// overlaps, only once in so many frames and after the last one: that takes longer than many a frame.
+/// Largest number of spheres for which overlaps are searched after each frame. With more, and if
+/// the rule prevents overlaps, they are searched every `FRAMES_PER_LOOK` frames and at the end: the
+/// search can take longer than a frame.
 const FEW: usize = 100;
 const FRAMES_PER_LOOK: u64 = 16;
 
-/// A ball that is put into another one overlaps it by more than this part of the smallest radius; what rounding leaves
-/// is far less.
+/// Overlap, as a fraction of the smallest radius, above which a ball was emitted into another one;
+/// rounding errors are much smaller.
 const INTO_ANOTHER: f64 = 1e-3;
 
-/// Watches a run.
+/// Collects the figures of a run.
 pub struct Observer {
     began: Instant,
     stepping: Duration,
@@ -41,13 +42,13 @@ pub struct Observer {
     unfinished_islands: u64,
     work: StageCounts,
     largest_overlap: f64,
-    /// Largest overlap as a part of the smallest radius at that time.
+    /// Largest overlap as a fraction of the smallest radius at that time.
     largest_relative_overlap: f64,
-    /// In any group of impacts, under rules that keep a ledger.
+    /// Largest errors of a group of impacts, under rules that keep a ledger.
     largest_momentum_error: f64,
     largest_energy_error: f64,
     energy: EnergyAccount,
-    /// Under the rule `contact`, and in zones.
+    /// Totals of the rule `contact` and of zones.
     contact: ContactTotals,
     zones: ZoneTotals,
     /// Whether a ball was emitted into another one.
@@ -84,7 +85,7 @@ impl Observer {
         }
     }
 
-    /// Takes a frame, and notes what happened.
+    /// Steps a frame and collects its figures.
     pub fn step(&mut self, replay: &mut Replay) -> Result<(), SessionError> {
         let began = Instant::now();
         replay.step()?;
@@ -113,7 +114,7 @@ impl Observer {
         Ok(())
     }
 
-    /// Looks for overlaps, and for balls that have left closed containers.
+    /// Searches for overlaps, and for balls that left closed containers.
     fn look_at_places(&mut self, world: &World) {
         self.escapes.look(world);
         let overlaps = world.overlaps(0.0);
@@ -134,60 +135,61 @@ impl Observer {
     }
 }
 
-/// The figures of a run.
+/// Figures of a run.
 #[derive(Debug, Serialize)]
 pub struct Summary {
     scene: String,
     rule: Rule,
-    /// Under the rule `bisect`.
+    /// Only for the rule `bisect`.
     wind_back: Option<WindBack>,
-    /// Under the rules that use one.
+    /// Only for the rules that use one.
     integrator: Option<Integrator>,
-    /// Under the rule `exact`.
+    /// Only for the rule `exact`.
     impact_law: Option<ImpactLaw>,
-    /// Under the rule `contact`: sub-steps of a frame, and sweeps of a sub-step.
+    /// Only for the rule `contact`: sub-steps per frame, and sweeps per sub-step.
     sub_steps: Option<u32>,
     sweeps: Option<u32>,
     frame_time: f64,
     frames: u64,
-    /// Made on the way, where a link says so.
+    /// Number of edits during the run, from a link.
     edits: usize,
     simulated_time: f64,
     spheres: usize,
     emitted: u64,
     retired: u64,
-    /// Spheres that emitters left out, for there was no room.
+    /// Number of spheres that emitters left out because they would have overlapped others.
     left_out: u64,
     impacts: u64,
-    /// Spheres in triggers, summed over all frames.
+    /// Number of spheres in triggers, summed over frames.
     trigger_contacts: u64,
     unfinished_islands: u64,
-    /// Summed over all frames.
+    /// Totals over all frames.
     work: StageWork<u64>,
     energy_at_start: f64,
     energy_at_end: f64,
     energy_balance: EnergyBalance,
     momentum_at_start: [f64; 3],
     momentum_at_end: [f64; 3],
-    /// At the ends of frames.
+    /// Largest overlap at the end of a frame.
     largest_overlap: f64,
-    /// Of any group of impacts, relative to the momenta at work; under the rule `exact`.
+    /// Largest error of momentum of a group of impacts, relative to the momenta involved; only for
+    /// the rule `exact`.
     largest_momentum_error: Option<f64>,
-    /// Change of energy of any group of impacts against what restitution demands, relative to the
-    /// energy at work; under the rule `exact`.
+    /// Largest deviation of the energy of a group of impacts from what restitution requires,
+    /// relative to the energy involved; only for the rule `exact`.
     largest_energy_error: Option<f64>,
-    /// Under the rule `contact`, and where `exact` had stepped zones.
+    /// Only for the rule `contact`, and if `exact` had stepped zones.
     contact: Option<ContactTotals>,
-    /// Where `exact` had stepped zones.
+    /// Only if `exact` had stepped zones.
     zones: Option<ZoneTotals>,
     wall_time: f64,
     stepping_time: f64,
     state_hash: String,
-    /// What the scene says that its rule does not read.
+    /// Parts of the scene that its rule ignores.
     unread: Option<String>,
-    /// What would have made the run better.
+    /// Advice on rule or settings.
     advice: Option<String>,
-    /// What the rule keeps, and this run did not.
+    /// Violated guarantees of the rule.
     broken: Vec<String>,
 }
 
@@ -239,7 +241,7 @@ impl Summary {
             Some(collider) if !collider.name.is_empty() => collider.name.clone(),
             _ => id.to_string(),
         };
-        // Where somebody moves balls on the way, they may be anywhere.
+        // Edits may move balls anywhere.
         let has_edits = replay.edits() > 0;
         broken.extend(observer.escapes.breach(name_of).filter(|_| !has_edits));
         Self {
@@ -289,7 +291,7 @@ impl Summary {
         }
     }
 
-    /// What the rule keeps, and this run did not, a line each.
+    /// Violated guarantees of the rule, a line each.
     pub fn broken(&self) -> &[String] {
         &self.broken
     }
@@ -306,7 +308,7 @@ impl Summary {
         Ok(())
     }
 
-    /// The rule and its method, in words.
+    /// Describes the rule and its method.
     fn rule(&self) -> String {
         let rule = match self.wind_back {
             Some(wind_back) => {
@@ -353,7 +355,7 @@ impl Summary {
             rows.splice(6..6, [("stepped zones", zones.row(time))]);
         }
         if let Some(contact) = &self.contact {
-            // Before the momentum.
+            // Insert before the momentum.
             rows.splice(6..6, contact.rows());
         }
         rows.splice(6..6, self.energy_balance.rows());
@@ -396,15 +398,16 @@ fn energy_change(start: f64, end: f64) -> String {
     format!("{} J ({:+.3e}{relative})", from_to(start, end), end - start)
 }
 
-/// Sizes of the momentum, and the size of its change as a vector.
+/// Formats the magnitudes of the momentum, and that of its change.
 fn momentum_change(start: DVec3, end: DVec3) -> String {
     let change = (end - start).length();
     format!("{} kg m/s (change {change:.3e})", from_to(start.length(), end.length()))
 }
 
-/// Two numbers to six digits, with powers of ten where they are very large, or both very small.
+/// Formats two numbers with six digits; in scientific notation if they are very large or both very
+/// small.
 fn from_to(start: f64, end: f64) -> String {
-    /// What six digits after the point, and not many before it, show well.
+    /// Numbers that are readable with six digits after the point.
     const PLAIN: std::ops::Range<f64> = 1e-3..1e9;
     let largest = start.abs().max(end.abs());
     if largest == 0.0 || PLAIN.contains(&largest) {

@@ -1,8 +1,8 @@
-//! Tables of text: columns as wide as what they hold.
+//! Tables of aligned text.
 
 use std::io::{self, Write};
 
-/// On which side of its column a text is.
+/// Alignment of a text in its column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
     Left,
@@ -21,12 +21,12 @@ impl Table {
         Self { columns: columns.iter().map(|(_, side)| *side).collect(), rows: vec![heading] }
     }
 
-    /// Appends a row, a text for each column.
+    /// Appends a row, with a text for each column.
     pub fn push(&mut self, row: Vec<String>) {
         self.rows.push(row);
     }
 
-    /// Writes the table; each row ends where its last text does.
+    /// Writes the table, without spaces at the ends of rows.
     pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
         let width = |column: usize| {
             let texts = self.rows.iter().filter_map(|row| row.get(column));

@@ -22,7 +22,7 @@ pub struct View {
     /// input.
     #[arg(long, value_name = "URL", conflicts_with_all = ["scene", "rule", "watch"])]
     link: Option<String>,
-    /// What is different.
+    /// Overrides of the scene.
     #[command(flatten)]
     changes: Changes,
     /// Step rule, instead of the scene's own.
@@ -43,7 +43,7 @@ pub struct View {
     quality: Quality,
 }
 
-/// Opens the window with a scene, or to choose one.
+/// Opens the window with a scene, or with the list of scenes.
 pub fn view(
     library: Library,
     args: &View,
@@ -67,7 +67,7 @@ pub fn play(library: Library, maze: Maze, config: &Config) -> Result<(), Failure
     open(setup(library, Some(Start::Maze(Box::new(maze))), desktop, Quality::default()))
 }
 
-/// A scene with a maze in it is played, unless it is to be watched.
+/// Starts a scene with a maze as a game, unless `watch` is set.
 fn start(scene: Scene, source: Source, watch: bool) -> Start {
     let maze = if watch { None } else { Maze::from_scene(&scene).ok() };
     match maze {
@@ -76,7 +76,7 @@ fn start(scene: Scene, source: Source, watch: bool) -> Start {
     }
 }
 
-/// The desktop, with this folder for pictures and this page for links.
+/// Creates the desktop with a folder for pictures and a page for links.
 fn desktop(folder: Option<PathBuf>, page: String) -> Desktop {
     Desktop::new(folder.unwrap_or_else(default_folder)).with_page(page)
 }

@@ -1,27 +1,27 @@
-//! What was stepped under the rule `exact` in a run.
+//! Stepped zones of the rule `exact` over a run.
 
 use carom::{StepReport, ZoneAccount};
 use serde::Serialize;
 
-/// The accounts of the stepped zones of all frames of a run, as JSON has them.
+/// Totals of the stepped zones over all frames of a run, as in JSON.
 #[derive(Debug, Clone, Copy, Default, Serialize)]
 pub struct ZoneTotals {
-    /// Spheres in zones at the end of a frame; the largest number of all.
+    /// Largest number of spheres in zones at the end of a frame.
     most_spheres: u32,
-    /// And at the end of the last frame.
+    /// Number of spheres in zones at the end of the run.
     spheres: u32,
-    /// Time that spheres spent in zones \[s\], of all together.
+    /// Time that spheres spent in zones, summed over spheres \[s\].
     sphere_seconds: f64,
-    /// Ticks at which zones were stepped.
+    /// Number of ticks at which zones were stepped.
     ticks: u64,
-    /// Spheres that came into a zone.
+    /// Number of spheres that joined a zone.
     joined: u64,
-    /// Spheres that left one.
+    /// Number of spheres that left a zone.
     left: u64,
 }
 
 impl ZoneTotals {
-    /// Takes in what a step reports.
+    /// Adds the report of a step.
     pub fn add(&mut self, report: &StepReport) {
         let ZoneAccount { spheres, sphere_seconds, ticks, joined, left, .. } = report.zone_account;
         self.most_spheres = self.most_spheres.max(spheres);
@@ -37,7 +37,7 @@ impl ZoneTotals {
         self.joined > 0
     }
 
-    /// The line of a summary of a run over so many seconds.
+    /// Line of the summary of a run that lasted `time` \[s\].
     pub fn row(&self, time: f64) -> String {
         let Self { most_spheres, spheres, sphere_seconds, .. } = self;
         let mean = sphere_seconds / time;

@@ -1,5 +1,4 @@
-//! The command `carom` as a user meets it: files, tables, exit codes, and one clear line for
-//! everything that goes wrong.
+//! The command `carom`: files, tables, exit codes, and one clear line for every error.
 
 mod command;
 
@@ -87,12 +86,12 @@ fn the_trajectory_as_csv_has_a_row_per_ball_and_frame_with_17_digits() {
     good(&["run", "simtest1", "--seconds", "1", "--out", &file]);
     let (header, rows) = rows(&file);
     assert_eq!(header, vec!["t", "ball", "x", "y", "z", "vx", "vy", "vz"]);
-    // The second ball comes in frame 36, at 0.7 s.
+    // The second ball appears in frame 36, at 0.7 s.
     assert_eq!(rows.len(), 50 + 15);
     let number = |field: &str| field.parse::<f64>().unwrap();
     assert_eq!(number(&rows[0][0]), 0.02);
     assert_eq!(rows[49 + 15][1], "1");
-    // v = -g t of the scheme; 17 digits tell doubles apart.
+    // v = -g t under this scheme; 17 digits distinguish any two doubles.
     assert_eq!(rows[0][6], "-4.0000000000000002e-1");
     assert!(
         rows[34]
@@ -234,7 +233,7 @@ fn scenes_of_a_users_own_are_found_in_folders() {
         .unwrap();
     assert!(output.status.success());
     assert!(bad_line(&["run", "own"], 2).contains("there is no scene \"own\""));
-    // The file of that name in the folder where one is.
+    // A file of that name in the current folder is used.
     let output = carom().args(["run", "own", "--frames", "3"]).current_dir(directory).output();
     assert!(output.unwrap().status.success());
 }
@@ -317,6 +316,13 @@ fn what_goes_wrong_on_the_way_ends_with_code_1_and_one_line() {
 }
 
 #[test]
+fn scenes_are_checked_by_their_names_too() {
+    assert_eq!(good(&["check", "simtest1"]), "simtest1: ok, \"simtest1\"\n");
+    let text = bad(&["check", "simtest1", "simtets1"], 1);
+    assert!(text.contains("simtets1") && text.contains("did you mean \"simtest1\""), "{text}");
+}
+
+#[test]
 #[cfg(target_os = "linux")]
 fn a_full_disk_is_one_clear_line_in_every_format() {
     let folder = tempfile::tempdir().unwrap();
@@ -339,7 +345,7 @@ fn a_full_disk_is_one_clear_line_in_every_format() {
     assert!(text.contains("No space left"), "{text}");
 }
 
-/// Starts a run too long to end by itself, and interrupts it as Ctrl-C would.
+/// Starts a run that would take very long, and interrupts it as Ctrl-C would.
 #[cfg(unix)]
 fn interrupted_run(file: &Path) -> Output {
     let child = carom()
@@ -349,8 +355,8 @@ fn interrupted_run(file: &Path) -> Output {
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    // Once something is in the file, the run listens for Ctrl-C; an NPZ file has its numbers in another one until the
-    // end.
+    // When the file contains something, the run reacts to Ctrl-C. The numbers of an NPZ file are in
+    // another file until the end.
     let began = std::time::Instant::now();
     let unfinished = format!("{}.0.unfinished", file.display());
     let size = |path: &Path| std::fs::metadata(path).map_or(0, |it| it.len());
@@ -382,7 +388,7 @@ fn ctrl_c_ends_the_run_with_what_was_written_readable() {
     }
 }
 
-/// A ball with backspin that is dropped on a floor with friction.
+/// A ball with backspin that falls on a floor with friction.
 const BACKSPIN: &str = r#"
 name = "backspin"
 forces = [{ gravity = { acceleration = [0.0, -9.81, 0.0] } }]
@@ -404,7 +410,7 @@ fn the_rule_contact_tells_what_it_did_to_energy() {
     let entries = ["contacts", "colliders", "correction", "emission", "remainder"];
     let accounted: f64 = entries.iter().map(|name| number(&balance[name])).sum();
     assert!((lost + accounted).abs() < 1e-12 * lost, "{lost} J: {balance}");
-    // What falls is in free flight exact.
+    // Free flight is exact.
     assert!(number(&balance["remainder"]).abs() < 1e-3 * lost, "{lost} J: {balance}");
     assert!((0.0..=1.0).contains(&number(&contact["residual"])), "{contact}");
     assert!(number(&contact["largest_overlap"]) < 0.1);
@@ -419,7 +425,7 @@ fn the_rule_contact_tells_what_it_did_to_energy() {
     assert!(compared.contains("\ncontact "), "{compared}");
 }
 
-/// A ball that a rule which looks at the ends of frames takes through a wall.
+/// A ball that passes a wall under rules that only check the ends of frames.
 const FAST_IN_A_BOX: &str = r#"
 name = "fast"
 spheres = [{ position = [0, 0, 0], velocity = [200, 0, 0], radius = 0.1 }]
@@ -440,7 +446,7 @@ fn a_ball_that_leaves_a_closed_container_is_named_with_its_time() {
     }
 }
 
-/// Balls that are dropped onto each other, in a box of their width.
+/// Balls that fall onto each other in a box of their width.
 const STACK: &str = r#"
 name = "stack"
 forces = [{ gravity = { acceleration = [0.0, -9.81, 0.0] } }]
@@ -498,7 +504,7 @@ fn a_scene_in_which_nothing_can_move_says_so() {
     assert_eq!(advice("emitters = [{ period = 1, sphere = { radius = 1 } }]"), None);
 }
 
-/// A pile whose one frame would take minutes.
+/// A pile of which one frame would take minutes.
 #[cfg(unix)]
 const PILE: &str = r#"
 name = "pile"
@@ -539,7 +545,7 @@ fn signals_end_a_frame_of_minutes_with_a_summary_and_readable_files() {
             .stderr(Stdio::piped())
             .spawn()
             .unwrap();
-        // Its file is there when the frame begins, which then goes on for minutes.
+        // The file appears before the frame, which then takes minutes.
         let began = std::time::Instant::now();
         while !file.exists() && began.elapsed().as_secs() < 10 {
             std::thread::sleep(std::time::Duration::from_millis(20));
@@ -549,7 +555,7 @@ fn signals_end_a_frame_of_minutes_with_a_summary_and_readable_files() {
         assert!(killed.success(), "the frame has ended before {signal}");
         let began = std::time::Instant::now();
         let output = child.wait_with_output().unwrap();
-        // A second is what a user may wait; a busy machine gets a little more.
+        // A user may wait a second; a busy machine gets a little more.
         assert!(began.elapsed().as_secs_f64() < 3.0, "{signal}: {:?}", began.elapsed());
         assert_eq!(output.status.code(), Some(130));
         let summary = stdout(&output);
@@ -558,7 +564,7 @@ fn signals_end_a_frame_of_minutes_with_a_summary_and_readable_files() {
     }
 }
 
-/// Four walls about the pile.
+/// Four walls around the pile.
 #[cfg(unix)]
 fn walls() -> String {
     let half = std::f64::consts::FRAC_1_SQRT_2;
@@ -599,7 +605,7 @@ fn a_new_scene_runs_and_replaces_nothing_unless_told() {
     assert!(good(&["check", &file]).contains("balls \"mine\""));
     let json = summary(&["run", &file]);
     assert_eq!(json["spheres"], 61);
-    // None falls through a wall: the box gives back what comes in from above.
+    // No ball falls through a wall.
     assert!(json["impacts"].as_u64().unwrap() > 500, "{json}");
 
     std::fs::write(&file, "mine").unwrap();
@@ -608,7 +614,7 @@ fn a_new_scene_runs_and_replaces_nothing_unless_told() {
     assert_eq!(std::fs::read_to_string(&file).unwrap(), "mine");
     good(&["new", &file, "--force"]);
     assert!(good(&["check", &file]).contains("ok"));
-    // Below a file there is no folder.
+    // A file cannot contain a folder.
     assert!(bad_line(&["new", &format!("{file}/scene")], 1).contains("is not a folder"));
 }
 

@@ -1,8 +1,8 @@
-//! Disks that are full, write by write: the run ends with code 1 and one line, claims nothing that is not so, and what
-//! was written before is there.
+//! Full disks at every write: the run ends with code 1 and one line of error, which is true, and
+//! everything written before is kept.
 //!
-//! A limit on the size of files makes writes fail; limits lie closer together than writes are large, so each write of
-//! a run fails in one of the cases.
+//! A limit on the size of files makes writes fail. The limits are closer together than the writes,
+//! so each write fails in at least one case.
 #![cfg(target_os = "linux")]
 
 mod command;
@@ -12,23 +12,23 @@ use std::process::{Command, Output};
 
 use command::{CAROM, path};
 
-/// A scene with impacts from the first frames on, in which few balls make small writes.
+/// A scene with impacts from the first frames on; few balls make small writes.
 const RUN: [&str; 5] = ["run", "billiards", "--seconds", "0.3", "--out"];
-/// The frames of it.
+/// Number of its frames.
 const FRAMES: usize = 18;
 
-/// Runs the command where no file can have more than so many bytes.
+/// Runs the command with a limit on the size of files.
 fn limited(bytes: u64, arguments: &[&str]) -> Output {
     let mut shell = Command::new("sh");
     let script = format!("trap '' XFSZ; exec prlimit --fsize={bytes} \"$@\"");
     shell.args(["-c", &script, "sh", CAROM]).args(arguments);
     shell.env_remove("CAROM_CONFIG").env("XDG_CONFIG_HOME", "/nowhere");
-    // Drivers in software write files, too.
+    // Software drivers for graphics also write files.
     shell.env("XDG_RUNTIME_DIR", std::env::temp_dir()).env("MESA_SHADER_CACHE_DISABLE", "true");
     shell.output().unwrap()
 }
 
-/// The one line of a run that failed.
+/// Returns the line of error of a run that failed.
 #[track_caller]
 fn line_of(output: &Output) -> String {
     let errors = String::from_utf8_lossy(&output.stderr).into_owned();
@@ -37,13 +37,13 @@ fn line_of(output: &Output) -> String {
     errors
 }
 
-/// How many frames the line says are kept; none where it says nothing of it.
+/// Number of frames that the line reports as kept; 0 if it reports none.
 fn kept(errors: &str) -> usize {
     let count = errors.split("kept are the ").nth(1).and_then(|it| it.split(' ').next());
     count.map_or(0, |text| text.parse().unwrap())
 }
 
-/// Sizes from nothing up to this one.
+/// Sizes from 0 up to `most`.
 fn sizes(most: u64, step: usize) -> impl Iterator<Item = u64> {
     (0..most).step_by(step).chain([most - 1])
 }
@@ -102,19 +102,19 @@ fn an_archive_is_made_of_the_frames_before_the_write_that_fails_or_can_be() {
             assert!(errors.contains("unfinished, for `carom recover`"), "{errors}");
             command::good(&["recover", &file]);
         } else if !is_made {
-            // Not even the beginning of an archive.
+            // The archive was not even started.
             std::fs::remove_file(format!("{file}.0.unfinished")).ok();
             continue;
         }
         let times = times(&file);
         assert!(whole.starts_with(&times));
-        // Where the archive alone failed, all frames are kept.
+        // If only the creation of the archive failed, all frames are kept.
         let is_all = !errors.contains("kept are");
         assert_eq!(times.len(), if is_all { whole.len() } else { kept(&errors) }, "{errors}");
     }
 }
 
-/// Has a run fail where it makes the complete file of the unfinished one, which is then recovered.
+/// Makes a run fail while it creates the complete file from the unfinished one, then recovers it.
 fn fail_to_close(file: &str, arguments: &[&str]) {
     let obstacle = format!("{file}.0.closing");
     std::fs::create_dir(&obstacle).unwrap();
@@ -139,7 +139,7 @@ fn a_series_lists_the_frames_before_the_one_that_fails() {
     for failing in 0..FRAMES {
         let folder = tempfile::tempdir().unwrap();
         let file = path(&folder, "run.pvd");
-        // Where a folder is, no file can be written.
+        // A folder of the same name prevents the file from being written.
         let obstacle = format!("run_frames/{failing:06}.vtp");
         std::fs::create_dir_all(folder.path().join(&obstacle)).unwrap();
         let arguments = [&RUN[..], &[&file, "--force"]].concat();
@@ -161,7 +161,7 @@ fn a_list_that_fails_leaves_the_one_before_and_every_frame() {
     assert!(errors.contains(&format!("cannot write {file}: ")), "{errors}");
     assert!(std::fs::read_to_string(&file).unwrap().ends_with("</VTKFile>\n"));
     assert_eq!(std::fs::read_dir(folder.path().join("run_frames")).unwrap().count(), FRAMES);
-    // A frame that does not fit leaves no part of itself.
+    // A frame that does not fit is not left in part.
     let small = path(&folder, "small.pvd");
     let errors = line_of(&limited(700, &[&RUN[..], &[&small]].concat()));
     assert!(errors.contains("small_frames/000000.vtp: File too large"), "{errors}");
@@ -183,7 +183,7 @@ fn an_animation_is_made_of_the_frames_before_the_write_that_fails_or_can_be() {
         let left = format!("{file}.0.unfinished");
         if !Path::new(&file).exists() {
             if !Path::new(&left).exists() {
-                // Not even the start of the run.
+                // The start of the run was not written.
                 continue;
             }
             assert!(errors.contains("unfinished, for `carom recover`"), "{errors}");
@@ -214,13 +214,13 @@ fn a_film_that_cannot_be_completed_can_be_recovered() {
     assert!(std::fs::read(&file).unwrap() == whole);
 }
 
-/// A film of six frames, small and cheap, so that drivers in software are quick.
+/// A film of six small frames, for software drivers.
 #[cfg(feature = "pictures")]
 const SMALL: [&str; 7] = ["--size", "96x54", "--quality", "draft", "--seconds", "0.2", "--out"];
 
 #[cfg(feature = "pictures")]
 mod a_film_is_made_of_the_frames_before_the_write_that_fails_or_can_be {
-    // Two tests, which run side by side: each film starts a graphics driver.
+    // Two tests run in parallel, because each film starts a graphics driver.
     #[test]
     fn with_one_half_of_the_limits() {
         super::a_film_is_made_or_can_be(0);
@@ -232,7 +232,7 @@ mod a_film_is_made_of_the_frames_before_the_write_that_fails_or_can_be {
     }
 }
 
-/// With every second limit, from this one on.
+/// Tests every second limit, starting with number `first`.
 #[cfg(feature = "pictures")]
 fn a_film_is_made_or_can_be(first: usize) {
     let folder = tempfile::tempdir().unwrap();

@@ -1,12 +1,12 @@
-//! The commands that print figures: `verify`, `compare`, `bench`. What the figures say about
-//! physics is for `carom verify` itself; here is what a user or a script can rely on.
+//! The commands that print figures: `verify`, `compare`, `bench`. This tests their output for users
+//! and scripts; `carom verify` itself tests the physics.
 
 mod command;
 
 use command::{bad, run};
 use serde_json::Value;
 
-/// The JSON on the standard output of a command that ends with this code.
+/// Parses the JSON output of a command that ends with this code.
 #[track_caller]
 fn json(arguments: &[&str], code: i32) -> Value {
     let output = run(&[arguments, &["--json"]].concat());
@@ -60,7 +60,7 @@ fn verify_shows_what_the_rule_discrete_misses_and_ends_with_code_1() {
     let report = json(&filter, 1);
     let claim = &report["claims"][0];
     assert_eq!((&claim["verdict"], &report["missed"]), (&"miss".into(), &1.into()));
-    // The fall of the semi-implicit scheme is g h t/2 too long.
+    // Under the semi-implicit scheme, the fall is too long by g h t/2.
     let expected = 0.5 * 9.81 / 60.0 * 10.0;
     assert!((claim["measured"].as_f64().unwrap() - expected).abs() < 1e-9, "{claim}");
     let output = run(&filter);
@@ -124,7 +124,7 @@ fn bench_measures_a_gas_of_any_number_and_packing_fraction() {
     assert!(figures["scenes"].as_array().unwrap().is_empty());
     let work = &row["work_per_impact"];
     let of = |stage: &str| work[stage].as_f64().unwrap();
-    // Both spheres of an impact are predicted anew, each against its neighbours.
+    // After an impact, both spheres are predicted again, each against its neighbours.
     assert!(of("predictions") >= 2.0 && of("pair_tests") > of("predictions"), "{work}");
     assert!(of("events") >= 1.0 + of("cell_crossings"), "{work}");
     assert!(work["groups"].is_number() && work["solver_iterations"].is_number(), "{work}");

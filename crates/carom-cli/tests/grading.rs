@@ -1,5 +1,5 @@
-//! `carom grade` as a teacher meets it: one run, a folder of them, exit codes, files, and a line for what
-//! cannot be read.
+//! The command `carom grade`: one run, a folder of runs, exit codes, files, and errors of
+//! unreadable files.
 
 mod command;
 
@@ -10,14 +10,14 @@ use carom_scene::recording::Replay;
 use command::{bad, bad_line, good, path, run, text_of};
 use serde_json::Value;
 
-/// A run with this mistake, or `none`, in a folder.
+/// Writes a run with this mistake, or with `none`, to a folder.
 fn plant(folder: &tempfile::TempDir, mistake: &str, scene: &str, name: &str) -> String {
     let file = path(folder, name);
     good(&["grade", "--plant", mistake, "--scene", scene, "--seconds", "4", "--out", &file]);
     file
 }
 
-/// The verdicts of a call that ends with this code.
+/// Returns the verdicts of a call that ends with this code.
 fn verdicts(arguments: &[&str], code: i32) -> Value {
     let output = run(&[&["grade", "--json"], arguments].concat());
     assert_eq!(output.status.code(), Some(code), "{}", String::from_utf8_lossy(&output.stderr));
@@ -71,7 +71,7 @@ fn a_folder_of_submissions_gets_a_table_pages_and_the_worst_exit_code() {
     assert_eq!((field(1, "result"), field(1, "mistake")), ("departs".into(), "drag-sign".into()));
     let page = std::fs::read_to_string(path(&folder, "pages/anna_SimTest3.html")).unwrap();
     assert!(page.contains("drag-sign") && !page.contains("<script"));
-    // Files that are there stay, and a broken file counts most.
+    // Existing files are kept; a broken file determines the exit code.
     assert!(bad_line(&["grade", &right, "--table", &table], 2).contains("is there already"));
     let broken = path(&folder, "carl_simtest1.csv");
     std::fs::write(&broken, "t,ball,x,y,z\n0.02,0,1,2,up\n").unwrap();

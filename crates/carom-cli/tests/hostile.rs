@@ -1,6 +1,7 @@
-//! Hostile or broken input: it is refused in one line that names its place, before it costs memory
-//! or time, and it does not steer the terminal. What it has caught: links of a few kB that took
-//! gigabytes, escape sequences of files on the error stream, rows of recordings that were cut short.
+//! Hostile or broken input is refused in one line that names its place, before it costs memory or
+//! time, and cannot send control characters to the terminal. These tests have found: links of a few
+//! kB that took gigabytes, escape sequences of files on the error stream, and recordings with
+//! incomplete rows.
 
 mod command;
 
@@ -9,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use command::{bad, bad_line, carom, good, path};
 
-/// A lattice of so many spheres along x, in a line of its own.
+/// A lattice with `count` spheres along x, on one line.
 fn lattice(count: u32) -> String {
     format!(
         "[[generators]]\nlattice = {{ counts = [{count}, 100, 100], start = [0, 0, 0], \
@@ -17,7 +18,7 @@ fn lattice(count: u32) -> String {
     )
 }
 
-/// A scene file in a folder of its own, which stays as long as the first of both.
+/// Writes a scene file to a new folder, which exists as long as the first value.
 fn scene(text: &str) -> (tempfile::TempDir, String) {
     let folder = tempfile::tempdir().unwrap();
     let file = path(&folder, "scene.toml");
@@ -30,7 +31,7 @@ fn a_small_file_that_asks_for_millions_of_spheres_is_refused_before_they_are_mad
     let (_folder, file) = scene(&lattice(1000));
     let began = Instant::now();
     let error = bad(&["check", &file], 1);
-    // Ten million spheres take longer to make, in any build.
+    // Creating ten million spheres takes longer, in any build.
     assert!(began.elapsed() < Duration::from_secs(5), "{:?}", began.elapsed());
     let expected = "scene.toml:1: generators[0]: makes 10000000 spheres";
     assert!(error.contains(expected) && error.contains("2000000 at most"), "{error}");

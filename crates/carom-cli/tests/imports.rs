@@ -1,11 +1,11 @@
-//! `carom import` as a user meets it: files, reports, exit codes.
+//! The command `carom import`: files, reports, exit codes.
 
 mod command;
 
 use command::{bad_line, good, path, run};
 use tempfile::TempDir;
 
-/// A file of the project of Unity that `carom-unity` is tested with.
+/// Path of a file in the Unity project of the tests of `carom-unity`.
 fn project(file: &str) -> String {
     format!("{}/../carom-unity/tests/fixtures/Project/{file}", env!("CARGO_MANIFEST_DIR"))
 }
@@ -60,7 +60,7 @@ fn what_is_not_there_or_broken_is_one_line() {
     assert!(bad_line(&["import", &empty], 1).contains("holds no scene of Unity"));
 }
 
-/// A file that `carom-gltf` is tested with.
+/// Path of a file of the tests of `carom-gltf`.
 fn gltf(file: &str) -> String {
     format!("{}/../carom-gltf/tests/fixtures/{file}", env!("CARGO_MANIFEST_DIR"))
 }
@@ -99,7 +99,7 @@ fn a_recorded_animation_is_a_scene_that_runs_as_the_first() {
         |table: &str| table.lines().find(|it| it.starts_with("state hash")).map(str::to_owned);
     assert_eq!(hash(&second), hash(&first));
     assert!(bad_line(&again, 2).contains("cradle.glb"), "it is not written over");
-    // Where a file is, there is no folder.
+    // A file cannot contain a folder.
     let nowhere = path(&folder, "cradle.toml/run.glb");
     assert!(bad_line(&["run", "cradle", "--out", &nowhere], 1).contains("run.glb"));
     assert!(

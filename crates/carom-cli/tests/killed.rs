@@ -1,5 +1,5 @@
-//! What a run leaves whose process is killed: tables and series that can be read. What it has caught:
-//! a series whose list named none of thousands of frames.
+//! Files of killed runs: tables and series can be read. These tests have found a series whose list
+//! contained none of thousands of frames.
 
 mod command;
 
@@ -10,11 +10,11 @@ use std::time::{Duration, Instant};
 
 use command::{carom, moments, path};
 
-/// Longer than anything here takes on a machine that is shared.
+/// Longer than any step of these tests on a shared machine.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// Runs a scene that lasts for days with this option, and kills it once `is_enough` says so, a little later
-/// each time.
+/// Runs a scene of several days with this option, and kills it `later` \[ms\] after `is_enough`
+/// returns true.
 fn kill(option: &[&str], later: u64, is_enough: impl Fn() -> bool) {
     let mut command = carom();
     let run = ["run", "simtest1", "--rule", "exact", "--seconds", "1e6"];
@@ -68,8 +68,8 @@ fn a_killed_run_leaves_the_rows_of_its_tables() {
     }
 }
 
-/// Records a gas to a file until it is killed, some milliseconds after its first impact; returns the time of the last
-/// impact that it told of before \[s\].
+/// Records a gas to a file until it is killed, `milliseconds` after its first impact; returns the
+/// time of the last impact that was printed before \[s\].
 fn killed_gas(file: &str, milliseconds: u64) -> f64 {
     let run = ["run", "gas", "--seconds", "1e6", "--impacts", "/dev/stdout", "--out", file];
     let mut child = carom().args(run).stdout(Stdio::piped()).spawn().unwrap();
@@ -88,7 +88,7 @@ fn killed_gas(file: &str, milliseconds: u64) -> f64 {
     last
 }
 
-/// The state of the gas, frame by frame, as numbers of 17 digits.
+/// Computes the state of the gas frame by frame, as numbers of 17 digits.
 struct Gas {
     world: carom::World,
     frame_time: f64,
@@ -112,12 +112,12 @@ impl Gas {
         &self.frames[frame]
     }
 
-    /// Whether a recording has all frames but the one at work, to the bit.
+    /// Checks that a recording contains all frames except the current one, bit for bit.
     fn check(&mut self, recorded: &[(f64, Vec<f64>)], told: f64) {
         self.check_rounded(recorded, told, |number| number);
     }
 
-    /// Whether it has them in numbers that are rounded so.
+    /// Checks the frames of a recording after rounding by `rounded`.
     fn check_rounded(
         &mut self,
         recorded: &[(f64, Vec<f64>)],
@@ -130,13 +130,13 @@ impl Gas {
             let expected = expected.iter().map(|number| rounded(*number));
             assert!(positions.iter().copied().eq(expected), "frame {i}");
         }
-        // The frame of the last impact may be the one that was at work.
+        // The last impact may belong to the frame that was being computed.
         let last = recorded.last().map_or(0.0, |frame| frame.0);
         assert!(last >= told - 1.001 * self.frame_time, "{last} s of {told} s");
     }
 }
 
-/// The times of a series \[s\], with the files of their frames.
+/// Times \[s\] and files of the frames of a series.
 fn listed(list: &str) -> Vec<(f64, PathBuf)> {
     let text = read(list);
     assert!(text.ends_with("</VTKFile>\n"));
@@ -151,7 +151,7 @@ fn listed(list: &str) -> Vec<(f64, PathBuf)> {
     text.lines().filter_map(row).collect()
 }
 
-/// Positions \[m\] in a frame of a series, as numbers in a row.
+/// Positions \[m\] in a frame of a series, as a flat list.
 fn positions(frame: &Path) -> Vec<f64> {
     use vtkio::model::{DataSet, Piece};
 
@@ -165,7 +165,7 @@ fn positions(frame: &Path) -> Vec<f64> {
 #[test]
 #[cfg(target_os = "linux")]
 fn the_list_of_a_killed_series_lacks_the_frames_of_a_second_at_most() {
-    /// Times of files are those of the system's last tick.
+    /// Resolution of the modification times of files.
     const TICK: Duration = Duration::from_millis(20);
     let mut gas = Gas::new();
     for moment in moments() {
@@ -180,13 +180,14 @@ fn the_list_of_a_killed_series_lacks_the_frames_of_a_second_at_most() {
             let Some((time, frame)) = rows.get(place) else { continue };
             assert_eq!((*time, positions(frame)), *gas.frame(place));
         }
-        // Whatever this machine does besides: a frame later than that has the list written before the next one begins.
+        // Even on a busy machine, a frame written more than a second after the list causes a new
+        // list before the next frame.
         let modified = |file: &Path| std::fs::metadata(file).and_then(|it| it.modified());
         let written = modified(Path::new(&file)).unwrap();
         let frames = (rows.len()..).map(|frame| format!("run_frames/{frame:06}.vtp"));
         let times = frames.map_while(|frame| modified(&folder.path().join(frame)).ok());
         let mut later: Vec<_> = times.map(|it| it.duration_since(written).ok()).collect();
-        // The last one may be at work.
+        // The last file may be incomplete.
         later.pop();
         assert!(later.iter().flatten().all(|later| *later < Duration::from_secs(1) + TICK));
     }
@@ -250,7 +251,7 @@ fn a_killed_run_leaves_all_frames_of_a_table_but_the_one_at_work() {
             }
             frames.last_mut().unwrap().1.extend(&row[2..5]);
         }
-        // The last one may have lost balls.
+        // The last frame may lack balls.
         let whole = gas.frame(0).1.len();
         frames.pop_if(|frame| frame.1.len() < whole);
         gas.check(&frames, told);

@@ -1,5 +1,5 @@
-//! What is left of a film whose process is killed, as ffprobe and ffmpeg see it: these must be installed, and a graphics
-//! driver, for which one in software is enough.
+//! Films of killed processes, as read by ffprobe and ffmpeg. These must be installed, with a
+//! graphics driver; a software driver is sufficient.
 #![cfg(all(feature = "pictures", target_os = "linux"))]
 
 mod command;
@@ -11,14 +11,14 @@ use std::time::{Duration, Instant, SystemTime};
 
 use command::{bad_line, carom, good, kills, moments, path};
 
-/// Longer than anything here takes on a machine that is shared.
+/// Longer than any step of these tests on a shared machine.
 const PATIENCE: Duration = Duration::from_secs(60);
-/// Small and cheap, so that drivers in software are quick.
+/// A small film, for software drivers.
 const SMALL: [&str; 4] = ["--size", "96x54", "--quality", "draft"];
-/// Pixels of a film, and their colours at half the resolution.
+/// Bytes of a frame: brightness, and colours at half the resolution.
 const FRAME: usize = 96 * 54 * 3 / 2;
 
-/// Films a scene for so many seconds.
+/// Starts to film `seconds` of a scene.
 fn begin(file: &str, seconds: &str) -> Child {
     let film = ["record", "simtest1", "--seconds", seconds, "--out", file];
     carom().args(film).args(SMALL).stdout(Stdio::null()).spawn().unwrap()
@@ -28,7 +28,7 @@ fn unfinished(file: &str) -> PathBuf {
     PathBuf::from(format!("{file}.0.unfinished"))
 }
 
-/// The frames of a film, decoded; each as one number.
+/// Decodes a film; returns a hash of each frame.
 fn frames(file: &str) -> Vec<u64> {
     let arguments = ["-v", "error", "-i", file, "-f", "rawvideo", "-pix_fmt", "yuv420p", "-"];
     let output = Command::new("ffmpeg").args(arguments).output().unwrap();
@@ -42,7 +42,7 @@ fn frames(file: &str) -> Vec<u64> {
     output.stdout.chunks_exact(FRAME).map(hash).collect()
 }
 
-/// How many frames players see of a film, all of them decoded.
+/// Number of frames of a film that can be decoded.
 fn count(file: &str) -> usize {
     let arguments = ["-v", "error", "-show_entries", "frame=pict_type", "-of", "csv=p=0", file];
     let output = Command::new("ffprobe").args(arguments).output().unwrap();
@@ -65,7 +65,7 @@ fn a_killed_film_opens_with_every_frame_but_the_one_at_work() {
             std::thread::sleep(Duration::from_millis(5));
         }
         std::thread::sleep(Duration::from_millis(moment));
-        // What players see of it before it is killed.
+        // The part of the film that players can read before the kill.
         std::fs::copy(&left, &copy).unwrap();
         child.kill().unwrap();
         let killed = SystemTime::now();
@@ -105,7 +105,7 @@ fn a_film_that_is_killed_at_any_moment_is_whole_or_can_be_recovered() {
     for kill in 1..=kills() {
         std::fs::remove_file(&file).ok();
         let mut child = begin(&file, "0.5");
-        // Spread over the whole run and a little more, without order.
+        // Scattered over the whole run and a little longer.
         std::thread::sleep(lasts.mul_f64((kill * 7919 % 1999) as f64 / 1800.0));
         child.kill().unwrap();
         child.wait().unwrap();

@@ -1,5 +1,5 @@
-//! Links on the command line: what `carom link` prints, `carom run --link` runs to the same bits;
-//! and what is no link is refused with one line.
+//! Links on the command line: `carom run --link` reproduces a run of `carom link` bit for bit, and
+//! other texts are refused with one line.
 
 mod command;
 
@@ -15,7 +15,7 @@ use serde_json::Value;
 
 const PAGE: &str = "http://127.0.0.1:8042/";
 
-/// The link that is printed.
+/// Returns the printed link.
 #[track_caller]
 fn link(arguments: &[&str]) -> String {
     let text = good(&[&["link"], arguments].concat());
@@ -28,7 +28,7 @@ fn summary(arguments: &[&str]) -> Value {
     serde_json::from_str(&good(&[&["run"], arguments, &["--json"]].concat())).unwrap()
 }
 
-/// What of a summary does not depend on the time of day.
+/// Removes the measured times from a summary.
 fn figures(mut summary: Value) -> Value {
     for clock in ["wall_time", "stepping_time"] {
         summary.as_object_mut().unwrap().remove(clock);
@@ -49,7 +49,7 @@ fn a_link_runs_to_the_same_figures_as_what_it_was_made_of() {
     assert_eq!(assert_same_run(&["tutorial1"]), format!("{PAGE}#scene=tutorial1"));
     let timed = assert_same_run(&["simtest4", "--set", set, "--rule", "exact", "--seconds", "2"]);
     assert_eq!(timed, format!("{PAGE}#scene=simtest4&set={set}&rule=exact&t=2"));
-    // Up to whole frames, of 0.02 s and of 0.1 s.
+    // Times are rounded up to whole frames, of 0.02 s and of 0.1 s.
     assert!(assert_same_run(&["simtest1", "--seconds", "1.51"]).ends_with("&t=1.52"));
     let long = ["simtest1", "--set", "simulation.frame_time=0.1", "--seconds", "1.51"];
     assert!(assert_same_run(&long).ends_with("&t=1.6"));
@@ -89,7 +89,7 @@ fn the_page_is_the_one_asked_for() {
     assert_eq!(error, "carom: the address of a page must have no #, as http://a/#b has\n");
 }
 
-/// A session with edits on the way, the rule and the length of frames among them.
+/// A session with edits during the run, including the rule and the length of frames.
 fn edited() -> Session {
     let (scene, _) = Library::new().find("simtest1", &[]).unwrap();
     let mut session = Session::new(scene).unwrap();
@@ -135,7 +135,7 @@ fn a_run_of_a_link_is_written_like_any_other() {
     let scene = outputs(&["simtest1", "--rule", "exact", "--seconds", "1"], 1);
     assert_eq!(outputs(&["--link", &link], 2), scene);
     assert!(scene.iter().all(|text| text.lines().count() > 1));
-    // The trajectory shows each frame with what was changed there.
+    // The trajectory contains each frame with the edits made there.
     let (session, out) = (edited(), path("e.csv"));
     good(&["run", "--link", session.link().to_fragment().as_str(), "--out", &out]);
     let text = std::fs::read_to_string(out).unwrap();

@@ -1,7 +1,7 @@
-//! Pictures and films as a user meets them, and as ffprobe and ffmpeg see them: these must be
-//! installed, and a graphics driver, for which one in software is enough.
+//! Pictures and films, as read by ffprobe and ffmpeg. These must be installed, with a graphics
+//! driver; a software driver is sufficient.
 //!
-//! What this cannot tell: how they look.
+//! These tests do not check what pictures look like.
 #![cfg(feature = "pictures")]
 
 mod command;
@@ -14,7 +14,7 @@ use carom_render::Picture;
 use command::{bad, bad_line, carom, good, path};
 use tempfile::TempDir;
 
-/// Small and cheap, so that drivers in software are quick.
+/// Small pictures, for software drivers.
 const SMALL: [&str; 4] = ["--size", "320x180", "--quality", "draft"];
 const WIDTH: usize = 320;
 const HEIGHT: usize = 180;
@@ -38,7 +38,7 @@ fn output(program: &str, arguments: &[&str]) -> Vec<u8> {
     stdout
 }
 
-/// Codec, width, height, rate and number of frames of a film, all of them read.
+/// Codec, width, height, rate and number of decoded frames of a film.
 fn probe(file: &str) -> String {
     let entries = "stream=codec_name,width,height,avg_frame_rate,nb_read_frames";
     let arguments = ["-v", "error", "-count_frames", "-show_entries", entries, "-of", "csv=p=0"];
@@ -46,7 +46,7 @@ fn probe(file: &str) -> String {
     text.trim().to_owned()
 }
 
-/// The frames of a film, decoded.
+/// Decodes the frames of a film.
 fn frames(file: &str) -> Vec<Vec<u8>> {
     let arguments = ["-v", "error", "-i", file, "-f", "rawvideo", "-pix_fmt", "yuv420p", "-"];
     let bytes = output("ffmpeg", &arguments);
@@ -77,12 +77,12 @@ fn the_stamp_is_in_the_lower_left_corner_only() {
 fn a_picture_is_that_of_the_nearest_frame() {
     let folder = tempfile::tempdir().unwrap();
     let at = |time| picture(&folder, &["tutorial1", "--at", time]);
-    // Frames of 1/60 s.
+    // Frames of 1/60 s are rounded to the nearest.
     assert_eq!(at("0.515"), at("0.5166666"));
     assert_ne!(at("0.515"), at("0.5"));
 }
 
-/// A red ball, off every axis.
+/// A red ball away from every axis.
 const RED_BALL: &str = "name = \"red\"\n[[spheres]]\nposition = [3, 1, -2]\nradius = 0.5\n\
                         color = [0.9, 0.1, 0.1]\n";
 
@@ -121,12 +121,12 @@ fn the_film_of_a_recorded_run_is_the_film_of_the_run() {
         ["run.csv", "live.mp4", "replayed.mp4"].map(|name| path(&folder, name));
     let heavy = ["--set", "emitters.0.sphere.mass=3"];
     good(&[&["run", "simtest1", "--seconds", "2", "--out", &table], &heavy[..]].concat());
-    // Every frame of the film is a frame of the run: each is 0.02 s long.
+    // Every frame of the film is a frame of the run, because frames last 0.02 s.
     film(&live, &[&["simtest1", "--seconds", "2", "--fps", "25"], &heavy[..]].concat());
     film(&replayed, &[&["simtest1", "--from", &table, "--fps", "25"], &heavy[..]].concat());
     let [live, replayed] = [live, replayed].map(|file| frames(&file));
     assert_eq!([live.len(), replayed.len()], [50, 50], "as long as the recording");
-    // Tables have all 17 digits, and drawing is deterministic, so nothing is left to tolerate.
+    // Tables have all 17 digits and drawing is deterministic, so both are equal.
     assert!(live == replayed);
     assert!(live[49] != live[40], "something moves");
 }
@@ -155,7 +155,7 @@ fn balls_of_a_recorded_run_turn_as_they_did() {
     good(&[&["run", "simtest1", "--seconds", "1", "--out", &table], &spun[..]].concat());
     film(&live, &[&["simtest1", "--seconds", "1", "--fps", "25"], &spun[..]].concat());
     film(&replayed, &[&["simtest1", "--from", &table, "--fps", "25"], &spun[..]].concat());
-    // That table without its columns of rotation, as older versions wrote it.
+    // The table without its columns of rotation, as older versions wrote it.
     let text = std::fs::read_to_string(&table).unwrap();
     let cut = |line: &str| line.split(',').take(8).collect::<Vec<_>>().join(",") + "\n";
     std::fs::write(&plain, text.lines().map(cut).collect::<String>()).unwrap();
@@ -188,7 +188,7 @@ fn ctrl_c_leaves_a_film_that_can_be_played() {
     let mut command = carom();
     command.args(["record", "simtest1", "--seconds", "1e6", "--out", &file]).args(SMALL);
     let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-    // It listens for Ctrl-C before it begins the film.
+    // The command reacts to Ctrl-C before it starts the film.
     let unfinished = format!("{file}.0.unfinished");
     let began = Instant::now();
     while !Path::new(&unfinished).exists() && began.elapsed().as_secs() < 10 {
@@ -295,7 +295,7 @@ fn without_a_graphics_driver_the_package_is_named_that_has_one() {
     assert!(errors.contains("apt-get install mesa-vulkan-drivers"), "{errors}");
 }
 
-/// With a window, it opens that.
+/// With the feature `view`, the command opens the window.
 #[test]
 #[cfg(not(feature = "view"))]
 fn without_a_command_there_is_help() {

@@ -1,5 +1,5 @@
-//! Where a command reads from and writes to: standard streams, files that are there already, a file
-//! that is watched, and the configuration of a user.
+//! Input and output of commands: standard streams, existing files, watched files, and the
+//! configuration of a user.
 
 mod command;
 
@@ -10,13 +10,13 @@ use std::time::{Duration, Instant};
 
 use command::{bad, bad_line, carom, good, path};
 
-/// Longer than anything here takes on a machine that is shared.
+/// Longer than any step of these tests on a shared machine.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 const DROP: &str = "spheres = [{ position = [0, 1, 0], radius = 0.5 }]\n\
                     forces = [{ gravity = { acceleration = [0, -9.81, 0] } }]\n";
 
-/// Runs the command with this on its standard input.
+/// Runs the command with `input` on its standard input.
 fn fed(arguments: &[&str], input: &str) -> Output {
     let mut command = carom();
     let piped = command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped());
@@ -35,7 +35,7 @@ fn a_dash_reads_the_scene_from_the_standard_input() {
     let run = fed(&run, DROP);
     assert!(run.status.success(), "{}", text(&run.stderr));
     assert!(text(&run.stdout).starts_with("scene            stdin\n"));
-    // What `show` prints can be run.
+    // The output of `show` can be run.
     let shown = good(&["show", "tutorial1"]);
     let (piped, direct) =
         (fed(&["run", "-", "--json"], &shown), good(&["run", "tutorial1", "--json"]));
@@ -74,7 +74,7 @@ fn every_table_goes_to_the_standard_output_by_each_of_its_names() {
             assert_eq!(text(&piped.stdout), table, "{option} {name}");
             assert!(text(&piped.stderr).contains("state hash"), "{option} {name}");
         }
-        // A file that the shell has opened is the shell's to replace.
+        // The shell is responsible for a file that it opened.
         let shell_file = path(&folder, "shell.csv");
         let mut command = carom();
         command.args(run).args([option, names[names.len() - 1]]);
@@ -109,6 +109,17 @@ fn missing_folders_are_made_for_every_format() {
 }
 
 #[test]
+fn distances_of_rules_go_to_the_standard_output_beside_no_table() {
+    let compare = ["compare", "tutorial1", "--seconds", "0.1", "--out", "-"];
+    let output = carom().args(compare).output().unwrap();
+    assert!(output.status.success());
+    let rows = String::from_utf8(output.stdout).unwrap();
+    assert!(rows.starts_with("t,exact_rms,") && rows.lines().count() == 7, "{rows}");
+    assert!(rows.lines().skip(1).all(|row| row.split(',').all(|it| it.parse::<f64>().is_ok())));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("state hash"));
+}
+
+#[test]
 fn a_picture_is_no_scene_and_the_error_says_what_it_is() {
     let folder = tempfile::tempdir().unwrap();
     let files: [(&str, &[u8], &str); 4] = [
@@ -125,7 +136,7 @@ fn a_picture_is_no_scene_and_the_error_says_what_it_is() {
             let expected = format!("cannot read {file}: it is not a scene file: {what}");
             assert!(told.contains(&expected), "{told}");
         }
-        // By its name alone, in the folder where one is.
+        // A file in the current folder is found by its name.
         let beside = carom().args(["run", name]).current_dir(folder.path()).output().unwrap();
         assert!(text(&beside.stderr).contains(what), "{}", text(&beside.stderr));
         let mut piped = carom();
@@ -170,7 +181,7 @@ fn a_reader_that_has_seen_enough_of_a_table_ends_the_run_without_a_word() {
     assert_eq!((output.status.code(), text(&output.stderr)), (Some(0), ""));
 }
 
-/// A command at work, which is ended with the test.
+/// A running command, which is killed at the end of the test.
 struct AtWork(Child);
 
 impl Drop for AtWork {
@@ -194,9 +205,9 @@ fn a_scene_file_that_is_watched_runs_again_when_it_is_changed() {
         lines.by_ref().map(Result::unwrap).find(|line| line.starts_with(title)).expect("a summary")
     };
     let first = next("state hash");
-    // A mistake on the way ends nothing.
+    // A mistake in the file does not end the command.
     for text in ["spheres = [", &DROP.replace("1, 0]", "2, 0]")] {
-        // A file system may count time in steps of some milliseconds.
+        // A file system may store times in steps of some milliseconds.
         std::thread::sleep(Duration::from_millis(500));
         std::fs::write(&file, text).unwrap();
     }
@@ -224,7 +235,7 @@ fn a_configuration_file_names_folders_and_the_page() {
     assert!(run.status.success(), "{}", text(&run.stderr));
     let link = configured(&config, &["link", "tutorial1"]);
     assert!(text(&link.stdout).starts_with("https://example.org/carom/#"));
-    // The command line comes first.
+    // The command line takes precedence.
     let link = configured(&config, &["link", "tutorial1", "--page", "https://other.org/"]);
     assert!(text(&link.stdout).starts_with("https://other.org/#"));
     std::fs::write(&config, "page = 3\n").unwrap();
@@ -249,7 +260,7 @@ fn check_tells_all_faults_of_a_file_with_their_lines() {
     assert!(told.contains("stdin:1:") && told.contains("stdin:2:"), "{told}");
 }
 
-/// A ball of 0.1 kg on a spring of 1e5 N/m: 2 sqrt(m / k) = 2e-3 s.
+/// A ball of 0.1 kg on a spring of 1e5 N/m; the longest stable frame is 2 sqrt(m / k) = 2e-3 s.
 const STIFF: &str = "[simulation]\nrule = 'discrete'\nduration = 20\n\
                      [[spheres]]\nposition = [1, 0, 0]\nradius = 0.1\nmass = 0.1\n\
                      [[springs]]\nsphere = 0\nanchor = [0, 0, 0]\nrest_length = 0.5\nstiffness = 1e5\n";
@@ -259,7 +270,7 @@ fn frames_too_long_for_springs_are_named_by_check_by_the_error_and_by_the_summar
     let checked = fed(&["check", "-"], STIFF);
     assert!(checked.status.success());
     assert!(text(&checked.stdout).contains("has to be below 2.0000e-3 s"), "{checked:?}");
-    // It ends with numbers that are not finite.
+    // The numbers become infinite.
     let ended = fed(&["run", "-"], STIFF);
     assert_eq!(ended.status.code(), Some(1));
     assert!(text(&ended.stderr).contains("frames below 2.0000e-3 s"), "{ended:?}");

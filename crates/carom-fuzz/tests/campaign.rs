@@ -18,7 +18,7 @@ fn holds(name: &str, count: u64) {
 
 #[test]
 fn scene_files_with_mistakes_are_read_or_refused() {
-    holds("scenes", 500);
+    holds("scenes", 350);
 }
 
 #[test]
@@ -28,12 +28,12 @@ fn overrides_with_mistakes_are_taken_or_refused() {
 
 #[test]
 fn links_with_mistakes_are_opened_or_refused() {
-    holds("links", 1000);
+    holds("links", 500);
 }
 
 #[test]
 fn recordings_with_mistakes_are_played_or_refused() {
-    holds("recordings", 600);
+    holds("recordings", 400);
 }
 
 #[test]
@@ -43,12 +43,12 @@ fn unfinished_files_with_mistakes_are_recovered_or_refused() {
 
 #[test]
 fn mazes_with_mistakes_are_read_or_refused() {
-    holds("mazes", 250);
+    holds("mazes", 200);
 }
 
 #[test]
 fn unity_scenes_with_mistakes_are_imported_or_refused() {
-    holds("unity", 1000);
+    holds("unity", 350);
 }
 
 #[test]

@@ -1,18 +1,18 @@
-//! The JSON of a glTF 2.0 file, as far as it is written or read here.
+//! The JSON of a glTF 2.0 file, limited to the parts that this crate writes or reads.
 //!
-//! Names and meanings are those of the specification of Khronos. Numbers are kept in 64 bits, as JSON has them.
+//! Names and meanings are those of the specification of Khronos. Numbers have 64 bits, as in JSON.
 
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
 use crate::rigid_body::{NodeBody, RigidBodies, Shapes};
 
-/// Accessors of 32-bit floats.
+/// Component type: 32-bit floats.
 pub(crate) const FLOAT: u32 = 5126;
-/// Accessors of unsigned 16-bit indices.
+/// Component type: unsigned 16-bit indices.
 pub(crate) const UNSIGNED_SHORT: u32 = 5123;
 
-/// A whole file.
+/// The JSON of a file.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(crate) struct Document {
@@ -49,7 +49,7 @@ pub(crate) struct Document {
     pub textures: Vec<IgnoredAny>,
 }
 
-/// The version of glTF, and which program wrote the file.
+/// Version of glTF, and the program that wrote the file.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct Asset {
@@ -58,7 +58,7 @@ pub(crate) struct Asset {
     pub generator: String,
 }
 
-/// Extensions of a whole file.
+/// Extensions of the file.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct DocumentExtensions {
@@ -70,7 +70,7 @@ pub(crate) struct DocumentExtensions {
     pub bodies: Option<RigidBodies>,
 }
 
-/// The nodes of a scene that hang on no other.
+/// A scene: its nodes without parents.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct Scene {
@@ -80,7 +80,7 @@ pub(crate) struct Scene {
     pub nodes: Vec<usize>,
 }
 
-/// What has a place.
+/// A node with its transformation.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct Node {
@@ -122,13 +122,13 @@ impl NodeExtensions {
     }
 }
 
-/// Which light a node has.
+/// The light of a node.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct LightReference {
     pub light: usize,
 }
 
-/// Lights of a file.
+/// Lights of the file.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct Lights {
@@ -140,10 +140,10 @@ pub(crate) struct Lights {
 pub(crate) struct Light {
     #[serde(rename = "type")]
     pub kind: String,
-    /// Linear.
+    /// Colour, linear.
     #[serde(default = "white")]
     pub color: [f64; 3],
-    /// Of a directional light \[lx\].
+    /// Illuminance of a directional light \[lx\].
     #[serde(default = "one")]
     pub intensity: f64,
 }
@@ -157,19 +157,19 @@ pub(crate) struct Camera {
     pub perspective: Option<Perspective>,
 }
 
-/// What a camera sees in perspective.
+/// Perspective of a camera.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct Perspective {
     /// Vertical field of view \[rad\].
     pub yfov: f64,
-    /// \[m\]
+    /// Nearest distance drawn \[m\].
     pub znear: f64,
-    /// \[m\]; without end where it is missing.
+    /// Farthest distance drawn \[m\]; infinite if it is missing.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub zfar: Option<f64>,
 }
 
-/// What is drawn at nodes.
+/// A mesh that nodes draw.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct Mesh {
     #[serde(default, skip_serializing_if = "String::is_empty")]
@@ -185,14 +185,14 @@ pub(crate) struct Primitive {
     pub indices: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub material: Option<usize>,
-    /// 4: triangles, 5: a strip of them, 6: a fan.
+    /// Kind of primitive: 4 triangles, 5 triangle strip, 6 triangle fan.
     #[serde(default = "four", skip_serializing_if = "is_four")]
     pub mode: u32,
     #[serde(default, skip_serializing)]
     pub targets: Vec<IgnoredAny>,
 }
 
-/// Accessors of what each vertex has.
+/// Accessors of vertex attributes.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 #[serde(rename_all = "UPPERCASE", default)]
 pub(crate) struct Attributes {
@@ -202,7 +202,7 @@ pub(crate) struct Attributes {
     pub normal: Option<usize>,
 }
 
-/// How a surface looks.
+/// Material of a surface.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(crate) struct Material {
@@ -221,7 +221,7 @@ pub(crate) struct Material {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(crate) struct MetallicRoughness {
-    /// Linear, with opacity.
+    /// Linear colour with opacity.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub base_color_factor: Option<[f64; 4]>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -244,14 +244,14 @@ impl MaterialExtensions {
     }
 }
 
-/// How much light goes through.
+/// Fraction of light that passes through.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(crate) struct Transmission {
     pub transmission_factor: f64,
 }
 
-/// How nodes move.
+/// An animation of nodes.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct Animation {
     #[serde(default, skip_serializing_if = "String::is_empty")]
@@ -260,14 +260,14 @@ pub(crate) struct Animation {
     pub samplers: Vec<Sampler>,
 }
 
-/// What of a node moves, and how.
+/// A channel: one property of a node, and its sampler.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct Channel {
     pub sampler: usize,
     pub target: Target,
 }
 
-/// What of a node moves.
+/// Node and property that a channel animates.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct Target {
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -275,7 +275,7 @@ pub(crate) struct Target {
     pub path: String,
 }
 
-/// Times and values.
+/// Keys: times and values.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct Sampler {
     pub input: usize,
@@ -284,7 +284,7 @@ pub(crate) struct Sampler {
     pub interpolation: String,
 }
 
-/// Where numbers lie, and of what kind they are.
+/// Position and type of an array of numbers.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct Accessor {
@@ -306,7 +306,7 @@ pub(crate) struct Accessor {
     pub sparse: Option<IgnoredAny>,
 }
 
-/// A part of a buffer.
+/// A section of a buffer.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct BufferView {
@@ -320,7 +320,7 @@ pub(crate) struct BufferView {
     pub target: Option<u32>,
 }
 
-/// Bytes: of a file, in the address itself, or those that come with a .glb file.
+/// Bytes of a file, of the address itself, or of the .glb file.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct Buffer {

@@ -1,4 +1,4 @@
-//! The container of .glb files: a head, the JSON, and the binary part.
+//! The container of .glb files: a header, the JSON, and the binary part.
 
 use std::io::{self, Write};
 
@@ -7,13 +7,15 @@ const VERSION: u32 = 2;
 const JSON: [u8; 4] = *b"JSON";
 const BINARY: [u8; 4] = *b"BIN\0";
 
-/// What the heads of a file and of two chunks take \[bytes\].
+/// Length of the headers of a file and of two chunks \[bytes\].
 const HEADS: u64 = 12 + 8 + 8;
 
-/// Writes the head of a file, its JSON, and the head of its binary part of this length, a multiple of 4.
+/// Writes the header of a file, its JSON, and the header of its binary part, whose length is a
+/// multiple of 4.
 ///
 /// # Errors
-/// If the file is full or gone, or larger than 4 GiB, which is as much as a length has room for.
+/// [`io::Error`] if the disk is full or gone, or if the file is larger than 4 GiB, which its length
+/// cannot express.
 pub(crate) fn write_head(out: &mut impl Write, json: &[u8], binary_len: u64) -> io::Result<()> {
     let json_len = json.len().next_multiple_of(4);
     let heads = if binary_len == 0 { HEADS - 8 } else { HEADS };
@@ -33,21 +35,21 @@ pub(crate) fn write_head(out: &mut impl Write, json: &[u8], binary_len: u64) -> 
     out.write_all(&BINARY)
 }
 
-/// Why a file becomes no larger.
+/// Error of a file that is too large.
 pub(crate) fn too_large() -> io::Error {
     let text = "a .glb file has room for 4 GiB: write fewer frames (--every)";
     io::Error::new(io::ErrorKind::FileTooLarge, text)
 }
 
-/// Whether these are the bytes of a .glb file.
+/// Whether the bytes start a .glb file.
 pub(crate) fn is_glb(bytes: &[u8]) -> bool {
     bytes.starts_with(&MAGIC)
 }
 
-/// JSON and binary part of a file.
+/// Returns the JSON and the binary part of a file.
 ///
 /// # Errors
-/// What is wrong with it.
+/// A description of what is wrong with the file.
 pub(crate) fn read(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), String> {
     let word = |at: usize| -> Option<u32> {
         Some(u32::from_le_bytes(bytes.get(at..at.checked_add(4)?)?.try_into().ok()?))

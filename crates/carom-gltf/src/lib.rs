@@ -1,4 +1,4 @@
-//! Runs of Carom as animations in glTF 2.0, and scenes of glTF to scenes of Carom.
+//! Writes runs of Carom as animations in glTF 2.0, and imports scenes of glTF.
 //!
 //! ```text
 //!  Scene, World -> nodes, meshes, bodies -+-> JSON   -+-> .glb
@@ -8,9 +8,10 @@
 //!                                      meshes -> forms
 //! ```
 //!
-//! [`Animation`] records a run. [`import()`] reads a scene; what has no counterpart is listed
-//! ([`Omission`]), broken files are refused with the place ([`ImportError`]). Both coordinate systems are right-handed, y
-//! up, in m: nothing is turned.
+//! [`Animation`] records a run. [`import()`] reads a scene; parts without a counterpart are
+//! reported ([`Omission`]), and broken files are refused with the place of the error
+//! ([`ImportError`]). Both coordinate systems are right-handed, with y up and in m, so no
+//! conversion is needed.
 
 #![warn(clippy::unwrap_used)]
 

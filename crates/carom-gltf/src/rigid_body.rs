@@ -3,14 +3,14 @@
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
-/// Shapes of a file.
+/// Shapes of the file.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct Shapes {
     pub shapes: Vec<Shape>,
 }
 
-/// A shape about the origin of a node.
+/// A shape at the origin of a node.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct Shape {
@@ -50,7 +50,7 @@ impl Default for BoxShape {
     }
 }
 
-/// A plane that faces local +y; without end where it has no sizes.
+/// A plane that faces local +y; infinite if it has no sizes.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(crate) struct PlaneShape {
@@ -62,7 +62,7 @@ pub(crate) struct PlaneShape {
     pub double_sided: bool,
 }
 
-/// What bodies of a file have in common.
+/// Common data of the bodies of a file.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(crate) struct RigidBodies {
@@ -72,7 +72,7 @@ pub(crate) struct RigidBodies {
     pub physics_joints: Vec<IgnoredAny>,
 }
 
-/// How surfaces bounce and rub.
+/// Restitution and friction of a surface.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(crate) struct PhysicsMaterial {
@@ -95,7 +95,7 @@ impl Default for PhysicsMaterial {
     }
 }
 
-/// How values of two surfaces combine; of two ways the one that comes first here.
+/// How values of two surfaces combine. If the surfaces differ, the first mode in this list counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Combine {
@@ -105,7 +105,7 @@ pub(crate) enum Combine {
     Multiply,
 }
 
-/// What physics has at a node.
+/// Physics of a node.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct NodeBody {
@@ -119,37 +119,37 @@ pub(crate) struct NodeBody {
     pub joint: Option<IgnoredAny>,
 }
 
-/// How a body moves at the start; velocities in the coordinate system of the node.
+/// Motion of a body at the start; velocities are in the coordinates of the node.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(crate) struct Motion {
     #[serde(skip_serializing_if = "is_false")]
     pub is_kinematic: bool,
-    /// \[kg\]; 0 is without end.
+    /// Mass \[kg\]; 0 means infinite.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mass: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub center_of_mass: Option<[f64; 3]>,
-    /// \[kg m²\]
+    /// Moments of inertia \[kg m²\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub inertia_diagonal: Option<[f64; 3]>,
-    /// \[m/s\]
+    /// Velocity \[m/s\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub linear_velocity: Option<[f64; 3]>,
-    /// \[rad/s\]
+    /// Angular velocity \[rad/s\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub angular_velocity: Option<[f64; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gravity_factor: Option<f64>,
 }
 
-/// What a node collides with.
+/// Collider of a node.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(crate) struct Collider {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub geometry: Option<Geometry>,
-    /// The shape, as files wrote it before there was `geometry`.
+    /// Shape in files that precede `geometry`.
     #[serde(skip_serializing)]
     pub shape: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -160,7 +160,7 @@ pub(crate) struct Collider {
     pub nodes: Vec<usize>,
 }
 
-/// A shape, or a mesh: by its number, or that of a node.
+/// Geometry: the index of a shape, of a mesh, or of a node with a mesh.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct Geometry {

@@ -1,5 +1,5 @@
-//! What a recorded run says: keys are the states of the run in 32 bits, nodes those of its start in 64, and what comes
-//! back of it is the scene that it was made of.
+//! Recorded runs: keys are the states of the run in 32 bits, nodes those of its start in 64 bits,
+//! and the import of a recording returns the scene.
 
 mod files;
 
@@ -12,7 +12,7 @@ use carom_scene::{Library, Scene};
 use serde_json::Value;
 use tempfile::TempDir;
 
-/// A file, in parts.
+/// A file, split into its parts.
 struct Recorded {
     json: Value,
     binary: Vec<u8>,
@@ -33,7 +33,7 @@ impl Recorded {
         nodes.iter().position(|it| it["name"] == name).unwrap_or_else(|| panic!("{name}"))
     }
 
-    /// Times and values of what moves of a node.
+    /// Times and values of an animated property of a node.
     fn keys(&self, name: &str, path: &str) -> Option<(Vec<f32>, Vec<Vec<f32>>)> {
         let (node, animation) = (self.node(name), &self.json["animations"][0]);
         let channels = animation["channels"].as_array()?;
@@ -66,7 +66,7 @@ fn scene(name: &str) -> Scene {
     Library::new().find(name, &[]).unwrap().0
 }
 
-/// Records frames of a scene; `look` sees the world after each, the start included.
+/// Records frames of a scene and calls `look` with the world after each, including the start.
 fn record(scene: &Scene, frames: usize, path: &Path, mut look: impl FnMut(&World)) {
     let mut world = scene.world().unwrap();
     let animation = Animation::create(path, scene, &world).unwrap();
@@ -100,7 +100,7 @@ fn keys_are_the_positions_and_rotations_of_the_run_in_32_bits() {
         let same = rotation.map(|it| it as f32);
         assert!(rotations[i] == same || rotations[i] == same.map(|it| -it), "frame {i}");
     }
-    // The shorter way from each to the next.
+    // Each step follows the smaller angle.
     let along = |a: &[f32], b: &[f32]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f32>();
     assert!(rotations.windows(2).all(|pair| along(&pair[0], &pair[1]) >= 0.0));
 }

@@ -1,4 +1,5 @@
-//! What becomes of files with `KHR_physics_rigid_bodies`: bodies as they are described, whatever their meshes are.
+//! Imports of files with `KHR_physics_rigid_bodies`: bodies are as described, whatever their meshes
+//! are.
 
 mod files;
 
@@ -6,7 +7,7 @@ use carom_scene::scene::{CombineRule, Force, Shape};
 use files::{Gltf, report, sphere};
 use serde_json::{Value, json};
 
-/// A file with shapes, materials and nodes.
+/// Creates a file with shapes, materials and nodes.
 fn file(shapes: Value, materials: Value, nodes: Value) -> Gltf {
     let bodies = json!({ "physicsMaterials": materials });
     let extensions =
@@ -50,9 +51,10 @@ fn a_body_has_its_mass_velocity_and_surface() {
     let [ball] = &imported.scene.spheres[..] else { panic!("{:?}", report(&imported)) };
     assert_eq!((ball.position, ball.radius, ball.mass), ([1.0, 2.0, 3.0], Some(0.5), Some(2.5)));
     assert_eq!((ball.restitution, ball.friction), (0.8, Some(0.3)));
-    // 0.1 kg m² of 2.5 kg and 0.5 m.
+    // 0.1 kg m² at 2.5 kg and 0.5 m.
     assert!((ball.inertia_factor - 0.16).abs() < 1e-12);
-    // Velocities are those in the node, which is turned about y: +x goes to -z, +z to +x.
+    // Velocities are in the coordinates of the node, which is rotated about y: +x becomes -z, +z
+    // becomes +x.
     for (velocity, expected) in
         [(ball.velocity, [0.0, 0.0, -1.0]), (ball.angular_velocity, [3.0, 0.0, 0.0])]
     {
@@ -74,7 +76,7 @@ fn colliders_without_motion_stay() {
             json!({ "collider": collider(3) })
         ),
         node(json!({ "name": "Gate" }), json!({ "trigger": { "geometry": { "shape": 1 } } })),
-        // As it was written before there was `geometry`.
+        // The form in files that precede `geometry`.
         node(json!({ "name": "Old" }), json!({ "collider": { "shape": 0 } })),
     ]);
     let imported = file(shapes(), rubber(), nodes).imported();
@@ -91,7 +93,7 @@ fn colliders_without_motion_stay() {
     assert_eq!(colliders, expected);
     let triggers: Vec<bool> = imported.scene.colliders.iter().map(|it| it.trigger).collect();
     assert_eq!(triggers, [false, false, false, false, true, false]);
-    // The material that the specification gives to what has none.
+    // The default material of the specification.
     assert_eq!(
         (imported.scene.colliders[5].restitution, imported.scene.colliders[5].friction),
         (0.0, Some(0.6))

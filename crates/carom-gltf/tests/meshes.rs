@@ -1,5 +1,5 @@
-//! What becomes of files without physics: spheres of meshes that are like spheres, colliders of boxes and rectangles,
-//! and a line in the report of everything else.
+//! Imports of files without physics: meshes of spheres become spheres, those of boxes and
+//! rectangles colliders, and everything else is reported.
 
 mod files;
 
@@ -29,7 +29,7 @@ fn a_sphere_like_mesh_is_the_sphere_around_it() {
 
 #[test]
 fn cylinders_and_cubes_are_no_spheres_though_their_corners_are_at_one_distance() {
-    // The cylinder that fills most of the sphere around it: its height is sqrt(2) radii.
+    // The cylinder that fills most of its bounding sphere: its height is sqrt(2) radii.
     let (mut vertices, mut indices) = (Vec::new(), Vec::new());
     let sides = 48_u16;
     for i in 0..sides {
@@ -71,7 +71,7 @@ fn boxes_are_found_along_the_axes_and_turned_in_their_mesh() {
         let imported = one_mesh(node.clone(), (vertices, indices.clone())).imported();
         let collider = &imported.scene.colliders[0];
         let Shape::Box { size } = collider.shape else { panic!("{:?}", collider.shape) };
-        // The box has no first axis: lengths in any order, along the axes that they belong to.
+        // The axes of the box may be in any order, with the lengths that belong to them.
         let own = DQuat::from_array(collider.rotation);
         let expected = DQuat::from_xyzw(0.0, half, 0.0, half) * rotation;
         for (axis, length) in [(DVec3::X, 2.0), (DVec3::Y, 4.0), (DVec3::Z, 6.0)] {
@@ -134,7 +134,7 @@ fn children_are_where_parents_put_them() {
     let (vertices, indices) = sphere([0.0; 3], 0.5, 16);
     let imported = Gltf::with_nodes(nodes).with_mesh(&vertices, &indices, None).imported();
     let [hand, by_matrix] = &imported.scene.spheres[..] else { panic!() };
-    // The child lies 6 m along +y, to which the parent turns +x.
+    // The child is 6 m away along +y, to which the parent rotates +x.
     assert!(DVec3::from_array(hand.position).distance(DVec3::new(1.0, 6.0, 0.0)) < 1e-8);
     assert_eq!(hand.radius, Some(1.0));
     assert_eq!((by_matrix.position, by_matrix.radius), ([5.0, 6.0, 7.0], Some(1.0)));
@@ -161,7 +161,7 @@ fn materials_give_colour_and_finish() {
     let expected = [Finish::Matte, Finish::Glossy, Finish::Metal, Finish::Glass, Finish::Satin];
     assert_eq!(finishes, expected);
     let color = imported.scene.spheres[0].color.unwrap();
-    // 0.214 of the light is half of sRGB's scale.
+    // 0.214 in linear light is half of sRGB's scale.
     assert!((color[1] - 0.5).abs() < 1e-6 && color[0] == 1.0 && color[2] == 0.0, "{color:?}");
     assert_eq!(imported.scene.spheres[4].color, None);
 }

@@ -1,4 +1,4 @@
-//! What becomes of a recording whose process is killed: the animation that the frames before would have made.
+//! Recordings of killed processes: the recovered animation is that of the frames before the kill.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,8 @@ use carom_scene::recording::{Format, Recovered, RecoveryError};
 use carom_scene::{Library, Scene};
 use tempfile::TempDir;
 
-/// A scene with balls and colliders that come, move and go: an emitter with a ring of a few balls.
+/// A scene with balls and colliders that appear, move and disappear: an emitter with a ring of a
+/// few balls.
 fn scene() -> Scene {
     let ring = "emitters.0.max_spheres=3".parse().unwrap();
     let often = "emitters.0.period=0.05".parse().unwrap();
@@ -17,7 +18,7 @@ fn scene() -> Scene {
     Library::new().find("simtest1", &[ring, often, turning]).unwrap().0
 }
 
-/// Records so many frames after the start; what is unfinished of it stays.
+/// Records a number of frames after the start; dropping the result leaves the unfinished file.
 fn record(path: &Path, frames: usize) -> Animation {
     let scene = scene();
     let mut world: World = scene.world().unwrap();
@@ -29,7 +30,7 @@ fn record(path: &Path, frames: usize) -> Animation {
     animation
 }
 
-/// The bytes of an unfinished recording, and where the frames in it end.
+/// Bytes of an unfinished recording, and the ends of its frames.
 fn unfinished(folder: &Path, frames: usize) -> (Vec<u8>, Vec<usize>) {
     let path = folder.join("cut.glb");
     let ends = (0..=frames).map(|frames| {
@@ -43,14 +44,14 @@ fn unfinished(folder: &Path, frames: usize) -> (Vec<u8>, Vec<usize>) {
     (left.into_iter().last().unwrap(), ends)
 }
 
-/// The complete recording of so many frames after the start.
+/// Complete recording of a number of frames after the start.
 fn complete(folder: &Path, frames: usize) -> Vec<u8> {
     let path = folder.join("whole.glb");
     Box::new(record(&path, frames)).finish().unwrap();
     fs::read(&path).unwrap()
 }
 
-/// What is made of these bytes, and where they are.
+/// Recovers these bytes; returns the result and the path of the unfinished file.
 fn recover(folder: &Path, bytes: &[u8]) -> (Result<Recovered, RecoveryError>, PathBuf) {
     let (left, target) = (folder.join("t.glb.0.unfinished"), folder.join("t.glb"));
     fs::write(&left, bytes).unwrap();
@@ -64,7 +65,7 @@ fn what_is_cut_short_becomes_the_animation_of_the_frames_before_byte_for_byte() 
     let folder = TempDir::new().unwrap();
     let (bytes, ends) = unfinished(folder.path(), FRAMES);
     let whole: Vec<_> = (0..=FRAMES).map(|frames| complete(folder.path(), frames)).collect();
-    // At the end of each frame, beside it, and at some places between.
+    // Cuts at the end of each frame, next to it, and at some places between.
     let beside = ends.iter().flat_map(|end| [end - 1, *end, end + 1]);
     let cuts = beside.chain((ends[0]..bytes.len()).step_by(997));
     for cut in cuts.filter(|cut| (ends[0]..=bytes.len()).contains(cut)) {

@@ -1,4 +1,5 @@
-//! Broken files are refused with file, place and reason, and no file leads outside of its folder.
+//! Broken files are refused with file, place and reason, and no file can refer to files outside its
+//! folder.
 
 mod files;
 
@@ -6,7 +7,7 @@ use carom_gltf::Options;
 use files::{Gltf, import_bytes, sphere};
 use serde_json::{Value, json};
 
-/// The error of a text.
+/// Imports a text; returns the error.
 fn refusal(text: &str) -> String {
     let error = import_bytes("scene.gltf", text.as_bytes()).unwrap_err().to_string();
     let (_, rest) = error.split_once("scene.gltf: ").unwrap_or_else(|| panic!("{error}"));
@@ -18,7 +19,7 @@ fn ball() -> Gltf {
     Gltf::with_nodes(json!([{ "name": "Ball", "mesh": 0 }])).with_mesh(&vertices, &indices, None)
 }
 
-/// The error of a file with one value changed.
+/// Imports a file with one value changed; returns the error.
 fn changed(pointer: &str, value: Value) -> String {
     let mut file = ball();
     *file.json.pointer_mut(pointer).unwrap_or_else(|| panic!("{pointer}")) = value;
@@ -169,7 +170,7 @@ fn broken_containers_are_refused() {
 
 #[test]
 fn many_meshes_of_the_same_bytes_and_deep_trees_end_in_time() {
-    // Each mesh would read 30,000 numbers: in all a billion.
+    // Each mesh would read 30,000 numbers, all together a billion.
     let vertices = vec![[0.0; 3]; 10_000];
     let mut file = Gltf::with_nodes(json!([])).with_mesh(&vertices, &[0, 1, 2], None);
     let mesh = file.json["meshes"][0].clone();

@@ -1,12 +1,13 @@
-//! Which ball of the course each label of a table means.
+//! Assigns the labels of a table to balls of the course.
 
 use crate::recorded::{Recorded, whole};
 use crate::tracks::{Key, Tracks};
 
-/// Finds what labels mean, by the run that the course's rule makes: the balls' numbers in order of
-/// emission, from 0 or from their smallest, or else their order of appearance. Where no label is beyond
-/// the `capacity` of slots, they may be slots, too, whose balls change. What leaves the fewest rows without
-/// a ball counts, then what begins nearest to where the balls are.
+/// Finds the meaning of labels by comparison with the run of the course's rule. Labels may be
+/// numbers in the order of emission, from 0 or from the smallest label, or names in the order of
+/// appearance. If no label exceeds the `capacity` of slots, they may also be slots, whose balls
+/// change. The meaning with the fewest rows without a ball counts; among equal ones, that with the
+/// nearest first positions.
 pub(crate) fn keys(recorded: &Recorded, reference: &Tracks, capacity: Option<usize>) -> Vec<Key> {
     let mut best: Option<(Cost, Vec<Key>)> = None;
     for places in places(recorded) {
@@ -27,7 +28,7 @@ pub(crate) fn keys(recorded: &Recorded, reference: &Tracks, capacity: Option<usi
     best.map(|(_, keys)| keys).unwrap_or_default()
 }
 
-/// What labels may mean: a place for each.
+/// Possible meanings of the labels: lists with a place for each label.
 fn places(recorded: &Recorded) -> Vec<Vec<usize>> {
     let numbers: Option<Vec<i64>> = recorded.labels.iter().map(|label| whole(label)).collect();
     let mut places = Vec::new();
@@ -42,11 +43,11 @@ fn places(recorded: &Recorded) -> Vec<Vec<usize>> {
     places
 }
 
-/// What speaks against a meaning of labels.
+/// Cost of a meaning: the smaller, the better.
 struct Cost {
-    /// Rows of balls that are not there.
+    /// Number of rows of balls that do not exist.
     missing: usize,
-    /// Sum of the distances \[m\] at the first row of each ball, each 1 m at most.
+    /// Sum of the distances \[m\] in the first row of each ball, each limited to 1 m.
     distance: f64,
 }
 
@@ -67,7 +68,7 @@ impl Cost {
     }
 
     fn is_less(&self, other: &Self) -> bool {
-        // A micrometre is noise.
+        // A difference of a micrometre is noise.
         self.missing < other.missing
             || self.missing == other.missing && self.distance < other.distance - 1e-6
     }

@@ -1,4 +1,4 @@
-//! Where a ball touches a collider, and what that does to it: the course's `OnCollision`.
+//! Contacts of balls with colliders, and their response: `OnCollision` of the course.
 
 use carom::DVec3;
 use serde::Serialize;
@@ -7,7 +7,7 @@ use crate::course::Form;
 use crate::mistake::{Mistake, Mistakes};
 use crate::real::{Real, Vec3};
 
-/// Which part of a collider a ball touches.
+/// Part of a collider that a ball touches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ContactKind {
@@ -32,7 +32,7 @@ impl std::fmt::Display for ContactKind {
     }
 }
 
-/// A collider in the numbers of the program.
+/// A collider in the number type of the program.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Surface<N> {
     center: Vec3<N>,
@@ -44,22 +44,22 @@ pub(crate) struct Surface<N> {
 enum Extent<N> {
     /// Radius \[m\].
     Sphere(N),
-    /// Half the lengths along the first and third axis \[m\].
+    /// Half lengths along the first and third axis \[m\].
     Rectangle([N; 2]),
 }
 
-/// A contact that the program sees.
+/// A contact that the program detects.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Contact<N> {
     pub kind: ContactKind,
-    /// Unit vector from the collider to the ball, in the world.
+    /// Unit vector from the collider to the ball, in world coordinates.
     pub normal: Vec3<N>,
-    /// Where the program puts the ball if it answers the contact \[m\].
+    /// Position \[m\] to which the program moves the ball if it answers the contact.
     pub place: Option<Vec3<N>>,
 }
 
 impl<N: Real> Surface<N> {
-    /// A collider as a program with these mistakes has it.
+    /// Creates a collider as a program with these mistakes stores it.
     pub fn of(form: &Form, mistakes: Mistakes) -> Self {
         let vectors = |axes: [DVec3; 3]| axes.map(Vec3::of);
         match *form {
@@ -76,8 +76,8 @@ impl<N: Real> Surface<N> {
         }
     }
 
-    /// The contact with a ball about `position` \[m\] that a program with these mistakes takes for one
-    /// of `radius` \[m\].
+    /// Finds the contact with a ball at `position` \[m\] for a program with these mistakes, which
+    /// takes `radius` \[m\] as its radius.
     pub fn contact(&self, position: Vec3<N>, radius: N, mistakes: Mistakes) -> Option<Contact<N>> {
         match self.extent {
             Extent::Sphere(own) => self.of_sphere(position, [own, radius], mistakes),
@@ -138,13 +138,13 @@ impl<N: Real> Surface<N> {
         (distance - radius <= zero).then_some(Contact { kind, normal, place })
     }
 
-    /// A vector of the world in the collider's own frame.
+    /// Converts a vector from world coordinates to those of the collider.
     fn to_local(self, vector: Vec3<N>) -> Vec3<N> {
         let [x, y, z] = self.axes.map(|axis| vector.dot(axis));
         Vec3::new(x, y, z)
     }
 
-    /// Velocity \[m/s\] after the contact; `None` where the program does not answer it.
+    /// Velocity \[m/s\] after the contact; `None` if the program does not answer it.
     pub fn response(
         &self,
         contact: &Contact<N>,
@@ -164,7 +164,7 @@ impl<N: Real> Surface<N> {
     }
 }
 
-/// Half the lengths of a plane, as a program with these mistakes has them.
+/// Half lengths of a plane for a program with these mistakes.
 fn extent([x, z]: [f64; 2], mistakes: Mistakes) -> [f64; 2] {
     if mistakes.has(Mistake::ExtentIgnored) {
         [f64::INFINITY; 2]
@@ -187,7 +187,8 @@ fn clamped<N: Real>(value: N, half: N) -> N {
     }
 }
 
-/// The normal at an edge or corner; `normal` is the right one, `offset` leads from the middle of the plane.
+/// Normal at an edge or corner. `normal` is the correct one; `offset` points from the middle of the
+/// plane to the ball.
 fn edge_normal<N: Real>(
     normal: Vec3<N>,
     up: Vec3<N>,
@@ -203,7 +204,7 @@ fn edge_normal<N: Real>(
     }
 }
 
-/// Velocity after a bounce: `v' = v - (1 + e) (v.n) n`, or what a mistake makes of it.
+/// Velocity after a bounce: `v' = v - (1 + e) (v.n) n`, or its variant with a mistake.
 fn bounced<N: Real>(v: Vec3<N>, n: Vec3<N>, e: N, mistakes: Mistakes) -> Vec3<N> {
     let (one, two) = (N::of(1.0), N::of(2.0));
     let along = v.dot(n);

@@ -1,4 +1,4 @@
-//! What the course's rule reads of a scene.
+//! The parts of a scene that the course's rule uses.
 
 use carom::{CombineRule, DQuat, DVec3, Shape};
 use carom_scene::Scene;
@@ -6,46 +6,46 @@ use carom_scene::scene::{self, Boundary, Force, Integrator, Rule};
 
 use crate::error::GradeError;
 
-/// A scene as the course's rule knows it.
+/// A scene as the course's rule uses it.
 #[derive(Debug, Clone)]
 pub struct Course {
     /// Name of the scene.
     pub name: String,
     /// Length of a frame \[s\].
     pub frame_time: f64,
-    /// Time worth watching \[s\].
+    /// Duration of the scene \[s\].
     pub duration: f64,
     pub(crate) combine_rule: CombineRule,
-    /// Forces, in the order in which they add up.
+    /// Forces, in the order in which they are summed.
     pub(crate) forces: Vec<Acting>,
-    /// Balls that are there from the start.
+    /// Balls at the start.
     pub(crate) balls: Vec<Kind>,
     pub(crate) emitters: Vec<Source>,
-    /// In the order in which each ball meets them.
+    /// Colliders, in the order in which they are tested for each ball.
     pub(crate) colliders: Vec<Fixed>,
 }
 
 /// A force on every ball.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Acting {
-    /// In N.
+    /// Force \[N\].
     Constant(DVec3),
-    /// In m/s².
+    /// Acceleration \[m/s²\].
     Gravity(DVec3),
-    /// In kg/s.
+    /// Coefficient of viscous drag \[kg/s\].
     Drag(f64),
 }
 
-/// A ball at its start.
+/// Properties of a ball at its start.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Kind {
-    /// In m.
+    /// Position \[m\].
     pub position: DVec3,
-    /// In m/s.
+    /// Velocity \[m/s\].
     pub velocity: DVec3,
-    /// In m.
+    /// Radius \[m\].
     pub radius: f64,
-    /// In kg.
+    /// Mass \[kg\].
     pub mass: f64,
     pub restitution: f64,
 }
@@ -53,17 +53,17 @@ pub(crate) struct Kind {
 /// An emitter.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Source {
-    /// What it emits, in the world.
+    /// The emitted ball, in world coordinates.
     pub ball: Kind,
-    /// In s.
+    /// Period \[s\].
     pub period: f64,
-    /// Most balls of it that are there at one time.
+    /// Most balls of this emitter at one time.
     pub max: Option<usize>,
-    /// How many it emits in all.
+    /// Number of balls that it emits in all.
     pub count: Option<u64>,
 }
 
-/// A surface that balls bounce off.
+/// A collider off which balls bounce.
 #[derive(Debug, Clone)]
 pub(crate) struct Fixed {
     /// Name of the collider.
@@ -76,19 +76,19 @@ pub(crate) struct Fixed {
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Form {
     Sphere {
-        /// In m.
+        /// Centre \[m\].
         center: DVec3,
-        /// In m.
+        /// Radius \[m\].
         radius: f64,
-        /// Of its own frame.
+        /// Axes of its own coordinate system.
         axes: [DVec3; 3],
     },
     Rectangle {
-        /// In m.
+        /// Centre \[m\].
         center: DVec3,
-        /// Of its own frame; the second is the normal.
+        /// Axes of its own coordinate system; the second is the normal.
         axes: [DVec3; 3],
-        /// Half the lengths along the first and third axis \[m\].
+        /// Half lengths along the first and third axis \[m\].
         half: [f64; 2],
     },
 }
@@ -97,7 +97,8 @@ impl Course {
     /// Reads a scene.
     ///
     /// # Errors
-    /// [`GradeError::NotOfTheCourse`] for a scene that has what the rule of the course does not know.
+    /// [`GradeError::NotOfTheCourse`] if the scene has a part that the rule of the course does not
+    /// support.
     pub fn of(scene: &Scene) -> Result<Self, GradeError> {
         let refuse = |what: &str| GradeError::NotOfTheCourse {
             scene: scene.name.clone(),
@@ -137,7 +138,7 @@ impl Course {
         })
     }
 
-    /// How many balls there can be at one time; `None` without a limit.
+    /// Most balls at one time; `None` without a limit.
     pub(crate) fn capacity(&self) -> Option<usize> {
         let emitted = self.emitters.iter().map(|it| match (it.max, it.count) {
             (Some(max), Some(count)) => Some(max.min(count as usize)),
@@ -147,7 +148,7 @@ impl Course {
     }
 }
 
-/// What a scene has that the rule of the course does not know.
+/// Names a part of the scene that the rule of the course does not support.
 fn unknown_part(scene: &Scene) -> Option<&'static str> {
     let simulation = &scene.simulation;
     let needs_room = |it: &scene::Emitter| it.needs_room == Some(true);
@@ -177,7 +178,7 @@ fn unknown_part(scene: &Scene) -> Option<&'static str> {
     }
 }
 
-/// A force as the course has it; `None` for one that it does not have.
+/// Converts a force; `None` if the course does not have it.
 fn acting(force: &Force) -> Option<Acting> {
     match *force {
         Force::Constant { force } => Some(Acting::Constant(DVec3::from_array(force))),
@@ -208,7 +209,7 @@ fn source(emitter: &carom::Emitter) -> Source {
     }
 }
 
-/// The surfaces of a collider, none of a trigger; `None` for a shape that the course does not have.
+/// Surfaces of a collider, none for a trigger; `None` if the course does not have the shape.
 fn forms(collider: &scene::Collider) -> Option<Vec<Form>> {
     let rotation = DQuat::from_array(collider.rotation).normalize();
     let axes = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| rotation * axis);
@@ -224,7 +225,7 @@ fn forms(collider: &scene::Collider) -> Option<Vec<Form>> {
     Some(if collider.trigger { Vec::new() } else { forms })
 }
 
-/// The faces of a box, outward, in the order -x, +x, -y, +y, -z, +z.
+/// Faces of a box with outward normals, in the order -x, +x, -y, +y, -z, +z.
 fn faces(center: DVec3, axes: [DVec3; 3], half: DVec3) -> Vec<Form> {
     let face = |number: usize| {
         let axis = number / 2;

@@ -1,8 +1,8 @@
 //! The course's rule, as a student writes it, with or without mistakes.
 //!
-//! A frame, in this order: emit; then for each ball move it, and answer each collider that it touches.
-//! Without mistakes it gives the states of the engine's rule `discrete` to the bit, which a test holds it
-//! to; the engine itself knows no mistakes.
+//! A frame emits first; then it moves each ball and answers each collider that the ball touches.
+//! Without mistakes, the states equal those of the engine's rule `discrete` bit for bit, which a
+//! test checks. The rule is implemented again because the engine has no mistakes.
 
 use carom::CombineRule;
 
@@ -12,16 +12,17 @@ use crate::mistake::{Mistake, Mistakes};
 use crate::real::{Real, Vec3};
 use crate::tracks::{State, Touch, Track, Tracks};
 
-/// A ball is due when its time is at most this much after the start of a frame \[s\].
+/// A ball is emitted in a frame if its time is at most this much after the start of the frame
+/// \[s\].
 const DUE_TOLERANCE: f64 = 1e-9;
 
-/// Frame time of a usual display \[s\].
+/// Frame time of a common display \[s\].
 const DISPLAY: f64 = 1.0 / 60.0;
 
-/// States that a run keeps at most; a longer one ends early.
+/// Most states of a run; a longer run ends early.
 const MOST_STATES: usize = 100_000;
 
-/// When frames end.
+/// Times at which frames end.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Clock {
     /// Frames of the scene, up to a time \[s\].
@@ -33,22 +34,23 @@ pub(crate) enum Clock {
 /// A frame of the clock.
 #[derive(Debug, Clone, Copy)]
 struct Frame {
-    /// In s.
+    /// Start \[s\].
     start: f64,
-    /// In s.
+    /// End \[s\].
     end: f64,
-    /// By which the program moves balls \[s\].
+    /// Time by which the program moves balls \[s\].
     h: f64,
 }
 
-/// Runs a course in numbers of the kind `N`.
+/// Runs a course in the number type `N`.
 pub(crate) fn run<N: Real>(course: &Course, mistakes: Mistakes, clock: &Clock) -> Tracks {
     let mut run = Run::<N>::new(course, mistakes);
     run.take(&frames(course.frame_time, mistakes, clock));
     run.tracks
 }
 
-/// Runs a course without mistakes, where each step is off by a part of each number that `jitter` gives.
+/// Runs a course without mistakes, with an error in each number of each step. `jitter` returns the
+/// relative error.
 pub(crate) fn run_jittered(
     course: &Course,
     clock: &Clock,
@@ -60,7 +62,7 @@ pub(crate) fn run_jittered(
     run.tracks
 }
 
-/// The frames of a program with these mistakes.
+/// Frames of a program with these mistakes.
 fn frames(h: f64, mistakes: Mistakes, clock: &Clock) -> Vec<Frame> {
     let end = match clock {
         Clock::Fixed(end) => *end,
@@ -73,13 +75,14 @@ fn frames(h: f64, mistakes: Mistakes, clock: &Clock) -> Vec<Frame> {
     };
     let length = if mistakes.has(Mistake::DisplayFrames) { DISPLAY } else { h };
     let h = if mistakes.has(Mistake::DisplayStep) { DISPLAY } else { length };
-    // A millionth of a frame is rounding; without any ball, frames alone would have no end.
+    // 1e-6 of a frame is a rounding error. The count is limited, because without balls nothing else
+    // would end the run.
     let count = ((end / length - 1e-6).ceil().max(1.0) as usize).min(MOST_STATES);
     let time = |frame: usize| frame as f64 * length;
     (0..count).map(|frame| Frame { start: time(frame), end: time(frame + 1), h }).collect()
 }
 
-/// A ball as the program knows it.
+/// State of a ball in the program.
 #[derive(Debug, Clone, Copy)]
 struct Ball<N> {
     number: usize,
@@ -88,9 +91,9 @@ struct Ball<N> {
     radius: N,
     mass: N,
     restitution: f64,
-    /// Velocity with which it was emitted.
+    /// Velocity at the emission.
     emitted: Vec3<N>,
-    /// Velocity at the start of the frame before.
+    /// Velocity at the start of the previous frame.
     before: Vec3<N>,
     /// Velocity before the last response to a collision.
     saved: Vec3<N>,
@@ -128,7 +131,7 @@ impl<N: Real> Ball<N> {
     }
 }
 
-/// The slots of an emitter, and how many balls were due so far.
+/// Slots of an emitter, and the number of balls that were due so far.
 struct Ring<'a> {
     source: &'a Source,
     slots: Vec<usize>,
@@ -146,19 +149,19 @@ impl Ring<'_> {
     }
 }
 
-/// A program that runs.
+/// State of a running program.
 struct Run<'a, N> {
     mistakes: Mistakes,
     forces: &'a [Acting],
     combine_rule: CombineRule,
     surfaces: Vec<(Surface<N>, f64)>,
     rings: Vec<Ring<'a>>,
-    /// One for each slot.
+    /// Ball of each slot.
     balls: Vec<Ball<N>>,
     tracks: Tracks,
-    /// How many the tracks hold.
+    /// Number of states in the tracks.
     states: usize,
-    /// Part by which a number is off, anew for each number.
+    /// Returns the relative error of a number, a new one at each call.
     jitter: Option<&'a mut dyn FnMut() -> f64>,
 }
 
@@ -215,7 +218,7 @@ impl<'a, N: Real> Run<'a, N> {
         self.states += self.balls.len();
     }
 
-    /// Emits what is due at the start of a frame \[s\].
+    /// Emits the balls that are due at the start of a frame, at `time` \[s\].
     fn emit(&mut self, time: f64) {
         for index in 0..self.rings.len() {
             while self.rings[index].is_due(time + DUE_TOLERANCE) && self.states <= MOST_STATES {
@@ -249,7 +252,7 @@ impl<'a, N: Real> Run<'a, N> {
         }
     }
 
-    /// Puts a ball into a slot, or into a new one; gives the slot.
+    /// Puts a ball into a slot, or into a new one; returns the slot.
     fn put(&mut self, slot: Option<usize>, kind: &Kind) -> usize {
         let ball = Ball::new(self.tracks.balls.len(), kind);
         let slot = slot.unwrap_or(self.balls.len());
@@ -312,8 +315,8 @@ impl<'a, N: Real> Run<'a, N> {
         }
     }
 
-    /// Answers the colliders that a ball touches, in order; each acts on what the ones before it made of
-    /// the ball.
+    /// Answers the colliders that a ball touches, in order. Each one acts on the result of those
+    /// before it.
     fn collide(&mut self, ball: &mut Ball<N>, frame: usize) {
         let radius = if self.mistakes.has(Mistake::RadiusIgnored) {
             N::of(0.0)

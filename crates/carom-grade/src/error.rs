@@ -1,4 +1,4 @@
-//! Why a run cannot be graded.
+//! Errors of grading.
 
 use std::io;
 use std::path::PathBuf;
@@ -16,9 +16,9 @@ pub enum GradeError {
     /// A file cannot be read.
     #[error("cannot read {path}: {source}", path = .path.display())]
     Unreadable {
-        /// Which.
+        /// Path of the file.
         path: PathBuf,
-        /// Why.
+        /// Error of the operating system.
         source: io::Error,
     },
     /// A table lacks a column.
@@ -29,55 +29,55 @@ pub enum GradeError {
         there = legible(.there, LONGEST)
     )]
     MissingColumn {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
         /// Name of the column.
         column: String,
-        /// What it should hold.
+        /// Content that the column should have.
         what: &'static str,
-        /// What `--columns` calls it.
+        /// Name of the column in `--columns`.
         key: &'static str,
-        /// Names of the columns that are there.
+        /// Names of the existing columns.
         there: String,
     },
-    /// A line makes no sense.
+    /// A line is invalid.
     #[error("{path}:{line}: {problem}", path = .path.display(), problem = legible(.problem, LONGEST))]
     Malformed {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// Line in it, from 1.
+        /// Number of the line, from 1.
         line: u64,
-        /// What is wrong there.
+        /// What is wrong with the line.
         problem: String,
     },
     /// The run as a whole cannot be graded.
     #[error("{path}: {problem}", path = .path.display())]
     Refused {
-        /// Its file.
+        /// Path of the file.
         path: PathBuf,
-        /// Why.
+        /// Reason.
         problem: String,
     },
-    /// An assignment of columns makes no sense.
+    /// The argument `--columns` is invalid.
     #[error("{0}")]
     Columns(String),
     /// No mistake has this name.
     #[error("no mistake is called \"{name}\"{}", .nearest.map(|it| format!("; did you mean \"{it}\"?")).unwrap_or_default())]
     UnknownMistake {
-        /// The name.
+        /// The unknown name.
         name: String,
         /// The most similar name, if one is similar.
         nearest: Option<&'static str>,
     },
-    /// The scene has what the rule of the course does not know.
+    /// The scene has a part that the rule of the course does not support.
     #[error("the course's rule does not know what the scene \"{scene}\" has: {what}")]
     NotOfTheCourse {
         /// Name of the scene.
         scene: String,
-        /// What it has.
+        /// The unsupported part.
         what: String,
     },
-    /// The scene makes no sense.
+    /// The scene is invalid.
     #[error(transparent)]
     Scene(#[from] SceneError),
 }

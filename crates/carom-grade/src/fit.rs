@@ -1,4 +1,4 @@
-//! How long a recorded run follows another one, and how well.
+//! Compares a recorded run with a computed one.
 
 use std::collections::BTreeMap;
 
@@ -7,85 +7,88 @@ use serde::Serialize;
 use crate::recorded::Recorded;
 use crate::tracks::{Key, Tracks};
 
-/// A recorded run, with what is known of its rows from the course's rule.
+/// A recorded run with data about its rows from the course's rule.
 pub(crate) struct Rows<'a> {
     pub recorded: &'a Recorded,
-    /// What its labels mean.
+    /// Meaning of each label.
     pub keys: &'a [Key],
-    /// The ball of each row under the course's rule: rows of one ball belong together.
+    /// Ball of each row under the course's rule; rows of one ball belong together.
     pub balls: Vec<Option<usize>>,
-    /// How far each row may be off \[m\].
+    /// Largest allowed error of each row \[m\].
     pub tolerances: Vec<f64>,
-    /// From when on \[s\] rounding moves a ball far, and how far \[m\] it does at most.
+    /// Time \[s\] from which rounding moves a ball far, and the largest such distance \[m\].
     pub rounding: Option<[f64; 2]>,
-    /// Frame time \[s\]: what velocities that differ make of places in a frame.
+    /// Frame time \[s\]; it converts differences of velocities to distances.
     pub frame_time: f64,
 }
 
-/// How well a recorded run follows another one.
+/// Result of a comparison.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Fit {
-    /// Rows up to the first departure of their ball, of those that are compared.
+    /// Number of rows that agree: those of each ball up to its first departure.
     pub followed: usize,
-    /// All rows.
+    /// Number of all rows.
     pub rows: usize,
-    /// Root of the mean square of the distances of the rows that are followed \[m\].
+    /// Root mean square of the distances in rows that agree \[m\].
     pub rms: f64,
-    /// Largest distance of them \[m\].
+    /// Largest distance in rows that agree \[m\].
     pub max: f64,
-    /// Largest distance of them, as a part of how far the ball is from the origin, where that is more than 1 m.
+    /// Largest distance in rows that agree, divided by the distance of the ball from the origin if
+    /// that is more than 1 m.
     pub max_relative: f64,
-    /// Largest difference of their velocities \[m/s\], where there are any.
+    /// Largest difference of velocities in rows that agree \[m/s\], if the table has velocities.
     pub max_velocity: Option<f64>,
-    /// The earliest departure.
+    /// Earliest departure.
     pub departure: Option<Departed>,
-    /// Root of the mean square of distances and of what velocities make of them \[m\].
+    /// Root mean square of the distances, including the distances to which differences of
+    /// velocities lead \[m\].
     #[serde(skip)]
     pub(crate) residual: f64,
 }
 
-/// The first row that is too far off.
+/// The first row that does not agree.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Departed {
-    /// Its time \[s\].
+    /// Time of the row \[s\].
     pub time: f64,
-    /// Line in the file.
+    /// Line of the row in the file.
     pub line: u64,
-    /// Place in the list of rows.
+    /// Index in the list of rows.
     #[serde(skip)]
     pub(crate) row: usize,
-    /// The row of the same ball before it.
+    /// Index of the previous row of the same ball.
     #[serde(skip)]
     pub(crate) before: Option<usize>,
-    /// Where the other run has the ball \[m\]; `None` where it has none.
+    /// Position of the ball in the computed run \[m\]; `None` if that run does not have the ball.
     pub expected: Option<[f64; 3]>,
-    /// How far off it is \[m\].
+    /// Distance from that position \[m\].
     pub distance: Option<f64>,
 }
 
 impl Fit {
-    /// Whether every row is followed.
+    /// Whether all rows agree.
     pub fn is_complete(&self) -> bool {
         self.followed == self.rows
     }
 
-    /// The part of the rows that is followed.
+    /// Fraction of the rows that agree.
     pub fn part(&self) -> f64 {
         self.followed as f64 / self.rows.max(1) as f64
     }
 
-    /// Whether it is the better one: it follows longer, or as long and nearer.
+    /// Whether this fit is better: more rows agree, or as many with a smaller residual.
     pub(crate) fn is_better_than(&self, other: &Self) -> bool {
         (self.followed, other.residual) > (other.followed, self.residual)
     }
 }
 
 impl Rows<'_> {
-    /// How well the recorded run follows `tracks`, whose clock is `later` \[s\] ahead of the table's.
+    /// Compares the recorded run with `tracks`, whose clock is ahead of the table's by `later`
+    /// \[s\].
     pub fn follow(&self, tracks: &Tracks, later: f64) -> Fit {
         let mut sums = Sums::default();
         let mut departure: Option<Departed> = None;
-        // The last row of each ball, and whether it still follows.
+        // For each ball, its last row, and whether it still agrees.
         let mut balls: BTreeMap<(Key, Option<usize>), (Option<usize>, bool)> = BTreeMap::new();
         for (number, row) in self.recorded.rows.iter().enumerate() {
             let time = row.time + later;
@@ -97,7 +100,8 @@ impl Rows<'_> {
                 continue;
             }
             if tracks.frame_at(time).is_none() {
-                // Before the start there is nothing to do wrong; after the end of what was run, nothing is known.
+                // Rows before the start count as agreeing; rows after the end of the computed run
+                // do not count.
                 sums.followed += usize::from(time < 0.0);
                 continue;
             }
@@ -128,12 +132,12 @@ impl Rows<'_> {
     }
 }
 
-/// How long after a departure runs are compared that follow no longer \[s\].
+/// Time after a departure over which runs that no longer agree are compared \[s\].
 const AFTERWARDS: f64 = 0.5;
 
 impl Rows<'_> {
-    /// Root of the mean square of distances \[m\] of the ball that departs, each 1 m at most, right after its
-    /// departure.
+    /// Root mean square of the distances \[m\] of the departing ball directly after its departure,
+    /// each limited to 1 m.
     pub fn distance_after(&self, departed: &Departed, tracks: &Tracks) -> f64 {
         let rows = &self.recorded.rows;
         let (label, ball) = (rows[departed.row].label, self.balls[departed.row]);
@@ -153,7 +157,7 @@ impl Rows<'_> {
     }
 }
 
-/// What adds up over rows.
+/// Sums over rows.
 #[derive(Default)]
 struct Sums {
     followed: usize,

@@ -1,4 +1,4 @@
-//! Grading: a recorded run against the course's rule, and against each known mistake.
+//! Grades a recorded run by comparison with the course's rule and with each known mistake.
 
 use std::collections::BTreeMap;
 
@@ -12,54 +12,56 @@ use crate::spread::Spread;
 use crate::tracks::{Key, Touch, Tracks};
 use crate::verdict::{Explanation, Parts, Verdict};
 
-/// How far places may be off unless said otherwise \[m\]: a few times what single precision does in the
-/// scenes of the course before a ball has left the picture, half of what a mistake is to be seen by.
+/// Default tolerance of positions \[m\]: a few times the error of single precision in the scenes of
+/// the course before a ball leaves the picture, and half of the smallest effect of a mistake that
+/// should be detected.
 pub const TOLERANCE: f64 = 5e-4;
 
-/// How many times the spread by rounding a run may be off: a program rounds in another order than those
-/// that the spread was measured with.
+/// Factor between the allowed error and the measured spread by rounding: a program rounds in
+/// another order than the runs that measured the spread.
 const SPREADS: f64 = 4.0;
 
-/// A spread of more than this \[m\] is worth a note.
+/// Spread \[m\] above which the verdict contains a note.
 const FAR_SPREAD: f64 = 0.02;
 
-/// Clocks that are this many frames ahead or behind are recognised.
+/// Offsets of the table's clock that are recognized \[frames\].
 const SHIFTS: [i32; 4] = [1, -1, 2, -2];
 
-/// Frames of a display before the first time of a table, at most: some minutes.
+/// Most frames of a display before the first time of a table: some minutes.
 const MOST_FRAMES_BEFORE: f64 = 20_000.0;
 
-/// Tables of more rows are not compared with pairs of mistakes, which would take minutes.
+/// Most rows of a table that is compared with pairs of mistakes, which would take minutes for more.
 const MOST_ROWS_OF_PAIRS: usize = 100_000;
 
-/// Two mistakes at once must follow this part of all rows longer than one does to be named.
+/// Fraction of all rows by which a pair of mistakes must agree longer than a single one to be
+/// named.
 const WORTH_A_PAIR: f64 = 0.02;
 
 /// Grades runs of one scene.
 pub struct Grader {
     course: Course,
     tolerance: f64,
-    /// Until when runs are known \[s\].
+    /// Time up to which runs have been computed \[s\].
     end: f64,
-    /// Runs of single mistakes and of none.
+    /// Runs without mistakes and with each single mistake.
     runs: BTreeMap<Mistakes, Tracks>,
     spread: Option<Spread>,
 }
 
-/// What grading found, and what it was found from.
+/// Result of grading, with the runs from which it was derived.
 pub struct Graded {
     /// The result.
     pub verdict: Verdict,
     /// The run of the course's rule.
     pub reference: Tracks,
-    /// The run of the mistakes that explain it best, where it is not right.
+    /// The run of the best explanation, if the recorded run is not right.
     pub explanation: Option<Tracks>,
-    /// What the labels of the table mean.
+    /// Meaning of each label of the table.
     pub(crate) keys: Vec<Key>,
 }
 
 impl Grader {
-    /// Grades runs of this course, which may be off by `tolerance` \[m\].
+    /// Creates a grader for runs of this course with a `tolerance` \[m\].
     pub fn new(course: Course, tolerance: f64) -> Self {
         Self { course, tolerance, end: 0.0, runs: BTreeMap::new(), spread: None }
     }
@@ -69,7 +71,7 @@ impl Grader {
         &self.course
     }
 
-    /// The run with these mistakes, `end` \[s\] long, in numbers of single precision or not.
+    /// Computes a run with these mistakes, `end` \[s\] long, in single or double precision.
     pub fn planted(&self, mistakes: Mistakes, end: f64, single: bool) -> Tracks {
         let clock = Clock::Fixed(end);
         if single {
@@ -81,7 +83,7 @@ impl Grader {
 
     /// Grades a recorded run.
     pub fn grade(&mut self, recorded: &Recorded) -> Graded {
-        // Clocks may be ahead.
+        // The table's clock may be ahead.
         let end = recorded.end() + 3.0 * self.course.frame_time;
         self.make_ready(end);
         let reference = &self.runs[&Mistakes::NONE];
@@ -116,10 +118,11 @@ impl Grader {
         Graded { verdict, reference: reference.clone(), explanation: explaining, keys }
     }
 
-    /// Has all runs reach a time \[s\], and no more than 5 s past it.
+    /// Computes all runs up to a time \[s\], rounded up to a multiple of 5 s.
     fn make_ready(&mut self, end: f64) {
-        // Runs of a folder are about as long as each other. Longer ones would do, but for what rounding does in
-        // them: a verdict must not depend on what was graded before.
+        // The runs of a folder have similar lengths, so computed runs are reused for the same
+        // rounded length. Longer ones would do as well, but have a larger spread by rounding, and a
+        // verdict must not depend on what was graded before.
         let end = (end / 5.0).ceil() * 5.0;
         if end == self.end && !self.runs.is_empty() {
             return;
@@ -132,7 +135,7 @@ impl Grader {
     }
 
     fn base_tolerance(&self, recorded: &Recorded) -> f64 {
-        // The three coordinates of a place are rounded, each by the resolution at most.
+        // The three coordinates are rounded, each by at most the resolution.
         self.tolerance.max(2.0 * recorded.resolution)
     }
 
@@ -155,7 +158,7 @@ impl Grader {
                 (Some(ball), Some(frame), Some(spread)) => {
                     spread.at(ball, frame - reference.balls[ball].birth)
                 }
-                // A ball that only a wrong run has.
+                // A ball that exists only in the wrong run.
                 (None, _, Some(spread)) => spread.largest(),
                 _ => 0.0,
             };
@@ -169,10 +172,10 @@ impl Grader {
         rows
     }
 
-    /// By how many frames the clock of a table is off, if that alone explains it.
+    /// Offset of the table's clock \[frames\], if it explains the whole difference.
     fn shift(&self, rows: &Rows) -> Option<(i32, Fit)> {
         let reference = &self.runs[&Mistakes::NONE];
-        // Before the first bounce, explicit Euler looks the same.
+        // Before the first bounce, explicit Euler would look the same.
         let bounced = |it: &Touch| {
             reference.times[it.frame] + 3.0 * self.course.frame_time < rows.recorded.end()
         };
@@ -189,14 +192,14 @@ impl Grader {
         })
     }
 
-    /// Whether the course's rule is followed much longer with z mirrored.
+    /// Whether the run agrees with the course's rule much longer if z is mirrored.
     fn is_mirrored(&self, rows: &Rows, right: &Fit) -> bool {
         let mirrored = rows.recorded.mirrored();
         let fit = self.rows(&mirrored, rows.keys).follow(&self.runs[&Mistakes::NONE], 0.0);
         fit.followed as f64 > right.followed as f64 + WORTH_A_PAIR * fit.rows as f64
     }
 
-    /// The mistakes that explain a run better than the course's rule, the best first.
+    /// Finds the mistakes that explain a run better than the course's rule does, the best first.
     fn explanations(&self, rows: &Rows, right: &Fit) -> Vec<Explanation> {
         let mut found: Vec<Explanation> =
             Mistake::all().map(|mistake| self.explanation(mistake.into(), rows, right)).collect();
@@ -212,12 +215,12 @@ impl Grader {
         }
         let reference = &self.runs[&Mistakes::NONE];
         let of_rule = right.departure.map_or(0.0, |it| rows.distance_after(&it, reference));
-        // A tenth of a percent nearer is chance.
+        // A difference of a tenth of a percent is chance.
         found.retain(|it| it.share > 0.0 || it.distance_after < 0.999 * of_rule);
         found
     }
 
-    /// The two mistakes that explain a run best.
+    /// Finds the pair of mistakes that explains a run best.
     fn pair(&self, rows: &Rows, right: &Fit) -> Option<Explanation> {
         let mut best: Option<Explanation> = None;
         for first in Mistake::all() {
@@ -250,7 +253,7 @@ impl Grader {
         mistakes.has(Mistake::DisplayFrames) && display_times(&self.course, recorded).is_some()
     }
 
-    /// The run with these mistakes that a table is compared with.
+    /// Returns the run with these mistakes with which a table is compared.
     fn tracks(&self, mistakes: Mistakes, recorded: &Recorded) -> Tracks {
         if self.needs_own_run(mistakes, recorded)
             && let Some(times) = display_times(&self.course, recorded)
@@ -262,8 +265,8 @@ impl Grader {
     }
 }
 
-/// The frames of a display that a table was recorded in: its times, where they are no ends of fixed frames;
-/// those before its first one are as long as the first that it shows.
+/// Finds the display frames in which a table was recorded: the times of the table, if they are not
+/// multiples of the frame time. Frames before its first time have the length of its first one.
 fn display_times(course: &Course, recorded: &Recorded) -> Option<Vec<f64>> {
     let times = recorded.times();
     let off = |time: &&f64| {

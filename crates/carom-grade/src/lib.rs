@@ -1,13 +1,14 @@
-//! Recorded runs of students against the course's rule, and which known mistake explains them.
+//! Grades recorded runs of students by the course's rule, and finds the known mistake that explains
+//! a difference.
 //!
 //! ```text
 //!  scene -> Course -> course_rule (with Mistakes) -> Tracks --+
 //!  table -> Recorded -> keys of its balls -> rows -----------+-> Fit -> Verdict -> words, page
 //! ```
 //!
-//! [`Grader::grade`] compares a [`Recorded`] run with the run of the course's rule and, where it departs, with
-//! the run of each [`Mistake`]. The mistakes are modifications of a small implementation of the rule that is
-//! kept here: the rule of the engine knows none.
+//! [`Grader::grade`] compares a [`Recorded`] run with the run of the course's rule and, if it
+//! departs, with the run of each [`Mistake`]. Mistakes are variants of a small implementation of
+//! the rule in this crate; the engine's rule has none.
 //!
 //! ```
 //! use carom_grade::{Course, Grader, Mistake, Reading, Recorded, TOLERANCE};

@@ -1,4 +1,4 @@
-//! Known mistakes: named modifications of the course's rule.
+//! Known mistakes: named variants of the course's rule.
 
 use serde::{Serialize, Serializer};
 
@@ -14,86 +14,86 @@ pub enum Mistake {
     OldVelocity,
     /// The position moves with the mean of the old and the new velocity.
     MeanVelocity,
-    /// The acceleration is the force, not the force divided by the mass.
+    /// The force is used as acceleration, without division by the mass.
     MassIgnored,
     /// No drag.
     NoDrag,
     /// Drag along the velocity.
     DragSign,
-    /// Drag of the velocity with which the ball was emitted.
+    /// Drag uses the velocity of the emission.
     DragNotUpdated,
-    /// Drag of the velocity of the frame before.
+    /// Drag uses the velocity of the previous frame.
     DragLate,
     /// Forces of all frames add up.
     ForcesNotCleared,
     /// The whole reflected velocity is multiplied by the restitution.
     RestitutionOfWhole,
-    /// The velocity is turned round and multiplied by the restitution.
+    /// The velocity is reversed and multiplied by the restitution.
     VelocityReversed,
-    /// The root of the restitution.
+    /// The square root of the restitution is used.
     RestitutionSqrt,
-    /// The square of the restitution.
+    /// The square of the restitution is used.
     RestitutionSquared,
-    /// Restitution 1.
+    /// The restitution is taken as 1.
     RestitutionIgnored,
-    /// `e` in the place of `1 + e`.
+    /// `e` is used in place of `1 + e`.
     OneForgotten,
-    /// Balls that move away bounce, too.
+    /// Balls that move away from a collider bounce, too.
     NoEnteringTest,
-    /// At edges and corners, the normal of the plane.
+    /// At edges and corners, the normal of the plane is used.
     EdgeNormalOfPlane,
-    /// At edges and corners, the direction from the middle of the plane.
+    /// At edges and corners, the direction from the middle of the plane is used.
     EdgeNormalFromCentre,
-    /// No contact where the ball is not above the plane's inside.
+    /// There is no contact if the centre of the ball is not above the plane.
     EdgesIgnored,
-    /// Contact from underneath.
+    /// Contacts occur from underneath, too.
     FromUnderneath,
-    /// Planes without an end.
+    /// Planes are infinite.
     ExtentIgnored,
-    /// Width and height of a plane exchanged.
+    /// Width and height of a plane are exchanged.
     ExtentSwapped,
-    /// The whole width and height in the place of half of them.
+    /// The whole width and height are used in place of half of them.
     ExtentDoubled,
-    /// The ball as a point.
+    /// The ball is a point.
     RadiusIgnored,
-    /// The diameter in the place of the radius.
+    /// The diameter is used in place of the radius.
     DiameterForRadius,
-    /// The ball stays where it overlaps the plane.
+    /// A ball that overlaps the plane is not moved out.
     NotOnTop,
-    /// The ball is put onto fixed spheres, too.
+    /// A ball that overlaps a fixed sphere is moved out, too.
     OnTopOfSpheres,
-    /// The normal stays in the collider's own frame.
+    /// The normal is not transformed from the collider's coordinate system.
     NormalNotTransformed,
-    /// The new velocity stays in the collider's own frame.
+    /// The new velocity is not transformed from the collider's coordinate system.
     VelocityNotTransformed,
-    /// Collisions before the movement of the same frame.
+    /// Collisions are answered before the movement of the frame.
     CollisionsBefore,
-    /// Only the first collider that a ball meets in a frame.
+    /// Only the first collider that a ball touches in a frame is answered.
     FirstColliderOnly,
     /// No ball is emitted once all slots are full.
     RingStops,
-    /// The newest ball is replaced where the oldest should be.
+    /// The newest ball is replaced in place of the oldest.
     RingNewest,
-    /// A ball that is used again keeps its velocity.
+    /// A ball that is reused keeps its velocity.
     RingKeepsVelocity,
-    /// Frames of the display, each as long as it takes.
+    /// Frames are those of the display, each with its own length.
     DisplayFrames,
-    /// Fixed frames, each of which moves by the frame time of the display.
+    /// Frames are fixed, but balls move by the frame time of the display.
     DisplayStep,
 }
 
 use Mistake::*;
 
-/// What there is to say about a mistake.
+/// Texts about a mistake.
 struct Entry {
     mistake: Mistake,
     /// Name on the command line.
     name: &'static str,
     /// What the program does, in a sentence.
     sentence: &'static str,
-    /// What it does, as a formula.
+    /// The wrong formula.
     wrong: &'static str,
-    /// What the lecture says.
+    /// The formula of the lecture.
     right: &'static str,
 }
 
@@ -322,12 +322,12 @@ const ENTRIES: [Entry; 36] = [
 ];
 
 impl Mistake {
-    /// All mistakes.
+    /// Returns all mistakes.
     pub fn all() -> impl ExactSizeIterator<Item = Self> {
         ENTRIES.iter().map(|entry| entry.mistake)
     }
 
-    /// The mistake of this name.
+    /// Finds a mistake by name.
     ///
     /// # Errors
     /// [`GradeError::UnknownMistake`] with the most similar name.
@@ -339,7 +339,7 @@ impl Mistake {
         })
     }
 
-    /// Its name on the command line.
+    /// Name on the command line.
     pub fn name(self) -> &'static str {
         self.entry().name
     }
@@ -349,12 +349,12 @@ impl Mistake {
         self.entry().sentence
     }
 
-    /// What the program does, as a formula.
+    /// The formula of the program.
     pub fn wrong(self) -> &'static str {
         self.entry().wrong
     }
 
-    /// What the lecture has in its place.
+    /// The formula of the lecture.
     pub fn right(self) -> &'static str {
         self.entry().right
     }
@@ -370,7 +370,7 @@ impl Serialize for Mistake {
     }
 }
 
-/// The name that is most similar, if one is similar.
+/// Most similar name, if one is similar.
 fn nearest(name: &str) -> Option<&'static str> {
     let likeness = |own: &str| strsim::jaro_winkler(own, name);
     let names = ENTRIES.iter().map(|entry| entry.name);
@@ -378,12 +378,12 @@ fn nearest(name: &str) -> Option<&'static str> {
     (likeness(best) > 0.75).then_some(best)
 }
 
-/// A set of mistakes: those of one program.
+/// The set of mistakes of one program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub struct Mistakes(u64);
 
 impl Mistakes {
-    /// None: the course's rule.
+    /// No mistakes: the course's rule.
     pub const NONE: Self = Self(0);
 
     /// Whether the program makes this mistake.
@@ -391,23 +391,23 @@ impl Mistakes {
         self.0 & (1 << mistake as u64) != 0
     }
 
-    /// These mistakes and one more.
+    /// Adds a mistake to the set.
     #[must_use]
     pub fn with(self, mistake: Mistake) -> Self {
         Self(self.0 | (1 << mistake as u64))
     }
 
-    /// The mistakes, one by one.
+    /// Iterates over the mistakes.
     pub fn iter(self) -> impl Iterator<Item = Mistake> {
         Mistake::all().filter(move |it| self.has(*it))
     }
 
-    /// How many there are.
+    /// Number of mistakes.
     pub fn len(self) -> usize {
         self.0.count_ones() as usize
     }
 
-    /// Whether there is none.
+    /// Whether the set is empty.
     pub fn is_empty(self) -> bool {
         self.0 == 0
     }

@@ -1,6 +1,6 @@
-//! Numbers in tables, as programs in any language write them.
+//! Parses numbers of tables, which programs in any language may have written.
 
-/// A finite number, with a point or a comma for its decimals.
+/// Parses a finite number with a decimal point or comma.
 pub fn number(text: &str) -> Option<f64> {
     let text = text.trim();
     let value: f64 = match text.parse() {
@@ -10,11 +10,11 @@ pub fn number(text: &str) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
-/// How many decimals a number has; fewer than 0 where its last digit stands for tens and more.
+/// Number of decimals; negative if the last digit stands for tens or more.
 pub fn decimals(text: &str) -> i32 {
     let (digits, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
     let decimals = digits.split_once(['.', ',']).map_or(0, |(_, decimals)| decimals.trim().len());
-    // Beyond these, digits are below the round-off of any place.
+    // Further digits are below the rounding error of any position.
     (decimals as i32 - exponent.parse::<i32>().unwrap_or(0)).clamp(-9, 17)
 }
 

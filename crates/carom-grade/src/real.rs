@@ -1,10 +1,10 @@
-//! Numbers that the course's rule computes with, and vectors of three of them.
+//! Number types of the course's rule, and vectors of them.
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 use carom::DVec3;
 
-/// A number of single or double precision.
+/// A number in single or double precision.
 pub trait Real:
     Copy
     + PartialOrd
@@ -14,11 +14,11 @@ pub trait Real:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// The nearest number to `value`.
+    /// Converts from double precision.
     fn of(value: f64) -> Self;
-    /// This number in double precision.
+    /// Converts to double precision.
     fn to_f64(self) -> f64;
-    /// Its square root.
+    /// Square root.
     fn sqrt(self) -> Self;
 }
 
@@ -36,7 +36,7 @@ impl Real for f64 {
     }
 }
 
-/// What Unity computes with.
+/// The number type of Unity.
 impl Real for f32 {
     fn of(value: f64) -> Self {
         value as Self
@@ -51,7 +51,7 @@ impl Real for f32 {
     }
 }
 
-/// Three numbers x, y, z.
+/// A vector x, y, z.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Vec3<N> {
     pub x: N,
@@ -68,12 +68,12 @@ impl<N: Real> Vec3<N> {
         Self::of(DVec3::ZERO)
     }
 
-    /// The nearest vector to `value`.
+    /// Converts from double precision.
     pub fn of(value: DVec3) -> Self {
         Self::new(N::of(value.x), N::of(value.y), N::of(value.z))
     }
 
-    /// This vector in double precision.
+    /// Converts to double precision.
     pub fn to_f64(self) -> DVec3 {
         DVec3::new(self.x.to_f64(), self.y.to_f64(), self.z.to_f64())
     }

@@ -1,4 +1,4 @@
-//! The run that a student recorded: reading its table.
+//! Reads the table of a recorded run.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -12,20 +12,19 @@ use carom_scene::legible;
 use crate::error::GradeError;
 use crate::number::{decimals, number};
 
-/// Rows that a table has at most.
+/// Most rows of a table.
 const MOST_ROWS: usize = 2_000_000;
 
-/// A run that takes longer \[s\] is none: a day.
+/// Latest time that is accepted \[s\]: a day.
 const LONGEST: f64 = 86_400.0;
 
-/// A place that is farther from the origin \[m\] is none.
+/// Largest distance from the origin that is accepted \[m\].
 const FARTHEST: f64 = 1e9;
 
-/// Bytes that a table has at most.
+/// Most bytes of a table.
 const MOST_BYTES: u64 = 512 << 20;
 
-/// What columns are called where `--columns` does not say so, in small letters; of several that are there, the first
-/// of this list counts.
+/// Default names of columns, in lower case. If several exist, the first of this list counts.
 const USUAL: [(&str, &[&str], &str); 8] = [
     ("t", &["t", "time", "seconds"], "the time"),
     ("ball", &["ball", "id", "index", "sphere", "number"], "the ball"),
@@ -37,7 +36,7 @@ const USUAL: [(&str, &[&str], &str); 8] = [
     ("vz", &["vz", "vel_z", "velocity_z", "velocity.z"], "the velocity"),
 ];
 
-/// Names of columns, where they are not the usual ones: `t=time,ball=id`.
+/// Names of columns that differ from the defaults: `t=time,ball=id`.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Columns(BTreeMap<&'static str, String>);
 
@@ -63,18 +62,18 @@ impl FromStr for Columns {
     }
 }
 
-/// How a table is to be read.
+/// Format of a table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reading {
-    /// Names of its columns.
+    /// Names of the columns.
     pub columns: Columns,
-    /// Its unit of length \[m\].
+    /// Unit of length \[m\].
     pub length_unit: f64,
-    /// Its unit of time \[s\].
+    /// Unit of time \[s\].
     pub time_unit: f64,
-    /// Added to its times \[s\].
+    /// Offset that is added to times \[s\].
     pub time_offset: f64,
-    /// Whether it is in Unity's left-handed coordinates: z is mirrored.
+    /// Whether the table uses Unity's left-handed coordinates, in which z is mirrored.
     pub unity: bool,
 }
 
@@ -88,26 +87,26 @@ impl Default for Reading {
 /// A row of a table.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Row {
-    /// In the file, from 1.
+    /// Line in the file, from 1.
     pub line: u64,
-    /// In s.
+    /// Time \[s\].
     pub time: f64,
-    /// Place of the ball in the list of labels.
+    /// Index of the ball in the list of labels.
     pub label: usize,
-    /// In m.
+    /// Position \[m\].
     pub position: DVec3,
-    /// In m/s.
+    /// Velocity \[m/s\].
     pub velocity: Option<DVec3>,
 }
 
-/// A run that was recorded.
+/// A recorded run.
 #[derive(Debug, Clone)]
 pub struct Recorded {
-    /// Its file.
+    /// Path of the file.
     pub path: PathBuf,
-    /// By time, then by label.
+    /// Rows, by time, then by label.
     pub(crate) rows: Vec<Row>,
-    /// What the table calls balls, in order of appearance; those that appear together by number.
+    /// Labels of balls, in order of appearance; by number if several appear at one time.
     pub(crate) labels: Vec<String>,
     /// Half of the last decimal of positions \[m\].
     pub(crate) resolution: f64,
@@ -117,11 +116,11 @@ impl Recorded {
     /// Reads the table of a run.
     ///
     /// # Errors
-    /// Files that cannot be read, and what makes no sense in them, with the line.
+    /// [`GradeError`] for a file that cannot be read, or for an invalid line, with its number.
     pub fn read(path: &Path, reading: &Reading) -> Result<Self, GradeError> {
         let unreadable = |source| GradeError::Unreadable { path: path.to_owned(), source };
         let mut bytes = Vec::new();
-        // Devices have no end.
+        // The limit also stops the reading of endless devices.
         let mut file = File::open(path).map_err(unreadable)?.take(MOST_BYTES + 1);
         file.read_to_end(&mut bytes).map_err(unreadable)?;
         if bytes.len() as u64 > MOST_BYTES {
@@ -133,7 +132,7 @@ impl Recorded {
     /// Reads the table of a run from the content of a file.
     ///
     /// # Errors
-    /// What makes no sense in it, with the line.
+    /// [`GradeError`] for an invalid line, with its number.
     pub fn parse(path: &Path, bytes: &[u8], reading: &Reading) -> Result<Self, GradeError> {
         let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         let first = bytes.split(|it| *it == b'\n').next().unwrap_or_default();
@@ -168,14 +167,14 @@ impl Recorded {
         Ok(Self { path: path.to_owned(), rows, labels, resolution })
     }
 
-    /// This run with z mirrored.
+    /// Returns the run with z mirrored.
     pub(crate) fn mirrored(&self) -> Self {
         let mut mirrored = self.clone();
         mirrored.rows.iter_mut().for_each(|row| row.position.z = -row.position.z);
         mirrored
     }
 
-    /// The last time \[s\].
+    /// Last time \[s\].
     pub(crate) fn end(&self) -> f64 {
         self.rows.last().map_or(0.0, |row| row.time)
     }
@@ -188,7 +187,7 @@ impl Recorded {
     }
 }
 
-/// Where the columns of a table are.
+/// Indices of the columns of a table.
 struct Places {
     time: usize,
     ball: Option<usize>,
@@ -203,7 +202,8 @@ impl Places {
             let named = columns.0.get(key);
             let place = match named {
                 Some(named) => header.iter().position(|name| name == named),
-                // Of several, the name that says it most clearly: beside `ball`, `index` numbers rows.
+                // The first name of the list counts: beside `ball`, a column `index` may number
+                // rows.
                 None => usual
                     .iter()
                     .find_map(|usual| header.iter().position(|name| name.to_lowercase() == *usual)),
@@ -232,12 +232,12 @@ impl Places {
     }
 }
 
-/// What reading collects.
+/// State of the parser.
 struct Parts<'a> {
     path: &'a Path,
     reading: &'a Reading,
     places: Places,
-    /// Labels, and the place of each in order of lines.
+    /// Labels, each with its index in the order of lines.
     labels: BTreeMap<String, usize>,
     /// Most decimals of a position.
     decimals: i32,
@@ -303,8 +303,8 @@ impl Parts<'_> {
     }
 }
 
-/// Sorts rows by time and ball; gives the labels in order of appearance, those that appear together by
-/// number.
+/// Sorts rows by time and ball; returns the labels in order of appearance, by number if several
+/// appear at one time.
 fn order(rows: &mut [Row], labels: BTreeMap<String, usize>) -> Vec<String> {
     let mut first = vec![f64::INFINITY; labels.len()];
     for row in rows.iter() {
@@ -326,7 +326,7 @@ fn order(rows: &mut [Row], labels: BTreeMap<String, usize>) -> Vec<String> {
     labels.into_iter().map(|(label, _)| label).collect()
 }
 
-/// The whole number that a label is, if it is one.
+/// Converts a label to a whole number, if it is one.
 pub(crate) fn whole(label: &str) -> Option<i64> {
     let value = number(label)?;
     (value == value.trunc() && value.abs() < 1e15).then_some(value as i64)

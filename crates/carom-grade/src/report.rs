@@ -1,4 +1,4 @@
-//! A page that shows what grading found: one file without anything from elsewhere.
+//! Writes the result of grading as a self-contained HTML page.
 
 use carom::DVec3;
 
@@ -12,27 +12,27 @@ use crate::verdict::{Explanation, Verdict};
 
 const STYLE: &str = include_str!("report.css");
 
-/// How long after a departure figures go on \[s\].
+/// Time after a departure that figures show \[s\].
 const AFTERWARDS: f64 = 1.5;
 
-/// Half the width of the picture of the place where a run departs \[m\].
+/// Half the width of the picture of the point where a run departs \[m\].
 const CLOSE: f64 = 2.5;
 
-/// Below this \[m\], distances are drawn as this.
+/// Smallest distance in logarithmic figures \[m\]; smaller ones are drawn as this.
 const LEAST_DISTANCE: f64 = 1e-9;
 
-/// What a page shows.
+/// Content of a page.
 struct Page<'a> {
     course: &'a Course,
     recorded: &'a Recorded,
     graded: &'a Graded,
-    /// The label that departs first, or the first one.
+    /// Index of the label that departs first, or 0.
     label: usize,
-    /// What figures show of it \[s\].
+    /// Interval of time in figures \[s\].
     shown: [f64; 2],
 }
 
-/// The page about a graded run.
+/// Writes the page of a graded run.
 pub fn page(course: &Course, recorded: &Recorded, graded: &Graded) -> String {
     let verdict = &graded.verdict;
     let departed = verdict.departure.as_ref();
@@ -56,7 +56,7 @@ pub fn page(course: &Course, recorded: &Recorded, graded: &Graded) -> String {
     )
 }
 
-/// When the ball of a label touches something for the last time under the course's rule \[s\].
+/// Time of the last contact of a ball under the course's rule \[s\].
 fn last_touch(graded: &Graded, label: usize) -> f64 {
     let reference = &graded.reference;
     let key = graded.keys[label];
@@ -65,7 +65,7 @@ fn last_touch(graded: &Graded, label: usize) -> f64 {
     last.map_or(1.0, |touch| reference.times[touch.frame])
 }
 
-/// What the verdict says, in words.
+/// Writes the verdict in words.
 fn said(verdict: &Verdict) -> String {
     let class = if verdict.same { "same" } else { "differs" };
     let mut text =
@@ -107,7 +107,7 @@ fn row(explanation: &Explanation) -> String {
 }
 
 impl Page<'_> {
-    /// Places of the ball that departs, over time, and distances of all balls.
+    /// Draws the coordinates of the departing ball over time, and the distances of all balls.
     fn figures(&self) -> String {
         let ball = &self.recorded.labels[self.label];
         let mark = self.graded.verdict.departure.as_ref().map(|it| it.time);
@@ -148,7 +148,7 @@ impl Page<'_> {
         Line { class, points }
     }
 
-    /// Where a run has the ball of the label, frame by frame.
+    /// Positions of the ball in a run, frame by frame.
     fn path(&self, tracks: &Tracks) -> impl Iterator<Item = (f64, DVec3)> {
         let (key, [first, last]) = (self.key(), self.shown);
         let shown = tracks.times.iter().filter(move |time| first <= **time && **time <= last);
@@ -171,7 +171,7 @@ impl Page<'_> {
         Line { class, points: own.filter_map(of_row).collect() }
     }
 
-    /// The place from the side and from above, and where the run departs.
+    /// Draws the scene from the side and from above, and the point where the run departs.
     fn pictures(&self) -> String {
         let corners = self.course.colliders.iter().flat_map(|it| corners(&it.form));
         let starts = self.course.emitters.iter().map(|it| it.ball.position);
@@ -184,7 +184,7 @@ impl Page<'_> {
         let mut text = "<h2>The place</h2>".to_owned();
         let (right, up) = (DVec3::Z, DVec3::Y);
         text += &self.picture("from the side: z to the right, y up", [right, up], [least, most]);
-        // So that one looks down: z comes towards the reader's feet.
+        // Seen from above, z points down in the picture.
         let (right, up) = (DVec3::X, DVec3::NEG_Z);
         text += &self.picture("from above: x to the right, z down", [right, up], [least, most]);
         let Some(departure) = &self.graded.verdict.departure else { return text };
@@ -233,7 +233,7 @@ impl Page<'_> {
     }
 }
 
-/// Corners of a surface, or of the box around it.
+/// Corners of a surface, or of its bounding box.
 fn corners(form: &Form) -> Vec<DVec3> {
     match *form {
         Form::Sphere { center, radius, .. } => vec![center - radius, center + radius],

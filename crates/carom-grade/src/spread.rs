@@ -1,4 +1,5 @@
-//! How far rounding takes a run of the course's rule: what a program in single precision cannot help.
+//! Measures how far rounding moves a run of the course's rule: the error that a program in single
+//! precision cannot avoid.
 
 use rand_core::Rng;
 use rand_pcg::Pcg32;
@@ -8,18 +9,19 @@ use crate::course_rule::{Clock, run, run_jittered};
 use crate::mistake::Mistakes;
 use crate::tracks::{State, Track, Tracks};
 
-/// How many runs show it.
+/// Number of jittered runs.
 const RUNS: u64 = 4;
 
-/// Part of a number by which a step may be off: two units in the last place of single precision.
-/// A program that goes through the colliders' frames, as the course's does, rounds a few times in a step.
+/// Largest relative error of a step: two units in the last place of single precision. A program
+/// that transforms to the coordinates of colliders, as the course's does, rounds several times in a
+/// step.
 const JITTER: f64 = 2.0 / (1_u64 << 23) as f64;
 
-/// The largest distance so far between runs that round differently.
+/// Largest distances between runs that round differently.
 pub(crate) struct Spread {
-    /// For each ball, the start that it has in common with others.
+    /// Index of the start of each ball; balls with equal starts share one.
     balls: Vec<usize>,
-    /// For each start, the distance after so many frames \[m\].
+    /// For each start, the largest distance after a number of frames \[m\].
     of_start: Vec<Vec<f64>>,
 }
 
@@ -29,11 +31,11 @@ impl Spread {
         let mut runs = vec![run::<f32>(course, Mistakes::NONE, clock)];
         for seed in 0..RUNS {
             let mut random = Pcg32::new(seed, 0);
-            // In [-1, 1).
+            // A number in [-1, 1).
             let mut jitter = || f64::from(random.next_u32() as i32) / f64::from(1_u32 << 31);
             runs.push(run_jittered(course, clock, &mut || JITTER * jitter()));
         }
-        // Balls that begin alike go on alike, each rounded by itself.
+        // Balls with equal starts follow equal paths, each with its own rounding errors.
         let mut of_start: Vec<(State, Vec<f64>)> = Vec::new();
         for (ball, track) in reference.balls.iter().enumerate() {
             let start = track.states[0];
@@ -62,14 +64,14 @@ impl Spread {
         Self { balls, of_start: of_start.into_iter().map(|(_, largest)| largest).collect() }
     }
 
-    /// Of a ball, so many frames after its emission \[m\].
+    /// Spread of a ball `age` frames after its emission \[m\].
     pub fn at(&self, ball: usize, age: usize) -> f64 {
         let ages = self.balls.get(ball).and_then(|it| self.of_start.get(*it));
         let ages = ages.map(Vec::as_slice).unwrap_or_default();
         ages.get(age).or(ages.last()).copied().unwrap_or(0.0)
     }
 
-    /// Of any ball at any time \[m\].
+    /// Largest spread of any ball at any time \[m\].
     pub fn largest(&self) -> f64 {
         self.of_start.iter().filter_map(|ages| ages.last()).copied().fold(0.0, f64::max)
     }

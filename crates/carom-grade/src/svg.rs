@@ -1,12 +1,12 @@
-//! Drawings for pages: figures with axes, and pictures of a place.
+//! SVG drawings for pages: figures with axes, and pictures of a scene.
 
 use std::fmt::Write;
 
-/// Size of the inside of a figure, and the margins beside and below it \[px\].
+/// Size of the plotting area of a figure, and margins beside and below it \[px\].
 const INSIDE: [f64; 2] = [640.0, 190.0];
 const MARGIN: [f64; 2] = [64.0, 34.0];
 
-/// A line of a figure: what it looks like, and its points.
+/// A line of a figure.
 pub struct Line {
     /// Class of the style sheet.
     pub class: &'static str,
@@ -17,14 +17,14 @@ pub struct Line {
 pub struct Figure {
     pub title: String,
     pub lines: Vec<Line>,
-    /// Time that is marked \[s\].
+    /// A time to mark \[s\].
     pub mark: Option<f64>,
-    /// Whether the vertical axis has powers of ten; points are their exponents then.
+    /// Whether the vertical axis shows powers of ten; then points contain their exponents.
     pub logarithmic: bool,
 }
 
 impl Figure {
-    /// The figure as an element of a page.
+    /// Writes the figure as an element of a page.
     pub fn svg(&self) -> String {
         let points = || self.lines.iter().flat_map(|line| &line.points);
         let along = Range::of(points().map(|it| it[0]));
@@ -75,10 +75,10 @@ impl Figure {
     }
 }
 
-/// A picture of what lies in a rectangle of two coordinates.
+/// A picture of a rectangle in two coordinates.
 pub struct Picture {
     svg: String,
-    /// Of the rectangle: smallest coordinates, and pixels per metre.
+    /// Smallest coordinates of the rectangle; then pixels per metre.
     least: [f64; 2],
     scale: f64,
     height: f64,
@@ -89,7 +89,7 @@ const WIDTH: f64 = 520.0;
 const HEIGHT: f64 = 560.0;
 
 impl Picture {
-    /// An empty picture of the rectangle between two corners \[m\].
+    /// Creates an empty picture of the rectangle between two corners \[m\].
     pub fn new(title: &str, least: [f64; 2], most: [f64; 2]) -> Self {
         let size = [most[0] - least[0], most[1] - least[1]].map(|length| length.max(1e-9));
         let scale = (WIDTH / size[0]).min(HEIGHT / size[1]);
@@ -138,17 +138,17 @@ impl Picture {
         polyline(&mut self.svg, class, points.into_iter());
     }
 
-    /// The picture as an element of a page.
+    /// Writes the picture as an element of a page.
     pub fn finish(self) -> String {
         self.svg + "</svg></figure>"
     }
 }
 
-/// Appends a line through points \[px\], without those that no screen could show apart.
+/// Appends a line through points \[px\]; leaves out points that no screen could distinguish.
 fn polyline(svg: &mut String, class: &str, points: impl Iterator<Item = [f64; 2]>) {
     let mut path = String::new();
     let mut last = [f64::NEG_INFINITY; 2];
-    // What leaves the drawing far behind is cut off by it.
+    // Points far outside are clipped by the drawing.
     let bounded = |value: f64| value.clamp(-1e5, 1e5);
     for [x, y] in points.map(|point| point.map(bounded)) {
         if (x - last[0]).abs() + (y - last[1]).abs() > 0.4 {
@@ -159,7 +159,7 @@ fn polyline(svg: &mut String, class: &str, points: impl Iterator<Item = [f64; 2]
     write!(svg, "<polyline class=\"{class}\" points=\"{}\"/>", path.trim_end()).ok();
 }
 
-/// The values of an axis.
+/// Range of values on an axis.
 #[derive(Debug, Clone, Copy)]
 struct Range {
     least: f64,
@@ -185,7 +185,7 @@ impl Range {
         (value - self.least) / (self.most - self.least)
     }
 
-    /// Round values, some five of them.
+    /// Returns about five round values.
     fn ticks(self) -> Vec<f64> {
         let rough = (self.most - self.least) / 5.0;
         let power = 10_f64.powf(rough.log10().floor());
@@ -197,14 +197,14 @@ impl Range {
     }
 }
 
-/// A number as short as a tick needs it.
+/// Formats a number for a tick, as short as possible.
 fn short(value: f64) -> String {
     let rounded = format!("{value:.3}");
     let rounded = rounded.trim_end_matches('0').trim_end_matches('.');
     if rounded == "-0" { "0".to_owned() } else { rounded.to_owned() }
 }
 
-/// A text as part of a page.
+/// Escapes a text for a page.
 pub fn escaped(text: &str) -> String {
     let mut escaped = String::new();
     for letter in text.chars() {

@@ -1,4 +1,4 @@
-//! Where all balls of a run are, frame by frame.
+//! States of all balls of a run, frame by frame.
 
 use std::io::{self, Write};
 
@@ -6,17 +6,17 @@ use carom::DVec3;
 
 use crate::contact::ContactKind;
 
-/// A ball at one time.
+/// State of a ball at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct State {
-    /// In m.
+    /// Position \[m\].
     pub position: DVec3,
-    /// In m/s.
+    /// Velocity \[m/s\].
     pub velocity: DVec3,
 }
 
 impl State {
-    /// On the straight way from one state to another; `part` in \[0, 1\].
+    /// Interpolates linearly between two states; `part` is in \[0, 1\].
     fn between(from: Self, to: Self, part: f64) -> Self {
         Self {
             position: from.position.lerp(to.position, part),
@@ -28,26 +28,26 @@ impl State {
 /// A contact that was answered.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Touch {
-    /// The frame at whose end it was, from 1.
+    /// Frame at whose end the contact occurred, from 1.
     pub frame: usize,
     /// Number of the ball in order of emission, from 0.
     pub ball: usize,
     /// Part of the collider.
     pub kind: ContactKind,
-    /// Place of the collider in the list of surfaces.
+    /// Index of the collider in the list of surfaces.
     pub(crate) surface: usize,
 }
 
-/// The states of one ball, from its emission to its end.
+/// States of one ball, from its emission to its end.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Track {
-    /// The frame before its first movement, at whose end the first state is.
+    /// Frame at whose end the first state is; the ball moves in the next one.
     pub birth: usize,
     pub states: Vec<State>,
 }
 
 impl Track {
-    /// The last frame at whose end it is there.
+    /// Last frame at whose end the ball exists.
     fn end(&self) -> usize {
         self.birth + self.states.len() - 1
     }
@@ -57,20 +57,20 @@ impl Track {
     }
 }
 
-/// All balls of a run.
+/// States of all balls of a run.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Tracks {
     /// Time at the end of each frame \[s\]; the first is 0, before the first frame.
     pub(crate) times: Vec<f64>,
-    /// In order of emission.
+    /// Tracks in the order of emission.
     pub(crate) balls: Vec<Track>,
-    /// The balls that each slot holds one after the other.
+    /// Balls of each slot, in order.
     pub(crate) slots: Vec<Vec<usize>>,
-    /// In order of frames.
+    /// Contacts in the order of frames.
     pub touches: Vec<Touch>,
 }
 
-/// What a table calls a ball.
+/// Meaning of a label in a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Key {
     /// Its number in order of emission.
@@ -79,8 +79,8 @@ pub(crate) enum Key {
     Slot(usize),
 }
 
-/// Times that are nearer to the end of a frame than this part of one are that end: a time in single
-/// precision is off by 1e-6 s after 20 s.
+/// Fraction of a frame within which a time counts as the end of the frame: a time in single
+/// precision has an error of 1e-6 s after 20 s.
 const ON_FRAME: f64 = 0.02;
 
 impl Tracks {
@@ -89,33 +89,33 @@ impl Tracks {
         self.times.len().saturating_sub(1)
     }
 
-    /// Time at the end of a frame \[s\]; 0 of the frame 0, NaN of one that is not there.
+    /// Time at the end of a frame \[s\]; 0 for frame 0, NaN for one that does not exist.
     pub fn time(&self, frame: usize) -> f64 {
         self.times.get(frame).copied().unwrap_or(f64::NAN)
     }
 
-    /// How many balls there were.
+    /// Number of balls.
     pub fn len(&self) -> usize {
         self.balls.len()
     }
 
-    /// Whether there was no ball.
+    /// Whether there are no balls.
     pub fn is_empty(&self) -> bool {
         self.balls.is_empty()
     }
 
-    /// The state of a ball at the end of a frame; at its emission, too.
+    /// State of a ball at the end of a frame, or at its emission.
     pub fn state(&self, ball: usize, frame: usize) -> Option<State> {
         self.balls.get(ball)?.at(frame)
     }
 
-    /// The balls that have moved before a time \[s\], in order of emission.
+    /// Balls that have moved before `time` \[s\], in the order of emission.
     pub(crate) fn births_until(&self, time: f64) -> impl Iterator<Item = usize> {
         let is_there = move |(_, track): &(usize, &Track)| self.times[track.birth] < time - 1e-6;
         self.balls.iter().enumerate().filter(is_there).map(|(ball, _)| ball)
     }
 
-    /// The frame at whose end a time is, and the part of a frame that it is later.
+    /// Converts a time to a frame and the elapsed fraction of the next one.
     pub(crate) fn frame_at(&self, time: f64) -> Option<(usize, f64)> {
         let next = self.times.partition_point(|it| *it <= time);
         let before = next.checked_sub(1)?;
@@ -131,7 +131,7 @@ impl Tracks {
         }
     }
 
-    /// The ball of this key at the end of a frame.
+    /// Ball with this key at the end of a frame.
     pub(crate) fn ball(&self, key: Key, frame: usize) -> Option<usize> {
         match key {
             Key::Number(ball) => self.balls.get(ball)?.at(frame).map(|_| ball),
@@ -141,13 +141,14 @@ impl Tracks {
                     let track = &self.balls[**it];
                     track.birth <= frame && frame <= track.end()
                 };
-                // At the end of the frame before its first movement, the one before is still there.
+                // At the end of the frame in which a ball is emitted, its predecessor in the slot
+                // still counts.
                 held.iter().find(is_there).copied()
             }
         }
     }
 
-    /// The state of the ball of this key at a time \[s\].
+    /// State of the ball with this key at a time \[s\].
     pub(crate) fn sample(&self, key: Key, time: f64) -> Option<State> {
         let (frame, part) = self.frame_at(time)?;
         if part == 0.0 {
@@ -162,7 +163,7 @@ impl Tracks {
     /// Writes a table as `carom run --out` does: a row for each ball after each frame.
     ///
     /// # Errors
-    /// What `out` refuses.
+    /// [`io::Error`] if writing to `out` fails.
     pub fn write(&self, out: impl Write) -> io::Result<()> {
         let mut table = csv::Writer::from_writer(out);
         table.write_record(["t", "ball", "x", "y", "z", "vx", "vy", "vz"])?;
@@ -181,7 +182,7 @@ impl Tracks {
     }
 }
 
-/// A number with 17 significant digits: as many as distinguish any two doubles.
+/// Writes a number with 17 significant digits, which distinguish any two doubles.
 fn digits(value: f64) -> String {
     format!("{value:.16e}")
 }

@@ -1,4 +1,4 @@
-//! What grading says.
+//! Verdicts.
 
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
@@ -12,90 +12,89 @@ use crate::mistake::{Mistake, Mistakes};
 use crate::recorded::Recorded;
 use crate::tracks::{Key, Touch, Tracks};
 
-/// The part of the rows after the departure that a mistake must follow to be named as the cause.
+/// Fraction of the rows after the departure that a mistake must explain to be named as the cause.
 const CONVINCING: f64 = 0.25;
 
-/// A table that ends before this part of the scene's duration is worth a note.
+/// Fraction of the scene's duration; if a table ends earlier, the verdict contains a note.
 const WHOLE: f64 = 0.9;
 
-/// Explanations that a verdict lists: the best, and two runners-up.
+/// Most explanations in a verdict: the best, and two others.
 const LISTED: usize = 3;
 
-/// What grading says of a run.
+/// Result of grading a run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Verdict {
     /// Name of the scene.
     pub scene: String,
-    /// Whether the run is the same as that of the course's rule.
+    /// Whether the run agrees with the course's rule.
     pub same: bool,
-    /// How far places may be off \[m\], besides what rounding in single precision does.
+    /// Allowed error of positions \[m\], in addition to rounding in single precision.
     pub tolerance: f64,
-    /// How many balls the table has.
+    /// Number of balls in the table.
     pub balls: usize,
-    /// The first and the last time \[s\].
+    /// First and last time \[s\].
     pub time: [f64; 2],
-    /// Until when it is compared \[s\], where that is before its end.
+    /// Time up to which the run was compared \[s\], if that is before its end.
     pub compared_until: Option<f64>,
-    /// How the run follows the course's rule.
+    /// Comparison with the course's rule.
     pub fit: Fit,
-    /// Digits to which places are the same, of the rows that follow; those after the point within 1 m of
-    /// the origin.
+    /// Number of digits to which positions agree; digits after the point within 1 m of the origin.
     pub digits: Option<i32>,
-    /// Where it departs first.
+    /// First departure.
     pub departure: Option<Departure>,
-    /// Whether the first of the explanations explains it.
+    /// Whether the first explanation explains the departure.
     pub explained: bool,
-    /// Known mistakes, the one that fits best first.
+    /// Known mistakes, the best fit first.
     pub explanations: Vec<Explanation>,
-    /// What else there is to know.
+    /// Additional notes.
     pub notes: Vec<String>,
 }
 
-/// Where a run departs from the course's rule.
+/// Point where a run departs from the course's rule.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Departure {
-    /// In s.
+    /// Time \[s\].
     pub time: f64,
-    /// What the table calls the ball.
+    /// Label of the ball.
     pub ball: String,
     /// Line of the table.
     pub line: u64,
-    /// Where the ball is in the table \[m\].
+    /// Position of the ball in the table \[m\].
     pub position: [f64; 3],
-    /// Where the course's rule has it \[m\]; `None` where it has no such ball.
+    /// Position of the ball under the course's rule \[m\]; `None` if it does not have the ball.
     pub expected: Option<[f64; 3]>,
-    /// How far apart these are \[m\].
+    /// Distance between the two \[m\].
     pub distance: Option<f64>,
-    /// What the ball touches there.
+    /// Contact of the ball at that point.
     pub contact: Option<DepartureContact>,
 }
 
-/// The contact at which a run departs.
+/// Contact at which a run departs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DepartureContact {
-    /// In s.
+    /// Time \[s\].
     pub time: f64,
     /// Part of the collider.
     pub kind: ContactKind,
     /// Name of the collider.
     pub collider: String,
-    /// Whether the course's rule has no such contact, only the mistake that explains the run.
+    /// Whether only the mistake that explains the run causes this contact.
     pub only_by_mistake: bool,
 }
 
-/// A known mistake, and how a run follows it.
+/// A known mistake that may explain a run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Explanation {
-    /// One, or two at once.
+    /// One mistake, or two.
     #[serde(serialize_with = "one_by_one")]
     pub mistakes: Mistakes,
-    /// Mistakes whose runs are the same in all rows.
+    /// Mistakes whose runs are identical in all rows.
     pub same_as: Vec<Mistake>,
-    /// How the run follows it.
+    /// Comparison with the run of the mistake.
     pub fit: Fit,
-    /// The part of the rows that it explains and the course's rule does not.
+    /// Fraction of the rows that the mistake explains and the course's rule does not.
     pub share: f64,
-    /// How far off the ball that departs is right after its departure \[m\].
+    /// Distance of the departing ball directly after the departure \[m\].
     pub distance_after: f64,
 }
 
@@ -106,8 +105,9 @@ impl Explanation {
         Self { mistakes, same_as: Vec::new(), fit, share: share.max(0.0), distance_after }
     }
 
-    /// Puts the better one first: it follows longer; of those that follow as long as each other, the nearer one,
-    /// in all rows where they follow longer than the course's rule, else right after the departure.
+    /// Orders the better explanation first: the one that agrees longer; among equal ones, the
+    /// nearer one. Nearness is measured over all rows if they agree longer than the course's rule,
+    /// else directly after the departure.
     pub(crate) fn compare(&self, other: &Self) -> Ordering {
         let nearer = match self.share > 0.0 {
             true => self.fit.residual.total_cmp(&other.fit.residual),
@@ -116,7 +116,7 @@ impl Explanation {
         other.fit.followed.cmp(&self.fit.followed).then(nearer)
     }
 
-    /// Whether both cannot be distinguished by this run.
+    /// Whether this run does not distinguish the two.
     fn is_same_as(&self, other: &Self) -> bool {
         let (a, b) = (self.fit.residual, other.fit.residual);
         let (near_a, near_b) = (self.distance_after, other.distance_after);
@@ -125,7 +125,7 @@ impl Explanation {
             && (near_a - near_b).abs() <= 1e-9
     }
 
-    /// What its program does, in sentences.
+    /// Describes what the program does, in sentences.
     pub fn sentence(&self) -> String {
         let sentences: Vec<&str> = self.mistakes.iter().map(Mistake::sentence).collect();
         sentences.join(" ")
@@ -136,26 +136,26 @@ fn one_by_one<S: Serializer>(mistakes: &Mistakes, serializer: S) -> Result<S::Ok
     serializer.collect_seq(mistakes.iter())
 }
 
-/// What a verdict is made of.
+/// Data from which a verdict is created.
 pub(crate) struct Parts<'a> {
     pub course: &'a Course,
     pub recorded: &'a Recorded,
     pub keys: &'a [Key],
     pub reference: &'a Tracks,
     pub fit: Fit,
-    /// By how many frames the clock of the table is off.
+    /// Offset of the table's clock \[frames\].
     pub shift: Option<i32>,
-    /// Whether the run fits better with z mirrored.
+    /// Whether the run agrees better with z mirrored.
     pub is_mirrored: bool,
-    /// From when on \[s\] rounding moves a ball far, and how far \[m\].
+    /// Time \[s\] from which rounding moves a ball far, and the distance \[m\].
     pub rounding: Option<[f64; 2]>,
-    /// The best first; those that are no better than the course's rule are left out.
+    /// Explanations that are better than the course's rule, the best first.
     pub explanations: Vec<Explanation>,
-    /// The run of the first of them.
+    /// Run of the first explanation.
     pub explaining: Option<&'a Tracks>,
-    /// How far places may be off \[m\]: what was asked for, or more where they have few decimals.
+    /// Allowed error of positions \[m\]: as requested, or larger if the table has few decimals.
     pub tolerance: f64,
-    /// What was asked for \[m\].
+    /// Requested tolerance \[m\].
     pub asked: f64,
 }
 
@@ -185,12 +185,12 @@ impl Verdict {
     }
 }
 
-/// How many digits numbers have in common that differ by this part.
+/// Number of digits that agree at this relative difference.
 fn digits(difference: f64) -> i32 {
     (0..=15).take_while(|digits| difference <= 0.5 * 10_f64.powi(-digits)).last().unwrap_or(0)
 }
 
-/// The best explanations, without those that are the same as one before.
+/// Returns the best explanations; merges those that this run does not distinguish.
 fn grouped(found: Vec<Explanation>) -> Vec<Explanation> {
     let mut listed: Vec<Explanation> = Vec::new();
     for explanation in found {
@@ -227,8 +227,8 @@ fn departure(parts: &Parts, departed: &Departed) -> Departure {
     }
 }
 
-/// The last contact of a ball that can show in a row: after the row before it, or in the frame before that,
-/// whose answer shows a frame later.
+/// Finds the last contact of a ball that can affect a row: after the previous row, or one frame
+/// before it, because the response shows a frame later.
 fn last_touch(tracks: &Tracks, key: Key, [since, until]: [f64; 2], h: f64) -> Option<&Touch> {
     let (first, last) = (since - 1.5 * h, until + 0.5 * h);
     let is_it = |touch: &&Touch| {
@@ -297,7 +297,7 @@ fn notes(parts: &Parts) -> Vec<String> {
     notes
 }
 
-/// The end of the course's run \[s\], where that is before the end of the table.
+/// End of the course's run \[s\], if it is before the end of the table.
 fn compared_until(parts: &Parts) -> Option<f64> {
     let end = parts.reference.times.last().copied();
     end.filter(|end| *end < parts.recorded.end())

@@ -1,9 +1,9 @@
-//! A verdict in words.
+//! Describes verdicts in words.
 
 use crate::verdict::{Departure, Explanation, Verdict};
 
 impl Verdict {
-    /// The result in a line.
+    /// Result in one line.
     pub fn headline(&self) -> String {
         if self.same {
             return format!(
@@ -24,7 +24,7 @@ impl Verdict {
         format!("departs from the course's rule at {time:.2} s, ball {ball}")
     }
 
-    /// What there is to say besides, each with its name.
+    /// Further lines of the verdict, each with a name.
     pub fn lines(&self) -> Vec<(&'static str, String)> {
         let mut lines = Vec::new();
         if let Some(departure) = &self.departure {
@@ -86,7 +86,7 @@ impl Departure {
 }
 
 impl Explanation {
-    /// Its mistakes, and those that this run cannot distinguish from them.
+    /// Names the mistakes, and those that this run does not distinguish from them.
     pub fn named(&self) -> String {
         let mut names = self.mistakes.to_string();
         for other in &self.same_as {

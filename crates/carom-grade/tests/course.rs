@@ -1,10 +1,10 @@
-//! The course's rule that is kept here for mistakes, without any, against the engine's rule `discrete`: the
-//! same bits. What it has caught: nothing yet; it keeps references of grades from being wrong.
+//! The rule of this crate, without mistakes, equals the engine's rule `discrete` bit for bit. The
+//! test has found no error yet; it protects the references of grading.
 
 use carom_grade::{Course, Grader, Mistakes, TOLERANCE};
 use carom_scene::{Library, Scene};
 
-/// Holds the rule to the engine, frame by frame, until `seconds`.
+/// Compares the rule with the engine, frame by frame, until `seconds`.
 fn compare(scene: &Scene, seconds: f64) {
     let h = scene.simulation.frame_time;
     let grader = Grader::new(Course::of(scene).unwrap(), TOLERANCE);
@@ -30,7 +30,7 @@ fn compare(scene: &Scene, seconds: f64) {
 fn simtests_have_the_bits_of_the_engine() {
     for number in 1..=6 {
         let scene = Library::new().find(&format!("simtest{number}"), &[]).unwrap().0;
-        // Longer than it takes until slots are used again.
+        // Longer than the time until slots are reused.
         compare(&scene, 20.0);
     }
 }

@@ -1,4 +1,4 @@
-//! Broken tables: one line that names the file and the line.
+//! Broken tables: one line of error that names the file and the line.
 
 use std::path::Path;
 

@@ -1,5 +1,5 @@
-//! Right runs pass, however they are recorded: with noise, in single precision, in Unity's coordinates, by a
-//! program that has nothing in common with the reference, in other units, with other names, in part.
+//! Right runs pass in every form: with noise, in single precision, in Unity's coordinates, from a
+//! program that shares no code with the reference, in other units, with other names, in part.
 
 mod common;
 #[path = "common/student.rs"]
@@ -30,7 +30,7 @@ fn noise_of_a_micrometre_passes_and_leaves_five_digits() {
         let style = Style { noise: 1e-6, ..Style::default() };
         let verdict = grader.grade(&recorded(&table(&tracks, style))).verdict;
         passes(&verdict);
-        // Noise of 1e-6 m in each coordinate is 1.7e-6 m at most.
+        // Noise of 1e-6 m in each coordinate is at most 1.7e-6 m.
         assert!(verdict.fit.max < 1.8e-6, "{scene}: {}", verdict.fit.max);
         assert!(verdict.digits >= Some(5), "{scene}: {:?}", verdict.digits);
     }
@@ -97,7 +97,7 @@ fn other_units_names_separators_and_decimals_pass() {
     for ball in 0..tracks.len() {
         for frame in 1..=tracks.frames() {
             let Some(state) = tracks.state(ball, frame) else { continue };
-            // In cm, and cm for each frame.
+            // In cm, and in cm per frame.
             let velocity = (0.02 * state.velocity).to_array();
             let numbers = state.position.to_array().into_iter().chain(velocity);
             let numbers = numbers.map(|it| format!("{:.4}", 100.0 * it).replace('.', ","));
@@ -133,7 +133,7 @@ fn a_column_of_balls_counts_more_than_one_of_indices() {
 fn a_verdict_does_not_depend_on_the_runs_graded_before() {
     let mut grader = grader("simtest3");
     let long = planted(&grader, Mistakes::NONE, 40.0, Style::default());
-    // What rounding does at most decides about a ball that the rule does not have.
+    // The largest spread by rounding decides about a ball that the rule does not have.
     let text = table(&grader.planted(Mistakes::NONE, 4.0, true), Style::default());
     let short = recorded(&(text + "3.0,999,0,50,0,0,0,0\n"));
     let alone = grader.grade(&short).verdict;

@@ -1,5 +1,5 @@
-//! Wrong runs: where they depart, at which contact, and which mistake explains them, by a program that has
-//! nothing in common with the one that grades it.
+//! Wrong runs: where they depart, at which contact, and which mistake explains them. The program of
+//! these runs shares no code with the one that grades them.
 
 mod common;
 #[path = "common/student.rs"]
@@ -14,7 +14,7 @@ use carom_scene::{Library, Scene};
 use common::{Style, grader, planted, recorded, table};
 use student::Slips;
 
-/// The verdict on a student's program, as its recorder writes it.
+/// Grades a student's program by the table of its recorder.
 fn verdict_on(name: &str, slips: Slips) -> Verdict {
     let scene = Library::new().find(name, &[]).unwrap().0;
     let text = student::table(&scene, 10.0, slips);
@@ -66,7 +66,7 @@ fn two_slips_at_once_are_named_together() {
     assert!(verdict.explanations[0].fit.is_complete());
 }
 
-/// The verdict on a run with a mistake.
+/// Grades a run with a mistake.
 fn planted_verdict(scene: &str, mistakes: Mistakes) -> Verdict {
     let mut grader = grader(scene);
     let run = planted(&grader, mistakes, 6.0, Style::default());
@@ -85,16 +85,17 @@ fn a_verdict_names_the_contact_where_the_run_departs() {
     assert_eq!((contact.collider.as_str(), contact.only_by_mistake), ("SphereCollider", false));
     let (_, contact) = at("simtest5", Mistake::EdgeNormalOfPlane);
     assert_eq!(contact.unwrap().kind, ContactKind::Edge);
-    // Drag acts where nothing is touched.
+    // Drag acts without any contact.
     assert_eq!(at("simtest3", Mistake::DragSign).1, None);
-    // A plane without an end is met where the rule has none.
+    // An infinite plane is touched where the rule has none.
     let (_, contact) = at("simtest5", Mistake::ExtentIgnored);
     assert!(contact.unwrap().only_by_mistake);
 }
 
 #[test]
 fn the_first_departure_is_where_a_ball_leaves_the_tolerance() {
-    // One ball is moved by a millimetre for a while: the line, the ball and the distance are its own.
+    // One ball is shifted by a millimetre for a while; line, ball and distance of the departure are
+    // its own.
     let mut grader = grader("simtest1");
     let tracks = grader.planted(Mistakes::NONE, 3.0, false);
     let moved = |(number, line): (usize, &str)| {
@@ -116,7 +117,8 @@ fn the_first_departure_is_where_a_ball_leaves_the_tolerance() {
 
 #[test]
 fn mistakes_that_no_simtest_shows_are_named_where_they_can_be_seen() {
-    // Balls are thrown up at a plane, touch it, and fall back; others fall into a groove of two planes.
+    // Balls are thrown up at a plane, touch it and fall back; others fall into a groove of two
+    // planes.
     let text = r#"
         name = "groove"
         [simulation]

@@ -1,8 +1,8 @@
-//! How long each frame of a scene takes natively: the other half of what
-//! `web/package/bench/frame_times.mjs` measures of the package.
+//! Measures the native frame times of a scene, for comparison with those of the JavaScript package
+//! in `web/package/bench/frame_times.mjs`.
 //!
-//! `frame_times FILE RUNS [PATH=VALUE ...]` prints a JSON list of milliseconds, of each frame the
-//! least of all runs: what the machine did besides is no part of it.
+//! `frame_times FILE RUNS [PATH=VALUE ...]` prints a JSON list of milliseconds: for each frame the
+//! least of all runs, which leaves out most of the machine's other work.
 
 use std::error::Error;
 use std::path::Path;
@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Times of the frames of a scene \[ms\], until its duration is over.
+/// Returns the times of all frames until the scene's duration is over \[ms\].
 fn frame_times(scene: &Scene) -> Result<Vec<f64>, Box<dyn Error>> {
     let mut world = scene.world()?;
     let mut times = Vec::new();

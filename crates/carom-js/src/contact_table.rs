@@ -1,12 +1,13 @@
-//! Persistent contacts as a table of numbers: many of them reach JavaScript without an object each.
+//! Persistent contacts as a table of numbers, so that JavaScript gets many of them without many
+//! objects.
 
 use carom::{BodyPair, PersistentContact};
 
-/// Numbers in a row; what they are stands in `web/package/src/contacts.js`.
+/// Numbers per row; `web/package/src/contacts.js` reads them.
 const COLUMNS: usize = 15;
 
-/// The contacts row by row: whether body 1 is a collider (1) or a sphere (0), the numbers of the
-/// bodies, point, normal, gap, normal force, tangential force, whether it slides (1) or not (0).
+/// Returns the contacts in rows: 1 if body 1 is a collider or 0 if it is a sphere, the numbers of
+/// the bodies, point, normal, gap, normal force, tangential force, 1 if the contact slides or 0.
 pub fn of(contacts: &[PersistentContact]) -> Vec<f64> {
     let mut table = Vec::with_capacity(COLUMNS * contacts.len());
     for contact in contacts {

@@ -1,4 +1,4 @@
-//! Telling what is in a world.
+//! Descriptions of what a world contains.
 
 use carom::World as Physics;
 use carom_scene::Palette;
@@ -11,7 +11,7 @@ use crate::find;
 use crate::members::Members;
 use crate::world::World;
 
-/// Something with the number it is known by.
+/// A value with its id.
 #[derive(Serialize)]
 pub struct Numbered<T> {
     pub id: u64,
@@ -19,22 +19,22 @@ pub struct Numbered<T> {
     pub it: T,
 }
 
-/// What is in it.
+/// Contents of the world.
 #[wasm_bindgen]
 impl World {
-    /// All that the scene says besides spheres, as JSON: names, how it is stepped, forces, emitters,
+    /// Returns the scene without its spheres as JSON: names, simulation settings, forces, emitters,
     /// camera, sun, colours. Infinite numbers are `null`.
     ///
     /// # Errors
-    /// Never, but for a fault of the engine.
+    /// Only if the engine has a fault.
     pub fn scene(&self) -> Result<String, Failure> {
         Ok(serde_json::to_string(self.described())?)
     }
 
-    /// Colliders where they are now, each with its id and colour, as JSON.
+    /// Returns the colliders with present poses, ids and colours as JSON.
     ///
     /// # Errors
-    /// Never, but for a fault of the engine.
+    /// Only if the engine has a fault.
     pub fn colliders(&self) -> Result<String, Failure> {
         let fallback = self.described().colors.as_ref().and_then(|colors| colors.colliders);
         let colored = |mut collider: Collider| {
@@ -47,10 +47,10 @@ impl World {
         Ok(serde_json::to_string(&list)?)
     }
 
-    /// Forces, each with its id, as JSON.
+    /// Returns the forces with their ids as JSON.
     ///
     /// # Errors
-    /// Never, but for a fault of the engine.
+    /// Only if the engine has a fault.
     pub fn forces(&self) -> Result<String, Failure> {
         let ids = self.world.forces().map(|(id, _)| id.number());
         let forces = ids.zip(&self.described().forces);
@@ -58,7 +58,7 @@ impl World {
         Ok(serde_json::to_string(&list)?)
     }
 
-    /// One sphere, as JSON.
+    /// Returns one sphere as JSON.
     ///
     /// # Errors
     /// [`Failure`] if it is not in the world.
@@ -67,8 +67,8 @@ impl World {
         Ok(serde_json::to_string(&sphere(&self.world, &self.description.members, index))?)
     }
 
-    /// The world of now as the text of a scene file: time begins at 0 there, and emitters begin
-    /// anew.
+    /// Returns the present world as the text of a scene file. There, time starts at 0 and emitters
+    /// start again.
     #[wasm_bindgen(js_name = toToml)]
     pub fn to_toml(&self) -> String {
         let (world, members) = (&self.world, &self.description.members);
@@ -76,7 +76,7 @@ impl World {
         scene.colliders = colliders_now(world, &scene);
         scene.spheres = (0..world.spheres().len()).map(|i| sphere(world, members, i)).collect();
         scene.springs = Spring::all_of(world);
-        // Rules that find contacts late let spheres overlap; a scene has to admit it.
+        // Rules that detect contacts late let spheres overlap, which a scene must allow.
         if !scene.simulation.allow_overlap && scene.world().is_err() {
             scene.simulation.allow_overlap = true;
         }
@@ -84,7 +84,7 @@ impl World {
     }
 }
 
-/// The colliders of a scene, where they are in its world.
+/// Returns the colliders of a scene with their present poses in its world.
 fn colliders_now(world: &Physics, scene: &Scene) -> Vec<Collider> {
     let poses = world.colliders().map(|(_, collider)| collider.pose);
     let moved = |(collider, pose): (&Collider, carom::Pose)| Collider {
@@ -95,7 +95,7 @@ fn colliders_now(world: &Physics, scene: &Scene) -> Vec<Collider> {
     scene.colliders.iter().zip(poses).map(moved).collect()
 }
 
-/// A sphere as scene files write it.
+/// Returns a sphere in the form of scene files.
 fn sphere(world: &Physics, members: &Members, index: usize) -> Sphere {
     let sphere = world.spheres().get(index);
     Sphere::of(&sphere).painted(members.look(index))

@@ -1,4 +1,4 @@
-//! Changing a world from outside.
+//! Changes of a world.
 
 use carom::Collider;
 use carom_scene::Palette;
@@ -11,7 +11,7 @@ use crate::failure::Failure;
 use crate::find;
 use crate::world::World;
 
-/// Ids of what was added.
+/// Ids of added parts.
 #[derive(Debug, Default, Serialize)]
 struct Added {
     spheres: Vec<u64>,
@@ -19,20 +19,20 @@ struct Added {
     forces: Vec<u64>,
 }
 
-/// Adding.
+/// Additions.
 #[wasm_bindgen]
 impl World {
-    /// Adds the spheres, generators, colliders and forces that `text` describes, and answers with
-    /// their ids as JSON.
+    /// Adds the spheres, generators, colliders and forces that `text` describes. Returns their ids
+    /// as JSON.
     ///
     /// # Errors
-    /// [`Failure`] if any of them makes no sense; then none is added.
+    /// [`Failure`] if any of them is invalid; then none is added.
     pub fn add(&mut self, text: &str) -> Result<String, Failure> {
         let mut part = part::read(text)?;
         part.colors.clone_from(&self.described().colors);
         let (world, palette) = (part.world()?, Palette::new(&part)?);
         let mut added = Added::default();
-        // All is checked by now: nothing below is refused.
+        // Everything has been checked: nothing below fails.
         self.add_forces(&part.forces, &mut added)?;
         self.add_colliders(&part.all_colliders(), &world, &mut added)?;
         self.add_spheres(&world, &palette, &mut added)?;
@@ -49,7 +49,7 @@ impl World {
         Ok(())
     }
 
-    /// Adds the colliders of another world, which are described so.
+    /// Adds the colliders of another world, with their descriptions.
     fn add_colliders(
         &mut self,
         described: &[scene::Collider],
@@ -63,7 +63,7 @@ impl World {
         Ok(())
     }
 
-    /// Adds the spheres of another world, in its colours.
+    /// Adds the spheres of another world with their colours.
     fn add_spheres(
         &mut self,
         world: &carom::World,
@@ -84,13 +84,13 @@ impl World {
     }
 }
 
-/// Changing and removing. Ids are numbers as they were given; any other is refused.
+/// Changes and removals. An id that does not exist is refused.
 #[wasm_bindgen]
 impl World {
-    /// Changes a sphere to the one that `text` describes.
+    /// Replaces the properties of a sphere by those in `text`.
     ///
     /// # Errors
-    /// [`Failure`] if it is not in the world, or if the description makes no sense.
+    /// [`Failure`] if the sphere is not in the world or the description is invalid.
     #[wasm_bindgen(js_name = setSphere)]
     pub fn set_sphere(&mut self, id: f64, text: &str) -> Result<(), Failure> {
         let (id, index) = find::sphere(&self.world, id)?;
@@ -105,7 +105,7 @@ impl World {
         Ok(())
     }
 
-    /// Takes a sphere out of the world.
+    /// Removes a sphere.
     ///
     /// # Errors
     /// [`Failure`] if it is not in the world.
@@ -118,10 +118,10 @@ impl World {
         Ok(())
     }
 
-    /// Changes a collider to the one that `text` describes.
+    /// Replaces a collider by the one in `text`; it keeps its id.
     ///
     /// # Errors
-    /// [`Failure`] if there is no such collider, or if the description makes no sense.
+    /// [`Failure`] if there is no such collider or the description is invalid.
     #[wasm_bindgen(js_name = setCollider)]
     pub fn set_collider(&mut self, id: f64, text: &str) -> Result<(), Failure> {
         let (id, place) = find::collider(&self.world, id)?;
@@ -133,7 +133,7 @@ impl World {
         Ok(())
     }
 
-    /// Takes a collider out of the world.
+    /// Removes a collider.
     ///
     /// # Errors
     /// [`Failure`] if there is no such collider.
@@ -145,10 +145,10 @@ impl World {
         Ok(())
     }
 
-    /// Puts the force that `text` describes in the place of another.
+    /// Replaces a force by the one in `text`; it keeps its id.
     ///
     /// # Errors
-    /// [`Failure`] if there is no such force, or if the description makes no sense.
+    /// [`Failure`] if there is no such force or the description is invalid.
     #[wasm_bindgen(js_name = setForce)]
     pub fn set_force(&mut self, id: f64, text: &str) -> Result<(), Failure> {
         let (id, place) = find::force(&self.world, id)?;
@@ -159,7 +159,7 @@ impl World {
         Ok(())
     }
 
-    /// Takes a force out of the world.
+    /// Removes a force.
     ///
     /// # Errors
     /// [`Failure`] if there is no such force.
@@ -171,10 +171,10 @@ impl World {
         Ok(())
     }
 
-    /// Steps the world as `text` says from now on.
+    /// Sets the simulation settings from `text`.
     ///
     /// # Errors
-    /// [`Failure`] if that makes no sense.
+    /// [`Failure`] if the settings are invalid.
     #[wasm_bindgen(js_name = setSimulation)]
     pub fn set_simulation(&mut self, text: &str) -> Result<(), Failure> {
         let part = part::read_simulation(text)?;

@@ -1,4 +1,4 @@
-//! What a JavaScript error is made of.
+//! The content of a JavaScript error.
 
 use carom_scene::part::PartError;
 use carom_scene::{Fault, SceneError};
@@ -12,7 +12,7 @@ pub struct Failure {
     place: Option<Place>,
 }
 
-/// Where in a scene.
+/// The place of an error in a scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
 struct Place {
     field: String,
@@ -20,7 +20,7 @@ struct Place {
 }
 
 impl Failure {
-    /// A failure that is about no place of a scene.
+    /// Returns a failure without a place in a scene.
     pub(crate) fn new(message: impl ToString) -> Self {
         Self { message: message.to_string(), place: None }
     }
@@ -28,25 +28,26 @@ impl Failure {
 
 #[wasm_bindgen]
 impl Failure {
-    /// What is wrong, in the words of the engine.
+    /// Returns the message of the engine.
     #[wasm_bindgen(getter)]
     pub fn message(&self) -> String {
         self.message.clone()
     }
 
-    /// Whether a scene, or a part of one, is to blame, and not the moment.
+    /// Returns whether the error is in a scene or a part of one, not in a step or a call.
     #[wasm_bindgen(getter, js_name = isInScene)]
     pub fn is_in_scene(&self) -> bool {
         self.place.is_some()
     }
 
-    /// Path of the field that is to blame, like `colliders[1].restitution`; empty for none.
+    /// Returns the path of the faulty field, for example `colliders[1].restitution`; empty if there
+    /// is none.
     #[wasm_bindgen(getter)]
     pub fn field(&self) -> String {
         self.place.as_ref().map_or(String::new(), |place| place.field.clone())
     }
 
-    /// Line in the text of the scene, from 1; nothing for what was described in code.
+    /// Returns the line in the text of the scene, from 1; none if the scene was described in code.
     #[wasm_bindgen(getter)]
     pub fn line(&self) -> Option<usize> {
         self.place.as_ref()?.line

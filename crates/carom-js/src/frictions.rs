@@ -1,23 +1,23 @@
-//! What spheres say of friction.
+//! Friction coefficients of spheres.
 
 use carom::{Friction, Spheres};
 
-/// Coefficients of all spheres, as JavaScript reads them: `NaN` where a sphere says nothing. All are
-/// empty while none says anything.
+/// Coefficients of all spheres for JavaScript: `NaN` for a sphere without its own value. All lists
+/// are empty if no sphere has one.
 #[derive(Debug, Clone, Default)]
 pub struct Frictions {
-    /// Of sliding friction.
+    /// Coefficients of sliding friction.
     pub sliding: Vec<f64>,
-    /// Of rolling friction.
+    /// Coefficients of rolling friction.
     pub rolling: Vec<f64>,
-    /// Of spinning friction.
+    /// Coefficients of spinning friction.
     pub spinning: Vec<f64>,
-    /// Of tangential restitution.
+    /// Coefficients of tangential restitution.
     pub tangential_restitution: Vec<f64>,
 }
 
 impl Frictions {
-    /// Follows a change of spheres: those before `index` are as they were.
+    /// Updates the lists after a change of spheres; those before `index` are unchanged.
     pub fn follow(&mut self, spheres: &Spheres, index: usize) {
         let frictions = spheres.frictions();
         let changed = |values: &mut Vec<f64>, said: fn(&Friction) -> Option<f64>| {

@@ -1,12 +1,12 @@
-//! Impacts as a table of numbers: many of them reach JavaScript without an object each.
+//! Impacts as a table of numbers, so that JavaScript gets many of them without many objects.
 
 use carom::{BodyPair, Impact};
 
-/// Numbers in a row; what they are stands in `web/package/src/impacts.js`.
+/// Numbers per row; `web/package/src/impacts.js` reads them.
 const COLUMNS: usize = 16;
 
-/// The impacts row by row: time, whether body 1 is a collider (1) or a sphere (0), the numbers of
-/// the bodies, point, normal, speeds of approach and separation, impulse, impulse of friction.
+/// Returns the impacts in rows: time, 1 if body 1 is a collider or 0 if it is a sphere, the numbers
+/// of the bodies, point, normal, speeds of approach and separation, impulse, impulse of friction.
 pub fn of(impacts: &[Impact]) -> Vec<f64> {
     let mut table = Vec::with_capacity(COLUMNS * impacts.len());
     for impact in impacts {

@@ -1,15 +1,15 @@
-//! The engine of the JavaScript package `carom`: it converts, and holds no physics.
+//! The engine of the JavaScript package `carom`: conversions only, no physics.
 //!
-//! What users call is JavaScript (`web/package/src`), which stands on [`World`] here. Between the
-//! two go numbers, text and places in memory:
+//! Users call JavaScript (`web/package/src`), which calls [`World`] here. Three kinds of data pass
+//! between them:
 //!
-//! - what users describe comes as TOML, in the words of scene files, and is read and checked by
-//!   `carom-scene`;
-//! - descriptions go back as JSON;
-//! - arrays of spheres are not copied: this side says where they lie, the other looks at the
-//!   [`memory`] there, until something is added, removed or stepped.
+//! - descriptions by users arrive as TOML in the format of scene files, which `carom-scene` reads
+//!   and checks;
+//! - descriptions return as JSON;
+//! - arrays of spheres are not copied: JavaScript gets their addresses and reads the [`memory`]
+//!   until the world is stepped or changed.
 //!
-//! A refused call leaves the world as it was and throws a [`Failure`].
+//! A refused call leaves the world unchanged and throws a [`Failure`].
 
 #![warn(clippy::unwrap_used)]
 
@@ -37,14 +37,14 @@ pub use failure::Failure;
 pub use snapshot::Snapshot;
 pub use world::World;
 
-/// The memory of this module, a `WebAssembly.Memory`: what pointers point into. When it grows, its
-/// `buffer` is another one.
+/// Returns the memory of this module, a `WebAssembly.Memory` that addresses refer to. When it
+/// grows, it gets a new `buffer`.
 #[wasm_bindgen(js_name = engineMemory)]
 pub fn memory() -> JsValue {
     wasm_bindgen::memory()
 }
 
-/// A built-in scene, as it is listed.
+/// A built-in scene in the list.
 #[derive(Serialize)]
 struct Listed {
     name: String,
@@ -53,7 +53,7 @@ struct Listed {
     origin: String,
 }
 
-/// The built-in scenes as a JSON list of `name`, `title`, `description` and `origin`.
+/// Returns the built-in scenes as a JSON list of `name`, `title`, `description` and `origin`.
 ///
 /// # Errors
 /// [`Failure`] if a built-in scene cannot be read.

@@ -1,4 +1,4 @@
-//! The spheres in a world, their looks, and what they say of friction.
+//! Ids, looks and friction of the spheres in a world.
 
 use carom::{SphereId, Spheres};
 use carom_scene::scene::Finish;
@@ -6,69 +6,69 @@ use carom_scene::{Coat, Paint, Palette};
 
 use crate::frictions::Frictions;
 
-/// Ids, looks and friction of the spheres of a world, in their order, as JavaScript reads them.
+/// Ids, looks and friction of the spheres of a world in order, for JavaScript.
 ///
-/// A sphere gets its look when it comes into the world, and keeps it.
+/// A sphere gets its look when it is added, and keeps it.
 #[derive(Debug, Clone, Default)]
 pub struct Members {
-    /// Ids, as JavaScript's numbers: exact up to 2^53.
+    /// Ids as JavaScript's numbers, which are exact up to 2^53.
     ids: Vec<f64>,
-    /// Red, green and blue of each, in \[0, 1\] (sRGB).
+    /// Red, green and blue of each sphere, in \[0, 1\] (sRGB).
     colors: Vec<f32>,
     finishes: Vec<Finish>,
     frictions: Frictions,
 }
 
 impl Members {
-    /// Ids, ascending.
+    /// Returns the ids, ascending.
     pub fn ids(&self) -> &[f64] {
         &self.ids
     }
 
-    /// Three parts of each colour.
+    /// Returns the colours, three numbers each.
     pub fn colors(&self) -> &[f32] {
         &self.colors
     }
 
-    /// Coefficients of friction.
+    /// Returns the coefficients of friction.
     pub fn frictions(&self) -> &Frictions {
         &self.frictions
     }
 
-    /// Has the coefficients of friction follow a change of spheres: those before `index` are as they
-    /// were.
+    /// Updates the coefficients of friction after a change of spheres; those before `index` are
+    /// unchanged.
     pub fn follow_frictions(&mut self, spheres: &Spheres, index: usize) {
         self.frictions.follow(spheres, index);
     }
 
-    /// Adds a sphere that was added in code; its id must be the largest so far.
+    /// Adds a sphere; its id must be the largest so far.
     pub fn add(&mut self, id: SphereId, Coat { color, finish }: Coat) {
         self.push(id.number() as f64, color.map(|part| part as f32), finish);
     }
 
-    /// Takes out the sphere at an index.
+    /// Removes the sphere at an index.
     pub fn remove(&mut self, index: usize) {
         self.ids.remove(index);
         self.colors.drain(3 * index..3 * index + 3);
         self.finishes.remove(index);
     }
 
-    /// Colour and finish of the sphere at an index.
+    /// Returns colour and finish of the sphere at an index.
     pub fn look(&self, index: usize) -> Paint {
-        // The shortest decimal that is this number: what was written in the scene.
+        // The shortest decimal for this number, as it was written in the scene.
         let part = |part: f32| part.to_string().parse().unwrap_or(f64::from(part));
         let color = [0, 1, 2].map(|i| part(self.colors[3 * index + i]));
         Paint { color: Some(color), finish: self.finishes[index] }
     }
 
-    /// Gives the sphere at an index this finish, and this colour if there is one.
+    /// Sets the finish of the sphere at an index, and its colour if there is one.
     pub fn paint(&mut self, index: usize, Paint { color, finish }: Paint) {
         let parts = self.colors[3 * index..].iter_mut().zip(color.into_iter().flatten());
         parts.for_each(|(part, value)| *part = value as f32);
         self.finishes[index] = finish;
     }
 
-    /// Follows what emitters added and retired: `spheres` are those of now.
+    /// Adds and removes what emitters emitted and retired, so that the lists match `spheres`.
     pub fn follow(&mut self, spheres: &Spheres, palette: &Palette) {
         let before = std::mem::take(self);
         // Both lists are ascending.

@@ -7,7 +7,7 @@ use crate::world::World;
 
 #[wasm_bindgen]
 impl World {
-    /// The time of the next impact \[s\], if one comes within so many seconds.
+    /// Returns the time of the next impact \[s\], if it is within `within` \[s\].
     ///
     /// # Errors
     /// [`Failure`] as [`carom::World::next_event_time`].
@@ -16,7 +16,7 @@ impl World {
         Ok(self.world.next_event_time(within)?)
     }
 
-    /// Advances the world to its next impact, by `within` \[s\] if none comes before.
+    /// Advances the world to its next impact, at most by `within` \[s\].
     ///
     /// # Errors
     /// [`Failure`] as [`carom::World::step_to_next_event`]; the state before the step is kept.

@@ -1,11 +1,11 @@
-//! Where lists lie in memory: JavaScript looks at them there.
+//! Addresses of lists in memory, where JavaScript reads them.
 
-/// Where a list lies.
+/// Returns the address of a list.
 pub fn place<T>(list: &[T]) -> usize {
     list.as_ptr() as usize
 }
 
-/// Where a list lies that holds anything.
+/// Returns the address of a list, unless it is empty.
 pub fn place_of_any<T>(list: &[T]) -> Option<usize> {
     (!list.is_empty()).then(|| place(list))
 }

@@ -1,4 +1,4 @@
-//! A world at one moment, to return to.
+//! Snapshots of a world.
 
 use std::rc::Rc;
 
@@ -7,7 +7,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::members::Members;
 
-/// The state of a world at one moment.
+/// The state of a world at one time.
 #[wasm_bindgen]
 #[derive(Debug, Clone)]
 pub struct Snapshot {
@@ -15,14 +15,14 @@ pub struct Snapshot {
     pub(crate) description: Description,
 }
 
-/// What a world does not know of itself: names, kinds of force, colours.
+/// Data about a world that its physics does not have: names, kinds of force, colours.
 #[derive(Debug, Clone)]
 pub struct Description {
-    /// What there is besides spheres. Forces and colliders are those of the world, in its order;
-    /// colliders stand where they were when they were described.
+    /// The scene without spheres. Its forces and colliders have the order of the world; colliders
+    /// have the poses of their descriptions.
     pub scene: Rc<Scene>,
-    /// Colours of the spheres that the scene brings.
+    /// Colours for the spheres of the scene.
     pub palette: Palette,
-    /// The spheres of now.
+    /// The present spheres.
     pub members: Members,
 }

@@ -1,4 +1,4 @@
-//! Springs: spheres go by their ids, in JSON and in what is added.
+//! Springs, whose ends are ids of spheres, in JSON and in descriptions.
 
 use carom_scene::part;
 use carom_scene::scene::Spring;
@@ -11,10 +11,10 @@ use crate::world::World;
 
 #[wasm_bindgen]
 impl World {
-    /// Springs, each with its id, as JSON.
+    /// Returns the springs with their ids as JSON.
     ///
     /// # Errors
-    /// Never, but for a fault of the engine.
+    /// Only if the engine has a fault.
     pub fn springs(&self) -> Result<String, Failure> {
         let numbered = |(id, it): (carom::SpringId, &carom::Spring)| {
             Some(Numbered { id: id.number(), it: Spring::by_ids(it)? })
@@ -23,20 +23,20 @@ impl World {
         Ok(serde_json::to_string(&list)?)
     }
 
-    /// Adds the spring that `text` describes, and answers with its id.
+    /// Adds the spring that `text` describes. Returns its id.
     ///
     /// # Errors
-    /// [`Failure`] if it makes no sense, or if a sphere is not in the world.
+    /// [`Failure`] if it is invalid, or if a sphere is not in the world.
     #[wasm_bindgen(js_name = addSpring)]
     pub fn add_spring(&mut self, text: &str) -> Result<f64, Failure> {
         let spring = part::spring_of(text, &self.world)?;
         Ok(self.world.add_spring(spring)?.number() as f64)
     }
 
-    /// Puts the spring that `text` describes in the place of another.
+    /// Replaces a spring by the one in `text`; it keeps its id.
     ///
     /// # Errors
-    /// [`Failure`] if there is no such spring or sphere, or if the description makes no sense.
+    /// [`Failure`] if there is no such spring or sphere, or the description is invalid.
     #[wasm_bindgen(js_name = setSpring)]
     pub fn set_spring(&mut self, id: f64, text: &str) -> Result<(), Failure> {
         let id = find::spring(&self.world, id)?;
@@ -44,7 +44,7 @@ impl World {
         Ok(self.world.set_spring(id, spring)?)
     }
 
-    /// Takes a spring out of the world; its spheres stay.
+    /// Removes a spring; its spheres stay.
     ///
     /// # Errors
     /// [`Failure`] if there is no such spring.

@@ -1,4 +1,4 @@
-//! A world as JavaScript holds it.
+//! The world that JavaScript holds.
 
 use std::rc::Rc;
 
@@ -13,33 +13,33 @@ use crate::members::Members;
 use crate::place::place;
 use crate::snapshot::{Description, Snapshot};
 
-/// A world, its description, and what its last frame was.
+/// A world, its description, and the impacts of its last step.
 #[wasm_bindgen]
 #[derive(Debug)]
 pub struct World {
     pub(crate) world: carom::World,
     pub(crate) description: Description,
-    /// The impacts of the last frame, once a script has read them.
+    /// The impacts of the last step, after a script has read them.
     impacts: Option<Vec<f64>>,
 }
 
-/// Making a world.
+/// Constructors.
 #[wasm_bindgen]
 impl World {
-    /// The world of a built-in scene, with some values changed (`path=value`).
+    /// Makes the world of a built-in scene, with some values replaced (`path=value`).
     ///
     /// # Errors
-    /// [`Failure`] if no scene has this name or title, or not these values.
+    /// [`Failure`] if no scene has this name or title, or if a value is invalid.
     #[wasm_bindgen(js_name = fromName)]
     pub fn from_name(name: &str, overrides: Vec<String>) -> Result<Self, Failure> {
         let (scene, _) = Library::new().find(name, &parsed(&overrides)?)?;
         Self::new(scene)
     }
 
-    /// The world of the text of a scene file, with some values changed (`path=value`).
+    /// Makes the world of a scene file's text, with some values replaced (`path=value`).
     ///
     /// # Errors
-    /// [`Failure`] with the line of what is wrong.
+    /// [`Failure`] with the line of the error.
     #[wasm_bindgen(js_name = fromToml)]
     pub fn from_toml(text: &str, overrides: Vec<String>) -> Result<Self, Failure> {
         Self::new(Scene::from_toml_with(text, "scene", &parsed(&overrides)?)?)
@@ -60,19 +60,19 @@ impl World {
         Ok(Self { world, description, impacts: None })
     }
 
-    /// What there is besides spheres.
+    /// Returns the scene without its spheres.
     pub(crate) fn described(&self) -> &Scene {
         &self.description.scene
     }
 
-    /// The description of the world, to be changed together with the world itself.
+    /// Returns the description for changes, which must match those of the world itself.
     pub(crate) fn described_mut(&mut self) -> &mut Scene {
         Rc::make_mut(&mut self.description.scene)
     }
 }
 
 impl World {
-    /// Takes a step, and has description and tables follow it.
+    /// Takes a step and updates the description and the tables.
     pub(crate) fn take_step(
         &mut self,
         step: impl FnOnce(&mut carom::World) -> Result<(), carom::Error>,
@@ -92,7 +92,7 @@ fn parsed(overrides: &[String]) -> Result<Vec<Override>, SceneError> {
     overrides.iter().map(|text| text.parse()).collect()
 }
 
-/// Time.
+/// Time and state.
 #[wasm_bindgen]
 impl World {
     /// Advances the world by `dt` \[s\].
@@ -103,55 +103,55 @@ impl World {
         self.take_step(|world| world.step(dt).map(drop))
     }
 
-    /// Time since the beginning \[s\].
+    /// Returns the time since the start \[s\].
     #[wasm_bindgen(getter)]
     pub fn time(&self) -> f64 {
         self.world.time()
     }
 
-    /// Length of a frame of the scene \[s\].
+    /// Returns the frame time of the scene \[s\].
     #[wasm_bindgen(getter, js_name = frameTime)]
     pub fn frame_time(&self) -> f64 {
         self.described().simulation.frame_time
     }
 
-    /// Everything the future depends on, to return to.
+    /// Returns a snapshot of everything that the future depends on.
     pub fn snapshot(&self) -> Snapshot {
         Snapshot { world: self.world.snapshot(), description: self.description.clone() }
     }
 
-    /// Returns to a snapshot, bit for bit. The impacts of the last frame are gone.
+    /// Restores a snapshot, bit for bit. The impacts of the last step are removed.
     pub fn restore(&mut self, snapshot: &Snapshot) {
         self.world.restore(&snapshot.world);
         self.description.clone_from(&snapshot.description);
         self.impacts = None;
     }
 
-    /// The state as one number, in 16 hexadecimal digits.
+    /// Returns the state hash in 16 hexadecimal digits.
     #[wasm_bindgen(js_name = stateHash)]
     pub fn state_hash(&self) -> String {
         self.world.state_hash().to_string()
     }
 }
 
-/// What happened in the last frame.
+/// Report of the last step.
 #[wasm_bindgen]
 impl World {
-    /// How many impacts there were.
+    /// Returns the number of impacts.
     #[wasm_bindgen(getter, js_name = impactCount)]
     pub fn impact_count(&self) -> usize {
         self.world.report().impacts.len()
     }
 
-    /// Place of the table of impacts, `f64`, a row for each.
+    /// Returns the address of the table of impacts, `f64`, one row each.
     #[wasm_bindgen(getter)]
     pub fn impacts(&mut self) -> usize {
         let impacts = &self.world.report().impacts;
         place(self.impacts.get_or_insert_with(|| impact_table::of(impacts)))
     }
 
-    /// The work, counted by stage: predictions, pair tests, events, cell crossings, groups, iterations
-    /// of solvers, searches, sweeps, contacts.
+    /// Returns the work by stage: predictions, pair tests, events, cell crossings, groups, solver
+    /// iterations, searches, sweeps, contacts.
     #[wasm_bindgen(getter)]
     pub fn work(&self) -> Vec<f64> {
         let work = self.world.report().work;
@@ -162,16 +162,16 @@ impl World {
         all.map(|&count| count as f64).collect()
     }
 
-    /// What became of the energy: work of contacts, of moving colliders and of the correction of overlaps,
-    /// energy of emitted spheres less that of those taken out \[J\].
+    /// Returns the energy account \[J\]: work of contacts, of moving colliders and of the
+    /// correction of overlaps, and the energy of emitted spheres minus that of removed ones.
     #[wasm_bindgen(getter, js_name = energyAccount)]
     pub fn energy_account(&self) -> Vec<f64> {
         let account = self.world.report().energy_account;
         vec![account.contacts, account.colliders, account.correction, account.emission]
     }
 
-    /// How good the solutions of the rule `contact` are: sub-steps with fewer impulses, residual, largest
-    /// overlap; spheres asleep, and how often one was squeezed.
+    /// Returns the quality of the solutions of the rule `contact`: sub-steps with limited impulses,
+    /// residual, largest overlap, sleeping spheres, and how often a sphere was squeezed.
     #[wasm_bindgen(getter, js_name = contactAccount)]
     pub fn contact_account(&self) -> Vec<f64> {
         let account = self.world.report().contact_account;
@@ -184,8 +184,8 @@ impl World {
         ]
     }
 
-    /// What was stepped under the rule `exact`: spheres in zones, the time that they spent there of all
-    /// together \[s\], ticks, spheres that joined and that left.
+    /// Returns the account of zones under the rule `exact`: spheres in zones, their total time
+    /// there \[s\], ticks, spheres that joined, and spheres that left.
     #[wasm_bindgen(getter, js_name = zoneAccount)]
     pub fn zone_account(&self) -> Vec<f64> {
         let account = self.world.report().zone_account;
@@ -194,43 +194,44 @@ impl World {
         vec![spheres, account.sphere_seconds, ticks, joined, left]
     }
 
-    /// Whether spheres were in zones so far.
+    /// Returns whether any sphere was ever in a zone.
     #[wasm_bindgen(getter, js_name = wasStepped)]
     pub fn was_stepped(&self) -> bool {
         self.world.was_stepped()
     }
 
-    /// The table of the contacts that persist now, a row for each.
+    /// Returns the table of the present persistent contacts, one row each.
     #[wasm_bindgen(getter)]
     pub fn contacts(&self) -> Vec<f64> {
         contact_table::of(&self.world.contacts())
     }
 
-    /// Whether spheres are turned or turn, or may come to by friction.
+    /// Returns whether spheres are rotated or rotate, or may start to by friction.
     #[wasm_bindgen(getter, js_name = hasSpin)]
     pub fn has_spin(&self) -> bool {
         self.world.has_spin()
     }
 
-    /// Ids of the spheres that emitters put into the world.
+    /// Returns the ids of the spheres that emitters added.
     #[wasm_bindgen(getter)]
     pub fn emitted(&self) -> Vec<f64> {
         numbers(&self.world.report().emitted)
     }
 
-    /// Ids of the spheres that emitters took out of the world.
+    /// Returns the ids of the spheres that emitters removed.
     #[wasm_bindgen(getter)]
     pub fn retired(&self) -> Vec<f64> {
         numbers(&self.world.report().retired)
     }
 
-    /// Ids of the spheres that emitters left out, for there was no room.
+    /// Returns the ids of the spheres that emitters left out for lack of space.
     #[wasm_bindgen(getter, js_name = leftOut)]
     pub fn left_out(&self) -> Vec<f64> {
         numbers(&self.world.report().left_out)
     }
 
-    /// Spheres inside triggers at the end of the frame: collider, sphere, collider, sphere, ...
+    /// Returns the spheres inside triggers at the end of the step: collider, sphere, collider,
+    /// sphere, ...
     #[wasm_bindgen(getter)]
     pub fn triggers(&self) -> Vec<f64> {
         let triggers = self.world.report().triggers.iter();
@@ -245,30 +246,30 @@ fn numbers(ids: &[SphereId]) -> Vec<f64> {
 /// Sums over all spheres.
 #[wasm_bindgen]
 impl World {
-    /// Kinetic energy \[J\], that of rotation included.
+    /// Returns the kinetic energy, with rotation \[J\].
     #[wasm_bindgen(js_name = kineticEnergy)]
     pub fn kinetic_energy(&self) -> f64 {
         self.world.kinetic_energy()
     }
 
-    /// Kinetic energy of rotation \[J\].
+    /// Returns the kinetic energy of rotation \[J\].
     #[wasm_bindgen(js_name = rotationalEnergy)]
     pub fn rotational_energy(&self) -> f64 {
         self.world.rotational_energy()
     }
 
-    /// Potential energy \[J\] in all forces that have one.
+    /// Returns the potential energy in all forces that have one \[J\].
     #[wasm_bindgen(js_name = potentialEnergy)]
     pub fn potential_energy(&self) -> f64 {
         self.world.potential_energy()
     }
 
-    /// Momentum \[kg m/s\].
+    /// Returns the momentum \[kg m/s\].
     pub fn momentum(&self) -> Vec<f64> {
         self.world.momentum().to_array().to_vec()
     }
 
-    /// Angular momentum about the origin \[kg m²/s\], that of spin included.
+    /// Returns the angular momentum about the origin, with spin \[kg m²/s\].
     #[wasm_bindgen(js_name = angularMomentum)]
     pub fn angular_momentum(&self) -> Vec<f64> {
         self.world.angular_momentum().to_array().to_vec()

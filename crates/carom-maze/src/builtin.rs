@@ -1,4 +1,4 @@
-//! The drawn mazes that are part of the game: the files of `mazes/`, embedded.
+//! Drawn mazes that are part of the game: the embedded files of `mazes/`.
 
-/// Name and text of each.
+/// Name and text of each drawing.
 pub const DRAWINGS: &[(&str, &str)] = &[("spiral", include_str!("../mazes/spiral.txt"))];

@@ -1,17 +1,17 @@
-//! A camera that shows a maze whole.
+//! A camera that shows a whole maze.
 
 use carom::{DQuat, DVec3};
 use carom_scene::scene::Camera;
 
-/// How far the camera looks down \[rad\]: so that a wall hides little of what lies behind it.
+/// Angle below the horizon \[rad\], so steep that walls hide little of what is behind them.
 const PITCH: f64 = 66.0 / 180.0 * std::f64::consts::PI;
 const VERTICAL_FOV_DEGREES: f64 = 40.0;
-/// Width of a picture in its heights.
+/// Ratio of width to height of a picture.
 const ASPECT: f64 = 16.0 / 9.0;
-/// The maze may be this much larger: room for its tilt.
+/// Factor by which the maze may be larger when it is tilted.
 const MARGIN: f64 = 1.12;
 
-/// A camera that sees the box from -half to +half \[m\] from the side of +z, from above.
+/// Returns a camera that shows the box from -half to +half \[m\], from +z and above.
 pub(crate) fn fitted(half: DVec3) -> Camera {
     let (sine, cosine) = libm::sincos(PITCH);
     let back = DVec3::new(0.0, sine, cosine);

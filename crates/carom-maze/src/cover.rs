@@ -1,9 +1,9 @@
-//! Few large rectangles that cover given cells of a grid.
+//! Covers marked cells of a grid with few large rectangles.
 //!
-//! Walls are made of them. Rectangles may overlap, so that a wall which others branch off is one
-//! rectangle with one face, without seams that a ball could feel.
+//! Walls are made from these rectangles, which may overlap. A wall with branches is one rectangle
+//! with one face, without seams that a ball could hit.
 
-/// Cells of a grid, some of them marked.
+/// Cells of a grid, each marked or not.
 pub(crate) struct Cells {
     pub columns: usize,
     pub rows: usize,
@@ -34,7 +34,7 @@ impl Block {
         (rows[0]..=rows[1]).flat_map(move |row| (columns[0]..=columns[1]).map(move |c| (c, row)))
     }
 
-    /// Along one axis; the end it has there.
+    /// Returns the end of the block at one side of an axis.
     fn end(&self, axis: usize, side: usize) -> Self {
         let mut end = *self;
         let range = if axis == 0 { &mut end.columns } else { &mut end.rows };
@@ -48,15 +48,15 @@ impl Block {
     }
 }
 
-/// A rectangle of the cover in units of cells: from the first edge to the second along columns and
-/// rows. An end that lies within another rectangle stops in the middle of a cell (at n + ½).
+/// A rectangle of the cover in units of cells, from the first to the second edge along columns and
+/// rows. An end inside another rectangle lies in the middle of a cell (at n + ½).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Rectangle {
     pub columns: [f64; 2],
     pub rows: [f64; 2],
 }
 
-/// Rectangles that cover the marked cells and nothing else.
+/// Returns rectangles that cover exactly the marked cells.
 pub(crate) fn cover(cells: &Cells) -> Vec<Rectangle> {
     let mut covering = vec![0_u32; cells.marked.len()];
     let mut blocks = Vec::new();
@@ -70,12 +70,13 @@ pub(crate) fn cover(cells: &Cells) -> Vec<Rectangle> {
             blocks.push(block);
         }
     }
-    // Longest last: of two walls that meet, the shorter one ends within the longer one.
+    // Shortest first: where two walls meet, the shorter one is trimmed inside the longer one.
     blocks.sort_by_key(|block| block.length(0).max(block.length(1)));
     blocks.iter().map(|block| trimmed(block, cells.columns, &mut covering)).collect()
 }
 
-/// The larger of the blocks about a cell that grow along columns first, and along rows first.
+/// Returns the larger of two blocks around a cell: one grows along columns first, the other along
+/// rows first.
 fn largest(cells: &Cells, column: usize, row: usize) -> Block {
     let grown = |order: [usize; 2]| {
         let mut block = Block { columns: [column; 2], rows: [row; 2] };
@@ -86,7 +87,7 @@ fn largest(cells: &Cells, column: usize, row: usize) -> Block {
     if high.cells().count() > wide.cells().count() { high } else { wide }
 }
 
-/// Makes a block as long as it can be along an axis, both ways.
+/// Extends a block along an axis in both directions as far as possible.
 fn grow(cells: &Cells, block: &mut Block, axis: usize) {
     let most = if axis == 0 { cells.columns } else { cells.rows };
     let moved = |block: &Block, side: usize| {
@@ -104,8 +105,8 @@ fn grow(cells: &Cells, block: &mut Block, axis: usize) {
     }
 }
 
-/// The rectangle of a block, without the halves of its end cells that others cover: their faces
-/// there would lie in one plane.
+/// Returns the rectangle of a block. End cells that other blocks cover are cut in half, because two
+/// faces in one plane would remain otherwise.
 fn trimmed(block: &Block, columns: usize, covering: &mut [u32]) -> Rectangle {
     let edges = |range: [usize; 2]| [range[0] as f64, (range[1] + 1) as f64];
     let mut sides = [edges(block.columns), edges(block.rows)];
@@ -135,7 +136,7 @@ mod tests {
         Cells { columns: drawing[0].len(), rows: drawing.len(), marked: marked.collect() }
     }
 
-    /// Whether the middles of quarters of cells are covered just where cells are marked.
+    /// Returns whether the centres of quarter cells are covered exactly where cells are marked.
     fn covers(rectangles: &[Rectangle], cells: &Cells) -> bool {
         let within = |range: [f64; 2], x: f64| range[0] < x && x < range[1];
         (0..4 * cells.columns * cells.rows).all(|i| {

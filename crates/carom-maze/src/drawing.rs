@@ -1,4 +1,4 @@
-//! Mazes drawn with characters: what a text says, before it has any size in metres.
+//! Mazes drawn with characters: the content of a text, without sizes in metres.
 //!
 //! ```text
 //! title: A small one
@@ -14,7 +14,7 @@ use crate::cover::Cells;
 use crate::error::MazeError;
 use crate::text_problem::{LONGEST_SIDE, TextProblem};
 
-/// What is at a place of a drawing.
+/// What one character of a drawing stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Place {
     Floor,
@@ -41,7 +41,7 @@ impl Place {
 #[derive(Debug, Clone)]
 pub(crate) struct Drawing {
     pub title: String,
-    /// Whether the first, third, fifth, ... column and row are as narrow as a wall.
+    /// Whether odd columns and rows (the first, third, ...) are as narrow as a wall.
     pub thin_walls: bool,
     pub columns: usize,
     pub rows: usize,
@@ -49,11 +49,11 @@ pub(crate) struct Drawing {
     places: Vec<Place>,
     /// Column and row of the start.
     pub start: (usize, usize),
-    /// Line of the text that is the first row, from 1.
+    /// Line number of the first row in the text, from 1.
     first_line: usize,
 }
 
-/// What is written above a drawing.
+/// The lines above a drawing.
 #[derive(Default)]
 struct Heading {
     title: String,
@@ -61,7 +61,7 @@ struct Heading {
 }
 
 impl Heading {
-    /// Takes in a line of the heading; `Ok(false)` if it is none.
+    /// Reads a line of the heading; returns `Ok(false)` if the line is none.
     fn read(&mut self, line: &str) -> Result<bool, TextProblem> {
         if let Some(title) = line.strip_prefix("title:") {
             self.title = title.trim().to_owned();
@@ -79,7 +79,7 @@ impl Heading {
 }
 
 impl Drawing {
-    /// Reads a drawing; `name` is what errors call it.
+    /// Reads a drawing, called `name` in errors.
     pub fn read(text: &str, name: &str) -> Result<Self, MazeError> {
         let mut heading = Heading::default();
         let mut lines = text.lines().enumerate().map(|(i, line)| (i + 1, line.trim_end()));
@@ -144,19 +144,19 @@ impl Drawing {
         Ok(())
     }
 
-    /// Line and column in the text, from 1, of a column and row.
+    /// Returns the line and column in the text, from 1, of a column and row.
     pub fn place_in_text(&self, (column, row): (usize, usize)) -> (usize, usize) {
         (self.first_line + row, column + 1)
     }
 
-    /// Columns and rows where something is.
+    /// Returns columns and rows of all cells with this content.
     pub fn places(&self, what: Place) -> impl Iterator<Item = (usize, usize)> + '_ {
         let is_it = move |(_, place): &(usize, &Place)| **place == what;
         let columns = self.columns;
         self.places.iter().enumerate().filter(is_it).map(move |(i, _)| (i % columns, i / columns))
     }
 
-    /// The cells where something is, marked.
+    /// Returns the grid with the cells of this content marked.
     pub fn cells(&self, what: Place) -> Cells {
         let marked = self.places.iter().map(|&place| place == what).collect();
         Cells { columns: self.columns, rows: self.rows, marked }

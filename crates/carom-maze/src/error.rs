@@ -1,4 +1,4 @@
-//! What can go wrong, said so that a user can mend it.
+//! Errors of mazes, with messages that say how to fix them.
 
 use std::fmt;
 
@@ -7,21 +7,22 @@ use thiserror::Error;
 
 use crate::text_problem::TextProblem;
 
-/// Why something is no maze.
+/// Why a scene or text is no maze.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum MazeError {
-    /// A drawing makes no sense.
+    /// A drawing is invalid.
     #[error("{name}{}: {problem}", at(.place))]
     Text {
-        /// What the drawing is called.
+        /// Name of the drawing.
         name: String,
-        /// Line and column in the text, each from 1; `None` for the drawing as a whole.
+        /// Line and column in the text, each from 1; `None` if the error concerns the whole
+        /// drawing.
         place: Option<(usize, usize)>,
-        /// What is wrong.
+        /// The problem.
         problem: TextProblem,
     },
-    /// A maze has one ball.
+    /// The scene does not have exactly one ball.
     #[error("scene \"{scene}\": a maze has one sphere, the ball, not {count}")]
     OneBall {
         /// Name of the scene.
@@ -29,35 +30,35 @@ pub enum MazeError {
         /// Spheres in it; generators and emitters count too.
         count: usize,
     },
-    /// The maze has no wall to win at.
+    /// The maze has no end wall.
     #[error("scene \"{scene}\": no solid collider is named \"end wall\"")]
     NoEndWall {
         /// Name of the scene.
         scene: String,
     },
-    /// The ball would fall at once.
+    /// There is no ground under the ball.
     #[error("scene \"{scene}\": no ground under the ball: a rectangle or half-space, level")]
     NoGround {
         /// Name of the scene.
         scene: String,
     },
-    /// The ball would not roll.
+    /// The forces do not pull the ball down.
     #[error("scene \"{scene}\": the forces do not pull the ball down")]
     NoGravity {
         /// Name of the scene.
         scene: String,
     },
-    /// A random maze of no size, or too large to be played.
+    /// The size of a random maze is too small or too large.
     #[error("a random maze has 2 to {most} columns and rows, not {columns} x {rows}")]
     Size {
         /// Columns requested.
         columns: usize,
         /// Rows requested.
         rows: usize,
-        /// The most of each.
+        /// Largest number of each.
         most: usize,
     },
-    /// The scene itself makes no sense.
+    /// The scene itself is invalid.
     #[error(transparent)]
     Scene(#[from] SceneError),
 }
@@ -67,99 +68,99 @@ fn at(place: &Option<(usize, usize)>) -> impl fmt::Display + use<> {
 }
 
 impl TextProblem {
-    /// The error of a text; a place is line and column, from 1.
+    /// Returns the error of a text at a place, which is line and column from 1.
     pub(crate) fn at(self, name: &str, place: impl Into<Option<(usize, usize)>>) -> MazeError {
         MazeError::Text { name: name.to_owned(), place: place.into(), problem: self }
     }
 }
 
-/// Why a game cannot be played, or not this frame. The game is then as it was.
+/// Why a game cannot be played, or a frame not taken. The game is then unchanged.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum GameError {
-    /// An option that makes no sense.
+    /// An option is invalid.
     #[error("`{field}` must be {requirement}, not {value}")]
     Option {
         /// Name of the field of [`Options`](crate::Options).
         field: &'static str,
-        /// What it must be, continuing "must be".
+        /// The requirement, which continues "must be".
         requirement: &'static str,
-        /// What it was.
+        /// The value.
         value: f64,
     },
-    /// Steering that is not a number.
+    /// The steering is not finite.
     #[error("steering must be finite, not {value}")]
     Steering {
-        /// What it was.
+        /// The value.
         value: f64,
     },
-    /// No game in this maze has got there.
+    /// The progress does not belong to a game in this maze.
     #[error("this is no game in this maze: {problem}")]
     Progress {
-        /// What gives it away.
+        /// The contradiction.
         problem: &'static str,
     },
-    /// The scene of the maze makes no sense.
+    /// The scene of the maze is invalid.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// The physics refuses a frame.
+    /// The physics refused a frame.
     #[error(transparent)]
     Physics(#[from] carom::Error),
 }
 
-/// Why episodes cannot be played, or not go on.
+/// Why episodes cannot be played or continued.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum EpisodeError {
-    /// An option that makes no sense.
+    /// An option is invalid.
     #[error("`{field}` must be {requirement}, not {value}")]
     Option {
         /// Name of the field of [`EpisodeOptions`](crate::EpisodeOptions) or
         /// [`Rewards`](crate::Rewards).
         field: &'static str,
-        /// What it must be, continuing "must be".
+        /// The requirement, which continues "must be".
         requirement: &'static str,
-        /// What it was.
+        /// The value.
         value: f64,
     },
-    /// Another number of things than there are balls.
+    /// A number of values differs from the number of balls.
     #[error("{what} must be {balls}, one for each ball, not {count}")]
     Count {
-        /// What was counted.
+        /// The counted values.
         what: &'static str,
-        /// How many there must be.
+        /// Number of balls.
         balls: usize,
-        /// How many there were.
+        /// Number of values.
         count: usize,
     },
-    /// A ball that is not there.
+    /// No ball has this index.
     #[error("there is no ball {ball}: there are {balls}, counted from 0")]
     NoBall {
-        /// The number requested.
+        /// The requested index.
         ball: usize,
-        /// How many there are.
+        /// Number of balls.
         balls: usize,
     },
-    /// An action that is not a number.
+    /// An action is not finite.
     #[error("the action for ball {ball} must be finite, not {value}")]
     Action {
-        /// Whose, from 0.
+        /// Index of the ball, from 0.
         ball: usize,
-        /// What it was.
+        /// The value.
         value: f64,
     },
-    /// More collectibles than can be kept account of.
+    /// The maze has more collectibles than episodes can count.
     #[error("a maze for episodes has at most {most} collectibles, not {count}")]
     Collectibles {
-        /// How many it has.
+        /// Number of collectibles.
         count: usize,
-        /// How many it may have.
+        /// Largest number.
         most: usize,
     },
-    /// The maze makes no sense.
+    /// The maze is invalid.
     #[error(transparent)]
     Maze(#[from] MazeError),
-    /// The physics refuses a frame.
+    /// The physics refused a frame.
     #[error(transparent)]
     Physics(#[from] carom::Error),
 }
@@ -168,18 +169,18 @@ pub enum EpisodeError {
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum PlanError {
-    /// The ball cannot get to any end wall.
+    /// The ball can reach no end wall.
     #[error("there is no way to the end wall that is wide enough for the ball")]
     NoWay,
-    /// Fewer collectibles can be reached than are wanted.
+    /// Fewer collectibles can be reached than the player wants.
     #[error("{wanted} collectibles are wanted, but the ball can get to {reachable} only")]
     TooFewCollectibles {
-        /// How many the player wants.
+        /// Number that the player wants.
         wanted: usize,
-        /// How many there are within reach.
+        /// Number that can be reached.
         reachable: usize,
     },
-    /// The maze makes no world.
+    /// The maze's scene makes no world.
     #[error("{0}")]
     Maze(String),
 }

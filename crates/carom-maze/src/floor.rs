@@ -1,4 +1,4 @@
-//! The free floor: where the centre of the ball can be, as a grid of cells.
+//! The free floor: a grid of the positions that the ball's centre can have.
 
 use carom::{DVec3, World};
 
@@ -7,15 +7,16 @@ use crate::grid::Grid;
 use crate::maze::{Maze, Role, ground_height};
 use crate::route;
 
-/// Cells in a radius of the ball: fine enough for a way that leaves a third of a radius to spare.
+/// Cells per radius of the ball: fine enough for ways that are a third of a radius wider than the
+/// ball.
 const CELLS_PER_RADIUS: f64 = 6.0;
-/// Cells along a side, at most; a larger ground gets coarser cells.
+/// Largest number of cells along a side; a larger ground gets coarser cells.
 const MOST_CELLS: f64 = 1000.0;
-/// How far above its place on the ground, and how much smaller, the ball is in a search for what
-/// it meets: more than rounding, less than the room under a ceiling \[radii\].
+/// Height by which the ball is lifted, and part by which it is shrunk, in a test for overlap
+/// \[radii\]: more than rounding, less than the space under a ceiling.
 const LIFT: f64 = 0.01;
 const SMALLER: f64 = 0.008;
-/// The ball touches an end wall from this far beyond its radius \[cells\].
+/// Distance beyond its radius at which the ball counts as touching an end wall \[cells\].
 const NEAR_END_WALL: f64 = 1.5;
 
 /// Free and blocked cells in the plane of the floor, in the maze's own frame.
@@ -24,7 +25,7 @@ pub(crate) struct Floor {
     /// Middle of the first cell, at the height of the ball's centre \[m\].
     origin: DVec3,
     grid: Grid,
-    /// Whether the ball touches an end wall there, or nearly.
+    /// Whether the ball in a cell touches an end wall, or nearly does.
     at_end_wall: Vec<bool>,
     /// Radius of the ball \[m\].
     radius: f64,
@@ -49,7 +50,7 @@ impl Floor {
         Ok(floor)
     }
 
-    /// Which cells are free and touch an end wall.
+    /// Returns which cells are free and touch an end wall.
     fn touching_end_walls(&self, maze: &Maze, points: &[DVec3]) -> Result<Vec<bool>, MazeError> {
         let mut ends = maze.scene().clone();
         ends.colliders = maze.with_role(|role| role == Role::EndWall).cloned().collect();
@@ -59,18 +60,18 @@ impl Floor {
         Ok(points.iter().enumerate().map(touches).collect())
     }
 
-    /// Centre of the ball in the middle of a cell \[m\].
+    /// Returns the centre of the ball in the middle of a cell \[m\].
     pub fn point(&self, index: usize) -> DVec3 {
         let (column, row) = (index % self.grid.columns, index / self.grid.columns);
         self.origin + self.grid.cell * DVec3::new(column as f64, 0.0, row as f64)
     }
 
-    /// Edge of a cell \[m\].
+    /// Returns the edge of a cell \[m\].
     pub fn cell(&self) -> f64 {
         self.grid.cell
     }
 
-    /// Distance of a cell to what blocks the ball \[m\].
+    /// Returns the distance of a cell from the nearest blocked cell \[m\].
     pub fn clearance(&self, index: usize) -> f64 {
         self.grid.clearance(index)
     }
@@ -83,7 +84,7 @@ impl Floor {
         self.grid.len()
     }
 
-    /// The cell that a point is in.
+    /// Returns the cell that contains a point.
     pub fn cell_at(&self, point: DVec3) -> Option<usize> {
         let place = (point - self.origin) / self.grid.cell;
         let (column, row) = ((place.x + 0.5).floor(), (place.z + 0.5).floor());
@@ -92,7 +93,7 @@ impl Floor {
         is_inside.then(|| row as usize * self.grid.columns + column as usize)
     }
 
-    /// The free cell that is nearest to a point, at most half a radius away.
+    /// Returns the free cell nearest to a point, at most half a radius away.
     pub fn cell_near(&self, point: DVec3) -> Option<usize> {
         let reach = (0.5 * CELLS_PER_RADIUS) as isize;
         let steps = |x: isize, z: isize| self.grid.cell * DVec3::new(x as f64, 0.0, z as f64);
@@ -109,9 +110,9 @@ impl Floor {
         nearest.1
     }
 
-    /// Free cells from which the ball touches a sphere-like thing, with something to spare.
+    /// Returns the free cells from which the ball touches a sphere, with a margin.
     pub fn cells_touching(&self, center: DVec3, radius: f64) -> Vec<usize> {
-        // Well inside: the ball shall not have to aim.
+        // Well inside, so that the ball need not aim.
         const DEPTH: f64 = 0.85;
         let reach = DEPTH * (radius + self.radius);
         let near = |&index: &usize| {
@@ -120,30 +121,31 @@ impl Floor {
         (0..self.len()).filter(near).collect()
     }
 
-    /// Free cells from which the ball touches an end wall.
+    /// Returns the free cells from which the ball touches an end wall.
     pub fn cells_at_end_walls(&self) -> Vec<usize> {
         (0..self.len()).filter(|&index| self.at_end_wall[index]).collect()
     }
 
-    /// Cost of the way from any of some cells to each; infinite where there is none.
+    /// Returns the cost of the way from the nearest of `cells` to each cell; infinite if there is
+    /// none.
     pub fn costs_from(&self, cells: &[usize]) -> Vec<f64> {
         self.costs(cells, |_| 1.0)
     }
 
-    /// Cost of the way from any of some cells to each, `extra` times as much in each cell as it says;
-    /// infinite where there is none.
+    /// Returns the cost of the way from the nearest of `cells` to each cell, multiplied in each
+    /// cell by `extra`; infinite if there is none.
     pub fn costs(&self, cells: &[usize], extra: impl Fn(usize) -> f64) -> Vec<f64> {
         route::costs(&self.grid, cells, extra)
     }
 
-    /// Neighbours of a cell, with their distance \[cells\].
+    /// Returns the neighbours of a cell with their distance \[cells\].
     pub fn neighbours(&self, index: usize) -> impl Iterator<Item = (usize, f64)> {
         self.grid.neighbours(index)
     }
 
-    /// Whether the ball can go from one point to another on a straight line.
+    /// Returns whether the ball can go straight from one point to another.
     pub fn sees(&self, from: DVec3, to: DVec3) -> bool {
-        // Where the ball is, it is: against a wall, the middle of its cell may be blocked.
+        // The ball's own position is free, even if the middle of its cell near a wall is blocked.
         const AROUND_THE_BALL: f64 = 1.5;
         let way = (to - from).reject_from(DVec3::Y);
         let length = way.length();
@@ -156,12 +158,12 @@ impl Floor {
     }
 }
 
-/// Corners of a box about all that the ball can roll between \[m\].
+/// Returns two corners of a box around everything that the ball can roll between \[m\].
 pub(crate) fn bounds(maze: &Maze) -> [DVec3; 2] {
     let mut bounds = [maze.start(); 2];
     for collider in maze.with_role(|role| role != Role::Ceiling) {
         use carom_scene::scene::Shape;
-        // Half-spaces have no end; what else there is, and the start, bounds the way.
+        // Half-spaces have no end; other colliders and the start bound the way.
         let half = match collider.shape {
             Shape::Sphere { radius } => radius,
             Shape::Rectangle { size_x, size_z } => 0.5 * size_x.max(size_z),
@@ -177,7 +179,7 @@ pub(crate) fn bounds(maze: &Maze) -> [DVec3; 2] {
     bounds
 }
 
-/// Whether the ball can be at a place: on some ground, and in no wall.
+/// Returns whether the ball can be at a position: on ground and in no wall.
 fn is_free(maze: &Maze, world: &World, point: DVec3) -> bool {
     let radius = maze.ball_radius();
     let bottom = point.y - radius;

@@ -1,4 +1,4 @@
-//! The game: the maze tilts, the ball rolls, and what it touches counts.
+//! The game: the maze tilts, the ball rolls, and the ball's contacts count.
 
 use carom::{
     BodyPair, Collider, ColliderId, Contact, DQuat, DVec3, Discrete, Error, Exact, Friction, Pose,
@@ -12,51 +12,51 @@ use crate::options::Options;
 use crate::progress::Progress;
 use crate::tilt::{Steering, Tilt, rotation_vector};
 
-/// Impacts of the ball in a frame. A rolling ball needs some ten; a frame that needs more than this
-/// is taken by the rule `discrete`, after some milliseconds.
+/// Largest number of impacts of the ball in a frame. A rolling ball needs about ten. A frame that
+/// needs more is taken by the rule `discrete`, after some milliseconds.
 const MOST_IMPACTS: u32 = 2_000;
-/// A ball that is deeper in the maze than that \[m\] has sunk in: it is put out again. Far more than
-/// what the rule `exact` leaves uncertain where surfaces turn, far less than one can see.
+/// Depth of overlap with the maze beyond which a ball is moved out \[m\]. Far more than the error
+/// of the rule `exact` at turning surfaces, far less than is visible.
 const SUNK: f64 = 1e-6;
-/// [`SUNK`] of a ball with friction, as a part of its radius: sub-steps leave more.
+/// [`SUNK`] for a ball with friction, as a part of its radius: sub-steps have a larger error.
 const STEPPED_SUNK: f64 = 0.02;
 
-/// Where a game stands.
+/// State of a game.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum GameState {
     /// The ball rolls.
     Rolling,
-    /// The ball touched an end wall; the game stands still until it is played again.
+    /// The ball touched an end wall; the game stops until it is played again.
     Won {
-        /// Time it took \[s\].
+        /// Duration of the game \[s\].
         time: f64,
     },
 }
 
-/// What happened in a frame.
+/// An event in a frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum GameEvent {
-    /// The ball touched a collectible, which vanished.
+    /// The ball touched a collectible, which disappeared.
     Collected {
-        /// Which, in the order of [`Maze::collectibles`].
+        /// Index of the collectible in [`Maze::collectibles`].
         index: usize,
-        /// How many are taken now.
+        /// Number of collectibles taken so far.
         count: usize,
     },
-    /// The ball fell out of the maze and starts again.
+    /// The ball fell out of the maze and was put back to the start.
     Fell,
     /// The ball touched an end wall.
     Won {
-        /// Time it took \[s\].
+        /// Duration of the game \[s\].
         time: f64,
-        /// How many collectibles were taken.
+        /// Number of collectibles taken.
         collected: usize,
-        /// Whether all were, and no game before was won so in less time.
+        /// Whether all were taken, in less time than ever before.
         is_best: bool,
     },
 }
 
-/// A collider of the world, as it is in the level maze.
+/// A collider of the world, with its pose in the level maze.
 #[derive(Debug, Clone)]
 struct Part {
     id: ColliderId,
@@ -66,10 +66,10 @@ struct Part {
 
 /// A game in a maze.
 ///
-/// Time runs from the first frame in which the player steers. The ball starts at rest on the ground,
-/// the maze level. A collectible that the ball touches vanishes and counts. A ball that falls below
-/// [`Options::reset_height`] starts again, with the maze level; what it has collected stays
-/// collected, and time runs on. Touching an end wall wins.
+/// Time starts with the first frame in which the player steers. The ball starts at rest on the
+/// ground in a level maze. A collectible that the ball touches disappears and counts. A ball below
+/// [`Options::reset_height`] returns to the start with a level maze; its collectibles stay taken,
+/// and time continues. Touching an end wall wins.
 #[derive(Debug, Clone)]
 pub struct Game {
     maze: Maze,
@@ -78,9 +78,9 @@ pub struct Game {
     /// The world at the start of a game.
     start: Snapshot,
     ball: SphereId,
-    /// Those that are still there, in the order of the world's colliders.
+    /// Remaining colliders, in the order of the world's colliders.
     parts: Vec<Part>,
-    /// The maze's scene without what was taken.
+    /// The maze's scene without the collectibles taken.
     scene: Scene,
     tilt: Tilt,
     state: GameState,
@@ -93,11 +93,11 @@ pub struct Game {
 }
 
 impl Game {
-    /// A game that has not begun.
+    /// Makes a game that has not begun.
     ///
     /// # Errors
-    /// [`GameError::Option`] for an option that makes no sense, also for a reset height that is not
-    /// below the start.
+    /// [`GameError::Option`] for an invalid option, also for a reset height that is not below the
+    /// start.
     pub fn new(maze: Maze, options: Options) -> Result<Self, GameError> {
         options.validate()?;
         if options.reset_height >= maze.start().y {
@@ -126,11 +126,11 @@ impl Game {
         })
     }
 
-    /// Plays one frame. A game that is won stands still.
+    /// Plays one frame. A won game does not change.
     ///
     /// # Errors
     /// [`GameError::Steering`] for steering that is not finite, [`GameError::Physics`] if a number
-    /// would overflow. The game is then as it was.
+    /// would overflow. The game is then unchanged.
     pub fn step(&mut self, steering: Steering) -> Result<&[GameEvent], GameError> {
         self.events.clear();
         steering.validate()?;
@@ -149,8 +149,8 @@ impl Game {
         Ok(&self.events)
     }
 
-    /// Steps the world by a frame in which the maze turns to `tilt`: by the rule `exact`, and where
-    /// that fails by the rule `discrete`. The ball never gets lost.
+    /// Steps the world by a frame in which the maze turns to `tilt`: by the rule `exact`, or, if
+    /// that fails, by the rule `discrete`, so that the ball never leaves the maze.
     fn step_world(&mut self, tilt: Tilt) -> Result<(), GameError> {
         let before = self.world.snapshot();
         if self.world.overlaps(self.sunk()).is_empty() {
@@ -170,8 +170,8 @@ impl Game {
         stepped
     }
 
-    /// How far the ball can get \[m\] while the maze turns to `tilt`: by its own speed, by what
-    /// gravity adds, and by twice the speed of walls, which an elastic one gives it.
+    /// Returns how far the ball can move \[m\] while the maze turns to `tilt`: its own speed, plus
+    /// the gain from gravity, plus twice the speed of the walls, which an elastic wall transfers.
     fn reach(&self, tilt: Tilt) -> f64 {
         let h = self.options.frame_time;
         let turn = rotation_vector(tilt.rotation() * self.tilt().inverse()).length();
@@ -181,19 +181,19 @@ impl Game {
         h * speed + h * h * self.maze.gravity() + 2.0 * turn * arm
     }
 
-    /// Whether the ball, which was at a place, is where it can have got to, and in no wall.
+    /// Returns whether the ball is within `reach` of its earlier position `place`, and in no wall.
     fn is_lawful(&self, place: DVec3, reach: f64) -> bool {
         let way = self.world.spheres().positions()[0].distance(place);
         way <= reach + self.sunk() && self.world.overlaps(self.sunk()).is_empty()
     }
 
-    /// How deep in the maze a ball has sunk in \[m\].
+    /// Returns the depth of overlap with the maze beyond which a ball is moved out \[m\].
     fn sunk(&self) -> f64 {
         if self.options.friction > 0.0 { STEPPED_SUNK * self.maze.ball_radius() } else { SUNK }
     }
 
-    /// Takes a frame by the rule `discrete`, which always ends: the ball moves, and is put out of
-    /// the maze as it is at the end of the frame.
+    /// Takes a frame by the rule `discrete`, which always ends: the ball moves and is then moved
+    /// out of the maze at its final tilt.
     fn step_roughly(&mut self, tilt: Tilt) -> Result<(), GameError> {
         self.rough_frames += 1;
         self.move_maze(self.tilt, tilt)?;
@@ -212,8 +212,8 @@ impl Game {
         Ok(stepped?)
     }
 
-    /// Sets every collider where it is at one tilt, with the steady motion that takes it to where it
-    /// is at another after a frame. Poses follow from the tilt, so they never drift.
+    /// Sets every collider to its pose at the tilt `from`, with the steady motion that takes it to
+    /// the pose at `to` in a frame. Poses are computed from the tilt, so they never drift.
     fn move_maze(&mut self, from: Tilt, to: Tilt) -> Result<(), GameError> {
         let (before, after) = (from.rotation(), to.rotation());
         let turn = rotation_vector(after * before.inverse()) / self.options.frame_time;
@@ -230,7 +230,7 @@ impl Game {
         Ok(self.world.set_colliders(&changes)?)
     }
 
-    /// Whether the colliders are at rest where a rotation of the maze puts them.
+    /// Returns whether the colliders are at rest in the poses of a rotation of the maze.
     fn is_posed(&self, rotation: DQuat) -> bool {
         let mut both = self.world.colliders().zip(&self.parts);
         both.all(|((_, now), part)| *now == part.level.with_pose(posed(&part.level, rotation)))
@@ -249,7 +249,7 @@ impl Game {
         Ok(())
     }
 
-    /// Takes the collectible at this place among what is still there.
+    /// Removes a remaining collider that is a collectible, and counts it.
     fn take(&mut self, place: usize) -> Result<(), GameError> {
         self.world.remove_collider(self.parts[place].id)?;
         self.parts.remove(place);
@@ -267,7 +267,7 @@ impl Game {
             BodyPair::Collider { collider, .. } => is_end_wall(collider),
             BodyPair::Spheres(..) => false,
         };
-        // What rolls up to a wall slowly is in contact with it, without an impact.
+        // A ball that rolls up to a wall slowly is in contact without an impact.
         let rolls = self.options.friction > 0.0;
         let contacts = if rolls { self.world.contacts() } else { Vec::new() };
         let in_contact = contacts.iter().map(|contact| contact.between);
@@ -282,7 +282,7 @@ impl Game {
         }
     }
 
-    /// Lets a ball that fell start again.
+    /// Puts a fallen ball back to the start.
     fn catch(&mut self) -> Result<(), GameError> {
         let is_low = self.ball_in_maze().0.y < self.options.reset_height;
         if self.state != GameState::Rolling || !is_low {
@@ -300,7 +300,7 @@ impl Game {
         Ok(())
     }
 
-    /// Starts anew: everything is where it was at first, and the time is zero. The best time stays.
+    /// Starts again: everything is at its start, the time is 0, and the best time stays.
     pub fn play_again(&mut self) {
         self.world.restore(&self.start);
         let both = self.world.colliders().zip(self.maze.roles());
@@ -312,7 +312,7 @@ impl Game {
         self.events.clear();
     }
 
-    /// How far the game has got; of one that is won, the best time alone.
+    /// Returns the progress of the game; of a won game, only the best time.
     pub fn progress(&self) -> Progress {
         if self.state != GameState::Rolling {
             let mut again = self.clone();
@@ -332,10 +332,10 @@ impl Game {
         }
     }
 
-    /// Goes on where a game in this maze had got to.
+    /// Continues from the progress of a game in this maze.
     ///
     /// # Errors
-    /// [`GameError`] for what no game in this maze can have come to; this one is then as it was.
+    /// [`GameError`] if no game in this maze can have this progress; the game is then unchanged.
     pub fn resume(&mut self, progress: &Progress) -> Result<(), GameError> {
         let mut game = self.clone();
         game.play_again();
@@ -344,9 +344,9 @@ impl Game {
         Ok(())
     }
 
-    /// Puts ball and maze where they were, in a game at its start.
+    /// Applies a progress to a game at its start.
     fn put(&mut self, progress: &Progress) -> Result<(), GameError> {
-        // A tilt at the limit may be off by a rounding.
+        // A tilt at the limit may exceed it by rounding.
         const SLACK: f64 = 1e-9;
         let is_taken = |part: &Part| match part.role {
             Role::Collectible(index) => !progress.remaining.contains(&index),
@@ -372,20 +372,20 @@ impl Game {
         Ok(())
     }
 
-    /// The maze that is played.
+    /// Returns the maze.
     pub fn maze(&self) -> &Maze {
         &self.maze
     }
 
-    /// How it is played.
+    /// Returns the options.
     pub fn options(&self) -> &Options {
         &self.options
     }
 
-    /// Plays on in another way, from the next frame on.
+    /// Sets the options from the next frame on.
     ///
     /// # Errors
-    /// [`GameError::Option`] for a value that makes no sense; then it is played as before.
+    /// [`GameError::Option`] for an invalid value; the options are then unchanged.
     pub fn set_options(&mut self, options: Options) -> Result<(), GameError> {
         options.validate()?;
         if options.friction != self.options.friction {
@@ -400,51 +400,52 @@ impl Game {
         Ok(())
     }
 
-    /// Length of a frame \[s\].
+    /// Returns the duration of a frame \[s\].
     pub fn frame_time(&self) -> f64 {
         self.options.frame_time
     }
 
-    /// Everything as it is now, tilted; the ball is its only sphere.
+    /// Returns the tilted world, whose only sphere is the ball.
     pub fn world(&self) -> &World {
         &self.world
     }
 
-    /// How everything looks: the scene of the maze without what was taken. Its colliders are in the
-    /// order of those of [`Self::world`], which knows where they are now.
+    /// Returns the scene of the maze without the collectibles taken. Its colliders are in the order
+    /// of those of [`Self::world`], which has their present poses.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
 
-    /// Rotation from the maze to the world.
+    /// Returns the rotation from the maze to the world.
     pub fn tilt(&self) -> DQuat {
         self.tilt.rotation()
     }
 
-    /// The tilt as angles.
+    /// Returns the tilt as angles.
     pub fn tilt_angles(&self) -> Tilt {
         self.tilt
     }
 
-    /// Position \[m\] and velocity \[m/s\] of the ball's centre along the axes of the maze. The
-    /// velocity is that in the world: the maze may turn under it.
+    /// Returns position \[m\] and velocity \[m/s\] of the ball's centre along the axes of the maze.
+    /// The velocity is that relative to the world, without the motion of the maze.
     pub fn ball_in_maze(&self) -> (DVec3, DVec3) {
         let spheres = self.world.spheres();
         let into_maze = self.tilt().inverse();
         (into_maze * spheres.positions()[0], into_maze * spheres.velocities()[0])
     }
 
-    /// Whether it is still played.
+    /// Returns whether the game is running or won.
     pub fn state(&self) -> GameState {
         self.state
     }
 
-    /// How many collectibles were taken.
+    /// Returns the number of collectibles taken.
     pub fn collected(&self) -> usize {
         self.collected
     }
 
-    /// Which collectibles are still there, ascending, in the order of [`Maze::collectibles`].
+    /// Returns the remaining collectibles in ascending order, as indices into
+    /// [`Maze::collectibles`].
     pub fn remaining(&self) -> impl Iterator<Item = usize> + '_ {
         self.parts.iter().filter_map(|part| match part.role {
             Role::Collectible(index) => Some(index),
@@ -452,29 +453,29 @@ impl Game {
         })
     }
 
-    /// Time since the player first steered \[s\].
+    /// Returns the time since the player first steered \[s\].
     pub fn elapsed(&self) -> f64 {
         self.frames as f64 * self.options.frame_time
     }
 
-    /// The least time in which this game was won with all collectibles \[s\].
+    /// Returns the least time of a win with all collectibles \[s\].
     pub fn best(&self) -> Option<f64> {
         self.best
     }
 
-    /// What happened in the last frame.
+    /// Returns the events of the last frame.
     pub fn events(&self) -> &[GameEvent] {
         &self.events
     }
 
-    /// Frames that were taken by the rule `discrete`, because in them the ball met walls more often
-    /// than the rule `exact` is allowed to follow, or because it had sunk into a wall.
+    /// Returns the number of frames taken by the rule `discrete`, because the ball hit walls more
+    /// often than the rule `exact` may follow, or overlapped a wall.
     pub fn rough_frames(&self) -> u64 {
         self.rough_frames
     }
 }
 
-/// Gives the world the rule by which a game is played, and the ball its friction.
+/// Sets the rule of the game in the world, and the friction of the ball.
 fn play_with(world: &mut World, options: &Options) -> Result<(), Error> {
     let rolls = options.friction > 0.0;
     let exact = Exact::default().with_max_impacts(MOST_IMPACTS).with_zones(Zones::Never);
@@ -482,7 +483,7 @@ fn play_with(world: &mut World, options: &Options) -> Result<(), Error> {
     world.set_settings(settings(rule, world))?;
     let said = if rolls { Friction::sliding(options.friction) } else { Friction::default() };
     let (id, ball) = (world.spheres().ids()[0], world.spheres().get(0));
-    // What is set begins anew.
+    // Setting a sphere ends its flight and contacts.
     if ball.friction == said { Ok(()) } else { world.set_sphere(id, ball.with_friction(said)) }
 }
 
@@ -490,7 +491,7 @@ fn settings(rule: Rule, world: &World) -> Settings {
     world.settings().with_rule(rule)
 }
 
-/// Pose of a collider when the maze is turned about the origin.
+/// Returns the pose of a collider when the maze is turned about the origin.
 fn posed(level: &Collider, rotation: DQuat) -> Pose {
     Pose {
         position: rotation * level.pose.position,

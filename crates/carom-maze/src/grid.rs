@@ -1,6 +1,6 @@
-//! A grid of free and blocked cells, and which are neighbours.
+//! A grid of free and blocked cells.
 
-/// The eight neighbours of a cell: columns, rows, and distance in cells.
+/// Offsets of the eight neighbours of a cell: columns, rows, and distance in cells.
 const NEIGHBOURS: [(isize, isize, f64); 8] = [
     (-1, 0, 1.0),
     (1, 0, 1.0),
@@ -12,7 +12,7 @@ const NEIGHBOURS: [(isize, isize, f64); 8] = [
     (1, 1, std::f64::consts::SQRT_2),
 ];
 
-/// Cells row by row, each free or blocked.
+/// Cells in rows, each free or blocked.
 #[derive(Debug, Clone)]
 pub(crate) struct Grid {
     /// Edge of a cell \[m\].
@@ -20,7 +20,7 @@ pub(crate) struct Grid {
     pub columns: usize,
     pub rows: usize,
     pub free: Vec<bool>,
-    /// Distance to the nearest blocked cell \[cells\], 0 for these.
+    /// Distance to the nearest blocked cell \[cells\]; 0 for blocked cells.
     pub clearance: Vec<f64>,
 }
 
@@ -29,12 +29,12 @@ impl Grid {
         self.columns * self.rows
     }
 
-    /// Distance of a cell to the nearest blocked one \[m\].
+    /// Returns the distance of a cell from the nearest blocked cell \[m\].
     pub fn clearance(&self, index: usize) -> f64 {
         self.cell * self.clearance.get(index).copied().unwrap_or(0.0)
     }
 
-    /// Neighbours of a cell, with their distance \[cells\].
+    /// Returns the neighbours of a cell with their distance \[cells\].
     pub fn neighbours(&self, index: usize) -> impl Iterator<Item = (usize, f64)> {
         let (columns, rows) = (self.columns, self.rows);
         let (column, row) = (index % columns, index / columns);

@@ -1,6 +1,6 @@
-//! Drawn mazes in metres: the scene of a drawing.
+//! Makes the scene of a drawn maze, in metres.
 //!
-//! Sizes are those of the course's maze, in which ball and walls go together well.
+//! Sizes are those of the course's maze, which suit its ball.
 
 use carom::{DQuat, DVec3};
 use carom_scene::scene::{Collider, Force, Scene, Shape, Sphere, Sun};
@@ -11,25 +11,25 @@ use crate::drawing::{Drawing, Place};
 
 /// Radius of the ball \[m\].
 const BALL_RADIUS: f64 = 0.5;
-/// Clear width of a way \[m\]: the ball has almost half its size to spare.
+/// Clear width of a corridor \[m\]: almost half a ball wider than the ball.
 const WAY: f64 = 1.45;
 /// Thickness of a thin wall \[m\].
 const THIN: f64 = 0.25;
-/// Height of a wall \[m\], of which a part is below the ground.
+/// Height of a wall, and how much of it is below the ground \[m\].
 const WALL_HEIGHT: f64 = 1.6;
 const WALL_BELOW_GROUND: f64 = 0.13;
 const WALL_RESTITUTION: f64 = 0.2;
-/// What the ceiling leaves above the ball \[m\]: it cannot jump over walls.
+/// Space between the ball and the ceiling \[m\], too little to jump over walls.
 const HEADROOM: f64 = 0.03;
 const COLLECTIBLE_RADIUS: f64 = 0.25;
-/// Height of collectibles above the ground \[m\]: seen from above, and touched from the side.
+/// Height of collectibles above the ground \[m\]: visible from above, touched from the side.
 const COLLECTIBLE_HEIGHT: f64 = 0.6;
-/// Downward \[m/s²\].
+/// Downward acceleration \[m/s²\].
 const GRAVITY: f64 = 9.8;
-/// Names by which [`Maze::from_scene`](crate::Maze::from_scene) and people know the parts.
+/// Name of end walls, which [`Maze::from_scene`](crate::Maze::from_scene) recognises.
 const END_WALL: &str = "end wall";
 
-/// Edges \[m\] of columns or rows, about 0.
+/// Edges \[m\] of columns or rows, centred at 0.
 struct Edges(Vec<f64>);
 
 impl Edges {
@@ -48,7 +48,7 @@ impl Edges {
         2.0 * self.0[self.0.len() - 1]
     }
 
-    /// At a number of columns or rows; between edges in proportion.
+    /// Returns the coordinate at a number of columns or rows, interpolated between edges \[m\].
     fn at(&self, number: f64) -> f64 {
         let before = (number as usize).min(self.0.len() - 2);
         self.0[before] + (number - before as f64) * (self.0[before + 1] - self.0[before])
@@ -59,7 +59,7 @@ impl Edges {
     }
 }
 
-/// The scene of a drawing: the ground is at y = 0, the first row at the far side, -z.
+/// Returns the scene of a drawing. The ground is at y = 0, and the first row at the far side, -z.
 pub(crate) fn scene(drawing: &Drawing, name: &str) -> Scene {
     let x = Edges::new(drawing.columns, drawing.thin_walls);
     let z = Edges::new(drawing.rows, drawing.thin_walls);
@@ -87,7 +87,7 @@ pub(crate) fn scene(drawing: &Drawing, name: &str) -> Scene {
     scene
 }
 
-/// A level rectangle as large as the maze.
+/// Returns a level rectangle of the size of the maze.
 fn plate(name: &str, x: &Edges, z: &Edges) -> Collider {
     let shape = Shape::Rectangle { size_x: x.whole(), size_z: z.whole() };
     Collider { restitution: 0.0, ..collider(name, shape, [0.0; 3]) }
@@ -111,7 +111,7 @@ fn collider(name: &str, shape: Shape, position: [f64; 3]) -> Collider {
     Collider { name: name.to_owned(), position, ..Collider::new(shape) }
 }
 
-/// The course's light.
+/// Returns the sun of the course.
 fn sun() -> Sun {
     Sun {
         rotation: [-0.408217902, 0.234569701, 0.109381601, 0.875426105],

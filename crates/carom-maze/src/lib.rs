@@ -1,9 +1,9 @@
-//! The maze game: a ball on a floor between walls, which the player tilts. No drawing, no clock.
+//! The maze game: the player tilts a floor with walls, on which a ball rolls. No drawing, no clock.
 //!
-//! A [`Maze`] is a scene whose colliders have roles: ground, walls, end walls, collectibles. It is
-//! the course's ([`Maze::course`]), drawn with characters ([`Maze::from_text`]) or made at random
-//! ([`Maze::random`]). A [`Game`] plays in it, frame by frame, under a [`Steering`]; a [`Player`]
-//! finds the way by itself.
+//! A [`Maze`] is a scene whose colliders have roles: ground, walls, end walls, collectibles. It can
+//! be the course's ([`Maze::course`]), drawn with characters ([`Maze::from_text`]) or random
+//! ([`Maze::random`]). A [`Game`] advances by frames under a [`Steering`]; a [`Player`] plays by
+//! itself.
 //!
 //! ```
 //! use carom_maze::{Game, Maze, Options, Player};
@@ -21,10 +21,10 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! A frame of the game: the *tilt* follows the steering, the *motion* of every collider takes it
-//! from the old tilt to the new one, the *world* is stepped, and *events* are read from its report.
+//! In a frame of the game the *tilt* follows the steering, the *motion* of every collider takes it
+//! from the old tilt to the new one, the *world* is stepped, and its report yields *events*.
 //!
-//! [`Episodes`] are for agents that learn: many balls at once, each under a tilt of its own.
+//! [`Episodes`] are for learning agents: many balls at once, each with its own tilt.
 
 #![warn(clippy::unwrap_used)]
 
@@ -60,7 +60,7 @@ pub use random::{MOST_CELLS_PER_SIDE, random_text};
 pub use text_problem::TextProblem;
 pub use tilt::{Steering, Tilt};
 
-/// The program of the README, compiled and run as a documentation test.
+/// The program of the README as a documentation test.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -1,4 +1,4 @@
-//! A maze: a scene in its own frame, and what each collider is in the game.
+//! A maze: a scene in its own frame, with the role of each collider.
 
 use carom::{DQuat, DVec3};
 use carom_scene::Library;
@@ -6,29 +6,29 @@ use carom_scene::scene::{Collider, Color, Colors, Force, Scene, Shape, Sphere};
 
 use crate::error::MazeError;
 
-/// Colours of what has none in the scene.
+/// Colours of parts without a colour in the scene.
 const WALL_COLOR: Color = [0.42, 0.55, 0.71];
 const END_WALL_COLOR: Color = [0.80, 0.25, 0.22];
 const GROUND_COLOR: Color = [0.86, 0.86, 0.84];
 const COLLECTIBLE_COLOR: Color = [0.95, 0.76, 0.2];
 const BALL_COLOR: Color = [0.66, 0.24, 0.52];
 
-/// What a collider is in the game.
+/// Role of a collider in the game.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
-    /// The ball bounces off it.
+    /// A wall that the ball bounces off.
     Wall,
-    /// A ball that touches it wins.
+    /// A wall that wins the game when the ball touches it.
     EndWall,
-    /// The ball rolls on it.
+    /// A surface that the ball rolls on.
     Ground,
-    /// It faces down, and keeps the ball from jumping.
+    /// A surface that faces down and keeps the ball from jumping.
     Ceiling,
-    /// It vanishes when touched, and counts. The number is its place among the collectibles.
+    /// A part that the ball takes by touching it. The number is its index among the collectibles.
     Collectible(usize),
 }
 
-/// A maze in its own frame, level: the scene, and the role of each of its colliders.
+/// A level maze in its own frame: the scene, and the role of each of its colliders.
 #[derive(Debug, Clone)]
 pub struct Maze {
     scene: Scene,
@@ -39,25 +39,26 @@ pub struct Maze {
 }
 
 impl Maze {
-    /// The maze of the course.
+    /// Returns the maze of the course.
     ///
     /// # Errors
-    /// None but what a broken built-in scene would give.
+    /// Only errors of a broken built-in scene.
     pub fn course() -> Result<Self, MazeError> {
         let (scene, _) = Library::new().find("maze", &[])?;
         Self::from_scene(&scene)
     }
 
-    /// A maze from a scene with one sphere, the ball. Solid colliders named "end wall" win, trigger
-    /// spheres and boxes are collectibles, rectangles and half-spaces that face up are ground,
-    /// those that face down ceiling, and all else is wall. Colours and camera are the scene's.
+    /// Makes a maze from a scene with one sphere, the ball. Solid colliders named "end wall" are
+    /// end walls, trigger spheres and boxes are collectibles, rectangles and half-spaces that face
+    /// up are ground, those that face down are ceiling, and all others are walls. Colours and
+    /// camera are the scene's.
     ///
-    /// The ball starts at rest on the ground under its place in the scene. How the scene is
-    /// stepped, and motion in it, do not matter: the game decides that.
+    /// The ball starts at rest on the ground below its position in the scene. The game ignores the
+    /// scene's simulation settings and motion.
     ///
     /// # Errors
     /// [`MazeError`] without a ball, ground under it, gravity, or an end wall; if the ball overlaps
-    /// a wall at its start; and for a scene that makes no sense.
+    /// a wall at its start; and for an invalid scene.
     pub fn from_scene(scene: &Scene) -> Result<Self, MazeError> {
         let name = || scene.name.clone();
         let count = scene.spheres.len() + scene.generators.len() + scene.emitters.len();
@@ -71,7 +72,7 @@ impl Maze {
         if !roles.contains(&Role::EndWall) {
             return Err(MazeError::NoEndWall { scene: name() });
         }
-        // A world of the scene as it is checks every number in it.
+        // Making a world checks all numbers of the scene.
         let mut scene = scene.clone();
         scene.simulation.allow_overlap = true;
         let ball_in_world = scene.world()?.spheres().get(0);
@@ -100,43 +101,44 @@ impl Maze {
         Ok(Self { scene, roles, start, radius, gravity })
     }
 
-    /// What it is called for people.
+    /// Returns the title for display.
     pub fn title(&self) -> &str {
         if self.scene.title.is_empty() { &self.scene.name } else { &self.scene.title }
     }
 
-    /// Everything in it, level, the ball at its start; with camera, sun and colours.
+    /// Returns the level scene with the ball at its start, with camera, sun and colours.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
 
-    /// What each collider of [`Self::scene`] is, in the same order.
+    /// Returns the role of each collider of [`Self::scene`], in the same order.
     pub fn roles(&self) -> &[Role] {
         &self.roles
     }
 
-    /// Where the centre of the ball starts \[m\].
+    /// Returns the start of the ball's centre \[m\].
     pub fn start(&self) -> DVec3 {
         self.start
     }
 
-    /// Radius of the ball \[m\].
+    /// Returns the radius of the ball \[m\].
     pub fn ball_radius(&self) -> f64 {
         self.radius
     }
 
-    /// Acceleration of the ball downward \[m/s²\], > 0.
+    /// Returns the downward acceleration of the ball \[m/s²\], > 0.
     pub fn gravity(&self) -> f64 {
         self.gravity
     }
 
-    /// Centres of the collectibles \[m\], in their order.
+    /// Returns the centres of the collectibles \[m\] in order.
     pub fn collectibles(&self) -> impl Iterator<Item = DVec3> + '_ {
         self.with_role(|role| matches!(role, Role::Collectible(_)))
             .map(|collider| DVec3::from_array(collider.position))
     }
 
-    /// Centres and radii \[m\] of spheres in the collectibles, which touch the ball when they do.
+    /// Returns centre and radius \[m\] of a sphere inside each collectible: a ball that touches the
+    /// sphere touches the collectible.
     pub(crate) fn collectible_spheres(&self) -> impl Iterator<Item = (DVec3, f64)> + '_ {
         let inner = |shape: &Shape| match *shape {
             Shape::Sphere { radius } => radius,
@@ -149,7 +151,7 @@ impl Maze {
             .map(move |it| (DVec3::from_array(it.position), inner(&it.shape)))
     }
 
-    /// Centres and radii \[m\] of spheres about the collectibles.
+    /// Returns centre and radius \[m\] of a sphere around each collectible.
     pub(crate) fn collectible_reaches(&self) -> impl Iterator<Item = (DVec3, f64)> + '_ {
         let outer = |shape: &Shape| match *shape {
             Shape::Sphere { radius } => radius,
@@ -163,7 +165,7 @@ impl Maze {
             .map(move |it| (DVec3::from_array(it.position), outer(&it.shape)))
     }
 
-    /// Colliders of some roles.
+    /// Returns the colliders with some roles.
     pub(crate) fn with_role(&self, is_it: fn(Role) -> bool) -> impl Iterator<Item = &Collider> {
         let both = self.scene.colliders.iter().zip(&self.roles);
         both.filter(move |(_, role)| is_it(**role)).map(|(collider, _)| collider)
@@ -188,24 +190,25 @@ fn roles(colliders: &[Collider]) -> Vec<Role> {
     colliders.iter().map(role).collect()
 }
 
-/// Direction of a collider's own y axis.
+/// Returns the direction of a collider's own y axis.
 fn up(collider: &Collider) -> DVec3 {
     let rotation = DQuat::from_array(collider.rotation);
     if rotation.length_squared() > 0.0 { rotation.normalize() * DVec3::Y } else { DVec3::Y }
 }
 
-/// Acceleration \[m/s²\] downward of a ball of some mass \[kg\].
+/// Returns the downward acceleration \[m/s²\] of a ball of this mass \[kg\].
 fn gravity(forces: &[Force], mass: f64) -> f64 {
     let down = forces.iter().map(|force| match force {
         Force::Constant { force } => -force[1] / mass,
         Force::Gravity { acceleration } => -acceleration[1],
-        // Others push where the ball is or as it moves: none is a weight.
+        // Other forces depend on position or motion, so they are no weight.
         _ => 0.0,
     });
     down.sum()
 }
 
-/// Height \[m\] of a ground above or below a place; `None` if it does not reach there.
+/// Returns the height \[m\] of a ground above or below a position; `None` if it does not reach
+/// there.
 pub(crate) fn ground_height(collider: &Collider, place: DVec3) -> Option<f64> {
     let center = DVec3::from_array(collider.position);
     let normal = up(collider);
@@ -222,7 +225,7 @@ pub(crate) fn ground_height(collider: &Collider, place: DVec3) -> Option<f64> {
     reaches.then_some(height)
 }
 
-/// Gives colours to what has none.
+/// Gives default colours to parts without a colour.
 fn color(scene: &mut Scene, roles: &[Role]) {
     let walls = scene.colors.as_ref().and_then(|colors| colors.colliders).unwrap_or(WALL_COLOR);
     for (collider, role) in scene.colliders.iter_mut().zip(roles) {

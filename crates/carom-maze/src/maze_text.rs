@@ -1,4 +1,4 @@
-//! Mazes from text: drawn ones, and random ones.
+//! Mazes from text: drawn and random.
 
 use carom_scene::SceneError;
 
@@ -11,14 +11,16 @@ use crate::random;
 use crate::text_problem::TextProblem;
 
 impl Maze {
-    /// A maze drawn with characters: `#` wall, space or `.` floor, `o` collectible, `S` start, `E`
-    /// end wall; the last line is nearest to the viewer. Lines before the drawing may say
-    /// `title: ...` and `walls: thin`: then the first, third, fifth, ... column and row, where walls
-    /// stand, are as narrow as the course's walls. `name` is what the maze is called in errors.
+    /// Makes a maze drawn with characters: `#` wall, space or `.` floor, `o` collectible, `S`
+    /// start, `E` end wall; the last line is nearest to the viewer. Lines above the drawing may be
+    /// `title: ...` and `walls: thin`. With thin walls, odd columns and rows (the first, third,
+    /// ...), in which the walls are, are as narrow as the course's walls. `name` is the maze's name
+    /// in errors.
     ///
     /// # Errors
-    /// [`MazeError::Text`], with line and column: an unknown character, no start or two, no end, no
-    /// way between them or to a collectible that is wide enough for the ball, too large, or nothing at all.
+    /// [`MazeError::Text`] with line and column: an unknown character, no start or two, no end, no
+    /// way from the start to an end or a collectible that is wide enough for the ball, a drawing
+    /// that is too large or empty.
     pub fn from_text(text: &str, name: &str) -> Result<Self, MazeError> {
         let drawing = Drawing::read(text, name)?;
         let at_start =
@@ -46,8 +48,9 @@ impl Maze {
         Ok(maze)
     }
 
-    /// A maze with one way between any two places, collectibles in dead ends and the end wall far
-    /// from the start. The same seed and size give the same maze; [`random_text`] draws it.
+    /// Makes a maze with exactly one way between any two positions, collectibles in dead ends, and
+    /// the end wall far from the start. The same seed and size give the same maze; [`random_text`]
+    /// draws it.
     ///
     /// [`random_text`]: crate::random_text
     ///

@@ -1,22 +1,22 @@
-//! How a game is played: values chosen per game.
+//! Options of a game.
 
 use crate::error::GameError;
 
-/// How a game is played.
+/// Options of a game.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {
     /// Length of a frame \[s\], > 0.
     pub frame_time: f64,
-    /// How fast the maze turns about each axis \[°/s\], > 0.
+    /// Turning speed of the maze about each axis \[°/s\], > 0.
     pub tilt_speed_degrees_per_second: f64,
-    /// Coefficient of friction of the ball, >= 0. Without any it slides, as in the course's maze, and does
-    /// not turn; with some it rolls, and the rule `contact` takes all frames.
+    /// Coefficient of friction of the ball, >= 0. At 0 the ball slides without turning, as in the
+    /// course's maze. Above 0 it rolls, and the rule `contact` takes all frames.
     pub friction: f64,
-    /// Largest tilt against level \[°\], in (0, 45].
+    /// Largest angle between the maze and level \[°\], in (0, 45].
     pub max_tilt_degrees: f64,
-    /// Whether the maze turns back to level about an axis that is not steered.
+    /// Whether the maze turns back to level about an axis without steering.
     pub levels_back: bool,
-    /// The ball starts again when it is below this, along the maze's own up \[m\].
+    /// Height below which the ball returns to the start, along the maze's own up \[m\].
     pub reset_height: f64,
 }
 
@@ -24,13 +24,13 @@ impl Default for Options {
     fn default() -> Self {
         Self {
             frame_time: 1.0 / 60.0,
-            // The course's 0.2° in each of 50 frames a second.
+            // In the course: 0.2° in each of 50 frames a second.
             tilt_speed_degrees_per_second: 10.0,
             friction: 0.0,
-            // Twice as fast a ball as at 10°, and walls still hide little of the floor.
+            // The ball is twice as fast as at 10°, and walls still hide little of the floor.
             max_tilt_degrees: 20.0,
             levels_back: true,
-            // The course's.
+            // As in the course.
             reset_height: -5.0,
         }
     }

@@ -1,4 +1,4 @@
-//! A player that finds the way: it plans over the free floor and steers by tilting.
+//! A computer player: it plans over the free floor and steers by tilting.
 
 use carom::DVec3;
 
@@ -8,36 +8,36 @@ use crate::game::Game;
 use crate::maze::Maze;
 use crate::tilt::{Steering, Tilt};
 
-/// How far ahead on its way the ball aims at most \[m\].
+/// Largest distance along the way to the point that the ball aims at \[m\].
 const LOOKAHEAD: f64 = 2.5;
-/// Speed that is aimed at, at most \[m/s\].
+/// Largest target speed \[m/s\].
 const TOP_SPEED: f64 = 2.0;
-/// Deceleration that is counted on before the point aimed at \[m/s²\].
+/// Assumed deceleration before the target point \[m/s²\].
 const BRAKING: f64 = 0.8;
-/// Within this time \[s\] a small error of velocity shall be gone.
+/// Time in which a small error of velocity is corrected \[s\].
 const RESPONSE: f64 = 0.35;
-/// Steepest tilt that is aimed at \[rad\]: steeper, the ball gets too fast to be stopped in time.
+/// Steepest tilt \[rad\]: at more, the ball would become too fast to stop in time.
 const STEEPEST: f64 = 10.0 / 180.0 * std::f64::consts::PI;
-/// How much longer a way may be that does not pass an end wall before its time.
+/// Factor of the cost of cells at an end wall before the player wants to win.
 const DETOUR: f64 = 100.0;
 
-/// Where the player goes.
+/// The present destination of the player.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Goal {
     Collectible(usize),
     EndWall,
 }
 
-/// A player that knows the maze.
+/// A computer player that knows the maze.
 ///
-/// It goes to the nearest collectible until it has as many as it wants, and then to an end wall. To
-/// each goal it knows the cost of the way from everywhere, so wherever the ball gets to, it goes on
-/// from there.
+/// It goes to the nearest collectible until it has as many as it wants, then to an end wall. It
+/// knows the cost of the way to its goal from everywhere, so it can continue from any position.
 #[derive(Debug, Clone)]
 pub struct Player {
     floor: Floor,
     wanted: usize,
-    /// Cells in which the ball touches each collectible; none for those out of reach.
+    /// For each collectible, the cells from which the ball touches it; empty if it cannot be
+    /// reached.
     collectibles: Vec<Vec<usize>>,
     end_walls: Vec<usize>,
     goal: Option<Goal>,
@@ -46,10 +46,10 @@ pub struct Player {
 }
 
 impl Player {
-    /// A player that wants this many collectibles before it wins.
+    /// Makes a player that takes this many collectibles before it wins.
     ///
     /// # Errors
-    /// [`PlanError`] if the ball cannot get to as many, or to no end wall.
+    /// [`PlanError`] if the ball cannot reach this many, or no end wall.
     pub fn new(maze: &Maze, wanted: usize) -> Result<Self, PlanError> {
         let unusable = |error: MazeError| PlanError::Maze(error.to_string());
         let floor = Floor::new(maze).map_err(unusable)?;
@@ -71,12 +71,12 @@ impl Player {
         Ok(Self { floor, wanted, collectibles, end_walls, goal: None, costs: Vec::new() })
     }
 
-    /// Which collectibles the ball can get to, ascending.
+    /// Returns the collectibles that the ball can reach, in ascending order.
     pub fn reachable(&self) -> impl Iterator<Item = usize> + '_ {
         (0..self.collectibles.len()).filter(|&index| !self.collectibles[index].is_empty())
     }
 
-    /// What to do in the next frame of a game in the maze that the player knows.
+    /// Returns the steering for the next frame of a game in the player's maze.
     pub fn steer(&mut self, game: &Game) -> Steering {
         let (position, velocity) = game.ball_in_maze();
         let Some(cell) = self.floor.cell_near(position) else {
@@ -92,7 +92,7 @@ impl Player {
         Steering::Towards(Tilt::down(slope(error.x), slope(error.z)))
     }
 
-    /// Takes the next goal if there is none, or the last is reached.
+    /// Chooses the next goal if there is none or the last one is reached.
     fn choose(&mut self, game: &Game, cell: usize) {
         let remaining: Vec<usize> = game
             .remaining()
@@ -124,12 +124,12 @@ impl Player {
         self.goal = Some(goal);
     }
 
-    /// What a cell costs more while an end wall would come too early.
+    /// Returns the factor of the cost of a cell while the player avoids end walls.
     fn detour(&self) -> impl Fn(usize) -> f64 + use<'_> {
         |index| if self.floor.is_at_end_wall(index) { DETOUR } else { 1.0 }
     }
 
-    /// The point to aim at: the farthest on the way that the ball can go to straight on.
+    /// Returns the point to aim at: the farthest point on the way that the ball can reach straight.
     fn target(&self, position: DVec3, cell: usize) -> DVec3 {
         let mut target = self.floor.point(cell);
         let (mut here, mut length) = (cell, 0.0);
@@ -141,7 +141,7 @@ impl Player {
                 .min_by(|a, b| cost(a).total_cmp(&cost(b)))
                 .filter(|best| cost(best) < self.costs[here]);
             let Some((next, distance)) = best else {
-                // Beyond the last cell lies what is to be touched.
+                // The goal lies beyond the last cell.
                 return target + (target - position).reject_from(DVec3::Y);
             };
             if !self.floor.sees(position, self.floor.point(next)) {
@@ -155,7 +155,7 @@ impl Player {
     }
 }
 
-/// Velocity \[m/s\] from which the ball can be stopped at the end of a way \[m\].
+/// Returns a velocity \[m/s\] from which the ball can stop at the end of a way \[m\].
 fn wanted_velocity(way: DVec3) -> DVec3 {
     let way = way.reject_from(DVec3::Y);
     let distance = way.length();
@@ -163,8 +163,9 @@ fn wanted_velocity(way: DVec3) -> DVec3 {
     if distance > 0.0 { way * (speed / distance) } else { DVec3::ZERO }
 }
 
-/// Slope \[rad\] that brings a change of velocity \[m/s\]. From a slope θ, levelling at the rate ω
-/// \[rad/s\] still gives g θ²/(2 ω): so much is left to be gained when levelling has to begin.
+/// Returns the slope \[rad\] that causes a change of velocity \[m/s\]. A slope θ that is levelled
+/// at the rate ω \[rad/s\] still adds g θ²/(2 ω) of speed; levelling must begin when this much is
+/// missing.
 fn slope(change: f64, rate: f64, gravity: f64) -> f64 {
     let levelling = (2.0 * rate * change.abs() / gravity).sqrt();
     let gentle = change.abs() / (gravity * RESPONSE);

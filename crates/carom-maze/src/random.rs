@@ -6,16 +6,16 @@ use rand_pcg::Pcg64;
 use crate::error::MazeError;
 use crate::text_problem::LONGEST_SIDE;
 
-/// Columns or rows of cells, at most.
+/// Largest number of columns or rows of cells.
 pub const MOST_CELLS_PER_SIDE: usize = (LONGEST_SIDE - 1) / 2;
-/// With fewer there is no way to find.
+/// Smallest number of columns or rows; a smaller maze has no way to find.
 const FEWEST_CELLS_PER_SIDE: usize = 2;
-/// Collectibles, at most: dead ends grow with the maze, the patience of players does not.
+/// Largest number of collectibles: more would be tedious.
 const MOST_COLLECTIBLES: usize = 8;
-/// To the left, right, far and near: column, row.
+/// Offsets to the left, right, far and near: column, row.
 const SIDES: [(isize, isize); 4] = [(-1, 0), (1, 0), (0, -1), (0, 1)];
 
-/// Draws a random maze: one way between any two cells, the start in a corner, the end wall in the
+/// Draws a random maze: one way between any two cells, the start in a corner, the end wall at the
 /// border where it is farthest from the start, collectibles in dead ends. The same seed and size
 /// give the same drawing on every platform; [`Maze::from_text`](crate::Maze::from_text) reads it.
 ///
@@ -48,18 +48,18 @@ pub fn random_text(seed: u64, columns: usize, rows: usize) -> Result<String, Maz
 /// A column and a row of cells.
 type Cell = (usize, usize);
 
-/// Place of a cell's middle in the drawing.
+/// Returns the column and row of a cell's middle in the drawing.
 fn middle((column, row): Cell) -> (usize, usize) {
     (2 * column + 1, 2 * row + 1)
 }
 
-/// Place of the wall of a cell at a side.
+/// Returns the column and row of the wall at a side of a cell.
 fn wall(cell: Cell, side: (isize, isize)) -> (usize, usize) {
     let (x, z) = middle(cell);
     (x.wrapping_add_signed(side.0), z.wrapping_add_signed(side.1))
 }
 
-/// A drawing out of which ways are carved.
+/// A drawing in which corridors are carved.
 struct Carving {
     columns: usize,
     rows: usize,
@@ -85,7 +85,8 @@ impl Carving {
         Some((column, row))
     }
 
-    /// Recursive backtracking: walks at random to cells not yet seen, and back where there is none.
+    /// Carves by recursive backtracking: walks at random to new cells, and back where there are
+    /// none.
     fn carve(&mut self, numbers: &mut Numbers) {
         let mut path = vec![(0, 0)];
         self.put(middle((0, 0)), ' ');
@@ -106,7 +107,7 @@ impl Carving {
         }
     }
 
-    /// Ways out of a cell.
+    /// Returns the neighbouring cells that are connected to a cell.
     fn exits(&self, cell: Cell) -> impl Iterator<Item = Cell> + '_ {
         let is_exit = move |side: &(isize, isize)| self.is_open(wall(cell, *side));
         SIDES.into_iter().filter(is_exit).filter_map(move |side| self.neighbour(cell, side))
@@ -117,12 +118,12 @@ impl Carving {
         (0..self.rows).flat_map(move |row| (0..columns).map(move |column| (column, row)))
     }
 
-    /// Cells with one exit.
+    /// Returns the cells with one exit.
     fn dead_ends(&self) -> Vec<Cell> {
         self.cells().filter(|&cell| self.exits(cell).count() == 1).collect()
     }
 
-    /// Steps from a cell to each, row by row.
+    /// Returns the number of steps from a cell to each cell, in rows.
     fn distances(&self, from: Cell) -> Vec<usize> {
         let index = |(column, row): Cell| row * self.columns + column;
         let mut distances = vec![usize::MAX; self.columns * self.rows];
@@ -141,7 +142,7 @@ impl Carving {
         distances
     }
 
-    /// The cell at the border that is farthest, and the place of its wall in the border.
+    /// Returns the border cell that is farthest, and the column and row of its border wall.
     fn farthest_border(&self, distances: &[usize]) -> (Cell, (usize, usize)) {
         let mut farthest = (0, (0, 0), wall((0, 0), SIDES[0]));
         for cell in self.cells() {
@@ -155,7 +156,7 @@ impl Carving {
     }
 }
 
-/// Random numbers, the same on every platform.
+/// Random numbers that are the same on every platform.
 #[derive(Debug, Clone)]
 pub(crate) struct Numbers(Pcg64);
 
@@ -164,13 +165,13 @@ impl Numbers {
         Self(Pcg64::seed_from_u64(seed))
     }
 
-    /// An integer in 0..count.
+    /// Returns an integer in 0..count.
     pub fn below(&mut self, count: usize) -> usize {
-        // The high word of the product: uneven by less than count / 2^64.
+        // The high word of the product; probabilities differ by less than count / 2^64.
         ((u128::from(self.0.next_u64()) * count as u128) >> 64) as usize
     }
 
-    /// Any order, all alike (Fisher and Yates).
+    /// Shuffles items; all orders are equally likely (Fisher and Yates).
     fn shuffle<T>(&mut self, items: &mut [T]) {
         for last in (1..items.len()).rev() {
             items.swap(last, self.below(last + 1));

@@ -1,17 +1,18 @@
-//! Ways over the free floor: costs from some cells to all others.
+//! Shortest ways over the free floor.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use crate::grid::Grid;
 
-/// A way that is this far from walls costs its length; nearer to them more \[m\].
+/// Distance from walls above which a way costs its length \[m\]; nearer to walls it costs more.
 const COMFORTABLE: f64 = 0.25;
-/// How much more a way costs along a wall.
+/// Additional cost of a way along a wall, in lengths of the way.
 const ALONG_A_WALL: f64 = 4.0;
 
-/// Cost of the way \[m\] from any of some cells to each free cell, and infinity where there is none
-/// (Dijkstra). A way near walls costs more, and `extra` times as much in each cell as it says.
+/// Returns the cost of the way \[m\] from the nearest of the cells `from` to each free cell,
+/// infinite if there is none (Dijkstra). A way near walls costs more; `extra` is a factor for each
+/// cell.
 pub(crate) fn costs(grid: &Grid, from: &[usize], extra: impl Fn(usize) -> f64) -> Vec<f64> {
     let price = |index: usize| {
         let near = (1.0 - grid.clearance(index) / COMFORTABLE).max(0.0);
@@ -21,14 +22,14 @@ pub(crate) fn costs(grid: &Grid, from: &[usize], extra: impl Fn(usize) -> f64) -
     spread(grid, from, step)
 }
 
-/// Distance to the nearest cell that is not free, or to the edge \[cells\].
+/// Returns the distance of each cell from the nearest blocked cell \[cells\].
 pub(crate) fn clearance(grid: &Grid) -> Vec<f64> {
     let blocked: Vec<usize> = (0..grid.len()).filter(|&index| !grid.free[index]).collect();
     spread(grid, &blocked, |_, distance| Some(distance))
 }
 
-/// Least cost from any of some cells to each, where `step` gives the cost of entering a cell from a
-/// neighbour at a distance \[cells\], if it can be entered.
+/// Returns the least cost from any of the cells `from` to each cell. `step` returns the cost of
+/// entering a cell from a neighbour at a distance \[cells\], or `None` if it cannot be entered.
 fn spread(grid: &Grid, from: &[usize], step: impl Fn(usize, f64) -> Option<f64>) -> Vec<f64> {
     let mut costs = vec![f64::INFINITY; grid.len()];
     let mut open = BinaryHeap::new();

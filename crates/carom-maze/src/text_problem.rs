@@ -1,33 +1,33 @@
-//! What can be wrong with a drawn maze, and how large one may be.
+//! Errors of drawn mazes, and their largest size.
 
 use thiserror::Error;
 
-/// Characters along a side, at most: more walls than that are no game, and slow.
+/// Largest number of characters along a side; larger mazes are slow and no fun.
 pub(crate) const LONGEST_SIDE: usize = 81;
 
-/// What is wrong with a drawing.
+/// Why a drawing is invalid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum TextProblem {
-    /// A character that means nothing.
+    /// A character is unknown.
     #[error(
         "unknown character {0:?}; a maze is drawn with '#' wall, ' ' or '.' floor, 'o' \
          collectible, 'S' start, 'E' end wall"
     )]
     UnknownCharacter(char),
-    /// `walls:` with something else than `thin` or `thick`.
+    /// `walls:` is neither `thin` nor `thick`.
     #[error("`walls:` must be `thin` or `thick`")]
     UnknownWalls,
     /// Nothing is drawn.
     #[error("nothing is drawn")]
     Empty,
-    /// More characters than a maze may have.
+    /// The drawing is too large.
     #[error("too large: at most {LONGEST_SIDE} lines and columns")]
     TooLarge,
-    /// No `S`.
+    /// There is no `S`.
     #[error("no start: mark it with 'S'")]
     NoStart,
-    /// Another `S`.
+    /// There is a second `S`.
     #[error("a second start; the first is at {line}:{column}")]
     SecondStart {
         /// Line of the first, from 1.
@@ -35,16 +35,16 @@ pub enum TextProblem {
         /// Column of the first, from 1.
         column: usize,
     },
-    /// No `E`.
+    /// There is no `E`.
     #[error("no end wall: mark it with 'E'")]
     NoEnd,
-    /// The ball cannot stand where it starts.
+    /// The ball does not fit at its start.
     #[error("the start is too narrow for the ball")]
     NarrowStart,
-    /// The ball cannot get from the start to an end wall.
+    /// The ball cannot reach an end wall from the start.
     #[error("no way from this start to an end wall that is wide enough for the ball")]
     NoWay,
-    /// The ball cannot get from the start to a collectible.
+    /// The ball cannot reach a collectible from the start.
     #[error("no way from the start to this collectible that is wide enough for the ball")]
     NoWayTo,
 }

@@ -5,15 +5,15 @@ use carom::{DQuat, DVec3};
 use crate::error::GameError;
 use crate::options::Options;
 
-/// The maze is not turned by less than that in a frame \[rad\]: it cannot be seen, and a floor that
-/// hardly turns looks like one at rest.
+/// Smallest turn of the maze in a frame \[rad\]. A smaller one is invisible, and without it the
+/// floor is at rest.
 const FINEST_TURN: f64 = 2e-5;
 
-/// What the player does in a frame.
+/// Action of the player in a frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Steering {
-    /// Turn the maze about the axes of the world, with keys: each a part of the tilt speed in
-    /// \[-1, 1\]; more is cut off.
+    /// Turns the maze about the axes of the world, as keys do: each number is a part of the tilt
+    /// speed in \[-1, 1\]; values outside are clamped.
     ///
     /// Right-handed: about_x > 0 lowers the maze at +z, and the ball rolls to +z, towards the
     /// viewer; about_z > 0 lowers it at -x, and the ball rolls to -x, to the left. See
@@ -24,22 +24,22 @@ pub enum Steering {
         /// About the z axis.
         about_z: f64,
     },
-    /// Turn towards this tilt, with the tilt speed at most: mouse, gamepad, or a device that is
-    /// tilted itself.
+    /// Turns towards this tilt, at most with the tilt speed: for mouse, gamepad, or a tilted
+    /// device.
     Towards(Tilt),
 }
 
 impl Steering {
-    /// No key is held.
+    /// No steering.
     pub const NONE: Self = Self::Turn { about_x: 0.0, about_z: 0.0 };
 
-    /// Turn so that the ball will roll to +x (the key "right") and to +z (the key "down"), each a
-    /// part of the tilt speed in \[-1, 1\].
+    /// Turns the maze so that the ball rolls to +x (the key "right") and to +z (the key "down");
+    /// each number is a part of the tilt speed in \[-1, 1\].
     pub fn roll(to_x: f64, to_z: f64) -> Self {
         Self::Turn { about_x: to_z, about_z: -to_x }
     }
 
-    /// Whether the player does anything.
+    /// Returns whether the player steers.
     pub(crate) fn is_active(self) -> bool {
         match self {
             Self::Turn { about_x, about_z } => about_x != 0.0 || about_z != 0.0,
@@ -54,8 +54,8 @@ impl Steering {
     }
 }
 
-/// A rotation of the maze about a level axis through the origin, without any twist: the components
-/// of its rotation vector \[rad\].
+/// A rotation of the maze about a level axis through the origin, without twist: the components of
+/// its rotation vector \[rad\].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Tilt {
     /// Along the x axis: positive lowers the maze at +z.
@@ -68,19 +68,19 @@ impl Tilt {
     /// No tilt.
     pub const LEVEL: Self = Self { about_x: 0.0, about_z: 0.0 };
 
-    /// The tilt that lowers the maze by these angles \[rad\] at +x and at +z, so that the ball
+    /// Returns the tilt that lowers the maze by these angles \[rad\] at +x and +z, so that the ball
     /// rolls there.
     pub fn down(to_x: f64, to_z: f64) -> Self {
         Self { about_x: to_z, about_z: -to_x }
     }
 
-    /// Angle between the maze's up and the world's \[rad\].
+    /// Returns the angle between the maze's up and the world's up \[rad\].
     pub fn angle(self) -> f64 {
         let Self { about_x, about_z } = self;
         (about_x * about_x + about_z * about_z).sqrt()
     }
 
-    /// The rotation from the maze to the world.
+    /// Returns the rotation from the maze to the world.
     pub fn rotation(self) -> DQuat {
         let angle = self.angle();
         if angle == 0.0 {
@@ -91,7 +91,7 @@ impl Tilt {
         DQuat::from_xyzw(self.about_x * part, 0.0, self.about_z * part, cosine)
     }
 
-    /// The tilt after a frame of steering.
+    /// Returns the tilt after a frame of steering.
     pub(crate) fn steered(self, steering: Steering, options: &Options) -> Self {
         let most = options.tilt_speed_degrees_per_second.to_radians() * options.frame_time;
         let turned = |angle: f64, part: f64| match part.clamp(-1.0, 1.0) {
@@ -109,8 +109,8 @@ impl Tilt {
         }
     }
 
-    /// The tilt that is turned towards a target by at most `most` about each axis, and is at most so
-    /// steep \[rad\].
+    /// Returns the tilt turned towards a target by at most `most` about each axis, no steeper than
+    /// `steepest` \[rad\].
     pub(crate) fn towards(self, target: Self, most: f64, steepest: f64) -> Self {
         let tilt = Self {
             about_x: approached(self.about_x, target.about_x, most),
@@ -119,7 +119,7 @@ impl Tilt {
         tilt.limited(steepest)
     }
 
-    /// The world's direction down, along the axes of the maze.
+    /// Returns the world's down direction along the axes of the maze.
     pub(crate) fn down_in_maze(self) -> DVec3 {
         let angle = self.angle();
         if angle == 0.0 {
@@ -130,7 +130,7 @@ impl Tilt {
         DVec3::new(-self.about_z * part, -cosine, self.about_x * part)
     }
 
-    /// The same direction, at most this steep \[rad\].
+    /// Returns the tilt in the same direction, at most this steep \[rad\].
     fn limited(self, most: f64) -> Self {
         let angle = self.angle();
         if angle <= most {
@@ -141,7 +141,8 @@ impl Tilt {
     }
 }
 
-/// An angle \[rad\] that goes towards a target by no more than `most`, but for [`FINEST_TURN`].
+/// Moves an angle \[rad\] towards a target by at most `most`. Turns smaller than [`FINEST_TURN`]
+/// are skipped or added to the last one.
 fn approached(value: f64, target: f64, most: f64) -> f64 {
     let way = target - value;
     match way.abs() {
@@ -151,14 +152,14 @@ fn approached(value: f64, target: f64, most: f64) -> f64 {
     }
 }
 
-/// The rotation vector \[rad\] of a rotation.
+/// Returns the rotation vector of a rotation \[rad\].
 pub(crate) fn rotation_vector(rotation: DQuat) -> DVec3 {
     let imaginary = DVec3::new(rotation.x, rotation.y, rotation.z);
     let sine = imaginary.length();
     if sine == 0.0 {
         return DVec3::ZERO;
     }
-    // A rotation and its negative are the same; this is the one of less than half a turn.
+    // A quaternion and its negative are the same rotation; this one turns by less than half a turn.
     let half = libm::atan2(sine, rotation.w.abs());
     imaginary * (2.0 * half / sine).copysign(rotation.w)
 }

@@ -1,4 +1,4 @@
-//! Episodes: what earns and ends, and that no ball depends on another.
+//! Episodes: rewards, ends, and independence of the balls.
 
 mod common;
 
@@ -17,18 +17,18 @@ fn episodes(maze: Maze, options: EpisodeOptions, count: usize) -> Episodes {
     Episodes::new(Arc::new(Arena::new(maze, options).unwrap()), count).unwrap()
 }
 
-/// One ball on an open floor.
+/// Returns one episode on an open floor.
 fn on(scene: &Scene, options: EpisodeOptions) -> Episodes {
     episodes(Maze::from_scene(scene).unwrap(), options, 1)
 }
 
-/// Any actions, the same for the same ball and step.
+/// Returns an arbitrary action that depends only on ball and step.
 fn action(ball: usize, step: usize) -> [f64; 2] {
     let part = |number: usize| (number * number % 1009) as f64 / 504.0 - 1.0;
     [part(31 * step + 7 * ball), part(17 * step + 11 * ball + 5)]
 }
 
-/// Steps with one action until the episode is over, for 20 s at most; what the steps earned.
+/// Repeats an action until the episode is over, at most for 20 s; returns the rewards.
 fn until_over(episodes: &mut Episodes, action: [f64; 2]) -> Vec<f64> {
     let mut rewards = Vec::new();
     while episodes.outcome(0) == Outcome::Rolling && rewards.len() < 1000 {
@@ -38,7 +38,7 @@ fn until_over(episodes: &mut Episodes, action: [f64; 2]) -> Vec<f64> {
     rewards
 }
 
-/// All that is known of a ball, to the bit.
+/// Returns the whole state of a ball as bits.
 fn state(episodes: &Episodes, ball: usize) -> (Vec<u64>, u64, Outcome) {
     let ((place, velocity), tilt) = (episodes.motion(ball), episodes.tilt(ball));
     let numbers = [place.to_array(), velocity.to_array()].concat();
@@ -66,7 +66,7 @@ fn an_episode_has_the_same_bits_alone_and_among_others() {
             for (ball, single) in alone.iter_mut().enumerate() {
                 single.step(&[actions[ball]]).unwrap();
                 assert_eq!(state(&many, ball), state(single, 0), "{rule:?}, ball {ball}");
-                // At different times, and while others roll.
+                // Resets happen at different times and while other balls roll.
                 if step % 30 == 4 * ball || single.outcome(0) != Outcome::Rolling {
                     single.reset(&[0], Start::Random).unwrap();
                     many.reset(&[ball], Start::Random).unwrap();
@@ -86,7 +86,7 @@ fn a_ball_on_a_slope_gains_what_gravity_gives() {
             episodes.step(&[[0.5, 0.0]]).unwrap();
         }
         let (_, velocity) = episodes.motion(0);
-        // 1 s at 10°. Fifty frames round some fifty times.
+        // 1 s at 10°. Fifty frames add about fifty rounding errors.
         let expected = 9.8 * libm::sin(10f64.to_radians());
         assert!((velocity.x - expected).abs() < 1e-12, "{rule:?}: {velocity}");
         assert!(velocity.z.abs() < 1e-12);
@@ -98,10 +98,10 @@ fn the_tilt_follows_no_faster_than_it_may() {
     let mut episodes = on(&open_floor(0.0), EpisodeOptions::default());
     for step in 1..=30 {
         episodes.step(&[[1.0, -1.0]]).unwrap();
-        // 60°/s: 1.2° in each of the frames, about both axes, until both make 20°.
+        // 60°/s: 1.2° per frame about both axes, until both together are 20°.
         let expected = (1.2 * step as f64).min(20.0 / 2f64.sqrt()).to_radians();
         let tilt = episodes.tilt(0);
-        // The maze is not turned by less than 2e-5 rad.
+        // Turns below 2e-5 rad are skipped.
         assert!((tilt.about_x + expected).abs() < 2.1e-5, "{tilt:?} after {step}");
         assert!((tilt.about_z + expected).abs() < 2.1e-5, "{tilt:?} after {step}");
     }
@@ -151,7 +151,7 @@ fn a_ball_that_falls_ends_its_episode_and_starts_again_when_it_is_reset() {
         assert_eq!(episodes.outcome(0), Outcome::Fell);
         assert_eq!(rewards.last(), Some(&-1.0));
         let (place, _) = episodes.motion(0);
-        // The rim is at 10 m; a ball this fast goes less than half a metre in a frame.
+        // The edge is at 10 m; a ball this fast moves less than half a metre in a frame.
         assert!((10.0..10.5).contains(&place.z), "{rule:?}: fell at {place}");
         let new = state(&on(&open_floor(0.0), options), 0);
         episodes.reset(&[0], Start::Maze).unwrap();
@@ -169,13 +169,13 @@ fn an_episode_that_takes_too_long_is_over_and_did_not_end_otherwise() {
 
 #[test]
 fn shaping_gives_no_more_than_the_way_there_was_to_go() {
-    // Undiscounted, what shaping adds is the potential at the end, none, less that at the start.
+    // Without discount, shaping adds the final potential, 0, minus the initial one.
     let rewards = Rewards { shaping: 1.0, discount: 1.0, ..Rewards::default() };
     let options = EpisodeOptions { rewards, ..Default::default() };
     let mut episodes = on(&open_floor(0.0), options);
     let earned: f64 = until_over(&mut episodes, [-1.0, 0.0]).iter().sum();
     assert_eq!(episodes.outcome(0), Outcome::Won);
-    // From 0 to the end wall's face at -2.9, which the ball touches half a metre before. The way
+    // From 0 to the end wall's face at -2.9, which the ball touches half a metre earlier. The way
     // ends up to 1.5 cells, 0.125 m, before that, and begins in the middle of a cell.
     let way = earned - 1.0;
     assert!((2.2..=2.45).contains(&way), "{way} m");
@@ -195,9 +195,9 @@ fn a_ball_is_shown_on_the_tilted_ground_without_what_it_has_taken() {
     let world = shown.world().unwrap();
     let (ball, (_, ground)) = (world.spheres().get(0), world.colliders().next().unwrap());
     let up = ground.pose.rotation * carom::DVec3::Y;
-    // 20° to +x, and less to +z.
+    // 20° towards +x, and less towards +z.
     assert!(up.x > 0.3 && up.z > 0.05 && up.y > 0.9, "{up}");
-    // The ball touches the ground, to the rounding of metres.
+    // The ball touches the ground, up to rounding of metres.
     assert!((ball.position.dot(up) - 0.5).abs() < 1e-9);
 }
 

@@ -1,4 +1,4 @@
-//! Every transition of the game: what the ball touches, how it falls, when it wins, when time ends.
+//! Every transition of the game: contacts of the ball, falls, wins, and the end of time.
 
 mod common;
 
@@ -20,7 +20,7 @@ fn a_touched_collectible_vanishes_and_counts_once() {
     assert_eq!(game.remaining().collect::<Vec<_>>(), [0]);
     assert_eq!(game.world().colliders().len(), 3);
     assert_eq!(game.scene().colliders.len(), 3);
-    // Over its place again, on the way back to the end wall.
+    // It passes the same position again on its way back to the end wall.
     let events = until_event(&mut game, LEFT, 20.0);
     assert!(matches!(events[..], [GameEvent::Won { collected: 1, .. }]), "{events:?}");
 }
@@ -118,7 +118,8 @@ fn a_ball_that_nobody_tilts_stays_at_its_start_for_ever() {
 
 #[test]
 fn the_ball_of_the_course_starts_on_the_ground_under_its_place() {
-    // The course lets it fall from y = 0.5, its top through the ceiling; the ground is at -0.2672.
+    // In the course's scene the ball falls from y = 0.5, its top through the ceiling; the ground is
+    // at -0.2672.
     let start = Maze::course().unwrap().start();
     assert_eq!(start.to_array(), [2.23, -0.2672 + 0.5, 0.7]);
 }
@@ -130,7 +131,7 @@ fn what_is_drawn_is_what_is_there() {
     let tilt = game.tilt();
     for ((_, now), level) in game.world().colliders().zip(&game.scene().colliders) {
         let place = tilt * carom::DVec3::from_array(level.position);
-        // Poses were moved by their velocities for a frame: some roundings of 10 m.
+        // Poses were moved by their velocities for a frame: some rounding errors of 10 m.
         assert!(now.pose.position.distance(place) < 1e-13);
     }
     assert!(game.scene().colliders.iter().all(|collider| collider.color.is_some()));
@@ -178,7 +179,7 @@ fn a_game_goes_on_where_it_had_got_to() {
     let mut scene = open_floor(0.0);
     scene.colliders.push(collectible([8.0, 0.5, 8.0]));
     scene.colliders.push(collectible([1.2, 0.5, 0.0]));
-    // It slides without friction, and rolls with it.
+    // The ball slides without friction, and rolls with it.
     for friction in [0.0, 0.15] {
         let options = Options { friction, ..Options::default() };
         let mut first = game_with(&scene, options);
@@ -189,8 +190,8 @@ fn a_game_goes_on_where_it_had_got_to() {
         assert_eq!(second.progress(), first.progress());
         assert_eq!(second.scene(), first.scene());
         let events = [&mut first, &mut second].map(|game| until_event(game, LEFT, 20.0));
-        // What is set flies anew: the same motion to rounding, and `contact` starts its contacts
-        // without the impulses of the frame before.
+        // Setting a sphere restarts its flight, with the same motion up to rounding; `contact`
+        // starts its contacts without the impulses of the frame before.
         let tolerance = if friction == 0.0 { 1e-9 } else { 0.05 };
         let [GameEvent::Won { time, collected, .. }] = events[0][..] else { panic!("{events:?}") };
         let [GameEvent::Won { time: other, collected: also, .. }] = events[1][..] else {
@@ -225,14 +226,14 @@ fn what_no_game_comes_to_is_refused_and_changes_nothing() {
         Progress { position: [f64::INFINITY; 3], ..good.clone() },
         Progress { velocity: [f64::NAN; 3], ..good.clone() },
         Progress { orientation: [0.0; 4], ..good.clone() },
-        // In the end wall.
+        // Inside the end wall.
         Progress { position: [-3.0, 0.5, 0.0], tilt: [0.0; 2], ..good.clone() },
     ];
     for progress in wrong {
         game.resume(&progress).unwrap_err();
         assert_eq!(game.progress(), good);
     }
-    // Numbers of collectibles that are not there are none.
+    // Indices without a collectible are ignored.
     let Progress { remaining, .. } = &good;
     assert_eq!(remaining[..], [0]);
     game.resume(&Progress { remaining: vec![7], best: Some(f64::NAN), ..good.clone() }).unwrap();

@@ -1,4 +1,4 @@
-//! What is a maze and what is not: drawings, scenes, random mazes.
+//! Which drawings, scenes and random mazes are valid.
 
 mod common;
 
@@ -7,7 +7,7 @@ use carom_maze::{
 };
 use common::{open_floor, wall};
 
-/// Place and problem of a drawing that makes no sense.
+/// Returns place and problem of an invalid drawing.
 fn problem(text: &str) -> (Option<(usize, usize)>, TextProblem) {
     match Maze::from_text(text, "test") {
         Err(MazeError::Text { name, place, problem }) if name == "test" => (place, problem),
@@ -63,7 +63,7 @@ fn a_drawing_says_what_is_where() {
     let maze = Maze::from_text(text, "corner").unwrap();
     assert_eq!(maze.title(), "Corner");
     let collectible = maze.collectibles().next().unwrap();
-    // Two cells of 1.45 m to the right of the start, which is on the ground.
+    // Two cells of 1.45 m to the right of the start, at the height of the ball on the ground.
     let way = collectible - maze.start();
     assert!((way.x - 2.9).abs() < 1e-12 && way.z.abs() < 1e-12, "{way}");
     assert_eq!(maze.start().y, maze.ball_radius());
@@ -112,7 +112,7 @@ fn a_random_maze_is_the_maze_that_its_drawing_says() {
 fn random_mazes_of_many_seeds_and_sizes_can_be_won() {
     for seed in 0..12 {
         for (columns, rows) in [(2, 2), (5, 2), (4, 5)] {
-            // Reading one refuses it where there is no way to the end.
+            // `random` refuses a maze without a way to the end.
             Maze::random(seed, columns, rows).unwrap();
         }
     }

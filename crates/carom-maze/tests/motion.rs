@@ -1,4 +1,4 @@
-//! How the maze tilts, and what the ball feels of it.
+//! How the maze tilts, and how its motion acts on the ball.
 
 mod common;
 
@@ -18,7 +18,7 @@ fn the_tilt_goes_by_time_and_not_by_frames() {
         let options = Options { frame_time, ..Options::default() };
         let mut game = game_with(&open_floor(0.0), options);
         play(&mut game, RIGHT, 1.0);
-        // A hundred roundings of a number of this size.
+        // A hundred rounding errors of a number of this size.
         assert!((degrees(&game) - 10.0).abs() < 1e-12, "{}", degrees(&game));
     }
 }
@@ -78,8 +78,8 @@ fn a_ball_on_a_tilted_floor_accelerates_by_g_sin_of_the_tilt() {
     play(&mut game, Steering::Towards(tilt), 0.5);
     let gained = game.ball_in_maze().1 - before;
     let expected = 0.5 * 9.8 * libm::sin(5f64.to_radians()) * DVec3::new(0.8, 0.0, 0.6);
-    // The floor is at rest, so only rounding counts, and what was left of its turning: the ball may
-    // have been 1e-9 m off it.
+    // The floor is at rest, so only rounding counts and the rest of its turning: the ball may have
+    // been 1e-9 m above it.
     assert!((gained - expected).length() < 1e-7, "{gained} is not {expected}");
 }
 
@@ -89,7 +89,7 @@ fn a_floor_that_rises_takes_the_ball_along() {
     scene.spheres[0].position = [5.0, 0.5, 0.0];
     let mut game = game(&scene);
     game.step(Steering::roll(-1.0, 0.0)).unwrap();
-    // About z by 10°/s: a point 5 m from the axis moves at 0.8727 m/s.
+    // About z at 10°/s, a point 5 m from the axis moves at 0.8727 m/s.
     let expected = 10f64.to_radians() * 5.0;
     let rise = game.world().spheres().velocities()[0].y;
     // It turns by 0.17°: the direction changes by 3e-3.
@@ -98,7 +98,7 @@ fn a_floor_that_rises_takes_the_ball_along() {
 
 #[test]
 fn a_wall_that_moves_pushes_the_ball() {
-    // 3 m above the axis, the maze moves sideways. The ball touches a wall on its left.
+    // 3 m above the axis the maze moves sideways. The ball touches a wall on its left.
     let speed_after_a_frame = |with_wall: bool| {
         let mut scene = open_floor(3.0);
         scene.spheres[0].position = [0.0, 3.5, 0.0];
@@ -109,7 +109,7 @@ fn a_wall_that_moves_pushes_the_ball() {
         game.step(RIGHT).unwrap();
         game.world().spheres().velocities()[0].x
     };
-    // The wall has restitution 0: the ball gets its speed, ω times 3.5 m, but for the turn.
+    // The wall has restitution 0, so the ball gets its speed, ω times 3.5 m, up to the turn.
     let wall_speed = 10f64.to_radians() * 3.5;
     assert!((speed_after_a_frame(true) / wall_speed - 1.0).abs() < 5e-3);
     assert!(speed_after_a_frame(false) < 0.01 * wall_speed);
@@ -135,20 +135,20 @@ fn however_it_is_tilted_the_ball_stays_in_the_maze() {
         let mut game = Game::new(maze, Options::default()).unwrap();
         let mut state = 1_u64;
         for frame in 0..1200 {
-            // Knuth's generator: keys change every third of a second.
+            // Knuth's generator; keys change every third of a second.
             if frame % 20 == 0 {
                 state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             }
             let key = |shift: u32| ((state >> shift) % 3) as f64 - 1.0;
             game.step(Steering::roll(key(33), key(40))).unwrap();
-            // Turning surfaces are followed to about 1e-8 m.
+            // The error at turning surfaces is about 1e-8 m.
             assert!(game.world().overlaps(1e-6).is_empty(), "frame {frame}");
         }
         assert_eq!(game.rough_frames(), 0);
     }
 }
 
-/// A game with friction on an open floor.
+/// Returns a game with friction on an open floor.
 fn rolling() -> Game {
     game_with(&open_floor(0.0), Options { friction: 0.4, ..Options::default() })
 }
@@ -156,7 +156,7 @@ fn rolling() -> Game {
 #[test]
 fn with_friction_the_ball_rolls_with_five_sevenths_of_the_acceleration() {
     let (mut sliding, mut rolling) = (game(&open_floor(0.0)), rolling());
-    // Tilted from the start, for the turning floor to do no work.
+    // Tilted first, so that the turning floor does no work in the measured second.
     for game in [&mut sliding, &mut rolling] {
         play(game, Steering::Towards(Tilt::down(0.05, 0.0)), 1.0);
     }
@@ -166,7 +166,7 @@ fn with_friction_the_ball_rolls_with_five_sevenths_of_the_acceleration() {
     }
     let gained = [&sliding, &rolling].map(|game| game.ball_in_maze().1.x);
     let part = (gained[1] - start[1]) / (gained[0] - start[0]);
-    // Frames and sub-steps differ by a frame's part of the second at most.
+    // Frames and sub-steps differ by at most a frame's part of the second.
     assert!((part - 5.0 / 7.0).abs() < 0.02, "{part}");
     let ball = rolling.world().spheres().get(0);
     let slip = ball.velocity.length() - 0.5 * ball.angular_velocity.length();

@@ -1,11 +1,11 @@
-//! The player finds its way: in the course's maze, in random ones, in a drawn one.
+//! The player finds its way in the course's, random and drawn mazes.
 
 mod common;
 
 use carom_maze::{BUILT_IN_DRAWINGS, Game, GameEvent, GameState, Maze, Options, PlanError, Player};
 use common::{collectible, open_floor, wall};
 
-/// Plays until it is won; the time and how many collectibles were taken.
+/// Plays until the game is won; returns the time and the number of collectibles taken.
 fn played(maze: Maze, wanted: usize, seconds: f64) -> (f64, usize) {
     played_with(Options::default(), maze, wanted, seconds)
 }
@@ -65,7 +65,7 @@ fn every_collectible_of_the_course_is_within_reach() {
 fn a_collectible_behind_a_narrow_gap_is_not_within_reach() {
     let mut scene = open_floor(0.0);
     scene.colliders.push(collectible([5.0, 0.5, 0.0]));
-    // A wall across the whole floor but for 0.9 m, less than the ball.
+    // A wall across the whole floor with a gap of 0.9 m, less than the ball.
     scene.colliders.push(wall("wall", [2.0, 0.5, -5.45], [0.2, 1.0, 10.0]));
     scene.colliders.push(wall("wall", [2.0, 0.5, 5.45], [0.2, 1.0, 10.0]));
     let maze = Maze::from_scene(&scene).unwrap();

@@ -1,4 +1,4 @@
-//! What Python gives for one argument; every refusal names it.
+//! Reads single arguments from Python; every error names its argument.
 
 use numpy::{PyArrayDyn, PyArrayMethods};
 use pyo3::exceptions::{PyException, PyOverflowError, PyTypeError};
@@ -7,12 +7,12 @@ use pyo3::types::{PyBool, PyTuple};
 
 use crate::failure::Failure;
 
-/// Reads whatever NumPy makes an array of: numbers, spread to `shape` by NumPy's rules of
-/// broadcasting, in C order.
+/// Reads anything that NumPy turns into an array of numbers, broadcasts it to `shape`, and returns
+/// it in C order.
 ///
 /// # Errors
-/// `TypeError` for what are no numbers, [`Failure`] for numbers of another shape; both name the
-/// argument `name`.
+/// `TypeError` if they are no numbers, [`Failure`] for another shape; both name the argument
+/// `name`.
 pub fn array(name: &str, values: &Bound<'_, PyAny>, shape: &[usize]) -> PyResult<Vec<f64>> {
     let numpy = values.py().import("numpy")?;
     let no_numbers = |what: &str| {
@@ -24,7 +24,7 @@ pub fn array(name: &str, values: &Bound<'_, PyAny>, shape: &[usize]) -> PyResult
         unless_stopped(py, error, || no_numbers("a list of rows of different lengths"))
     })?;
     let dtype = array.getattr("dtype")?;
-    // Floating-point numbers, integers, and unsigned ones.
+    // Floating-point numbers, signed and unsigned integers.
     if !["f", "i", "u"].contains(&dtype.getattr("kind")?.extract::<String>()?.as_str()) {
         return Err(no_numbers(&format!("of {dtype}")));
     }
@@ -41,8 +41,7 @@ pub fn array(name: &str, values: &Bound<'_, PyAny>, shape: &[usize]) -> PyResult
     Ok(numbers.to_vec()?)
 }
 
-/// Returns the error that says what is wrong with an argument, or Ctrl-C, where that came while
-/// NumPy was at work.
+/// Returns the error about an argument, or the KeyboardInterrupt that arrived during a NumPy call.
 fn unless_stopped(py: Python<'_>, error: PyErr, refusal: impl FnOnce() -> PyErr) -> PyErr {
     if error.is_instance_of::<PyException>(py) { refusal() } else { error }
 }
@@ -50,7 +49,7 @@ fn unless_stopped(py: Python<'_>, error: PyErr, refusal: impl FnOnce() -> PyErr)
 /// Reads a number.
 ///
 /// # Errors
-/// `TypeError` for what is none.
+/// `TypeError` if it is none.
 pub fn number(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     if value.is_instance_of::<PyBool>() {
         return Err(wrong_kind(name, "a number", value));
@@ -58,7 +57,7 @@ pub fn number(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     value.extract().map_err(|_| wrong_kind(name, "a number", value))
 }
 
-/// Reads a number that may be missing.
+/// Reads an optional number.
 ///
 /// # Errors
 /// As [`number`].
@@ -69,7 +68,7 @@ pub fn optional_number(name: &str, value: Option<&Bound<'_, PyAny>>) -> PyResult
 /// Reads a count.
 ///
 /// # Errors
-/// `TypeError` for what is no whole number, [`Failure`] for one that is negative or too large.
+/// `TypeError` if it is no whole number, [`Failure`] if it is negative or too large.
 pub fn count(name: &str, value: &Bound<'_, PyAny>) -> PyResult<u64> {
     let py = value.py();
     if value.is_instance_of::<PyBool>() {
@@ -81,10 +80,10 @@ pub fn count(name: &str, value: &Bound<'_, PyAny>) -> PyResult<u64> {
     })
 }
 
-/// Reads the id of something of this kind, like `"sphere"`.
+/// Reads an id; `kind` is what it identifies, for example `"sphere"`.
 ///
 /// # Errors
-/// `TypeError` for what is no whole number, [`Failure`] for one that cannot be an id.
+/// `TypeError` if it is no whole number, [`Failure`] if it cannot be an id.
 pub fn id(kind: &str, value: &Bound<'_, PyAny>) -> PyResult<u64> {
     let py = value.py();
     value.extract().map_err(|error: PyErr| match error.is_instance_of::<PyOverflowError>(py) {
@@ -93,7 +92,7 @@ pub fn id(kind: &str, value: &Bound<'_, PyAny>) -> PyResult<u64> {
     })
 }
 
-/// Refuses arguments without a name in a call of `method`: `example` has the names that there are.
+/// Refuses positional arguments of `method`; `example` shows the call with names.
 ///
 /// # Errors
 /// `TypeError` if there are any.
@@ -112,7 +111,7 @@ fn wrong_kind(name: &str, wanted: &str, value: &Bound<'_, PyAny>) -> PyErr {
     PyTypeError::new_err(format!("{name}: must be {wanted}, not {kind}"))
 }
 
-/// A shape as Python writes it.
+/// Formats a shape as Python does.
 fn written(shape: &[usize]) -> String {
     let lengths: Vec<String> = shape.iter().map(ToString::to_string).collect();
     match lengths.as_slice() {

@@ -1,10 +1,10 @@
-//! Arrays of spheres, as NumPy sees them.
+//! Arrays of spheres for NumPy.
 //!
-//! The memory belongs to Python: a script can read an array for as long as it holds it, whatever
-//! becomes of the world. To read costs nothing; for that, the world writes an array anew after
-//! every frame once a script has read it, as long as the same spheres are there. What a script writes into
-//! an array, the world takes over at its next call. When spheres come
-//! or go, the world lets go of its arrays and makes others at the next read; the old ones keep the
+//! Python owns the memory: a script can read an array as long as it holds it, even without the
+//! world. After a script has read an array, the world updates it after every frame, so reading is
+//! free. The next call on the world applies values that a script wrote into an array. When spheres
+//! are added or removed, the world drops its arrays and makes new ones at the next read; the old
+//! ones keep their last values and become read-only.
 //! last values of their spheres, and cannot be written to.
 
 use carom::{SphereId, Spheres};
@@ -18,19 +18,19 @@ use crate::written::Written;
 /// The arrays of a world that a script has read.
 #[derive(Debug, Default)]
 pub struct Arrays {
-    /// Whose rows they have.
+    /// Spheres of the rows.
     members: Vec<SphereId>,
     quantities: Quantities,
     ids: Option<Py<PyArray1<u64>>>,
 }
 
-/// Arrays of quantities that a script has read, by [`Quantity`].
+/// Arrays of quantities that a script has read, indexed by [`Quantity`].
 #[derive(Debug, Default)]
 pub struct Quantities([Option<Shown>; Quantity::ALL.len()]);
 
 impl Quantities {
-    /// What Python gets to see of a quantity: an array of this shape that is there, or made with
-    /// what `fill` writes.
+    /// Returns the array of a quantity for Python. If it does not exist, it is made with this shape
+    /// and filled by `fill`.
     pub fn get(
         &mut self,
         py: Python<'_>,
@@ -47,7 +47,7 @@ impl Quantities {
         Ok(place.insert(Shown::new(py, values, shape)?).view(py))
     }
 
-    /// Has `fill` write into the arrays of these quantities that are there.
+    /// Calls `fill` for the existing arrays of these quantities.
     pub fn write(
         &mut self,
         py: Python<'_>,
@@ -63,7 +63,7 @@ impl Quantities {
         }
     }
 
-    /// What a script has written: where arrays no longer have the values that `fill` writes.
+    /// Returns the values that a script wrote: those that differ from what `fill` writes.
     pub fn written(&self, py: Python<'_>, fill: impl Fn(Quantity, &mut [f64])) -> Vec<Written> {
         let mut all = Vec::new();
         for (quantity, shown) in Quantity::ALL.into_iter().zip(&self.0) {
@@ -85,35 +85,34 @@ impl Quantities {
         all
     }
 
-    /// Has NumPy refuse to write to the arrays from now on.
+    /// Makes all arrays read-only.
     pub fn freeze(&self, py: Python<'_>) -> PyResult<()> {
         self.0.iter().flatten().try_for_each(|shown| freeze(shown.view.bind(py)))
     }
 }
 
-/// An array, and what Python gets to see of it.
+/// An array, and the view of it that Python gets.
 #[derive(Debug)]
 struct Shown {
     own: Py<PyArrayDyn<f64>>,
-    /// Another array of this memory: a script can have NumPy refuse to write to it, and the world still can.
+    /// A view of the same memory. A script can make it read-only, and the world can still write.
     view: Py<PyAny>,
 }
 
 impl Shown {
-    /// An array of these values.
+    /// Makes an array of these values.
     fn new(py: Python<'_>, values: Vec<f64>, shape: Vec<usize>) -> PyResult<Self> {
         let own = PyArray1::from_vec(py, values).reshape(shape)?;
         let view = own.call_method0("view")?.unbind();
         Ok(Self { own: own.unbind(), view })
     }
 
-    /// What Python gets to see.
+    /// Returns the view.
     fn view(&self, py: Python<'_>) -> Py<PyAny> {
         self.view.clone_ref(py)
     }
 
-    /// Writes into the array; `false` if code in another language is reading it: then it stays as
-    /// it is.
+    /// Writes into the array. Returns `false` without writing if other native code is reading it.
     fn write(&self, py: Python<'_>, write: impl FnOnce(&mut [f64])) -> bool {
         let array = self.own.bind(py);
         let mut borrowed = array.try_readwrite();
@@ -128,7 +127,7 @@ impl Shown {
 }
 
 impl Arrays {
-    /// The array of a quantity, with the values of now.
+    /// Returns the array of a quantity with its present values.
     pub fn get(
         &mut self,
         py: Python<'_>,
@@ -140,7 +139,7 @@ impl Arrays {
         self.quantities.get(py, quantity, shape, |values| quantity.write(spheres, values))
     }
 
-    /// Ids, ascending.
+    /// Returns the ids, ascending.
     pub fn ids(&mut self, py: Python<'_>, spheres: &Spheres) -> PyResult<Py<PyArray1<u64>>> {
         self.follow(py, spheres)?;
         if let Some(ids) = &self.ids {
@@ -153,17 +152,17 @@ impl Arrays {
         Ok(ids)
     }
 
-    /// Writes what a frame changes into the arrays that are there.
+    /// Writes quantities that a frame changes into existing arrays.
     pub fn write_motion(&mut self, py: Python<'_>, spheres: &Spheres) {
         self.write(py, spheres, &Quantity::MOTION);
     }
 
-    /// Writes everything into the arrays that are there.
+    /// Writes all quantities into existing arrays.
     pub fn write_all(&mut self, py: Python<'_>, spheres: &Spheres) {
         self.write(py, spheres, &Quantity::ALL);
     }
 
-    /// What a script has written into them.
+    /// Returns the values that a script wrote.
     pub fn written(&self, py: Python<'_>, spheres: &Spheres) -> Vec<Written> {
         if self.members != spheres.ids() {
             return Vec::new();
@@ -172,12 +171,12 @@ impl Arrays {
     }
 
     fn write(&mut self, py: Python<'_>, spheres: &Spheres, quantities: &[Quantity]) {
-        // An array that could not be frozen is let go of all the same.
+        // An array that could not be made read-only is dropped as well.
         let _ = self.follow(py, spheres);
         self.quantities.write(py, quantities, |quantity, values| quantity.write(spheres, values));
     }
 
-    /// Lets go of the arrays if their spheres are others.
+    /// Drops the arrays if the world has other spheres than their rows.
     fn follow(&mut self, py: Python<'_>, spheres: &Spheres) -> PyResult<()> {
         if self.members == spheres.ids() {
             return Ok(());
@@ -188,18 +187,18 @@ impl Arrays {
     }
 }
 
-/// Ids as an array of their own.
+/// Returns ids as a new array.
 pub fn numbers<'py>(py: Python<'py>, ids: &[SphereId]) -> Bound<'py, PyArray1<u64>> {
     PyArray1::from_vec(py, ids.iter().map(|id| id.number()).collect())
 }
 
-/// Has NumPy refuse to write to an array.
+/// Makes an array read-only.
 fn freeze(array: &Bound<'_, PyAny>) -> PyResult<()> {
     let kwargs = [("write", false)].into_py_dict(array.py())?;
     array.call_method("setflags", (), Some(&kwargs)).map(drop)
 }
 
-/// A list of numbers as an array of this shape; the memory goes to Python uncopied.
+/// Turns a list into an array of this shape without copying.
 pub fn shaped<'py, T: Element>(
     py: Python<'py>,
     values: Vec<T>,

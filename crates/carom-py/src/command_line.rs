@@ -1,4 +1,4 @@
-//! `python -m carom`.
+//! The command line `python -m carom`.
 
 use std::ffi::OsString;
 
@@ -7,9 +7,9 @@ use pyo3::prelude::*;
 use crate::failure::Failure;
 use crate::scenes;
 
-/// Does what the command `carom` does with these arguments, the name of the program first, and
-/// answers with the code to end with. `registered` are the texts of scenes that are found by name
-/// besides those on the disk.
+/// Runs the command `carom` with these arguments, of which the first is the program's name. Returns
+/// the exit code. `registered` are texts of scenes that can be found by name besides those on the
+/// disk.
 #[pyfunction]
 pub fn run_command(
     py: Python<'_>,

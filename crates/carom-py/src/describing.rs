@@ -1,4 +1,4 @@
-//! Telling what is in a world, as JSON. Infinite numbers are `null`.
+//! Describes the contents of a world as JSON. Infinite numbers are `null`.
 
 use carom::SphereId;
 use carom_scene::scene::{Collider, Sphere, Spring};
@@ -12,13 +12,13 @@ use crate::points;
 
 #[pymethods]
 impl Engine {
-    /// How the world is stepped.
+    /// Returns the simulation settings.
     #[pyo3(name = "_simulation_json")]
     fn simulation_json(&self, py: Python<'_>) -> PyResult<String> {
         json(&self.lock(py)?.described.simulation)
     }
 
-    /// Forces by their ids.
+    /// Returns the forces with their ids.
     #[pyo3(name = "_forces_json")]
     fn forces_json(&self, py: Python<'_>) -> PyResult<String> {
         let inner = &*self.lock(py)?;
@@ -26,7 +26,7 @@ impl Engine {
         json(&ids.zip(&inner.described.forces).collect::<Vec<_>>())
     }
 
-    /// Colliders by their ids, where they are now.
+    /// Returns the colliders with their ids and present poses.
     #[pyo3(name = "_colliders_json")]
     fn colliders_json(&self, py: Python<'_>) -> PyResult<String> {
         let inner = &*self.lock(py)?;
@@ -34,7 +34,7 @@ impl Engine {
         json(&ids.zip(colliders_now(inner)).collect::<Vec<_>>())
     }
 
-    /// Emitters by their ids.
+    /// Returns the emitters with their ids.
     #[pyo3(name = "_emitters_json")]
     fn emitters_json(&self, py: Python<'_>) -> PyResult<String> {
         let inner = &*self.lock(py)?;
@@ -42,7 +42,7 @@ impl Engine {
         json(&ids.zip(&inner.described.emitters).collect::<Vec<_>>())
     }
 
-    /// One sphere.
+    /// Returns one sphere.
     #[pyo3(name = "_sphere_json")]
     fn sphere_json(&self, py: Python<'_>, id: &Bound<'_, PyAny>) -> PyResult<String> {
         let id = arguments::id("sphere", id)?;
@@ -52,15 +52,16 @@ impl Engine {
         json(&described(&sphere, inner.palette.own(id)))
     }
 
-    /// The text of a scene that begins as the world is now, but for its spheres and springs, and these, springs in
-    /// JSON: time begins at 0 there, and emitters begin anew.
+    /// Returns the present world as the text of a scene without spheres and springs, then the
+    /// spheres as arrays, then the springs as JSON. In that scene time starts at 0, and emitters
+    /// start again.
     #[pyo3(name = "_scene")]
     fn scene<'py>(&self, py: Python<'py>) -> PyResult<(String, points::Told<'py>, String)> {
         let inner = &mut *self.lock(py)?;
         inner.follow_colors();
         let mut scene = (*inner.described).clone();
         scene.colliders = colliders_now(inner);
-        // Rules that find contacts late let spheres overlap; a scene has to admit it.
+        // Rules that detect contacts late let spheres overlap, which a scene must allow.
         if !scene.simulation.allow_overlap {
             let (spheres, springs) = (spheres_now(inner), Spring::all_of(&inner.world));
             let whole = Scene { spheres, springs, ..scene.clone() };
@@ -71,12 +72,12 @@ impl Engine {
     }
 }
 
-/// A description as JSON.
+/// Returns a description as JSON.
 pub fn json(it: &impl serde::Serialize) -> PyResult<String> {
     Ok(serde_json::to_string(it).map_err(Failure::from)?)
 }
 
-/// The colliders of a world, where they are now.
+/// Returns the colliders of a world with their present poses.
 fn colliders_now(inner: &Inner) -> Vec<Collider> {
     let poses = inner.world.colliders().map(|(_, collider)| collider.pose);
     let moved = |(collider, pose): (&Collider, carom::Pose)| Collider {
@@ -87,7 +88,7 @@ fn colliders_now(inner: &Inner) -> Vec<Collider> {
     inner.described.colliders.iter().zip(poses).map(moved).collect()
 }
 
-/// The spheres of a world, each with its own colour if it has one.
+/// Returns the spheres of a world, each with its own colour if it has one.
 fn spheres_now(inner: &Inner) -> Vec<Sphere> {
     let spheres = inner.world.spheres();
     let paint = |id: &SphereId| inner.palette.own(id.number());
@@ -95,7 +96,7 @@ fn spheres_now(inner: &Inner) -> Vec<Sphere> {
     rows.map(|(i, id)| described(&spheres.get(i), paint(id))).collect()
 }
 
-/// A sphere as scene files write it.
+/// Returns a sphere in the form of scene files.
 fn described(sphere: &carom::Sphere, paint: Paint) -> Sphere {
     Sphere::of(sphere).painted(paint)
 }

@@ -1,6 +1,6 @@
-//! Changing a world from outside.
+//! Changes of a world.
 
-// What is said of methods here is read in Python: units in plain brackets, errors in Google's style.
+// Python shows these comments as docstrings: units in plain brackets, errors in Google's style.
 #![allow(rustdoc::broken_intra_doc_links, rustdoc::invalid_rust_codeblocks)]
 
 use std::sync::Arc;
@@ -20,10 +20,10 @@ use crate::failure::Failure;
 use crate::part::{self, only};
 use crate::points;
 
-/// Adding. What is refused leaves the world as it was.
+/// Additions. A refused one leaves the world unchanged.
 #[pymethods]
 impl Engine {
-    /// Adds the spheres that `text` describes, and answers with their ids.
+    /// Adds the spheres that `text` describes. Returns their ids.
     #[pyo3(name = "_add_described_spheres")]
     fn add_spheres_of<'py>(
         &self,
@@ -36,7 +36,7 @@ impl Engine {
         self.add_all(py, spheres_of(&part)?, paints, may_overlap)
     }
 
-    /// Adds spheres by arrays, and answers with their ids.
+    /// Adds spheres from arrays. Returns their ids.
     #[pyo3(name = "_add_spheres")]
     fn add_spheres_by_arrays<'py>(
         &self,
@@ -48,7 +48,7 @@ impl Engine {
         self.add_all(py, spheres, paints, may_overlap)
     }
 
-    /// Adds the force that `text` describes, and answers with its id.
+    /// Adds the force that `text` describes. Returns its id.
     #[pyo3(name = "_add_force")]
     fn add_force_of(&self, py: Python<'_>, text: &str) -> PyResult<u64> {
         let part = part::read(text)?;
@@ -60,7 +60,7 @@ impl Engine {
         })
     }
 
-    /// Adds the collider that `text` describes, and answers with its id.
+    /// Adds the collider that `text` describes. Returns its id.
     #[pyo3(name = "_add_collider")]
     fn add_collider_of(&self, py: Python<'_>, text: &str) -> PyResult<u64> {
         let part = part::read(text)?;
@@ -73,7 +73,7 @@ impl Engine {
         })
     }
 
-    /// Adds the emitter that `text` describes, and answers with its id.
+    /// Adds the emitter that `text` describes. Returns its id.
     #[pyo3(name = "_add_emitter")]
     fn add_emitter_of(&self, py: Python<'_>, text: &str) -> PyResult<u64> {
         let part = part::read(text)?;
@@ -89,7 +89,7 @@ impl Engine {
 }
 
 impl Engine {
-    /// Adds spheres with their colours, and answers with their ids.
+    /// Adds spheres with their colours. Returns their ids.
     fn add_all<'py>(
         &self,
         py: Python<'py>,
@@ -115,10 +115,10 @@ impl Engine {
     }
 }
 
-/// Changing and removing. Ids are numbers as they were given; any other is refused.
+/// Changes and removals. An id that does not exist is refused.
 #[pymethods]
 impl Engine {
-    /// Changes a sphere to the one that `text` describes.
+    /// Replaces the properties of a sphere by those in `text`.
     #[pyo3(name = "_set_sphere")]
     fn set_sphere_of(&self, py: Python<'_>, id: &Bound<'_, PyAny>, text: &str) -> PyResult<()> {
         let id = arguments::id("sphere", id)?;
@@ -132,10 +132,10 @@ impl Engine {
         })
     }
 
-    /// Takes a sphere out of the world. Those after it move up in the arrays.
+    /// Removes a sphere. Later spheres move up in the arrays.
     ///
     /// Raises:
-    ///     UnknownError: If it is not in the world (any more).
+    ///     UnknownError: If the world does not (or no longer) contain it.
     fn remove_sphere(&self, py: Python<'_>, id: &Bound<'_, PyAny>) -> PyResult<()> {
         let id = arguments::id("sphere", id)?;
         self.change(py, |inner| {
@@ -144,18 +144,19 @@ impl Engine {
         })
     }
 
-    /// Takes spheres out of the world, those of these ids, or those that n truth values mark. Those after
-    /// them move up in the arrays.
+    /// Removes the spheres with these ids, or those that n booleans mark. Later spheres move up in
+    /// the arrays.
     ///
     /// Raises:
-    ///     UnknownError: If one of them is not in the world (any more); then none is taken out.
+    ///     UnknownError: If the world does not (or no longer) contain one of them; then none is
+    ///         removed.
     #[pyo3(name = "_remove_spheres")]
     fn remove_spheres(&self, py: Python<'_>, ids: Vec<u64>) -> PyResult<()> {
         let ids: Vec<SphereId> = ids.into_iter().map(SphereId::from_number).collect();
         self.change(py, |inner| Ok(inner.world.remove_spheres(&ids)?))
     }
 
-    /// Puts the force that `text` describes in the place of another.
+    /// Replaces a force by the one in `text`; it keeps its id.
     #[pyo3(name = "_set_force")]
     fn set_force_of(&self, py: Python<'_>, id: &Bound<'_, PyAny>, text: &str) -> PyResult<()> {
         let id = arguments::id("force", id)?;
@@ -169,10 +170,10 @@ impl Engine {
         })
     }
 
-    /// Takes a force out of the world.
+    /// Removes a force.
     ///
     /// Raises:
-    ///     UnknownError: If it is not in the world (any more).
+    ///     UnknownError: If the world does not (or no longer) contain it.
     fn remove_force(&self, py: Python<'_>, id: &Bound<'_, PyAny>) -> PyResult<()> {
         let id = arguments::id("force", id)?;
         self.change(py, |inner| {
@@ -183,7 +184,7 @@ impl Engine {
         })
     }
 
-    /// Changes a collider to the one that `text` describes.
+    /// Replaces a collider by the one in `text`; it keeps its id.
     #[pyo3(name = "_set_collider")]
     fn set_collider_of(&self, py: Python<'_>, id: &Bound<'_, PyAny>, text: &str) -> PyResult<()> {
         let id = arguments::id("collider", id)?;
@@ -198,10 +199,10 @@ impl Engine {
         })
     }
 
-    /// Takes a collider out of the world.
+    /// Removes a collider.
     ///
     /// Raises:
-    ///     UnknownError: If it is not in the world (any more).
+    ///     UnknownError: If the world does not (or no longer) contain it.
     fn remove_collider(&self, py: Python<'_>, id: &Bound<'_, PyAny>) -> PyResult<()> {
         let id = arguments::id("collider", id)?;
         self.change(py, |inner| {
@@ -213,7 +214,7 @@ impl Engine {
         })
     }
 
-    /// Changes an emitter to the one that `text` describes. With another period it starts anew, now.
+    /// Replaces an emitter by the one in `text`. If the period changes, it restarts at once.
     #[pyo3(name = "_set_emitter")]
     fn set_emitter_of(&self, py: Python<'_>, id: &Bound<'_, PyAny>, text: &str) -> PyResult<()> {
         let id = arguments::id("emitter", id)?;
@@ -229,10 +230,10 @@ impl Engine {
         })
     }
 
-    /// Takes an emitter out of the world; its spheres stay.
+    /// Removes an emitter; its spheres stay.
     ///
     /// Raises:
-    ///     UnknownError: If it is not in the world (any more).
+    ///     UnknownError: If the world does not (or no longer) contain it.
     fn remove_emitter(&self, py: Python<'_>, id: &Bound<'_, PyAny>) -> PyResult<()> {
         let id = arguments::id("emitter", id)?;
         self.change(py, |inner| {
@@ -245,7 +246,7 @@ impl Engine {
         })
     }
 
-    /// Steps the world as `text` says from now on.
+    /// Sets the simulation settings from `text`.
     #[pyo3(name = "_set_simulation")]
     fn set_simulation_of(&self, py: Python<'_>, text: &str) -> PyResult<()> {
         let part = part::read_simulation(text)?;
@@ -258,13 +259,13 @@ impl Engine {
 }
 
 impl Inner {
-    /// Draws the colliders in the colours of their descriptions from now on.
+    /// Updates the colours of colliders from their descriptions.
     fn color_colliders(&mut self) {
         Arc::make_mut(&mut self.palette).set_colliders(&self.described.colliders);
     }
 }
 
-/// Adds spheres; if one is refused, none is added, and the error tells its number among them.
+/// Adds spheres; if one is refused, none is added, and the error has its index.
 fn add_all(world: &mut World, spheres: &[Sphere]) -> Result<Vec<SphereId>, Failure> {
     let before = world.snapshot();
     let add = |(number, sphere): (usize, &Sphere)| {
@@ -281,7 +282,7 @@ fn add_all(world: &mut World, spheres: &[Sphere]) -> Result<Vec<SphereId>, Failu
     added
 }
 
-/// What is wrong if one of these spheres, the last of a world, overlaps something.
+/// Returns the error if one of these spheres, the last of a world, overlaps something.
 fn overlap_of(world: &World, added: &[SphereId]) -> Option<Failure> {
     let first = added.first()?;
     let is_of_them = |overlap: &Overlap| match overlap.between {
@@ -303,7 +304,7 @@ fn overlap_of(world: &World, added: &[SphereId]) -> Option<Failure> {
     Some(Failure::value("positions", problem))
 }
 
-/// Overlaps of so much \[m\] are rounding.
+/// Overlaps up to this are rounding \[m\].
 const ROUNDING: f64 = 1e-9;
 
 fn spheres_of(part: &Scene) -> Result<Vec<Sphere>, Failure> {
@@ -324,22 +325,22 @@ fn emitter_of(part: &Scene) -> Result<Emitter, Failure> {
     only(&emitters).copied()
 }
 
-/// The id of a force, and its place in the order. Looked up first: to remove what is not there
-/// would let all flights begin anew.
+/// Returns the id of a force and its position in the order. It is looked up first, because removing
+/// an unknown force would restart all flights.
 fn find_force(world: &World, number: u64) -> Result<(ForceId, usize), Failure> {
     let place = world.forces().position(|(id, _)| id.number() == number);
     let found = place.map(|place| (ForceId::from_number(number), place));
     found.ok_or_else(|| Failure::unknown("force", number))
 }
 
-/// The id of the collider with this number, and its place in the description.
+/// Returns the id of the collider with this number, and its position in the description.
 fn find_collider(world: &World, number: u64) -> Result<(ColliderId, usize), Failure> {
     let place = world.colliders().position(|(id, _)| id.number() == number);
     let found = place.map(|place| (ColliderId::from_number(number), place));
     found.ok_or_else(|| Failure::unknown("collider", number))
 }
 
-/// The id of the emitter with this number, and its place in the description.
+/// Returns the id of the emitter with this number, and its position in the description.
 fn find_emitter(world: &World, number: u64) -> Result<(EmitterId, usize), Failure> {
     let place = world.emitters().position(|(id, _)| id.number() == number);
     let found = place.map(|place| (EmitterId::from_number(number), place));

@@ -1,6 +1,6 @@
-//! A world as Python holds it.
+//! The world that Python holds.
 
-// What is said of methods here is read in Python: units in plain brackets, errors in Google's style.
+// Python shows these comments as docstrings: units in plain brackets, errors in Google's style.
 #![allow(rustdoc::broken_intra_doc_links, rustdoc::invalid_rust_codeblocks)]
 
 use std::sync::{Arc, Mutex, MutexGuard};
@@ -27,51 +27,51 @@ use crate::tables::Table;
 use crate::threads;
 use crate::written;
 
-/// What `carom.World` stands on: a world, and the arrays that Python sees of it.
+/// Base class of `carom.World`: a world, and the arrays that Python sees of it.
 ///
-/// Several threads may use one: their calls wait for each other.
+/// Several threads may use it; their calls wait for each other.
 #[pyclass(frozen, subclass, module = "carom._carom")]
 #[derive(Debug)]
 pub struct Engine(Mutex<Inner>);
 
-/// What the lock guards.
+/// The data behind the lock.
 #[derive(Debug)]
 pub struct Inner {
     pub world: World,
-    /// What there is besides spheres. Forces, colliders and emitters are those of the world, in its
-    /// order; colliders stand where they were when they were described.
+    /// The scene without spheres. Its forces, colliders and emitters have the order of the world;
+    /// colliders have the poses of their descriptions.
     pub described: Arc<Scene>,
-    /// Colours; followed to the time of now only where it says so.
+    /// Colours; updated to the present time only by [`Self::follow_colors`].
     pub palette: Arc<Palette>,
     pub arrays: Arrays,
-    /// Start of the last frame \[s\].
+    /// Start time of the last frame \[s\].
     pub frame_start: f64,
 }
 
 impl Inner {
-    /// The description, to be changed together with the world.
+    /// Returns the description for changes, which must match those of the world.
     pub fn described_mut(&mut self) -> &mut Scene {
         Arc::make_mut(&mut self.described)
     }
 
-    /// The colours, to be changed together with the world.
+    /// Returns the colours for changes, which must match those of the world.
     pub fn palette_mut(&mut self) -> &mut Palette {
         Arc::make_mut(&mut self.palette)
     }
 
-    /// Has the palette know all spheres of now.
+    /// Updates the colours for all present spheres.
     pub fn follow_colors(&mut self) {
         let time = self.world.time();
         self.palette_mut().follow(time);
     }
 
-    /// The state, to return to.
+    /// Returns the state.
     pub fn snapshot(&self) -> Snapshot {
         let (described, palette) = (Arc::clone(&self.described), Arc::clone(&self.palette));
         Snapshot { world: self.world.snapshot(), described, palette, time: self.world.time() }
     }
 
-    /// Returns to a state. What happened in the last frame is forgotten.
+    /// Restores a state. The report of the last frame is removed.
     pub fn restore(&mut self, snapshot: &Snapshot) {
         self.world.restore(&snapshot.world);
         self.described = Arc::clone(&snapshot.described);
@@ -79,7 +79,7 @@ impl Inner {
         self.frame_start = snapshot.time;
     }
 
-    /// Has Python's signals stop the frames that this thread begins now.
+    /// Lets Python's signals stop the frames that this thread takes next.
     pub fn heed_signals(&mut self) -> Watch {
         let watch = Watch::begin();
         self.world.set_stop_request(Some(watch.request()));
@@ -95,7 +95,8 @@ impl Inner {
         Ok(())
     }
 
-    /// Takes over what a script has written into arrays; if the world refuses it, they are as the world again.
+    /// Applies values that a script wrote into arrays; if the world refuses them, the arrays get
+    /// the world's values again.
     fn take_written(&mut self, py: Python<'_>) -> Result<(), Failure> {
         let written = self.arrays.written(py, self.world.spheres());
         if written.is_empty() {
@@ -106,31 +107,32 @@ impl Inner {
         taken
     }
 
-    /// The length of a frame \[s\]: `dt`, or the scene's own.
+    /// Returns the frame time \[s\]: `dt`, or the scene's own.
     pub fn frame_time(&self, dt: Option<f64>) -> f64 {
         dt.unwrap_or(self.described.simulation.frame_time)
     }
 }
 
 impl Engine {
-    /// Waits until no other thread is at work on this world, and takes over what was written into its arrays.
+    /// Waits for other threads, and applies values that a script wrote into the arrays.
     ///
     /// # Errors
-    /// `CaromError` if the world refuses what was written.
+    /// `CaromError` if the world refuses these values.
     pub fn lock(&self, py: Python<'_>) -> PyResult<MutexGuard<'_, Inner>> {
         let mut inner = self.lock_as_it_is(py)?;
         match inner.take_written(py) {
             Ok(()) => Ok(inner),
             Err(failure) => {
-                // To make an exception runs Python, which may run a handler that waits for this lock.
+                // Making an exception runs Python, which may run a handler that waits for this
+                // lock.
                 drop(inner);
                 Err(failure.into())
             }
         }
     }
 
-    /// Waits until no other thread is at work on this world. The handler of a signal that comes in the
-    /// middle of a step of this world would wait for itself.
+    /// Waits for other threads. In a signal handler during a step of this world, returns an error
+    /// instead, because waiting would never end.
     fn lock_as_it_is(&self, py: Python<'_>) -> PyResult<MutexGuard<'_, Inner>> {
         if stop::is_in_handler() {
             let at_work = |_| PyRuntimeError::new_err("this world is in the middle of a step");
@@ -140,7 +142,7 @@ impl Engine {
         self.0.lock_py_attached(py).map_err(broken)
     }
 
-    /// Changes the world, and brings the arrays up to date.
+    /// Changes the world and updates the arrays.
     pub fn change<T>(
         &self,
         py: Python<'_>,
@@ -157,11 +159,11 @@ impl Engine {
     }
 }
 
-/// Making a world, and moving it.
+/// Constructor, steps and snapshots.
 #[pymethods]
 impl Engine {
-    /// The world at the start of the scene that `text` describes in TOML; its spheres are those of `points`, if
-    /// there are any, and its springs those of another text.
+    /// Makes the world of the scene that `text` describes in TOML. Spheres come from `points` if it
+    /// is given; springs then come from the text `springs`.
     #[new]
     #[pyo3(signature = (text, points = None, springs = ""))]
     fn new(text: &str, points: Option<points::Given<'_>>, springs: &str) -> PyResult<Self> {
@@ -182,15 +184,15 @@ impl Engine {
 
     /// Advances the world by `frames` frames of `dt` [s], or of the scene's own frame time.
     ///
-    /// Both go by their names. Other threads run meanwhile. If a frame is refused, the world is as it was
-    /// before the call.
+    /// Both are keyword arguments. Other threads run meanwhile. If a frame is refused, the world
+    /// keeps its state before the call.
     ///
     /// Raises:
     ///     CaromError: If `dt` is not positive and finite, an emitter runs away, or a periodic box
     ///         is too small for the spheres.
     ///     StepError: If a number would overflow, or there are too many impacts.
-    ///     KeyboardInterrupt: On Ctrl-C, within a tenth of a second; the world is then as it was before the
-    ///         call.
+    ///     KeyboardInterrupt: On Ctrl-C, within a tenth of a second; the world then keeps its state
+    ///         before the call.
     #[pyo3(
         signature = (*unnamed, dt = None, frames = None),
         text_signature = "($self, *, dt=None, frames=1)"
@@ -216,39 +218,40 @@ impl Engine {
         Ok(taken?)
     }
 
-    /// Time since the beginning [s].
+    /// Time since the start [s].
     #[getter]
     fn time(&self, py: Python<'_>) -> PyResult<f64> {
         Ok(self.lock_as_it_is(py)?.world.time())
     }
 
-    /// Length of a frame of the scene [s].
+    /// Frame time of the scene [s].
     #[getter]
     fn frame_time(&self, py: Python<'_>) -> PyResult<f64> {
         Ok(self.lock_as_it_is(py)?.frame_time(None))
     }
 
-    /// The number of spheres.
+    /// Returns the number of spheres.
     fn __len__(&self, py: Python<'_>) -> PyResult<usize> {
         Ok(self.lock_as_it_is(py)?.world.spheres().len())
     }
 
-    /// The state as 16 hexadecimal digits, equal for equal states on every platform.
+    /// State hash in 16 hexadecimal digits, equal for equal states on every platform.
     ///
-    /// It covers time, spheres, places of colliders and emissions, not settings, forces and shapes.
+    /// It covers time, spheres, poses of colliders and emissions, but not settings, forces and
+    /// shapes.
     #[getter]
     fn state_hash(&self, py: Python<'_>) -> PyResult<String> {
         Ok(self.lock(py)?.world.state_hash().to_string())
     }
 
-    /// Everything the future depends on, to return to.
+    /// Returns a snapshot of everything that the future depends on.
     fn snapshot(&self, py: Python<'_>) -> PyResult<Snapshot> {
         Ok(self.lock(py)?.snapshot())
     }
 
-    /// Returns to a snapshot, bit for bit. What happened in the last frame is forgotten.
+    /// Restores a snapshot, bit for bit. The report of the last frame is removed.
     fn restore(&self, py: Python<'_>, snapshot: &Snapshot) -> PyResult<()> {
-        // What was written before is void, whatever it is.
+        // Values that a script wrote before are dropped, valid or not.
         let inner = &mut *self.lock_as_it_is(py)?;
         inner.restore(snapshot);
         inner.arrays.write_all(py, inner.world.spheres());
@@ -256,10 +259,11 @@ impl Engine {
     }
 }
 
-/// Takes frames of `dt` \[s\]; if one of them is refused, none was taken.
+/// Takes frames of `dt` \[s\]; if one of them is refused, the world keeps its state before the
+/// first.
 fn step(inner: &mut Inner, dt: f64, frames: u64) -> Result<(), Failure> {
     let watch = inner.heed_signals();
-    // A single frame that is refused leaves the world as it was by itself.
+    // A single refused frame leaves the world unchanged without a snapshot.
     let before = (frames > 1).then(|| inner.snapshot());
     for _ in 0..frames {
         if let Err(error) = inner.take_frame(dt, &watch) {
@@ -272,7 +276,7 @@ fn step(inner: &mut Inner, dt: f64, frames: u64) -> Result<(), Failure> {
 
 #[pymethods]
 impl Engine {
-    /// Takes the forces that are applied to single spheres away, as if none had ever been applied.
+    /// Removes the applied forces of all spheres.
     #[pyo3(name = "_release")]
     fn release(&self, py: Python<'_>) -> PyResult<()> {
         self.change(py, |inner| Ok(inner.world.set_applied_forces(&[])?))
@@ -283,7 +287,7 @@ sphere_properties!(Engine, numbers "(n,)", vectors "(n, 3)", rotations "(n, 4)")
 
 #[pymethods]
 impl Engine {
-    /// Ids, ascending, shape (n,), uint64. An id is never given twice in one world.
+    /// Ids, ascending, shape (n,), uint64. A world never reuses an id.
     #[getter]
     fn ids(&self, py: Python<'_>) -> PyResult<Py<PyArray1<u64>>> {
         let inner = &mut *self.lock_as_it_is(py)?;
@@ -299,7 +303,7 @@ impl Engine {
 
     fn set_quantity(&self, quantity: Quantity, values: &Bound<'_, PyAny>) -> PyResult<()> {
         let py = values.py();
-        // To read what Python gives can run any code of Python: not under the lock.
+        // Reading arguments can run any Python code, so the lock is not held.
         let count = self.lock_as_it_is(py)?.world.spheres().len();
         let values = arguments::array(quantity.name(), values, &quantity.shape(count))?;
         self.change(py, |inner| {
@@ -315,7 +319,7 @@ impl Engine {
 /// Sums over all spheres.
 #[pymethods]
 impl Engine {
-    /// Kinetic energy [J], the sum of m v² / 2 and, where spheres turn, I ω² / 2.
+    /// Kinetic energy [J], the sum of m v² / 2 and, for rotating spheres, I ω² / 2.
     #[getter]
     fn kinetic_energy(&self, py: Python<'_>) -> PyResult<f64> {
         Ok(self.lock(py)?.world.kinetic_energy())
@@ -346,8 +350,8 @@ impl Engine {
         Ok(PyArray1::from_slice(py, &momentum.to_array()))
     }
 
-    /// Angular momentum about the origin [kg m²/s], the sum of m x × v and, where
-    /// spheres turn, I ω, shape (3,).
+    /// Angular momentum about the origin [kg m²/s], the sum of m x × v and, for rotating spheres, I
+    /// ω, shape (3,).
     #[getter]
     fn angular_momentum<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let momentum = self.lock(py)?.world.angular_momentum();
@@ -355,10 +359,10 @@ impl Engine {
     }
 }
 
-/// What happened in the last frame.
+/// Report of the last frame.
 #[pymethods]
 impl Engine {
-    /// The impacts, as words.
+    /// Returns the impacts as words.
     #[pyo3(name = "_impact_words")]
     fn impact_words<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u64>>> {
         let inner = &*self.lock(py)?;
@@ -367,7 +371,7 @@ impl Engine {
         Ok(PyArray1::from_vec(py, table.into_words()))
     }
 
-    /// The ledger, as words.
+    /// Returns the ledger as words.
     #[pyo3(name = "_ledger_words")]
     fn ledger_words<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u64>>> {
         let inner = &*self.lock(py)?;
@@ -376,7 +380,7 @@ impl Engine {
         Ok(PyArray1::from_vec(py, table.into_words()))
     }
 
-    /// The spheres inside triggers, as words.
+    /// Returns the spheres inside triggers as words.
     #[pyo3(name = "_trigger_words")]
     fn trigger_words<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u64>>> {
         let inner = &*self.lock(py)?;
@@ -385,7 +389,7 @@ impl Engine {
         Ok(PyArray1::from_vec(py, table.into_words()))
     }
 
-    /// The spheres that overlap something by more than `tolerance` [m], as words.
+    /// Returns the overlaps deeper than `tolerance` [m] as words.
     #[pyo3(name = "_overlap_words")]
     fn overlap_words<'py>(
         &self,
@@ -398,7 +402,7 @@ impl Engine {
         Ok(PyArray1::from_vec(py, table.into_words()))
     }
 
-    /// The persistent contacts, as words.
+    /// Returns the persistent contacts as words.
     #[pyo3(name = "_contact_words")]
     fn contact_words<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u64>>> {
         let inner = &*self.lock(py)?;
@@ -407,8 +411,8 @@ impl Engine {
         Ok(PyArray1::from_vec(py, table.into_words()))
     }
 
-    /// The work by stage: predictions, pair tests, events, cell crossings, groups, iterations of
-    /// solvers, searches, sweeps, contacts.
+    /// Returns the work by stage: predictions, pair tests, events, cell crossings, groups, solver
+    /// iterations, searches, sweeps, contacts.
     #[pyo3(name = "_work")]
     fn work(&self, py: Python<'_>) -> PyResult<[u64; 9]> {
         let work = self.lock(py)?.world.report().work;
@@ -425,8 +429,8 @@ impl Engine {
         ])
     }
 
-    /// What became of the energy: work of contacts, of moving colliders and of the correction of
-    /// overlaps, energy of emitted spheres less that of those taken out [J].
+    /// Returns the energy account [J]: work of contacts, of moving colliders and of the correction
+    /// of overlaps, and the energy of emitted spheres minus that of removed ones.
     #[pyo3(name = "_energy_account")]
     fn energy_account(&self, py: Python<'_>) -> PyResult<(f64, f64, f64, f64)> {
         let EnergyAccount { contacts, colliders, correction, emission, .. } =
@@ -434,8 +438,8 @@ impl Engine {
         Ok((contacts, colliders, correction, emission))
     }
 
-    /// How good the solutions of the rule `contact` are: sub-steps with fewer impulses, residual,
-    /// largest overlap; spheres asleep, and how often one was squeezed.
+    /// Returns the quality of the solutions of the rule `contact`: sub-steps with limited impulses,
+    /// residual, largest overlap, sleeping spheres, and how often a sphere was squeezed.
     #[pyo3(name = "_contact_account")]
     fn contact_account(&self, py: Python<'_>) -> PyResult<(u32, f64, f64, u32, u32)> {
         let ContactAccount {
@@ -444,8 +448,8 @@ impl Engine {
         Ok((limited_sub_steps, residual, largest_overlap, asleep, squeezed))
     }
 
-    /// What was stepped under the rule `exact`: spheres in zones, the time that they spent there of all
-    /// together [s], ticks, spheres that joined and that left.
+    /// Returns the account of zones under the rule `exact`: spheres in zones, their total time
+    /// there [s], ticks, spheres that joined, and spheres that left.
     #[pyo3(name = "_zone_account")]
     fn zone_account(&self, py: Python<'_>) -> PyResult<(u32, f64, u32, u32, u32)> {
         let ZoneAccount { spheres, sphere_seconds, ticks, joined, left, .. } =
@@ -453,26 +457,26 @@ impl Engine {
         Ok((spheres, sphere_seconds, ticks, joined, left))
     }
 
-    /// Whether spheres were in zones so far.
+    /// Whether any sphere was ever in a zone.
     #[getter]
     fn was_stepped(&self, py: Python<'_>) -> PyResult<bool> {
         Ok(self.lock(py)?.world.was_stepped())
     }
 
-    /// Ids of the spheres that emitters put into the world in the last frame, ascending.
+    /// Ids of the spheres that emitters added in the last frame, ascending.
     #[getter]
     fn emitted<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u64>>> {
         Ok(arrays::numbers(py, &self.lock(py)?.world.report().emitted))
     }
 
-    /// Ids of the spheres that emitters took out of the world in the last frame.
+    /// Ids of the spheres that emitters removed in the last frame.
     #[getter]
     fn retired<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u64>>> {
         Ok(arrays::numbers(py, &self.lock(py)?.world.report().retired))
     }
 
-    /// Ids of the spheres that emitters left out in the last frame, for there was no room: no sphere ever
-    /// has them.
+    /// Ids of the spheres that emitters left out in the last frame for lack of space; no sphere
+    /// ever has them.
     #[getter]
     fn left_out<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u64>>> {
         Ok(arrays::numbers(py, &self.lock(py)?.world.report().left_out))

@@ -1,4 +1,4 @@
-//! What a Python exception is made of.
+//! Errors that become Python exceptions.
 
 use carom_maze::{EpisodeError, MazeError};
 use carom_scene::SceneError;
@@ -9,33 +9,33 @@ use pyo3::types::PyType;
 
 use crate::stop;
 
-/// Why a call was refused: an exception of `carom.errors`, in the words of the engine.
+/// Why a call was refused: becomes an exception of `carom.errors` with the message of the engine.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Failure {
     kind: Kind,
     message: String,
-    /// Path of what is to blame, like `colliders[1].restitution`.
+    /// Path of the faulty field, for example `colliders[1].restitution`.
     field: Option<String>,
     /// Line in the text of a scene, from 1.
     line: Option<usize>,
 }
 
-/// Which exception it becomes.
+/// The exception that it becomes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
-    /// A value makes no sense where it was given.
+    /// A value is invalid.
     Value,
-    /// A scene, or a part of one, is to blame.
+    /// A scene, or a part of one, is invalid.
     Scene,
-    /// A name or number that names nothing.
+    /// A name or number is unknown.
     Unknown,
-    /// A step that cannot be taken.
+    /// A step cannot be taken.
     Step,
-    /// A step that a handler of a signal ended.
+    /// A signal handler ended a step.
     Stopped,
-    /// More memory is needed than there is.
+    /// There is not enough memory.
     Memory,
-    /// Nothing can be drawn here.
+    /// No picture can be drawn on this machine.
     #[cfg(feature = "pictures")]
     Graphics,
 }
@@ -58,13 +58,13 @@ impl Failure {
         Self { kind, message: message.to_string(), field: None, line: None }
     }
 
-    /// A value that makes no sense in the argument `field`.
+    /// Returns a failure about an invalid value of the argument `field`.
     pub fn value(field: &str, problem: impl std::fmt::Display) -> Self {
         let failure = Self::new(Kind::Value, format!("{field}: {problem}"));
         Self { field: Some(field.to_owned()), ..failure }
     }
 
-    /// The same failure, in the argument `field`.
+    /// Returns this failure with the argument `field`.
     pub fn about(self, field: &str) -> Self {
         Self {
             message: format!("{field}: {}", self.message),
@@ -73,34 +73,34 @@ impl Failure {
         }
     }
 
-    /// A number that names nothing of this kind.
+    /// Returns a failure about a number that is unknown; `kind` is what it should identify.
     pub fn unknown(kind: &str, number: impl std::fmt::Display) -> Self {
-        // In the words of `carom::Error::Unknown`.
+        // The text of `carom::Error::Unknown`.
         Self::new(Kind::Unknown, format!("there is no {kind} {number} in this world"))
     }
 
-    /// More memory is needed than there is.
+    /// Returns a failure about missing memory.
     pub fn memory(problem: impl ToString) -> Self {
         Self::new(Kind::Memory, problem)
     }
 
-    /// Whether a handler of a signal has raised an exception.
+    /// Returns whether a signal handler raised an exception.
     pub fn is_stop(&self) -> bool {
         self.kind == Kind::Stopped
     }
 
-    /// Nothing can be drawn here, for this reason.
+    /// Returns a failure of graphics with its reason.
     #[cfg(feature = "pictures")]
     pub fn graphics(problem: impl ToString) -> Self {
         Self::new(Kind::Graphics, problem)
     }
 
-    /// Why a file of another program is not imported.
+    /// Returns a failure about a file of another program that cannot be imported.
     pub fn of_import(error: impl std::error::Error) -> Self {
         Self::new(Kind::Scene, error)
     }
 
-    /// What is wrong with a scene that was described in code: it has no lines, and no name.
+    /// Returns a failure about a scene described in code, which has neither lines nor a name.
     pub fn of_part(error: SceneError) -> Self {
         PartError::from(error).into()
     }
@@ -161,7 +161,7 @@ impl From<MazeError> for Failure {
     }
 }
 
-/// A fault of the engine: what it describes can always be written.
+/// A fault of the engine: its descriptions can always be written.
 impl From<serde_json::Error> for Failure {
     fn from(error: serde_json::Error) -> Self {
         Self::new(Kind::Value, error)

@@ -1,6 +1,6 @@
 //! Films of scenes.
 
-// What is said of functions here is read in Python, where units stand in plain brackets.
+// Python shows these comments as docstrings, with units in plain brackets.
 #![allow(rustdoc::broken_intra_doc_links)]
 
 use std::path::PathBuf;
@@ -19,11 +19,11 @@ use crate::running::whole_frames;
 use crate::scenes;
 use crate::stop::PATIENCE;
 
-/// Films the scene that `text` describes in TOML, for `seconds` [s] or as long as the scene says, up
-/// to a whole frame. Answers with the number of frames.
+/// Films the scene that `text` describes in TOML for `seconds` [s], or for the scene's duration,
+/// rounded up to a whole frame. Returns the number of frames.
 ///
-/// After an error or an interruption, the frames until then are a film; where that fails, the error has what says where
-/// they are for its cause.
+/// After an error or an interruption the frames so far make the film. If that fails, the error's
+/// cause says where the frames are.
 #[pyfunction]
 pub fn film_scene(
     py: Python<'_>,
@@ -35,7 +35,7 @@ pub fn film_scene(
 ) -> PyResult<u64> {
     let sight = Sight::read(&view)?;
     let seconds = arguments::optional_number("seconds", seconds)?;
-    // A rate that is too large for this is refused in the words for all of them.
+    // A rate that does not fit is refused with the message for all invalid rates.
     let fps = u32::try_from(arguments::count("frame_rate", frame_rate)?).unwrap_or(u32::MAX);
     let mut scene = scenes::in_code(text).map_err(Failure::of_part)?;
     let seconds = seconds.unwrap_or(scene.simulation.duration);
@@ -44,13 +44,13 @@ pub fn film_scene(
     py.detach(|| film(scene, order, seconds, sight))
 }
 
-/// Without holding up other threads of Python.
+/// Makes the film while other threads of Python run.
 fn film(scene: Scene, order: Order, seconds: f64, sight: Sight) -> PyResult<u64> {
     let fps = f64::from(order.fps);
     let mut stepped = Stepped::new(scene).map_err(Failure::from)?;
     let mut studio = Studio::new(sight.look).map_err(|error| raised(error.into()))?;
     let mut filming = Filming::begin(order, &mut stepped, &mut studio).map_err(raised)?;
-    // A film of nothing is none: the first frame is in it.
+    // A film needs at least one frame.
     let frames = whole_frames(seconds, 1.0 / fps)?.max(1);
     let taken = take_frames(&mut filming, frames);
     match (taken, filming.finish()) {

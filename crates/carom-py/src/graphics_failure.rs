@@ -1,4 +1,4 @@
-//! What it is in Python that a picture or film cannot be made.
+//! Converts errors of pictures and films into Python exceptions.
 
 use std::io;
 
@@ -8,7 +8,7 @@ use pyo3::PyErr;
 
 use crate::failure::Failure;
 
-/// The exception: of the argument that is to blame, of the operating system, or of graphics.
+/// Returns the exception: about an argument, of the operating system, or of graphics.
 pub fn raised(error: ShootError) -> PyErr {
     let message = error.to_string();
     match error {

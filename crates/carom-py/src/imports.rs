@@ -1,4 +1,4 @@
-//! Scenes of other programs.
+//! Imports of scenes from other programs.
 
 use std::path::{Path, PathBuf};
 
@@ -8,11 +8,12 @@ use pyo3::prelude::*;
 
 use crate::failure::Failure;
 
-/// A scene as JSON, and what an import leaves out, a line each.
+/// A scene as JSON, and what the import left out, one line each.
 type Imported = (String, Vec<String>);
 
-/// Imports a scene of Unity: a file, or one of those in a folder, by its name or path in the folder; it may be missing where
-/// there is one only. `mapping` is a file that says what fields of scripts mean.
+/// Imports a Unity scene from a file, or from a folder by its name or its path in the folder.
+/// `scene` may be missing if the folder has one scene. `mapping` is a file that explains fields of
+/// scripts.
 #[pyfunction]
 pub fn import_unity(
     path: PathBuf,
@@ -38,7 +39,7 @@ pub fn import_unity(
     answer(&imported.scene, &imported.omissions)
 }
 
-/// Imports a scene of glTF.
+/// Imports a glTF scene.
 #[pyfunction]
 pub fn import_gltf(path: PathBuf) -> Result<Imported, Failure> {
     let imported = carom_gltf::import(&path, &carom_gltf::Options::default());
@@ -46,7 +47,7 @@ pub fn import_gltf(path: PathBuf) -> Result<Imported, Failure> {
     answer(&imported.scene, &imported.omissions)
 }
 
-/// The scene of a folder that has this name or path.
+/// Returns the scene in a folder with this name or path.
 fn chosen(folder: &Path, scenes: &[PathBuf], name: Option<&str>) -> Result<PathBuf, Failure> {
     let is_it = |scene: &&PathBuf| match name {
         None => true,

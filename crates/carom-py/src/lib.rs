@@ -1,18 +1,18 @@
-//! The engine of the Python package `carom`: it converts, and holds no physics.
+//! The engine of the Python package `carom`: conversions only, no physics.
 //!
-//! What users call is Python (`python/carom`), which stands on [`Engine`] here. Between the two go
-//! numbers, arrays and text:
+//! Users call Python (`python/carom`), which calls [`Engine`] here. Numbers, arrays and text pass
+//! between them:
 //!
-//! - what users describe comes as TOML, in the words of scene files, and is read and checked by
-//!   `carom-scene` (`part`); descriptions go back as JSON;
-//! - arrays belong to Python, and are written after every frame (`arrays`): one can be
-//!   read for as long as it is held, and no `unsafe` is needed for it; what a script writes into one, the next
-//!   call takes over (`written`);
-//! - many spheres of a scene go as arrays, too, both ways (`points`);
-//! - what happened goes as tables of words (`tables`).
+//! - descriptions by users arrive as TOML in the format of scene files, which `carom-scene` reads
+//!   and checks (`part`); descriptions return as JSON;
+//! - Python owns arrays, which are updated after every frame (`arrays`). A script can read an array
+//!   as long as it holds it, without `unsafe` code here; the next call applies values that a script
+//!   wrote into it (`written`);
+//! - large numbers of spheres pass as arrays in both directions (`points`);
+//! - events pass as tables of words (`tables`).
 //!
-//! A refused call leaves the world as it was and raises an exception of `carom.errors`
-//! (`failure`). Calls that take long let other threads of Python run.
+//! A refused call leaves the world unchanged and raises an exception of `carom.errors` (`failure`).
+//! Long calls let other threads of Python run.
 
 #![warn(clippy::unwrap_used)]
 
@@ -58,12 +58,12 @@ pub use maze::MazeEpisodes;
 pub use painter::Painter;
 pub use snapshot::Snapshot;
 
-/// As in the program `carom`; arrays that NumPy makes are not from here.
+/// The same allocator as in the program `carom`. NumPy uses its own.
 #[cfg(target_os = "linux")]
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
-/// The compiled part of the package `carom`. Its interface is that of the package, not this one.
+/// The compiled part of the package `carom`. Users call the package, not this module.
 #[pyo3::pymodule(gil_used = true)]
 mod _carom {
     #[pymodule_export]
@@ -89,7 +89,7 @@ mod _carom {
     #[pymodule_export]
     use crate::scenes::{canonical_toml, find_scene, list_scenes, read_scene, read_scene_file};
 
-    /// Whether `carom view` is there, and opens a window.
+    /// Whether `carom view` is available, which opens a window.
     #[pymodule_export]
     const HAS_WINDOW: bool = cfg!(feature = "view");
 }

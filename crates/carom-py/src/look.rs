@@ -1,4 +1,4 @@
-//! How Python wants something to be seen.
+//! Settings of pictures, read from Python.
 
 use carom_cli::pictures::{Look, Viewpoint};
 use carom_render::{Preset, Quality};
@@ -10,37 +10,37 @@ use pyo3::prelude::*;
 use crate::failure::Failure;
 use crate::part;
 
-/// How something is to be seen, as Python says it.
+/// Settings of a picture as given by Python.
 #[derive(Debug, FromPyObject)]
 pub struct View<'py> {
     /// Width and height in pixels.
     size: Bound<'py, PyAny>,
-    /// As the command line takes it, or a camera as TOML, `camera = { ... }`.
+    /// A camera as on the command line, or as TOML: `camera = { ... }`.
     camera: String,
     quality: String,
     stamp: bool,
 }
 
-/// How something is to be seen, checked.
+/// Settings of a picture, checked.
 pub struct Sight {
     pub look: Look,
-    /// Instead of the scene's own.
+    /// Replaces the scene's own camera.
     camera: Option<Camera>,
 }
 
 impl Sight {
-    /// Checks what Python says.
+    /// Checks the settings.
     ///
     /// # Errors
-    /// `TypeError` for a size that is none, [`Failure`] for a view that makes no sense; both name
-    /// the argument.
+    /// `TypeError` for a size that is none, [`Failure`] for an invalid setting; both name the
+    /// argument.
     pub fn read(view: &View) -> PyResult<Self> {
         let (camera, viewpoint) = viewpoint(&view.camera)?;
         let (size, quality) = (size(&view.size)?, quality(&view.quality)?);
         Ok(Self { look: Look { size, camera: viewpoint, no_stamp: !view.stamp, quality }, camera })
     }
 
-    /// Puts the chosen camera into a scene.
+    /// Sets the chosen camera in a scene.
     pub fn apply(&self, scene: &mut Scene) {
         if self.camera.is_some() {
             scene.camera.clone_from(&self.camera);

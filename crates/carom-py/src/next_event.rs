@@ -1,6 +1,6 @@
 //! Steps that end at the next impact.
 
-// What is said of methods here is read in Python: units in plain brackets, errors in Google's style.
+// Python shows these comments as docstrings: units in plain brackets, errors in Google's style.
 #![allow(rustdoc::broken_intra_doc_links)]
 
 use pyo3::prelude::*;
@@ -12,8 +12,8 @@ use crate::threads;
 
 #[pymethods]
 impl Engine {
-    /// The time of the next impact on the world's clock [s], if one comes within so many seconds;
-    /// else None.
+    /// Returns the time of the next impact on the world's clock [s], or None if there is none
+    /// within `within` [s].
     ///
     /// Only under the rule `exact`. It costs as much as a copy of the world and the step to that
     /// impact. Other threads run meanwhile.
@@ -32,11 +32,11 @@ impl Engine {
         Ok(time.map_err(Failure::from)?)
     }
 
-    /// Advances the world to its next impact, and answers it with all others at that instant; by
-    /// `within` [s] if none comes before. `impacts` tells which it was.
+    /// Advances the world to its next impact and resolves it with all others at that time, at most
+    /// by `within` [s]. `impacts` then has them.
     ///
-    /// Only under the rule `exact`. Other threads run meanwhile. If the step is refused, the world is
-    /// as it was before the call.
+    /// Only under the rule `exact`. Other threads run meanwhile. If the step is refused, the world
+    /// keeps its state before the call.
     ///
     /// Raises:
     ///     CaromError: Under another rule, or if `within` is not positive and finite.

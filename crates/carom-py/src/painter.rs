@@ -1,6 +1,6 @@
 //! Pictures of worlds.
 
-// What is said of methods here is read in Python, where units stand in plain brackets.
+// Python shows these comments as docstrings, with units in plain brackets.
 #![allow(rustdoc::broken_intra_doc_links, rustdoc::invalid_rust_codeblocks)]
 
 use std::path::PathBuf;
@@ -18,14 +18,14 @@ use crate::engine::{Engine, Inner};
 use crate::graphics_failure::raised;
 use crate::look::{Sight, View};
 
-/// What `carom.Renderer` stands on: a graphics device that is kept open, and a camera.
+/// The renderer behind `carom.Renderer`: a graphics device that stays open, and a camera.
 ///
-/// Several threads may use one: their calls wait for each other.
+/// Several threads may use it; their calls wait for each other.
 #[pyclass(frozen, module = "carom._carom")]
 #[derive(Debug)]
 pub struct Painter(Mutex<Easel>);
 
-/// What the lock guards.
+/// The data behind the lock.
 #[derive(Debug)]
 struct Easel {
     studio: Studio,
@@ -34,7 +34,7 @@ struct Easel {
 
 #[pymethods]
 impl Painter {
-    /// Pictures from where the world as it is now is seen well.
+    /// Makes a renderer whose camera suits the present world.
     #[new]
     fn new(py: Python<'_>, world: &Engine, view: View<'_>) -> PyResult<Self> {
         let sight = Sight::read(&view)?;
@@ -43,7 +43,7 @@ impl Painter {
         Ok(Self(Mutex::new(easel)))
     }
 
-    /// The world as it is now: red, green and blue, shape (height, width, 3).
+    /// Draws the present world: red, green and blue, shape (height, width, 3).
     fn paint<'py>(&self, py: Python<'py>, world: &Engine) -> PyResult<Bound<'py, PyArray3<u8>>> {
         let picture = self.picture(py, world)?;
         let shape = [picture.height as usize, picture.width as usize, 3];
@@ -51,14 +51,14 @@ impl Painter {
         PyArray1::from_vec(py, colors).reshape(shape)
     }
 
-    /// The world as it is now, as the content of a PNG file.
+    /// Draws the present world as the content of a PNG file.
     fn png<'py>(&self, py: Python<'py>, world: &Engine) -> PyResult<Bound<'py, PyBytes>> {
         let picture = self.picture(py, world)?;
         let content = py.detach(|| picture.to_png()).map_err(|error| raised(error.into()))?;
         Ok(PyBytes::new(py, &content))
     }
 
-    /// Writes the world as it is now to a PNG file.
+    /// Writes a picture of the present world to a PNG file.
     fn save(&self, py: Python<'_>, world: &Engine, path: PathBuf) -> PyResult<()> {
         let picture = self.picture(py, world)?;
         py.detach(|| picture.save_png(&path)).map_err(|error| raised(error.into()))
@@ -97,7 +97,7 @@ impl Easel {
     }
 }
 
-/// Red, green and blue of every pixel: pictures of worlds are opaque.
+/// Returns red, green and blue of every pixel; pictures of worlds are opaque.
 fn without_opacity(picture: &Picture) -> Vec<u8> {
     picture.pixels.chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect()
 }

@@ -1,6 +1,6 @@
-//! Pairs of points that are near each other, for `carom.analysis`.
+//! Pairs of nearby points, for `carom.analysis`.
 
-// What is said of functions here is read in Python, where units stand in plain brackets.
+// Python shows these comments as docstrings, with units in plain brackets.
 #![allow(rustdoc::broken_intra_doc_links)]
 
 use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
@@ -8,10 +8,10 @@ use pyo3::prelude::*;
 
 use crate::failure::Failure;
 
-/// Both points of each pair, and the squares of their distances \[m²\].
+/// Both points of each pair, and the squared distances \[m²\].
 type Pairs<'py> = (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<f64>>);
 
-/// How many pairs of points there are in each of so many bins of their distance, up to `r_max` [m].
+/// Counts the pairs of points in each of `bins` equal intervals of distance up to `r_max` [m].
 #[pyfunction]
 pub fn pair_histogram<'py>(
     py: Python<'py>,
@@ -25,7 +25,7 @@ pub fn pair_histogram<'py>(
     Ok(counts.into_pyarray(py))
 }
 
-/// Every pair of points nearer than a distance [m], once.
+/// Returns every pair of points nearer than a distance [m], once.
 #[pyfunction]
 pub fn pairs_within<'py>(
     py: Python<'py>,
@@ -41,7 +41,7 @@ pub fn pairs_within<'py>(
     Ok((first, second, squares))
 }
 
-/// The rows of an array of shape (n, 3).
+/// Returns the rows of an array of shape (n, 3).
 fn rows(points: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<[f64; 3]>> {
     let wrong = || Failure::value("points", "must have the shape (n, 3)");
     let numbers = points.to_vec().map_err(|_| wrong())?;

@@ -1,4 +1,4 @@
-//! Many spheres of a scene as arrays, between Python and scenes: no text, and no object for each.
+//! Passes many spheres between Python and scenes as arrays, without text or an object for each.
 
 use carom::{Sphere, World};
 use carom_scene::scene::{self, Finish};
@@ -12,8 +12,9 @@ use crate::failure::Failure;
 use crate::quantity::{Column, Quantity};
 use crate::setting::sphere_at;
 
-/// How many spheres; their quantities in the order of [`Quantity::OF_A_SPHERE`], missing ones as
-/// [`carom::Sphere::new`] has them; red, green and blue of each, nan for none of its own; their finishes.
+/// Number of spheres; their quantities in the order of [`Quantity::OF_A_SPHERE`], with the defaults
+/// of [`carom::Sphere::new`] for missing ones; red, green and blue of each, NaN if it has no
+/// colour; finishes.
 pub type Given<'py> = (
     usize,
     [Option<Bound<'py, PyAny>>; Quantity::OF_A_SPHERE.len()],
@@ -25,10 +26,10 @@ pub type Given<'py> = (
 pub type Told<'py> =
     (Vec<Bound<'py, PyArrayDyn<f64>>>, Option<Bound<'py, PyArrayDyn<f64>>>, Option<Vec<String>>);
 
-/// The spheres that were given, and how each looks.
+/// Reads the given spheres and the look of each.
 ///
 /// # Errors
-/// As [`arguments::array`], and [`Failure`] for other finishes than there are.
+/// As [`arguments::array`], and [`Failure`] for an unknown finish.
 pub fn read(
     (count, quantities, colors, finishes): Given<'_>,
 ) -> PyResult<(Vec<Sphere>, Vec<Paint>)> {
@@ -52,16 +53,16 @@ pub fn read(
     Ok((spheres, (0..count).map(paint).collect()))
 }
 
-/// These spheres as scenes have them.
+/// Returns spheres in the form of scenes.
 pub fn described((spheres, paints): (Vec<Sphere>, Vec<Paint>)) -> Vec<scene::Sphere> {
     let both = spheres.iter().zip(paints);
     both.map(|(sphere, paint)| scene::Sphere::of(sphere).painted(paint)).collect()
 }
 
-/// Tells all spheres of a world.
+/// Returns all spheres of a world as arrays.
 ///
 /// # Errors
-/// Where NumPy has no memory for them.
+/// If NumPy has no memory for them.
 pub fn told<'py>(py: Python<'py>, world: &World, palette: &Palette) -> PyResult<Told<'py>> {
     let spheres = world.spheres();
     let array = |quantity: Quantity| {

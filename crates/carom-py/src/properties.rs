@@ -1,9 +1,9 @@
-//! The properties by which Python reads and sets arrays of spheres.
+//! Python properties that read and set arrays of spheres.
 
-/// Gives an engine a property for each quantity of spheres, by its methods `quantity` and
+/// Defines a property for each quantity of spheres on an engine, by its methods `quantity` and
 /// `set_quantity`.
 ///
-/// `numbers`, `vectors` and `rotations` are the shapes of its arrays, as its users read them.
+/// `numbers`, `vectors` and `rotations` are the shapes of the arrays in docstrings.
 macro_rules! sphere_properties {
     (
         $engine:ident,
@@ -24,45 +24,45 @@ macro_rules! sphere_properties {
                 concat!("Coefficients of restitution in [0, 1], shape ", $numbers, ".");
             applied_forces, set_applied_forces, AppliedForces:
                 concat!(
-                    "Forces applied to single spheres [N], shape ", $vectors, ", besides those \
-                     that act on all; held until they are set again. Spheres that come into the \
-                     world have none."
+                    "Forces applied to single spheres [N], shape ", $vectors, ", besides \
+                     those that act on all. They act until they are set again; a new sphere has \
+                     none."
                 );
             orientations, set_orientations, Orientations:
                 concat!(
-                    "How spheres are turned, quaternions x, y, z, w, shape ", $rotations, "; those \
-                     assigned may have any length but zero."
+                    "Orientations, quaternions x, y, z, w, shape ", $rotations, "; assigned ones \
+                     may have any length but zero."
                 );
             angular_velocities, set_angular_velocities, AngularVelocities:
-                concat!("Angular velocities, along the axes [rad/s], shape ", $vectors, ".");
+                concat!("Angular velocities [rad/s], shape ", $vectors, ".");
             inertia_factors, set_inertia_factors, InertiaFactors:
                 concat!("Moments of inertia divided by m r², shape ", $numbers, ".");
             frictions, set_frictions, Frictions:
                 concat!(
-                    "Coefficients of friction, >= 0, shape ", $numbers, ". nan where a sphere says \
-                     nothing of it: then the coefficient of what it touches counts."
+                    "Coefficients of friction, >= 0, shape ", $numbers, ". nan for a sphere \
+                     without its own: then the coefficient of the touching body counts."
                 );
             rolling_frictions, set_rolling_frictions, RollingFrictions:
                 concat!(
-                    "Coefficients of rolling friction, >= 0, shape ", $numbers, ". nan where a \
-                     sphere says nothing of it."
+                    "Coefficients of rolling friction, >= 0, shape ", $numbers, ". nan for a \
+                     sphere without its own."
                 );
             spinning_frictions, set_spinning_frictions, SpinningFrictions:
                 concat!(
-                    "Coefficients of spinning friction, >= 0, shape ", $numbers, ". nan where a \
-                     sphere says nothing of it."
+                    "Coefficients of spinning friction, >= 0, shape ", $numbers, ". nan for a \
+                     sphere without its own."
                 );
             tangential_restitutions, set_tangential_restitutions, TangentialRestitutions:
                 concat!(
                     "Coefficients of tangential restitution in [0, 1], shape ", $numbers, ". nan \
-                     where a sphere says nothing of it."
+                     for a sphere without its own."
                 );
         }
     };
     ($engine:ident; $($get:ident, $set:ident, $quantity:ident: $doc:expr;)*) => {
-        /// Arrays of spheres, in ascending order of id. Each is made at its first read, and then
-        /// the same object for as long as no sphere comes or goes: every frame writes into it. What
-        /// is written into it, the next call takes over; a whole quantity is set by assignment.
+        /// Arrays of spheres, in ascending order of id. Each is made at its first read and stays
+        /// the same object until spheres are added or removed; every frame updates it. The next
+        /// call applies values written into it; assignment sets a whole quantity.
         #[pymethods]
         impl $engine {
             $(

@@ -1,4 +1,4 @@
-//! The quantities of spheres that Python sees as arrays.
+//! Quantities of spheres that Python sees as arrays.
 
 use carom::{DQuat, Friction, SOLID_BALL, Spheres};
 
@@ -20,7 +20,7 @@ pub enum Quantity {
     TangentialRestitutions,
 }
 
-/// The values of a quantity, one sphere after another.
+/// A quantity and its values, one sphere after another.
 pub type Column = (Quantity, Vec<f64>);
 
 impl Quantity {
@@ -40,10 +40,10 @@ impl Quantity {
         Self::TangentialRestitutions,
     ];
 
-    /// Those that a frame changes.
+    /// Quantities that a frame changes.
     pub const MOTION: [Self; 4] =
         [Self::Positions, Self::Velocities, Self::Orientations, Self::AngularVelocities];
-    /// Those that spheres are added with as arrays.
+    /// Quantities that new spheres can get from arrays.
     pub const OF_A_SPHERE: [Self; 12] = [
         Self::Positions,
         Self::Velocities,
@@ -59,7 +59,7 @@ impl Quantity {
         Self::TangentialRestitutions,
     ];
 
-    /// As Python calls it.
+    /// Returns the name in Python.
     pub fn name(self) -> &'static str {
         match self {
             Self::Positions => "positions",
@@ -78,7 +78,7 @@ impl Quantity {
         }
     }
 
-    /// How many numbers of it a sphere has.
+    /// Returns the number of values per sphere.
     pub fn width(self) -> usize {
         match self {
             Self::Positions | Self::Velocities => 3,
@@ -90,18 +90,19 @@ impl Quantity {
         }
     }
 
-    /// Whether a world can refuse finite numbers of it: then those set before have to be taken back.
+    /// Returns whether a world can refuse finite values; then values set before must be undone.
     pub fn is_bounded(self) -> bool {
         matches!(self, Self::Orientations) || self.width() == 1
     }
 
-    /// Whether this number can be one of it, whatever its bounds: nan is what says nothing of friction.
+    /// Returns whether a value is valid apart from bounds: it is finite, or NaN for a sphere
+    /// without its own friction.
     pub fn may_be(self, value: f64) -> bool {
         let is_friction = self.coefficient(&mut Friction::default()).is_some();
         value.is_finite() || (is_friction && value.is_nan())
     }
 
-    /// The coefficient of friction that this quantity is, if it is one.
+    /// Returns the coefficient of friction for this quantity, if it is one.
     pub fn coefficient(self, friction: &mut Friction) -> Option<&mut Option<f64>> {
         match self {
             Self::Frictions => Some(&mut friction.sliding),
@@ -112,12 +113,12 @@ impl Quantity {
         }
     }
 
-    /// What it is of the sphere in this row.
+    /// Returns the values of the sphere in a row.
     pub fn row(self, values: &[f64], row: usize) -> &[f64] {
         &values[row * self.width()..(row + 1) * self.width()]
     }
 
-    /// The shape of its array for `count` spheres.
+    /// Returns the shape of the array for `count` spheres.
     pub fn shape(self, count: usize) -> Vec<usize> {
         match self.width() {
             1 => vec![count],
@@ -125,7 +126,7 @@ impl Quantity {
         }
     }
 
-    /// Writes its values of all spheres one after another.
+    /// Writes the values of all spheres, one after another.
     pub fn write(self, spheres: &Spheres, place: &mut [f64]) {
         let vectors = match self {
             Self::Positions => spheres.positions(),
@@ -136,7 +137,7 @@ impl Quantity {
                 forces => forces,
             },
             Self::AngularVelocities => match spheres.angular_velocities() {
-                // No sphere was ever turned.
+                // No sphere ever rotated.
                 [] => return place.fill(0.0),
                 angular_velocities => angular_velocities,
             },
@@ -145,7 +146,7 @@ impl Quantity {
             Self::Masses => return write_numbers(spheres.masses(), place),
             Self::Restitutions => return write_numbers(spheres.restitutions(), place),
             Self::InertiaFactors => {
-                // Where all are solid balls, there are none.
+                // The list is empty if all are solid balls.
                 place.fill(SOLID_BALL);
                 return write_numbers(spheres.inertia_factors(), place);
             }
@@ -161,9 +162,9 @@ impl Quantity {
         }
     }
 
-    /// Writes a coefficient of friction; nan where a sphere says nothing of it.
+    /// Writes a coefficient of friction; NaN for a sphere without its own.
     fn write_coefficients(self, frictions: &[Friction], place: &mut [f64]) {
-        // Where none says anything, there are none.
+        // The list is empty if no sphere has its own friction.
         place.fill(f64::NAN);
         for (place, mut friction) in place.iter_mut().zip(frictions.iter().copied()) {
             if let Some(&mut Some(coefficient)) = self.coefficient(&mut friction) {
@@ -173,7 +174,7 @@ impl Quantity {
     }
 }
 
-/// Writes quaternions x, y, z, w; without any, no sphere was ever turned.
+/// Writes quaternions x, y, z, w; the list is empty if no sphere ever rotated.
 fn write_orientations(orientations: &[DQuat], place: &mut [f64]) {
     for (index, place) in place.chunks_exact_mut(4).enumerate() {
         let orientation = orientations.get(index).copied().unwrap_or(DQuat::IDENTITY);

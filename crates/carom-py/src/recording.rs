@@ -1,4 +1,4 @@
-//! What a run leaves: the states of all spheres, frame by frame.
+//! Records the states of all spheres in a run, frame by frame.
 
 use std::collections::{BTreeMap, TryReserveError};
 use std::sync::Arc;
@@ -9,10 +9,11 @@ use crate::failure::Failure;
 use crate::quantity::Quantity;
 use crate::tables::Table;
 
-/// What is recorded of each state.
+/// The parts of each state that are recorded.
 #[derive(Debug, Clone)]
 pub struct Selection {
-    /// `None`: centres and velocities, and how spheres are turned and turn where they may.
+    /// `None`: centres and velocities, and orientations and angular velocities if spheres can
+    /// rotate.
     pub quantities: Option<Vec<Quantity>>,
     /// Whether numbers are rounded to single precision.
     pub is_single: bool,
@@ -25,29 +26,29 @@ pub struct Selection {
 pub struct Recording {
     /// \[s\]
     pub times: Vec<f64>,
-    /// What is recorded of each sphere of each row.
+    /// Recorded quantities of each sphere of each row.
     motion: Vec<(Quantity, Numbers)>,
-    /// A row of numbers; working memory.
+    /// Working memory for one row.
     row: Vec<f64>,
     /// The spheres of each row, ascending.
     members: Vec<Arc<[SphereId]>>,
-    /// Radius \[m\] and mass \[kg\] of every sphere of any row, as it was last.
+    /// Last radius \[m\] and mass \[kg\] of every sphere of any row.
     known: BTreeMap<SphereId, [f64; 2]>,
-    /// Every impact of every frame, recorded or not, if impacts are recorded.
+    /// Impacts of all frames, also of frames that are not recorded, if impacts are selected.
     pub impacts: Table,
     has_impacts: bool,
 }
 
-/// The rows with a place in each for every sphere of any of them.
+/// The recorded rows, each with space for every sphere of any row.
 #[derive(Debug)]
 pub struct States {
-    /// Ascending.
+    /// Ids, ascending.
     pub ids: Vec<SphereId>,
     /// \[m\]
     pub radii: Vec<f64>,
     /// \[kg\]
     pub masses: Vec<f64>,
-    /// What changes from row to row; NaN where a sphere is not there.
+    /// Quantities that change from row to row; NaN for a sphere that does not exist in a row.
     pub motion: Vec<(Quantity, Numbers)>,
 }
 
@@ -59,7 +60,7 @@ pub enum Numbers {
 }
 
 impl Recording {
-    /// A recording of so many states of a world, without any yet.
+    /// Makes an empty recording with memory for `rows` states of a world.
     ///
     /// # Errors
     /// [`Failure`] if there is no memory for them.
@@ -74,7 +75,8 @@ impl Recording {
         let count = usize::try_from(rows).unwrap_or(usize::MAX);
         times.try_reserve_exact(count).map_err(no_room)?;
         members.try_reserve_exact(count).map_err(no_room)?;
-        // Of all at once: to each alone a system may promise memory that it does not have.
+        // Memory is requested for all at once: a system may promise each part memory that it does
+        // not have in total.
         let widths: usize = all.iter().map(|it| it.width()).sum();
         let size = if selection.is_single { size_of::<f32>() } else { size_of::<f64>() };
         let bytes = count.checked_mul(size * widths * spheres);
@@ -139,7 +141,7 @@ impl Recording {
         Ok(())
     }
 
-    /// The states, and the rest of the recording.
+    /// Returns times, states and impacts.
     ///
     /// # Errors
     /// [`Failure`] if there is no memory for them.
@@ -163,7 +165,7 @@ impl Recording {
     }
 }
 
-/// What is recorded where nothing turns.
+/// Quantities that are recorded if nothing rotates.
 const WITHOUT_SPIN: [Quantity; 2] = [Quantity::Positions, Quantity::Velocities];
 
 fn no_room(_: TryReserveError) -> Failure {
@@ -186,7 +188,7 @@ impl Numbers {
         }
     }
 
-    /// Gives back the room of what was not recorded.
+    /// Frees memory for rows that were not recorded.
     fn shrink_to_fit(&mut self) {
         match self {
             Self::Double(numbers) => numbers.shrink_to_fit(),
@@ -208,7 +210,7 @@ impl Numbers {
         Ok(())
     }
 
-    /// Makes rows of `width` numbers for each of their members rows of all `ids`.
+    /// Converts rows with the spheres of each row into rows with all `ids`.
     fn spread(
         &mut self,
         width: usize,
@@ -223,8 +225,8 @@ impl Numbers {
     }
 }
 
-/// Rows of `width` numbers for each of their members, as rows of all `ids`, with `missing` where one is not a
-/// member.
+/// Converts rows of `width` numbers for the spheres of each row into rows with all `ids`; spheres
+/// that a row does not have get `missing`.
 fn spread<T: Copy>(
     values: &[T],
     missing: T,
@@ -239,7 +241,7 @@ fn spread<T: Copy>(
     let mut values = values.chunks_exact(width);
     for (row, members) in members.iter().enumerate() {
         for (id, value) in members.iter().zip(&mut values) {
-            // Every member is among the ids.
+            // Every sphere of a row is among the ids.
             let column = ids.partition_point(|other| other < id);
             let place = width * (row * ids.len() + column);
             all[place..place + width].copy_from_slice(value);

@@ -1,6 +1,6 @@
-//! Many frames in one call, recorded.
+//! Many recorded frames in one call.
 
-// What is said of methods here is read in Python, where units stand in plain brackets.
+// Python shows these comments as docstrings, with units in plain brackets.
 #![allow(rustdoc::broken_intra_doc_links)]
 
 use std::ops::Range;
@@ -18,8 +18,8 @@ use crate::recording::{Numbers, Recording, Selection};
 use crate::snapshot::Snapshot;
 use crate::stop::PATIENCE;
 
-/// Time, ids, radii, masses, the impacts as words, by their names the quantities that change, and the exception
-/// that ended the run before its time.
+/// Times, ids, radii, masses, impacts as words, the changing quantities with their names, and the
+/// exception that ended the run early.
 type Arrays<'py> = (
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<u64>>,
@@ -30,19 +30,19 @@ type Arrays<'py> = (
     Option<PyErr>,
 );
 
-/// How long frames are, and which of them are recorded.
+/// Length of frames, and which of them are recorded.
 #[derive(Clone, Copy)]
 struct Rhythm {
-    /// Length of a frame \[s\]; the scene's own without one.
+    /// Frame time \[s\]; `None` for the scene's own.
     dt: Option<f64>,
-    /// The state after every so many frames is recorded.
+    /// Number of frames from one recorded state to the next.
     every: u64,
 }
 
 #[pymethods]
 impl Engine {
-    /// How many frames of `dt` [s], or of the scene's own, take `seconds` [s], or the scene's own
-    /// duration, up to whole ones.
+    /// Returns the number of frames of `dt` [s], or of the scene's frame time, in `seconds` [s], or
+    /// in the scene's duration, rounded up.
     #[pyo3(name = "_count_frames", signature = (seconds, dt))]
     fn count_frames(
         &self,
@@ -57,8 +57,8 @@ impl Engine {
         Ok(whole_frames(seconds, inner.frame_time(dt))?)
     }
 
-    /// Takes `frames` frames of `dt` [s], and records the state now and after every `every` of them, as far as it
-    /// is selected.
+    /// Takes `frames` frames of `dt` [s]. Records the selected parts of the present state and of
+    /// the state after every `every` frames.
     #[pyo3(name = "_record", signature = (frames, dt, every, selection))]
     fn record<'py>(
         &self,
@@ -90,14 +90,14 @@ impl Engine {
                 Err(Refused::Stopped(error)) => stopped = Some(error),
                 Err(Refused::Failed(error)) => return Err(error),
             }
-            // A signal handler may read the time of the world: the lock is free by now.
+            // A signal handler may read the time of the world, so the lock must be free here.
             stopped = stopped.or(py.check_signals().err());
         }
         arrays_of(py, recording, stopped)
     }
 }
 
-/// [`Selection`] by the attributes of Python's `Selection`.
+/// [`Selection`], read from the attributes of Python's `Selection`.
 #[derive(FromPyObject)]
 struct Named {
     quantities: Option<Vec<String>>,
@@ -113,14 +113,14 @@ impl Named {
     }
 }
 
-/// Why frames ended.
+/// Why the frames ended.
 enum Refused {
-    /// By what a handler of a signal raised; the world is as it was before that frame.
+    /// A signal handler raised an exception; the world keeps its state before that frame.
     Stopped(PyErr),
     Failed(PyErr),
 }
 
-/// What can be recorded under this name.
+/// Returns the quantity with this name, if it can be recorded.
 fn recorded(name: &str) -> Result<Quantity, Failure> {
     let known = Quantity::MOTION.into_iter().find(|quantity| quantity.name() == name);
     known.ok_or_else(|| {
@@ -130,8 +130,8 @@ fn recorded(name: &str) -> Result<Quantity, Failure> {
 }
 
 impl Engine {
-    /// Takes frames for a while, and records them. Returns how many were taken by then; if one is
-    /// refused, the world is as it was `before`.
+    /// Takes and records frames for a limited time. Returns the number of the next frame. If a
+    /// frame is refused, restores the state `before`.
     fn take_frames(
         &self,
         py: Python<'_>,
@@ -154,7 +154,7 @@ impl Engine {
     }
 }
 
-/// Takes frames for a while. Returns how many were taken by then.
+/// Takes and records frames for a limited time. Returns the number of the next frame.
 fn take_frames(
     inner: &mut Inner,
     frames: Range<u64>,
@@ -199,7 +199,7 @@ fn arrays_of(py: Python<'_>, recording: Recording, stopped: Option<PyErr>) -> Py
     ))
 }
 
-/// How many frames of `dt` \[s\] take this long \[s\], up to whole ones.
+/// Returns the number of frames of `dt` \[s\] in `seconds` \[s\], rounded up.
 pub fn whole_frames(seconds: f64, dt: f64) -> Result<u64, Failure> {
     let is_duration = seconds.is_finite() && seconds >= 0.0;
     if !is_duration {
@@ -211,7 +211,7 @@ pub fn whole_frames(seconds: f64, dt: f64) -> Result<u64, Failure> {
     }
     // A billionth of a frame is rounding.
     let frames = (seconds / dt - 1e-9).ceil();
-    // Larger numbers cannot be counted one by one.
+    // Larger numbers cannot be counted in steps of one.
     if frames >= 2f64.powi(53) {
         let problem = format_args!("{frames} frames of {dt} s are more than can be counted");
         return Err(Failure::value("seconds", problem));

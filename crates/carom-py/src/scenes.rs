@@ -1,4 +1,4 @@
-//! Scenes: read, written, found.
+//! Reads, writes and finds scenes.
 
 use std::path::PathBuf;
 
@@ -7,26 +7,26 @@ use pyo3::prelude::*;
 
 use crate::failure::Failure;
 
-/// The scene that Python code put together and wrote as TOML.
+/// Returns the scene that Python code wrote as TOML.
 pub fn in_code(text: &str) -> Result<Scene, SceneError> {
     Scene::from_toml_within(text, "scene", Budget::MOST)
 }
 
-/// Reads a scene from TOML, with some values changed (`path=value`), and answers with it as JSON;
-/// infinite numbers are `null`. `source` is what errors call it.
+/// Reads a scene from TOML with some values replaced (`path=value`). Returns it as JSON; infinite
+/// numbers are `null`. `source` is its name in errors.
 #[pyfunction]
 pub fn read_scene(text: &str, source: &str, overrides: Vec<String>) -> Result<String, Failure> {
     let scene = Scene::from_toml_with(text, source, &parsed(&overrides)?)?;
     Ok(serde_json::to_string(&scene)?)
 }
 
-/// Reads a scene file and those that it includes, as [`read_scene`] does a text.
+/// Reads a scene file and the files that it includes, like [`read_scene`].
 #[pyfunction]
 pub fn read_scene_file(path: PathBuf, overrides: Vec<String>) -> Result<String, Failure> {
     Ok(serde_json::to_string(&Scene::from_file(&path, &parsed(&overrides)?)?)?)
 }
 
-/// The scene that `text` describes in TOML, every default written out.
+/// Returns the TOML of a scene with all defaults written out.
 #[pyfunction]
 pub fn canonical_toml(text: &str) -> Result<String, Failure> {
     Ok(in_code(text).map_err(Failure::of_part)?.to_toml())
@@ -35,8 +35,7 @@ pub fn canonical_toml(text: &str) -> Result<String, Failure> {
 /// Finds a scene by its name, title or file, as the command line does, among the scenes registered
 /// in Python (name and title of each), those in folders, and the built-in ones.
 ///
-/// Answers with it as JSON, or with the name under which it is registered: then it is still to be
-/// made.
+/// Returns the scene as JSON, or the name of a registered scene, which Python must still make.
 #[pyfunction]
 pub fn find_scene(
     name: &str,
@@ -46,7 +45,8 @@ pub fn find_scene(
 ) -> Result<(Option<String>, String), Failure> {
     let library = library(&folders, registered)?;
     let overrides = parsed(&overrides)?;
-    // What is registered is found by its name alone: no value of it is there yet to be changed.
+    // A registered scene is found by its name alone, because it has no values yet that could be
+    // replaced.
     if let Ok((scene, Source::Registered)) = library.find(name, &[]) {
         return Ok((None, scene.name));
     }
@@ -54,7 +54,7 @@ pub fn find_scene(
     Ok((Some(serde_json::to_string(&scene)?), source.to_string()))
 }
 
-/// The scenes that can be found: name, title, description, and where each comes from.
+/// Returns name, title, description and source of all scenes.
 #[pyfunction]
 pub fn list_scenes(folders: Vec<PathBuf>) -> Result<Vec<[String; 4]>, Failure> {
     let entries = library(&folders, Vec::new())?.entries()?;

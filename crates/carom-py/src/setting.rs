@@ -1,6 +1,6 @@
-//! Quantities of spheres, set to what Python gives.
+//! Sets quantities of spheres to values from Python.
 
-use carom::{DQuat, DVec3, Sphere, SphereId, World};
+use carom::{DQuat, DVec3, Sphere, SphereId, SphereMotion, World};
 
 use crate::failure::Failure;
 use crate::quantity::{Column, Quantity};
@@ -18,8 +18,8 @@ pub fn set_all(world: &mut World, quantity: Quantity, values: &[f64]) -> Result<
                 _ => old.positions(),
             };
             let motion = |((id, new), &kept): ((SphereId, DVec3), &DVec3)| match quantity {
-                Quantity::Positions => (id, new, kept),
-                _ => (id, kept, new),
+                Quantity::Positions => SphereMotion { id, position: new, velocity: kept },
+                _ => SphereMotion { id, position: kept, velocity: new },
             };
             let motions: Vec<_> = ids.into_iter().zip(vectors()).zip(kept).map(motion).collect();
             world.set_motions(&motions).map_err(about)
@@ -43,8 +43,7 @@ pub fn set_all(world: &mut World, quantity: Quantity, values: &[f64]) -> Result<
     }
 }
 
-/// A sphere with another value of a quantity, of as many numbers as it has. The force applied to a
-/// sphere is no part of it.
+/// Returns a sphere with another value of a quantity. Applied forces are not part of a sphere.
 pub fn changed(sphere: Sphere, quantity: Quantity, values: &[f64]) -> Sphere {
     let value = values[0];
     match quantity {
@@ -70,7 +69,7 @@ pub fn changed(sphere: Sphere, quantity: Quantity, values: &[f64]) -> Sphere {
     }
 }
 
-/// The sphere at an index of columns.
+/// Returns the sphere at an index of the columns.
 pub fn sphere_at(columns: &[Column], index: usize) -> Sphere {
     columns.iter().fold(Sphere::new(DVec3::ZERO, 1.0), |sphere, (quantity, values)| {
         let width = quantity.width();

@@ -1,6 +1,6 @@
-//! A world at one moment, to return to.
+//! Snapshots of a world.
 
-// What is said of methods here is read in Python, where units stand in plain brackets.
+// Python shows these comments as docstrings, with units in plain brackets.
 #![allow(rustdoc::broken_intra_doc_links)]
 
 use std::sync::Arc;
@@ -11,7 +11,7 @@ use pyo3::types::PyBytes;
 
 use crate::failure::Failure;
 
-/// The state of a world at one moment: what `World.snapshot` gives and `World.restore` takes.
+/// The state of a world at one time, returned by `World.snapshot` and restored by `World.restore`.
 #[pyclass(frozen, module = "carom")]
 #[derive(Debug, Clone)]
 pub struct Snapshot {
@@ -24,15 +24,16 @@ pub struct Snapshot {
 
 #[pymethods]
 impl Snapshot {
-    /// When it was taken [s].
+    /// Time of the snapshot [s].
     #[getter]
     fn time(&self) -> f64 {
         self.time
     }
 
-    /// The snapshot as bytes, the same ones on every platform: what `from_bytes` takes.
+    /// Returns the snapshot as bytes for `from_bytes`, the same ones on every platform.
     ///
-    /// The same version of Carom reads them; pickles of snapshots, worlds and batches hold them.
+    /// Only the same version of Carom can read them. Pickles of snapshots, worlds and batches
+    /// contain them.
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let written =
             py.detach(|| Checkpoint::bytes_of(&self.world, &self.described, &self.palette));
@@ -43,14 +44,14 @@ impl Snapshot {
         })
     }
 
-    /// The snapshot that `to_bytes` made these bytes of: a world that is restored from it goes on as the
-    /// one that it was taken of, bit for bit.
+    /// Returns the snapshot from bytes of `to_bytes`. A world restored from it continues like the
+    /// original one, bit for bit.
     ///
-    /// A checksum notices damage, but not what was made to mislead: read only bytes that you trust.
+    /// A checksum detects damage, but not malicious bytes: read only bytes that you trust.
     ///
     /// Raises:
-    ///     MemoryError: If there is not enough for the snapshot.
-    ///     CaromError: For bytes that are no snapshot, of another version of Carom, or damaged.
+    ///     MemoryError: If there is not enough memory for the snapshot.
+    ///     CaromError: If the bytes are no snapshot, come from another version of Carom, or are damaged.
     #[staticmethod]
     fn from_bytes(py: Python<'_>, data: &[u8]) -> PyResult<Self> {
         let read = py.detach(|| Checkpoint::from_bytes(data));
@@ -73,7 +74,7 @@ impl Snapshot {
     }
 }
 
-/// Why the bytes of `field` are refused, or there are none.
+/// Returns the failure if the bytes of `field` are refused or cannot be made.
 fn refused(field: &str, error: CheckpointError) -> Failure {
     match error {
         CheckpointError::NoMemory => Failure::memory(error),

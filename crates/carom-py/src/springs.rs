@@ -1,6 +1,6 @@
-//! Springs of a world: spheres go by their ids, in JSON and in what is added.
+//! Springs of a world, whose ends are ids of spheres, in JSON and in descriptions.
 
-// What is said of methods here is read in Python: units in plain brackets, errors in Google's style.
+// Python shows these comments as docstrings: units in plain brackets, errors in Google's style.
 #![allow(rustdoc::broken_intra_doc_links)]
 
 use carom::SpringId;
@@ -15,7 +15,7 @@ use crate::failure::Failure;
 
 #[pymethods]
 impl Engine {
-    /// Springs by their ids.
+    /// Returns the springs with their ids.
     #[pyo3(name = "_springs_json")]
     fn springs_json(&self, py: Python<'_>) -> PyResult<String> {
         let inner = &*self.lock(py)?;
@@ -24,7 +24,7 @@ impl Engine {
         json(&springs.collect::<Vec<_>>())
     }
 
-    /// Adds the spring that `text` describes, and answers with its id.
+    /// Adds the spring that `text` describes. Returns its id.
     #[pyo3(name = "_add_spring")]
     fn add_spring_of(&self, py: Python<'_>, text: &str) -> PyResult<u64> {
         self.change(py, |inner| {
@@ -33,7 +33,7 @@ impl Engine {
         })
     }
 
-    /// Puts the spring that `text` describes in the place of another.
+    /// Replaces a spring by the one in `text`; it keeps its id.
     #[pyo3(name = "_set_spring")]
     fn set_spring_of(&self, py: Python<'_>, id: &Bound<'_, PyAny>, text: &str) -> PyResult<()> {
         let id = SpringId::from_number(arguments::id("spring", id)?);
@@ -44,10 +44,10 @@ impl Engine {
         })
     }
 
-    /// Takes a spring out of the world; its spheres stay.
+    /// Removes a spring; its spheres stay.
     ///
     /// Raises:
-    ///     UnknownError: If it is not in the world (any more).
+    ///     UnknownError: If the world does not (or no longer) contain it.
     fn remove_spring(&self, py: Python<'_>, id: &Bound<'_, PyAny>) -> PyResult<()> {
         let id = SpringId::from_number(arguments::id("spring", id)?);
         self.change(py, |inner| {

@@ -1,4 +1,4 @@
-//! Python's signals, while a step is at work: Ctrl-C raises `KeyboardInterrupt` there.
+//! Python's signals during a step: Ctrl-C raises `KeyboardInterrupt` there.
 
 use std::cell::Cell;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -10,20 +10,20 @@ use std::time::{Duration, Instant};
 use carom::StopRequest;
 use pyo3::prelude::*;
 
-/// How long frames go on before they look at the signals, and between two looks: each waits for the
+/// Time before the first check of signals, and between two checks; each check waits for the
 /// interpreter.
 pub const PATIENCE: Duration = Duration::from_millis(50);
 
-/// What a handler of a signal raised while a step was at work.
+/// The exception that a signal handler raised during a step.
 static RAISED: Mutex<Option<PyErr>> = Mutex::new(None);
 
 thread_local! {
-    /// Whether a step of this thread is running the handlers of signals.
+    /// Whether a step of this thread is running signal handlers.
     static RUNS_HANDLERS: Cell<bool> = const { Cell::new(false) };
 }
 
-/// What stops frames: a handler of a signal that has raised an exception. Python runs handlers in its main
-/// thread only: the one that has called looks, wherever the frames are taken.
+/// Stops frames when a signal handler raises an exception. Python runs handlers only in its main
+/// thread, so the calling thread checks, whichever threads take the frames.
 #[derive(Debug, Clone)]
 pub struct Watch(Arc<Looks>);
 
@@ -31,18 +31,18 @@ pub struct Watch(Arc<Looks>);
 struct Looks {
     last: Mutex<Instant>,
     has_raised: AtomicBool,
-    /// The thread that has called.
+    /// The thread that called.
     caller: ThreadId,
 }
 
 impl Watch {
-    /// For the frames that begin now, called from this thread.
+    /// Makes a watch for the frames that this thread takes next.
     pub fn begin() -> Self {
         let (last, has_raised) = (Mutex::new(Instant::now()), AtomicBool::new(false));
         Self(Arc::new(Looks { last, has_raised, caller: thread::current().id() }))
     }
 
-    /// What a step is to look at.
+    /// Returns the stop request for a step.
     pub fn request(&self) -> StopRequest {
         let watch = self.clone();
         StopRequest::new(move || {
@@ -53,10 +53,10 @@ impl Watch {
         })
     }
 
-    /// Waits for what other threads are at work on, and looks meanwhile. `None` if they panic.
+    /// Waits for the result of other threads and checks signals meanwhile. `None` if they panic.
     pub fn wait<T>(&self, done: &Receiver<T>) -> Option<T> {
         loop {
-            // Many short frames are to be stopped, too.
+            // Stops a run of many short frames, too.
             self.look_if_due();
             match done.recv_timeout(PATIENCE) {
                 Ok(value) => return Some(value),
@@ -80,24 +80,24 @@ impl Watch {
     }
 }
 
-/// Runs the handlers of signals that have come.
+/// Runs the handlers of pending signals.
 ///
 /// # Errors
-/// What one of them raised.
+/// The exception that a handler raised.
 pub fn check(py: Python<'_>) -> PyResult<()> {
-    // A handler may step another world, and be interrupted there.
+    // A handler may step another world and be interrupted there.
     let before = RUNS_HANDLERS.replace(true);
     let handled = py.check_signals();
     RUNS_HANDLERS.set(before);
     handled
 }
 
-/// Whether a handler of a signal is being run in the middle of a step of this thread.
+/// Returns whether a signal handler is running during a step of this thread.
 pub fn is_in_handler() -> bool {
     RUNS_HANDLERS.get()
 }
 
-/// The exception that stopped a step.
+/// Removes and returns the exception that stopped a step.
 pub fn raised() -> Option<PyErr> {
     RAISED.lock().unwrap_or_else(PoisonError::into_inner).take()
 }

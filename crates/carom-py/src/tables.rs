@@ -1,6 +1,6 @@
-//! What happened, as tables of 64-bit words: many rows reach NumPy without an object each.
+//! Events as tables of 64-bit words, so that NumPy gets many rows without an object each.
 //!
-//! NumPy sees the words as records; their fields stand in `python/carom/_tables.py`, in the order in
+//! NumPy reads the words as records. `python/carom/_tables.py` has their fields in the order in
 //! which they are written here.
 
 use std::collections::TryReserveError;
@@ -9,12 +9,12 @@ use carom::{
     BodyPair, Impact, LedgerEntry, Overlap, PersistentContact, StepReport, TriggerContact,
 };
 
-/// Rows of words, numbers as their bits.
+/// Rows of words; floating-point numbers are stored as their bits.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Table(Vec<u64>);
 
 impl Table {
-    /// The words.
+    /// Returns the words.
     pub fn into_words(self) -> Vec<u64> {
         self.0
     }
@@ -24,7 +24,7 @@ impl Table {
         impacts.iter().for_each(|impact| self.push_impact(start, impact));
     }
 
-    /// Makes room for so many impacts more.
+    /// Reserves memory for `count` more impacts.
     ///
     /// # Errors
     /// If there is no memory for them.
@@ -53,7 +53,7 @@ impl Table {
         }
     }
 
-    /// Appends contacts that persist.
+    /// Appends persistent contacts.
     pub fn push_contacts(&mut self, contacts: &[PersistentContact]) {
         for contact in contacts {
             self.push_bodies(contact.between);
@@ -65,7 +65,7 @@ impl Table {
         }
     }
 
-    /// Appends bodies that overlap.
+    /// Appends overlaps.
     pub fn push_overlaps(&mut self, overlaps: &[Overlap]) {
         for overlap in overlaps {
             self.push_bodies(overlap.between);
@@ -82,7 +82,7 @@ impl Table {
         self.numbers(impact.tangential_impulse.to_array());
     }
 
-    /// Appends the ids of two bodies: of a collider or a sphere, body 1, and of a sphere, body 2.
+    /// Appends the ids of two bodies: body 1 is a collider or a sphere, body 2 a sphere.
     fn push_bodies(&mut self, between: BodyPair) {
         let (collider, sphere_1, sphere_2) = match between {
             BodyPair::Spheres(first, second) => (NOBODY, first.number() as i64, second),
@@ -100,7 +100,7 @@ impl Table {
     }
 }
 
-/// Words of an impact.
+/// Words per impact.
 const IMPACT_WORDS: usize = 16;
-/// In the place of an id: body 1 is of the other kind.
+/// Replaces the id if body 1 is of the other kind.
 const NOBODY: i64 = -1;

@@ -1,4 +1,4 @@
-//! Threads of the engine's own.
+//! The engine's own threads.
 
 use std::num::NonZero;
 use std::sync::{Arc, Mutex, PoisonError, mpsc};
@@ -11,10 +11,10 @@ use crate::arguments;
 use crate::failure::Failure;
 use crate::stop::Watch;
 
-/// Reads how many threads are wanted, if that is said.
+/// Reads the number of threads, if it is given.
 ///
 /// # Errors
-/// As [`arguments::count`], and [`Failure`] for none.
+/// As [`arguments::count`], and [`Failure`] for 0.
 pub fn wanted(threads: Option<&Bound<'_, PyAny>>) -> PyResult<Option<usize>> {
     let threads = threads.map(|threads| arguments::count("threads", threads)).transpose()?;
     if threads == Some(0) {
@@ -23,18 +23,18 @@ pub fn wanted(threads: Option<&Bound<'_, PyAny>>) -> PyResult<Option<usize>> {
     Ok(threads.map(|threads| threads as usize))
 }
 
-/// A world of fewer spheres than this is stepped where it is: that takes less time than to wake a thread.
+/// A world with fewer spheres is stepped in the calling thread: waking another would take longer.
 const FEW: usize = 1024;
 
-/// Threads that share work, started with the first of it.
+/// Threads that share work, started at the first use.
 ///
-/// A process that was forked has none of the threads of its parent, and would wait for them for ever: it
-/// starts its own.
+/// A forked process has no threads of its parent, and would wait for them forever; it starts its
+/// own.
 #[derive(Debug)]
 pub struct Pool {
-    /// How many; 0 for as many as there are processors.
+    /// Number of threads; 0 for as many as processors.
     threads: usize,
-    /// With the number of the process that they are of.
+    /// The threads, and the id of the process that started them.
     started: Mutex<Option<(u32, Arc<ThreadPool>)>>,
 }
 
@@ -43,7 +43,7 @@ impl Pool {
         Self { threads, started: Mutex::new(None) }
     }
 
-    /// Has the threads do work; where they cannot be started, the calling one does it.
+    /// Runs work on the threads; if they cannot be started, in the calling thread.
     pub fn install<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
         match self.started() {
             Ok(threads) => threads.install(work),
@@ -51,8 +51,8 @@ impl Pool {
         }
     }
 
-    /// Has the threads do work that may take long, while this one watches for signals; where they cannot be
-    /// started, this one does it.
+    /// Runs long work on the threads while the calling thread watches for signals; if they cannot
+    /// be started, in the calling thread.
     pub fn watch<T: Send>(&self, watch: &Watch, work: impl FnOnce() -> T + Send) -> T {
         match self.started() {
             Ok(threads) => watched(&threads, watch, work),
@@ -60,7 +60,7 @@ impl Pool {
         }
     }
 
-    /// The threads of this process.
+    /// Returns the threads of this process.
     fn started(&self) -> Result<Arc<ThreadPool>, ThreadPoolBuildError> {
         let mut started = self.started.lock().unwrap_or_else(PoisonError::into_inner);
         let process = process::id();
@@ -70,7 +70,7 @@ impl Pool {
             return Ok(Arc::clone(threads));
         }
         let threads = Arc::new(ThreadPoolBuilder::new().num_threads(self.threads).build()?);
-        // Threads of a parent cannot be ended here.
+        // Threads of a parent process cannot be ended here.
         mem::forget(started.replace((process, Arc::clone(&threads))));
         Ok(threads)
     }
@@ -85,11 +85,11 @@ impl Drop for Pool {
     }
 }
 
-/// The threads that share the work of one world.
+/// The threads that share the work of a single world.
 static SHARED: Pool = Pool::new(0);
 
-/// Does work on so many spheres of one world, which all processors share where there are many. Meanwhile this
-/// thread watches for signals.
+/// Runs work on one world. If it has many spheres, all processors share it while the calling thread
+/// watches for signals.
 pub fn among_all<T: Send>(spheres: usize, watch: &Watch, work: impl FnOnce() -> T + Send) -> T {
     let is_shared = spheres >= FEW && rayon::current_thread_index().is_none();
     let threads = if is_shared { SHARED.started().ok() } else { None };
@@ -99,28 +99,28 @@ pub fn among_all<T: Send>(spheres: usize, watch: &Watch, work: impl FnOnce() -> 
     }
 }
 
-/// Has threads do work, while this one watches for signals.
+/// Runs work on threads while the calling thread watches for signals.
 fn watched<T: Send>(threads: &ThreadPool, watch: &Watch, work: impl FnOnce() -> T + Send) -> T {
     let done = threads.in_place_scope(|scope| {
         let (send, done) = mpsc::channel();
         scope.spawn(move |_| {
-            // It is waited for.
+            // The receiver waits for it.
             let _ = send.send(work());
         });
         watch.wait(&done)
     });
     match done {
         Some(value) => value,
-        // A panic of the work has come here before.
+        // A panic of the work has already been passed on.
         None => unreachable!("work that ends tells so"),
     }
 }
 
-/// So many threads, by default as many as there are processors, but no more than `most`; `None`
-/// where one does everything.
+/// Returns a pool with this number of threads, by default one per processor, at most `most`; `None`
+/// if one thread does everything.
 ///
 /// # Errors
-/// [`Failure`] if they cannot be started.
+/// [`Failure`] if the threads cannot be started.
 pub fn pool(threads: Option<usize>, most: usize) -> Result<Option<Pool>, Failure> {
     let processors = || thread::available_parallelism().map_or(1, NonZero::get);
     let threads = threads.unwrap_or_else(processors).min(most);

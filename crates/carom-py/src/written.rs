@@ -1,23 +1,24 @@
-//! What scripts write into arrays of spheres, as worlds take it over.
+//! Applies values that scripts wrote into arrays of spheres to worlds.
 
-use carom::{Error, World};
+use carom::{Error, Sphere, SphereMotion, World};
 
 use crate::failure::Failure;
 use crate::quantity::Quantity;
 use crate::setting::{changed, set_all};
 
-/// What a script has written into an array.
+/// Values that a script wrote into an array.
 #[derive(Debug)]
 pub struct Written {
     pub quantity: Quantity,
     /// The whole array.
     pub values: Vec<f64>,
-    /// The spheres of which it is not what the world has, ascending.
+    /// Rows that differ from the world, ascending.
     pub rows: Vec<usize>,
 }
 
 impl Written {
-    /// What was written of the spheres from this row on: so many are in one world.
+    /// Returns the values for one world, which has `count` rows from `first` on; `None` if none
+    /// were written.
     pub fn of_world(&self, first: usize, count: usize) -> Option<Self> {
         // Rows ascend.
         let place = |row: usize| self.rows.partition_point(|&other| other < row);
@@ -28,10 +29,10 @@ impl Written {
         (!rows.is_empty()).then(|| Self { quantity: self.quantity, values: values(), rows })
     }
 
-    /// Refuses what no world takes, whatever the quantity's bounds. `place_of` writes a row.
+    /// Refuses values that are invalid for any world, apart from bounds. `place_of` formats a row.
     ///
     /// # Errors
-    /// [`Failure`] that names the array and the row.
+    /// [`Failure`] with the array and the row.
     pub fn check(&self, place_of: impl Fn(usize) -> String) -> Result<(), Failure> {
         let can_be = |row: usize| self.of(row).iter().all(|&value| self.quantity.may_be(value));
         let Some(&row) = self.rows.iter().find(|&&row| !can_be(row)) else { return Ok(()) };
@@ -43,24 +44,24 @@ impl Written {
         self.quantity.row(&self.values, row)
     }
 
-    /// The array, and a row of it, as Python writes them.
+    /// Returns a row of the array in Python's notation.
     pub fn place(&self, row: &str) -> String {
         format!("{}[{row}]", self.quantity.name())
     }
 }
 
-/// Has a world take over what was written of its spheres; if it refuses a value, it is as it was. `place_of`
-/// writes a row.
+/// Applies the written values to a world; if it refuses one, the world stays unchanged. `place_of`
+/// formats a row.
 ///
 /// # Errors
-/// [`Failure`] that names the array and the row.
+/// [`Failure`] with the array and the row.
 pub fn take_over(
     world: &mut World,
     written: &[Written],
     place_of: impl Fn(usize) -> String,
 ) -> Result<(), Failure> {
     written.iter().try_for_each(|written| written.check(&place_of))?;
-    // What is finite is refused only where there are bounds.
+    // Finite values are refused only if the quantity has bounds.
     let is_safe = !written.iter().any(|written| written.quantity.is_bounded());
     let before = (!is_safe).then(|| world.snapshot());
     let taken = set_checked(world, written, place_of);
@@ -70,10 +71,10 @@ pub fn take_over(
     taken
 }
 
-/// Has a world take over what was written and checked, until it refuses a value. `place_of` writes a row.
+/// Applies checked values to a world until it refuses one. `place_of` formats a row.
 ///
 /// # Errors
-/// [`Failure`] that names the array and the row; the values before it are taken over.
+/// [`Failure`] with the array and the row; the values before it are applied.
 pub fn set_checked(
     world: &mut World,
     written: &[Written],
@@ -95,7 +96,9 @@ fn set(
         Quantity::AppliedForces => set_all(world, *quantity, values),
         Quantity::Positions | Quantity::Velocities => {
             let spheres = rows.iter().map(|&row| sphere(world, row));
-            let motions: Vec<_> = spheres.map(|(id, it)| (id, it.position, it.velocity)).collect();
+            let motion =
+                |(id, Sphere { position, velocity, .. })| SphereMotion { id, position, velocity };
+            let motions: Vec<_> = spheres.map(motion).collect();
             world.set_motions(&motions).map_err(|error| Failure::from(error).about(quantity.name()))
         }
         _ => rows.iter().try_for_each(|&row| {

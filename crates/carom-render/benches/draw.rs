@@ -1,4 +1,4 @@
-//! What a picture costs: balls over a floor, 1280 x 720 pixels, read back into memory.
+//! The time to draw a picture: balls above a floor, 1280 x 720 pixels, read back into memory.
 
 #![allow(missing_docs)]
 
@@ -7,7 +7,7 @@ use carom_render::{Ball, Camera, Drawing, Offscreen, Pattern, Quality};
 use carom_scene::scene::Finish;
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 
-/// This many balls in a cube, over a floor.
+/// Returns a drawing of `count` balls in a cube above a floor.
 fn balls(count: usize) -> Drawing {
     let mut drawing = Drawing::default();
     let edge = (count as f64).cbrt().ceil() as usize;

@@ -1,4 +1,4 @@
-//! Boxes around what is drawn.
+//! Boxes along the axes around what is drawn.
 
 use carom::{DVec3, Pose, Shape};
 
@@ -12,20 +12,20 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// Around a sphere of radius 1 at the origin: for where there is nothing to see.
+    /// The box around a sphere of radius 1 at the origin; used for an empty scene.
     pub const UNIT: Self = Self { min: DVec3::NEG_ONE, max: DVec3::ONE };
 
-    /// A single point \[m\].
+    /// Returns the box that holds a single point \[m\].
     pub fn at(point: DVec3) -> Self {
         Self { min: point, max: point }
     }
 
-    /// The box around a sphere.
+    /// Returns the box around a sphere.
     pub fn of_sphere(center: DVec3, radius: f64) -> Self {
         Self { min: center - radius, max: center + radius }
     }
 
-    /// The box around a shape in this place; `None` for one that has no end.
+    /// Returns the box around a shape at `pose`; `None` for a shape without end.
     pub fn of_shape(shape: Shape, pose: Pose) -> Option<Self> {
         let half = match shape {
             Shape::Sphere { radius } => return Some(Self::of_sphere(pose.position, radius)),
@@ -40,37 +40,37 @@ impl Bounds {
         Some(Self { min: pose.position - reach, max: pose.position + reach })
     }
 
-    /// The box around all of these; `None` without any.
+    /// Returns the box around all of these boxes; `None` if there are none.
     pub fn around(all: impl IntoIterator<Item = Self>) -> Option<Self> {
         all.into_iter().reduce(Self::with)
     }
 
-    /// The box around both.
+    /// Returns the box around both boxes.
     pub fn with(self, other: Self) -> Self {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
-    /// The box that reaches farther by this on every side \[m\].
+    /// Returns the box moved outward by `by` on every side \[m\].
     pub fn grown(self, by: f64) -> Self {
         Self { min: self.min - by, max: self.max + by }
     }
 
-    /// Whether another box lies within it.
+    /// Returns whether `other` lies within this box.
     pub fn holds(&self, other: &Self) -> bool {
         self.min.cmple(other.min).all() && other.max.cmple(self.max).all()
     }
 
-    /// Its middle.
+    /// Returns the middle of the box.
     pub fn center(&self) -> DVec3 {
         0.5 * (self.min + self.max)
     }
 
-    /// Half of its diagonal.
+    /// Returns half of the diagonal \[m\].
     pub fn radius(&self) -> f64 {
         0.5 * (self.max - self.min).length()
     }
 
-    /// Its eight corners.
+    /// Returns the eight corners.
     pub fn corners(&self) -> [DVec3; 8] {
         std::array::from_fn(|i| {
             let pick = |axis: usize| {

@@ -4,16 +4,16 @@ use carom::{DQuat, DVec3, Pose, Shape, Sides};
 
 use crate::drawing::Panel;
 
-/// How a wall is seen.
+/// How much of a wall is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Seen {
-    /// From within, behind what the container holds.
+    /// The wall is behind what the container holds: the eye sees its inner side.
     Whole,
-    /// From outside: all but its rim would hide what the container holds.
+    /// The wall is in front of what the container holds: only its rim is drawn.
     Rim,
 }
 
-/// The walls of a container as rectangles that face the eye.
+/// Returns the walls of a container as rectangles that face the eye.
 pub(crate) fn walls(
     container: &Panel,
     size: DVec3,
@@ -26,7 +26,7 @@ pub(crate) fn walls(
     let rotation = pose.rotation.normalize();
     let closed = OUTWARD.into_iter().zip(open.to_array()).filter(|(_, is_open)| !is_open);
     closed.map(move |(outward, _)| {
-        // In the frame of a rectangle that faces outward, the axes of the container but one swap.
+        // A rectangle's normal is its local y, so two axes of the container swap.
         let across = DVec3::Y.cross(outward);
         let (size_x, size_z) = match outward.abs().to_array() {
             [1.0, _, _] => (size.y, size.z),

@@ -1,4 +1,4 @@
-//! What of a drawing a picture has to show: not balls that are far from the others.
+//! The part of a drawing that a picture must show: all of it but balls far from the others.
 
 use carom::DVec3;
 
@@ -6,12 +6,12 @@ use crate::bounds::Bounds;
 use crate::drawing::{Drawing, Panel};
 use crate::framing::Framing;
 
-/// Room around balls without any surface, in their radii.
+/// Free space around balls in a drawing without surfaces, in ball radii.
 const ALONE: f64 = 0.8;
 
 impl Framing {
-    /// What there is to see in a drawing: its surfaces, and its balls but those that are far from the
-    /// others; `None` without any.
+    /// Returns the boxes around the surfaces of a drawing and its balls, without balls that are far
+    /// from the others; `None` for an empty drawing.
     pub fn of_drawing(drawing: &Drawing) -> Option<Self> {
         let surfaces = Bounds::around(drawing.panels.iter().filter_map(Panel::bounds));
         let balls = crowd(drawing).or(surfaces)?;
@@ -22,8 +22,8 @@ impl Framing {
         Some(Self { whole: whole.unwrap_or(balls), balls })
     }
 
-    /// What the first seconds of a scene sweep and what is drawn of it now. Once the balls have left the
-    /// former, it no longer counts.
+    /// Returns the framing of a running scene: `first`, which its first seconds sweep, joined with
+    /// what is drawn now. Once the balls have left `first`, only what is drawn now counts.
     pub fn of_run(first: Option<Self>, drawing: &Drawing) -> Self {
         let now = Self::of_drawing(drawing);
         let (Some(first), Some(now)) = (first, now) else {
@@ -36,9 +36,10 @@ impl Framing {
     }
 }
 
-/// The box around the balls that are not much farther from the middle of all than half of them are.
+/// Returns the box around the balls whose distance from the middle is at most `NEAR` times the
+/// median distance.
 fn crowd(drawing: &Drawing) -> Option<Bounds> {
-    // In distances of the middle one.
+    // In units of the median distance.
     const NEAR: f64 = 3.0;
     let balls = &drawing.balls;
     let median = |mut values: Vec<f64>| {

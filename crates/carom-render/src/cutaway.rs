@@ -1,19 +1,20 @@
-//! What is cut away so that the balls of a scene are seen: of half-spaces what lies behind others,
-//! and surfaces between the eye and the balls.
+//! Cuts surfaces away so that the balls of a scene are visible: half-spaces end where other
+//! half-spaces begin, and surfaces between the eye and the balls are not drawn in full.
 
 use carom::{DVec3, Shape};
 
 use crate::bounds::Bounds;
 use crate::drawing::{Drawing, Panel};
 
-/// Most half-spaces that others are cut off at; the first ones count.
+/// Largest number of half-spaces that cut others off; the first ones are taken.
 pub(crate) const MOST_CUTS: usize = 8;
 
-/// Part of the places of balls that a surface leaves in sight if it is drawn in full.
+/// Part of the test points in the balls' box that must stay visible for a surface to be drawn in
+/// full.
 const IN_SIGHT: f64 = 2.0 / 3.0;
 
-/// The half-spaces that cut others off: unit normals, and how far from the eye along them their
-/// surfaces are \[m\]. Unused ones cut nothing.
+/// Returns the planes of the half-spaces that cut others off: unit normal, and distance of the
+/// plane from the eye along it \[m\]. Unused entries cut nothing.
 pub(crate) fn cuts(drawing: &Drawing, eye: DVec3) -> [[f32; 4]; MOST_CUTS] {
     let solid =
         drawing.panels.iter().filter(|it| it.shape == Shape::HalfSpace && it.opacity == 1.0);
@@ -26,7 +27,7 @@ pub(crate) fn cuts(drawing: &Drawing, eye: DVec3) -> [[f32; 4]; MOST_CUTS] {
     cuts
 }
 
-/// Whether a surface stands between the eye and a good part of the box in which balls move.
+/// Returns whether a surface hides more than a third of the box in which the balls move.
 pub(crate) fn hides(panel: &Panel, eye: DVec3, balls: &Bounds) -> bool {
     let half = match panel.shape {
         Shape::Rectangle { size_x, size_z } => 0.5 * DVec3::new(size_x, 0.0, size_z),
@@ -44,7 +45,7 @@ pub(crate) fn hides(panel: &Panel, eye: DVec3, balls: &Bounds) -> bool {
     hidden.count() as f64 > most
 }
 
-/// Places spread evenly over a box.
+/// Returns points spread evenly over a box.
 fn places(within: &Bounds) -> [DVec3; 27] {
     std::array::from_fn(|i| {
         let parts = DVec3::new((i % 3) as f64, (i / 3 % 3) as f64, (i / 9) as f64);
@@ -52,8 +53,8 @@ fn places(within: &Bounds) -> [DVec3; 27] {
     })
 }
 
-/// Whether the way from a point crosses the whole of a box of these half lengths about the origin:
-/// a way that ends in it is not behind it.
+/// Returns whether the segment from `from` along `way` crosses a box of these half lengths about
+/// the origin from side to side. A segment that ends inside the box does not cross it.
 fn crosses(from: DVec3, way: DVec3, half: DVec3) -> bool {
     let (mut enter, mut leave) = (0.0f64, 1.0f64);
     for axis in 0..3 {
@@ -103,7 +104,7 @@ mod tests {
     fn what_hides_little_of_the_balls_stays_whole() {
         let pin = Shape::Box { size: DVec3::new(0.2, 3.0, 0.2) };
         assert!(!hides(&panel(pin, DVec3::Z * 1.5, DQuat::IDENTITY), DVec3::Z * 9.0, &BALLS));
-        // Nor do balls inside of a box, nor an eye in it.
+        // Neither a box around the balls nor a box around the eye hides them.
         let around = Shape::Box { size: DVec3::splat(4.0) };
         assert!(!hides(&panel(around, DVec3::ZERO, DQuat::IDENTITY), DVec3::Z * 9.0, &BALLS));
         assert!(!hides(&panel(around, DVec3::ZERO, DQuat::IDENTITY), DVec3::Z * 1.5, &BALLS));

@@ -7,10 +7,10 @@ use carom_scene::scene::{Color, Finish, Sun};
 use crate::bounds::Bounds;
 use crate::framing::Framing;
 
-/// How much triggers hide of what is behind them: they let spheres through.
+/// Opacity of triggers: spheres pass through them, so they look transparent.
 const TRIGGER_OPACITY: f64 = 0.45;
 
-/// How much a surface of glass does.
+/// Opacity of glass surfaces.
 const GLASS_OPACITY: f64 = 0.25;
 
 /// Everything in a picture.
@@ -22,28 +22,28 @@ pub struct Drawing {
     pub panels: Vec<Panel>,
     /// Arrows and lines.
     pub arrows: Vec<Arrow>,
-    /// What lights them, and what is behind them.
+    /// The light, and the sky behind everything.
     pub light: Light,
-    /// Where surfaces without end are cut off, and where balls have to be seen: by what is drawn
-    /// ([`Framing::of_drawing`]), unless given.
+    /// Where surfaces without end are cut off, and where balls must be visible. `None`: computed
+    /// from the drawing ([`Framing::of_drawing`]).
     pub framing: Option<Framing>,
-    /// Whether there is a grid below it all where no floor goes on to the horizon.
+    /// Whether a grid is drawn below the scene where no floor reaches the horizon.
     pub has_grid: bool,
 }
 
-/// What is painted on a ball.
+/// A pattern painted on a ball.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Pattern {
     /// Nothing.
     #[default]
     Plain,
-    /// With white bands and caps that show how it is turned, for a ball that stands out.
+    /// White bands and caps that show the rotation of a ball that stands out.
     Striped,
-    /// With a band in another tone of its colour that shows how it is turned, for many balls.
+    /// A band in another tone of the ball's colour that shows rotation, for many balls.
     Banded,
-    /// Fine rings: it never gives way.
+    /// Fine rings: the ball is fixed.
     Fixed,
-    /// Its own colour, whatever the light: for marks.
+    /// The ball's own colour whatever the light, for marks.
     Glowing,
 }
 
@@ -56,16 +56,16 @@ pub struct Ball {
     pub radius: f64,
     /// sRGB.
     pub color: Color,
-    /// From its own frame to the world; only a pattern shows it.
+    /// From the ball's own frame to the world; visible only with a pattern.
     pub rotation: DQuat,
-    /// What is painted on it.
+    /// The pattern painted on the ball.
     pub pattern: Pattern,
-    /// How its surface takes light.
+    /// How the surface reflects light.
     pub finish: Finish,
 }
 
 impl Ball {
-    /// A sphere at this place \[m\] with this radius \[m\] and coat: banded where it has an
+    /// Returns a sphere at `center` \[m\] with this radius \[m\] and coat: banded if it has an
     /// orientation, else plain.
     pub fn of_sphere(
         center: DVec3,
@@ -84,13 +84,13 @@ impl Ball {
 pub struct Panel {
     /// A rectangle, box, container or half-space.
     pub shape: Shape,
-    /// Where it is.
+    /// Position and rotation.
     pub pose: Pose,
     /// sRGB.
     pub color: Color,
-    /// How its surface takes light.
+    /// How the surface reflects light.
     pub finish: Finish,
-    /// From 0, nothing to be seen, to 1.
+    /// From 0, invisible, to 1, opaque.
     pub opacity: f64,
 }
 
@@ -103,26 +103,26 @@ pub struct Arrow {
     pub end: DVec3,
     /// sRGB.
     pub color: Color,
-    /// In pixels.
+    /// Width in pixels.
     pub width: f64,
-    /// Whether it ends in a head.
+    /// Whether the line ends in an arrow head.
     pub head: bool,
-    /// Whether balls and surfaces before it leave it in sight.
+    /// Whether it is drawn in front of balls and surfaces that would hide it.
     pub in_front: bool,
 }
 
-/// Sun, sky, and what the ground sends back.
+/// Light of the sun and the sky, and light reflected by the ground.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Light {
-    /// Unit vector to the sun.
+    /// Unit vector towards the sun.
     pub to_sun: DVec3,
-    /// Of the sun, linear.
+    /// Light of the sun, linear.
     pub sun: [f32; 3],
-    /// Of the sky straight above, linear.
+    /// Light of the sky straight above, linear.
     pub zenith: [f32; 3],
-    /// Of the sky at the horizon, linear.
+    /// Light of the sky at the horizon, linear.
     pub horizon: [f32; 3],
-    /// Of all that lies below the horizon, linear.
+    /// Light from below the horizon, linear.
     pub ground: [f32; 3],
 }
 
@@ -140,7 +140,7 @@ impl Default for Light {
 }
 
 impl Light {
-    /// The light of a scene: its sun, and a sky of its background colour.
+    /// Returns the light of a scene: its sun, and a sky in its background colour.
     pub fn of_scene(scene: &carom_scene::Scene) -> Self {
         let mut light = Self::default();
         if let Some(Sun { rotation, color, intensity }) = &scene.sun {
@@ -156,7 +156,7 @@ impl Light {
         light
     }
 
-    /// The same light under a dark sky, for dark surroundings.
+    /// Returns the same light under a dark sky, for dark surroundings.
     pub fn at_dusk(self) -> Self {
         Self {
             zenith: linear([0.26, 0.29, 0.36]),
@@ -167,7 +167,7 @@ impl Light {
     }
 }
 
-/// Linear from sRGB (IEC 61966-2-1).
+/// Converts sRGB to linear colour (IEC 61966-2-1).
 pub(crate) fn linear(color: Color) -> [f32; 3] {
     color.map(|part| {
         let part = part.clamp(0.0, 1.0);
@@ -178,37 +178,37 @@ pub(crate) fn linear(color: Color) -> [f32; 3] {
 }
 
 impl Panel {
-    /// The way its front faces, unit vector.
+    /// Returns the normal of the front, a unit vector.
     pub(crate) fn normal(&self) -> DVec3 {
         self.pose.rotation.normalize() * DVec3::Y
     }
 
-    /// How far a point is in front of its plane \[m\].
+    /// Returns the distance of a point in front of the panel's plane \[m\]; negative behind it.
     pub(crate) fn height_of(&self, point: DVec3) -> f64 {
         self.normal().dot(point - self.pose.position)
     }
 
-    /// The box around it; `None` for a half-space, which has none.
+    /// Returns the box around the panel; `None` for a half-space.
     pub fn bounds(&self) -> Option<Bounds> {
         Bounds::of_shape(self.shape, self.pose)
     }
 }
 
 impl Drawing {
-    /// The box around everything that ends somewhere; `None` if nothing does.
+    /// Returns the box around all balls and finite panels; `None` if there are none.
     pub fn bounds(&self) -> Option<Bounds> {
         let balls = self.balls.iter().map(|ball| Bounds::of_sphere(ball.center, ball.radius));
         Bounds::around(balls.chain(self.panels.iter().filter_map(Panel::bounds)))
     }
 
-    /// Takes out all there is; light and framing stay.
+    /// Removes balls, panels and arrows; light and framing stay.
     pub fn clear(&mut self) {
         self.balls.clear();
         self.panels.clear();
         self.arrows.clear();
     }
 
-    /// Adds a collider: a ball or a panel. Triggers do not look as if they were solid.
+    /// Adds a collider as a ball or a panel. Triggers are translucent.
     pub fn add_collider(&mut self, shape: Shape, pose: Pose, coat: impl Into<Coat>, trigger: bool) {
         let Coat { color, finish } = coat.into();
         match shape {

@@ -1,4 +1,4 @@
-//! Films: pictures in a row as H.264 in an mp4 file.
+//! Films: pictures encoded as H.264 in an mp4 file.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -18,41 +18,43 @@ use crate::picture::Picture;
 use crate::plain_film::{self, CloseError};
 use crate::yuv::Planes;
 
-/// Time from one frame that stands for itself to the next \[s\]: players seek to these.
+/// Time between keyframes \[s\]; players seek to these.
 const SECONDS_BETWEEN_KEYFRAMES: u32 = 2;
-/// Quantization parameter of all frames, of 0 to 51: at this one a film is hard to tell from its
-/// pictures (values of plain areas are off by half a level), and not large.
+/// Quantization parameter of all frames, from 0 to 51. At this value a film looks like its pictures
+/// (plain areas are off by half a level), and its file is not large.
 const QUANTIZATION: u8 = 18;
-/// Most bits per pixel and frame that a player should be prepared for; what is used follows from
-/// the quantization alone.
+/// Largest number of bits per pixel and frame that a player should expect; the actual number
+/// follows from the quantization alone.
 const BITS_PER_PIXEL: f64 = 0.5;
-/// The least and the most that the encoder accepts \[bit/s\]: H.264 knows at most 240 Mbit/s.
+/// Smallest and largest bit rate that the encoder accepts \[bit/s\]; H.264 allows at most 240
+/// Mbit/s.
 const BITS_PER_SECOND: [f64; 2] = [1e5, 2e8];
 
-/// What became of a film.
+/// What a finished film contains.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FilmSummary {
-    /// Pictures.
+    /// Number of pictures.
     pub frames: u64,
-    /// How long they last \[s\].
+    /// Duration \[s\].
     pub seconds: f64,
     /// Size of the file.
     pub bytes: u64,
 }
 
-/// A film in the making: H.264 (BT.709 colours, 4:2:0) in an mp4 file that can be watched while
-/// it is loaded. Every frame lasts equally long.
+/// A film that is being written: H.264 (BT.709 colours, 4:2:0) in an mp4 file that can be watched
+/// while it is loaded. All frames last equally long.
 ///
-/// Quality is the same throughout, so the size follows from what is to be seen: some 10 MB for each
-/// minute of a few balls at 1280 x 720 pixels and 30 frames per second.
+/// The quality is constant, so the size depends on the pictures: about 10 MB a minute for a few
+/// balls at 1280 x 720 pixels and 30 frames per second.
 ///
-/// The file gets its name once it is complete. Until then its frames are in `NAME.0.unfinished` beside
-/// it (1, 2, ... where another one is left), a file that players open, too: each frame is with the
-/// operating system when [`Self::add`] returns, and [`recover_film`](crate::recover_film) makes the film of what
-/// a killed process leaves. [`Self::finish`] has all frames in memory, compressed, and needs room on the disk for both files.
+/// The file gets its name when it is complete. Until then the frames are in `NAME.0.unfinished`
+/// beside it (1, 2, ... if that name is taken), which players can open, too. The operating system
+/// has each frame when [`Self::add`] returns; [`recover_film`](crate::recover_film) makes the film
+/// from the file that a killed process leaves. [`Self::finish`] holds all compressed frames in
+/// memory and needs disk space for both files.
 ///
-/// A film that is dropped is finished as it is, unless it has no frames; [`Self::finish`] tells
-/// whether that went well. If not, the unfinished file stays.
+/// Dropping a film finishes it, unless it has no frames, but only [`Self::finish`] returns errors.
+/// On an error the unfinished file stays.
 pub struct Film {
     path: PathBuf,
     form: FilmForm,
@@ -73,12 +75,12 @@ impl std::fmt::Debug for Film {
 }
 
 impl Film {
-    /// Begins a film of `width` times `height` pixels at this path, `.mp4` by custom. Folders that
-    /// are missing are made.
+    /// Begins a film of `width` times `height` pixels at this path, which by custom ends in `.mp4`.
+    /// Creates missing folders.
     ///
     /// # Errors
-    /// [`FilmError::Size`] and [`FilmError::Rate`] for what films cannot have,
-    /// [`FilmError::Unwritable`] for a place that cannot be written to.
+    /// [`FilmError::Size`] and [`FilmError::Rate`] for a size or rate that films cannot have,
+    /// [`FilmError::Unwritable`] for a path that cannot be written.
     pub fn create(
         path: impl AsRef<Path>,
         width: u32,
@@ -92,7 +94,7 @@ impl Film {
         let encoder = match encoder {
             Ok(encoder) => encoder,
             Err(error) => {
-                // An error here comes after another one.
+                // An error here would hide the first one.
                 unfinished.remove().ok();
                 return Err(error.into());
             }
@@ -107,7 +109,7 @@ impl Film {
         })
     }
 
-    /// Adds a picture, which is seen after those before it. Its opacity is left aside.
+    /// Adds a picture at the end. Its opacity is ignored.
     ///
     /// # Errors
     /// [`FilmError::OtherSize`] or [`FilmError::Picture`] for a picture that does not fit,
@@ -131,11 +133,12 @@ impl Film {
         added.map_err(|source| unwritable(&self.path, source))
     }
 
-    /// Makes the film of its unfinished file, and removes that.
+    /// Makes the film from its unfinished file and removes that file.
     ///
     /// # Errors
-    /// [`FilmError::Empty`] without frames, [`FilmError::Unwritable`] for a full disk; then there
-    /// is no file, or the one that was there before, and frames stay in the unfinished file.
+    /// [`FilmError::Empty`] without frames, [`FilmError::Unwritable`] for a full disk. Then no new
+    /// film exists, a file that was there before is unchanged, and the frames stay in the
+    /// unfinished file.
     pub fn finish(mut self) -> Result<FilmSummary, FilmError> {
         self.complete()
     }
@@ -160,7 +163,7 @@ impl Film {
         Ok(FilmSummary { frames, seconds: self.form.time_of(frames), bytes })
     }
 
-    /// Why the film cannot be made, and where its frames are.
+    /// Returns the error for a film that cannot be made, with the path of its unfinished file.
     fn kept(&self, error: CloseError, place: Option<&Path>) -> FilmError {
         let source = match error {
             CloseError::Container(MuxerError::Io(source)) => source,
@@ -179,7 +182,7 @@ impl Film {
 
 impl Drop for Film {
     fn drop(&mut self) {
-        // An error here has no caller to go to.
+        // A destructor cannot return an error.
         drop(self.complete());
     }
 }
@@ -192,7 +195,7 @@ fn encoder_config(form: FilmForm) -> EncoderConfig {
     let bits_per_second = bits_per_second.clamp(least, most);
     EncoderConfig::new()
         .profile(Profile::High)
-        // Between these bounds, this mode of control has nothing left to control.
+        // The quantization is fixed, so this mode has nothing to control.
         .rate_control_mode(RateControlMode::Bufferbased)
         .qp(QpRange::new(QUANTIZATION, QUANTIZATION))
         .adaptive_quantization(false)

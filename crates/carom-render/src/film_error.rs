@@ -1,4 +1,4 @@
-//! Why a film fails.
+//! Errors of films.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -8,11 +8,11 @@ use thiserror::Error;
 
 use crate::picture::PictureError;
 
-/// Time is counted in 1/90 000 s: a frame has to last a whole number of them.
+/// Ticks of the clock of films: a frame lasts a whole number of ticks.
 pub(crate) const TICKS_PER_SECOND: u32 = 90_000;
-/// More frames in a second than any screen shows.
+/// Larger than the rate of any screen.
 pub(crate) const MOST_FRAMES_PER_SECOND: u32 = 240;
-/// Sides of a picture \[px\]: a macroblock at least, at most what the encoder takes.
+/// Sides of a picture \[px\]: at least a macroblock, at most what the encoder accepts.
 pub(crate) const SMALLEST_SIDE: u32 = 16;
 pub(crate) const LONGER_SIDE: u32 = 3840;
 pub(crate) const SHORTER_SIDE: u32 = 2160;
@@ -21,18 +21,18 @@ pub(crate) const SHORTER_SIDE: u32 = 2160;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum FilmError {
-    /// Films have no pictures of this size.
+    /// A film cannot have pictures of this size.
     #[error(
         "a film cannot have {width} x {height} pixels: both must be even, at least \
          {SMALLEST_SIDE}, and at most {LONGER_SIDE} and {SHORTER_SIDE}"
     )]
     Size {
-        /// Pixels of a row.
+        /// Width in pixels.
         width: u32,
-        /// Rows.
+        /// Height in pixels.
         height: u32,
     },
-    /// Frames cannot follow each other at this rate.
+    /// A film cannot have this frame rate.
     #[error(
         "a film cannot have {frames_per_second} frames per second: it must be a divisor of \
          {TICKS_PER_SECOND} like 24, 25, 30, 50, 60 or 120, and at most {MOST_FRAMES_PER_SECOND}"
@@ -49,16 +49,16 @@ pub enum FilmError {
         /// Width and height of the film.
         film: [u32; 2],
     },
-    /// A picture's pixels are not as many as its size says.
+    /// The number of pixels does not match the size of the picture.
     #[error(transparent)]
     Picture(#[from] PictureError),
-    /// A file cannot hold more. What was added before can still be finished.
+    /// The file cannot grow further. The film can still be finished with the frames added before.
     #[error("the film is too long for one file after {frames} frames")]
     TooLong {
-        /// Frames that it has.
+        /// Frames in the film.
         frames: u64,
     },
-    /// Nothing was added: there is no film.
+    /// The film has no frames, so no file was made.
     #[error("the film {path} has no frames")]
     Empty {
         /// The file.
@@ -67,7 +67,7 @@ pub enum FilmError {
     /// The encoder refused a picture.
     #[error("cannot encode the film: {0}")]
     Encoder(#[from] openh264::Error),
-    /// Frames cannot be put together into a file.
+    /// The frames cannot be written as an mp4 file.
     #[error("cannot put the film together: {0}")]
     Container(#[source] MuxerError),
     /// The file cannot be written.
@@ -75,12 +75,11 @@ pub enum FilmError {
     Unwritable {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The cause.
         source: io::Error,
     },
 }
 
-/// The file cannot be written.
 pub(crate) fn unwritable(path: &Path, source: io::Error) -> FilmError {
     FilmError::Unwritable { path: path.to_owned(), source }
 }

@@ -1,4 +1,4 @@
-//! What is the same for all frames of a film.
+//! Size and rate, which are the same for all frames of a film.
 
 use crate::film_error::{
     FilmError, LONGER_SIDE, MOST_FRAMES_PER_SECOND, SHORTER_SIDE, SMALLEST_SIDE, TICKS_PER_SECOND,
@@ -7,15 +7,15 @@ use crate::film_error::{
 /// Size and rate of a film.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct FilmForm {
-    /// Pixels of a row.
+    /// Width in pixels.
     pub width: u32,
-    /// Rows.
+    /// Height in pixels.
     pub height: u32,
     pub frames_per_second: u32,
 }
 
 impl FilmForm {
-    /// A form that films can have, or [`FilmError::Size`] and [`FilmError::Rate`].
+    /// Returns this form, or [`FilmError::Size`] or [`FilmError::Rate`] if films cannot have it.
     pub fn new(width: u32, height: u32, frames_per_second: u32) -> Result<Self, FilmError> {
         let (longer, shorter) = (width.max(height), width.min(height));
         let has_good_size = width.is_multiple_of(2)
@@ -34,12 +34,12 @@ impl FilmForm {
         Ok(Self { width, height, frames_per_second })
     }
 
-    /// How long a frame lasts \[1/90 000 s\].
+    /// Returns the duration of a frame \[1/90 000 s\].
     pub fn ticks_per_frame(self) -> u32 {
         TICKS_PER_SECOND / self.frames_per_second
     }
 
-    /// When a frame is seen \[s\]; the first is 0.
+    /// Returns the time of a frame \[s\]; frame 0 is at 0.
     pub fn time_of(self, frame: u64) -> f64 {
         frame as f64 / f64::from(self.frames_per_second)
     }

@@ -1,8 +1,9 @@
-//! Films while they grow: fragmented mp4 files, which players open whenever their writer stops.
+//! Growing films: fragmented mp4 files, which players can open even if their writer stopped.
 //!
-//! A head says what the track is, and ends with a box of Carom's own, of the type `uuid`, that has the form of the film
-//! as three numbers of 32 bits. After it each frame is a fragment: `moof` says when it is seen and how large it is, `mdat`
-//! has its bits. The boxes are those of ISO/IEC 14496-12, 8.8 and 11.1; numbers are big-endian.
+//! The head describes the track. It ends with Carom's own box, of the type `uuid`, which holds the
+//! form of the film as three numbers of 32 bits. Each frame follows as a fragment: `moof` holds its
+//! time and size, `mdat` its bits. The boxes are those of ISO/IEC 14496-12, 8.8 and 11.1; numbers
+//! are big-endian.
 
 use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
@@ -13,18 +14,18 @@ use muxide::fragmented::{FragmentConfig, FragmentedMuxer};
 use crate::film_error::TICKS_PER_SECOND;
 use crate::film_form::FilmForm;
 
-/// Which box of the type `uuid` is Carom's own.
+/// Identifies Carom's own box among those of the type `uuid`.
 const MARK: &[u8; 16] = b"carom film 1\x1a\r\n\0";
 /// Size and type of a box \[byte\].
 const BOX_HEAD: usize = 8;
-/// What says of a fragment when and how large it is \[byte\].
+/// Size of the `moof` box of a fragment \[byte\].
 const MOOF: usize = 100;
-/// More than the head of any film \[byte\].
+/// Longer than the head of any film \[byte\].
 const LONGEST_HEAD: usize = 4096;
-/// Length of a part of a frame \[byte\].
+/// Size of the length before each part of a frame \[byte\].
 const LENGTH: usize = 4;
 
-/// A box of this type.
+/// Returns a box of the type `kind`.
 fn boxed(kind: &[u8; 4], parts: &[&[u8]]) -> Vec<u8> {
     let content = parts.concat();
     let size = (BOX_HEAD + content.len()) as u32;
@@ -35,12 +36,12 @@ fn words<const N: usize>(values: [u32; N]) -> Vec<u8> {
     values.iter().flat_map(|value| value.to_be_bytes()).collect()
 }
 
-/// What says of a frame of `size` bytes, the number of which is `frame`, when it is seen.
+/// Returns the `moof` box of frame number `frame`, which has `size` bytes.
 fn moof(form: FilmForm, frame: u64, size: u32, is_keyframe: bool) -> Vec<u8> {
     const FROM_MOOF: u32 = 0x02_0000;
     const WITH_OFFSET_DURATION_SIZE_FLAGS: u32 = 0x00_0701;
     const VERSION_1: u32 = 0x0100_0000;
-    // Whether others are needed to decode it: none, or some.
+    // Whether decoding needs no other frame, or needs some.
     let flags = if is_keyframe { 0x0200_0000 } else { 0x0101_0000 };
     let ticks = form.ticks_per_frame();
     let header = boxed(b"mfhd", &[&words([0, frame as u32 + 1])]);
@@ -53,7 +54,7 @@ fn moof(form: FilmForm, frame: u64, size: u32, is_keyframe: bool) -> Vec<u8> {
     boxed(b"moof", &[&header, &boxed(b"traf", &[&track, &time, &run])])
 }
 
-/// The head of a film whose first frame has these bits.
+/// Returns the head of a film whose first frame has these bits.
 fn head(form: FilmForm, first: &[u8]) -> io::Result<Vec<u8>> {
     let FilmForm { width, height, frames_per_second } = form;
     let unfit = |text: &str| io::Error::new(io::ErrorKind::InvalidData, text);
@@ -69,7 +70,7 @@ fn head(form: FilmForm, first: &[u8]) -> io::Result<Vec<u8>> {
     Ok([muxer.init_segment(), mark].concat())
 }
 
-/// Writes a growing film; each frame is with the operating system when [`Self::add`] returns.
+/// Writes a growing film. The operating system has each frame when [`Self::add`] returns.
 #[derive(Debug)]
 pub(crate) struct FragmentWriter {
     form: FilmForm,
@@ -84,8 +85,9 @@ impl FragmentWriter {
         Self { form, frames: 0, end: 0, has_failed: false }
     }
 
-    /// Adds a frame, as the parts of H.264 with start codes in between, to `out`, which no other writes to. A film that
-    /// lacks a frame cannot go on: after an error `out` ends with the frame before, and no frame is added any more.
+    /// Appends a frame, given as parts of H.264 separated by start codes, to `out`. Nothing else
+    /// may write to `out`. After an error `out` ends with the frame before, and every later call
+    /// fails, because a film cannot go on without a frame.
     pub fn add(&mut self, bits: &[u8], out: &mut File) -> io::Result<()> {
         if self.has_failed {
             return Err(io::Error::other("a frame before could not be written"));
@@ -102,14 +104,14 @@ impl FragmentWriter {
             }
             Err(error) => {
                 self.has_failed = true;
-                // An error here comes after another one; what is cut short is left out when the film is read.
+                // An error here would hide the first one; a reader ignores the incomplete frame.
                 out.set_len(self.end).ok();
                 Err(error)
             }
         }
     }
 
-    /// The next fragment; the first one with the head of the film.
+    /// Returns the next fragment, with the head of the film before the first one.
     fn fragment(&self, bits: &[u8]) -> io::Result<Vec<u8>> {
         let head = if self.frames == 0 { head(self.form, bits)? } else { Vec::new() };
         let sample = annexb_to_avcc(bits);
@@ -117,12 +119,12 @@ impl FragmentWriter {
         Ok([head, moof, boxed(b"mdat", &[&sample])].concat())
     }
 
-    /// Frames that are written.
+    /// Returns the number of frames written.
     pub fn frames(&self) -> u64 {
         self.frames
     }
 
-    /// Bytes that are written.
+    /// Returns the number of bytes written.
     pub fn bytes(&self) -> u64 {
         self.end
     }
@@ -134,21 +136,21 @@ pub(crate) struct Fragments<'a> {
     pub form: FilmForm,
     /// Whole frames read.
     pub frames: u64,
-    /// Bytes that are not read yet: after the last frame, what is none.
+    /// Bytes not read yet. After the last frame: bytes that belong to no whole frame.
     pub rest: u64,
-    /// Whether what comes after the last frame is no frame that was cut short, but something else.
+    /// Whether the bytes after the last frame are damaged, not only an incomplete frame.
     pub is_damaged: bool,
 }
 
 /// A frame of H.264.
 pub(crate) struct Frame {
-    /// Its parts, with start codes in between.
+    /// Its parts, separated by start codes.
     pub bits: Vec<u8>,
     pub is_keyframe: bool,
 }
 
 impl<'a> Fragments<'a> {
-    /// Reads the head; `None` for a file that is no growing film.
+    /// Reads the head; `None` if the file is no growing film.
     pub fn open(file: &'a mut File) -> io::Result<Option<Self>> {
         let length = file.seek(SeekFrom::End(0))?;
         file.rewind()?;
@@ -161,7 +163,7 @@ impl<'a> Fragments<'a> {
         Ok(Some(Self { reader, form, frames: 0, rest, is_damaged: false }))
     }
 
-    /// The next whole frame.
+    /// Reads the next whole frame.
     pub fn next_frame(&mut self) -> io::Result<Option<Frame>> {
         let mut head = [0; MOOF + BOX_HEAD];
         if self.is_damaged || self.rest < head.len() as u64 {
@@ -194,13 +196,13 @@ impl<'a> Fragments<'a> {
         Ok(frame)
     }
 
-    /// More than a frame ever has \[byte\]: twice what its picture has.
+    /// Returns a size above that of any frame \[byte\]: twice the size of the picture in 4:2:0.
     fn largest_frame(&self) -> u32 {
         3 * self.form.width * self.form.height + LONGEST_HEAD as u32
     }
 }
 
-/// The form of the film, and where its head ends.
+/// Returns the form of the film and the position at which its head ends.
 fn read_head(bytes: &[u8]) -> Option<(FilmForm, usize)> {
     let number = |place: usize| -> Option<u32> {
         Some(u32::from_be_bytes(bytes.get(place..place + 4)?.try_into().ok()?))
@@ -225,7 +227,8 @@ fn read_head(bytes: &[u8]) -> Option<(FilmForm, usize)> {
     is_whole.then_some((form.ok()?, end))
 }
 
-/// The parts of a frame, each after its length, with start codes instead; `None` where the lengths do not fit.
+/// Replaces the length before each part of a frame by a start code; `None` if the lengths do not
+/// fit.
 fn with_start_codes(sample: &[u8]) -> Option<Vec<u8>> {
     let mut bits = Vec::with_capacity(sample.len());
     let mut rest = sample;

@@ -1,4 +1,4 @@
-//! What a picture of a scene has to show: where its balls are and go in its first seconds.
+//! The space that a picture of a scene must show: where its balls are during its first seconds.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,42 +8,44 @@ use carom_scene::scene::Simulation;
 
 use crate::bounds::Bounds;
 
-/// The part of space that a camera is fitted to, and at which surfaces without end are cut off.
+/// The part of space that a camera is fitted to. Surfaces without end are cut off there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Framing {
-    /// Around the balls and all surfaces that end somewhere.
+    /// Box around the balls and all finite surfaces.
     pub whole: Bounds,
-    /// Around the balls alone, without those that fly away.
+    /// Box around the balls alone, without those that fly away.
     pub balls: Bounds,
 }
 
-/// Simulated time that is looked at \[s\].
+/// Simulated time that is examined \[s\].
 const FIRST_SECONDS: f64 = 3.0;
 
-/// Frames times balls that are stepped to see where balls go: some tenths of a second at worst.
+/// Largest number of frames times balls that are simulated to find where balls go: some tenths of a
+/// second at worst.
 const MOST_WORK: usize = 20_000;
 
-/// Distance of a plane without end that still belongs to a scene, in radii of its balls and in
-/// radii of the box around them.
+/// Distance within which a plane without end belongs to a scene, in radii of its balls and in radii
+/// of the box around them.
 const NEAR_PLANE: [f64; 2] = [100.0, 4.0];
 
-/// How far outside the scene at its start balls stay in the picture that come no farther, in radii
-/// of the box around it and in radii of the balls.
+/// Distance from the scene's initial box within which balls stay in the picture if they never go
+/// farther, in radii of that box and in radii of the balls.
 const STAYING: [f64; 2] = [1.0, 40.0];
 
-/// How far outside the scene at its start balls that fly farther stay in the picture, in such radii.
+/// [`STAYING`] for balls that go farther than that while others stay.
 const LEAVING: [f64; 2] = [0.25, 12.0];
 
-/// How far they do where all balls fly farther, in such radii: none becomes a dot beside others.
+/// [`STAYING`] if all balls go farther than that: no ball becomes a dot beside others.
 const ALL_LEAVING: [f64; 2] = [2.0, 250.0];
 
 impl Framing {
-    /// Where there is nothing to see.
+    /// The framing of an empty scene.
     pub const UNIT: Self = Self { whole: Bounds::UNIT, balls: Bounds::UNIT };
 
-    /// What the first seconds of a scene sweep, or all of a shorter one; `None` for a scene without balls
-    /// and surfaces that end. Balls that fly away from others are left out once they have left, but for those that
-    /// springs and threads hold at a fixed point; scenes of very many balls are taken as they stand at the start.
+    /// Returns the space swept in the first seconds of a scene, or in all of a shorter one; `None`
+    /// for a scene without balls and finite surfaces. A ball that flies away from the others no
+    /// longer counts once it has left, unless springs and threads hold it at a fixed point. A scene
+    /// of very many balls is taken as it is at the start.
     pub fn of_scene(scene: &Scene) -> Option<Self> {
         let mut world = scene.world().ok()?;
         let visible: Vec<_> = scene.all_colliders().iter().map(|it| it.visible).collect();
@@ -69,7 +71,7 @@ impl Framing {
     }
 }
 
-/// Numbers of spheres, and boxes around them.
+/// Returns the number of each sphere and the box around it.
 fn spheres(world: &World) -> impl Iterator<Item = (u64, Bounds)> {
     let spheres = world.spheres();
     let places = spheres.positions().iter().zip(spheres.radii());
@@ -77,7 +79,7 @@ fn spheres(world: &World) -> impl Iterator<Item = (u64, Bounds)> {
     spheres.ids().iter().map(|id| id.number()).zip(boxes)
 }
 
-/// Boxes around the places where balls will come from.
+/// Returns boxes around the positions at which emitters release balls.
 fn emitters(scene: &Scene) -> impl Iterator<Item = Bounds> {
     scene.emitters.iter().map(|emitter| {
         let sphere = &emitter.sphere;
@@ -86,7 +88,7 @@ fn emitters(scene: &Scene) -> impl Iterator<Item = Bounds> {
     })
 }
 
-/// The points at which springs and threads are fixed.
+/// Returns the points at which springs and threads are fixed.
 fn fixed_ends(world: &World) -> impl Iterator<Item = Bounds> {
     world.springs().filter_map(|(_, spring)| match spring.to {
         SpringEnd::Point(point) => Some(Bounds::at(point)),
@@ -94,7 +96,8 @@ fn fixed_ends(world: &World) -> impl Iterator<Item = Bounds> {
     })
 }
 
-/// The numbers of the spheres that springs and threads hold at a fixed point, also by way of other spheres.
+/// Returns the numbers of the spheres that springs and threads connect to a fixed point, directly
+/// or through other spheres.
 fn tethered(world: &World) -> BTreeSet<u64> {
     let mut joined = BTreeMap::<u64, Vec<u64>>::new();
     let mut found = Vec::new();
@@ -122,8 +125,8 @@ fn mean_radius(world: &World) -> Option<f64> {
     (!radii.is_empty()).then(|| radii.iter().sum::<f64>() / radii.len() as f64)
 }
 
-/// The box around the points of planes without end that are nearest to a box, where these are not
-/// farther away than `reach` \[m\].
+/// Returns the box around the points that are nearest to a box on planes without end, for planes
+/// not farther away than `reach` \[m\].
 fn feet<'a>(
     colliders: impl Iterator<Item = &'a Collider>,
     of: &Bounds,
@@ -142,8 +145,10 @@ fn feet<'a>(
     Bounds::around(feet.map(Bounds::at))
 }
 
-/// The boxes around what balls sweep in the first seconds: those that stay within `far`, if they are tethered within
-/// `farthest`; the others as long as they are within `near`; and these as long as they are within `farthest`.
+/// Simulates the first seconds and returns three boxes around the space that balls sweep. The first
+/// is of balls that stay within `far`, or within `farthest` if they are tethered. The second is of
+/// the other balls while they are within `near`, the third of the same balls while they are within
+/// `farthest`.
 fn sweep(
     world: &mut World,
     simulation: &Simulation,

@@ -6,39 +6,39 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum GpuError {
-    /// There is no graphics driver at all.
+    /// There is no graphics driver.
     #[error(
         "no graphics adapter found; a software driver is enough (Debian, Ubuntu: apt-get install \
          mesa-vulkan-drivers; Fedora: dnf install mesa-vulkan-drivers): {0}"
     )]
     NoAdapter(#[from] wgpu::RequestAdapterError),
-    /// The adapter refuses to work.
+    /// The adapter opens no device.
     #[error("the graphics adapter {adapter} cannot be used: {source}")]
     NoDevice {
         /// Its name.
         adapter: String,
-        /// Why.
+        /// The cause.
         source: wgpu::RequestDeviceError,
     },
     /// The device was lost, or is out of memory.
     #[error("the graphics device failed: {0}")]
     Lost(String),
-    /// A picture larger than the device can draw, or without pixels.
+    /// The picture has no pixels, or is larger than the device can draw.
     #[error("a picture of {width} x {height} pixels cannot be drawn: between 1 and {largest} each")]
     Size {
-        /// In pixels.
+        /// Width in pixels.
         width: u32,
-        /// In pixels.
+        /// Height in pixels.
         height: u32,
-        /// Most pixels along an edge.
+        /// Largest edge in pixels.
         largest: u32,
     },
-    /// A picture for which the device has too little memory.
+    /// The device has too little memory for the picture.
     #[error("there is too little graphics memory for a picture of {width} x {height} pixels")]
     Memory {
-        /// In pixels.
+        /// Width in pixels.
         width: u32,
-        /// In pixels.
+        /// Height in pixels.
         height: u32,
     },
 }
@@ -46,16 +46,17 @@ pub enum GpuError {
 /// A device to draw with, and the queue of its work.
 #[derive(Debug, Clone)]
 pub struct Gpu {
-    /// What the adapter calls itself.
+    /// Name of the adapter.
     pub adapter: String,
     /// The device.
     pub device: wgpu::Device,
-    /// Its work.
+    /// The queue of its work.
     pub queue: wgpu::Queue,
 }
 
 impl Gpu {
-    /// What `make` makes for a picture of this size in pixels, if the device has the memory for it.
+    /// Calls `make` and returns its result, if the device has the memory for a picture of this size
+    /// in pixels.
     ///
     /// # Errors
     /// [`GpuError::Memory`]
@@ -64,12 +65,13 @@ impl Gpu {
         [width, height]: [u32; 2],
         make: impl FnOnce() -> T,
     ) -> Result<T, GpuError> {
-        // What is made of a texture that there is no memory for is invalid, too.
+        // A texture without memory makes everything built on it invalid, too.
         let invalid = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
         let memory = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
         let made = make();
         let [memory, invalid] = [memory.pop(), invalid.pop()].map(|error| {
-            // A page cannot wait for the answer: there, what does not fit is seen when it is drawn.
+            // A page cannot wait for the answer; there, the failure shows when the picture is
+            // drawn.
             if cfg!(target_arch = "wasm32") { None } else { pollster::block_on(error) }
         });
         match memory.or(invalid) {
@@ -78,20 +80,20 @@ impl Gpu {
         }
     }
 
-    /// The fastest device there is, without any window.
+    /// Opens the fastest device, without a window.
     ///
     /// # Errors
-    /// [`GpuError::NoAdapter`] where no driver is installed, [`GpuError::NoDevice`].
+    /// [`GpuError::NoAdapter`] if no driver is installed, [`GpuError::NoDevice`].
     pub async fn open() -> Result<Self, GpuError> {
         let adapter = match adapter(wgpu::Backends::PRIMARY).await {
             Ok(adapter) => adapter,
-            // Only where there is nothing better: OpenGL without a display complains aloud.
+            // OpenGL is the last choice: without a display it prints warnings.
             Err(_) => adapter(wgpu::Backends::all()).await?,
         };
         let name = adapter.get_info().name;
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("carom"),
-            // Whatever the adapter has: pictures may be as large as it can draw.
+            // All limits of the adapter, so that pictures may be as large as it can draw.
             required_limits: adapter.limits(),
             ..Default::default()
         };
@@ -102,7 +104,7 @@ impl Gpu {
     }
 }
 
-/// The fastest adapter of these interfaces.
+/// Returns the fastest adapter of these backends.
 async fn adapter(backends: wgpu::Backends) -> Result<wgpu::Adapter, wgpu::RequestAdapterError> {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
     descriptor.backends = backends;

@@ -1,5 +1,5 @@
-//! What is drawn many times, packed for the device. Places are relative to the eye, so that 32 bits
-//! are enough however far from the origin the eye is.
+//! Instances of what is drawn many times, packed for the device. Positions are relative to the eye,
+//! so that 32 bits suffice however far the eye is from the origin.
 
 use carom::{DVec3, Shape};
 use carom_scene::scene::Finish;
@@ -9,16 +9,17 @@ use crate::cutaway;
 use crate::drawing::{Arrow, Ball, Drawing, Panel, Pattern, linear};
 use crate::framing::Framing;
 
-/// Numbers of a ball: centre and radius, colour with pattern and finish, rotation.
+/// A ball: centre and radius, colour with pattern and finish, rotation.
 pub(crate) type PackedBall = [f32; 12];
-/// Numbers of a panel: centre with kind and finish, rotation, half lengths and grid, colour and opacity.
+/// A panel: centre with kind and finish, rotation, half lengths and grid, colour and opacity.
 pub(crate) type PackedPanel = [f32; 16];
-/// Numbers of a grid: centre, distance of its lines and how far it reaches.
+/// A grid: centre, distance of its lines, and how far it reaches.
 pub(crate) type PackedGrid = [f32; 8];
-/// Numbers of an arrow: start and width, end and head, colour.
+/// An arrow: start and width, end and head, colour.
 pub(crate) type PackedArrow = [f32; 12];
 
-/// A half-space is drawn out to this many times the distance of the eye from what there is else.
+/// A half-space is drawn out to this many times the larger of the scene's radius and the eye's
+/// height.
 const HORIZON: f64 = 60.0;
 
 /// Kinds of panels in the shader.
@@ -28,43 +29,42 @@ const GROUND: f64 = 2.0;
 const WALL: f64 = 3.0;
 const INCLINE: f64 = 4.0;
 
-/// In place of an opacity: only the rims of faces are seen.
+/// Value of the opacity for faces of which only the rims are drawn.
 const RIM: f64 = -1.0;
 
-/// Least vertical part of the normal of a half-space that is the ground, and goes on to the horizon,
-/// and of one on which balls roll down.
+/// Least vertical part of a half-space's normal: for ground, which goes on to the horizon, and for
+/// an incline, on which balls roll down.
 const LEVEL: f64 = 0.999_9;
 const INCLINED: f64 = 0.05;
 
-/// All instances of a drawing, and how many panels of each kind there are.
+/// All instances of a drawing, and the number of panels of each kind.
 #[derive(Debug, Default)]
 pub(crate) struct Instances {
-    /// Those of glass, of which the farthest are the first, then small ones, of which they are the
-    /// last, and then all others.
+    /// First balls of glass, the farthest first; then small balls; then all others.
     pub balls: Vec<PackedBall>,
-    /// How many balls are of glass, and how many are small.
+    /// Number of balls of glass, and number of small balls.
     pub glass_balls: usize,
     pub small_balls: usize,
     /// Rectangles and half-spaces.
     pub faces: Vec<PackedPanel>,
     pub boxes: Vec<PackedPanel>,
     pub arrows: Vec<PackedArrow>,
-    /// Below a scene without ground.
+    /// The grid below a scene without ground.
     pub grid: Option<PackedGrid>,
-    /// How many of the balls, faces and boxes cast shadows: the first ones.
+    /// Number of balls, faces and boxes that cast shadows; they come first.
     pub casting: [usize; 3],
 }
 
 impl Instances {
-    /// Packs a drawing seen from `eye`; half-spaces reach as far as suits what is to be seen. `sharpness`:
-    /// pixels that a length of 1 m covers at a distance of 1 m.
+    /// Packs a drawing seen from `eye`. `framing` sets how far half-spaces reach; `sharpness` is
+    /// the number of pixels that a length of 1 m covers at a distance of 1 m.
     pub fn pack(&mut self, drawing: &Drawing, eye: DVec3, framing: &Framing, sharpness: f64) {
         let Self { balls, glass_balls, small_balls, faces, boxes, arrows, grid, casting } = self;
         balls.clear();
         faces.clear();
         boxes.clear();
         arrows.clear();
-        // What casts shadows comes first: not marks, nor surfaces that can be seen through.
+        // Shadow casters come first: neither marks nor translucent surfaces are among them.
         let is_mark = |ball: &&Ball| ball.pattern == Pattern::Glowing;
         let packed = |ball| packed_ball(ball, eye);
         let is_glass = |ball: &&Ball| ball.finish == Finish::Glass && !is_mark(ball);
@@ -102,8 +102,8 @@ impl Instances {
     }
 }
 
-/// Radius in pixels below which a ball is small: its shape, its pattern and the softness of its shadows
-/// cannot be made out.
+/// Returns the radius in pixels below which a ball is small: its shape, its pattern and the
+/// softness of its shadows are invisible.
 fn small_radius(ball: &Ball) -> f64 {
     match ball.pattern {
         Pattern::Plain => 4.0,
@@ -111,18 +111,18 @@ fn small_radius(ball: &Ball) -> f64 {
     }
 }
 
-/// From the eye to where a ray touches a ball: of balls that are apart, the one with the less of it is
-/// never behind the other.
+/// Returns the squared length of a tangent from the eye to a ball. Of two balls that do not
+/// overlap, the one with the shorter tangent is never behind the other.
 fn tangent_squared(ball: &PackedBall) -> f32 {
     distance_squared(ball) - ball[3] * ball[3]
 }
 
-/// Of the centre of a ball from the eye.
+/// Returns the squared distance of a ball's centre from the eye.
 fn distance_squared(&[x, y, z, ..]: &PackedBall) -> f32 {
     x * x + y * y + z * z
 }
 
-/// Whether a panel is a floor or an incline without end.
+/// Returns whether a panel is a floor or an incline without end.
 fn bears_balls(panel: &Panel) -> bool {
     panel.shape == Shape::HalfSpace && panel.normal().y > INCLINED
 }
@@ -141,17 +141,19 @@ fn add_panel(
         Shape::Rectangle { size_x, size_z } => {
             faces.push(packed_rectangle(panel, [size_x, size_z], eye));
         }
-        // Spheres are balls; half-spaces and walls of containers cast no shadows, and come later.
+        // Spheres are balls; half-spaces and walls of containers cast no shadows and are added
+        // later.
         _ => {}
     }
 }
 
-/// Whether a container is drawn as a volume without walls: as a trigger.
+/// Returns whether a container is drawn as a volume without walls, as a trigger is.
 fn is_volume(container: &Panel) -> bool {
     container.opacity < 1.0 && container.finish != Finish::Glass
 }
 
-/// Adds the walls of a container. They cast no shadows: those would change with the place of the eye.
+/// Adds the walls of a container. They cast no shadows, because the shadows would move with the
+/// eye.
 fn add_walls(panel: &Panel, eye: DVec3, faces: &mut Vec<PackedPanel>) {
     let Shape::Container { size, open } = panel.shape else { return };
     if is_volume(panel) {
@@ -167,7 +169,7 @@ fn add_walls(panel: &Panel, eye: DVec3, faces: &mut Vec<PackedPanel>) {
     }
 }
 
-/// Adds a half-space, unless it is seen from within, from where it would hide all there is.
+/// Adds a half-space, unless the eye is inside it, where it would hide everything.
 fn add_half_space(panel: &Panel, eye: DVec3, framing: &Framing, faces: &mut Vec<PackedPanel>) {
     if panel.shape != Shape::HalfSpace || panel.height_of(eye) < 0.0 {
         return;
@@ -209,7 +211,7 @@ fn packed_ball(ball: &Ball, eye: DVec3) -> PackedBall {
     ])
 }
 
-/// What a finish adds to a kind or a pattern, as the shaders take them apart.
+/// Returns the number that a finish adds to a kind or a pattern; the shaders separate them again.
 fn finish(finish: Finish) -> f64 {
     const KINDS: f64 = 8.0;
     KINDS
@@ -255,13 +257,13 @@ fn packed_box(panel: &Panel, size: DVec3, eye: DVec3) -> PackedPanel {
     packed_panel(panel, panel.pose.position - eye, BOX, size)
 }
 
-/// A half-space as a large square, moved along with the eye in steps of its grid, so that neither
-/// its edge nor a jump of its lines is ever seen.
+/// Packs a half-space as a large square that follows the eye in steps of its grid: neither its edge
+/// nor a jump of its lines is ever visible.
 fn packed_half_space(panel: &Panel, kind: f64, eye: DVec3, radius: f64) -> PackedPanel {
     let rotation = panel.pose.rotation.normalize();
     let seen = rotation.inverse() * (eye - panel.pose.position);
     let reach = HORIZON * radius.max(seen.y.abs()).max(1e-6);
-    // By the height of the eye: what flies away does not change it.
+    // From the height of the eye, so that balls that fly away do not change it.
     let grid = grid_distance(2.0 * seen.y.abs());
     let below = (DVec3::new(seen.x, 0.0, seen.z) / grid).round() * grid;
     let center = panel.pose.position + rotation * below;
@@ -269,21 +271,21 @@ fn packed_half_space(panel: &Panel, kind: f64, eye: DVec3, radius: f64) -> Packe
     packed_panel(panel, center - eye, kind, (half, grid))
 }
 
-/// The grid below a scene: just off what stands on a floor of its own.
+/// Packs the grid below a scene, a little below the lowest surface so that the two do not overlap.
 fn packed_grid(eye: DVec3, framing: &Framing) -> PackedGrid {
     // In radii of the scene.
     const BELOW: f64 = 0.01;
     const REACH: f64 = 8.0;
     let (radius, center) = (framing.whole.radius(), framing.whole.center());
     let distance = grid_distance(4.0 * radius);
-    // Lines go through the origin, as coordinates do.
+    // Lines go through the origin.
     let round = |along: f64| (along / (5.0 * distance)).round() * 5.0 * distance;
     let y = framing.whole.min.y - BELOW * radius;
     let center = DVec3::new(round(center.x), y, round(center.z));
     joined(&[four(center - eye, 0.0), [distance as f32, (REACH * radius) as f32, 0.0, 0.0]])
 }
 
-/// A round distance of grid lines, of which some ten are on a `length` \[m\].
+/// Returns a round distance of grid lines: about ten lines on a `length` \[m\].
 fn grid_distance(length: f64) -> f64 {
     let power = 10f64.powf((length.max(1e-9) / 10.0).log10().floor());
     let rest = length / 10.0 / power;

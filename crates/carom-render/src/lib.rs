@@ -1,8 +1,9 @@
-//! Draws spheres and surfaces: into a window, a page, or offscreen into pictures and films.
+//! Draws spheres and surfaces into a window, a web page, pictures and films.
 //!
-//! A [`Drawing`] is what there is to see, a [`Camera`] where it is seen from; a [`Renderer`] draws
-//! both into a [`Target`] on a device of wgpu, [`Offscreen`] into a [`Picture`] in memory. [`draw_world`]
-//! makes a drawing of a world; beyond that nothing here knows physics, nor an interface.
+//! A [`Drawing`] holds the things to draw, a [`Camera`] the point of view. A [`Renderer`] draws
+//! both into a [`Target`] on a wgpu device; [`Offscreen`] draws them into a [`Picture`] in memory.
+//! [`draw_world`] makes a drawing of a world. Apart from that function, this crate knows neither
+//! physics nor a user interface.
 
 #![warn(clippy::unwrap_used)]
 

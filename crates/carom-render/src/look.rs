@@ -1,4 +1,4 @@
-//! What a world looks like: its spheres and colliders in the colours of its scene.
+//! Draws a world: its spheres and colliders in the colours of its scene.
 
 use carom::{Boundary, DQuat, DVec3, SphereId, Spring, SpringEnd, World};
 use carom_scene::scene::Color;
@@ -6,9 +6,9 @@ use carom_scene::{Palette, Scene};
 
 use crate::drawing::{Arrow, Ball, Drawing, Light, Pattern};
 
-/// Draws a world that was made of this scene, or that has the same colliders in the same order,
-/// with a ball in white bands where `rotation` says of its number how it is turned. Other balls are
-/// banded where the world knows how they are turned ([`World::has_spin`]), else plain.
+/// Fills `drawing` with a world that has the colliders of `scene` in the same order. A ball has
+/// white bands if `rotation` returns an orientation for its number. Other balls are banded if the
+/// world tracks their orientation ([`World::has_spin`]), else plain.
 pub fn draw_world(
     scene: &Scene,
     world: &World,
@@ -42,8 +42,9 @@ pub fn draw_world(
     }
 }
 
-/// The line that a spring or a thread is drawn as, between spheres at these places \[m\]; `None` where there is no
-/// such sphere. In a periodic box it goes to the nearest image.
+/// Returns the line that shows a spring or a thread between spheres at the positions that `place`
+/// returns \[m\]; `None` if a sphere does not exist. In a periodic box the line goes to the nearest
+/// image.
 pub fn spring_line(
     spring: &Spring,
     boundary: Boundary,
@@ -61,8 +62,7 @@ pub fn spring_line(
 /// The colour of springs and threads.
 const SPRING: Color = [0.50, 0.47, 0.41];
 
-/// How a ball is turned that rolls without slipping: for the eye alone, under rules that know no
-/// friction.
+/// Orientation of a ball that rolls without slipping, for display under rules without friction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Roll {
     /// From the ball's frame to the world.
@@ -70,10 +70,11 @@ pub struct Roll {
 }
 
 impl Roll {
-    /// A ball that has not rolled yet.
+    /// The orientation at the start.
     pub const START: Self = Self { rotation: DQuat::IDENTITY };
 
-    /// Rolls on by `way` \[m\] over a floor with the unit normal `up`, with this radius \[m\].
+    /// Rolls by `way` \[m\] over a floor with the unit normal `up`; `radius` \[m\] is that of the
+    /// ball.
     pub fn on(&mut self, way: DVec3, up: DVec3, radius: f64) {
         let turn = up.cross(way) / radius;
         self.rotation = (DQuat::from_scaled_axis(turn) * self.rotation).normalize();

@@ -1,4 +1,4 @@
-//! Files that bear their name only once they are complete.
+//! Files that get their name only when they are complete.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
@@ -6,20 +6,20 @@ use std::path::{Path, PathBuf};
 
 use carom_scene::unfinished::{create_beside, create_folders_of};
 
-/// A file under a temporary name in the same folder, until [`Self::complete`]. Dropped before, it
-/// is removed; what bore the name before stays as it was.
+/// A file under a temporary name in the target folder until [`Self::complete`]. If it is dropped
+/// before, it is removed, and a file that already had the name is unchanged.
 #[derive(Debug)]
 pub(crate) struct NewFile {
     file: File,
     path: PathBuf,
-    /// `None` for what is no regular file, like a pipe: it is written to as it is.
+    /// `None` if the target is no regular file, for example a pipe: that is written directly.
     unfinished: Option<PathBuf>,
 }
 
 impl NewFile {
-    /// Creates the file, and the folders above it that are missing.
+    /// Creates the file and missing folders above it.
     pub fn create(path: &Path) -> io::Result<Self> {
-        // Through a link, what it points to is replaced, not the link.
+        // A link keeps pointing to its target, which is replaced.
         let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
         if fs::metadata(&path).is_ok_and(|found| !found.is_file()) {
             let file = OpenOptions::new().write(true).open(&path)?;
@@ -30,12 +30,12 @@ impl NewFile {
         Ok(Self { file, path, unfinished: Some(unfinished) })
     }
 
-    /// Gives the file its name, in the place of what bore it before.
+    /// Gives the file its name and replaces a file that had it.
     pub fn complete(mut self) -> io::Result<()> {
         let Some(unfinished) = &self.unfinished else {
             return self.file.flush();
         };
-        // Some file systems tell of a full disk no sooner.
+        // Some file systems report a full disk only here.
         self.file.sync_data()?;
         fs::rename(unfinished, &self.path)?;
         self.unfinished = None;
@@ -56,7 +56,7 @@ impl Write for NewFile {
 impl Drop for NewFile {
     fn drop(&mut self) {
         if let Some(unfinished) = &self.unfinished {
-            // An error here has no caller to go to.
+            // A destructor cannot return an error.
             drop(fs::remove_file(unfinished));
         }
     }

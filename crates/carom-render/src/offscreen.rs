@@ -1,4 +1,4 @@
-//! Pictures without any window.
+//! Pictures drawn without a window.
 
 use crate::camera::Camera;
 use crate::drawing::Drawing;
@@ -18,15 +18,15 @@ pub struct Offscreen {
 }
 
 impl Offscreen {
-    /// A device of its own, for pictures of this width and height in pixels.
+    /// Opens a device for pictures of this width and height in pixels.
     ///
     /// # Errors
-    /// [`GpuError`] if there is no device, or none for pictures of this size.
+    /// [`GpuError`] if there is no device, or if it cannot draw pictures of this size.
     pub fn new(size: [u32; 2], quality: Quality) -> Result<Self, GpuError> {
         Self::on(pollster::block_on(Gpu::open())?, size, quality)
     }
 
-    /// Makes the target on a device that is there already.
+    /// Draws with an open device.
     ///
     /// # Errors
     /// [`GpuError::Size`], [`GpuError::Memory`]
@@ -36,10 +36,10 @@ impl Offscreen {
         Ok(Self { gpu, renderer, target })
     }
 
-    /// Draws pictures of this size from now on.
+    /// Changes the size of later pictures.
     ///
     /// # Errors
-    /// [`GpuError::Size`], [`GpuError::Memory`]; then the size stays as it was.
+    /// [`GpuError::Size`], [`GpuError::Memory`]; the size then stays as it was.
     pub fn resize(&mut self, size: [u32; 2]) -> Result<(), GpuError> {
         if size != self.target.size() {
             self.target = target(&self.gpu, &self.renderer, size)?;
@@ -47,12 +47,12 @@ impl Offscreen {
         Ok(())
     }
 
-    /// The device it draws with.
+    /// Returns the device.
     pub fn gpu(&self) -> &Gpu {
         &self.gpu
     }
 
-    /// The picture that the camera sees; waits for it.
+    /// Draws the picture that the camera sees and waits for it.
     ///
     /// # Errors
     /// [`GpuError::Lost`] if the device fails, [`GpuError::Memory`].
@@ -62,7 +62,7 @@ impl Offscreen {
         readback.picture()
     }
 
-    /// Begins to draw the picture that the camera sees.
+    /// Starts to draw the picture that the camera sees, without waiting for it.
     ///
     /// # Errors
     /// [`GpuError::Memory`]
@@ -74,7 +74,7 @@ impl Offscreen {
     }
 }
 
-/// A texture of this size in pixels to draw into.
+/// Makes the textures for pictures of this size in pixels.
 fn target(gpu: &Gpu, renderer: &Renderer, size: [u32; 2]) -> Result<Target, GpuError> {
     let largest = gpu.device.limits().max_texture_dimension_2d;
     let [width, height] = size;

@@ -14,20 +14,20 @@ use crate::new_file::NewFile;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum PictureError {
-    /// Size and pixels do not fit together.
+    /// The size does not match the number of bytes.
     #[error("a picture of {width} x {height} pixels cannot consist of {bytes} bytes")]
     Size {
-        /// Pixels of a row.
+        /// Width in pixels.
         width: u32,
-        /// Rows.
+        /// Height in pixels.
         height: u32,
         /// Bytes of the pixels.
         bytes: usize,
     },
-    /// It cannot be made a PNG.
+    /// The picture cannot be encoded as PNG.
     #[error("cannot make the picture a PNG: {0}")]
     Encode(#[source] png::EncodingError),
-    /// It is not a PNG, or a broken one.
+    /// The file is not a PNG, or is damaged.
     #[error("cannot read the picture as PNG: {0}")]
     Decode(#[from] png::DecodingError),
     /// The file cannot be written.
@@ -36,24 +36,24 @@ pub enum PictureError {
     Unwritable {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The cause.
         source: io::Error,
     },
 }
 
-/// A picture: 8 bits each of red, green, blue (sRGB) and opacity, row by row from the top.
+/// A picture: 8 bits each of red, green, blue (sRGB) and opacity, in rows from the top.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Picture {
-    /// Pixels of a row.
+    /// Width in pixels.
     pub width: u32,
-    /// Rows.
+    /// Height in pixels.
     pub height: u32,
     /// `4 width height` bytes; colours are not multiplied by the opacity.
     pub pixels: Vec<u8>,
 }
 
 impl Picture {
-    /// Pictures of one height, from left to right; as much of their heights as all have.
+    /// Joins pictures from left to right. Rows below the height of the lowest picture are cut off.
     pub fn side_by_side(pictures: &[Self]) -> Self {
         let height = pictures.iter().map(|picture| picture.height).min().unwrap_or_default();
         let width = pictures.iter().map(|picture| picture.width).sum();
@@ -67,10 +67,10 @@ impl Picture {
         Self { width, height, pixels }
     }
 
-    /// The picture as the content of a PNG file, marked as sRGB.
+    /// Encodes the picture as a PNG file, marked as sRGB.
     ///
     /// # Errors
-    /// If there are no pixels, or not as many as the size says.
+    /// If there are no pixels, or if their number does not match the size.
     pub fn to_png(&self) -> Result<Vec<u8>, PictureError> {
         self.check_size()?;
         let mut file = Vec::new();
@@ -84,11 +84,10 @@ impl Picture {
         Ok(file)
     }
 
-    /// A picture from the content of a PNG file. One without opacity is opaque; of 16 bits, 8 are
-    /// kept.
+    /// Decodes a PNG file. A picture without opacity becomes opaque; 16 bits become 8.
     ///
     /// # Errors
-    /// For what is no PNG, breaks off, or would take too much memory.
+    /// If the file is not a PNG, is incomplete, or would take too much memory.
     pub fn from_png(file: &[u8]) -> Result<Self, PictureError> {
         let mut decoder = png::Decoder::new(std::io::Cursor::new(file));
         let transformations = png::Transformations::normalize_to_color8();
@@ -110,12 +109,12 @@ impl Picture {
         Ok(picture)
     }
 
-    /// Writes the picture to a PNG file. Folders that are missing are made. The file gets its name
-    /// once it is complete: if that fails, what was there before is still there, whole.
+    /// Writes the picture to a PNG file and creates missing folders. The file gets its name when it
+    /// is complete; on an error a file that was there before is unchanged.
     ///
     /// # Errors
-    /// As [`Self::to_png`], and [`PictureError::Unwritable`] for a place that cannot be written to
-    /// or a full disk.
+    /// As [`Self::to_png`], and [`PictureError::Unwritable`] for a path that cannot be written or a
+    /// full disk.
     #[cfg(not(target_arch = "wasm32"))]
     pub fn save_png(&self, path: impl AsRef<Path>) -> Result<(), PictureError> {
         let content = self.to_png()?;
@@ -142,7 +141,7 @@ impl Picture {
 mod tests {
     use super::*;
 
-    /// A picture in which no two pixels of a row are alike.
+    /// A picture in which all pixels of a row differ.
     fn gradient(width: u32, height: u32) -> Picture {
         let pixels = (0..width * height).flat_map(|i| {
             let (x, y) = (i % width, i / width);

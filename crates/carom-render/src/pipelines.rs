@@ -1,4 +1,4 @@
-//! Programs of the device, one for each kind of thing drawn.
+//! Render pipelines of the device, one for each kind of thing drawn.
 
 use crate::cutaway::MOST_CUTS;
 use crate::target::{COLOR_FORMAT, DEPTH_FORMAT};
@@ -6,10 +6,10 @@ use crate::target::{COLOR_FORMAT, DEPTH_FORMAT};
 const LIGHT: &str = include_str!("shaders/light.wgsl");
 const PLACES: &str = include_str!("shaders/places.wgsl");
 
-/// Numbers in the uniforms of a picture.
+/// Number of floats in the uniforms of a picture.
 pub(crate) const GLOBALS: usize = 3 * 16 + (11 + MOST_CUTS) * 4;
 
-/// Programs, and what they read.
+/// The pipelines, and the layouts of what they read.
 #[derive(Debug)]
 pub(crate) struct Pipelines {
     pub spheres: wgpu::RenderPipeline,
@@ -25,20 +25,20 @@ pub(crate) struct Pipelines {
     pub light_layout: wgpu::BindGroupLayout,
 }
 
-/// What a program is made of.
+/// The parts of a pipeline.
 struct Parts<'a> {
     label: &'a str,
     source: String,
     entries: [&'a str; 2],
-    /// Attributes of four numbers of an instance, and numbers from one instance to the next.
+    /// Vertex attributes of four floats in an instance, and floats from one instance to the next.
     attributes: u32,
     stride: u32,
     topology: wgpu::PrimitiveTopology,
     depth: wgpu::DepthStencilState,
-    /// How it is laid over what is there; `None` covers it.
+    /// How a colour is blended with the picture; `None` replaces what is there.
     blend: Option<wgpu::BlendState>,
-    /// Whether its outline is smoothed by covering some samples of a pixel only, as its alpha says:
-    /// what writes its own depth has one for all of them.
+    /// Whether alpha sets how many samples of a pixel are covered, which smooths outlines. A shader
+    /// that writes depth writes one depth for all samples.
     is_smoothed: bool,
 }
 
@@ -47,7 +47,7 @@ impl Pipelines {
         let picture_layout = picture_layout(device);
         let light_layout = layout(device, "light", &[uniform(0)]);
         let lit = |label, source: &str, attributes, topology| {
-            // Sky and grid are behind all there is; glass hides nothing.
+            // Sky and grid are behind everything; glass hides nothing.
             let is_solid = !matches!(label, "sky" | "grid" | "glass");
             let is_small = label == "small spheres";
             let is_clear = matches!(label, "grid" | "glass");
@@ -173,7 +173,7 @@ fn picture_pipeline(
     let colors = [Some(wgpu::ColorTargetState {
         format: COLOR_FORMAT,
         blend: parts.blend,
-        // Pictures are opaque; what is written beside a colour says what it covers.
+        // Pictures are opaque: alpha is only the coverage and is not stored.
         write_mask: wgpu::ColorWrites::COLOR,
     })];
     pipeline(device, layout, parts, multisample, &colors)

@@ -1,4 +1,4 @@
-//! Films that are complete: mp4 files with one table of all frames, before them.
+//! Complete films: mp4 files with one table of all frames at the start.
 
 use std::fs::File;
 use std::io::{self, BufWriter};
@@ -11,30 +11,30 @@ use muxide::api::{MuxerBuilder, MuxerError, VideoCodec};
 use crate::film_form::FilmForm;
 use crate::fragments::Fragments;
 
-/// Offsets in the file have 32 bits; the tables and the frame at work need some, too.
+/// Offsets in the file have 32 bits; the rest is for the tables and the frame being written.
 pub(crate) const MOST_BYTES: u64 = 4_000_000_000;
 
-/// What became of a growing film.
+/// The film made from a growing one.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Closed {
     pub form: FilmForm,
     pub frames: u64,
     /// Size of the complete file.
     pub bytes: u64,
-    /// Bytes of the growing one after its last whole frame.
+    /// Bytes of the growing film after its last whole frame.
     pub left_out: u64,
-    /// Whether these are no frame that was cut short, but something else.
+    /// Whether these bytes are damaged, not only an incomplete frame.
     pub is_damaged: bool,
 }
 
-/// Why no film is made of a growing one.
+/// Why no film was made from a growing one.
 #[derive(Debug)]
 pub(crate) enum CloseError {
-    /// It is none.
+    /// The file is no growing film.
     Foreign,
     /// It has no whole frame.
     Empty,
-    /// It cannot be read, or the film not be written.
+    /// The file cannot be read, or the film cannot be written.
     Container(MuxerError),
 }
 
@@ -50,7 +50,7 @@ impl From<MuxerError> for CloseError {
     }
 }
 
-/// Writes the film that the whole frames of a growing one make.
+/// Writes a complete film from the whole frames of a growing one.
 pub(crate) fn close(source: &mut File, target: File) -> Result<Closed, CloseError> {
     let is_empty = source.metadata()?.len() == 0;
     let fragments = Fragments::open(source)?;
@@ -64,7 +64,7 @@ pub(crate) fn close(source: &mut File, target: File) -> Result<Closed, CloseErro
     let mut read = 0;
     let mut time = 0.0;
     while let Some(frame) = fragments.next_frame()? {
-        // As many as a film takes: the last one may be beyond that.
+        // No more than a film may hold: the last frame may exceed that.
         if read >= MOST_BYTES {
             let text = "it is longer than a film can be";
             return Err(io::Error::new(io::ErrorKind::InvalidData, text).into());
@@ -82,11 +82,12 @@ pub(crate) fn close(source: &mut File, target: File) -> Result<Closed, CloseErro
     Ok(Closed { form, frames, bytes, left_out: rest, is_damaged })
 }
 
-/// Makes the film `target` of what a killed process left in `unfinished`, and removes that.
+/// Makes the film `target` from the file `unfinished` that a killed process left, and removes that
+/// file.
 ///
 /// # Errors
-/// [`RecoveryError`]; then `unfinished` and `target` are as they were before, but where the complete film is
-/// there and only `unfinished` cannot be removed.
+/// [`RecoveryError`]; then `unfinished` and `target` are unchanged. One exception: if only the
+/// removal of `unfinished` fails, `target` is the complete film.
 pub fn recover_film(unfinished: &Path, target: &Path) -> Result<Recovered, RecoveryError> {
     let path = unfinished.to_owned();
     let unreadable = |source| RecoveryError::Unreadable { path: unfinished.to_owned(), source };

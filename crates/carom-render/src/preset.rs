@@ -1,16 +1,16 @@
-//! Places to look from that suit any scene.
+//! Points of view that suit any scene.
 
 use carom::DVec3;
 
 use crate::bounds::Bounds;
 use crate::camera::Camera;
 
-/// Places to look from.
+/// A point of view.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Preset {
     /// The scene's own camera; [`Self::Whole`] where it has none.
     Scene,
-    /// Everything is shown, from a little to the right and above.
+    /// Shows everything, from a little to the right and above.
     Whole,
     /// From the front, along -z.
     Front,
@@ -18,11 +18,12 @@ pub enum Preset {
     Top,
 }
 
-/// A little from the right and from above.
+/// From a little to the right and above.
 const OBLIQUE: DVec3 = DVec3::new(0.45, 0.5, 1.0);
 
 impl Preset {
-    /// The camera there, for what lies in `bounds`, in a picture of this width to height.
+    /// Returns the camera at this point of view that shows `bounds`, in a picture with this ratio
+    /// of width to height.
     pub fn camera(self, of_scene: Option<Camera>, bounds: &Bounds, aspect: f64) -> Camera {
         let fitted = |from| Camera::fitted(bounds, from, aspect);
         match self {

@@ -1,13 +1,13 @@
-//! How much work goes into a picture.
+//! How much work is spent on a picture.
 
-/// How much work goes into a picture.
+/// How much work is spent on a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Quality {
-    /// Samples a pixel: 1 or 4.
+    /// Samples per pixel: 1 or 4.
     pub samples: u32,
     /// Edge of the shadow maps in texels.
     pub shadow_texels: u32,
-    /// Whether shadows have soft edges, nine taps instead of one.
+    /// Whether shadows have soft edges, made from nine samples instead of one.
     pub soft_shadows: bool,
 }
 
@@ -16,7 +16,7 @@ impl Quality {
     pub const FINE: Self = Self { samples: 4, shadow_texels: 2048, soft_shadows: true };
     /// Smooth edges, coarser shadows: for watching.
     pub const GOOD: Self = Self { samples: 4, shadow_texels: 1024, soft_shadows: true };
-    /// The cheapest, for slow machines and drivers in software.
+    /// The cheapest, for slow machines and software drivers.
     pub const DRAFT: Self = Self { samples: 1, shadow_texels: 1024, soft_shadows: false };
 }
 

@@ -1,24 +1,24 @@
-//! Pixels on their way from the graphics device into memory.
+//! Copies of pictures from the graphics device into memory.
 
 use std::sync::{Arc, OnceLock};
 
 use crate::gpu::GpuError;
 use crate::picture::Picture;
 
-/// Rows are copied from textures at multiples of this many bytes.
+/// Rows of texture copies start at multiples of this many bytes.
 const ALIGNMENT: u32 = wgpu::COPY_BYTES_PER_ROW_ALIGNMENT;
 
-/// A picture that the device draws, and that arrives when it has done so.
+/// A picture that the device is still drawing; it can be read when the device has finished.
 #[derive(Debug)]
 pub struct Readback {
     buffer: wgpu::Buffer,
     size: [u32; 2],
-    /// Set once the device has answered.
+    /// Set when the device has answered.
     answer: Arc<OnceLock<Result<(), wgpu::BufferAsyncError>>>,
 }
 
 impl Readback {
-    /// Begins to copy a texture of 4 bytes a pixel into memory.
+    /// Starts to copy a texture of 4 bytes a pixel into memory.
     pub fn begin(device: &wgpu::Device, queue: &wgpu::Queue, texture: &wgpu::Texture) -> Self {
         let size = [texture.width(), texture.height()];
         let row = aligned_row(size[0]);
@@ -48,7 +48,7 @@ impl Readback {
         Self { buffer, size, answer }
     }
 
-    /// Waits until the device has drawn. Pages cannot wait: there, see [`Self::arrived`].
+    /// Waits until the device has finished. A web page cannot wait; it calls [`Self::arrived`].
     ///
     /// # Errors
     /// [`GpuError::Lost`] if the device fails.
@@ -56,15 +56,15 @@ impl Readback {
         device.poll(wgpu::PollType::wait_indefinitely()).map(drop).map_err(lost)
     }
 
-    /// Whether [`Self::picture`] has an answer. Does not wait.
+    /// Returns whether [`Self::picture`] can return a result. Does not wait.
     pub fn arrived(&self, device: &wgpu::Device) -> bool {
-        // In a page with WebGL nothing else polls the device; a device that does not answer has an
-        // error as its answer.
+        // On a page with WebGL nothing else polls the device. If polling fails, the result is an
+        // error.
         let asked = device.poll(wgpu::PollType::Poll);
         self.answer.get().is_some() || asked.is_err()
     }
 
-    /// The picture, once it has arrived.
+    /// Returns the picture after it has arrived.
     ///
     /// # Errors
     /// [`GpuError::Lost`] if the device failed, or has not drawn it yet.

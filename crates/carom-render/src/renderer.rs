@@ -1,4 +1,4 @@
-//! Drawings to pictures, on a graphics device.
+//! Draws drawings into pictures on a graphics device.
 
 use std::ops::Range;
 
@@ -28,7 +28,7 @@ pub struct Renderer {
     buffers: Buffers,
 }
 
-/// What is needed to draw the shadow map of a light.
+/// Resources for the shadow map of a light.
 #[derive(Debug)]
 struct Light {
     uniforms: wgpu::Buffer,
@@ -36,7 +36,7 @@ struct Light {
     map: wgpu::TextureView,
 }
 
-/// Instances on the device.
+/// Instance buffers on the device.
 #[derive(Debug, Default)]
 struct Buffers {
     balls: Option<wgpu::Buffer>,
@@ -47,7 +47,7 @@ struct Buffers {
 }
 
 impl Renderer {
-    /// A renderer of this quality.
+    /// Makes a renderer of this quality.
     pub fn new(device: &wgpu::Device, quality: Quality) -> Self {
         let pipelines = Pipelines::new(device, quality.samples);
         let maps = device.create_texture(&wgpu::TextureDescriptor {
@@ -78,12 +78,12 @@ impl Renderer {
         }
     }
 
-    /// How much work it puts into a picture.
+    /// Returns the quality.
     pub fn quality(&self) -> Quality {
         self.quality
     }
 
-    /// Textures for pictures of this size in pixels, each edge at least 1.
+    /// Makes textures for pictures of this size in pixels; an edge of 0 becomes 1.
     pub fn target(&self, device: &wgpu::Device, size: [u32; 2]) -> Target {
         Target::new(device, size.map(|edge| edge.max(1)), self.quality.samples)
     }
@@ -120,7 +120,7 @@ impl Renderer {
         queue.submit([encoder.finish()]);
     }
 
-    /// Draws the shadow map of a light, into so many texels along each edge of it.
+    /// Draws the shadow map of a light, `texels` along each edge.
     fn draw_shadows(&self, encoder: &mut wgpu::CommandEncoder, light: &Light, texels: u32) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("shadows"),
@@ -200,7 +200,7 @@ impl Buffers {
     }
 }
 
-/// Writes bytes into a buffer, a new and larger one where they do not fit.
+/// Writes bytes into a buffer; replaces the buffer with a larger one if they do not fit.
 fn fill(
     buffer: &mut Option<wgpu::Buffer>,
     device: &wgpu::Device,
@@ -300,8 +300,8 @@ fn draw_some(
     }
 }
 
-/// Centre and radius \[m\] of what casts shadows worth seeing: balls that have flown far away would
-/// leave few texels for the others.
+/// Returns centre and radius \[m\] of the space whose shadows are drawn. Balls that have flown far
+/// away are left out, because they would leave few texels for the others.
 fn shadowed(drawing: &Drawing, camera: &Camera, framing: &Framing) -> (DVec3, f64) {
     // In distances of the eye from the middle of the scene.
     const REACH: f64 = 1.5;
@@ -313,13 +313,13 @@ fn shadowed(drawing: &Drawing, camera: &Camera, framing: &Framing) -> (DVec3, f6
     (seen.center(), seen.radius().min(2.0 * reach))
 }
 
-/// Texels along an edge of the maps of sun and sky that show a ball of this radius \[m\]. No more
-/// than it takes for shadows whose edges are soft over a part of the radius of what casts them: a small
-/// part for the sun, a large one for the sky.
+/// Returns the texels along an edge of the maps of sun and sky for a space of this radius \[m\]. A
+/// mean ball gets just enough texels for soft shadow edges: narrow ones for the sun, wide ones for
+/// the sky.
 fn map_texels(drawing: &Drawing, radius: f64) -> [u32; 2] {
     const TEXELS_OF_BALL: [f64; 2] = [24.0, 4.0];
     const FEWEST: f64 = 64.0;
-    // Steps in which they grow as balls come and go.
+    // The number changes in steps, not with every ball that appears.
     const STEP: f64 = 32.0;
     let casting = drawing.balls.iter().filter(|ball| ball.pattern != Pattern::Glowing);
     let (count, sum) = casting.fold((0.0, 0.0), |(count, sum), it| (count + 1.0, sum + it.radius));
@@ -329,15 +329,15 @@ fn map_texels(drawing: &Drawing, radius: f64) -> [u32; 2] {
     })
 }
 
-/// The box relative to the eye in which half-spaces but the ground are seen \[m\]: a little wider
-/// than the scene, so that walls that bound it are not cut off themselves.
+/// Returns the box relative to the eye in which half-spaces other than the ground are drawn \[m\].
+/// It is a little larger than the scene, so that walls at its sides are not cut off.
 fn room(framing: &Framing, camera: &Camera) -> [Vec3; 2] {
     const MARGIN: f64 = 0.04;
     let Bounds { min, max } = framing.whole.grown(MARGIN * framing.whole.radius());
     [min, max].map(|corner| (corner - camera.position).as_vec3())
 }
 
-/// The uniforms of a picture, in the order of the shader's `Globals`.
+/// Returns the uniforms of a picture, in the order of the shader's `Globals`.
 fn globals(
     drawing: &Drawing,
     framing: &Framing,
@@ -364,7 +364,7 @@ fn globals(
         of(right, 0.0),
         of(up, 0.0),
         [width, height, 1.0 / quality.shadow_texels as f32, 0.0],
-        // Inclines go on: balls that roll down them do.
+        // Inclines go farther, as the balls that roll down them do.
         of(room[0], framing.whole.radius() as f32),
         of(room[1], 0.0),
     ];

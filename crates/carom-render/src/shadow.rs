@@ -1,4 +1,4 @@
-//! How lights look at a scene: the sun, and the sky straight above.
+//! How lights see a scene: the sun, and the sky straight above.
 
 use carom::DVec3;
 use glam::{Mat4, Vec3, Vec4};
@@ -6,9 +6,9 @@ use glam::{Mat4, Vec3, Vec4};
 /// Orthographic view along a light.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LightView {
-    /// From places relative to the eye to the light's map.
+    /// From positions relative to the eye to the light's map.
     pub map_from_eye: Mat4,
-    /// The way light travels, and two directions across it.
+    /// The direction in which light travels, and two directions across it.
     pub axes: [Vec3; 3],
     /// Size of a texel \[m\].
     pub texel: f32,
@@ -17,9 +17,9 @@ pub(crate) struct LightView {
 }
 
 impl LightView {
-    /// The view from the direction `to_light` (unit vector) that holds a ball of this centre and radius
-    /// \[m\], on so many texels along an edge.
-    /// It moves with the ball in whole texels and grows in steps, so that edges of shadows keep still.
+    /// Returns the view from the direction `to_light` (unit vector) that covers a ball of this
+    /// centre and radius \[m\] with `texels` along an edge. It follows the ball in whole texels and
+    /// grows in steps, so that edges of shadows do not move.
     pub fn around(
         (center, radius): (DVec3, f64),
         to_light: DVec3,
@@ -56,12 +56,12 @@ impl LightView {
         }
     }
 
-    /// Which part of the edge of a map of so many texels it takes.
+    /// Returns the part of an edge that this view uses, in a map of `map_texels` along an edge.
     pub fn part_of(&self, map_texels: u32) -> f32 {
         self.texels as f32 / map_texels as f32
     }
 
-    /// As the shader reads it.
+    /// Packs the view for the shader.
     pub fn packed(&self) -> [f32; 28] {
         let mut packed = [0.0; 28];
         packed[..16].copy_from_slice(&self.map_from_eye.to_cols_array());

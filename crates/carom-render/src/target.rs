@@ -1,11 +1,11 @@
 //! Textures that a picture is drawn into.
 
-/// Format of finished pictures. Shaders encode their colours as sRGB themselves: not every device
-/// can show a texture of one format as another.
+/// Format of finished pictures. Shaders encode sRGB themselves, because not every device can show a
+/// texture of one format as another.
 pub const COLOR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
-/// Textures of one size: the picture, its depths, and its samples where it has several a pixel.
+/// Textures of one size: the picture, its depth, and the samples if a pixel has several.
 #[derive(Debug)]
 pub struct Target {
     /// The finished picture, [`COLOR_FORMAT`].
@@ -17,7 +17,7 @@ pub struct Target {
 }
 
 impl Target {
-    /// Textures of this size in pixels, each edge at least 1, with this many samples a pixel.
+    /// Makes textures of this size in pixels, each edge at least 1, with `samples` per pixel.
     pub(crate) fn new(device: &wgpu::Device, [width, height]: [u32; 2], samples: u32) -> Self {
         let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
         let texture = |label, format, sample_count, usage| {
@@ -45,12 +45,12 @@ impl Target {
         }
     }
 
-    /// Samples a pixel.
+    /// Returns the samples per pixel.
     pub fn samples(&self) -> u32 {
         self.samples
     }
 
-    /// Width and height in pixels.
+    /// Returns width and height in pixels.
     pub fn size(&self) -> [u32; 2] {
         [self.picture.width(), self.picture.height()]
     }

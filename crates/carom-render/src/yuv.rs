@@ -1,22 +1,22 @@
-//! From sRGB to what films hold: brightness, and colour at half the resolution.
+//! Converts sRGB to the colours of films: brightness, and colour at half the resolution.
 
 use openh264::formats::YUVSource;
 
 use crate::picture::Picture;
 
-/// Share of red and blue in the brightness: ITU-R BT.709-6, item 3.2.
+/// Weights of red and blue in the brightness: ITU-R BT.709-6, item 3.2.
 const RED: f64 = 0.2126;
 const BLUE: f64 = 0.0722;
 const GREEN: f64 = 1.0 - RED - BLUE;
 
-/// Fraction bits of the weights: enough that their error is far below a level.
+/// Fraction bits of the weights: their error is far below a level.
 const BITS: u32 = 16;
 const fn fixed(weight: f64) -> i32 {
     let scaled = weight * (1 << BITS) as f64;
     (if weight < 0.0 { scaled - 0.5 } else { scaled + 0.5 }) as i32
 }
 
-/// Steps from black to white, and from the least to the most colour, for 255 of a picture
+/// Steps from black to white, and from the least to the most colour, for the 255 steps of a picture
 /// (limited range, ITU-R BT.709-6, item 5.6).
 const LUMA: f64 = 219.0 / 255.0;
 const CHROMA: f64 = 224.0 / 255.0;
@@ -24,14 +24,15 @@ const Y: [i32; 3] = [fixed(RED * LUMA), fixed(GREEN * LUMA), fixed(BLUE * LUMA)]
 const CB: [i32; 3] = chroma([-RED, -GREEN, 1.0 - BLUE], BLUE);
 const CR: [i32; 3] = chroma([1.0 - RED, -GREEN, -BLUE], RED);
 
-/// Weights of the difference of a colour, of this share of the brightness, from the brightness.
+/// Returns the weights of a colour difference: colour minus brightness. `share` is the weight of
+/// that colour in the brightness.
 const fn chroma(difference: [f64; 3], share: f64) -> [i32; 3] {
     let scale = CHROMA / (2.0 * (1.0 - share));
     [fixed(difference[0] * scale), fixed(difference[1] * scale), fixed(difference[2] * scale)]
 }
 
-/// A picture as Y'CbCr 4:2:0: BT.709, limited range; colour values lie on the left of their two
-/// columns and between their two rows, as decoders of H.264 take them to.
+/// A picture as Y'CbCr 4:2:0, BT.709, limited range. Colour values lie on the left of their two
+/// columns and between their two rows, as decoders of H.264 assume.
 pub(crate) struct Planes {
     width: usize,
     height: usize,
@@ -41,14 +42,14 @@ pub(crate) struct Planes {
 }
 
 impl Planes {
-    /// Black; both sizes are even.
+    /// Returns a black picture; width and height are even.
     pub fn new(width: u32, height: u32) -> Self {
         let [width, height] = [width as usize, height as usize];
         let quarter = vec![128; width * height / 4];
         Self { width, height, y: vec![16; width * height], cb: quarter.clone(), cr: quarter }
     }
 
-    /// Takes over a picture of the same size; its opacity is left aside.
+    /// Converts a picture of the same size; its opacity is ignored.
     pub fn read(&mut self, picture: &Picture) {
         for (pixel, y) in picture.pixels.chunks_exact(4).zip(&mut self.y) {
             *y = weigh(&Y, [pixel[0], pixel[1], pixel[2]].map(i32::from), 16, BITS);
@@ -63,12 +64,12 @@ impl Planes {
     }
 }
 
-/// Colours of two rows of pixels.
+/// Computes the colours of two rows of pixels.
 fn read_colors(upper: &[u8], lower: &[u8], cb: &mut [u8], cr: &mut [u8]) {
     let column = |x: usize| {
         [0, 1, 2].map(|part| i32::from(upper[4 * x + part]) + i32::from(lower[4 * x + part]))
     };
-    // Each is a mean over three columns with the weights 1, 2, 1, and two rows: of 8 parts.
+    // A mean over three columns with the weights 1, 2, 1, and two rows: the weights sum to 8.
     let mut left = column(0);
     for (i, (cb, cr)) in cb.iter_mut().zip(cr).enumerate() {
         let (middle, right) = (column(2 * i), column(2 * i + 1));
@@ -79,7 +80,8 @@ fn read_colors(upper: &[u8], lower: &[u8], cb: &mut [u8], cr: &mut [u8]) {
     }
 }
 
-/// `offset` and the weighted sum of the parts, rounded; the weights have `bits` fraction bits.
+/// Returns `offset` plus the weighted sum of the parts, rounded; the weights have `bits` fraction
+/// bits.
 fn weigh(weights: &[i32; 3], parts: [i32; 3], offset: i32, bits: u32) -> u8 {
     let sum: i32 = weights.iter().zip(parts).map(|(weight, part)| weight * part).sum();
     (offset + ((sum + (1 << (bits - 1))) >> bits)) as u8
@@ -133,7 +135,7 @@ mod tests {
 
     #[test]
     fn an_edge_of_colour_stays_where_it_is() {
-        // Red from column 4 on: the colour of columns 4 and 5 lies on column 4, and takes a
+        // Red begins at column 4. The colour of columns 4 and 5 lies on column 4, and takes a
         // quarter from column 3.
         let (grey, red) = ([77_u8, 77, 77, 255], [255, 0, 0, 255]);
         let row = [grey, grey, grey, grey, red, red, red, red].concat();

@@ -1,5 +1,4 @@
-//! What pictures show, measured in their pixels. Drawn offscreen by whatever driver there is; a
-//! software one is enough.
+//! Pixels of pictures match geometry and light. Any graphics driver will do, also a software one.
 
 use std::f64::consts::PI;
 
@@ -27,7 +26,7 @@ fn pixel(picture: &Picture, x: u32, y: u32) -> [u8; 3] {
     [picture.pixels[first], picture.pixels[first + 1], picture.pixels[first + 2]]
 }
 
-/// Sum over the picture of how much of each pixel is red, where the rest of it is black.
+/// Returns the sum over all pixels of their part that is red, in a picture that is black elsewhere.
 fn red_area(picture: &Picture) -> f64 {
     // sRGB back to light (IEC 61966-2-1).
     let light = |part: u8| (f64::from(part) / 255.0).powf(2.2);
@@ -80,7 +79,7 @@ fn where_two_balls_interpenetrate_the_nearer_surface_is_seen() {
     drawing.balls.push(ball(DVec3::new(-0.5, 0.0, 0.0), 1.0, [1.0, 0.0, 0.0]));
     drawing.balls.push(ball(DVec3::new(0.5, 0.0, 0.0), 1.0, [0.0, 1.0, 0.0]));
     let picture = drawn(&drawing, &camera_in_front(6.0), Quality::DRAFT);
-    // They are mirror images: the seam is the middle column.
+    // The balls mirror each other: the seam is the middle column.
     for y in [120, 150, 180] {
         assert_eq!(pixel(&picture, 195, y), [255, 0, 0]);
         assert_eq!(pixel(&picture, 204, y), [0, 255, 0]);
@@ -114,7 +113,8 @@ fn a_wall_seen_from_within_hides_nothing() {
     assert_eq!(pixel(&picture, 200, 150), [255, 0, 0]);
 }
 
-/// Half-spaces with these inward normals, 2 m from the origin, and a red ball there.
+/// Returns half-spaces with these inward normals, 2 m from the origin, and a red ball at the
+/// origin.
 fn room(normals: &[DVec3]) -> Drawing {
     let mut drawing = in_the_dark();
     drawing.balls.push(ball(DVec3::ZERO, 0.5, [1.0, 0.0, 0.0]));
@@ -145,7 +145,7 @@ fn walls_of_half_spaces_make_a_room_that_ends() {
         assert!(is_wall(DVec3::new(1.0, 1.5, -2.0)), "the wall behind");
         assert!(is_wall(DVec3::new(-1.0, -2.0, 1.0)), "the floor");
         assert!(is_wall(DVec3::new(-2.0, 1.5, -1.0)), "the wall at the left");
-        // Beyond the walls there is nothing of floor and walls.
+        // Beyond the walls nothing of floor and walls is drawn.
         for beyond in [DVec3::new(-3.0, -2.0, -1.0), DVec3::new(3.0, -2.0, 1.0), DVec3::Y * 3.0] {
             assert_eq!(at(beyond), [0; 3], "{beyond}");
         }
@@ -194,7 +194,7 @@ fn a_scene_without_floor_has_a_grid_on_which_balls_cast_shadows() {
     let row = ((0.5 - 0.5 * f64::from(place.y)) * f64::from(SIZE[1])) as u32;
     let (shaded, lit) = tones(&drawing, row);
     assert!(u32::from(shaded) + 40 < u32::from(lit), "{shaded} {lit}");
-    // Without the ball, its lines are left: one of them goes along that row.
+    // Without the ball its grid lines remain; one of them lies on that row.
     drawing.balls.clear();
     let (line, between) = tones(&drawing, row + 8);
     assert!(u32::from(line) + 10 < u32::from(between), "{line} {between}");
@@ -211,7 +211,7 @@ fn one_sees_what_a_container_holds_and_its_far_walls() {
         let picture = drawn(&drawing, &camera_in_front(6.0), quality);
         assert_eq!(pixel(&picture, 200, 150), [255, 0, 0]);
         let bare = drawn(&in_the_dark(), &camera_in_front(6.0), quality);
-        // Beside the ball, the wall behind it.
+        // Beside the ball is the wall behind it.
         assert_ne!(pixel(&picture, 235, 150), pixel(&bare, 235, 150));
     }
 }
@@ -241,7 +241,7 @@ fn a_ball_shades_the_floor_away_from_the_sun() {
         let (shaded, lit) = at(DVec3::new(2.3, 0.0, 0.1));
         assert!(shaded.abs_diff(lit) <= 3, "towards the sun: {shaded} and {lit}");
     }
-    // A mark glows, and shades nothing.
+    // A mark glows and casts no shadow.
     drawing.balls[0].pattern = Pattern::Glowing;
     drawing.balls[0].radius = 1e-3;
     let marked = drawn(&drawing, &camera, Quality::DRAFT);
@@ -250,7 +250,7 @@ fn a_ball_shades_the_floor_away_from_the_sun() {
     assert!(differing.count() <= 4, "but for the mark itself");
 }
 
-/// However far its shadow falls from it: the map of the sun need not reach as deep.
+/// The map of the sun need not reach as deep as the floor.
 #[test]
 fn a_single_ball_high_above_a_floor_without_end_shades_it_all_over() {
     let mut drawing = Drawing::default();
@@ -268,7 +268,7 @@ fn a_single_ball_high_above_a_floor_without_end_shades_it_all_over() {
         let mut shaded = drawing.clone();
         let above = ball(DVec3::new(0.0, 5.0, 0.0), 0.5, [1.0, 0.0, 0.0]);
         shaded.balls.push(Ball { pattern: Pattern::Plain, ..above });
-        // On both sides of the middle of a shadow of 1.4 m.
+        // At both sides of the middle of a shadow 1.4 m wide.
         for x in [-5.5, -5.0, -4.5] {
             let seen = tone(&shaded, x);
             assert!(5 * seen < 4 * lit, "{x}: {seen} of {lit}");
@@ -293,7 +293,7 @@ fn a_ray_through_a_place_meets_what_is_shown_there() {
     let point = DVec3::new(0.3, -0.4, 1.7);
     let place = camera.place(point, ASPECT).expect("before the eye");
     let to_point = (point - camera.position).normalize();
-    // Places have 24 bits.
+    // Positions have 24 bits.
     assert!((camera.ray(place, ASPECT) - to_point).length() < 1e-6);
     assert_eq!(camera.place(camera.position - camera.ahead(), ASPECT), None);
 }
@@ -319,14 +319,15 @@ fn a_picture_without_pixels_or_too_large_is_refused() {
     }
 }
 
-/// 268 million pixels with four samples each: whether a device has memory for them is its business.
+/// The picture has 268 million pixels with four samples each; some devices have the memory for
+/// them.
 #[test]
 fn a_picture_for_which_there_is_no_memory_is_refused() {
     let mut offscreen = Offscreen::new([8, 8], Quality::FINE).expect("a graphics driver");
     match offscreen.resize([16_384, 16_384]) {
         Err(GpuError::Memory { width: 16_384, height: 16_384 } | GpuError::Size { .. }) => {}
         Err(other) => panic!("{other}"),
-        // There was enough.
+        // The device had enough.
         Ok(()) => return,
     }
     // It draws as before.
@@ -347,7 +348,7 @@ fn far_from_the_origin_nothing_trembles() {
     assert_eq!(at(DVec3::ZERO).pixels, at(far).pixels);
 }
 
-/// A ball of this radius \[m\] before the camera, turned like this.
+/// Draws a ball of this radius \[m\] and rotation in front of the camera.
 fn turned_ball(radius: f64, rotation: DQuat, pattern: Pattern) -> Picture {
     let mut drawing = Drawing::default();
     let ball = ball(DVec3::ZERO, radius, [0.2, 0.45, 0.75]);
@@ -368,7 +369,7 @@ fn a_banded_ball_shows_a_turn_about_any_axis_and_a_plain_one_none() {
         assert!(count > 600, "about {axis}: {count}");
         assert_eq!(turned_ball(1.0, turn, Pattern::Plain), plain);
     }
-    // As a whole, it keeps half of its surface and more in its own colour.
+    // The band covers at most half of its surface.
     let same = banded.pixels.chunks(4).zip(plain.pixels.chunks(4)).filter(|(a, b)| a == b).count();
     let outside = (SIZE[0] * SIZE[1]) as usize - same;
     assert!(outside < 12_500, "{outside}");
@@ -376,20 +377,20 @@ fn a_banded_ball_shows_a_turn_about_any_axis_and_a_plain_one_none() {
 
 #[test]
 fn a_banded_ball_of_a_pixel_does_not_flicker_as_it_turns() {
-    // Of a radius of 1.2 pixels.
+    // A radius of 1.2 pixels.
     let turned = |angle| turned_ball(0.0135, DQuat::from_rotation_y(angle), Pattern::Banded);
     let first = turned(0.0);
     assert_eq!(turned(0.7), first);
     assert_eq!(turned(1.5), first);
 }
 
-/// Balls of less than four pixels are drawn in a simpler way, which must not be seen.
+/// Balls of less than four pixels are drawn in a simpler way; the difference must be invisible.
 #[test]
 fn a_ball_looks_the_same_just_below_the_size_of_small_ones_and_above() {
     let camera = camera_in_front(5.0);
     let pixels_per_radius = 0.5 * f64::from(SIZE[1]) / (0.5 * camera.vertical_fov).tan() / 5.0;
     for quality in [Quality::DRAFT, Quality::FINE] {
-        // Light of many balls, a pixel's grid averaged out, for the area of each.
+        // Light per area of many balls, which averages over their position on the pixels.
         let light = |pixels: f64| {
             let mut drawing = in_the_dark();
             let radius = pixels / pixels_per_radius;
@@ -397,7 +398,7 @@ fn a_ball_looks_the_same_just_below_the_size_of_small_ones_and_above() {
             let balls = (-8..=8).flat_map(|i| (-6..=6).map(move |j| (place(i), place(j))));
             drawing.balls.extend(balls.map(|(x, y)| Ball {
                 pattern: Pattern::Plain,
-                // A sphere about the eye: all are as far from it.
+                // On a sphere about the eye, all have the same distance.
                 ..ball(
                     camera.position + 5.0 * (DVec3::new(x, y, 0.0) - camera.position).normalize(),
                     radius,
@@ -407,7 +408,7 @@ fn a_ball_looks_the_same_just_below_the_size_of_small_ones_and_above() {
             red_area(&drawn(&drawing, &camera, quality)) / (pixels * pixels)
         };
         let [small, round] = [3.97, 4.03].map(light);
-        // Round ones cover quarters of pixels along their outlines, rounded up.
+        // Round balls cover quarters of pixels along their outlines, rounded up.
         assert!((small / round - 1.0).abs() < 0.06, "{quality:?}: {small} {round}");
     }
 }

@@ -1,6 +1,6 @@
-//! Films are what players expect, as ffprobe and ffmpeg see them: they must be installed.
+//! Films have what players expect, checked by ffprobe and ffmpeg, which must be installed.
 //!
-//! What this cannot tell: how a film looks.
+//! Not checked: how a film looks.
 #![cfg(feature = "film")]
 #![allow(missing_docs)]
 
@@ -26,7 +26,7 @@ fn output(program: &str, args: &[&str], path: &Path) -> Vec<u8> {
     output.stdout
 }
 
-/// What ffprobe says of the stream, as lines `key=value`.
+/// Returns what ffprobe prints about the stream, as lines `key=value`.
 fn probe(path: &Path, entries: &str) -> Vec<String> {
     let args =
         ["-v", "error", "-show_entries", entries, "-of", "default=noprint_wrappers=1", "FILM"];
@@ -34,9 +34,9 @@ fn probe(path: &Path, entries: &str) -> Vec<String> {
     text.lines().map(str::to_owned).collect()
 }
 
-/// The frames, decoded to sRGB, three bytes for each pixel.
+/// Returns the frames decoded to sRGB, three bytes per pixel.
 fn frames(path: &Path) -> Vec<Vec<u8>> {
-    // Without these flags, ffmpeg converts colours quickly, a few levels off.
+    // Without these flags ffmpeg converts colours quickly, with an error of a few levels.
     let scale = "scale=flags=bicubic+accurate_rnd+full_chroma_int";
     let args =
         ["-v", "error", "-i", "FILM", "-vf", scale, "-f", "rawvideo", "-pix_fmt", "rgb24", "-"];
@@ -53,13 +53,13 @@ fn picture(color: impl Fn(u32, u32) -> [u8; 3]) -> Picture {
     Picture { width: WIDTH, height: HEIGHT, pixels: pixels.collect() }
 }
 
-/// A red bar on grey that moves 2 pixels per frame.
+/// Returns a red bar on grey that moves 2 pixels per frame.
 fn bar(frame: u32) -> Picture {
     let left = 20 + 2 * frame;
     picture(|x, _| if (left..left + 40).contains(&x) { [200, 40, 30] } else { [120, 130, 140] })
 }
 
-/// A film of a moving bar.
+/// Writes a film of a moving bar.
 fn film(path: &Path, frames: u32, rate: u32) {
     let mut film = Film::create(path, WIDTH, HEIGHT, rate).unwrap();
     for frame in 0..frames {
@@ -132,7 +132,7 @@ fn a_film_can_be_watched_while_it_is_loaded() {
     assert!(place(b"moov") < place(b"mdat"));
 }
 
-/// Patches of every kind of colour, in a still film.
+/// A still film has patches of every kind of colour.
 #[test]
 fn colours_come_back() {
     let levels = [0, 64, 128, 192, 255];
@@ -149,7 +149,7 @@ fn colours_come_back() {
     film.finish().unwrap();
     let mut worst = 0;
     for frame in frames(&path) {
-        // Their middles: colours of neighbours mix at half the resolution.
+        // The middles of patches: colours of neighbours mix at half the resolution.
         for (x, y) in (0..9).flat_map(|j| (0..16).map(move |i| (20 * i + 10, 20 * j + 10))) {
             let start = (3 * (y * WIDTH + x)) as usize;
             for (found, wanted) in frame[start..start + 3].iter().zip(color(x, y)) {
@@ -158,7 +158,7 @@ fn colours_come_back() {
         }
     }
     // A level of colour in the film is up to 2.1 levels of blue; the rest is compression. With the
-    // weights of BT.601 instead, pure colours are off by 20 and more.
+    // weights of BT.601, pure colours would be off by 20 and more.
     assert!(worst <= 6, "{worst}");
 }
 
@@ -173,7 +173,7 @@ fn frames_come_back_in_order() {
         let row = &pixels[(3 * WIDTH * 90) as usize..][..3 * WIDTH as usize];
         let reds = row.chunks_exact(3).map(|pixel| pixel[0] > 160);
         let left = reds.clone().position(|is_red| is_red).unwrap() as u32;
-        // Colours have half the resolution: a column on each side may be mixed.
+        // Colours have half the resolution, so a column on each side may be mixed.
         assert!(left.abs_diff(20 + 2 * frame) <= 1, "{frame}: {left}");
         assert!(reds.filter(|is_red| *is_red).count().abs_diff(40) <= 2);
     }
@@ -204,8 +204,8 @@ fn a_film_without_frames_leaves_what_was_there() {
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
 }
 
-/// What a process that is killed now would leave of a film at `path`, under the name that it would have as an
-/// unfinished one beside `other`.
+/// Copies the unfinished film of `path`, as a killed process would leave it, to the name of an
+/// unfinished film of `other`.
 #[cfg(unix)]
 fn left_by_a_kill(path: &Path, other: &Path) -> PathBuf {
     let named = |path: &Path| PathBuf::from(format!("{}.0.unfinished", path.display()));
@@ -236,7 +236,7 @@ fn players_open_the_unfinished_file_with_every_frame_added_so_far() {
 fn a_recovered_film_is_byte_for_byte_the_film_of_its_frames() {
     let folder = tempfile::tempdir().unwrap();
     let [path, other] = ["film.mp4", "other.mp4"].map(|name| folder.path().join(name));
-    // Two frames of these stand for themselves.
+    // Two of these frames are keyframes.
     let mut film = Film::create(&path, WIDTH, HEIGHT, 25).unwrap();
     for frame in 0..60 {
         film.add(&bar(frame)).unwrap();
@@ -272,7 +272,7 @@ fn a_frame_that_is_cut_short_anywhere_is_left_out() {
         assert_eq!(frames, whole as u64, "{length} of {ends:?}");
         assert_eq!((left_out, is_damaged), (length - ends[whole - 1], false));
     }
-    // Before the end of the first frame, there is no film, and what is there stays.
+    // If the file ends before the first frame does, no film is made and the file stays.
     for length in [0, ends[0] - 1] {
         std::fs::write(&left, &bytes[..length as usize]).unwrap();
         let error = recover_film(&left, &other).unwrap_err();
@@ -295,7 +295,7 @@ fn what_is_damaged_ends_a_recovered_film_and_the_unfinished_file_stays() {
         ends.push(std::fs::metadata(&left).unwrap().len() as usize);
     }
     let bytes = std::fs::read(&left).unwrap();
-    // In what is said of the third frame, and in the length of its first part.
+    // In the box before the third frame, and in the length of its first part.
     for place in [ends[1] + 3, ends[1] + 50, ends[1] + 90, ends[1] + 104, ends[1] + 110] {
         let mut damaged = bytes.clone();
         damaged[place] ^= 0x10;

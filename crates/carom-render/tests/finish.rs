@@ -1,4 +1,4 @@
-//! How finishes take light, measured in the pixels of pictures.
+//! Finishes reflect light differently, measured in the pixels of pictures.
 
 use std::cell::RefCell;
 
@@ -17,14 +17,15 @@ fn ball(center: DVec3, color: Color, finish: Finish) -> Ball {
     Ball::of_sphere(center, 0.5, Coat { color, finish }, None)
 }
 
-/// Pictures of balls before the sky in every quality.
+/// Draws balls in front of the sky in every quality.
 fn pictures(balls: &[Ball]) -> [Picture; 2] {
     let drawing = Drawing { balls: balls.to_vec(), ..Drawing::default() };
     [Quality::DRAFT, Quality::FINE].map(|quality| drawn(&drawing, quality))
 }
 
 thread_local! {
-    /// One of each quality for all pictures of a test: to begin with a driver takes longer than a picture.
+    /// One renderer of each quality for all pictures of a test, because starting a driver takes
+    /// longer than drawing.
     static OFFSCREENS: RefCell<Vec<(Quality, Offscreen)>> = const { RefCell::new(Vec::new()) };
 }
 
@@ -44,7 +45,7 @@ fn middle(picture: &Picture) -> [u8; 3] {
     std::array::from_fn(|i| picture.pixels[first + i])
 }
 
-/// How bright the brightest of the pixels is whose blue is least: of a red ball, its highlight.
+/// Returns the largest blue value near the middle: the highlight of a red ball.
 fn highlight(picture: &Picture) -> u32 {
     // The ball is half as wide as the picture.
     let [width, height] = SIZE.map(|edge| edge as usize);
@@ -64,7 +65,7 @@ fn the_more_polished_a_ball_the_brighter_its_highlight() {
     for i in [0, 1] {
         let of = |finish| highlight(&pictures(&[ball(DVec3::ZERO, RED, finish)])[i]);
         let [matte, satin, glossy, ..] = ALL.map(of);
-        // Of eight bits: an eighth at least, as one sees it.
+        // The difference is at least an eighth of the range, which is visible.
         assert!(matte + 30 < satin && satin + 30 < glossy, "{matte} {satin} {glossy}");
     }
 }
@@ -74,7 +75,7 @@ fn what_is_behind_shows_through_glass_alone_and_in_its_tint() {
     let behind = ball(DVec3::Z * -1.2, GREEN, Finish::Satin);
     for finish in ALL {
         let before = ball(DVec3::ZERO, RED, finish);
-        // Whichever comes first in the list.
+        // The order in the list does not matter.
         let [with, turned, without] =
             [[before, behind].as_slice(), &[behind, before], &[before]].map(pictures);
         for i in [0, 1] {
@@ -109,7 +110,7 @@ fn glass_shades_less_than_what_is_solid() {
             let shape = Shape::Rectangle { size_x: 9.0, size_z: 9.0 };
             drawing.add_collider(shape, wall, [0.8; 3], false);
             drawing.light.to_sun = DVec3::new(0.0, 0.5, 1.0).normalize();
-            // Its shadow falls on the middle of the wall, which it leaves in sight.
+            // Its shadow falls on the middle of the wall, which it does not hide.
             let above = DVec3::new(0.0, 1.0, 0.0);
             drawing.balls.extend(finish.map(|finish| ball(above, RED, finish)));
             middle(&drawn(&drawing, quality))[1]
@@ -131,7 +132,7 @@ fn a_container_of_glass_shows_what_it_holds_through_every_wall() {
     drawing.add_collider(shape, Pose::at(DVec3::ZERO), glass, false);
     let [red, green, _] = middle(&drawn(&drawing, Quality::FINE));
     let [bare_red, bare_green, _] = middle(&bare);
-    // The near wall is seen, and more of the ball.
+    // The near wall is visible, and the ball more so.
     assert!(green > bare_green + 20, "{green} {bare_green}");
     assert!(red > green + 40 && red.abs_diff(bare_red) < 60, "{red} {green} {bare_red}");
 }

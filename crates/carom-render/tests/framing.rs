@@ -1,4 +1,4 @@
-//! What a camera is fitted to: where the balls of a scene are and go in its first seconds.
+//! A camera is fitted to where the balls of a scene are during its first seconds.
 
 use carom::DVec3;
 use carom_render::{Bounds, Drawing, Framing};
@@ -21,9 +21,9 @@ fn the_floor_under_a_ball_is_in_the_picture() {
     let Framing { whole, balls } = framing(&format!("{GRAVITY}{ball}{floor}"));
     let tiny = 1e-9;
     assert!(whole.min.y.abs() < tiny && (whole.max.y - 2.5).abs() < tiny, "{whole:?}");
-    // Between two frames it touches the floor.
+    // It touches the floor between two frames.
     assert!((0.0..0.1).contains(&balls.min.y), "{balls:?}");
-    // A floor that is very far away would make a dot of the ball.
+    // A floor that is very far away would make the ball a dot.
     let far = "spheres = [{ position = [0.0, 2000.0, 0.0], radius = 0.5 }]\n";
     let whole = framing(&format!("{GRAVITY}{far}{floor}")).whole;
     assert!(whole.min.y > 1900.0, "{whole:?}");
@@ -38,7 +38,7 @@ fn a_ball_that_flies_away_does_not_make_dots_of_the_others() {
     let with = framing(&format!("{others}{fast}"));
     assert!(with.whole.radius() < 4.0 * alone.radius(), "{with:?}");
     assert!(with.whole.holds(&alone), "{with:?}");
-    // One that stays near is in the picture all the time.
+    // A ball that stays near is in the picture all the time.
     let slow = ", { position = [1.5, 3.0, 0.0], velocity = [1.0, 0.0, 0.0], radius = 0.5 }]";
     let with = framing(&format!("{others}{slow}"));
     assert!((with.whole.max.x - 5.0).abs() < 0.05, "{with:?}");
@@ -51,7 +51,7 @@ fn a_ball_that_falls_alone_is_in_the_picture_all_the_time() {
     let whole = framing(&format!("{second}{GRAVITY}{ball}")).whole;
     // It falls g/2 in a second.
     assert!((whole.min.y - (20.0 - 4.905 - 0.1)).abs() < 1e-9, "{whole:?}");
-    // Three seconds of a longer scene, or a picture in which the ball is more than a dot.
+    // Three seconds of a longer scene, or less if the ball would become a dot.
     let whole = framing(&format!("{GRAVITY}{ball}")).whole;
     assert!((-10.0..-4.0).contains(&whole.min.y), "{whole:?}");
 }

@@ -1,11 +1,11 @@
-//! How the spheres of a world are drawn: plain, or in a pattern that shows how they turn. Makes
+//! Spheres of a world are drawn plain, or in a pattern that shows how they rotate. These tests make
 //! drawings only, no pictures.
 
 use carom::{Collider, Contact, DQuat, DVec3, Gravity, Pose, Settings, Shape, Sphere, World};
 use carom_render::{Ball, Drawing, Pattern, draw_world};
 use carom_scene::{Palette, Scene};
 
-/// A ball that rolls along x on a plane with this coefficient of friction.
+/// Returns a ball that rolls along x on a plane with this coefficient of friction.
 fn rolling(friction: f64) -> World {
     let mut world = World::new(Settings::default().with_rule(Contact::default())).unwrap();
     world.add_force(Gravity::new(DVec3::new(0.0, -9.81, 0.0))).unwrap();
@@ -34,7 +34,7 @@ fn a_ball_is_banded_from_the_start_where_friction_can_turn_it() {
     let turned = ball(&world, |_| None);
     assert_eq!(turned.pattern, Pattern::Banded);
     assert_eq!(turned.rotation, world.spheres().orientations()[0]);
-    // Clockwise, seen from +z: it rolls to +x.
+    // Clockwise, seen from +z: it rolls towards +x.
     assert!(turned.rotation.to_scaled_axis().z < -0.2, "{}", turned.rotation);
 }
 

@@ -1,4 +1,4 @@
-//! Scenes from code: the same scene with several restitutions, and what is left of the motion.
+//! Scenes built in code: the same scene with several restitutions, and the energy that remains.
 
 use carom_scene::{Library, Override};
 

@@ -1,4 +1,4 @@
-//! Spheres, colliders and emitters of scenes, as the physics knows them.
+//! Converts spheres, colliders and emitters of scenes into those of `carom`.
 
 use carom::{Friction, Mass, Pose, Sides, World};
 
@@ -7,11 +7,11 @@ use crate::requirement::{check, check_positive};
 use crate::scene::values::{quaternion, vector};
 use crate::scene::{Collider, Emitter, Shape, Side, Sphere};
 
-/// Adds a sphere written at `path`.
+/// Adds the sphere that stands at `path` in the scene.
 pub(crate) fn add_sphere(world: &mut World, sphere: &Sphere, path: &str) -> Result<(), Problem> {
     let sphere = self::sphere(sphere, path)?;
     let energy = sphere.kilograms() * sphere.velocity.length_squared();
-    // What is not finite by itself, the physics names.
+    // A sphere that is itself not finite is refused by `add_sphere`, which names the field.
     let is_finite = energy.is_finite() || !sphere.velocity.is_finite();
     check(is_finite || !sphere.kilograms().is_finite(), &format!("{path}.velocity"), || {
         "is too large: the kinetic energy is no number that a computer holds".into()
@@ -20,7 +20,7 @@ pub(crate) fn add_sphere(world: &mut World, sphere: &Sphere, path: &str) -> Resu
     Ok(())
 }
 
-/// A sphere written at `path`, its numbers not yet checked.
+/// Converts the sphere that stands at `path`; its numbers are not yet checked.
 pub(crate) fn sphere(sphere: &Sphere, path: &str) -> Result<carom::Sphere, Problem> {
     let radius = match (sphere.radius, sphere.diameter) {
         (Some(radius), None) => radius,
@@ -54,8 +54,7 @@ pub(crate) fn sphere(sphere: &Sphere, path: &str) -> Result<carom::Sphere, Probl
         .with_inertia_factor(sphere.inertia_factor))
 }
 
-/// What a body says of friction: coefficients of sliding, rolling and spinning friction, and of
-/// tangential restitution.
+/// Friction of a body: `coefficients` of sliding, rolling and spinning friction.
 fn friction(coefficients: [Option<f64>; 3], tangential_restitution: Option<f64>) -> Friction {
     let mut friction = Friction::default();
     [friction.sliding, friction.rolling, friction.spinning] = coefficients;
@@ -64,7 +63,7 @@ fn friction(coefficients: [Option<f64>; 3], tangential_restitution: Option<f64>)
 }
 
 impl Sphere {
-    /// A sphere of the physics as scene files write it, without a colour of its own.
+    /// Converts a sphere of `carom` to the fields of a scene file, without a colour of its own.
     pub fn of(sphere: &carom::Sphere) -> Self {
         let (mass, density) = match sphere.mass {
             Mass::Kilograms(mass) => (Some(mass), None),
@@ -88,13 +87,13 @@ impl Sphere {
 }
 
 impl Collider {
-    /// What it says of friction, as the physics knows it.
+    /// Friction fields of the sphere or collider, as `carom` has them.
     pub fn surface_friction(&self) -> Friction {
         let coefficients = [self.friction, self.rolling_friction, self.spinning_friction];
         friction(coefficients, self.tangential_restitution)
     }
 
-    /// Has it say this of friction, and nothing else.
+    /// Sets the four friction fields.
     pub fn set_surface_friction(&mut self, friction: Friction) {
         self.friction = friction.sliding;
         self.rolling_friction = friction.rolling;
@@ -104,17 +103,17 @@ impl Collider {
 }
 
 impl Emitter {
-    /// The emitter as the physics knows it.
+    /// Converts the emitter to one of `carom`.
     ///
     /// # Errors
-    /// A description of the field of its sphere that makes no sense.
+    /// [`SceneError::Invalid`] if a field of the emitter's sphere is invalid; it names the field.
     pub fn emitter(&self) -> Result<carom::Emitter, SceneError> {
         emitter(self, "emitter").map_err(|problem| problem.in_code(&self.name).into())
     }
 }
 
 impl From<&Shape> for carom::Shape {
-    /// Its numbers are not checked.
+    /// Converts the shape without checking its numbers.
     fn from(shape: &Shape) -> Self {
         match shape {
             Shape::Sphere { radius } => Self::Sphere { radius: *radius },
@@ -141,7 +140,7 @@ fn sides(sides: &[Side]) -> Sides {
     }
 }
 
-/// A collider, its numbers not yet checked.
+/// Converts a collider; its numbers are not yet checked.
 pub(crate) fn collider(collider: &Collider) -> carom::Collider {
     let shape = (&collider.shape).into();
     let pose = Pose::at(vector(collider.position)).rotated(quaternion(collider.rotation));
@@ -152,7 +151,7 @@ pub(crate) fn collider(collider: &Collider) -> carom::Collider {
     if collider.trigger { solid.as_trigger() } else { solid }
 }
 
-/// An emitter written at `path`, its own numbers not yet checked.
+/// Converts the emitter that stands at `path`; only its sphere is checked.
 pub(crate) fn emitter(emitter: &Emitter, path: &str) -> Result<carom::Emitter, Problem> {
     let sphere_path = format!("{path}.sphere");
     let sphere = sphere(&emitter.sphere, &sphere_path)?;

@@ -1,11 +1,11 @@
-//! How much a scene may ask for.
+//! Limits on the size of scenes.
 
 use crate::error::Problem;
 use crate::requirement::check;
 use crate::scene::{Generator, Scene};
 
-/// How much a scene may ask for, before anything of it is made: a few bytes of a generator can stand
-/// for more spheres than fit into memory.
+/// Limits on what a scene may contain, checked before anything is created: a generator of a few
+/// bytes can stand for more spheres than fit into memory.
 ///
 /// ```
 /// use carom_scene::{Budget, SceneText};
@@ -19,13 +19,13 @@ use crate::scene::{Generator, Scene};
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Budget {
-    /// Most spheres at the start, of all generators together and single ones.
+    /// Most spheres at the start: single ones and those of all generators together.
     pub spheres: u64,
-    /// Most colliders, likewise.
+    /// Most colliders: single ones and those of all generators together.
     pub colliders: u64,
-    /// Most springs, those of chains counted one by one.
+    /// Most springs; each spring of a chain counts.
     pub springs: u64,
-    /// Most bytes of each file of a scene.
+    /// Most bytes in each file of a scene.
     pub bytes: u64,
 }
 
@@ -36,21 +36,22 @@ impl Default for Budget {
 }
 
 impl Budget {
-    /// For scene files: room for gases of a million spheres, in about 1 GB of memory.
+    /// Limits for scene files: gases of a million spheres are allowed, in about 1 GB of memory.
     pub const FILE: Self =
         Self { spheres: 2_000_000, colliders: 1_000_000, springs: 4_000_000, bytes: 256 << 20 };
 
-    /// For links, which anyone can send: of the most bytes, half a gigabyte of memory is taken at worst.
+    /// Limits for links, which anyone can send: a text of the longest length takes at most about
+    /// 0.5 GB.
     pub const LINK: Self =
         Self { spheres: 200_000, colliders: 100_000, springs: 400_000, bytes: 8 << 20 };
 
-    /// For scenes that were checked, or put together in code: more than this is a slip of the
-    /// keyboard.
+    /// Limits for scenes that were checked already or built in code: a larger number is a typing
+    /// error.
     pub const MOST: Self =
         Self { spheres: 10_000_000, colliders: 1_000_000, springs: 20_000_000, bytes: u64::MAX };
 
-    /// Checks how many spheres and colliders a scene has, with those of all generators together,
-    /// before any is made.
+    /// Checks the numbers of spheres, colliders and springs of a scene, including those of all
+    /// generators, before any is created.
     pub(crate) fn check(&self, scene: &Scene) -> Result<(), Problem> {
         let (spheres, colliders) = (scene.spheres.len() as u64, scene.colliders.len() as u64);
         for (list, count, most) in
@@ -68,7 +69,8 @@ impl Budget {
         self.check_generators(&scene.generators, spheres, colliders)
     }
 
-    /// Checks generators, where there are so many spheres and colliders besides.
+    /// Checks the generators of a scene that has `spheres` single spheres and `colliders` single
+    /// colliders.
     fn check_generators(
         &self,
         generators: &[Generator],
@@ -82,7 +84,7 @@ impl Budget {
             };
             let own = generator.places();
             if own > most {
-                // Its own field is to blame: see `check_count`.
+                // `check_count` refuses this generator later, and names the field.
                 return Ok(());
             }
             *sum += own;

@@ -1,5 +1,4 @@
-//! The scenes that are part of Carom: the files of the folder `scenes/`, embedded, in the order in which they are
-//! listed.
+//! Built-in scenes: the files of the folder `scenes/`, embedded, in the order of listings.
 
 macro_rules! embed {
     ($($file:literal),* $(,)?) => {

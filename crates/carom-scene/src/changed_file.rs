@@ -1,11 +1,11 @@
-//! A scene file that is edited while it is in use.
+//! Detects changes of a scene file that is edited while it is in use.
 
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 use crate::text::named_files;
 
-/// A scene file and those that it includes, and when they were changed last.
+/// A scene file with the files that it includes, and the time at which each was last modified.
 #[derive(Debug, Clone)]
 pub struct ChangedFile {
     path: PathBuf,
@@ -13,20 +13,21 @@ pub struct ChangedFile {
 }
 
 impl ChangedFile {
-    /// A file as it is now.
+    /// Starts to watch the file at `path`.
     pub fn new(path: &Path) -> Self {
         let mut file = Self { path: path.to_owned(), files: Vec::new() };
         file.list();
         file
     }
 
-    /// Where it is.
+    /// Path of the scene file.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Whether it, or one that it includes, was changed since it was looked at last. While an editor
-    /// writes a file anew, it may be missing for a moment, which is no change.
+    /// Returns whether the file, or one that it includes, was modified since the last call. A
+    /// missing file counts as unmodified, because editors remove a file for a moment while they
+    /// write it.
     pub fn look(&mut self) -> bool {
         let is_changed = |(path, before): &(PathBuf, Option<SystemTime>)| {
             let now = changed(path);
@@ -39,8 +40,8 @@ impl ChangedFile {
         is_any
     }
 
-    /// Lists the files anew: also those that cannot be read now, and those that were listed last, which
-    /// a file that is broken for a moment does not name.
+    /// Updates the list of files. Files that cannot be read now stay in the list, and so do the
+    /// files of the previous list: a scene that is broken for a moment does not name its includes.
     fn list(&mut self) {
         let mut paths = named_files(&self.path);
         let before = self.files.drain(..).map(|(path, _)| path);

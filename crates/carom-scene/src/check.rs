@@ -1,10 +1,10 @@
-//! Requirements on a scene that no part of the world looks at.
+//! Checks of the parts of a scene that do not go into the world.
 
 use crate::error::Problem;
 use crate::requirement::{check, check_non_negative, check_positive, check_rotation, check_vector};
 use crate::scene::{Color, DensityColor, Generator, Rule, Scene, Simulation};
 
-/// Numbers that no part of the world looks at.
+/// Checks the numbers that do not go into the world: times, camera, colours and tolerance.
 pub(crate) fn check_numbers(scene: &Scene) -> Result<(), Problem> {
     let Simulation { frame_time, duration, .. } = scene.simulation;
     check_positive(frame_time, "simulation.frame_time")?;
@@ -37,10 +37,10 @@ pub(crate) fn check_numbers(scene: &Scene) -> Result<(), Problem> {
     check_tolerance(scene)
 }
 
-/// The longest name, title, and description or origin of a scene, in characters.
+/// Longest name, title, and description or origin of a scene \[characters\].
 const LONGEST: [usize; 3] = [255, 500, 20_000];
 
-/// Refuses texts for people that are too long, and characters in them that would steer what shows them.
+/// Refuses names and texts that are too long, or that contain control characters.
 pub(crate) fn check_texts(scene: &Scene) -> Result<(), Problem> {
     let [of_name, of_title, of_description] = LONGEST;
     check_text("name", &scene.name, of_name)?;
@@ -57,7 +57,7 @@ pub(crate) fn check_texts(scene: &Scene) -> Result<(), Problem> {
 }
 
 fn check_text(field: &str, text: &str, longest: usize) -> Result<(), Problem> {
-    // Lines end with either of them, as the file's do.
+    // Only a description may have several lines; they end as in the file.
     let is_space = |it: char| field == "description" && matches!(it, '\n' | '\r' | '\t');
     let is_shown = |it: char| !it.is_control() || is_space(it);
     check(text.chars().all(is_shown), field, || "must have no control characters".into())?;
@@ -66,7 +66,7 @@ fn check_text(field: &str, text: &str, longest: usize) -> Result<(), Problem> {
     })
 }
 
-/// Every colour in a scene, with its path.
+/// Returns every colour in a scene with its path.
 fn colors(scene: &Scene) -> Vec<(String, Color)> {
     let mut colors = Vec::new();
     let mut add = |path: String, color: Option<Color>| colors.extend(color.map(|c| (path, c)));
@@ -96,14 +96,15 @@ fn colors(scene: &Scene) -> Vec<(String, Color)> {
     colors
 }
 
-/// Refuses a touching distance that is none, or, where it is used, no longer small against the smallest sphere.
+/// Refuses a touching distance that is not positive. Where the rule uses it, it must also be small
+/// compared with the smallest sphere.
 fn check_tolerance(scene: &Scene) -> Result<(), Problem> {
     let spheres = scene.spheres.iter().chain(scene.generators.iter().filter_map(Generator::sphere));
     let spheres = spheres.chain(scene.emitters.iter().map(|emitter| &emitter.sphere));
     let radii = spheres.filter_map(|s| s.radius.or(s.diameter.map(|diameter| 0.5 * diameter)));
     let smallest = radii.filter(|radius| *radius > 0.0).fold(f64::INFINITY, f64::min);
     let tolerance = scene.simulation.bisect.tolerance;
-    // Another rule is one word away, so it has to make sense under each.
+    // It is checked under every rule, because a scene can change its rule in one word.
     check_positive(tolerance, "simulation.bisect.tolerance")?;
     let is_used = scene.simulation.rule == Rule::Bisect;
     check(!is_used || tolerance <= 0.01 * smallest, "simulation.bisect.tolerance", || {

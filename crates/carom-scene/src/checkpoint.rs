@@ -1,4 +1,4 @@
-//! Checkpoints: worlds as bytes, to go on from on another day or in another process.
+//! Checkpoints: worlds as bytes, from which a simulation continues later or in another process.
 
 use std::io::{self, Write};
 
@@ -10,12 +10,13 @@ use crate::budget::Budget;
 use crate::palette::Palette;
 use crate::scene::Scene;
 
-/// What the bytes of a checkpoint begin with.
+/// First bytes of every checkpoint.
 const MAGIC: &[u8; 8] = b"carom\x1a\r\n";
-/// The version of Carom, and of the layout of states within it: another layout is another number.
+/// Version of Carom and of the layout of states; the number increases with each change of the
+/// layout.
 const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), "/5");
 
-/// A world at one moment, with what is known of it besides.
+/// A world at one moment, with its scene and its colours.
 ///
 /// ```
 /// use carom::World;
@@ -35,42 +36,42 @@ const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), "/5");
 /// ```
 #[derive(Debug, Clone)]
 pub struct Checkpoint {
-    /// All that the future depends on.
+    /// Complete state of the world: the future depends on nothing else.
     pub snapshot: Snapshot,
-    /// What the world was made of, or what is known of it.
+    /// The scene of the world; where there was none, the scene that describes the world.
     pub scene: Scene,
     /// The colours of the world.
     pub palette: Palette,
 }
 
-/// Why a checkpoint has no bytes, or bytes are no checkpoint.
+/// Why a checkpoint cannot be written or read.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum CheckpointError {
-    /// A force that is not one of Carom's is code, which has no bytes.
+    /// A force defined in user code, which cannot be stored.
     #[error("force {0} is code, which has no bytes")]
     ForeignForce(ForceId),
-    /// The bytes do not begin as those of a checkpoint do.
+    /// The bytes do not begin as a checkpoint does.
     #[error("these bytes are no snapshot of Carom")]
     NoCheckpoint,
-    /// The bytes were written by another version of Carom, which keeps other things between frames.
+    /// The bytes were written by another version of Carom, which stores other fields.
     #[error(
         "this snapshot is of Carom {found}, and only the same version reads it: this is {VERSION}"
     )]
     OtherVersion {
-        /// The version that wrote the bytes, and its layout.
+        /// Version and layout that wrote the bytes.
         found: String,
     },
-    /// There is no memory for the bytes, or for what they say.
+    /// There is not enough memory for the bytes, or for the state in them.
     #[error("there is no memory for the snapshot")]
     NoMemory,
-    /// Some bytes are missing, or others than were written.
+    /// Bytes are missing or were changed.
     #[error("this snapshot is damaged: bytes are missing, or others than were written")]
     Damaged,
 }
 
 impl Checkpoint {
-    /// The checkpoint as bytes: [`Self::bytes_of`] its parts.
+    /// Serializes the checkpoint; see [`Self::bytes_of`].
     ///
     /// # Errors
     /// Those of [`Self::bytes_of`].
@@ -78,14 +79,14 @@ impl Checkpoint {
         Self::bytes_of(&self.snapshot, &self.scene, &self.palette)
     }
 
-    /// A checkpoint of these parts as bytes, the same ones on every platform. The world that is restored from
-    /// them goes on as the world of the snapshot, bit for bit.
+    /// Serializes the three parts of a checkpoint. The bytes are the same on every platform, and a
+    /// world that is restored from them continues as the original, bit for bit.
     ///
-    /// The same version of Carom reads them with [`Self::from_bytes`]. They hold a checksum, which notices
-    /// damage, but not what was made to mislead: read only bytes that you trust.
+    /// Only the same version of Carom reads them, with [`Self::from_bytes`]. A checksum detects
+    /// accidental damage, but no deliberate change: read only bytes that you trust.
     ///
     /// # Errors
-    /// [`CheckpointError::ForeignForce`] for a force that is not one of Carom's, and
+    /// [`CheckpointError::ForeignForce`] for a force defined in user code, and
     /// [`CheckpointError::NoMemory`].
     pub fn bytes_of(
         snapshot: &Snapshot,
@@ -103,10 +104,11 @@ impl Checkpoint {
         Ok(bytes.0)
     }
 
-    /// The checkpoint that [`Self::to_bytes`] made these bytes of.
+    /// Reads the checkpoint from bytes that [`Self::to_bytes`] wrote.
     ///
     /// # Errors
-    /// [`CheckpointError`] for bytes that are no checkpoint, of another version, or damaged.
+    /// [`CheckpointError`] if the bytes are no checkpoint, are of another version or damaged, or do
+    /// not fit into memory.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, CheckpointError> {
         let parts = bytes.strip_prefix(MAGIC).ok_or(CheckpointError::NoCheckpoint)?;
         let damaged = |_| CheckpointError::Damaged;
@@ -119,7 +121,7 @@ impl Checkpoint {
         if xxh3_64(written) != u64::from_le_bytes(*checksum) {
             return Err(CheckpointError::Damaged);
         }
-        // What they say takes as much memory as they do, or a little more.
+        // The state takes about as much memory as its bytes; twice as much is reserved for a test.
         let room = Vec::<u8>::new().try_reserve_exact(2 * bytes.len());
         room.map_err(|_| CheckpointError::NoMemory)?;
         let (_, snapshot, scene, palette): (&str, Snapshot, String, Palette) =
@@ -131,7 +133,7 @@ impl Checkpoint {
     }
 }
 
-/// Bytes that grow as long as there is memory.
+/// Bytes whose growth returns an error when memory runs out.
 struct Growing(Vec<u8>);
 
 impl Write for Growing {

@@ -2,26 +2,26 @@
 
 use toml::Value;
 
-/// Fields that hold a colour: everywhere, and in the table of the colours.
+/// Names of fields that hold a colour: in any table, and in the table `colors`.
 const FIELDS: [&str; 1] = ["color"];
 const TABLE: &str = "colors";
 const FIELDS_OF_TABLE: [&str; 3] = ["background", "spheres", "colliders"];
 
-/// Whether a field of this name holds a colour, in a table that is of this name if it is in a scene.
+/// Whether the field of this name in this table holds a colour.
 fn is_color(table: Option<&str>, field: &str) -> bool {
     FIELDS.contains(&field) || (table == Some(TABLE) && FIELDS_OF_TABLE.contains(&field))
 }
 
-/// Whether some table has colours in fields of this name.
+/// Whether fields of this name hold a colour in at least one table.
 pub(crate) fn may_be_color(field: &str) -> bool {
     is_color(Some(TABLE), field)
 }
 
-/// The red, green and blue in \[0, 1\] that a text means, in a field of this name in a table of that name;
-/// `None` for a field that holds no colour.
+/// Parses a colour: red, green and blue in \[0, 1\]. Returns `None` if this field of this table
+/// holds no colour.
 ///
 /// # Errors
-/// What is wrong with the text.
+/// A description of what is wrong with the text.
 pub(crate) fn numbers_of(
     table: Option<&str>,
     field: &str,
@@ -30,7 +30,7 @@ pub(crate) fn numbers_of(
     if !is_color(table, field) {
         return None;
     }
-    // The reader takes digits without their mark, too: 100 would be a dark green.
+    // The parser also accepts hexadecimal digits without `#`: it would read 100 as a dark green.
     let is_marked = !text.chars().all(|it| it.is_ascii_hexdigit());
     let color = csscolorparser::parse(text).ok().filter(|color| color.a == 1.0 && is_marked);
     let numbers = color.map(|color| {

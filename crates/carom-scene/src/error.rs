@@ -1,4 +1,4 @@
-//! What is wrong with a scene, where in the file, and what was probably meant.
+//! Errors in scenes: what is wrong, where in the file, and which name was probably meant.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -11,30 +11,30 @@ use crate::legible::legible;
 /// Longest quotation of a file or a link in an error \[characters\].
 const LONGEST_QUOTATION: usize = 120;
 
-/// Longest problem \[characters\]: some list names.
+/// Longest text of a problem \[characters\]; some texts list many names.
 const LONGEST_PROBLEM: usize = 600;
 
-/// What can go wrong with scenes.
+/// Errors of finding, reading and checking scenes.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SceneError {
-    /// The scene says something that makes no sense.
+    /// The scene contains an invalid value.
     #[error(transparent)]
     Invalid(#[from] Fault),
-    /// The scene makes sense, but not with the values that overrides put into it.
+    /// The scene is valid, but not with the values of the overrides.
     #[error("{}: {fault}", legible(.overrides, LONGEST_QUOTATION))]
     Overridden {
-        /// The overrides that matter.
+        /// The overrides that cause the error.
         overrides: String,
-        /// What is wrong with them in place.
+        /// What is wrong when they are applied.
         fault: Box<Fault>,
     },
     /// A file or folder of scenes cannot be read.
     #[error("cannot read {path}: {source}")]
     Unreadable {
-        /// Which.
+        /// Path of the file or folder.
         path: PathBuf,
-        /// Why.
+        /// Error of the operating system.
         source: std::io::Error,
     },
     /// No scene has this name or title.
@@ -46,7 +46,8 @@ pub enum SceneError {
     Unknown {
         /// The name requested.
         name: String,
-        /// The name or title that it is a word of, or the one most like it.
+        /// A name or title that contains the requested name as a word, or else the most similar
+        /// one.
         nearest: Option<String>,
     },
     /// An override is not of the form `path=value`.
@@ -59,10 +60,10 @@ pub enum SceneError {
     },
 }
 
-/// One thing that is wrong in a scene.
+/// One error in a scene.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub struct Fault {
-    /// File, or other source of the scene.
+    /// File or other source of the scene.
     pub source_name: String,
     /// Line in the file, from 1; `None` where the value does not come from a file.
     pub line: Option<usize>,
@@ -70,7 +71,7 @@ pub struct Fault {
     pub field: String,
     /// What is wrong.
     pub problem: String,
-    /// The known name most like an unknown one.
+    /// Most similar known name, if the name is unknown.
     pub nearest: Option<String>,
 }
 
@@ -92,7 +93,7 @@ pub(crate) fn did_you_mean(nearest: &Option<String>) -> String {
     nearest.as_ref().map_or(String::new(), |name| format!("; did you mean \"{name}\"?"))
 }
 
-/// What is wrong at a path of the scene, before its place in a file is known.
+/// An error at a path of the scene, before its line in the file is known.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Problem {
     pub field: String,
@@ -104,12 +105,12 @@ impl Problem {
         Self { field: field.into(), problem: problem.into() }
     }
 
-    /// Puts a name or an index before the path of the problem.
+    /// Puts `name`, a name or an index, before the path of the problem.
     pub fn below(self, name: &str) -> Self {
         Self { field: format!("{name}{}", self.field), ..self }
     }
 
-    /// A refusal of the physics, about what is written at `path`.
+    /// Converts an error of `carom` about the value at `path`.
     pub fn of_physics(path: &str, error: carom::Error) -> Self {
         match error {
             carom::Error::Invalid {
@@ -121,31 +122,32 @@ impl Problem {
         }
     }
 
-    /// The fault of a scene that was put together in code.
+    /// Converts the problem to a fault of a scene that was built in code.
     pub fn in_code(self, scene: &str) -> Fault {
         let Self { field, problem } = self;
         Fault { source_name: scene.to_owned(), line: None, field, problem, nearest: None }
     }
 }
 
-/// `colliders[1].shape` as names and indices.
+/// Splits a path into names and indices: `colliders[1].shape` has three.
 pub(crate) fn segments(path: &str) -> Vec<String> {
     path.split(['.', '[', ']']).filter(|part| !part.is_empty()).map(str::to_owned).collect()
 }
 
-/// Whether a name is another one with a slip or two.
+/// Whether two names differ by one or two typing errors only.
 pub(crate) fn is_much_like(name: &str, other: &str) -> bool {
     strsim::jaro_winkler(&name.to_lowercase(), other) > 0.9
 }
 
-/// The candidate most like `name`, if any is like it at all.
+/// Returns the candidate most similar to `name`; `None` if none is similar.
 pub(crate) fn nearest<'a>(
     name: &str,
     candidates: impl IntoIterator<Item = &'a str>,
 ) -> Option<String> {
     // Below this, suggestions are guesses.
     const SIMILAR: f64 = 0.8;
-    // More slips than these at the start of a name are another name: a triangle is no rectangle.
+    // A name that starts with another letter and differs more than this is not suggested: a
+    // triangle is no rectangle.
     const SLIPS: usize = 2;
     let name = name.to_lowercase();
     let mut best = (SIMILAR, None);

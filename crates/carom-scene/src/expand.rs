@@ -1,19 +1,19 @@
-//! Generators written out.
+//! Replaces generators by their spheres and colliders.
 
 use crate::error::SceneError;
 use crate::scene::Scene;
 
 impl Scene {
-    /// The scene with every sphere and collider of its generators written out.
+    /// Returns the scene with each generator replaced by the spheres and colliders that it creates.
     ///
     /// # Errors
-    /// As [`Scene::world`].
+    /// The same as those of [`Scene::world`].
     pub fn expanded(&self) -> Result<Self, SceneError> {
-        // Random fillings keep clear of colliders and of the spheres before them.
+        // Random fillings keep clear of the colliders and of the spheres added so far.
         let colliders = self.all_colliders().into_owned();
         let mut scene = Self { generators: Vec::new(), colliders, ..self.clone() };
         scene.simulation.allow_overlap = true;
-        // They may join spheres that are still to be written out.
+        // Springs may refer to spheres that are not yet added.
         let springs = std::mem::take(&mut scene.springs);
         for (i, generator) in self.generators.iter().enumerate() {
             let path = format!("generators[{i}].{}", generator.kind());

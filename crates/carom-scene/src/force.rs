@@ -1,4 +1,4 @@
-//! Forces of scene files in worlds.
+//! Adds forces of scene files to worlds.
 
 use carom::{
     Buoyancy, ConstantForce, Error, ForceId, Gravity, MutualGravity, PointAttractor, QuadraticDrag,
@@ -12,20 +12,20 @@ impl Force {
     /// Adds this force to a world.
     ///
     /// # Errors
-    /// As [`World::add_force`].
+    /// The same as those of [`World::add_force`].
     pub fn add_to(&self, world: &mut World) -> Result<ForceId, Error> {
         self.give_to(Add(world))
     }
 
-    /// Puts this force in the place of another.
+    /// Replaces the force `id` of a world by this one.
     ///
     /// # Errors
-    /// As [`World::set_force`].
+    /// The same as those of [`World::set_force`].
     pub fn replace_in(&self, world: &mut World, id: ForceId) -> Result<(), Error> {
         self.give_to(Replace(world, id))
     }
 
-    /// Gives the force that the physics knows.
+    /// Creates the force of `carom` and passes it to `taker`.
     fn give_to<T: Taker>(&self, taker: T) -> Result<T::Answer, Error> {
         match *self {
             Self::Constant { force } => taker.take(ConstantForce::new(vector(force))),
@@ -61,17 +61,17 @@ impl Force {
     }
 }
 
-/// What becomes of a force, of whatever kind.
+/// Uses a force of any type.
 trait Taker {
     type Answer;
 
     fn take(self, force: impl carom::Force + 'static) -> Result<Self::Answer, Error>;
 }
 
-/// Adds it to a world.
+/// Adds the force to a world.
 struct Add<'a>(&'a mut World);
 
-/// Puts it in the place of another.
+/// Replaces a force of a world.
 struct Replace<'a>(&'a mut World, ForceId);
 
 impl Taker for Add<'_> {

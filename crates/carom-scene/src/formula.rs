@@ -1,7 +1,7 @@
 //! Formulas: arithmetic with numbers and names, as in `2 * r + sin(pi / 6)`.
 //!
-//! Every function is exact, correctly rounded or that of `libm`, so that a formula has the same bits on every
-//! machine.
+//! Every function is exact, correctly rounded or taken from `libm`, so a formula has the same bits
+//! on every machine.
 
 use thiserror::Error;
 use winnow::ModalResult;
@@ -17,8 +17,7 @@ use winnow::token::{any, one_of, take_while};
 use crate::units;
 use crate::wording::quoted;
 
-/// Most bytes of a formula, and most parentheses in parentheses: text from elsewhere must not take the whole
-/// stack.
+/// Most bytes of a formula, and most nested parentheses: a text must not exhaust the stack.
 const LONGEST: usize = 200;
 const DEEPEST: u32 = 32;
 
@@ -50,12 +49,12 @@ const CONSTANTS: [(&str, f64); 3] = [
     ("tau", std::f64::consts::TAU),
 ];
 
-/// The larger of two numbers; what is none comes out, too.
+/// The larger of two numbers; NaN if either is NaN.
 fn larger(a: f64, b: f64) -> f64 {
     if a > b || a.is_nan() { a } else { b }
 }
 
-/// The smaller of two numbers; what is none comes out, too.
+/// The smaller of two numbers; NaN if either is NaN.
 fn smaller(a: f64, b: f64) -> f64 {
     if a < b || a.is_nan() { a } else { b }
 }
@@ -66,50 +65,50 @@ pub(crate) type NamedValues = [(String, f64)];
 /// What is wrong with a formula.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub(crate) enum FormulaError {
-    /// It has a name that is neither known nor a function or constant.
+    /// The formula contains a name that is no parameter, function or constant.
     #[error("unknown name `{name}`, expected one of {expected}")]
     UnknownName { name: String, expected: String },
-    /// Anything else, in words.
+    /// Any other error, in words.
     #[error("{0}")]
     Other(String),
 }
 
-/// The text of a formula, and what is known of it.
+/// Text of a formula with the state of its parser.
 type Input<'a> = Stateful<&'a str, State<'a>>;
 
 #[derive(Debug, Clone)]
 struct State<'a> {
     known: &'a NamedValues,
-    /// Parentheses that are open.
+    /// Number of open parentheses.
     depth: u32,
-    /// What is wrong, where that is more than a place that cannot be read.
+    /// The first error that says more than where the text cannot be read.
     error: Option<FormulaError>,
 }
 
-/// Whether a formula has a meaning of its own for this name.
+/// Whether the name is that of a function or a constant.
 pub(crate) fn is_taken(name: &str) -> bool {
     own_names().any(|own| own == name)
 }
 
-/// The names of functions and constants.
+/// Names of all functions and constants.
 fn own_names<'a>() -> impl Iterator<Item = &'a str> {
     let functions = UNARY.iter().map(|it| it.0).chain(BINARY.iter().map(|it| it.0));
     functions.chain(CONSTANTS.iter().map(|it| it.0))
 }
 
-/// Whether this is a name: letters, digits and `_`, no digit first.
+/// Whether the text is a name: letters, digits and `_`, not starting with a digit.
 pub(crate) fn is_name(text: &str) -> bool {
     let is_letter = |it: char| it.is_ascii_alphabetic() || it == '_';
     text.starts_with(is_letter) && text.chars().all(|it| is_letter(it) || it.is_ascii_digit())
 }
 
-/// The value of a formula.
+/// Computes the value of a formula.
 ///
 /// Operators are `+ - * /` and `^`, which binds closest and from the right: `-2^2` is -4. Angles are in
 /// radians.
 ///
 /// # Errors
-/// What is wrong with it: a place that cannot be read, an unknown name, a value that is not finite.
+/// [`FormulaError`] for text that cannot be read, an unknown name, or a value that is not finite.
 pub(crate) fn evaluate(text: &str, known: &NamedValues) -> Result<f64, FormulaError> {
     if text.len() > LONGEST {
         return Err(FormulaError::Other(format!("a formula has {LONGEST} characters at most")));
@@ -139,7 +138,7 @@ fn unreadable(text: &str, rest: &str) -> String {
     }
 }
 
-/// Numbers with operators between them, as closely as these bind.
+/// Parses operands with operators between them, by precedence.
 fn sum(input: &mut Input) -> ModalResult<f64> {
     input.state.depth += 1;
     if input.state.depth > DEEPEST {
@@ -171,12 +170,13 @@ fn sum(input: &mut Input) -> ModalResult<f64> {
     value
 }
 
-/// A number, a name, a function of something, or something in parentheses.
+/// Parses a number, a name, a call of a function, or an expression in parentheses.
 fn operand(input: &mut Input) -> ModalResult<f64> {
     alt((in_parentheses, named, number)).parse_next(input)
 }
 
-/// Digits first: `inf` and `nan` are no numbers here, and a sign is an operator.
+/// Parses a number that starts with a digit or a point: `inf` and `nan` are no numbers here, and a
+/// sign is an operator.
 fn number(input: &mut Input) -> ModalResult<f64> {
     let starts = input.input.starts_with(|it: char| it.is_ascii_digit() || it == '.');
     if starts { float.parse_next(input) } else { fail.parse_next(input) }
@@ -186,7 +186,7 @@ fn in_parentheses(input: &mut Input) -> ModalResult<f64> {
     delimited('(', cut_err(sum), cut_err((multispace0, ')'))).parse_next(input)
 }
 
-/// The value of a name, or of a function.
+/// Parses a parameter, a constant or a call of a function.
 fn named(input: &mut Input) -> ModalResult<f64> {
     let name: &str = take_while(1.., |it: char| it.is_ascii_alphanumeric() || it == '_')
         .verify(is_name)
@@ -213,13 +213,13 @@ fn named(input: &mut Input) -> ModalResult<f64> {
     wrong(input, FormulaError::UnknownName { name: name.to_owned(), expected })
 }
 
-/// What stands in the parentheses after the name of a function.
+/// Parses the arguments of a function, in parentheses.
 fn arguments(input: &mut Input) -> ModalResult<Vec<f64>> {
     let values = separated(1.., sum, (multispace0, ','));
     cut_err(delimited((multispace0, '('), values, (multispace0, ')'))).parse_next(input)
 }
 
-/// Ends the reading with an error; the first one counts.
+/// Stops the parser with an error; the first error is kept.
 fn wrong(input: &mut Input, error: FormulaError) -> ModalResult<f64> {
     input.state.error.get_or_insert(error);
     cut_err(fail).parse_next(input)

@@ -1,5 +1,5 @@
-//! What imports from other formats have in common: the report of what they do not understand, names, numbers,
-//! and the check at the end.
+//! Common parts of imports from other formats: the report of omissions, names, numbers, and the
+//! final check.
 
 use crate::legible::steers;
 use std::fmt;
@@ -7,17 +7,17 @@ use std::fmt;
 use crate::error::SceneError;
 use crate::scene::Scene;
 
-/// What of a scene was not understood, or has no counterpart: one line of the report.
+/// One line of the report of an import: something that was ignored, replaced or not understood.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Omission {
-    /// The object, by the names from the root of the scene, like `Maze/Wall`; the file where the line is
-    /// about no object.
+    /// Path of the object from the root of the scene, such as `Maze/Wall`; the file if the line
+    /// concerns no object.
     pub object: String,
-    /// Which part of it.
+    /// The part of the object.
     pub component: String,
-    /// Why it is left out, or what it is taken for.
+    /// Why it was ignored, or what replaces it.
     pub reason: String,
-    /// How many objects this holds for; `object` is the first of them.
+    /// Number of objects to which the line applies; `object` is the first of them.
     pub count: usize,
 }
 
@@ -31,9 +31,9 @@ impl fmt::Display for Omission {
     }
 }
 
-/// Adds a line to a report, or counts it where the like is there.
+/// Adds a line to a report, or counts it if the report has a line with this component and reason.
 pub fn omit(report: &mut Vec<Omission>, object: &str, component: &str, reason: impl Into<String>) {
-    /// Lines of a report. What is beyond is counted in the last one.
+    /// Most lines of a report; the last one counts all others.
     const MOST: usize = 1000;
     let reason = reason.into();
     let same = report.iter_mut().find(|it| it.component == component && it.reason == reason);
@@ -51,13 +51,13 @@ pub fn omit(report: &mut Vec<Omission>, object: &str, component: &str, reason: i
     }
 }
 
-/// A name without characters that steer a terminal, of 200 characters at most.
+/// Replaces control characters in a name by spaces and cuts it after 200 characters.
 pub fn plain_name(name: &str) -> String {
     name.chars().map(|it| if steers(it) { ' ' } else { it }).take(200).collect()
 }
 
-/// Numbers with the 9 digits that tell any two 32-bit numbers apart, which the other programs compute
-/// with: 0.3 for 0.30000000000000004. What is nothing beside the largest of them becomes 0.
+/// Rounds numbers to 9 significant digits, which distinguish any two 32-bit numbers:
+/// 0.30000000000000004 becomes 0.3. Numbers below 1e-12 of the largest become 0.
 pub fn shortened<const N: usize>(numbers: [f64; N]) -> [f64; N] {
     let largest = numbers.iter().fold(0.0_f64, |largest, number| largest.max(number.abs()));
     numbers.map(|number| {
@@ -68,11 +68,11 @@ pub fn shortened<const N: usize>(numbers: [f64; N]) -> [f64; N] {
     })
 }
 
-/// Makes sure that a scene makes a world. Spheres that overlap at the start may from now on, as they may in other
-/// programs, and go to the report.
+/// Checks that a scene can be simulated. If spheres overlap at the start, it sets `allow_overlap`
+/// and adds a line to the report.
 ///
 /// # Errors
-/// Why the scene makes none.
+/// The error of [`Scene::world`] if the scene remains invalid.
 pub fn made_runnable(scene: &mut Scene, report: &mut Vec<Omission>) -> Result<(), SceneError> {
     let Err(refused) = scene.world() else { return Ok(()) };
     scene.simulation.allow_overlap = true;

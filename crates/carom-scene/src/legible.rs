@@ -1,8 +1,7 @@
-//! Texts of files and links in messages: they may be long, and must not steer what shows them.
+//! Makes texts of files and links safe for messages: short, and without control characters.
 
-/// A text in one line: control characters and marks that turn the direction of text are written out as
-/// `\u{...}`, and where that is more
-/// than `longest` characters, the beginning is left.
+/// Writes a text in one line. Control characters and marks of text direction become `\u{...}`; a
+/// line longer than `longest` characters is cut.
 ///
 /// ```
 /// use carom_scene::legible;
@@ -29,8 +28,8 @@ pub fn legible(text: &str, longest: usize) -> String {
     line
 }
 
-/// Whether a character does something to what shows it: controls, ends of lines, and marks that turn the
-/// direction of the text after them (Unicode Standard Annex 9).
+/// Whether a character affects how the text around it is shown: control characters, line ends, and
+/// marks of text direction (Unicode Standard Annex 9).
 pub fn steers(character: char) -> bool {
     let turns = matches!(character,
         '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');

@@ -1,10 +1,11 @@
 //! Scene files of Carom and recordings of what happens in them.
 //!
-//! A [`Scene`] is what a TOML file says ([`scene`]), checked; [`Scene::world`] makes a
-//! [`carom::World`] of it. A [`Library`] finds scenes by name: built-in ones, those in folders,
-//! and those registered from code. [`part`] reads what is added to worlds. `recording` (feature `recording`) writes trajectories and
-//! impacts, and plays trajectories again. A [`Palette`] says in which colours a scene is drawn. [`import`] is
-//! what imports from other formats have in common.
+//! A [`Scene`] is the checked content of a TOML file ([`scene`]); [`Scene::world`] creates a
+//! [`carom::World`] from it. A [`Library`] finds scenes by name: built-in ones, those in folders,
+//! and those registered in code. [`part`] reads single bodies and forces for a running world.
+//! `recording` (feature `recording`) writes trajectories and impacts, and plays trajectories back.
+//! A [`Palette`] holds the colours of a scene. [`import`] holds the common parts of imports from
+//! other formats.
 //!
 //! ```
 //! let (scene, _) = carom_scene::Library::new().find("simtest1", &[])?;

@@ -1,4 +1,4 @@
-//! Finding scenes: built-in ones, those in folders, and those registered from code.
+//! Finds scenes: built-in ones, those in folders, and those registered in code.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -11,14 +11,14 @@ use crate::overrides::Override;
 use crate::scene::Scene;
 use crate::text::SceneText;
 
-/// Where a scene comes from.
+/// Where a scene was found.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Source {
-    /// Part of Carom.
+    /// Among the built-in scenes.
     BuiltIn,
-    /// A file.
+    /// In a file.
     File(PathBuf),
-    /// Registered from code.
+    /// Among the scenes registered in code.
     Registered,
 }
 
@@ -34,8 +34,8 @@ impl std::fmt::Display for Source {
 
 /// Scenes by name.
 ///
-/// Where several have the same name, a registered one comes before one in a folder, and that
-/// before a built-in one; of two folders the one added first counts.
+/// If several scenes have the same name, registered ones come first, then those in folders, in the
+/// order in which the folders were added, then built-in ones.
 ///
 /// ```
 /// use carom_scene::{Library, Source};
@@ -51,33 +51,33 @@ impl std::fmt::Display for Source {
 pub struct Library {
     registered: Vec<Scene>,
     folders: Vec<PathBuf>,
-    /// How much scenes may ask for.
+    /// Limits on the size of scenes.
     budget: Budget,
 }
 
-/// A scene as it is listed: readable, or with what is wrong with it.
+/// A scene in a list: readable, or with the error in it.
 #[derive(Debug)]
 pub struct Entry {
-    /// Name to find it by.
+    /// Name under which [`Library::find`] finds the scene.
     pub name: String,
-    /// Where it comes from.
+    /// Where the scene was found.
     pub source: Source,
-    /// The scene itself, or why it cannot be read.
+    /// The scene, or why it cannot be read.
     pub scene: Result<Scene, SceneError>,
 }
 
 impl Library {
-    /// The built-in scenes.
+    /// Creates a library of the built-in scenes.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// This library, where scenes may ask for this; [`Budget::FILE`] unless given.
+    /// Sets the limits on the size of scenes; the default is [`Budget::FILE`].
     pub fn within(self, budget: Budget) -> Self {
         Self { budget, ..self }
     }
 
-    /// How much scenes may ask for.
+    /// Limits on the size of scenes.
     pub fn budget(&self) -> Budget {
         self.budget
     }
@@ -96,7 +96,7 @@ impl Library {
         Ok(())
     }
 
-    /// Adds a scene put together in code.
+    /// Adds a scene built in code.
     ///
     /// ```
     /// use carom_scene::Library;
@@ -112,18 +112,18 @@ impl Library {
     /// ```
     ///
     /// # Errors
-    /// [`SceneError::Invalid`] if it makes no sense.
+    /// [`SceneError::Invalid`] if the scene is invalid.
     pub fn register(&mut self, scene: Scene) -> Result<(), SceneError> {
         scene.world()?;
         self.registered.push(scene);
         Ok(())
     }
 
-    /// All scenes, in the order in which names are looked up. Folders are read anew each time.
+    /// Lists all scenes in the order of the search. Folders are read at each call.
     ///
     /// # Errors
     /// [`SceneError::Unreadable`] if a folder has become unreadable. A broken scene file is no
-    /// error here; its entry says what is wrong.
+    /// error: its entry contains the error.
     pub fn entries(&self) -> Result<Vec<Entry>, SceneError> {
         let mut entries = Vec::new();
         for scene in &self.registered {
@@ -142,19 +142,18 @@ impl Library {
             let name = file.trim_end_matches(".toml").to_owned();
             entries.push(Entry { name, source: Source::BuiltIn, scene });
         }
-        // Of several with one name, only the first can be found.
+        // If several scenes have one name, only the first can be found.
         let mut names = BTreeSet::new();
         entries.retain(|entry| names.insert(entry.name.to_lowercase()));
         Ok(entries)
     }
 
-    /// The scene with a name or title (in any case), or in the file of this path, with some
-    /// values changed. Where no scene has the name `drop`, it is that in the file `drop.toml` of the current
-    /// folder, or in the file `drop`.
+    /// Finds a scene by name or title (in any case) or by the path of its file, and applies
+    /// overrides. If no scene is called `drop`, it reads the file `drop.toml` or `drop` of the
+    /// current folder.
     ///
     /// # Errors
-    /// [`SceneError::Unknown`] with the name or title that it is a word of, or else the nearest one; or what
-    /// is wrong with the scene.
+    /// [`SceneError::Unknown`] with a suggested name, or the error in the scene.
     pub fn find(&self, name: &str, overrides: &[Override]) -> Result<(Scene, Source), SceneError> {
         if is_path(name) {
             let path = Path::new(name);
@@ -207,12 +206,13 @@ impl Library {
     }
 }
 
-/// Whether this is the file of a scene and not its name.
+/// Whether the text is the path of a scene file, not the name of a scene.
 fn is_path(name: &str) -> bool {
     name.ends_with(".toml") || name.contains(std::path::MAIN_SEPARATOR)
 }
 
-/// The names in a scene file; that of the file itself where it cannot be read or has none.
+/// Name and title in a scene file. The name is that of the file if it cannot be read or states
+/// none.
 fn heading_of(path: &Path) -> Heading {
     let mut own = Heading::of(&std::fs::read_to_string(path).unwrap_or_default());
     if own.name.is_empty() {
@@ -221,7 +221,7 @@ fn heading_of(path: &Path) -> Heading {
     own
 }
 
-/// The scene files of a folder, by name.
+/// Scene files of a folder, sorted.
 fn files_in(folder: &Path) -> Result<Vec<PathBuf>, SceneError> {
     let unreadable = |source| SceneError::Unreadable { path: folder.to_owned(), source };
     let mut files = Vec::new();

@@ -1,4 +1,4 @@
-//! Scene files to scenes.
+//! Reads scenes from TOML and writes them.
 
 use std::path::Path;
 
@@ -11,8 +11,8 @@ use crate::scene::Scene;
 use crate::text::SceneText;
 
 impl Scene {
-    /// Reads a scene from TOML; `source_name` is what errors call it, and without its ending the name of
-    /// a scene that has none.
+    /// Reads a scene from TOML. Errors call it `source_name`; a scene without a name gets that of
+    /// the source, without its ending.
     ///
     /// ```
     /// use carom_scene::Scene;
@@ -31,16 +31,17 @@ impl Scene {
     /// ```
     ///
     /// # Errors
-    /// [`SceneError::Invalid`] for text that is no TOML, unknown fields, numbers that make no
-    /// sense, and spheres that overlap at the start.
+    /// [`SceneError::Invalid`] for text that is no TOML, unknown fields, invalid numbers, and
+    /// spheres that overlap at the start.
     pub fn from_toml(text: &str, source_name: &str) -> Result<Self, SceneError> {
         Self::from_toml_with(text, source_name, &[])
     }
 
-    /// Reads a scene from TOML and changes some of its values.
+    /// Reads a scene from TOML and applies overrides.
     ///
     /// # Errors
-    /// As [`Self::from_toml`], and [`SceneError::BadOverride`] for a path that leads nowhere.
+    /// The same as those of [`Self::from_toml`], and [`SceneError::BadOverride`] for a path that
+    /// does not exist.
     pub fn from_toml_with(
         text: &str,
         source_name: &str,
@@ -49,10 +50,10 @@ impl Scene {
         SceneText::new(text, source_name)?.scene(overrides)
     }
 
-    /// Reads a scene from TOML that may ask for as much as `budget` allows.
+    /// Reads a scene from TOML within the limits of `budget`.
     ///
     /// # Errors
-    /// As [`Self::from_toml`].
+    /// The same as those of [`Self::from_toml`].
     pub fn from_toml_within(
         text: &str,
         source_name: &str,
@@ -61,29 +62,29 @@ impl Scene {
         SceneText::new(text, source_name)?.within(budget).scene(&[])
     }
 
-    /// Reads a scene file, and those that it includes.
+    /// Reads a scene file and the files that it includes, and applies overrides.
     ///
     /// # Errors
-    /// [`SceneError::Unreadable`], and as [`Self::from_toml_with`].
+    /// [`SceneError::Unreadable`], and those of [`Self::from_toml_with`].
     pub fn from_file(path: &Path, overrides: &[Override]) -> Result<Self, SceneError> {
         SceneText::from_file(path)?.scene(overrides)
     }
 
-    /// The same scene with some values changed.
+    /// Returns a copy of the scene with overrides applied.
     ///
     /// # Errors
-    /// As [`Self::from_toml_with`].
+    /// The same as those of [`Self::from_toml_with`].
     pub fn with(&self, overrides: &[Override]) -> Result<Self, SceneError> {
         SceneText::new(&self.to_toml(), &self.name)?.within(Budget::MOST).scene(overrides)
     }
 
-    /// The scene as TOML, every default written out.
+    /// Writes the scene as TOML with every default.
     pub fn to_toml(&self) -> String {
         toml::to_string(self).expect("a scene has only strings as keys")
     }
 }
 
-/// Names only, without the rest of the scene.
+/// Name and title of a scene, read without the rest.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize)]
 pub(crate) struct Heading {
     #[serde(default)]
@@ -93,7 +94,7 @@ pub(crate) struct Heading {
 }
 
 impl Heading {
-    /// The names in a scene file, even in one that is broken further down.
+    /// Reads name and title from a scene file, even if the rest is broken.
     pub fn of(text: &str) -> Self {
         let whole = toml::from_str(text);
         whole.unwrap_or_else(|_| {

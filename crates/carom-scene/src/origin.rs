@@ -1,11 +1,11 @@
-//! Which sphere, generator or emitter of a scene the spheres of its world come from.
+//! Finds which sphere, generator or emitter of a scene created a sphere of its world.
 
 use carom::{DVec3, EmitterId, World};
 
 use crate::scene::{Emitter, Scene};
 
-/// What a sphere comes from: an index into the list of its kind in the scene. Emitters of code have
-/// the indices after those of the scene, another one for each change.
+/// What created a sphere: an index into a list of the scene. Emitters that code adds or changes get
+/// new indices after those of the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Origin {
     Sphere(usize),
@@ -13,17 +13,17 @@ pub(crate) enum Origin {
     Emitter(usize),
 }
 
-/// Where the spheres of a scene come from, by number.
+/// Origins of the spheres of a scene, by sphere number.
 ///
-/// Emitted ones are known only once the emitters have been followed to their time. Which emitter
-/// comes first may depend on the frames (under `discrete` and `bisect`): they must be those of the
-/// scene, `simulation.frame_time` long.
+/// Origins of emitted spheres are known only after the emitters were followed to their time. Under
+/// `discrete` and `bisect` the order of emission may depend on the frames; frames of
+/// `simulation.frame_time` are assumed.
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Origins {
-    /// Single spheres.
+    /// Number of single spheres.
     spheres: usize,
-    /// Numbers after the last sphere of each generator.
+    /// For each generator, the number after its last sphere.
     generator_ends: Vec<u64>,
     emissions: Emissions,
 }
@@ -40,7 +40,7 @@ impl Origins {
         Ok(Self { spheres: scene.spheres.len(), generator_ends, emissions })
     }
 
-    /// How many spheres there are at the start.
+    /// Number of spheres at the start.
     pub fn initial(&self) -> u64 {
         self.generator_ends.last().copied().unwrap_or(self.spheres as u64)
     }
@@ -50,26 +50,26 @@ impl Origins {
         self.emissions.follow(time, usize::MAX);
     }
 
-    /// From `time` \[s\] on, there is this emitter more, after the others.
+    /// Adds an emitter after the others at `time` \[s\].
     pub fn add_emitter(&mut self, emitter: &Emitter, time: f64) {
         self.emissions.go_to(time);
         self.emissions.add(emitter).ok();
     }
 
-    /// From `time` \[s\] on, the emitter at this place in the order is another one.
+    /// Replaces the emitter at `place` in the order at `time` \[s\].
     pub fn set_emitter(&mut self, place: usize, emitter: &Emitter, time: f64) {
         self.emissions.go_to(time);
         self.emissions.set(place, emitter).ok();
     }
 
-    /// From `time` \[s\] on, the emitter at this place in the order is no more.
+    /// Removes the emitter at `place` in the order at `time` \[s\].
     pub fn remove_emitter(&mut self, place: usize, time: f64) {
         self.emissions.go_to(time);
         self.emissions.remove(place);
     }
 
-    /// Follows the emitters until the sphere of this number is known, or a frame ends at `time`
-    /// \[s\] or later. Numbers and times that make no sense take no longer than others.
+    /// Follows the emitters until the origin of sphere `number` is known, or a frame ends at `time`
+    /// \[s\] or later. An impossible number takes no time.
     #[cfg(feature = "recording")]
     pub fn follow_to(&mut self, number: u64, time: f64) {
         let Some(place) = number.checked_sub(self.initial()) else {
@@ -81,7 +81,7 @@ impl Origins {
         }
     }
 
-    /// What the sphere of this number comes from; `None` for one that is not known.
+    /// Returns the origin of sphere `number`; `None` if it is not known.
     pub fn of(&self, number: u64) -> Option<Origin> {
         if number < self.spheres as u64 {
             return Some(Origin::Sphere(number as usize));
@@ -95,17 +95,17 @@ impl Origins {
     }
 }
 
-/// The emitters of a scene at work, in a world that has nothing else.
+/// Runs the emitters of a scene in a world without other spheres.
 ///
-/// When an emitter emits depends on no sphere; so the order is that of the scene's own world,
-/// under any rule. Emitter i puts its spheres at x = i, which distinguishes them.
+/// The time of an emission depends on no sphere, so the order is that of the scene's own world,
+/// under any rule. Emitter i places its spheres at x = i, which identifies them.
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 struct Emissions {
     world: World,
-    /// In s.
+    /// Length of a frame \[s\].
     frame_time: f64,
-    /// How many emitters there were until now, changed ones counted anew.
+    /// Number of emitters so far; a changed emitter counts as a new one.
     known: usize,
     /// Emitter of each sphere that was emitted.
     emitters: Vec<usize>,
@@ -142,35 +142,35 @@ impl Emissions {
         self.world.emitters().nth(place).map(|(id, _)| id)
     }
 
-    /// An emitter with the same turns that its place distinguishes from all before.
+    /// Copies an emitter with its period and count, and places its spheres at the next free x.
     fn next(&mut self, emitter: &Emitter) -> carom::Emitter {
         let sphere = carom::Sphere::new(DVec3::new(self.known as f64, 0.0, 0.0), 1.0);
         self.known += 1;
         carom::Emitter::new(sphere, emitter.period).with_count(emitter.count)
     }
 
-    /// No more than this many spheres are emitted until `time` \[s\].
+    /// Upper bound of the number of spheres emitted until `time` \[s\].
     #[cfg(feature = "recording")]
     fn most_until(&self, time: f64) -> f64 {
-        // One at 0, one for rounding.
+        // One more for time 0, one for rounding.
         self.world.emitters().map(|(_, emitter)| time / emitter.period + 2.0).sum()
     }
 
-    /// Goes on until a frame ends at `time` \[s\] or later, or this many are emitted.
+    /// Advances until a frame ends at `time` \[s\] or later, or `count` spheres are emitted.
     fn follow(&mut self, time: f64, count: usize) {
         let has_emitters = self.world.emitters().len() > 0;
         while has_emitters && self.world.time() < time && self.emitters.len() < count {
-            // The scene's own world refuses the same step: nothing more is ever emitted.
+            // The scene's own world refuses the same step, so no more spheres are emitted.
             if self.step(self.frame_time).is_err() {
                 return;
             }
         }
     }
 
-    /// Goes on to `time` \[s\], by frames and, where that is none, a part of one.
+    /// Advances to `time` \[s\] in whole frames; the last frame may be shorter.
     fn go_to(&mut self, time: f64) {
         if self.world.emitters().len() == 0 {
-            // A time that makes no sense is refused, and no world is ever there.
+            // An invalid time is refused; no world reaches it.
             self.world.set_time(time).ok();
         }
         while self.world.time() < time {
@@ -241,8 +241,8 @@ mod tests {
         assert_eq!(origins.of(11), None);
     }
 
-    /// Emitters whose turns fall together in various ways, known apart by mass in the scene's own
-    /// world.
+    /// Emitters that partly emit at the same times; the mass of a sphere identifies its emitter in
+    /// the scene's own world.
     #[test]
     fn emission_is_followed_under_every_rule() {
         for rule in [Rule::Exact, Rule::Discrete, Rule::Bisect] {

@@ -1,11 +1,11 @@
-//! Spheres that overlap at the start.
+//! Refuses spheres that overlap at the start.
 
 use carom::World;
 
 use crate::error::Problem;
 use crate::scene::Scene;
 
-/// Refuses spheres that overlap each other or a collider by more than rounding.
+/// Refuses spheres that overlap each other or a collider by more than a rounding error.
 pub(crate) fn refuse(
     scene: &Scene,
     world: &World,
@@ -44,7 +44,7 @@ pub(crate) fn refuse(
     Err(Problem::new(path(sphere), text))
 }
 
-/// Of the spheres that overlap the first one of a pair, the one with the lowest number.
+/// Returns the overlap of a pair's first sphere with the sphere of the lowest number.
 fn with_lowest(world: &World, overlap: carom::Overlap) -> carom::Overlap {
     let carom::BodyPair::Spheres(first, _) = overlap.between else { return overlap };
     let spheres = world.spheres();
@@ -60,8 +60,8 @@ fn with_lowest(world: &World, overlap: carom::Overlap) -> carom::Overlap {
     pairs.find(|pair| pair.depth > rounding(world, pair)).unwrap_or(overlap)
 }
 
-/// Overlap \[m\] that bodies meant to touch can have: coordinates in a file have fewer digits than
-/// a double, and those far from the origin are coarse.
+/// Overlap \[m\] that touching bodies can have through rounding: numbers in a file have fewer
+/// digits than a double, and coordinates far from the origin are coarse.
 fn rounding(world: &World, overlap: &carom::Overlap) -> f64 {
     const OF_RADIUS: f64 = 1e-9;
     const OF_COORDINATES: f64 = 8.0 * f64::EPSILON;

@@ -1,29 +1,29 @@
-//! Values of a scene changed from outside its file.
+//! Overrides: values of a scene that are changed from outside its file.
 
 use toml::{Table, Value};
 
 use crate::error::{SceneError, did_you_mean, nearest, segments};
 use crate::parameters;
 
-/// Most names and indices in a path: twice of what leads to the deepest values of scenes. Text from
-/// elsewhere must not make tables in tables until the stack ends.
+/// Most names and indices in a path: twice as many as the deepest field of a scene has. A text must
+/// not exhaust the stack with nested tables.
 const DEEPEST: usize = 16;
 
-/// A changed value of a scene, like `emitters.0.max_spheres=100`.
+/// A new value for a field of a scene, such as `emitters.0.max_spheres=100`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Override {
     text: String,
     path: Vec<String>,
-    /// `None` takes the field out.
+    /// The new value; `None` removes the field.
     value: Option<Value>,
 }
 
 impl std::str::FromStr for Override {
     type Err = SceneError;
 
-    /// Parses `path=value`: names and indices, as in `emitters.0.period` or `emitters[0].period`, or
-    /// the name of a parameter, then a value in TOML. A word that is no TOML value is taken as a
-    /// string; `none` takes the field out of the scene.
+    /// Parses `path=value`. The path consists of names and indices, as in `emitters.0.period` or
+    /// `emitters[0].period`, or is the name of a parameter. The value is TOML; another word is
+    /// taken as a string, and `none` removes the field.
     fn from_str(text: &str) -> Result<Self, SceneError> {
         let (path, value) = text
             .split_once('=')
@@ -63,7 +63,7 @@ impl std::fmt::Display for Override {
 }
 
 impl Override {
-    /// Changes the scene.
+    /// Applies the override to a scene.
     pub(crate) fn apply(&self, scene: &mut Table) -> Result<(), SceneError> {
         let path = self.path_in(scene);
         if let [parameters::TABLE, name] = path[..] {
@@ -78,7 +78,7 @@ impl Override {
         place.set(last, self.value.clone()).map_err(|problem| bad_override(&self.text, problem))
     }
 
-    /// A parameter that no formula can name would change nothing.
+    /// Refuses a parameter that the scene does not have, because it would change nothing.
     fn check_parameter(&self, name: &str, scene: &Table) -> Result<(), SceneError> {
         let known = scene.get(parameters::TABLE).and_then(Value::as_table);
         if known.is_some_and(|it| it.contains_key(name)) {
@@ -90,8 +90,8 @@ impl Override {
         Err(bad_override(&self.text, problem))
     }
 
-    /// The path in this scene: a parameter goes by its name alone where the scene writes no field of that
-    /// name.
+    /// Returns the path in this scene. A name alone means a parameter, unless the scene has a field
+    /// of that name.
     fn path_in(&self, scene: &Table) -> Vec<&str> {
         let path = self.path.iter().map(String::as_str);
         let parameters = scene.get(parameters::TABLE).and_then(Value::as_table);
@@ -104,8 +104,8 @@ impl Override {
         is_parameter.then_some(parameters::TABLE).into_iter().chain(path).collect()
     }
 
-    /// Whether the field at `path` (like `emitters[0].period`) is part of what this changes, or
-    /// the other way round. Parameters go by their names alone.
+    /// Whether the override changes the field at `path` (such as `emitters[0].period`), a part of
+    /// it, or a value that contains it.
     pub(crate) fn concerns(&self, path: &str) -> bool {
         let segments = segments(path);
         let [own, other] = [&self.path[..], &segments].map(without_table);
@@ -114,7 +114,7 @@ impl Override {
     }
 }
 
-/// The path of a parameter without the table of all of them.
+/// Removes the name of the table of parameters from the start of a path.
 fn without_table(path: &[String]) -> &[String] {
     match path {
         [table, rest @ ..] if table == parameters::TABLE => rest,
@@ -122,14 +122,14 @@ fn without_table(path: &[String]) -> &[String] {
     }
 }
 
-/// Somewhere in a scene that has fields or elements.
+/// A table or an array in a scene.
 enum Place<'a> {
     Table(&'a mut Table),
     Array(&'a mut Vec<Value>),
 }
 
 impl Place<'_> {
-    /// What lies at `name`; makes a missing table, unless `next` is an element of it.
+    /// Enters the value at `name`. Creates a missing table, unless `next` is an index.
     fn enter(self, name: &str, next: &str) -> Result<Self, String> {
         let value = match self {
             Self::Table(table) => {

@@ -8,17 +8,17 @@ use crate::error::SceneError;
 use crate::origin::{Origin, Origins};
 use crate::scene::{Collider, Color, Colors, Emitter, Finish, Scene, Sphere};
 
-/// A density counts as listed if it differs by this part at most: mass / volume is off by a few
-/// roundings (1e-15), densities in a list differ by far more.
+/// Largest relative difference of a density from a listed one that counts as equal: mass / volume
+/// has a few rounding errors (1e-15), listed densities differ by far more.
 const SAME_DENSITY: f64 = 1e-9;
 
-/// What a sphere or a collider says of its look.
+/// Colour and finish that a scene states for a sphere or a collider.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Paint {
-    /// A colour of its own.
+    /// Its own colour, if it has one.
     pub color: Option<Color>,
-    /// How its surface takes light.
+    /// How its surface reflects light.
     pub finish: Finish,
 }
 
@@ -35,7 +35,7 @@ impl From<Coat> for Paint {
 }
 
 impl Sphere {
-    /// This sphere, with another colour and finish.
+    /// Returns the sphere with another colour and finish.
     pub fn painted(self, Paint { color, finish }: Paint) -> Self {
         Self { color, finish, ..self }
     }
@@ -47,23 +47,23 @@ impl From<&Collider> for Paint {
     }
 }
 
-/// What is seen of a sphere or a collider.
+/// Colour and finish in which a sphere or a collider is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Coat {
-    /// sRGB.
+    /// sRGB, each part in \[0, 1\].
     pub color: Color,
-    /// How its surface takes light.
+    /// How the surface reflects light.
     pub finish: Finish,
 }
 
 impl From<Color> for Coat {
-    /// With the usual finish.
+    /// Creates a coat with the default finish.
     fn from(color: Color) -> Self {
         Self { color, finish: Finish::default() }
     }
 }
 
-/// The colours and finishes in which a scene is drawn, and a world that was made of it and changed since.
+/// Colours and finishes of the bodies of a scene, and of its world after changes in code.
 ///
 /// ```
 /// use carom_scene::{Library, Palette};
@@ -80,32 +80,32 @@ impl From<Color> for Coat {
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Palette {
     origins: Origins,
-    /// Numbers of spheres that were added in code, ascending: `origins` does not count them.
+    /// Numbers of spheres that were added in code, ascending; `origins` does not count them.
     added: Vec<u64>,
-    /// What single spheres were given in code, instead of what they come with.
+    /// Paint that code gave to single spheres; it replaces their own.
     painted: BTreeMap<u64, Paint>,
-    /// Those of single spheres, generators and emitters.
+    /// Paint of each single sphere of the scene.
     spheres: Vec<Paint>,
     generators: Vec<Paint>,
-    /// Those of emitters by the indices of `origins`.
+    /// Paint of each emitter, by the indices of `origins`.
     emitters: Vec<Paint>,
     colliders: Vec<Paint>,
-    /// Those of the scene.
+    /// Default colours of the scene.
     #[cfg_attr(feature = "checkpoint", serde(skip))]
     colors: Colors,
 }
 
 impl Palette {
-    /// A gentle blue, for spheres of scenes that say nothing about colours.
+    /// A blue, for spheres of scenes without colours.
     pub const SPHERE: Color = [0.20, 0.45, 0.80];
 
-    /// A warm, light grey, for colliders of such scenes.
+    /// A warm, light grey, for colliders of scenes without colours.
     pub const COLLIDER: Color = [0.86, 0.85, 0.82];
 
-    /// The colours of a scene at its start.
+    /// Creates the palette of a scene at its start.
     ///
     /// # Errors
-    /// For settings or emitters that make no sense, as [`Scene::world`].
+    /// [`SceneError`] for settings or emitters that are invalid, as in [`Scene::world`].
     pub fn new(scene: &Scene) -> Result<Self, SceneError> {
         let origins = origins(scene)?;
         let generated = |sphere: Option<&Sphere>| sphere.map(Paint::from).unwrap_or_default();
@@ -121,16 +121,16 @@ impl Palette {
         })
     }
 
-    /// These colours, where the scene says those of its own.
+    /// Returns the palette with the default colours of `scene`.
     #[cfg(feature = "checkpoint")]
     pub(crate) fn in_colors_of(self, scene: &Scene) -> Self {
         Self { colors: scene.colors.clone().unwrap_or_default(), ..self }
     }
 
-    /// Makes known which emitters the spheres come from that are emitted until `time` \[s\]: to be
-    /// called with the world's time before its spheres are drawn.
+    /// Follows the emitters until `time` \[s\], so that the origin of each emitted sphere is known.
+    /// Call it with the world's time before the spheres are drawn.
     ///
-    /// That assumes the scene's own frames. In a world that is stepped by other frames under
+    /// The frames of the scene are assumed. If the world is stepped by other frames under
     /// `discrete` or `bisect`, spheres may get the colour of another emitter.
     pub fn follow(&mut self, time: f64) {
         if !self.emitters_agree() {
@@ -138,7 +138,7 @@ impl Palette {
         }
     }
 
-    /// A sphere was added in code, with this look. Its number must be the largest so far.
+    /// Records that a sphere was added in code. Its number must be the largest so far.
     pub fn add_sphere(&mut self, number: u64, paint: Paint) {
         self.added.push(number);
         if paint != Paint::default() {
@@ -146,37 +146,37 @@ impl Palette {
         }
     }
 
-    /// Gives a sphere a look of its own.
+    /// Sets the colour and finish of one sphere.
     pub fn paint(&mut self, number: u64, paint: Paint) {
         self.painted.insert(number, paint);
     }
 
-    /// The colliders are these from now on.
+    /// Replaces the paint of all colliders.
     pub fn set_colliders(&mut self, colliders: &[Collider]) {
         self.colliders = colliders.iter().map(Paint::from).collect();
     }
 
-    /// An emitter was added at this time \[s\], after those that were there.
+    /// Records that an emitter was added after the others, at `time` \[s\].
     pub fn add_emitter(&mut self, emitter: &Emitter, time: f64) {
         self.origins.add_emitter(emitter, time);
         self.emitters.push((&emitter.sphere).into());
     }
 
-    /// The emitter at this place in the order was changed at this time \[s\]; the spheres that it
-    /// emitted keep their colours.
+    /// Records that the emitter at `place` in the order was changed at `time` \[s\]. Spheres that
+    /// it emitted before keep their colours.
     pub fn set_emitter(&mut self, place: usize, emitter: &Emitter, time: f64) {
         self.origins.set_emitter(place, emitter, time);
         self.emitters.push((&emitter.sphere).into());
     }
 
-    /// The emitter at this place in the order was removed at this time \[s\].
+    /// Records that the emitter at `place` in the order was removed at `time` \[s\].
     pub fn remove_emitter(&mut self, place: usize, time: f64) {
         self.origins.remove_emitter(place, time);
     }
 
-    /// How the sphere of this number, radius \[m\] and mass \[kg\] is seen. Its colour is its own (or
-    /// that of its generator or emitter), else that of its density, else that of the scene's spheres,
-    /// else a blue.
+    /// Returns colour and finish of a sphere of this number, radius \[m\] and mass \[kg\]. The
+    /// colour is its own (or that of its generator or emitter), else that of its density, else the
+    /// default of the scene, else [`Self::SPHERE`].
     pub fn sphere(&self, number: u64, radius: f64, mass: f64) -> Coat {
         let Paint { color, finish } = self.own(number);
         let colors = &self.colors;
@@ -187,14 +187,14 @@ impl Palette {
         Coat { color, finish }
     }
 
-    /// How the collider at this index is seen. Its colour is its own, else that of the scene's
-    /// colliders, else a warm grey.
+    /// Returns colour and finish of the collider at `index`. The colour is its own, else the
+    /// default of the scene, else [`Self::COLLIDER`].
     pub fn collider(&self, index: usize) -> Coat {
         let Paint { color, finish } = self.colliders.get(index).copied().unwrap_or_default();
         Coat { color: color.or(self.colors.colliders).unwrap_or(Self::COLLIDER), finish }
     }
 
-    /// What the sphere of this number says of its look, or its generator or emitter does.
+    /// Returns the paint of a sphere: its own, or that of its generator or emitter.
     pub fn own(&self, number: u64) -> Paint {
         if let Some(&painted) = self.painted.get(&number) {
             return painted;
@@ -212,16 +212,17 @@ impl Palette {
         }
     }
 
-    /// Whether all emitters emit spheres of one look: then it does not matter which of them did.
+    /// Whether all emitters have the same paint, so that the origin of an emitted sphere does not
+    /// matter.
     fn emitters_agree(&self) -> bool {
         self.emitters.windows(2).all(|pair| pair[0] == pair[1])
     }
 }
 
-/// Where the spheres of a scene come from.
+/// Creates the origins of a scene's spheres.
 pub(crate) fn origins(scene: &Scene) -> Result<Origins, SceneError> {
     Origins::new(scene).map_err(|error| {
-        // The world of the scene is refused for the same reason, and names the field.
+        // The world of the scene is refused for the same reason, and its error names the field.
         let text = error.to_string();
         let own = scene.world().err();
         own.unwrap_or_else(|| crate::error::Problem::new("", text).in_code(&scene.name).into())
@@ -311,7 +312,7 @@ mod tests {
         scene.emitters = vec![emitter(0.25, Some(RED)), emitter(0.5, Some(GREEN))];
         let mut palette = Palette::new(&scene).unwrap();
         palette.follow(0.6);
-        // At 0 both, at 0.25 the first, at 0.5 both.
+        // Both emit at 0, the first at 0.25, both at 0.5.
         let colors = [1, 2, 3, 4, 5].map(|number| palette.sphere(number, 0.1, 1.0).color);
         assert_eq!(colors, [RED, GREEN, RED, RED, GREEN]);
     }
@@ -331,7 +332,7 @@ mod tests {
         scene.spheres = vec![sphere(Some(WHITE))];
         scene.emitters = vec![emitter(0.25, Some(RED)), emitter(0.5, Some(GREEN))];
         let mut palette = Palette::new(&scene).unwrap();
-        // Before anything is emitted, and after the first two were.
+        // Added before the first emission, and after the first two.
         let painted = |color| Paint { color: Some(color), finish: Finish::Glass };
         palette.add_sphere(1, painted(WHITE));
         palette.add_sphere(4, Paint::default());
@@ -354,8 +355,8 @@ mod tests {
         scene.emitters = vec![emitter(0.25, Some(RED))];
         let mut world = scene.world().unwrap();
         let mut palette = Palette::new(&scene).unwrap();
-        // At 0 and 0.25 red; at 0.4 green; white in the place of red at 0.5 and 0.75; at 0.8 green;
-        // then white alone, at 1 and 1.25.
+        // Red emits at 0 and 0.25, green at 0.4, white in the place of red at 0.5 and 0.75, green
+        // at 0.8, white alone at 1 and 1.25.
         let mut other = Scene::new("others");
         other.emitters = vec![emitter(0.4, Some(GREEN)), emitter(0.25, Some(WHITE))];
         let made = other.world().unwrap();

@@ -1,7 +1,7 @@
-//! The parameters of a scene file, the formulas in which they occur, and numbers with units.
+//! Parameters of a scene file, the formulas that use them, and numbers with units.
 //!
-//! A string that begins with `=` is a formula, wherever a number may stand, and one like `5 cm` a number with
-//! a unit; its number takes its place before the scene is read.
+//! Wherever a number may stand, a string that starts with `=` is a formula, and one like `5 cm` is
+//! a number with a unit. Both are replaced by their values before the scene is read.
 
 use toml::{Table, Value};
 
@@ -10,36 +10,36 @@ use crate::error::Problem;
 use crate::formula::{self, FormulaError, NamedValues};
 use crate::units::{self, Place};
 
-/// The table of the parameters.
+/// Name of the table of parameters.
 pub(crate) const TABLE: &str = "parameters";
 
-/// Fields of a scene that are for people, and names of its parts: what stands there is never a formula.
+/// Fields with text for people, and names of parts: they are never read as formulas.
 const TEXTS: [&str; 4] = [NAME, "title", "description", "origin"];
 const NAME: &str = "name";
 
-/// Parameters at most: each name in a formula is looked for among all of them.
+/// Most parameters: each name in a formula is searched among all of them.
 const MOST: usize = 1000;
 
-/// What a string begins with that is a formula.
+/// First character of a string that is a formula.
 const MARK: char = '=';
 
-/// Whole numbers up to this one are written as such: beyond, not every one is a number of 64 bits.
+/// Largest value written as a whole number: above 2^53, an f64 cannot represent every whole number.
 const LARGEST_WHOLE: f64 = 9_007_199_254_740_992.0;
 
-/// A number that a scene file gives a name to.
+/// A number to which a scene file gives a name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parameter {
-    /// As formulas have it.
+    /// Name by which formulas refer to it.
     pub name: String,
-    /// In SI units.
+    /// Value in SI units.
     pub value: f64,
-    /// Whether it follows from other parameters.
+    /// Whether the file states it as a formula.
     pub is_formula: bool,
-    /// Whether it is written as a whole number, as one that counts something is.
+    /// Whether the file states it as a whole number, as a count must be.
     pub is_whole: bool,
 }
 
-/// The parameters in the table of a scene, in their order.
+/// Returns the parameters of a scene in the order of the file.
 pub(crate) fn list(scene: &Table) -> Result<Vec<Parameter>, Problem> {
     let Some(Value::Table(table)) = scene.get(TABLE) else { return Ok(Vec::new()) };
     let written = table.values().map(|value| {
@@ -56,8 +56,8 @@ pub(crate) fn list(scene: &Table) -> Result<Vec<Parameter>, Problem> {
     Ok(list.collect())
 }
 
-/// Takes the parameters out of a scene, and puts numbers in the place of its formulas, of its numbers with
-/// units and of its colours.
+/// Removes the table of parameters from a scene, and replaces formulas, numbers with units and
+/// colours by their values.
 pub(crate) fn resolve(scene: &mut Table) -> Result<(), Problem> {
     let known = match scene.remove(TABLE) {
         Some(Value::Table(table)) => values(&table)?,
@@ -70,7 +70,8 @@ pub(crate) fn resolve(scene: &mut Table) -> Result<(), Problem> {
     })
 }
 
-/// The values of the parameters, in their order; formulas of them may be in any.
+/// Returns the values of the parameters in the order of the file. A formula may use a parameter
+/// that follows it.
 fn values(table: &Table) -> Result<Vec<(String, f64)>, Problem> {
     if table.len() > MOST {
         return Err(Problem::new(TABLE, format!("has more than {MOST} parameters")));
@@ -84,7 +85,8 @@ fn values(table: &Table) -> Result<Vec<(String, f64)>, Problem> {
     Ok(known)
 }
 
-/// Computes a parameter, and before it those that its formula names. `way`: those that wait for it.
+/// Computes a parameter, after those that its formula uses. `way` lists the parameters that wait
+/// for it, to detect circles.
 fn find<'a>(
     name: &'a str,
     table: &'a Table,
@@ -114,7 +116,7 @@ fn find<'a>(
     Ok(())
 }
 
-/// The value of a parameter.
+/// Computes the value of a parameter; `known` has the parameters that its formula may use.
 fn value_of(name: &str, value: &Value, known: &NamedValues) -> Result<f64, FormulaError> {
     let wrong = |problem: &str| Err(FormulaError::Other(problem.to_owned()));
     if !formula::is_name(name) {
@@ -134,7 +136,7 @@ fn value_of(name: &str, value: &Value, known: &NamedValues) -> Result<f64, Formu
     }
 }
 
-/// The number that a text is, if it is a formula or a number with a unit.
+/// Returns the number of a formula or of a number with a unit; `None` for any other text.
 fn number_in(text: &str, place: Place, known: &NamedValues) -> Option<Result<f64, FormulaError>> {
     match text.strip_prefix(MARK) {
         Some(formula) => Some(formula::evaluate(formula.trim(), known)),
@@ -142,8 +144,8 @@ fn number_in(text: &str, place: Place, known: &NamedValues) -> Option<Result<f64
     }
 }
 
-/// Puts numbers in the place of the formulas, the numbers with units and the colours in a value. The field
-/// of a problem is what lies below the value.
+/// Replaces the formulas, numbers with units and colours in a value by numbers. The field of a
+/// problem is relative to the value.
 fn replace(value: &mut Value, place: Place, known: &NamedValues) -> Result<(), Problem> {
     match value {
         Value::String(text) => {
@@ -177,7 +179,8 @@ fn replace(value: &mut Value, place: Place, known: &NamedValues) -> Result<(), P
     }
 }
 
-/// A number as a file would have it: without a point where it is whole, for what counts something.
+/// Converts a number to TOML. A whole number becomes an integer, because a field that counts takes
+/// no other.
 fn in_toml(number: f64) -> Value {
     let is_whole = number == number.trunc() && number.abs() <= LARGEST_WHOLE;
     let is_minus_zero = number == 0.0 && number.is_sign_negative();

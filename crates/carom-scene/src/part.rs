@@ -1,4 +1,4 @@
-//! Parts of a scene, described in code: read and checked as if they were a scene of their own.
+//! Reads parts of a scene that code describes in TOML, with the checks of a whole scene.
 
 use carom::World;
 use serde::Deserialize;
@@ -11,13 +11,13 @@ use crate::overrides::Override;
 use crate::scene::{Scene, Spring};
 use crate::{parameters, springs, table};
 
-/// What is wrong with something that was described in code: it has no lines, and no name.
+/// An error in a part described in code, which has no lines and no file name.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{message}")]
 pub struct PartError {
-    /// What is wrong, the field first.
+    /// Description of the error; it starts with the field.
     pub message: String,
-    /// Path of the field, like `colliders[0].restitution`; empty for none.
+    /// Path of the field, such as `colliders[0].restitution`; empty if no field is concerned.
     pub field: String,
 }
 
@@ -27,37 +27,37 @@ impl From<SceneError> for PartError {
             return Self { message: error.to_string(), field: String::new() };
         };
         let field = fault.field.clone();
-        // The field stands where a file has its name and line.
+        // The message names the field where that of a file names the file and the line.
         let name = if field.is_empty() { fault.source_name } else { fault.field };
         let told = Fault { source_name: name, field: String::new(), line: None, ..fault };
         Self { message: told.to_string(), field }
     }
 }
 
-/// Reads spheres, colliders and the like from TOML: the tables of a scene file that are needed,
-/// without a name.
+/// Reads spheres, colliders and other parts from TOML: any tables of a scene file, without a name.
 ///
-/// Spheres in it may overlap, as in a world to which they are added one by one.
+/// The spheres may overlap, because a world may also have overlapping spheres when they are added
+/// one by one.
 ///
 /// # Errors
-/// [`PartError`] for whatever a scene file would be refused for.
+/// [`PartError`] for any error that a scene file could have.
 pub fn read(text: &str) -> Result<Scene, PartError> {
     let overlapping: Override = "simulation.allow_overlap=true".parse()?;
     Ok(Scene::from_toml_with(&named(text), NAME, &[overlapping])?)
 }
 
-/// Reads how a world is stepped from TOML.
+/// Reads the simulation settings from TOML.
 ///
 /// # Errors
-/// [`PartError`] for whatever a scene file would be refused for.
+/// [`PartError`] for any error that a scene file could have.
 pub fn read_simulation(text: &str) -> Result<Scene, PartError> {
     Ok(Scene::from_toml(&named(text), NAME)?)
 }
 
-/// Reads springs from TOML, without the spheres that they join: the world that they come into has those.
+/// Reads springs from TOML without the spheres that they join; the world has those.
 ///
 /// # Errors
-/// [`PartError`] for what is no spring.
+/// [`PartError`] if the text does not describe springs.
 pub fn springs(text: &str) -> Result<Vec<Spring>, PartError> {
     let read = |text: &str| {
         let mut table: Table = text.parse().map_err(|error: toml::de::Error| {
@@ -69,7 +69,7 @@ pub fn springs(text: &str) -> Result<Vec<Spring>, PartError> {
     Ok(read(text).map_err(in_part)?.springs)
 }
 
-/// Springs by themselves, as a scene file has them.
+/// The table of springs of a scene file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Springs {
@@ -77,40 +77,41 @@ struct Springs {
     springs: Vec<Spring>,
 }
 
-/// Reads one spring from TOML for a running world, in which spheres go by their ids: that spring between spheres of
-/// `world`, with the length of now where the text gives no rest length.
+/// Reads one spring from TOML for a running world, where the text names spheres by id. If the text
+/// states no rest length, it is the present distance of the two spheres.
 ///
 /// # Errors
-/// [`SpringError`] for what is no spring, for a chain, and for spheres that the world does not have.
+/// [`SpringError`] if the text does not describe a single spring, or names spheres that the world
+/// does not have.
 pub fn spring_of(text: &str, world: &World) -> Result<carom::Spring, SpringError> {
     let springs = springs(text)?;
     let (sphere, to) = springs::ends_by_id(only(&springs)?, "springs[0]").map_err(in_part)?;
     Ok(springs::between(&springs[0], world, sphere, to)?)
 }
 
-/// Why a world gets no spring that was described in code.
+/// Why a spring described in code cannot be added to a world.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum SpringError {
-    /// The description makes no sense.
+    /// The description is invalid.
     #[error(transparent)]
     Part(#[from] PartError),
-    /// The world refuses it.
+    /// The world refuses the spring.
     #[error(transparent)]
     World(#[from] carom::Error),
 }
 
-/// A problem of something that was described in code.
+/// Converts a problem of a part described in code.
 fn in_part(problem: Problem) -> PartError {
     SceneError::from(problem.in_code(NAME)).into()
 }
 
-/// Longest message of the reader of TOML \[characters\].
+/// Longest message of the TOML parser \[characters\].
 const LONGEST: usize = 300;
 
-/// The one thing that a description is of.
+/// Returns the only element of a list.
 ///
 /// # Errors
-/// [`PartError`] where it is of more things, or of none.
+/// [`PartError`] if the list has no element or several.
 pub fn only<T>(list: &[T]) -> Result<&T, PartError> {
     match list {
         [one] => Ok(one),
@@ -121,7 +122,7 @@ pub fn only<T>(list: &[T]) -> Result<&T, PartError> {
     }
 }
 
-/// What a part is called where an error has no field to name.
+/// Name of the part in errors that concern no field.
 const NAME: &str = "part";
 
 fn named(text: &str) -> String {
@@ -148,7 +149,7 @@ mod tests {
         let text = "springs = [{ spheres = [0, 2], stiffness = '2 kN/m' }]";
         let spring = spring_of(text, &world).unwrap();
         assert_eq!((spring.to, spring.stiffness), (carom::SpringEnd::Sphere(third), 2000.0));
-        // The length of now.
+        // The present distance of the spheres.
         assert_eq!(spring.rest_length, 7.0);
         let gone = "springs = [{ spheres = [0, 1], stiffness = 1.0 }]";
         let error = spring_of(gone, &world).unwrap_err();

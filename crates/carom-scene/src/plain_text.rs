@@ -1,31 +1,31 @@
-//! Files that are to be text, and what they are if they are not.
+//! Reads text files, and recognizes files that are not text.
 
 use thiserror::Error;
 
-/// Why the bytes of a file are not read as text.
+/// Why a file cannot be read as text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum NotText {
-    /// They begin as files of another kind do.
+    /// The file starts like one of a known binary format.
     #[error("it begins like {kind}, and is not text")]
     OfKind {
-        /// The kind, with its article.
+        /// The format, with an article.
         kind: &'static str,
     },
     /// They are text in another encoding.
     #[error("it is text in UTF-16: save it in UTF-8")]
     Utf16,
-    /// A byte that text in UTF-8 does not have.
+    /// The file contains a byte that is not valid UTF-8, or zero.
     #[error("it is not text in UTF-8 (byte {position} of it is {byte:#04x})")]
     Byte {
-        /// Which one, from 1.
+        /// Position of the byte, from 1.
         position: usize,
-        /// Its value.
+        /// Value of the byte.
         byte: u8,
     },
 }
 
-/// Kinds of files that people have beside their scenes: from which byte on, by which bytes, and their names. Where
-/// several fit, the first counts.
+/// Binary formats that people may keep beside their scenes: offset and bytes of the signature, and
+/// name. The first match counts.
 const BEGINNINGS: [(usize, &[u8], &str); 13] = [
     (0, b"\x89PNG", "a PNG picture"),
     (0, b"\xff\xd8\xff", "a JPEG picture"),
@@ -42,7 +42,7 @@ const BEGINNINGS: [(usize, &[u8], &str); 13] = [
     (0, b"glTF", "an animation or a scene in glTF (.glb)"),
 ];
 
-/// The kind of a file that is not text, by what it begins with.
+/// Recognizes a file that is not text by its first bytes.
 fn kind_of(bytes: &[u8]) -> Option<NotText> {
     if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
         return Some(NotText::Utf16);
@@ -53,7 +53,7 @@ fn kind_of(bytes: &[u8]) -> Option<NotText> {
     BEGINNINGS.iter().find(begins).map(|&(_, _, kind)| NotText::OfKind { kind })
 }
 
-/// Takes the bytes of a file for text in UTF-8.
+/// Converts the bytes of a file to text in UTF-8.
 ///
 /// ```
 /// use carom_scene::text_of;
@@ -65,7 +65,7 @@ fn kind_of(bytes: &[u8]) -> Option<NotText> {
 /// ```
 ///
 /// # Errors
-/// [`NotText`], for a byte of zero, too, which no text has.
+/// [`NotText`]; also for a byte of zero, which no text contains.
 pub fn text_of(bytes: Vec<u8>) -> Result<String, NotText> {
     if let Some(kind) = kind_of(&bytes) {
         return Err(kind);

@@ -1,4 +1,4 @@
-//! The JSON Schema of scene files, with which editors complete and check them.
+//! JSON Schema of scene files, for completion and checks in editors.
 
 use schemars::Schema;
 use schemars::generate::SchemaSettings;
@@ -9,12 +9,12 @@ use crate::color_text;
 use crate::parameters;
 use crate::scene::Scene;
 
-/// What a string looks like that is a formula.
+/// Pattern of a string that is a formula.
 const FORMULA: &str = "^=";
-/// What a string looks like that is a formula, or a number with a unit.
+/// Pattern of a string that is a formula or a number with a unit.
 const FORMULA_OR_QUANTITY: &str = "^(=|[-+]?[0-9.].*[^-+.0-9]$)";
 
-/// The schema as JSON text, as it is committed in `scenes/scene.schema.json`.
+/// Returns the schema as JSON text, as committed in `scenes/scene.schema.json`.
 pub fn json_schema() -> String {
     let settings = SchemaSettings::default().with_transform(RecursiveTransform(allow_text));
     let mut schema = settings.into_generator().into_root_schema_for::<Scene>();
@@ -24,8 +24,8 @@ pub fn json_schema() -> String {
     text
 }
 
-/// Where there may be a number, there may be a formula, and where there may be a fraction, a unit; where a
-/// colour, its name.
+/// Allows formulas where numbers are allowed, units where fractions are allowed, and names of
+/// colours.
 fn allow_text(schema: &mut Schema) {
     allow_color_names(schema);
     let Some(types) = schema.get_mut("type") else { return };
@@ -48,7 +48,7 @@ fn allow_text(schema: &mut Schema) {
     }
 }
 
-/// Colours are lists of three numbers.
+/// Allows strings in colour fields, which otherwise are lists of three numbers.
 fn allow_color_names(schema: &mut Schema) {
     let Some(Value::Object(properties)) = schema.get_mut("properties") else { return };
     let fields = properties.iter_mut().filter(|(name, _)| color_text::may_be_color(name));
@@ -60,22 +60,22 @@ fn allow_color_names(schema: &mut Schema) {
     }
 }
 
-/// What a file says that is no field of a scene: reading it puts numbers in the place of formulas, and
-/// what other files say in the place of their names.
+/// Adds the properties that are no fields of a scene, `parameters` and `include`: they are replaced
+/// by what they stand for when a file is read.
 fn add_properties(schema: &mut Schema) {
     let mut value = schemars::json_schema!({ "type": "number" });
     allow_text(&mut value);
     let table = json!({
-        "description": "Numbers by name, for formulas: a string that begins with = may stand wherever a number may, \
-                        as in radius = \"=2*r\". A parameter may have a unit, as in \"5 cm\", or be a formula of those before it.",
+        "description": "Numbers by name, for formulas. A text that begins with = may stand wherever a number may: \
+                        radius = \"=2*r\". A parameter may have a unit, \"5 cm\", or be a formula of those before it.",
         "type": "object",
         "additionalProperties": value,
     });
     if let Some(Value::Object(properties)) = schema.get_mut("properties") {
         properties.insert(parameters::TABLE.to_owned(), table);
         let include = json!({
-            "description": "Scene files beside this one, a path or a list: what they say counts as if it stood before \
-                            what this one says; of single values, those of this one count.",
+            "description": "Other scene files, a path or a list of paths. Their lists come before those of this file; \
+                            single values of this file win.",
             "oneOf": [{ "type": "string" }, { "type": "array", "items": { "type": "string" } }],
         });
         properties.insert("include".to_owned(), include);

@@ -1,4 +1,4 @@
-//! How a scene is stepped, as the physics knows it.
+//! Settings of scene files as those of `carom`.
 
 use carom::Settings;
 
@@ -10,7 +10,7 @@ use crate::scene::{
 };
 
 impl Scene {
-    /// How the scene is stepped.
+    /// Converts the simulation table to the settings of a world.
     pub fn settings(&self) -> Settings {
         settings(&self.simulation)
     }
@@ -106,7 +106,7 @@ fn integrator(integrator: Integrator) -> carom::Integrator {
     }
 }
 
-/// A refusal of the settings, about the table they are written in.
+/// Converts an error of the settings; the path is that of the table which contains them.
 pub(crate) fn settings_problem(simulation: &Simulation, error: carom::Error) -> Problem {
     let path = match &error {
         carom::Error::Invalid { source, .. } if source.field == "size" => {

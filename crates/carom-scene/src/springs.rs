@@ -1,4 +1,4 @@
-//! Springs of scene files in worlds.
+//! Adds springs of scene files to worlds.
 
 use carom::{Error, SphereId, SpringEnd, World};
 
@@ -7,7 +7,7 @@ use crate::requirement::{check, check_non_negative, check_vector};
 use crate::scene::Spring;
 use crate::scene::values::{Vector, vector};
 
-/// Adds the spring, or the chain of springs, written at `path` to a world with all spheres of its scene.
+/// Adds the spring or chain at `path` to a world that has all spheres of its scene.
 pub(crate) fn add(world: &mut World, spring: &Spring, path: &str) -> Result<(), Problem> {
     match form(spring, path)? {
         Form::Single(ends) => {
@@ -27,7 +27,8 @@ pub(crate) fn add(world: &mut World, spring: &Spring, path: &str) -> Result<(), 
     }
 }
 
-/// The spring written at `path` in a running world, where spheres go by their ids; they need not be in it.
+/// Returns both ends of the spring at `path`, which names spheres by id. The spheres need not
+/// exist.
 pub(crate) fn ends_by_id(spring: &Spring, path: &str) -> Result<(SphereId, SpringEnd), Problem> {
     let Form::Single(ends) = form(spring, path)? else {
         let problem = "a running world takes its springs one by one";
@@ -44,10 +45,11 @@ pub(crate) fn ends_by_id(spring: &Spring, path: &str) -> Result<(SphereId, Sprin
     ends.find(path, |number, _| Ok(SphereId::from_number(number.into())))
 }
 
-/// The spring that a description tells of, between these ends in a world.
+/// Creates the described spring between two ends in a world.
 ///
 /// # Errors
-/// [`Error::Unknown`] if it has no rest length, and the world does not have one of its spheres.
+/// [`Error::Unknown`] if the description has no rest length and the world does not have one of the
+/// spheres.
 pub(crate) fn between(
     spring: &Spring,
     world: &World,
@@ -78,14 +80,14 @@ fn join(
     made.map(drop).map_err(|error| Problem::of_physics(path, error))
 }
 
-/// What a description joins.
+/// What a spring or chain connects.
 enum Form {
     Single(Ends),
-    /// Each sphere from one number to another to the next one.
+    /// A chain from the first sphere to the last: each is connected to the next.
     Chain([u32; 2]),
 }
 
-/// Both ends of a spring, spheres by their numbers.
+/// Both ends of a spring; spheres are named by number.
 enum Ends {
     Spheres([u32; 2]),
     Anchor(u32, Vector),
@@ -101,7 +103,8 @@ fn form(spring: &Spring, path: &str) -> Result<Form, Problem> {
 }
 
 impl Ends {
-    /// Finds the spheres of the spring at `path`: `sphere` knows the one of a number that is written somewhere.
+    /// Finds the spheres of the spring at `path`. `sphere` looks up a number that stands at the
+    /// given path.
     fn find(
         self,
         path: &str,
@@ -123,7 +126,7 @@ impl Ends {
     }
 }
 
-/// The sphere of this number, counted from the first of a scene.
+/// Returns the id of a sphere by its number in the scene.
 fn numbered(world: &World, number: u32, path: &str) -> Result<SphereId, Problem> {
     let ids = world.spheres().ids();
     ids.get(number as usize).copied().ok_or_else(|| {

@@ -1,4 +1,4 @@
-//! The table of a scene file to a scene.
+//! Converts the table of a scene file to a scene.
 
 use serde::de::DeserializeOwned;
 use toml::{Table, Value};
@@ -10,10 +10,10 @@ use crate::scene::{Scene, Simulation};
 use crate::wording::{in_plain_words, table_expected, with_form, with_names};
 use crate::world;
 
-/// The field of a scene file that names the files it includes.
+/// Name of the field that lists included files.
 pub(crate) const INCLUDE: &str = "include";
 
-/// A scene within this budget from its table, or the first problem with it.
+/// Reads a scene from its table within `budget`; returns the first problem.
 pub(crate) fn read(mut table: Table, budget: Budget) -> Result<Scene, Problem> {
     parameters::resolve(&mut table)?;
     let scene: Scene = told(table).map_err(|Problem { field: path, problem }| {
@@ -26,7 +26,8 @@ pub(crate) fn read(mut table: Table, budget: Budget) -> Result<Scene, Problem> {
         if problem.starts_with("unknown field `include`") {
             return Problem::new(path, "`include` stands before the first table of a file");
         }
-        // The reader knows the fields of a scene, from which others have been taken out.
+        // The deserializer knows only the fields of a scene; add the names that were removed
+        // before.
         let problem = with_names(problem, &path, [parameters::TABLE, INCLUDE]);
         Problem::new(path, problem)
     })?;
@@ -34,7 +35,7 @@ pub(crate) fn read(mut table: Table, budget: Budget) -> Result<Scene, Problem> {
     Ok(scene)
 }
 
-/// What a table without formulas and units tells, or what of it cannot be read.
+/// Deserializes a table without formulas and units.
 pub(crate) fn told<T: DeserializeOwned>(table: Table) -> Result<T, Problem> {
     serde_path_to_error::deserialize(Value::Table(table)).map_err(|error| {
         let path = error.path().to_string();
@@ -44,7 +45,7 @@ pub(crate) fn told<T: DeserializeOwned>(table: Table) -> Result<T, Problem> {
     })
 }
 
-/// What to write for a field of the simulation that stands before the first table.
+/// Suggests the table `[simulation]` for one of its fields that stands before the first table.
 fn of_simulation(problem: &str, path: &str) -> Option<String> {
     let name = problem.strip_prefix("unknown field `")?.split('`').next()?;
     if path.contains(['.', '[']) {
@@ -52,7 +53,7 @@ fn of_simulation(problem: &str, path: &str) -> Option<String> {
     }
     let schema = schemars::schema_for!(Simulation);
     let fields = schema.get("properties")?.as_object()?.keys();
-    // Less like it, a name of the scene itself may be meant.
+    // If the names are less similar, a field of the scene itself may be meant.
     let meant = nearest(name, fields.map(String::as_str)).filter(|it| is_much_like(name, it))?;
     Some(format!("unknown field `{name}`; \"{meant}\" stands in [simulation]"))
 }

@@ -1,22 +1,22 @@
-//! Files that are written under another name until they are complete.
+//! Writes files under a temporary name until they are complete.
 
 use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Beside one file, so many unfinished ones can wait: those of programs at work at the same time,
-/// and what killed ones left behind.
+/// Most unfinished files beside one target: those of programs that run at the same time, and those
+/// that killed programs left.
 const MOST_UNFINISHED: u32 = 1000;
-/// Ending of what is not complete.
+/// Ending of an unfinished file.
 const UNFINISHED: &str = ".unfinished";
-/// Ending of a file while it is made of what is unfinished.
+/// Ending of a complete file while it is created from an unfinished one.
 const CLOSING: &str = ".closing";
 
-/// A new file `NAME.N.unfinished` beside `path`, locked, and its own path.
+/// Creates and locks a new file `NAME.N.unfinished` beside `path`; returns it with its path.
 ///
 /// # Errors
-/// For a folder that cannot be written to, and for a thousand such files that are there already.
+/// [`io::Error`] if the folder cannot be written to, or already contains a thousand such files.
 pub fn create_beside(path: &Path) -> io::Result<(File, PathBuf)> {
     let Some(name) = path.file_name() else {
         return Err(io::Error::new(io::ErrorKind::InvalidInput, "this names no file"));
@@ -31,7 +31,7 @@ pub fn create_beside(path: &Path) -> io::Result<(File, PathBuf)> {
                 let file = created?;
                 if let Err(error) = lock(&file) {
                     drop(file);
-                    // An error here comes after another one.
+                    // Ignored, because an earlier error is being reported.
                     drop(fs::remove_file(&unfinished));
                     return Err(error);
                 }
@@ -43,20 +43,20 @@ pub fn create_beside(path: &Path) -> io::Result<(File, PathBuf)> {
     Err(io::Error::new(io::ErrorKind::AlreadyExists, text))
 }
 
-/// Creates the folders above a file that are missing.
+/// Creates the missing folders above a file.
 ///
 /// # Errors
-/// If one cannot be created, like one below a file.
+/// [`io::Error`] if a folder cannot be created, for example below a file.
 pub fn create_folders_of(path: &Path) -> io::Result<()> {
     let Some(folder) = path.parent() else { return Ok(()) };
     fs::create_dir_all(folder).map_err(|error| {
         let file = folder.ancestors().find(|it| it.exists() && !it.is_dir());
-        // The system would say that something exists.
+        // The error of the system would only say that something exists.
         file.map_or(error, |file| io::Error::other(format!("{} is not a folder", file.display())))
     })
 }
 
-/// The file that an unfinished one was to become: its name without `.N.unfinished`.
+/// Returns the path of the complete file: the name without `.N.unfinished`.
 pub fn target_of(unfinished: &Path) -> Option<PathBuf> {
     let name = unfinished.file_name()?.to_str()?.strip_suffix(UNFINISHED)?;
     let (target, number) = name.rsplit_once('.')?;
@@ -64,7 +64,7 @@ pub fn target_of(unfinished: &Path) -> Option<PathBuf> {
     (is_number && !target.is_empty()).then(|| unfinished.with_file_name(target))
 }
 
-/// The unfinished files beside this one, in order of their numbers.
+/// Lists the unfinished files beside `target`, by number.
 pub fn beside(target: &Path) -> Vec<PathBuf> {
     let numbered = (0..MOST_UNFINISHED).filter_map(|number| {
         let mut name = target.file_name()?.to_owned();
@@ -74,8 +74,8 @@ pub fn beside(target: &Path) -> Vec<PathBuf> {
     numbered.filter(|file| file.is_file()).collect()
 }
 
-/// Takes the lock that the writer of an unfinished file holds as long as it lives; not every file
-/// system has locks.
+/// Takes the lock that the writer of an unfinished file holds while it runs. File systems without
+/// locks count as unlocked.
 pub(crate) fn lock(file: &File) -> io::Result<()> {
     match file.try_lock() {
         Err(TryLockError::WouldBlock) => {
@@ -86,26 +86,27 @@ pub(crate) fn lock(file: &File) -> io::Result<()> {
     }
 }
 
-/// What is written of a file until it is complete: another form of it, one that grows, in
-/// `NAME.N.unfinished` beside it. What is dropped stays there; so does what a killed program leaves.
+/// A file that grows in another format, in `NAME.N.unfinished` beside its target, until the target
+/// can be created from it. If it is dropped or the program is killed, the unfinished file remains.
 #[derive(Debug)]
 pub struct Unfinished {
     file: File,
-    /// `None` where the target is no regular file, like a pipe: then it has no name.
+    /// `None` if the target is no regular file, such as a pipe: the unfinished file then has no
+    /// name.
     place: Option<PathBuf>,
     target: PathBuf,
-    /// The target where it is no regular file: its reader takes it for complete once it is closed.
+    /// The target if it is no regular file; its reader takes it as complete once it is closed.
     stream: Option<File>,
 }
 
 impl Unfinished {
-    /// Creates it, and the folders above it that are missing.
+    /// Creates the unfinished file and the missing folders above it.
     ///
     /// # Errors
-    /// As [`create_beside`].
+    /// The same as those of [`create_beside`].
     #[cfg(feature = "recording")]
     pub fn create(target: &Path) -> io::Result<Self> {
-        // Through a link, what it points to is replaced, not the link.
+        // If the target is a link, the file behind it is replaced, not the link.
         let target = fs::canonicalize(target).unwrap_or_else(|_| target.to_owned());
         if fs::metadata(&target).is_ok_and(|found| !found.is_file()) {
             let stream = Some(OpenOptions::new().write(true).open(&target)?);
@@ -116,10 +117,10 @@ impl Unfinished {
         Ok(Self { file, place: Some(place), target, stream: None })
     }
 
-    /// Creates it with what `begin` writes, and returns what that returns; nothing is left where that fails.
+    /// Creates the unfinished file and calls `begin` to start it; removes it if `begin` fails.
     ///
     /// # Errors
-    /// As [`Self::create`], and those of `begin`.
+    /// The same as those of [`Self::create`], and those of `begin`.
     #[cfg(feature = "recording")]
     pub fn begin<T, E: From<io::Error>>(
         target: &Path,
@@ -129,17 +130,17 @@ impl Unfinished {
         match begin(unfinished.file()) {
             Ok(begun) => Ok((unfinished, begun)),
             Err(error) => {
-                // An error here comes after another one.
+                // Ignored, because an earlier error is being reported.
                 unfinished.remove().ok();
                 Err(error)
             }
         }
     }
 
-    /// Opens one that a program left, to make `target` of it.
+    /// Opens an unfinished file that a program left, in order to create `target` from it.
     ///
     /// # Errors
-    /// For a file that cannot be read, or whose writer is still at work.
+    /// [`io::Error`] if the file cannot be read, or is still being written.
     pub fn open(place: &Path, target: &Path) -> io::Result<Self> {
         let file = File::open(place)?;
         lock(&file)?;
@@ -147,21 +148,21 @@ impl Unfinished {
         Ok(Self { file, place, target, stream: None })
     }
 
-    /// What is written to.
+    /// The file to which the growing form is written.
     pub fn file(&mut self) -> &mut File {
         &mut self.file
     }
 
-    /// Where it lies, if it has a name.
+    /// Path of the unfinished file, if it has a name.
     pub fn place(&self) -> Option<&Path> {
         self.place.as_deref()
     }
 
-    /// Makes the complete file of it by `close`, which reads the first file from its beginning and writes the second,
-    /// and gives that its name, in the place of what bore it before. It stays itself.
+    /// Creates the complete file, which replaces the target. `close` reads the unfinished file from
+    /// its start and writes the complete one. The unfinished file remains.
     ///
     /// # Errors
-    /// If `close` or the disk fails; then the target is as it was before.
+    /// The error of `close` or of the disk; the target is then unchanged.
     pub fn close<T, E: From<io::Error>>(
         &mut self,
         close: impl FnOnce(&mut File, File) -> Result<T, E>,
@@ -176,22 +177,22 @@ impl Unfinished {
         let created = create_folders_of(&closing).and_then(|()| File::create(&closing));
         let closed = created.map_err(E::from).and_then(|target| {
             let written = close(&mut self.file, target.try_clone()?)?;
-            // Some file systems tell of a full disk no sooner.
+            // Some file systems report a full disk only here.
             target.sync_data()?;
             fs::rename(&closing, &self.target)?;
             Ok(written)
         });
         if closed.is_err() {
-            // An error here comes after another one.
+            // Ignored, because an earlier error is being reported.
             drop(fs::remove_file(&closing));
         }
         closed
     }
 
-    /// Removes it.
+    /// Removes the unfinished file.
     ///
     /// # Errors
-    /// If the disk fails.
+    /// [`io::Error`] if the disk fails.
     pub fn remove(self) -> io::Result<()> {
         let Self { file, place, .. } = self;
         drop(file);
@@ -199,8 +200,8 @@ impl Unfinished {
     }
 }
 
-/// Where a file is made of an unfinished one: in the folder of the target, so that it can be renamed, under a name
-/// that is no other's.
+/// Path at which the complete file is created: in the folder of the target, so that it can be
+/// renamed, under a unique name.
 fn closing(place: &Path, target: &Path) -> PathBuf {
     let name = place.file_name().map(OsString::from).unwrap_or_default();
     let mut name = match name.to_str().and_then(|it| it.strip_suffix(UNFINISHED)) {

@@ -1,4 +1,4 @@
-//! Numbers with units, as in `"5 cm"`: what they are in the unit of the field where they stand.
+//! Converts numbers with units, as in `"5 cm"`, to the unit of their field.
 
 use winnow::ascii::float;
 use winnow::error::ContextError;
@@ -6,8 +6,8 @@ use winnow::prelude::*;
 
 use crate::wording::{DECIMAL_POINT, quoted};
 
-/// A unit: its name, the unit that it is a multiple of, and that multiple as a fraction, so that a decimal
-/// one is rounded once: 7 cm are the number 0.07.
+/// A unit: its name, its base unit, and its factor as a fraction. A fraction makes decimal factors
+/// round once: 7 cm is exactly the number 0.07.
 type Unit = (&'static str, &'static str, [f64; 2]);
 
 const UNITS: [Unit; 48] = [
@@ -65,7 +65,7 @@ const PI: f64 = std::f64::consts::PI;
 const DEGREES: &str = "degrees";
 const RADIANS: &str = "rad";
 
-/// The unit of each field that has one.
+/// Unit of each field that has one.
 const FIELDS: [(&str, &str); 45] = [
     ("acceleration", "m/s²"),
     ("anchor", "m"),
@@ -114,25 +114,26 @@ const FIELDS: [(&str, &str); 45] = [
     ("zone_tick", "s"),
 ];
 
-/// Whether this is the name of a unit.
+/// Whether the text is the name of a unit.
 pub(crate) fn is_unit(name: &str) -> bool {
     UNITS.iter().any(|it| it.0 == name)
 }
 
-/// Where a number with a unit stands.
+/// Where a number with a unit stands in a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Place<'a> {
     /// In the field of this name.
     Field(&'a str),
-    /// Where numbers of any unit may be: they come to SI units, and angles to radians.
+    /// In a parameter, where any unit is allowed: values are converted to SI units, angles to
+    /// radians.
     Parameter,
 }
 
-/// The number in the unit of its place of a text like `5 cm`; `None` for a text that is no number with a
-/// unit, or stands where there is none.
+/// Converts a text such as `5 cm` to a number in the unit of its place. Returns `None` if the text
+/// is no number with a unit, or if its field has no unit.
 ///
 /// # Errors
-/// What is wrong with the unit.
+/// A description of what is wrong with the unit.
 pub(crate) fn in_unit_of(place: Place, text: &str) -> Option<Result<f64, String>> {
     let wanted = match place {
         Place::Field(field) => Some(FIELDS.iter().find(|it| it.0 == field)?.1),
@@ -201,7 +202,7 @@ mod tests {
     fn angles_are_degrees_where_a_field_says_so_and_radians_in_parameters() {
         let quarter = std::f64::consts::FRAC_PI_2;
         let of_field = field("degrees", &format!("{quarter} rad")).unwrap().unwrap();
-        // Two roundings of an eighth of an ulp of 90 each.
+        // Two rounding errors of an eighth of an ulp of 90 each.
         assert!((of_field - 90.0).abs() <= 2.0 * 90.0 * f64::EPSILON, "{of_field}");
         let spin = field("angular_velocity", "60 rpm").unwrap().unwrap();
         assert!((spin - 2.0 * PI).abs() <= 2.0 * PI * f64::EPSILON, "{spin}");

@@ -1,11 +1,11 @@
-//! What is wrong with a value, in words of those that write scenes: the reader of TOML speaks of types.
+//! Rewrites messages of the TOML deserializer, which speaks of Rust types, for authors of scenes.
 
 use crate::error::nearest;
 
-/// Of a table that has nothing in it.
+/// Message for an empty table that must contain one entry.
 pub(crate) const SAYS_NOTHING: &str = "says nothing: it has to say one thing";
 
-/// Words that others use for what a scene calls otherwise.
+/// Common words with the name that scene files use.
 const SYNONYMS: [(&str, &str); 35] = [
     ("angle", "degrees"),
     ("ball", "sphere"),
@@ -44,10 +44,10 @@ const SYNONYMS: [(&str, &str); 35] = [
     ("weight", "mass"),
 ];
 
-/// For those whose language writes numbers with a comma.
+/// Hint for authors whose language writes decimals with a comma.
 pub(crate) const DECIMAL_POINT: &str = "decimals have a point, not a comma";
 
-/// What is a table though one number or list may seem to be enough, and such a table.
+/// Tables for which authors may write a number or a list, with an example of each.
 const TABLES: [(&str, &str); 11] = [
     ("box", "{ size = [1.0, 1.0, 1.0] }"),
     ("camera", "[camera]"),
@@ -62,8 +62,8 @@ const TABLES: [(&str, &str); 11] = [
     ("viscous-drag", "{ coefficient = 0.1 }"),
 ];
 
-/// What is written as a list or a number though it is a table: its path, and how it is written. The reader
-/// takes a list for the fields of a table in their order.
+/// Recognizes a list or a number in the place of a table; returns the path of the table and an
+/// example. The deserializer would read a list as the fields of the table in order.
 pub(crate) fn table_expected(path: &str, message: &str) -> Option<(String, String)> {
     let of_list = path.strip_suffix(']').and_then(|path| path.rsplit_once('['));
     let path = match of_list {
@@ -76,7 +76,7 @@ pub(crate) fn table_expected(path: &str, message: &str) -> Option<(String, Strin
     Some((path.to_owned(), format!("is a table: {table}")))
 }
 
-/// A message about what has one table by the name of its kind, with such a one.
+/// Adds an example to a message about a table that must contain one entry.
 pub(crate) fn with_form(message: String, path: &str) -> String {
     let form = match path.split('[').next() {
         _ if !message.ends_with("it has to say one thing") => return message,
@@ -88,7 +88,7 @@ pub(crate) fn with_form(message: String, path: &str) -> String {
     format!("{message}, like {form}")
 }
 
-/// A message of the reader in plain words.
+/// Rewrites a message of the deserializer in plain words.
 pub(crate) fn in_plain_words(message: &str) -> String {
     let message = message.lines().next().unwrap_or_default();
     if let Some((count, expected)) =
@@ -119,7 +119,8 @@ pub(crate) fn in_plain_words(message: &str) -> String {
     format!("{found}, expected {}", name_of_type(expected))
 }
 
-/// A message in one line; without the list of all that would have been right, where one of them is meant.
+/// Returns the first line of a message; without the list of valid names if one of them is
+/// suggested.
 pub(crate) fn without_list(message: &str, is_meant: bool) -> &str {
     let line = message.lines().next().unwrap_or_default();
     match line.split_once(", expected one of ") {
@@ -128,7 +129,7 @@ pub(crate) fn without_list(message: &str, is_meant: bool) -> &str {
     }
 }
 
-/// What is meant by a value that is no TOML, at this place of a text.
+/// Returns what the author probably meant by a value at `place` that is no TOML.
 pub(crate) fn slip_of_syntax(text: &str, place: usize, message: &str) -> Option<String> {
     let line_start = text.get(..place)?.rfind('\n').map_or(0, |end| end + 1);
     let line = text.get(line_start..)?.lines().next()?;
@@ -143,7 +144,7 @@ pub(crate) fn slip_of_syntax(text: &str, place: usize, message: &str) -> Option<
     if line.split('=').skip(1).any(has_comma) {
         return Some(DECIMAL_POINT.to_owned());
     }
-    // The value around the place, in a list perhaps.
+    // The value around `place`, which may be an element of a list.
     let start = before.rfind(['=', '[', ',', '{']).map_or(0, |end| end + 1);
     let value = line[start..].split([',', ']', '}', '#']).next()?.trim();
     let is_number = value.starts_with(|it: char| is_digit(it) || "+-.".contains(it));
@@ -164,13 +165,14 @@ pub(crate) fn slip_of_syntax(text: &str, place: usize, message: &str) -> Option<
         .then(|| format!("a text stands in quotes: \"{value}\""))
 }
 
-/// Names in a message, as [`suggestion`] reads them.
+/// Formats names for a message in the form that [`suggestion`] reads.
 pub(crate) fn quoted<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
     let names: Vec<_> = names.into_iter().map(|name| format!("`{name}`")).collect();
     names.join(", ")
 }
 
-/// A message about a field; one that says that the scene itself has no such field lists these names, too.
+/// Adds names to a message about an unknown field of the scene itself; returns other messages
+/// unchanged.
 pub(crate) fn with_names<'a>(
     message: String,
     field: &str,
@@ -184,7 +186,7 @@ pub(crate) fn with_names<'a>(
     message
 }
 
-/// What a type of Rust is to those that write scenes.
+/// Name of a Rust type for authors of scenes.
 fn name_of_type(expected: &str) -> &str {
     match expected {
         "f32" | "f64" => "a number",
@@ -199,7 +201,8 @@ fn name_of_type(expected: &str) -> &str {
     }
 }
 
-/// For "unknown field `x`, expected one of `y`, `z`": which of the expected is meant.
+/// Returns the expected name that is probably meant in "unknown field `x`, expected one of `y`,
+/// `z`".
 pub(crate) fn suggestion(message: &str) -> Option<String> {
     if !message.starts_with("unknown ") {
         return None;

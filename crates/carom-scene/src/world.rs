@@ -1,4 +1,4 @@
-//! Scenes to worlds.
+//! Creates worlds from scenes.
 
 use carom::{Sides, World};
 
@@ -14,17 +14,17 @@ use crate::settings::settings_problem;
 use crate::springs;
 
 impl Scene {
-    /// The world at the start of the scene.
+    /// Creates the world of the scene at its start.
     ///
     /// # Errors
-    /// A description of the field that makes no sense. Scenes that were read from a file or text
-    /// have been checked; only one that was put together in code can fail.
+    /// [`SceneError::Invalid`](crate::SceneError::Invalid) with the field that is invalid. Scenes
+    /// read from a file or text were checked, so only a scene built in code can fail.
     pub fn world(&self) -> Result<World, crate::SceneError> {
         build(self, Budget::MOST).map_err(|problem| problem.in_code(&self.name).into())
     }
 }
 
-/// The world at the start of a scene within this budget, or the first problem with it.
+/// Creates the world of a scene within `budget`; returns the first problem.
 pub(crate) fn build(scene: &Scene, budget: Budget) -> Result<World, Problem> {
     if scene.name.trim().is_empty() {
         return Err(Problem::new("name", "must not be empty"));
@@ -66,7 +66,7 @@ pub(crate) fn build(scene: &Scene, budget: Budget) -> Result<World, Problem> {
     Ok(world)
 }
 
-/// Refuses a scene whose first step would be refused.
+/// Refuses a scene whose first step would fail.
 fn check_step(scene: &Scene, world: &World) -> Result<(), Problem> {
     world.check_step(scene.simulation.frame_time).map_err(|error| match error {
         carom::Error::Invalid { subject: carom::Subject::Settings, .. } => {
@@ -92,7 +92,7 @@ fn add_forces(world: &mut World, forces: &[Force]) -> Result<(), Problem> {
     Ok(())
 }
 
-/// Adds a collider written at `path`.
+/// Adds the collider that stands at `path`.
 fn add_collider(world: &mut World, collider: &Collider, path: &str) -> Result<(), Problem> {
     let physical = self::collider(collider);
     if let carom::Shape::Container { open, .. } = physical.shape {
@@ -104,7 +104,7 @@ fn add_collider(world: &mut World, collider: &Collider, path: &str) -> Result<()
     added.map(drop).map_err(|error| collider_problem(path, &collider.shape, error))
 }
 
-/// Adds an emitter written at `path`.
+/// Adds the emitter that stands at `path`.
 fn add_emitter(
     world: &mut World,
     emitter: &Emitter,
@@ -120,7 +120,7 @@ fn add_emitter(
     })
 }
 
-/// The problem of a field of a collider, whose lengths are written in its shape.
+/// Converts an error about a collider; lengths are fields of its shape.
 fn collider_problem(path: &str, shape: &Shape, error: carom::Error) -> Problem {
     let shape = match shape {
         Shape::Sphere { .. } => "sphere",

@@ -1,4 +1,4 @@
-//! Checkpoints: a world that is read from bytes goes on as the one that was written.
+//! Checkpoints: a world read from bytes continues exactly as the world that was written.
 #![cfg(feature = "checkpoint")]
 #![allow(missing_docs)]
 
@@ -8,7 +8,7 @@ use carom::{
 };
 use carom_scene::{BUILT_IN_FILES, Checkpoint, CheckpointError, Palette, Scene};
 
-/// A checkpoint of a world, whose scene does not matter.
+/// Checkpoint of a world, with any scene.
 fn checkpoint(world: &World) -> Checkpoint {
     let (file, text) = BUILT_IN_FILES[0];
     let scene = Scene::from_toml(text, file).unwrap();
@@ -16,7 +16,7 @@ fn checkpoint(world: &World) -> Checkpoint {
     Checkpoint { snapshot: world.snapshot(), scene, palette }
 }
 
-/// A world made of the bytes of another one.
+/// World restored from the bytes of another one.
 fn twin(world: &World) -> World {
     let bytes = checkpoint(world).to_bytes().unwrap();
     let Checkpoint { snapshot, .. } = Checkpoint::from_bytes(&bytes).unwrap();
@@ -27,7 +27,7 @@ fn twin(world: &World) -> World {
     twin
 }
 
-/// Steps both worlds alike.
+/// Steps both worlds and compares them after each frame.
 #[track_caller]
 fn assert_go_on_alike(world: &mut World, twin: &mut World, frames: u32, dt: f64, about: &str) {
     for frame in 0..frames {
@@ -46,7 +46,7 @@ fn scene(file: &str, text: &str, overrides: &[&str]) -> Scene {
     Scene::from_toml_with(text, file, &overrides).unwrap()
 }
 
-/// Runs a scene, and compares it after some frames with its twins of then.
+/// Runs a scene and compares it with copies that were restored at several frames.
 fn assert_twins_go_on_alike(name: &str, overrides: &[&str], frames: &[u32]) {
     let (file, text) = BUILT_IN_FILES.iter().find(|file| file.0 == name).unwrap();
     let scene = scene(file, text, overrides);
@@ -62,7 +62,7 @@ fn assert_twins_go_on_alike(name: &str, overrides: &[&str], frames: &[u32]) {
         }
         let mut twin = twin(&world);
         assert_go_on_alike(&mut world, &mut twin, 5, dt, &format!("{name} {overrides:?}"));
-        // And one that was made long ago.
+        // Also steps the copy that was made first.
         if let Some(eldest) = &mut eldest {
             for _ in 0..5 {
                 eldest.step(dt).unwrap();
@@ -89,7 +89,7 @@ fn every_rule_goes_on_to_the_bit() {
     }
 }
 
-/// Stepped zones, clusters that persist, and what falls asleep.
+/// Scenes with stepped zones, persistent clusters and sleeping spheres.
 mod heaps_go_on_to_the_bit {
     use super::assert_twins_go_on_alike;
 
@@ -129,7 +129,7 @@ fn an_emitter_goes_on_where_it_was() {
     assert_eq!(twin.spheres().ids(), world.spheres().ids());
 }
 
-/// A force of its own.
+/// A force defined in user code.
 #[derive(Debug)]
 struct Spring;
 
@@ -174,7 +174,7 @@ fn damaged_bytes_are_refused_wherever_the_damage_is() {
 #[test]
 fn another_version_is_named() {
     let mut bytes = checkpoint(&World::default()).to_bytes().unwrap();
-    // The first digit of the version, behind what the bytes begin with and its length.
+    // The first digit of the version follows the magic bytes and its own length.
     bytes[9] = b'9';
     let error = Checkpoint::from_bytes(&bytes).unwrap_err();
     assert!(matches!(&error, CheckpointError::OtherVersion { found } if found.starts_with('9')));
@@ -193,6 +193,6 @@ fn another_layout_is_another_version() {
         let checkpoint = checkpoint(&world);
         checkpoint.to_bytes().unwrap().len() - checkpoint.scene.to_toml().len()
     });
-    // If these differ, so does what is kept between frames: give the version of checkpoint.rs another number.
+    // If these change, the layout has changed: increase the version in checkpoint.rs.
     assert_eq!(lengths, [3881, 3324]);
 }

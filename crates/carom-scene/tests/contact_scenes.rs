@@ -1,5 +1,5 @@
-//! What the built-in scenes for the rule `contact` promise: balls run, fall and come to rest where
-//! they should.
+//! Built-in scenes for the rule `contact`: balls run, fall and come to rest as the descriptions
+//! say.
 
 use carom::{DVec3, World};
 use carom_scene::{Library, Scene};
@@ -16,7 +16,7 @@ fn after(scene: &Scene, seconds: f64) -> World {
     world
 }
 
-/// How many spheres are somewhere.
+/// Counts spheres whose centre satisfies `is_there`.
 fn count(world: &World, is_there: impl Fn(DVec3) -> bool) -> usize {
     world.spheres().positions().iter().filter(|center| is_there(**center)).count()
 }
@@ -31,7 +31,7 @@ fn every_ball_of_the_hourglass_runs_through_its_neck() {
     assert!((100..380).contains(&above), "{above} after 3 s");
     let end = after(&scene, scene.simulation.duration);
     assert_eq!(count(&end, |center| center.y < 0.0), 480);
-    // None has left the case, 1.16 m wide and 0.34 m deep.
+    // None has left the box, which is 1.16 m wide and 0.34 m deep.
     let inside = |center: DVec3| center.x.abs() < 0.58 && center.z.abs() < 0.17 && center.y > -1.02;
     assert_eq!(count(&end, inside), 480);
 }
@@ -39,7 +39,7 @@ fn every_ball_of_the_hourglass_runs_through_its_neck() {
 #[test]
 fn the_avalanche_leaves_its_fence_and_reaches_the_valley() {
     let scene = scene("avalanche");
-    // The foot of the slope is 7 m from its top along it, which falls by 30 degrees.
+    // The slope is 7 m long and falls by 30 degrees.
     let foot = 7.0 * 0.75_f64.sqrt();
     let behind_the_gate = |center: DVec3| center.y > 2.7;
     let before = after(&scene, 0.5);
@@ -56,7 +56,7 @@ fn one_ball_sets_off_all_rows_of_the_chain_reaction() {
     let scene = scene("chain-reaction");
     let start = scene.world().unwrap();
     assert_eq!(start.spheres().len(), 1 + 210);
-    // Rows that nothing has reached lie still.
+    // Rows that no ball has reached are at rest.
     let early = after(&scene, 2.0);
     let moved = |number: usize| {
         early.spheres().positions()[number].distance(start.spheres().positions()[number])

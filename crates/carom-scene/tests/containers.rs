@@ -1,5 +1,5 @@
-//! Containers in scene files: what is open is written as one side or a list, comes back as it was,
-//! and mistakes are reported with line and field.
+//! Containers in scene files: open sides may be one word or a list, are written back unchanged, and
+//! errors name line and field.
 
 use carom::Sides;
 use carom_scene::scene::{Shape, Side};

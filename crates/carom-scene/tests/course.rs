@@ -1,5 +1,5 @@
-//! The course scenes against references computed independently of this project, and against the
-//! figures they were made from. The references say nothing about spheres meeting each other.
+//! The scenes of the course compared with references computed independently of this project, and
+//! with the figures of the course. In the references, spheres do not collide with each other.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -21,7 +21,7 @@ fn step(world: &mut World, scene: &Scene) {
 fn deviation(name: &str) -> f64 {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference");
     let text = std::fs::read_to_string(folder.join(format!("{name}.csv"))).unwrap();
-    // By frame: the number of the ball, then position and velocity.
+    // Number of the ball, position and velocity, by frame.
     let mut rows: BTreeMap<u64, Vec<(u64, [f64; 6])>> = BTreeMap::new();
     for line in text.lines().skip(1) {
         let fields: Vec<f64> = line.split(',').map(|field| field.parse().unwrap()).collect();
@@ -51,8 +51,7 @@ fn deviation(name: &str) -> f64 {
 
 #[test]
 fn simtests_match_the_independent_reference_over_ten_seconds() {
-    // The references have 12 digits, and impacts multiply such errors: 1e-8 is what is seen;
-    // 1e-6 is what must hold.
+    // The references have 12 digits, and impacts amplify such errors; 1e-8 was measured.
     for name in ["simtest1", "simtest3", "simtest5"] {
         let worst = deviation(name);
         assert!(worst < 1e-7, "{name} is off by {worst}");
@@ -168,14 +167,15 @@ fn the_maze_holds_the_figures_of_the_course() {
     assert_eq!((planes, boxes, collectibles), (2, 20, 4));
 }
 
-/// Whether a sphere is wholly outside the picture of a scene's camera, of this width to height.
+/// Whether a sphere lies entirely outside the picture of the scene's camera; `aspect` is width /
+/// height.
 fn is_out_of_view(scene: &Scene, center: DVec3, radius: f64, aspect: f64) -> bool {
     let camera = scene.camera.as_ref().unwrap();
     let rotation = DQuat::from_array(camera.rotation).normalize();
     let local = rotation.inverse() * (center - DVec3::from_array(camera.position));
     let half = (0.5 * camera.vertical_fov_degrees).to_radians();
     let (x, y) = ((half.tan() * aspect).atan(), half);
-    // Distances outward from the four side planes of the view.
+    // Distances from the four side planes of the view, positive outside.
     let planes = [
         local.x * x.cos() + local.z * x.sin(),
         -local.x * x.cos() + local.z * x.sin(),
@@ -192,7 +192,7 @@ fn without_recycling_the_first_ball_of_simtest4_leaves_the_picture_at_19_8_secon
     let mut world = scene.world().unwrap();
     step(&mut world, &scene);
     let first: SphereId = world.spheres().ids()[0];
-    // It is emitted above the picture, comes into it, and leaves it.
+    // The ball starts above the picture, enters it and leaves it.
     let mut was_seen = false;
     loop {
         let ball = world.sphere(first).unwrap();
@@ -215,7 +215,7 @@ fn the_ball_of_the_maze_comes_to_its_place_on_the_ground() {
         step(&mut world, &scene);
     }
     let ball = world.spheres().positions()[0];
-    // Ground at -0.2672, radius 1/2; the rule lets it sink by less than what a frame of falling
-    // gives, 9.8 * 0.02^2.
+    // Ground at -0.2672, radius 1/2. Under this rule the ball sinks by less than the fall of one
+    // frame, 9.8 * 0.02^2.
     assert!((ball - DVec3::new(2.23, 0.2328, 0.7)).length() < 0.004, "{ball}");
 }

@@ -1,5 +1,5 @@
-//! Scene files: what they can say, and that the error of every mistake names its line, its field
-//! and the nearest known name.
+//! Scene files: all fields can be read, and every error names the line, the field and the nearest
+//! known name.
 
 use carom::Mass;
 use carom_scene::{Library, Override, Scene, SceneError};
@@ -12,7 +12,7 @@ fn refusal(text: &str) -> String {
     read(text).unwrap_err().to_string()
 }
 
-/// A small good scene, each part on lines of its own.
+/// A small valid scene with each part on lines of its own.
 const GOOD: &str = r#"name = "test"
 
 [[forces]]
@@ -61,7 +61,7 @@ fn a_scene_becomes_the_world_it_describes() {
 
 #[test]
 fn every_mistake_is_told_with_its_line_and_field() {
-    // What is replaced in the good scene, and the beginning of what must be said.
+    // Text to replace in the valid scene, its replacement, and the start of the expected error.
     let cases = [
         ("radius = 0.5", "radius = -0.5", "8: spheres[0].radius: must be positive"),
         ("radius = 0.5", "radius = nan", "8: spheres[0].radius: must be positive"),
@@ -310,7 +310,7 @@ fn texts_for_people_do_not_steer_a_terminal() {
         .unwrap();
 }
 
-/// Listed one by one, two hundred million overlaps would fill the memory.
+/// A list of two hundred million overlaps would fill the memory.
 #[test]
 fn a_crowd_in_one_place_is_refused_by_one_overlap() {
     let crowd = "[[generators]]\n[generators.row]\ncount = 20000\nstart = [0, 0, 0]\n\
@@ -387,7 +387,7 @@ fn random_fillings_overlap_nothing_and_repeat_by_their_seed() {
     // Pinned: a scene must not change with the version of a library.
     assert_eq!(again.to_string(), "b07a1be1b806acc0");
     assert_ne!(hash(8), world.state_hash());
-    // A small box is soon full.
+    // A small box cannot hold all spheres.
     let full = RANDOM.replacen("max = [8, 8, 8]", "max = [-3, -3, -3]", 1);
     assert!(refusal(&full).contains("generators[0].random.count: only "), "{}", refusal(&full));
     let aside = RANDOM.replacen("radius = 1,", "radius = 1, position = [100, 0, 0],", 1);
@@ -446,7 +446,7 @@ fn overrides_change_values_by_their_path() {
         let refusal = with(&[text]).unwrap_err().to_string();
         assert!(refusal.contains(expected), "{refusal}");
     }
-    // What is wrong in the file is not blamed on an override.
+    // An error in the file itself is not attributed to an override.
     let broken = GOOD.replacen("radius = 0.5", "radius = -1", 1);
     let harmless = [set("spheres.0.color=[1, 0, 0]").unwrap()];
     let refusal = Scene::from_toml_with(&broken, "test.toml", &harmless).unwrap_err().to_string();
@@ -464,9 +464,9 @@ fn scenes_are_found_in_folders_and_among_registered_ones() {
     let mut library = Library::new();
     library.add_folder(folder.path()).unwrap();
     assert_eq!(library.find("MINE", &[]).unwrap().0.name, "mine");
-    // A user's own comes before the built-in one of the same name.
+    // A scene of a user takes precedence over a built-in one of the same name.
     assert!(library.find("simtest1", &[]).unwrap().0.description.is_empty());
-    // Also one that is broken, rather than running another silently.
+    // A broken one also does: another scene must not run in its place.
     let broken = library.find("simtest2", &[]).unwrap_err().to_string();
     assert!(broken.contains("broken.toml:3"), "{broken}");
     let entries = library.entries().unwrap();

@@ -1,11 +1,11 @@
-//! Friction, rotation and the rule `contact` in scene files: every field reaches the world, and
-//! comes back from it.
+//! Friction, rotation and the rule `contact` in scene files: every field reaches the world and is
+//! written back.
 
 use carom::{CombineRule, Contact, DQuat, DVec3, Friction, Rule};
 use carom_scene::Scene;
 use carom_scene::scene::Sphere;
 
-/// Every field of friction and rotation, in every place that has it.
+/// A scene with every field of friction and rotation, in every table that has it.
 const TURNING: &str = r#"
 name = "turning"
 
@@ -94,7 +94,7 @@ fn a_scene_comes_back_from_its_text_and_spheres_from_the_world() {
     }
 }
 
-/// Files of people who use none of it stay as they are.
+/// Files without friction and rotation are written without these fields.
 #[test]
 fn what_says_nothing_of_friction_and_rotation_is_written_without_them() {
     let scene = read(

@@ -1,5 +1,5 @@
-//! Generators of scene files: spheres are where rows, rings and packings have them, and mistakes are
-//! reported with line and field.
+//! Generators of scene files: spheres lie at the places of rows, rings and packings, and errors
+//! name line and field.
 
 use carom::{DQuat, DVec3};
 use carom_scene::Scene;
@@ -16,7 +16,7 @@ fn centers(scene: &Scene) -> Vec<DVec3> {
     scene.world().unwrap().spheres().positions().to_vec()
 }
 
-/// How many others touch each: closer than by a billionth of this distance more.
+/// Number of touching neighbours of each centre: those within `distance`, plus a relative 1e-9.
 fn neighbours(centers: &[DVec3], distance: f64) -> Vec<usize> {
     let touching = |center: &DVec3| {
         let near = |other: &&DVec3| center.distance(**other) < (1.0 + 1e-9) * distance;
@@ -69,14 +69,14 @@ fn spheres_of_a_close_packing_touch_twelve_others() {
         assert_eq!((centers.len(), centers[0]), (5 * 6 * 7, DVec3::new(1.0, 0.0, -2.0)));
         let counts = neighbours(&centers, 0.5);
         assert_eq!(counts.iter().max(), Some(&12), "{stacking}");
-        // All that have others on every side.
+        // Spheres that are not at the border have 12 neighbours.
         let inner = counts.iter().filter(|count| **count == 12).count();
         assert_eq!(inner, 3 * 4 * 5, "{stacking}");
     }
 }
 
-/// In face-centred cubic packing, neighbours lie opposite each other; in hexagonal packing, layers
-/// lie above the next but one.
+/// In face-centred cubic packing, opposite neighbours lie on one line; in hexagonal packing, every
+/// second layer lies above the first.
 #[test]
 fn stacking_says_where_the_third_layer_lies() {
     let (hcp, fcc) = (packing(""), packing("stacking = 'fcc', "));
@@ -139,7 +139,7 @@ fn a_mistake_in_a_generator_is_reported_with_line_and_field() {
     assert!(text.contains("generators[0].close-packing.sphere: needs `radius`"), "{text}");
 }
 
-/// What is generated is the same whether it is generated or written out.
+/// Generated spheres equal those that are written out.
 #[test]
 fn generators_written_out_make_the_same_world() {
     let scene = read(&format!("{RING}\n"));
@@ -239,7 +239,8 @@ fn a_mistake_in_staggered_rows_is_reported_with_line_and_field() {
     assert!(text.contains("generators[0].staggered-rows: needs `sphere` or `collider`"), "{text}");
 }
 
-/// One collider of a generator of this kind and these fields, a box unless it says more.
+/// A generator of this kind and these fields with one collider: a box, unless `more` states another
+/// shape.
 fn of_colliders(kind: &str, fields: &str, more: &str) -> String {
     format!(
         "[[generators]]\n[generators.{kind}]\n{fields}\n[generators.{kind}.collider]\n\
@@ -265,7 +266,7 @@ fn rows_and_lattices_of_colliders_stand_where_spheres_would() {
     }
 }
 
-/// A drum of boxes: each turned so that its face looks to the axis, as the first one does.
+/// Boxes in a circle, each turned so that its face points at the axis as the first one's does.
 #[test]
 fn colliders_of_a_ring_are_turned_along_with_their_places() {
     let fields = "count = 8\ncenter = [0, 3, 0]\nradius = 2\naxis = [0, 0, 2]";

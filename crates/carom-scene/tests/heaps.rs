@@ -1,5 +1,5 @@
-//! Heaps of three to fifty balls under the rule `exact` come to rest: every frame ends, no energy
-//! appears. The files are scenes that once stopped the clock.
+//! Heaps of three to fifty balls under the rule `exact` come to rest: every frame ends, and energy
+//! does not increase. In these files the clock once stopped.
 
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -7,10 +7,10 @@ use std::time::{Duration, Instant};
 use carom::StopRequest;
 use carom_scene::Scene;
 
-/// What a heap may take, on a machine that is busy and in a debug build.
+/// Longest time for a heap, on a busy machine and in a debug build.
 const PATIENCE: Duration = Duration::from_secs(600);
 
-/// Runs a heap for ten seconds; the root of the mean of its squared speeds at the end \[m/s\].
+/// Runs a heap for ten seconds; returns the root mean square of its speeds at the end \[m/s\].
 fn speed_at_the_end(name: &str) -> f64 {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/heaps/{name}.toml"));
     let mut world = Scene::from_file(&path, &[]).unwrap().world().unwrap();
@@ -25,7 +25,7 @@ fn speed_at_the_end(name: &str) -> f64 {
         assert!(now - energy < 1e-9 * largest, "{name} gains {:e} J", now - energy);
         energy = now;
     }
-    // On curves, paths are followed to some billionths of a radius.
+    // On curves, paths are computed to about 1e-9 of a radius.
     assert!(world.overlaps(1e-6 * 0.5).is_empty(), "{name}");
     let velocities = world.spheres().velocities();
     let squares: f64 = velocities.iter().map(|velocity| velocity.length_squared()).sum();
@@ -53,7 +53,7 @@ fn heaps_of_twenty_to_fifty_balls_come_to_rest() {
         for restitution in ["0.0", "0.5", "0.8"] {
             let name = format!("{kind}-e{restitution}");
             let speed = speed_at_the_end(&name);
-            // Nothing but impacts slows balls without friction: on slopes some still slide.
+            // Without friction only impacts slow balls, so some still slide on slopes.
             let has_slopes = ["dome-50", "funnel-50"].contains(&kind);
             let slowest = if has_slopes { 1e-2 } else { 1e-6 };
             assert!(speed < slowest, "{name}: {speed:e} m/s");

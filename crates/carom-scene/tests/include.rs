@@ -1,4 +1,4 @@
-//! Scene files that include others: what they come to, and where their mistakes are.
+//! Included scene files: the merged scene, and the places of errors.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use carom_scene::{Budget, ChangedFile, Scene, SceneText};
 use tempfile::TempDir;
 
-/// Files of these names and texts in a folder of their own.
+/// Writes files with these names and texts to a new folder.
 fn folder(files: &[(&str, &str)]) -> TempDir {
     let folder = TempDir::new().unwrap();
     for (name, text) in files {
@@ -43,7 +43,7 @@ fn what_is_included_comes_first_and_own_values_count() {
     assert_eq!((&*scene.name, &*scene.title), ("balls", ""));
     let names: Vec<_> = scene.colliders.iter().map(|it| &*it.name).collect();
     assert_eq!(names, ["floor", "wall", "own"]);
-    // Formulas of the included file follow the parameters of this one.
+    // Formulas of the included file use the parameters of the including file.
     assert_eq!(scene.colliders[1].position[0], 3.0);
     assert_eq!(scene.simulation.frame_time, 0.01);
     assert_eq!(scene.simulation.rule, carom_scene::scene::Rule::Contact);
@@ -59,7 +59,7 @@ fn one_text_says_what_all_files_say() {
     let overrides = ["width=3".parse().unwrap()];
     assert_eq!(whole.scene(&overrides).unwrap(), text.scene(&overrides).unwrap());
     assert_eq!(whole.parameters(&[]).unwrap(), text.parameters(&[]).unwrap());
-    // Of one file, the text is as its author wrote it.
+    // The text of a single file is returned as its author wrote it.
     let floor = SceneText::from_file(&folder.path().join("floor.toml")).unwrap();
     assert_eq!(floor.whole(), FLOOR);
 }
@@ -157,7 +157,7 @@ fn a_change_of_an_included_file_is_a_change_of_the_scene() {
     };
     touch("floor.toml", 10);
     assert_eq!([file.look(), file.look()], [true, false]);
-    // Broken for a moment, it is still the one that is watched.
+    // A file that is broken for a moment is still watched.
     fs::write(scene_in(&folder), "include = ").unwrap();
     touch("scenes/balls.toml", 20);
     assert_eq!([file.look(), file.look()], [true, false]);

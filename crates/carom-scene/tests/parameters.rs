@@ -1,4 +1,4 @@
-//! Parameters and formulas of scene files: what they become, what `--set` changes, and where errors are.
+//! Parameters and formulas of scene files: their values, overrides, and the places of errors.
 
 use carom::DVec3;
 use carom_scene::{Override, Scene, SceneError, SceneText};
@@ -35,7 +35,7 @@ fn formulas_are_the_numbers_that_they_come_to() {
     assert_eq!(spheres.len(), 4);
     assert_eq!(spheres.positions()[3], DVec3::new(0.25 + 3.0 * 2.5 * 0.25, 2.0, 0.0));
     assert_eq!(spheres.radii(), [0.25; 4]);
-    // What is written out has the numbers, and is the same scene.
+    // The written scene contains numbers only and is equal to the original.
     let written = read(TEXT, &[]).unwrap().to_toml();
     assert!(written.contains("title = \"= in words\""), "{written}");
     assert!(!written.contains("parameters") && !written.contains('*'), "{written}");
@@ -177,7 +177,7 @@ fn fields_take_the_units_that_the_schema_describes() {
         assert_eq!(problem, expected, "{description}");
         checked.insert(field);
     }
-    // Fewer, and descriptions would no longer say units as they do here.
+    // If fewer fields are found, the descriptions no longer state units in this form.
     assert!(checked.len() >= 30, "{checked:?}");
 }
 

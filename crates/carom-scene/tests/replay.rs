@@ -1,4 +1,4 @@
-//! Recordings are played as they were run, and broken ones are refused by the line.
+//! Recordings are played back exactly as they were run, and broken ones are refused with the line.
 #![cfg(feature = "recording")]
 #![allow(missing_docs)]
 
@@ -17,7 +17,7 @@ fn scene(name: &str, rule: Rule) -> Scene {
     scene
 }
 
-/// Runs a scene and records every `every`-th of its frames; the world after each frame.
+/// Runs a scene and records every `every`-th frame; returns the world after each frame.
 fn record(scene: &Scene, frames: usize, every: usize, path: &Path) -> Vec<World> {
     let mut table = Trajectory::create(path).unwrap();
     let mut world = scene.world().unwrap();
@@ -86,7 +86,7 @@ fn balls_are_turned_as_in_the_run() {
     }
 }
 
-/// Emitters of different spheres, whose turns fall together now and then.
+/// Emitters of different spheres, some of which emit at the same times.
 #[test]
 fn every_ball_is_that_of_its_emitter() {
     let folder = tempfile::tempdir().unwrap();
@@ -126,7 +126,7 @@ fn a_film_at_the_rate_of_the_recording_shows_its_frames() {
     let path = folder.path().join(FILE);
     let scene = scene("simtest1", Rule::Exact);
     let worlds = record(&scene, 200, 1, &path);
-    // simtest1 has 50 frames per second: a film of 25 shows every other one.
+    // simtest1 has 50 frames per second, so a film of 25 shows every second one.
     let rate = (1.0 / scene.simulation.frame_time).round();
     let mut playback = Playback::new(Replay::open(&path, &scene).unwrap()).unwrap();
     assert_same(&playback.at(0.0).unwrap().unwrap(), &scene.world().unwrap());
@@ -150,14 +150,14 @@ fn between_frames_balls_fly_on() {
         let spheres = world.spheres();
         for ball in &frame.balls {
             let index = spheres.ids().iter().position(|id| id.number() == ball.number).unwrap();
-            // Nothing but gravity: the curve is the flight. Roundings at 10 m, over a frame.
+            // Only gravity acts, so the curve is exact up to rounding at 10 m over a frame.
             let error = ball.position.distance(spheres.positions()[index]);
             assert!(error < 1e-12, "{error} at {}", world.time());
         }
     }
 }
 
-/// The error that a table with these rows ends in.
+/// Errors of tables without rows and of tables that are cut short.
 #[test]
 fn a_table_without_rows_or_with_half_a_line_is_no_recording() {
     let folder = tempfile::tempdir().unwrap();
@@ -219,7 +219,7 @@ fn broken_tables_are_refused_by_the_line() {
         let found = problem(&[GOOD, &format!("0.04,{ball},1,2,3,4,5,6")], 3);
         assert!(matches!(found, LineProblem::UnknownBall { time: 0.04, .. }), "{found}");
     }
-    // Neither does a time beyond reason take forever.
+    // A huge time does not take long, either.
     assert!(matches!(problem(&["1e300,0,1,2,3,4,5,6", GOOD], 3), LineProblem::TimeGoesBack { .. }));
     let found = refusal("t,ball,x,y,z,vx,vy", &["0.02,0,1,2,3,4,5"]);
     assert!(matches!(found, ReplayError::MissingColumn { column: "vz", .. }));
@@ -258,7 +258,7 @@ fn what_is_no_rotation_is_refused_by_the_line() {
         }
     };
     assert!(matches!(problem("0,0,0,0"), LineProblem::NotARotation(it) if it == [0.0; 4]));
-    // Its length is no number.
+    // The length of this quaternion overflows.
     assert!(matches!(problem("0,0,0,1e300"), LineProblem::NotARotation(_)));
     assert!(matches!(problem("0,0,?,1"), LineProblem::NotANumber { column: "qz", .. }));
     let found = refusal("t,ball,x,y,z,vx,vy,vz,qx,qy,qw", &["0.02,0,1,2,3,4,5,6,0,0,1"]);
@@ -274,7 +274,7 @@ fn a_rotation_may_have_any_length() {
     let (scene, _) = Library::new().find("simtest1", &[]).unwrap();
     let frame = Replay::open(&path, &scene).unwrap().next_frame().unwrap().unwrap();
     let found = frame.balls[0].orientation.unwrap().to_array();
-    // A rounding or two of numbers up to 1.
+    // One or two rounding errors of numbers up to 1.
     [0.0, 0.6, 0.0, 0.8].iter().zip(found).for_each(|(a, b)| assert!((a - b).abs() < 1e-15));
 }
 

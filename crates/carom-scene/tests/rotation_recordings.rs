@@ -1,5 +1,5 @@
-//! Recordings have orientations and angular velocities where spheres turn, and nothing new where
-//! none does.
+//! Recordings contain orientations and angular velocities if spheres can rotate, and no new columns
+//! otherwise.
 #![cfg(feature = "recording")]
 
 use std::io::Read;
@@ -11,7 +11,7 @@ use carom_scene::recording::{Replay, Trajectory};
 
 const HEADER: &str = "t,ball,x,y,z,vx,vy,vz";
 
-/// A ball that slides on the floor, with this friction of it.
+/// A ball that slides on the floor with this friction.
 fn scene(friction: &str) -> Scene {
     let text = format!(
         "name = 'slide'\nsimulation = {{ rule = 'contact' }}\n\
@@ -22,7 +22,7 @@ fn scene(friction: &str) -> Scene {
     Scene::from_toml(&text, "slide.toml").unwrap()
 }
 
-/// Records ten frames; the world at their end.
+/// Records ten frames; returns the world at their end.
 fn record(scene: &Scene, path: &Path) -> World {
     let mut world = scene.world().unwrap();
     let mut trajectory = Trajectory::create(path).unwrap();
@@ -34,7 +34,7 @@ fn record(scene: &Scene, path: &Path) -> World {
     world
 }
 
-/// How many arrays are in an archive.
+/// Number of arrays in an archive.
 fn arrays(path: &Path) -> usize {
     zip::ZipArchive::new(std::fs::File::open(path).unwrap()).unwrap().len()
 }
@@ -47,7 +47,7 @@ fn array(path: &Path, name: &str) -> Vec<f64> {
     npyz::NpyFile::new(&bytes[..]).unwrap().into_vec().unwrap()
 }
 
-/// The names of what a file for ParaView tells of each sphere.
+/// Names of the attributes of each sphere in a file for ParaView.
 fn attributes(path: &Path) -> Vec<String> {
     let frame = vtkio::Vtk::import(path).unwrap();
     let vtkio::model::DataSet::PolyData { pieces, .. } = frame.data else { panic!("poly data") };

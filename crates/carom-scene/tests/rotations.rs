@@ -1,9 +1,9 @@
-//! Rotations in every form in which a scene file may write them.
+//! Rotations in every form that scene files allow.
 
 use carom::{DQuat, DVec3};
 use carom_scene::Scene;
 
-/// Round-off of the operations that a turn takes, some ten of half an epsilon each.
+/// Rounding error of about ten operations, half an epsilon each.
 const ROUND_OFF: f64 = 1e-15;
 
 fn scene(rotation: &str) -> Result<Scene, String> {
@@ -13,7 +13,7 @@ fn scene(rotation: &str) -> Result<Scene, String> {
     Scene::from_toml(&text, "turned.toml").map_err(|error| error.to_string())
 }
 
-/// Where a rotation takes a vector.
+/// Applies a rotation of a scene file to a vector.
 fn turned(rotation: &str, vector: DVec3) -> DVec3 {
     let scene = scene(rotation).unwrap();
     DQuat::from_array(scene.colliders[0].rotation).normalize() * vector
@@ -35,7 +35,7 @@ fn a_turn_about_an_axis_is_counterclockwise() {
 #[test]
 fn euler_angles_turn_about_z_then_x_then_y() {
     close(turned("{ euler_degrees = [0, 0, 90] }", DVec3::X), DVec3::Y);
-    // x to y by z, y to z by x, z to x by y.
+    // About z, x becomes y; about x, y becomes z; about y, z becomes x.
     close(turned("{ euler_degrees = [90, 90, 90] }", DVec3::X), DVec3::X);
     let angles = [10.0f64, 20.0, 30.0].map(f64::to_radians);
     let [x, y, z] = angles;
@@ -63,7 +63,7 @@ fn a_normal_is_where_the_front_faces() {
 fn quaternions_are_as_they_were() {
     let written = scene("[1, 2, 3, 4]").unwrap().colliders[0].rotation;
     assert_eq!(written, [1.0, 2.0, 3.0, 4.0]);
-    // A scene is written with quaternions, and reads the same again.
+    // A scene is written with quaternions and is read back unchanged.
     let scene = scene("{ axis = [1, 2, 3], degrees = 40 }").unwrap();
     assert_eq!(Scene::from_toml(&scene.to_toml(), "again").unwrap(), scene);
 }
@@ -84,7 +84,7 @@ fn a_camera_looks_at_a_point() {
         let camera = camera(&format!("position = {p:?}\nlook_at = {t:?}")).unwrap();
         let rotation = DQuat::from_array(camera.rotation).normalize();
         close(rotation * DVec3::NEG_Z, (target - position).normalize());
-        // It is not tilted to a side.
+        // The camera does not roll.
         assert!((rotation * DVec3::X).y.abs() < ROUND_OFF, "{rotation}");
         assert!((rotation * DVec3::Y).y > -ROUND_OFF, "{rotation}");
     }

@@ -1,4 +1,4 @@
-//! Built-in scenes: each can be found, is what its description says, and runs under every rule.
+//! Built-in scenes: each can be found, matches its description, and runs under every rule.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -11,7 +11,7 @@ fn scene(name: &str) -> Scene {
     Library::new().find(name, &[]).unwrap().0
 }
 
-/// Runs a scene, with `watch` looking at the world after each frame.
+/// Runs a scene and calls `watch` with the world after each frame.
 fn run(scene: &Scene, seconds: f64, mut watch: impl FnMut(&World)) -> World {
     let mut world = scene.world().unwrap();
     for _ in 0..(seconds / scene.simulation.frame_time).round() as usize {
@@ -55,8 +55,9 @@ fn every_scene_is_found_by_name_and_title_in_any_case() {
 mod every_scene_runs_under_every_rule {
     use super::{BUILT_IN_FILES, Scene};
 
-    /// Impacts after which a run ends. Under `bisect` the balls of a heap sink into each other, and the deeper they are the
-    /// more impacts it finds: a million in a second. The first 20,000 have gone through all of its code.
+    /// Most impacts of a run. Under `bisect` the balls of a heap sink into each other, and deeper
+    /// overlaps cause more impacts, up to a million in a second. The first 20,000 exercise all
+    /// code.
     const IMPACTS: usize = 20_000;
 
     /// Runs every scene for two seconds, or for [`IMPACTS`] impacts.
@@ -93,7 +94,7 @@ mod every_scene_runs_under_every_rule {
 fn scenes_repeat_bit_for_bit() {
     for (file, text) in BUILT_IN_FILES {
         let scene = Scene::from_toml(text, file).unwrap();
-        // By then all heaps have thousands of contacts.
+        // By then every heap has thousands of contacts.
         let hashes = [(); 2].map(|()| run(&scene, 1.0, |_| {}).state_hash());
         assert_eq!(hashes[0], hashes[1], "{file}");
     }
@@ -102,7 +103,7 @@ fn scenes_repeat_bit_for_bit() {
 mod state_hashes_of_all_scenes_are_the_same_everywhere {
     use super::{BUILT_IN_FILES, Rule, Scene, run};
 
-    /// Scenes that take as long as all others, in parts of as much work each, so that they are run side by side.
+    /// The slowest scenes, in parts of about equal work that run in parallel.
     const HEAPS: [&[&str]; 2] =
         [&["hourglass.toml"], &["avalanche.toml", "granular-column.toml", "pour.toml"]];
 
@@ -114,7 +115,7 @@ mod state_hashes_of_all_scenes_are_the_same_everywhere {
                 let own = Scene::from_toml(text, file).unwrap();
                 let hash = |scene| run(scene, 10.0, |_| {}).state_hash();
                 let mut hashes = vec![format!("{file} {}", hash(&own))];
-                // Heaps are not for `exact`.
+                // The rule `exact` is not meant for heaps.
                 if !matches!(own.simulation.rule, Rule::Contact | Rule::Exact) {
                     let mut exact = own.clone();
                     exact.simulation.rule = Rule::Exact;
@@ -123,7 +124,8 @@ mod state_hashes_of_all_scenes_are_the_same_everywhere {
                 hashes
             })
             .collect();
-        // Pinned. They may change only with the physics or the scenes; the changelog says so then.
+        // Pinned. Hashes may change only with the physics or the scenes; the changelog then says
+        // so.
         let expected = include_str!("state_hashes.txt").lines();
         let expected: Vec<&str> =
             expected.filter(|line| is_of_part(line.split(' ').next().unwrap())).collect();
@@ -205,7 +207,7 @@ fn in_tutorial_4_a_hundred_spheres_scatter_from_the_fixed_one() {
     });
     assert!(world.spheres().len() >= 100);
     assert!(hits.len() >= 100, "{}", hits.len());
-    // All have left it, on every side.
+    // All spheres have left it, on every side.
     let positions = world.spheres().positions();
     assert!(positions.iter().all(|x| x.length() > 3.0));
     for direction in [DVec3::X, DVec3::NEG_X, DVec3::Z, DVec3::NEG_Z] {

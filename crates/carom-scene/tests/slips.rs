@@ -1,4 +1,4 @@
-//! What newcomers write that is not quite a scene, and what they read then: one fault for one slip.
+//! Typical mistakes of new authors and their messages: one fault for each mistake.
 
 use carom_scene::{Budget, Scene, SceneText};
 

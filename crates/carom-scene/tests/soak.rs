@@ -1,4 +1,5 @@
-//! Long runs: hour by hour the same states on every machine, and no more memory than in the first one.
+//! Long runs: the same state after every hour on every machine, and no growth of memory after the
+//! first.
 #![allow(missing_docs)]
 
 use std::collections::BTreeMap;
@@ -10,10 +11,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use carom::World;
 use carom_scene::{BUILT_IN_FILES, Checkpoint, Palette, Scene};
 
-/// What runs for a day: its name, and what is changed of the built-in scene of that name, or added to it.
+/// Runs of a day: the name of a built-in scene, and text that is added to it or replaces parts of
+/// it.
 const RUNS: [(&str, &str); 4] = [
     ("simtest3", ""),
-    // Contained, for its balls would fly away.
+    // A container keeps its balls, which would fly away.
     (
         "tutorial4",
         "[[colliders]]\nposition = [0.0, 3.0, 0.0]\nshape = { container = { size = [8.0, 14.0, 8.0] } }\n",
@@ -29,27 +31,28 @@ const RUNS: [(&str, &str); 4] = [
     ("pour", ""),
 ];
 
-/// Memory may grow by this part after the first hour, and by a little of which allocators give nothing back.
+/// Largest relative growth of memory after the first hour, plus a little that allocators do not
+/// return.
 const GROWTH: f64 = 0.05;
 const SLACK_BYTES: f64 = 1e6;
 
 fn scene(name: &str, more: &str) -> Scene {
     let file = BUILT_IN_FILES.iter().find(|file| file.0.strip_suffix(".toml") == Some(name));
     let text = file.map_or(String::new(), |file| file.1.to_owned()) + "\n" + more;
-    // Bounces without end are for `exact`; the course's scenes stay under the course's rule.
+    // Bounces without end need `exact`; the scenes of the course keep its rule.
     let rule: &[&str] = if name == "tutorial4" { &["simulation.rule=exact"] } else { &[] };
     let rule: Vec<_> = rule.iter().map(|it| it.parse().unwrap()).collect();
     Scene::from_toml_with(&text, name, &rule).unwrap()
 }
 
-/// Memory of this process \[bytes\], where the system tells.
+/// Memory of this process \[bytes\], if the system reports it.
 fn resident_bytes() -> Option<f64> {
     let pages = std::fs::read_to_string("/proc/self/statm").ok()?;
     let pages: f64 = pages.split_whitespace().nth(1)?.parse().ok()?;
     Some(pages * 4096.0)
 }
 
-/// Runs a world of a scene so many seconds further, and returns its state hash.
+/// Advances a world by `seconds`; returns its state hash.
 fn advance(world: &mut World, scene: &Scene, seconds: f64) -> String {
     let frame_time = scene.simulation.frame_time;
     for _ in 0..(seconds / frame_time).round() as u64 {
@@ -58,13 +61,13 @@ fn advance(world: &mut World, scene: &Scene, seconds: f64) -> String {
     world.state_hash().to_string()
 }
 
-/// Where the state after so many hours is kept.
+/// File for the state after `hours`.
 fn state_file(folder: &Path, name: &str, hours: usize) -> PathBuf {
     folder.join(format!("{}-{hours}", name.replace(' ', "-")))
 }
 
-/// Runs a scene for so many parts of `seconds` each, and returns the state hash after each. The states stay in a folder,
-/// where one is given.
+/// Runs a scene for `parts` times `seconds`; returns the state hash after each part. Stores the
+/// states in `folder`, if there is one.
 fn run(name: &str, more: &str, parts: usize, seconds: f64, folder: Option<&Path>) -> Vec<String> {
     let scene = scene(name, more);
     let palette = Palette::new(&scene).unwrap();
@@ -89,7 +92,7 @@ fn run(name: &str, more: &str, parts: usize, seconds: f64, folder: Option<&Path>
     hashes
 }
 
-/// The pinned hashes of each run, hour by hour.
+/// Pinned hashes of each run, one per hour.
 fn pinned() -> BTreeMap<&'static str, Vec<&'static str>> {
     let line = |line: &'static str| {
         let (name, hashes) = line.split_once(": ").unwrap();
@@ -104,17 +107,18 @@ fn an_hour_of_an_emitter_is_what_it_is_everywhere_and_takes_no_more_memory_than_
     assert_eq!(hashes[5], pinned()["simtest3"][0]);
 }
 
-/// The hours that `SOAK_HOURS` says, or a day.
+/// Number of hours: the variable `SOAK_HOURS`, or 24.
 fn hours() -> usize {
     std::env::var("SOAK_HOURS").map_or(24, |hours| hours.parse().unwrap())
 }
 
-/// The folder of states that `SOAK_STATES` says.
+/// Folder for states: the variable `SOAK_STATES`.
 fn folder() -> Option<PathBuf> {
     std::env::var_os("SOAK_STATES").map(PathBuf::from)
 }
 
-/// A day of each, or as many hours as `SOAK_HOURS` says. `SOAK_STATES` is a folder for the states after each.
+/// Runs each scene for a day, or `SOAK_HOURS` hours; stores the state after each hour in the folder
+/// `SOAK_STATES`.
 #[test]
 #[ignore = "takes an hour: `cargo xtask soak`"]
 fn a_day_is_what_it_is_everywhere_and_takes_no_more_memory_than_an_hour() {
@@ -129,7 +133,7 @@ fn a_day_is_what_it_is_everywhere_and_takes_no_more_memory_than_an_hour() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// Runs one hour from the state that was kept before it, and says what is not as pinned.
+/// Runs one hour from the stored state before it; returns the difference from the pinned hash.
 fn repeat(folder: &Path, name: &str, more: &str, hour: usize, pinned: &str) -> Option<String> {
     let scene = scene(name, more);
     let mut world = scene.world().unwrap();
@@ -145,8 +149,8 @@ fn repeat(folder: &Path, name: &str, more: &str, hour: usize, pinned: &str) -> O
     (hash != pinned).then(|| format!("{name}: {hash} after hour {hour}, not {pinned}"))
 }
 
-/// Every hour once more, from the state that an earlier run kept before it: all hours side by side, on as many threads as
-/// there are processors.
+/// Repeats every hour from the stored state before it, with all hours in parallel on all
+/// processors.
 #[test]
 #[ignore = "needs the states of a day: `cargo xtask soak --again`"]
 fn every_hour_of_a_day_is_the_same_again_from_the_state_before_it() {

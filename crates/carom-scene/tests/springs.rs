@@ -1,4 +1,4 @@
-//! Springs and fields as scene files say them: what world comes of them, and what is refused, where.
+//! Springs and fields of scene files: the world that they create, and errors with their places.
 
 use carom::SpringEnd;
 use carom_scene::Scene;
@@ -36,7 +36,7 @@ fn springs_name_single_spheres_first_and_then_those_of_generators() {
     let springs: Vec<_> = world.springs().map(|(_, spring)| *spring).collect();
     let ids = world.spheres().ids();
     assert_eq!(springs.len(), 5);
-    // The length at the start, of 3, 4, 5.
+    // The distance at the start: a triangle of sides 3, 4, 5.
     assert_eq!((springs[0].rest_length, springs[0].stiffness), (5.0, 2000.0));
     assert_eq!(springs[1].to, SpringEnd::Point(carom::DVec3::new(1.0, 2.0, 0.0)));
     assert_eq!((springs[1].rest_length, springs[1].damping), (0.5, 0.5));

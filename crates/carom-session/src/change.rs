@@ -1,19 +1,19 @@
-//! Changes from outside that were made on the way.
+//! Changes of a world that are made from outside, between frames.
 
 use crate::edit::Edit;
 
-/// Something that changed the world from outside of a step.
+/// A change of the world from outside of a step.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Change {
     /// An edit.
     Edit(Edit),
-    /// A step failed, after which flights begin anew.
+    /// A step failed; all flights are then computed again.
     FailedStep,
 }
 
 impl Change {
-    /// Length of the frames that follow \[s\], if this sets it.
+    /// Length of the following frames \[s\], if the change sets it.
     pub(crate) fn frame_time(&self) -> Option<f64> {
         match self {
             Self::Edit(Edit::FrameTime(frame_time)) => Some(*frame_time),
@@ -23,11 +23,11 @@ impl Change {
     }
 }
 
-/// A change, and when it was made.
+/// A change, with the frame at which it was made.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PastChange {
-    /// Number of frames that were taken before.
+    /// Number of frames taken before the change.
     pub frame: u64,
-    /// What was changed.
+    /// The change.
     pub change: Change,
 }

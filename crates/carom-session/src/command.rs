@@ -1,4 +1,4 @@
-//! The commands of a driver.
+//! Commands to a driver.
 
 use carom::SphereId;
 use carom_scene::scene::{Scene, Simulation};
@@ -6,59 +6,60 @@ use carom_scene::scene::{Scene, Simulation};
 use crate::edit::Edit;
 use crate::link::Link;
 
-/// A command to a driver. The driver obeys commands in the order in which they arrive, but does not
-/// let those wait on the way elsewhere that can be obeyed at any time; one that fails says why in the
-/// next view, and changes nothing.
+/// A command to a driver. Commands are executed in the order in which they arrive; those that do
+/// not depend on the time are executed even during a seek. A command that fails changes nothing,
+/// and the next view contains its error.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Command {
-    /// Let time go on.
+    /// Starts to play.
     Play,
-    /// Let time stand still.
+    /// Stops playing.
     Pause,
-    /// Stop, and take one frame.
+    /// Stops playing and takes one frame.
     Step,
-    /// Stop, and go back by one frame.
+    /// Stops playing and goes back by one frame.
     StepBack,
-    /// Go back to the beginning; time goes on from there, if it did.
+    /// Goes back to the beginning; continues to play if it played.
     Restart,
-    /// Go to the frame nearest to this time \[s\]; time goes on from there, if it did. Another
-    /// command that goes elsewhere takes its place; changes and steps wait until it is there.
+    /// Goes to the frame nearest to this time \[s\]; continues to play if it played. Another
+    /// command that goes to a time replaces it; edits and steps wait until it has arrived.
     Seek(f64),
-    /// Give up going elsewhere: stay where it has come to. What waits is done there.
+    /// Stops going to a time, at the frame reached. Waiting commands are executed there.
     StopSeeking,
-    /// Simulated seconds per second, between [`SLOWEST`](crate::SLOWEST) and
+    /// Sets the speed, in simulated seconds per second, between [`SLOWEST`](crate::SLOWEST) and
     /// [`FASTEST`](crate::FASTEST).
     Speed(f64),
-    /// Make a change. One that follows another of the same thing within a second goes on with it,
-    /// as a slider does that is dragged; see [`Session::edit_further`](crate::Session::edit_further).
+    /// Makes an edit. An edit of the same thing within a second of the last one continues it, as
+    /// dragging a slider does; see [`Session::edit_further`](crate::Session::edit_further).
     Edit(Edit),
-    /// Take back the last change by hand, and go where it was made; nothing if there is none.
+    /// Undoes the last manual edit and goes to its frame; does nothing if there is none.
     Undo,
-    /// Make the change again that was taken back last, and go where it was made; nothing if there is
-    /// none.
+    /// Repeats the edit that was undone last and goes to its frame; does nothing if there is none.
     Redo,
-    /// Go back to the beginning with the values that were changed in the whole run; see
+    /// Goes back to the beginning with the values that were edited during the whole run; see
     /// [`Session::restart_with_values`](crate::Session::restart_with_values).
     RestartWithValues,
-    /// Follow another sphere, or none.
+    /// Follows another sphere, or none.
     Pick(Option<SphereId>),
-    /// Whether views have the state as a number, which takes time to make.
+    /// Sets whether views contain the state hash, which takes time to compute.
     ShowStateHash(bool),
-    /// Whether views have the persistent contacts with their forces, which take time to solve for.
+    /// Sets whether views contain the persistent contacts with their forces, which take time to
+    /// compute.
     ShowContacts(bool),
-    /// Open another scene; time goes on there, if it did.
+    /// Opens another scene; continues to play if it played.
     Open(Box<Scene>),
-    /// Open a scene, the one of a link, and go where the link leads, changing on the way what was
-    /// changed there; time goes on from there, if it did.
+    /// Opens the scene of a link, goes to the time of the link and makes its changes at their
+    /// frames; continues to play if it played.
     Replay(Box<Scene>, Box<Link>),
-    /// Show the scene under two simulations side by side, frames being as long as the first one says,
-    /// or alone under the first again; at the time of now, with all changes but those of the simulation.
+    /// Shows the scene under two simulations side by side, with the frame length of the first, or
+    /// under the first only. The time remains, and all changes are repeated except those of the
+    /// simulation.
     Compare(Option<Box<[Simulation; 2]>>),
 }
 
 impl Command {
-    /// Whether it goes elsewhere by itself, so that going elsewhere before it is in vain.
+    /// Whether the command goes to another time or scene, so that an earlier seek becomes useless.
     pub(crate) fn goes_elsewhere(&self) -> bool {
         match self {
             Self::Restart | Self::Seek(_) | Self::StopSeeking => true,
@@ -70,21 +71,21 @@ impl Command {
         }
     }
 
-    /// Whether it is about the way things are shown and played, whatever the time: it need not wait
-    /// until a way elsewhere has come to its end.
+    /// Whether the command concerns display and playback only, so that it need not wait for the end
+    /// of a seek.
     pub(crate) fn is_of_any_time(&self) -> bool {
         matches!(self, Self::Play | Self::Pause | Self::Speed(_) | Self::Pick(_))
             || matches!(self, Self::ShowStateHash(_) | Self::ShowContacts(_))
     }
 
-    /// Whether a frame at work is given up for it.
+    /// Whether the command interrupts the current frame.
     #[cfg(not(target_arch = "wasm32"))]
     pub(crate) fn stops_frame(&self) -> bool {
         matches!(self, Self::Pause | Self::StepBack | Self::Undo | Self::RestartWithValues)
             || self.goes_elsewhere()
     }
 
-    /// One command instead of this one and a `later` one right after it; `None` if it takes both.
+    /// Merges this command with a `later` one that directly follows it; `None` if both are needed.
     pub(crate) fn merged(&self, later: &Self) -> Option<Self> {
         match (self, later) {
             (Self::Edit(edit), Self::Edit(next)) => edit.merged(next).map(Self::Edit),

@@ -1,4 +1,4 @@
-//! One scene under two rules, side by side.
+//! Comparison of one scene under two rules.
 
 use carom::{SphereId, StopRequest};
 use carom_scene::SceneError;
@@ -12,7 +12,8 @@ use crate::series::Series;
 use crate::session::Session;
 use crate::view::{View, replace};
 
-/// Two sessions of one scene under two rules, in lockstep: whatever is done to one is done to both.
+/// Two sessions of one scene under two rules. Every change is made in both, and both are at the
+/// same frame.
 #[derive(Debug)]
 pub struct Comparison {
     first: Session,
@@ -21,10 +22,10 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Opens a scene twice, under two rules.
+    /// Opens a scene under each of two rules.
     ///
     /// # Errors
-    /// [`SceneError`] if the scene makes no sense under one of them.
+    /// [`SceneError`] if the scene is invalid under one of them.
     pub fn new(scene: &Scene, rules: [Rule; 2]) -> Result<Self, SceneError> {
         let [first, second] = rules.map(|rule| {
             let mut scene = scene.clone();
@@ -34,12 +35,12 @@ impl Comparison {
         Ok(Self::of(first?, second?))
     }
 
-    /// The scene of a session under two simulations, at the beginning; frames have the length that
-    /// the first one says. Everything that was changed in the session comes again at its time, but
-    /// for changes of the simulation.
+    /// Opens the scene of a session under two simulations, at the beginning, with the frame length
+    /// of the first. All changes of the session are repeated at their times, except those of the
+    /// simulation.
     ///
     /// # Errors
-    /// As [`Session::under`], for one of them.
+    /// The same as those of [`Session::under`], for either simulation.
     pub(crate) fn under(
         session: &Session,
         [first, second]: &[Simulation; 2],
@@ -55,46 +56,46 @@ impl Comparison {
         comparison
     }
 
-    /// Under the first rule.
+    /// Session under the first rule.
     pub fn first(&self) -> &Session {
         &self.first
     }
 
-    /// Under the second rule.
+    /// Session under the second rule.
     pub fn second(&self) -> &Session {
         &self.second
     }
 
-    /// Bounds the memory that the past of both together may take \[bytes\].
+    /// Sets a limit on the memory for the past of both \[bytes\].
     pub fn set_memory(&mut self, bytes: usize) {
         self.first.set_memory(bytes / 2);
         self.second.set_memory(bytes / 2);
     }
 
-    /// Has steps of both end early once a request is made; see [`carom::World::set_stop_request`].
+    /// Sets a request that ends steps of both early; see [`carom::World::set_stop_request`].
     pub fn set_stop_request(&mut self, request: Option<StopRequest>) {
         self.first.set_stop_request(request.clone());
         self.second.set_stop_request(request);
     }
 
-    /// How far apart they are now.
+    /// Distance between both worlds at present.
     pub fn distance(&self) -> Distance {
         Distance::between(self.first.world(), self.second.world())
     }
 
-    /// How far apart they were until now.
+    /// Distances between both worlds up to the present.
     pub fn distances(&self) -> impl Iterator<Item = &Distance> {
         self.distances.until(self.first.frame()).iter().map(|(_, distance)| distance)
     }
 
-    /// Takes one frame of each.
+    /// Takes one frame in each session.
     ///
     /// # Errors
-    /// As [`Session::step`]; neither has moved then.
+    /// The same as those of [`Session::step`]; then neither has moved.
     pub fn step(&mut self) -> Result<(), SessionError> {
         let stepped = self.first.step().and_then(|()| self.second.step());
         if let Err(error) = stepped {
-            // One may have moved, even one that refuses a change there.
+            // The first may have moved, or the second, if it then refused a change.
             self.stop_seeking()?;
             return Err(error);
         }
@@ -102,16 +103,17 @@ impl Comparison {
         Ok(())
     }
 
-    /// Sets out for a frame.
+    /// Starts to go to a frame; [`Self::advance_seek`] goes there.
     pub fn seek(&mut self, frame: u64) {
         self.first.seek(frame);
         self.second.seek(frame);
     }
 
-    /// Takes up to `budget` frames of the way, of both together. Returns whether both are there.
+    /// Takes up to `budget` frames, counted over both, towards the frame of [`Self::seek`]. Returns
+    /// whether both have arrived.
     ///
     /// # Errors
-    /// As [`Session::advance_seek`]; both stop at the same frame then.
+    /// The same as those of [`Session::advance_seek`]; then both stop at the same frame.
     pub fn advance_seek(&mut self, budget: u64) -> Result<bool, SessionError> {
         for _ in 0..budget {
             let behind = match (self.first.seeking(), self.second.seeking()) {
@@ -132,10 +134,10 @@ impl Comparison {
         Ok(self.first.seeking().is_none() && self.second.seeking().is_none())
     }
 
-    /// Gives up going elsewhere: both stay where the one that is behind has come to.
+    /// Stops going to a frame; both stay at the frame of the slower one.
     ///
     /// # Errors
-    /// None that taking the same frames did not have.
+    /// Only those that these frames had when they were first taken.
     pub fn stop_seeking(&mut self) -> Result<(), SessionError> {
         let frame = self.first.frame().min(self.second.frame());
         for session in [&mut self.first, &mut self.second] {
@@ -145,19 +147,19 @@ impl Comparison {
         Ok(())
     }
 
-    /// Makes a change to both. Of the simulation, each keeps its own rule, and all that is not changed in
-    /// that of the first.
+    /// Makes an edit in both. An edit of the simulation changes only the fields that differ from
+    /// the first session's, and each session keeps its own rule.
     ///
     /// # Errors
-    /// As [`Session::edit`], if it is refused by one of them; neither changes then.
+    /// The same as those of [`Session::edit`], if one of them refuses it; then neither changes.
     pub fn edit(&mut self, edit: &Edit) -> Result<(), SessionError> {
         self.edit_both(edit, Session::edit)
     }
 
-    /// Makes a change to both that goes on with the last; see [`Session::edit_further`].
+    /// Makes an edit in both that continues the last one; see [`Session::edit_further`].
     ///
     /// # Errors
-    /// As [`Self::edit`].
+    /// The same as those of [`Self::edit`].
     pub fn edit_further(&mut self, edit: &Edit) -> Result<(), SessionError> {
         self.edit_both(edit, Session::edit_further)
     }
@@ -176,21 +178,21 @@ impl Comparison {
         Ok(())
     }
 
-    /// Takes back the last change by hand in both; see [`Session::undo`].
+    /// Undoes the last manual edit in both; see [`Session::undo`].
     pub fn undo(&mut self) -> bool {
         let done = self.first.undo() & self.second.undo();
         self.measure_anew();
         done
     }
 
-    /// Makes the change again in both that was taken back last; see [`Session::redo`].
+    /// Repeats in both the edit that was undone last; see [`Session::redo`].
     pub fn redo(&mut self) -> bool {
         let done = self.first.redo() & self.second.redo();
         self.measure_anew();
         done
     }
 
-    /// Goes back to the beginning of both with the values of now; see
+    /// Goes back to the beginning of both with the present values; see
     /// [`Session::restart_with_values`].
     pub fn restart_with_values(&mut self) {
         self.first.restart_with_values();
@@ -204,7 +206,7 @@ impl Comparison {
         self.second.pick(sphere);
     }
 
-    /// Copies both: the first, and the second as [`View::other`].
+    /// Copies both to a view: the first directly, the second as [`View::other`].
     pub fn fill(&self, view: &mut View) {
         self.first.fill(view);
         self.second.fill(view.other.get_or_insert_default());
@@ -214,7 +216,8 @@ impl Comparison {
         view.distances.push(now);
     }
 
-    /// Forgets the distances that are no longer, and measures that of now where both are at one frame.
+    /// Removes distances that are no longer valid, and measures the present one if both are at one
+    /// frame.
     fn measure_anew(&mut self) {
         match self.first.frame().min(self.second.frame()).checked_sub(1) {
             Some(before) => self.distances.cut(before),
@@ -234,7 +237,8 @@ impl Comparison {
     }
 }
 
-/// The edit as a session takes it that has a rule of its own, where `before` was edited.
+/// Converts an edit of the first session, whose simulation was `before`, for a session with another
+/// rule.
 fn own(edit: &Edit, before: &Simulation, session: &Session) -> Edit {
     let Edit::Simulation(edited) = edit else { return edit.clone() };
     let mut own = session.setup().simulation.clone();

@@ -1,22 +1,22 @@
-//! How far apart two worlds are.
+//! Distance between two worlds.
 
 use carom::{Boundary, DVec3, SphereId, World};
 
 use crate::periodic;
 
-/// How far apart the spheres are that both worlds have.
+/// Distance between two worlds, over the spheres that both have.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Distance {
-    /// \[s\]
+    /// Time \[s\].
     pub time: f64,
-    /// Largest distance of a sphere from itself in the other world \[m\].
+    /// Largest distance of a sphere from the same sphere in the other world \[m\].
     pub largest: f64,
-    /// Root of the mean of the squares of these distances \[m\].
+    /// Root mean square of these distances \[m\].
     pub root_mean_square: f64,
 }
 
 impl Distance {
-    /// Between two worlds, of the spheres with the same ids; 0 without any.
+    /// Measures the distance between spheres with the same ids; 0 if there are none.
     pub fn between(first: &World, second: &World) -> Self {
         let size = match first.settings().boundary {
             Boundary::Open => DVec3::INFINITY,
@@ -35,7 +35,7 @@ impl Distance {
     }
 }
 
-/// Positions of the spheres that both worlds have, by the order of ids.
+/// Positions of the spheres that both worlds have, in the order of ids.
 fn common<'a>(
     first: &'a World,
     second: &'a World,

@@ -1,4 +1,4 @@
-//! Moves a session at the pace of a clock.
+//! Runs a session at the pace of a clock.
 
 use crate::command::Command;
 use crate::error::SessionError;
@@ -8,15 +8,15 @@ use crate::watched::Watched;
 #[cfg(not(target_arch = "wasm32"))]
 use crate::worker::Worker;
 
-/// Moves a session at the pace of a clock, obeys [`Command`]s, and publishes
-/// [`View`]s. An interface owns one and calls [`Self::update`] before each picture.
+/// Runs a session at the pace of a clock, executes [`Command`]s and publishes [`View`]s. An
+/// interface owns a driver and calls [`Self::update`] before each picture.
 #[derive(Debug)]
 pub struct Driver {
     form: Form,
     view: Box<View>,
 }
 
-/// Where the work is done.
+/// Whether the session runs in the caller's thread or in its own.
 #[derive(Debug)]
 enum Form {
     Inline(Box<Player>),
@@ -25,7 +25,7 @@ enum Form {
 }
 
 impl Driver {
-    /// A driver that works in [`Self::update`]: for browsers and tests.
+    /// Creates a driver that works inside [`Self::update`], for browsers and tests.
     pub fn inline(watched: impl Into<Watched>) -> Self {
         let mut player = Player::new(watched.into());
         let mut view = Box::<View>::default();
@@ -33,12 +33,12 @@ impl Driver {
         Self { form: Form::Inline(Box::new(player)), view }
     }
 
-    /// A driver that works on a thread of its own, by its own clock: frames do not wait for
-    /// pictures, nor pictures for frames. `on_news` is called there whenever there is a new view.
-    /// The thread ends when the driver is dropped, after the frame under way.
+    /// Creates a driver with its own thread and clock, so that frames and pictures do not wait for
+    /// each other. The thread calls `on_news` for each new view, and ends after the current frame
+    /// when the driver is dropped.
     ///
     /// # Errors
-    /// [`SessionError::Thread`] if no thread can be had.
+    /// [`SessionError::Thread`] if the thread cannot be started.
     #[cfg(not(target_arch = "wasm32"))]
     pub fn threaded(
         watched: impl Into<Watched>,
@@ -50,11 +50,11 @@ impl Driver {
         Ok(Self { form: Form::Threaded(Worker::start(player, on_news)?), view })
     }
 
-    /// Sends a command. It is obeyed after those sent before.
+    /// Sends a command, which is executed after those sent before.
     ///
     /// # Errors
-    /// [`SessionError::Busy`] if too many wait, [`SessionError::Ended`] if the driver has ended;
-    /// the command is not taken then.
+    /// [`SessionError::Busy`] if too many commands wait, [`SessionError::Ended`] if the driver has
+    /// ended; the command is then discarded.
     pub fn send(&mut self, command: Command) -> Result<(), SessionError> {
         match &mut self.form {
             Form::Inline(player) => player.queue.push(command),
@@ -63,9 +63,10 @@ impl Driver {
         }
     }
 
-    /// Brings the view up to date. In place: obeys what was sent and takes the frames that are due
-    /// now that `wall_seconds` have gone by since the last call, at least one piece of work, until
-    /// `time_is_up`. With a thread: takes the newest view. Returns whether the view is a new one.
+    /// Updates the view and returns whether it is new. Without a thread, it executes waiting
+    /// commands and takes the frames that are due after `wall_seconds` since the last call: at
+    /// least one piece of work, then more until `time_is_up`. With a thread, it receives the newest
+    /// view.
     pub fn update(&mut self, wall_seconds: f64, mut time_is_up: impl FnMut() -> bool) -> bool {
         match &mut self.form {
             Form::Inline(player) => {
@@ -85,13 +86,13 @@ impl Driver {
         }
     }
 
-    /// What there is to see, as of the last [`Self::update`].
+    /// View as of the last [`Self::update`].
     pub fn view(&self) -> &View {
         &self.view
     }
 
-    /// Seconds until [`Self::update`] has work to do, if no command is sent; `None` for never, as
-    /// with a thread, which does it and then says that it has news.
+    /// Seconds until [`Self::update`] has work to do, if no command is sent. `None` if it never
+    /// has, and always `None` with a thread, which calls `on_news` instead.
     pub fn seconds_to_work(&self) -> Option<f64> {
         match &self.form {
             Form::Inline(player) => player.seconds_to_work(),
@@ -100,8 +101,8 @@ impl Driver {
         }
     }
 
-    /// For how long the thread has been at work without looking up \[s\]: much of it is one long frame. 0
-    /// where there is no thread, or it sleeps.
+    /// Time for which the thread has been working without a pause \[s\]; a large value means one
+    /// long frame. Returns 0 if there is no thread or it sleeps.
     pub fn seconds_at_work(&self) -> f64 {
         match &self.form {
             Form::Inline(_) => 0.0,
@@ -110,8 +111,8 @@ impl Driver {
         }
     }
 
-    /// How far a picture made now shows spheres on the way from their previous positions to their
-    /// positions, in \[0, 1\].
+    /// Position of a picture made now between two frames, in \[0, 1\]: 0 shows the previous
+    /// positions of spheres, 1 their positions.
     pub fn blend(&self) -> f64 {
         let playback = &self.view.playback;
         let since = match &self.form {

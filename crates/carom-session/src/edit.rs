@@ -1,75 +1,75 @@
-//! Everything that can be changed while a scene runs.
+//! Edits of a running scene.
 
 use carom::{
     ColliderId, DVec3, Emitter, EmitterId, ForceId, Friction, Mass, SphereId, Spring, SpringId,
 };
 use carom_scene::scene::{Color, Force, Simulation};
 
-/// A change from outside.
+/// An edit of a running scene.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Edit {
-    /// How the scene is stepped: the rule and its parameters, the frame time, ...
+    /// Sets the simulation: the rule, its parameters, the frame time, ...
     Simulation(Box<Simulation>),
-    /// Length of a frame \[s\], alone.
+    /// Sets the length of a frame \[s\] only.
     FrameTime(f64),
-    /// Another force in the place of one.
+    /// Replaces a force.
     Force(ForceId, Force),
-    /// One more force.
+    /// Adds a force.
     AddForce(Force),
-    /// A force less.
+    /// Removes a force.
     RemoveForce(ForceId),
-    /// Another spring in the place of one.
+    /// Replaces a spring.
     Spring(SpringId, Spring),
-    /// One more spring.
+    /// Adds a spring.
     AddSpring(Spring),
-    /// A spring less; its spheres stay.
+    /// Removes a spring; its spheres stay.
     RemoveSpring(SpringId),
-    /// Coefficient of restitution of a collider.
+    /// Sets the coefficient of restitution of a collider.
     ColliderRestitution(ColliderId, f64),
-    /// Coefficient of restitution of all colliders.
+    /// Sets the coefficient of restitution of all colliders.
     AllColliderRestitutions(f64),
-    /// What a collider says of friction.
+    /// Sets the friction of a collider.
     ColliderFriction(ColliderId, Friction),
-    /// What all colliders say of friction.
+    /// Sets the friction of all colliders.
     AllColliderFrictions(Friction),
-    /// An emitter. With another period it starts anew, now.
+    /// Replaces an emitter. If its period changes, it starts again now.
     Emitter(EmitterId, Box<Emitter>),
-    /// A sphere.
+    /// Changes a sphere.
     Sphere(SphereId, Box<SphereChange>),
-    /// A new sphere; it may overlap others.
+    /// Adds a sphere; it may overlap others.
     Throw {
-        /// As it starts.
+        /// The new sphere.
         sphere: Box<carom::Sphere>,
-        /// Its colour; by density or the scene's own without one.
+        /// Its colour; `None` for the colour of its density or the scene's default.
         color: Option<Color>,
     },
-    /// A sphere less.
+    /// Removes a sphere.
     RemoveSphere(SphereId),
 }
 
-/// What changes of a sphere; the rest stays as it is when the change comes, so that a sphere which
-/// moves on meanwhile is not set back.
+/// Changed properties of a sphere. The others keep the values that they have when the edit is made,
+/// so that a sphere which has moved in the meantime is not set back.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SphereChange {
     /// Centre \[m\].
     pub position: Option<DVec3>,
     /// Velocity \[m/s\].
     pub velocity: Option<DVec3>,
-    /// Radius \[m\], > 0; the mass stays.
+    /// Radius \[m\], > 0; the mass does not change.
     pub radius: Option<f64>,
     /// Mass \[kg\], > 0.
     pub mass: Option<f64>,
     /// Coefficient of restitution in \[0, 1\].
     pub restitution: Option<f64>,
-    /// All that it says of friction.
+    /// All coefficients of friction.
     pub friction: Option<Friction>,
     /// Angular velocity, along the axis of rotation \[rad/s\].
     pub angular_velocity: Option<DVec3>,
 }
 
 impl SphereChange {
-    /// The sphere, changed.
+    /// Returns the changed sphere.
     pub(crate) fn of(&self, sphere: carom::Sphere) -> carom::Sphere {
         sphere
             .with_position(self.position.unwrap_or(sphere.position))
@@ -81,7 +81,7 @@ impl SphereChange {
             .with_angular_velocity(self.angular_velocity.unwrap_or(sphere.angular_velocity))
     }
 
-    /// This change, then a later one.
+    /// Combines this change with a later one.
     fn then(&self, later: &Self) -> Self {
         Self {
             position: later.position.or(self.position),
@@ -96,12 +96,12 @@ impl SphereChange {
 }
 
 impl Edit {
-    /// What of it makes sense at the beginning of a run, whenever it was made: how things are, not
-    /// where they are; `None` if nothing does.
+    /// Reduces the edit to properties that can be set at the beginning of a run, without positions
+    /// and motion; `None` if nothing remains.
     pub(crate) fn value(&self) -> Option<Self> {
         match self {
             Self::Throw { .. } | Self::RemoveSphere(_) => None,
-            // As the spheres that they join.
+            // Springs depend on the spheres that they join.
             Self::AddSpring(_) | Self::RemoveSpring(_) => None,
             Self::Sphere(id, change) => {
                 let SphereChange { radius, mass, restitution, friction, .. } = **change;
@@ -113,7 +113,7 @@ impl Edit {
         }
     }
 
-    /// One edit instead of this one and a `later` one right after it; `None` if it takes both.
+    /// Merges this edit with a `later` one that directly follows it; `None` if both are needed.
     pub fn merged(&self, later: &Self) -> Option<Self> {
         match (self, later) {
             (Self::Sphere(id, change), Self::Sphere(same, next)) if id == same => {

@@ -1,34 +1,34 @@
-//! What can go wrong with a scene being watched.
+//! Errors of sessions.
 
 use carom_scene::SceneError;
 use thiserror::Error;
 
 impl SessionError {
-    /// Whether a request ended the step, which is no fault.
+    /// Whether the error means that a request ended the step early.
     pub fn is_stop(&self) -> bool {
         matches!(self, Self::World(carom::Error::Stopped { .. }))
     }
 }
 
-/// Why something could not be done. The session is as it was before, unless said otherwise.
+/// Why a session refused an operation. The session is unchanged unless stated otherwise.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SessionError {
-    /// The physics refuses it.
+    /// The physics refused it.
     #[error(transparent)]
     World(#[from] carom::Error),
-    /// It would make a scene that no file could hold.
+    /// The edited scene would not be valid as a file.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// A change of a run that is repeated cannot be made.
+    /// A change of a run that is repeated was refused.
     #[error("at frame {frame}, what was changed there cannot be changed again: {source}")]
     Repeat {
-        /// Where it is now; the changes that were to follow are dropped.
+        /// Frame at which the session is now; the following changes are dropped.
         frame: u64,
-        /// What is wrong with the change.
+        /// Error of the change.
         source: Box<SessionError>,
     },
-    /// No frame is at this time.
+    /// The time is negative or not finite.
     #[error("cannot go to {seconds} s: the time must be zero or positive, and finite")]
     Time {
         /// The time requested \[s\].
@@ -40,13 +40,13 @@ pub enum SessionError {
         /// The time requested \[s\].
         seconds: f64,
     },
-    /// More waits to be done than could be done in seconds.
+    /// Too many commands wait; they would take many seconds.
     #[error("too much waits to be done already; the last command was not taken")]
     Busy,
-    /// No thread can be had to move the spheres.
+    /// The thread of the driver cannot be started.
     #[error("cannot start a thread that moves the spheres: {0}")]
     Thread(#[from] std::io::Error),
-    /// The thread that moves the spheres is gone.
+    /// The thread of the driver has ended.
     #[error("nothing moves any more: the thread that moves the spheres has ended")]
     Ended,
 }

@@ -1,18 +1,18 @@
-//! What is measured of spheres as of the molecules of a gas: temperature and pressure.
+//! Temperature and pressure of spheres as the molecules of a gas.
 
 use carom::{BodyPair, Boundary, ColliderId, DVec3, Shape, Sides, StepReport, World};
 
-/// Motion of spheres relative to that of all together.
+/// Motion of the spheres relative to their centre of mass.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct ThermalMotion {
-    /// Temperature times Boltzmann's constant \[J\]: the mean of `m v²` along one direction, over those in
-    /// which there is any.
+    /// Temperature times Boltzmann's constant \[J\]: the mean of `m v²` per direction, over the
+    /// directions in which spheres move.
     pub energy: f64,
-    /// In how many directions there is any.
+    /// Number of directions in which spheres move.
     pub directions: u8,
 }
 
-/// The motion of all spheres relative to that of all together.
+/// Measures the motion of all spheres relative to their centre of mass.
 pub(crate) fn thermal_motion(world: &World) -> ThermalMotion {
     let spheres = world.spheres();
     let moving = || spheres.masses().iter().zip(spheres.velocities());
@@ -23,7 +23,7 @@ pub(crate) fn thermal_motion(world: &World) -> ThermalMotion {
     }
     let drift = momentum / mass;
     let along: DVec3 = moving().map(|(m, v)| *m * (*v - drift) * (*v - drift)).sum();
-    // Less than this part of the rest is rounding.
+    // A smaller part of the largest energy is a rounding error.
     const NOTHING: f64 = 1e-20;
     let least = NOTHING * along.max_element();
     let directions = along.to_array().iter().filter(|energy| **energy > least).count();
@@ -31,10 +31,11 @@ pub(crate) fn thermal_motion(world: &World) -> ThermalMotion {
     ThermalMotion { energy, directions: directions as u8 }
 }
 
-/// Walls at right angles have normals with a cosine below this: rotations in files have some ten digits.
+/// Largest cosine between normals that count as perpendicular: rotations in files have about ten
+/// digits.
 const SQUARE: f64 = 1e-9;
 
-/// The face of a half-space: where `normal` times a place is `offset` \[m\].
+/// Surface of a half-space: points whose product with `normal` is `offset` \[m\].
 #[derive(Debug, Clone, Copy)]
 struct Plane {
     id: ColliderId,
@@ -43,26 +44,26 @@ struct Plane {
 }
 
 impl Plane {
-    /// Whether its normal is opposite to that of the other.
+    /// Whether the normals are opposite.
     fn faces(&self, other: &Self) -> bool {
         (self.normal + other.normal).length() < SQUARE
     }
 }
 
-/// Where spheres are shut in, so that they have a pressure.
+/// Closed space around the spheres, which defines a pressure.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Enclosure {
-    /// In a closed container with an inner surface of `area` \[m²\].
+    /// A closed container with an inner surface of `area` \[m²\].
     Container { collider: ColliderId, area: f64 },
-    /// In a box of half-spaces with an inner surface of `area` \[m²\].
+    /// A box of half-spaces with an inner surface of `area` \[m²\].
     HalfSpaces { colliders: [ColliderId; 6], area: f64 },
-    /// In a periodic box of `volume` \[m³\].
+    /// A periodic box of `volume` \[m³\].
     Periodic { volume: f64 },
 }
 
 impl Enclosure {
-    /// That of a world: its periodic box, its first container that is closed, or the box that its
-    /// half-spaces are the walls of.
+    /// Finds the enclosure of a world: its periodic box, its first closed container, or the box
+    /// formed by its half-spaces.
     pub fn of(world: &World) -> Option<Self> {
         if let Boundary::Periodic { size } = world.settings().boundary {
             return size.is_finite().then(|| Self::Periodic { volume: size.element_product() });
@@ -77,7 +78,8 @@ impl Enclosure {
         container.or_else(|| Self::of_half_spaces(world))
     }
 
-    /// The box whose walls are all half-spaces there are, if these are the walls of one.
+    /// Finds the box formed by half-spaces: there must be six, in perpendicular pairs that face
+    /// each other.
     fn of_half_spaces(world: &World) -> Option<Self> {
         let solid = world.colliders().filter(|(_, it)| it.shape == Shape::HalfSpace && !it.trigger);
         let planes = solid.map(|(id, it)| {
@@ -85,7 +87,7 @@ impl Enclosure {
             Plane { id, normal, offset: normal.dot(it.pose.position) }
         });
         let mut planes: [Plane; 6] = planes.collect::<Vec<_>>().try_into().ok()?;
-        // Walls beside the ones that they face.
+        // Place each wall next to the one that it faces.
         for i in [0, 2, 4] {
             let opposite = (i + 1..6).find(|&j| planes[i].faces(&planes[j]))?;
             planes.swap(i + 1, opposite);
@@ -98,8 +100,9 @@ impl Enclosure {
         (is_square && x.min(y).min(z) > 0.0).then_some(Self::HalfSpaces { colliders, area })
     }
 
-    /// What the impacts of a step add to the pressure: impulses on the container \[N s\], in a
-    /// periodic box the virial `r J` of the impacts \[N m s\], r being the distance of the centres.
+    /// Contribution of a step to the pressure. For a container or box it is the sum of the impulses
+    /// on the walls \[N s\]; in a periodic box it is the virial `r J` of the impacts \[N m s\],
+    /// where r is the distance of the centres.
     pub fn pressing(&self, report: &StepReport, world: &World) -> f64 {
         let radius = |id| world.sphere(id).map_or(0.0, |sphere| sphere.radius);
         let impacts = report.impacts.iter();
@@ -123,9 +126,10 @@ impl Enclosure {
             .sum()
     }
 
-    /// Pressure \[Pa\] where [`Self::pressing`] grows by `rate` a second, of `count` spheres that move so:
-    /// force by area on a container; in a periodic box, by the virial theorem,
-    /// `(N k T + Σ r J / (d t)) / V`, along the d directions of the motion.
+    /// Pressure \[Pa\] of `count` spheres with this motion, if [`Self::pressing`] grows by `rate`
+    /// per second. In a container it is force divided by area; in a periodic box it follows from
+    /// the virial theorem, `(N k T + Σ r J / (d t)) / V`, where d is the number of directions of
+    /// the motion.
     pub fn pressure(&self, rate: f64, count: usize, motion: ThermalMotion) -> f64 {
         match self {
             Self::Container { area, .. } | Self::HalfSpaces { area, .. } => rate / area,

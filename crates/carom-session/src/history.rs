@@ -1,4 +1,4 @@
-//! The past of a session, from which every frame of it can be had again, bit for bit.
+//! Past of a session, from which every frame can be computed again, bit for bit.
 
 use std::sync::Arc;
 
@@ -11,38 +11,38 @@ use crate::readings::Tally;
 use crate::setup::Setup;
 use crate::timetable::Timetable;
 
-/// Memory that the moments kept may take by default \[bytes\].
+/// Default limit on the memory of stored moments \[bytes\].
 pub const DEFAULT_MEMORY: usize = 256 << 20;
 
-/// Most moments kept: so many that none between two of them is far, so few that to look through
-/// them takes no time.
+/// Most stored moments: enough that every frame is near one, and few enough that searching them
+/// takes no time.
 const MOST_MOMENTS: usize = 1024;
 
 /// Memory per sphere: id, position, velocity, radius, mass, restitution, and the colour \[bytes\].
 const BYTES_PER_SPHERE: usize = 112;
 
-/// Memory per sphere where one turns: orientation and angular velocity \[bytes\].
+/// Memory per sphere if any sphere rotates: orientation and angular velocity \[bytes\].
 const BYTES_PER_ROTATION: usize = 56;
-/// Memory per sphere where one says something of friction or is no solid ball \[bytes\].
+/// Memory per sphere if any sphere has its own friction or is no solid ball \[bytes\].
 const BYTES_PER_FRICTION: usize = 72;
-/// Memory per sphere for its flight and predictions under the rule `exact` \[bytes\]: 250 were
-/// measured in dense gases; the rest is for persistent contacts.
+/// Memory per sphere for flight and predictions under the rule `exact` \[bytes\]: 250 were measured
+/// in dense gases; the rest is for persistent contacts.
 const BYTES_PER_FLIGHT: usize = 400;
 
-/// Memory per collider with its surfaces \[bytes\]; a box, which has most, measured.
+/// Memory per collider with its surfaces \[bytes\], measured for a box, which has most.
 const BYTES_PER_COLLIDER: usize = 3000;
 
-/// Memory of everything whose amount does not grow \[bytes\], generously.
+/// Memory of everything that does not grow with the scene \[bytes\], a generous estimate.
 const BYTES_PER_MOMENT: usize = 2000;
 
-/// A session at one moment.
+/// State of a session at one moment.
 #[derive(Debug, Clone)]
 pub(crate) struct Moment {
     /// Number of frames taken.
     pub frame: u64,
-    /// How many changes came before, of all.
+    /// Number of changes made before.
     pub changes: usize,
-    /// What was counted so far.
+    /// Counts up to this moment.
     pub tally: Tally,
     pub setup: Arc<Setup>,
     pub looks: Looks,
@@ -51,7 +51,7 @@ pub(crate) struct Moment {
 }
 
 impl Moment {
-    /// The present of a world.
+    /// Stores the present state of a world.
     pub fn new(
         frame: u64,
         changes: usize,
@@ -64,20 +64,20 @@ impl Moment {
         Self { frame, changes, tally, setup, looks, state: world.snapshot(), bytes }
     }
 
-    /// What there was then.
+    /// State of the world at this moment.
     pub fn state(&self) -> &Snapshot {
         &self.state
     }
 
-    /// Puts the world back to this moment.
+    /// Restores the world to this moment.
     pub fn restore(&self, world: &mut World) {
         world.restore(&self.state);
     }
 }
 
-/// Memory that a moment of this world takes \[bytes\].
+/// Estimated memory of a moment of this world \[bytes\].
 fn estimated_bytes(world: &World, frame: u64) -> usize {
-    // Before the first frame, nothing has been predicted.
+    // Before the first frame there are no predictions.
     let has_flights = frame > 0 && matches!(world.settings().rule, Rule::Exact(_));
     let spheres = world.spheres();
     let has_friction = !(spheres.frictions().is_empty() && spheres.inertia_factors().is_empty());
@@ -91,27 +91,28 @@ fn estimated_bytes(world: &World, frame: u64) -> usize {
     BYTES_PER_MOMENT + spheres.len() * per_sphere + world.colliders().len() * BYTES_PER_COLLIDER
 }
 
-/// The past of a session: moments, and the changes from outside.
+/// Past of a session: stored moments, and all changes from outside.
 ///
-/// Steps and changes are deterministic, so each frame follows from any moment before it. Changes
-/// are kept all, being small; moments within a bound of memory: dense near the present and thinner
-/// the farther away, so that going back costs time in proportion to how far one goes.
+/// Steps and changes are deterministic, so each frame can be computed from any earlier moment. All
+/// changes are stored, because they are small. Moments are stored within a limit of memory: densely
+/// near the present, and more sparsely farther away, so that the cost of going back is proportional
+/// to the distance.
 #[derive(Debug)]
 pub(crate) struct History {
-    /// Ascending by frame; the first is frame 0.
+    /// Stored moments, ascending by frame; the first is frame 0.
     moments: Vec<Moment>,
-    /// Ascending by frame. Those after the furthest frame are made when it is reached.
+    /// All changes, ascending by frame. Those after the furthest frame are made when it is reached.
     changes: Arc<Vec<PastChange>>,
-    /// Up to the furthest frame.
+    /// Times of frames, up to the furthest one.
     timetable: Timetable,
     furthest: (u64, f64),
-    /// Bound on the memory of the moments but the first \[bytes\].
+    /// Limit on the memory of the moments without the first \[bytes\].
     memory: usize,
 }
 
 impl History {
-    /// A past that begins with `start`, with frames of `frame_time` \[s\]; `changes`, ascending by
-    /// frame, are to come.
+    /// Creates a past that begins with `start`, with frames of `frame_time` \[s\]. `changes`,
+    /// ascending by frame, are still to be made.
     pub fn new(start: Moment, frame_time: f64, changes: Arc<Vec<PastChange>>) -> Self {
         Self {
             moments: vec![start],
@@ -122,7 +123,7 @@ impl History {
         }
     }
 
-    /// Bounds the memory of the moments \[bytes\]. The first is always kept.
+    /// Sets the limit on the memory of moments \[bytes\]. The first moment is always kept.
     pub fn set_memory(&mut self, bytes: usize, present: u64) {
         self.memory = bytes;
         self.thin_out(present);
@@ -133,34 +134,34 @@ impl History {
         self.moments.iter().map(|moment| moment.bytes).sum()
     }
 
-    /// The last frame reached, and its time \[s\].
+    /// Furthest frame reached, and its time \[s\].
     pub fn furthest(&self) -> (u64, f64) {
         self.furthest
     }
 
-    /// Notes that a frame was reached, at `time` \[s\].
+    /// Records that a frame was reached, at `time` \[s\].
     pub fn reach(&mut self, frame: u64, time: f64) {
         if frame > self.furthest.0 {
             self.furthest = (frame, time);
         }
     }
 
-    /// All changes, ascending by frame; those after the furthest frame are still to come.
+    /// All changes, ascending by frame; those after the furthest frame are still to be made.
     pub fn changes(&self) -> &Arc<Vec<PastChange>> {
         &self.changes
     }
 
-    /// The change after the first `done`, if it comes at this frame.
+    /// Returns the change that follows the first `done` ones, if it belongs to this frame.
     pub fn change_at(&self, frame: u64, done: usize) -> Option<&Change> {
         self.changes.get(done).filter(|it| it.frame == frame).map(|it| &it.change)
     }
 
-    /// Forgets all changes but the first `count`.
+    /// Removes all changes except the first `count`.
     pub fn forget_changes_after(&mut self, count: usize) {
         Arc::make_mut(&mut self.changes).truncate(count);
     }
 
-    /// Cuts off what comes after this frame, at `time` \[s\].
+    /// Removes everything after this frame, at `time` \[s\].
     pub fn cut(&mut self, frame: u64, time: f64) {
         self.moments.retain(|moment| moment.frame <= frame);
         self.forget_changes_after(self.changes.partition_point(|it| it.frame <= frame));
@@ -168,7 +169,7 @@ impl History {
         self.furthest = (frame, time);
     }
 
-    /// Puts other changes in the place of all, and drops the moments that they make wrong.
+    /// Replaces all changes, and drops the moments that they make invalid.
     pub fn rewrite(&mut self, changes: Arc<Vec<PastChange>>) {
         let same = self.changes.iter().zip(changes.iter()).take_while(|(old, new)| old == new);
         let kept = same.count();
@@ -179,8 +180,8 @@ impl History {
         self.changes = changes;
     }
 
-    /// Makes this frame, at `time` \[s\], the last one that was reached; frames after it last for
-    /// `frame_time` \[s\]. Changes after it are still to come.
+    /// Makes this frame, at `time` \[s\], the furthest one. The frames after it last `frame_time`
+    /// \[s\]; changes after it are still to be made.
     pub fn end(&mut self, frame: u64, time: f64, frame_time: f64) {
         self.moments.retain(|moment| moment.frame <= frame);
         self.timetable.cut(frame);
@@ -188,19 +189,19 @@ impl History {
         self.note_frame_time(frame_time);
     }
 
-    /// The times of all edits \[s\], ascending.
+    /// Times of all edits \[s\], ascending.
     pub fn edit_times(&self) -> Vec<f64> {
         let edits = self.changes.iter().filter(|it| matches!(it.change, Change::Edit(_)));
         let timetable = self.complete_timetable();
         edits.map(|it| timetable.time_of(it.frame)).collect()
     }
 
-    /// The time of a frame \[s\], to rounding.
+    /// Time of a frame \[s\], up to rounding.
     pub fn time_of(&self, frame: u64) -> f64 {
         self.complete_timetable().time_of(frame)
     }
 
-    /// With the frames that are to come.
+    /// Timetable including the frames that are still to come.
     fn complete_timetable(&self) -> Timetable {
         let reached = self.changes.partition_point(|it| it.frame <= self.furthest.0);
         let mut timetable = self.timetable.clone();
@@ -208,8 +209,8 @@ impl History {
         timetable
     }
 
-    /// Notes a change at the last frame, after which frames last for `frame_time` \[s\]. Returns
-    /// how many changes there are.
+    /// Adds a change at the furthest frame, after which frames last `frame_time` \[s\]. Returns the
+    /// number of changes up to it.
     pub fn note(&mut self, change: Change, frame_time: f64) -> usize {
         let frame = self.furthest.0;
         let place = self.changes.partition_point(|it| it.frame <= frame);
@@ -218,21 +219,21 @@ impl History {
         place + 1
     }
 
-    /// Notes that after the last frame, frames last for `frame_time` \[s\].
+    /// Records that frames after the furthest one last `frame_time` \[s\].
     pub fn note_frame_time(&mut self, frame_time: f64) {
         let (frame, time) = self.furthest;
         self.timetable.note(frame, time, frame_time);
     }
 
-    /// The frame nearest to a time \[s\], which may be one not reached yet.
+    /// Frame nearest to a time \[s\], which may lie in the future.
     ///
     /// # Errors
-    /// As [`Timetable::frame_at`].
+    /// The same as those of [`Timetable::frame_at`].
     pub fn frame_at(&self, time: f64) -> Result<u64, SessionError> {
         self.complete_timetable().frame_at(time)
     }
 
-    /// Whether the last change at the last frame was a failed step.
+    /// Whether the last change at the furthest frame was a failed step.
     pub fn ends_with_failed_step(&self) -> bool {
         let frame = self.furthest.0;
         let count = self.changes.partition_point(|it| it.frame <= frame);
@@ -240,24 +241,24 @@ impl History {
         last.is_some_and(|it| it.frame == frame && it.change == Change::FailedStep)
     }
 
-    /// All moments kept up to a frame, ascending by frame.
+    /// Stored moments up to a frame, ascending by frame.
     pub fn until(&self, frame: u64) -> impl Iterator<Item = &Moment> {
         self.moments.iter().take_while(move |moment| moment.frame <= frame)
     }
 
-    /// The last moment kept that is not after this frame.
+    /// Last stored moment that is not after this frame.
     pub fn before(&self, frame: u64) -> &Moment {
         let later = self.moments.partition_point(|moment| moment.frame <= frame);
         &self.moments[later.saturating_sub(1)]
     }
 
-    /// Whether the present of this world, at this frame, is to be kept: every frame is, to begin
-    /// with, since a copy takes a small part of the time of a step.
+    /// Whether to store the present state at this frame. Initially every frame is stored, because a
+    /// copy is much cheaper than a step.
     pub fn wants(&self, frame: u64, world: &World) -> bool {
         self.before(frame).frame < frame && estimated_bytes(world, frame) <= self.memory
     }
 
-    /// Keeps a moment, unless its frame is kept already; makes place for it.
+    /// Stores a moment, unless its frame is stored already; removes others if necessary.
     pub fn keep(&mut self, moment: Moment) {
         let present = moment.frame;
         let place = self.moments.partition_point(|it| it.frame < moment.frame);
@@ -268,8 +269,8 @@ impl History {
         self.thin_out(present);
     }
 
-    /// Drops moments until the rest is within the bound: first those without which the way to a
-    /// frame grows least, compared with how far it is from the present.
+    /// Drops moments until the rest is within the limit. It drops first those whose loss increases
+    /// the distance to a frame least, relative to their distance from the present.
     fn thin_out(&mut self, present: u64) {
         let first = self.moments.first().map_or(0, |moment| moment.bytes);
         let mut bytes = self.bytes() - first;
@@ -280,7 +281,7 @@ impl History {
         }
     }
 
-    /// The place of the moment that is missed least; there are two at least.
+    /// Index of the moment whose loss matters least; there must be at least two moments.
     fn least_missed(&self, present: u64) -> usize {
         let frame = |place: usize| self.moments.get(place).map(|moment| moment.frame);
         let loss = |place: &usize| {

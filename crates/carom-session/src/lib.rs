@@ -1,9 +1,9 @@
-//! A scene being watched: its world, its past, and what is measured on the way.
+//! Interactive simulation: a scene with its past, its edits and its measurements.
 //!
-//! A [`Session`] takes a scene from frame to frame, goes back and forth in time, and is edited on
-//! the way. A [`Comparison`] is two of them in lockstep. A [`Driver`] moves either at the pace of
-//! a clock, in place or on a thread of its own, as [`Command`]s say, and publishes a
-//! [`View`] of it: all that an interface shows.
+//! A [`Session`] steps a scene, goes back and forth in time, and makes edits. A [`Comparison`]
+//! holds two sessions at the same frame. A [`Driver`] runs either at the pace of a clock, in the
+//! caller's thread or its own, executes [`Command`]s, and publishes a [`View`] with everything that
+//! an interface shows.
 //!
 //! Nothing here draws, and only the thread of a driver reads a clock.
 //!

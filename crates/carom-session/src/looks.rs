@@ -1,4 +1,4 @@
-//! Colours and finishes of single spheres, of which a world knows nothing.
+//! Colours and finishes of single spheres, which a world does not store.
 
 use std::sync::Arc;
 
@@ -8,37 +8,37 @@ use carom_scene::scene::{self, Color, Generator, Scene};
 
 use crate::setup::Setup;
 
-/// Spheres whose densities differ by no more than this part are of one density: a mass was made of
-/// it and the volume, with three roundings each way.
+/// Largest relative difference of equal densities: a mass was computed from density and volume and
+/// back, with three rounding errors each way.
 const SAME_DENSITY: f64 = 1e-12;
 
-/// Tolerance of the frame rules for what is due at the start of a frame \[s\]
+/// Tolerance of the frame rules for emissions at the start of a frame \[s\]
 /// (`docs/physics/motion.md`, "Emission").
 const DUE_TOLERANCE: f64 = 1e-9;
 
-/// Which spheres have which look of their own.
+/// Paint of single spheres.
 ///
-/// A sphere gets its look when it comes into the world: its own, or the colour of its density; later
-/// changes of its mass keep it. For emitted spheres, the emitters' schedules are followed, since a
-/// world does not say which of several emitters a sphere came from.
+/// A sphere gets its paint when it is added: its own, or the colour of its density. Later changes
+/// of its mass do not change the paint. The schedules of emitters are followed, because a world
+/// does not report which emitter created a sphere.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Looks {
-    /// Ascending by id. Spheres that are gone are left out from time to time.
+    /// Paints, ascending by id. Those of removed spheres are dropped from time to time.
     paints: Arc<Vec<(SphereId, Paint)>>,
     schedules: Vec<Schedule>,
 }
 
-/// How far an emitter has come: sphere number k is due at `start + k period`.
+/// Progress of an emitter: it emits sphere number k at `start + k period`.
 #[derive(Debug, Clone, Copy)]
 struct Schedule {
     id: EmitterId,
-    /// \[s\]
+    /// Time at which the emitter started \[s\].
     start: f64,
     emitted: u64,
 }
 
 impl Schedule {
-    /// When the next sphere is due \[s\], in the very operations of the physics.
+    /// Time of the next emission \[s\], computed with exactly the operations of the physics.
     fn due(&self, setup: &Setup) -> f64 {
         let emitter = setup.emitters.iter().find(|(id, _)| *id == self.id);
         let period = emitter.map_or(f64::INFINITY, |(_, emitter)| emitter.period);
@@ -47,7 +47,7 @@ impl Schedule {
 }
 
 impl Looks {
-    /// At the start of a scene, of which `world` was made.
+    /// Paints at the start of a scene and its world.
     pub fn new(scene: &Scene, world: &World) -> Self {
         let single = scene.spheres.iter().map(|sphere| (sphere, 1));
         let all = single.chain(scene.generators.iter().filter_map(generated));
@@ -60,26 +60,26 @@ impl Looks {
         Self { paints: Arc::new(own.collect()), schedules: schedules.collect() }
     }
 
-    /// Looks of single spheres, ascending by id.
+    /// Paints of single spheres, ascending by id.
     pub fn paints(&self) -> &[(SphereId, Paint)] {
         &self.paints
     }
 
-    /// Gives the sphere that was added last a look.
+    /// Sets the paint of the sphere that was added last.
     pub fn paint(&mut self, id: SphereId, paint: Paint) {
         if paint != Paint::default() {
             Arc::make_mut(&mut self.paints).push((id, paint));
         }
     }
 
-    /// An emitter starts anew at `time` \[s\].
+    /// Restarts the schedule of an emitter at `time` \[s\].
     pub fn restart_emitter(&mut self, id: EmitterId, time: f64) {
         for schedule in self.schedules.iter_mut().filter(|schedule| schedule.id == id) {
             (schedule.start, schedule.emitted) = (time, 0);
         }
     }
 
-    /// Notes what emitters did in a frame that started at `start` \[s\].
+    /// Records the emissions of a frame that started at `start` \[s\].
     pub fn note(
         &mut self,
         report: &StepReport,
@@ -88,7 +88,7 @@ impl Looks {
         world: (&World, &Setup),
     ) {
         let (world, setup) = world;
-        // What was left out was due, too.
+        // Spheres that were left out also count as emissions.
         let mut due: Vec<_> = report.emitted.iter().chain(&report.left_out).copied().collect();
         if due.is_empty() {
             return;
@@ -106,8 +106,8 @@ impl Looks {
         self.forget_the_gone(world);
     }
 
-    /// The emitters that `count` spheres came from which were emitted in a frame, in their order:
-    /// of what is due at the start emitter by emitter, after that by time.
+    /// Returns the emitters of `count` spheres that were emitted in a frame, in order: at the start
+    /// of the frame by emitter, afterwards by time.
     fn sources(&mut self, count: usize, start: f64, exact: bool, setup: &Setup) -> Vec<EmitterId> {
         let mut sources = Vec::with_capacity(count);
         let mut until = if exact { start } else { start + DUE_TOLERANCE };
@@ -123,8 +123,8 @@ impl Looks {
         sources
     }
 
-    /// Forgets spheres that are gone, once they are as many as those that are there: so each costs
-    /// a constant time.
+    /// Drops paints of removed spheres once they outnumber the others, so that the cost per sphere
+    /// is constant.
     fn forget_the_gone(&mut self, world: &World) {
         if self.paints.len() > 2 * world.spheres().len() {
             Arc::make_mut(&mut self.paints)
@@ -133,18 +133,18 @@ impl Looks {
     }
 }
 
-/// What the spheres of a generator have in common, and how many there are.
+/// Sphere of a generator, and their number.
 fn generated(generator: &Generator) -> Option<(&scene::Sphere, usize)> {
     Some((generator.sphere()?, usize::try_from(generator.count()).unwrap_or(usize::MAX)))
 }
 
-/// The look of spheres of this description.
+/// Paint of spheres with this description.
 fn paint_of_template(scene: &Scene, sphere: &scene::Sphere) -> Paint {
     let color = sphere.color.or_else(|| color_of_template(scene, sphere));
     Paint { color, finish: sphere.finish }
 }
 
-/// The colour that a scene gives spheres of this description by their density.
+/// Colour of the density of spheres with this description.
 fn color_of_template(scene: &Scene, sphere: &scene::Sphere) -> Option<Color> {
     let radius = sphere.radius.or(sphere.diameter.map(|diameter| 0.5 * diameter))?;
     let density =
@@ -152,12 +152,12 @@ fn color_of_template(scene: &Scene, sphere: &scene::Sphere) -> Option<Color> {
     color_of_density(scene, density)
 }
 
-/// The colour that a scene gives a sphere by its density.
+/// Colour of the density of a sphere in a scene.
 pub(crate) fn color_of(scene: &Scene, sphere: &Sphere) -> Option<Color> {
     color_of_density(scene, sphere.kilograms() / carom::volume(sphere.radius))
 }
 
-/// The colour that a scene gives spheres of this density \[kg/m³\].
+/// Colour of a density \[kg/m³\] in a scene.
 fn color_of_density(scene: &Scene, density: f64) -> Option<Color> {
     let colors = scene.colors.as_ref()?;
     let is_it = |listed: &&scene::DensityColor| {

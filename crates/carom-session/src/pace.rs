@@ -1,4 +1,4 @@
-//! How many frames are due: the pace of simulated time beside that of a clock.
+//! Converts the time of a clock to numbers of frames.
 
 use std::collections::VecDeque;
 
@@ -8,40 +8,40 @@ pub const SLOWEST: f64 = 1.0 / 50.0;
 /// Fastest speed: simulated seconds per second of the clock.
 pub const FASTEST: f64 = 10.0;
 
-/// Delay that is made up for \[s of the clock\]: one that is hardly seen. More than that is lost,
-/// so that a machine that is too slow shows a slower motion, and does not fall behind for ever.
+/// Largest delay that is made up for \[s of the clock\]: it is hardly visible. Larger delays are
+/// lost, so that a slow machine shows slower motion instead of falling further behind.
 pub const LONGEST_DELAY: f64 = 0.25;
 
-/// Time over which the pace is measured \[s of the clock\].
+/// Time over which the speed is measured \[s of the clock\].
 const MEASURED: f64 = 1.0;
 
-/// Time that one of the measurements covers at least \[s of the clock\].
+/// Shortest time for which a measurement is reported \[s of the clock\].
 const MEASUREMENT: f64 = 0.1;
 
-/// Part of the wish that may be lost while keeping up: what jitter of a clock makes.
+/// Fraction of the requested time that jitter of the clock may lose without a warning.
 const UNNOTICED_LOSS: f64 = 0.02;
 
-/// What happened in a stretch of time.
+/// Simulated time during one call.
 #[derive(Debug, Clone, Copy, Default)]
 struct Measurement {
     /// \[s of the clock\]
     wall: f64,
-    /// Wished for \[simulated s\].
+    /// Requested time \[simulated s\].
     wished: f64,
-    /// Lost of that \[simulated s\].
+    /// Part of the requested time that was lost \[simulated s\].
     lost: f64,
-    /// Taken in frames \[simulated s\].
+    /// Time simulated in frames \[simulated s\].
     taken: f64,
 }
 
-/// The pace of simulated time. It has no clock of its own: its caller passes the time that went by.
+/// Converts elapsed time to frames. It has no clock of its own: the caller passes the elapsed time.
 #[derive(Debug, Clone)]
 pub struct Pace {
     playing: bool,
     speed: f64,
-    /// Length of a frame, as given last \[simulated s\].
+    /// Length of the last frame \[simulated s\].
     frame_time: f64,
-    /// Time that went by since the frame taken last was due \[simulated s\].
+    /// Time since the last frame was due \[simulated s\].
     owed: f64,
     measured: VecDeque<Measurement>,
 }
@@ -53,18 +53,18 @@ impl Default for Pace {
 }
 
 impl Pace {
-    /// Stopped, as fast as the clock when it plays.
+    /// Creates a stopped pace with speed 1.
     pub fn new() -> Self {
         let measured = VecDeque::new();
         Self { playing: false, speed: 1.0, frame_time: f64::INFINITY, owed: 0.0, measured }
     }
 
-    /// Whether time goes on.
+    /// Whether it is playing.
     pub fn is_playing(&self) -> bool {
         self.playing
     }
 
-    /// Lets time go on or stops it.
+    /// Starts or stops playing.
     pub fn set_playing(&mut self, playing: bool) {
         if playing != self.playing {
             self.measured.clear();
@@ -72,13 +72,12 @@ impl Pace {
         self.playing = playing;
     }
 
-    /// Simulated seconds per second of the clock.
+    /// Speed in simulated seconds per second of the clock.
     pub fn speed(&self) -> f64 {
         self.speed
     }
 
-    /// Sets the speed, to the nearest one there is between [`SLOWEST`] and [`FASTEST`]; what is
-    /// not a number changes nothing.
+    /// Sets the speed, limited to the range from [`SLOWEST`] to [`FASTEST`]; ignores NaN.
     pub fn set_speed(&mut self, speed: f64) {
         if !speed.is_nan() {
             self.speed = speed.clamp(SLOWEST, FASTEST);
@@ -86,7 +85,7 @@ impl Pace {
         }
     }
 
-    /// How many frames of `frame_time` \[s\] are to be taken now that `wall_seconds` have gone by.
+    /// Returns the number of frames of `frame_time` \[s\] that are due after `wall_seconds`.
     pub fn frames_due(&mut self, wall_seconds: f64, frame_time: f64) -> u64 {
         let is_time = frame_time > 0.0 && wall_seconds >= 0.0 && wall_seconds.is_finite();
         if !(self.playing && is_time) {
@@ -94,7 +93,7 @@ impl Pace {
         }
         self.frame_time = frame_time;
         let wished = wall_seconds * self.speed;
-        // What a stall lost before is no part of the way to the next frame.
+        // Time lost in a stall does not count towards the next frame.
         let counted = wished.min(LONGEST_DELAY * self.speed);
         self.owed += counted;
         let lost = wished - counted + self.limit();
@@ -104,8 +103,8 @@ impl Pace {
         due as u64
     }
 
-    /// Gives back frames that were due and could not be taken: they stay due, as far as the delay
-    /// can be made up for.
+    /// Returns frames that were due but could not be taken. They remain due, within the longest
+    /// delay.
     pub fn give_back(&mut self, frames: u64) {
         if frames == 0 {
             return;
@@ -113,14 +112,14 @@ impl Pace {
         let time = frames as f64 * self.frame_time;
         self.owed += time;
         let lost = self.limit();
-        // They were counted in the last measurement.
+        // These frames were counted in the last measurement.
         if let Some(last) = self.measured.back_mut() {
             last.lost += lost;
             last.taken -= time;
         }
     }
 
-    /// Limits what is owed to a frame and the longest delay; returns what was lost.
+    /// Limits the owed time to a frame plus the longest delay; returns the time lost.
     fn limit(&mut self) -> f64 {
         let most = self.frame_time + LONGEST_DELAY * self.speed;
         let lost = (self.owed - most).max(0.0);
@@ -128,19 +127,19 @@ impl Pace {
         lost
     }
 
-    /// Another frame was taken or shown out of turn: the next one is due at once.
+    /// Makes the next frame due at once, after a frame was taken or shown out of turn.
     pub fn show_whole_frame(&mut self) {
         self.owed = if self.frame_time.is_finite() { self.frame_time } else { 0.0 };
     }
 
-    /// Part of the frame under way that has gone by, in \[0, 1\]: a picture shows spheres so far on
-    /// the way from the last frame but one to the last.
+    /// Elapsed fraction of the current frame, in \[0, 1\]. Pictures show spheres at this fraction
+    /// between the last two frames.
     pub fn blend(&self) -> f64 {
         // Before the first frame there is nothing to blend.
         if self.frame_time.is_finite() { (self.owed / self.frame_time).min(1.0) } else { 1.0 }
     }
 
-    /// How fast [`Self::blend`] grows \[1/s of the clock\].
+    /// Growth of [`Self::blend`] \[1/s of the clock\].
     pub fn blend_rate(&self) -> f64 {
         if self.playing { self.speed / self.frame_time } else { 0.0 }
     }
@@ -150,16 +149,16 @@ impl Pace {
         self.playing.then(|| ((frame_time - self.owed) / self.speed).max(0.0))
     }
 
-    /// Simulated seconds per second of the clock, over the last second or so; `None` before
-    /// anything was measured. Where the machine keeps up, it is the speed.
+    /// Measured speed in simulated seconds per second of the clock, over about the last second;
+    /// `None` before the first measurement. It equals the speed if the machine keeps up.
     pub fn realtime_factor(&self) -> Option<f64> {
         let wall: f64 = self.measured.iter().map(|it| it.wall).sum();
         let taken: f64 = self.measured.iter().map(|it| it.taken).sum();
-        // A single short look would measure when frames fall, not how many there are.
+        // Over a shorter time, the result would depend on when frames are due.
         (wall >= MEASUREMENT).then(|| taken / wall)
     }
 
-    /// Whether, over the last second or so, the frames that were due could be taken.
+    /// Whether the frames that were due in about the last second could be taken.
     pub fn keeps_up(&self) -> bool {
         let wished: f64 = self.measured.iter().map(|it| it.wished).sum();
         let lost: f64 = self.measured.iter().map(|it| it.lost).sum();

@@ -1,8 +1,8 @@
-//! Ways in a space that may repeat itself.
+//! Displacements in a periodic box.
 
 use carom::DVec3;
 
-/// The whole edges \[m\] of a periodic box that are nearest to `way`; zero along open axes.
+/// Multiple of the edges of a periodic box that is nearest to `way` \[m\]; zero along open axes.
 pub(crate) fn whole_edges(way: DVec3, size: DVec3) -> DVec3 {
     let along =
         |way: f64, size: f64| if size.is_finite() { (way / size).round() * size } else { 0.0 };

@@ -1,4 +1,4 @@
-//! Obeys commands and takes the frames that are due, a piece of work at a time.
+//! Executes commands and takes due frames in small pieces of work.
 
 use std::sync::Arc;
 
@@ -13,20 +13,20 @@ use crate::session::Session;
 use crate::view::{Playback, View};
 use crate::watched::Watched;
 
-/// Edits of one thing that are no further apart are one gesture \[s\].
+/// Edits of one thing within this time are one gesture \[s\].
 const GESTURE: f64 = 1.0;
 
-/// What both forms of a driver have in common: it knows neither clock nor thread.
+/// Common part of both forms of a driver, without clock and thread.
 #[derive(Debug)]
 pub(crate) struct Player {
     watched: Watched,
     pace: Pace,
     pub queue: Queue,
-    /// The last edit, and how long it is ago \[s\].
+    /// The last edit, and the time since then \[s\].
     last_edit: Option<(Edit, f64)>,
     shows_state_hash: bool,
     shows_contacts: bool,
-    /// Ends a frame at work early.
+    /// Ends the current frame early.
     stop_request: Option<StopRequest>,
     error: Option<Arc<SessionError>>,
     /// Whether anything changed since [`Self::fill`].
@@ -48,20 +48,20 @@ impl Player {
         }
     }
 
-    /// Has frames that come by themselves end early once a request is made. Those that a command takes
-    /// are taken whole, for commands are obeyed in the order in which they are sent.
+    /// Sets a request that ends frames early during playback. Frames of commands are always
+    /// completed, because commands are executed in order.
     #[cfg(not(target_arch = "wasm32"))]
     pub fn set_stop_request(&mut self, request: StopRequest) {
         self.stop_request = Some(request);
     }
 
-    /// Obeys what waits and takes the frames that are due now that `wall_seconds` have gone by, at
-    /// least one piece of work, and no more once `time_is_up`.
+    /// Executes waiting commands and takes the frames that are due after `wall_seconds`: at least
+    /// one piece of work, then more until `time_is_up`.
     pub fn update(&mut self, wall_seconds: f64, time_is_up: &mut dyn FnMut() -> bool) {
         if let Some((_, seconds)) = &mut self.last_edit {
             *seconds += wall_seconds;
         }
-        // Time that went by at a stop or on the way elsewhere is not to be made up for.
+        // Time while stopped or seeking is not made up for.
         let was_playing = self.pace.is_playing() && self.watched.seeking().is_none();
         let is_done = self.obey(time_is_up);
         if is_done {
@@ -70,7 +70,7 @@ impl Player {
         }
     }
 
-    /// Obeys what waits. Returns whether nothing does any more.
+    /// Executes waiting commands; returns whether none is left.
     fn obey(&mut self, time_is_up: &mut dyn FnMut() -> bool) -> bool {
         loop {
             let is_on_the_way = self.watched.seeking().is_some();
@@ -90,8 +90,8 @@ impl Player {
         }
     }
 
-    /// The next command to obey. On the way elsewhere what depends on the time waits until the end of
-    /// the way, or until it is given up.
+    /// Returns the next command to execute. During a seek, commands that depend on the time wait
+    /// until the seek ends.
     fn next_command(&mut self, is_on_the_way: bool) -> Option<Command> {
         if !is_on_the_way {
             return self.queue.pop_if(|_| true);
@@ -162,7 +162,7 @@ impl Player {
         Ok(())
     }
 
-    /// Takes changes back, or makes them again.
+    /// Undoes or repeats edits.
     fn revise(&mut self, how: impl Fn(&mut Watched) -> bool) {
         self.last_edit = None;
         if how(&mut self.watched) {
@@ -182,7 +182,7 @@ impl Player {
         self.pace.show_whole_frame();
     }
 
-    /// What cannot be opened leaves what is open as it is.
+    /// Opens a session; keeps the present one if that fails.
     fn open(&mut self, opened: Result<Watched, SessionError>) {
         match opened {
             Ok(watched) => {
@@ -195,7 +195,8 @@ impl Player {
         }
     }
 
-    /// Pauses if something went wrong. A frame that was stopped waits for the command that stopped it.
+    /// Stops playing after an error. A frame that was interrupted waits for the command that
+    /// interrupted it.
     fn stop_on_error(&mut self, result: Result<(), SessionError>) {
         if let Err(error) = result
             && !error.is_stop()
@@ -228,12 +229,12 @@ impl Player {
         self.has_news
     }
 
-    /// Whether it is on the way elsewhere.
+    /// Whether a seek is under way.
     pub fn is_seeking(&self) -> bool {
         self.watched.seeking().is_some()
     }
 
-    /// Seconds until there is work to do, without a command; `None` for never.
+    /// Seconds until there is work to do without a command; `None` if there never is.
     pub fn seconds_to_work(&self) -> Option<f64> {
         if self.is_seeking() || !self.queue.is_empty() {
             return Some(0.0);
@@ -241,7 +242,7 @@ impl Player {
         self.pace.seconds_to_next_frame(self.watched.session().frame_time())
     }
 
-    /// Copies all that an interface shows.
+    /// Copies everything that an interface shows.
     pub fn fill(&mut self, view: &mut View) {
         self.has_news = false;
         self.watched.fill(view);
@@ -255,7 +256,7 @@ impl Player {
         }
     }
 
-    /// How it is played.
+    /// State of playback.
     pub fn playback(&self) -> Playback {
         Playback {
             playing: self.pace.is_playing(),

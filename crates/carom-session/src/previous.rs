@@ -1,20 +1,20 @@
-//! Where spheres were a frame ago, and how they were turned, for pictures between two frames.
+//! Positions and orientations one frame ago, for pictures between two frames.
 
 use carom::{Boundary, DQuat, DVec3, SphereId, World};
 
 use crate::periodic;
 
-/// Positions and orientations a frame ago, one for each sphere there is now.
+/// Positions and orientations one frame ago, one for each present sphere.
 #[derive(Debug, Clone)]
 pub(crate) struct Previous {
     ids: Vec<SphereId>,
     positions: Vec<DVec3>,
-    /// Empty while no sphere was ever turned.
+    /// Empty while no sphere has rotated.
     orientations: Vec<DQuat>,
 }
 
 impl Previous {
-    /// The present.
+    /// Stores the present state.
     pub fn new(world: &World) -> Self {
         let spheres = world.spheres();
         Self {
@@ -24,7 +24,7 @@ impl Previous {
         }
     }
 
-    /// Takes over the present, without allocating where there is place.
+    /// Stores the present state in the existing memory.
     pub fn remember(&mut self, world: &World) {
         self.ids.clear();
         self.ids.extend_from_slice(world.spheres().ids());
@@ -34,8 +34,8 @@ impl Previous {
         self.orientations.extend_from_slice(world.spheres().orientations());
     }
 
-    /// Fits what was remembered to the spheres after a frame: a new one was where it is now, and
-    /// one that crossed a periodic boundary was beyond it.
+    /// Adapts the stored state to the spheres after a frame. A new sphere gets its present
+    /// position; a sphere that crossed a periodic boundary gets its position beyond the boundary.
     pub fn align(&mut self, world: &World) {
         if !world.spheres().orientations().is_empty() {
             self.orientations.resize(self.ids.len(), DQuat::IDENTITY);
@@ -65,19 +65,20 @@ impl Previous {
         self.ids.extend_from_slice(spheres.ids());
     }
 
-    /// \[m\]
+    /// Positions \[m\].
     pub fn positions(&self) -> &[DVec3] {
         &self.positions
     }
 
-    /// From the coordinate system of each sphere to the world's; empty while no sphere was ever
-    /// turned.
+    /// Rotations from the coordinate system of each sphere to the world's; empty while no sphere
+    /// has rotated.
     pub fn orientations(&self) -> &[DQuat] {
         &self.orientations
     }
 }
 
-/// The values before, in the order of the values now; of a sphere without an old index, the value now.
+/// Orders previous values as the present ones; a sphere without an old index gets its present
+/// value.
 fn fitted<T: Copy>(old: &[Option<usize>], before: &[T], now: &[T]) -> Vec<T> {
     old.iter().zip(now).map(|(old, now)| old.map_or(*now, |index| before[index])).collect()
 }

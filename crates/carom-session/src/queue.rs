@@ -1,16 +1,15 @@
-//! Commands that wait to be obeyed.
+//! Queue of commands.
 
 use std::collections::VecDeque;
 
 use crate::command::Command;
 use crate::error::SessionError;
 
-/// Most commands that wait: far more than a user sends on purpose while a frame is taken, far less
-/// than would be felt in memory.
+/// Most waiting commands: far more than a user sends during a frame, and little memory.
 pub(crate) const MOST_WAITING: usize = 256;
 
-/// Commands that wait, in order. Those that a next one makes needless are left out, so that a
-/// slider that is dragged while a long frame is taken leaves one edit.
+/// Waiting commands, in order. Commands made obsolete by the next one are merged with it, so that
+/// dragging a slider during a long frame leaves one edit.
 #[derive(Debug, Default)]
 pub(crate) struct Queue(VecDeque<Command>);
 
@@ -18,7 +17,7 @@ impl Queue {
     /// Appends a command.
     ///
     /// # Errors
-    /// [`SessionError::Busy`] if there is no place; the command is not taken then.
+    /// [`SessionError::Busy`] if the queue is full; the command is then discarded.
     pub fn push(&mut self, command: Command) -> Result<(), SessionError> {
         if let Some(last) = self.0.back_mut()
             && let Some(merged) = last.merged(&command)
@@ -33,18 +32,18 @@ impl Queue {
         Ok(())
     }
 
-    /// Takes the next command, if it is one of those wanted.
+    /// Removes the next command if it is wanted.
     pub fn pop_if(&mut self, is_wanted: impl Fn(&Command) -> bool) -> Option<Command> {
         if self.0.front().is_some_and(is_wanted) { self.0.pop_front() } else { None }
     }
 
-    /// Takes the first of the commands that are wanted, whatever waits before it.
+    /// Removes the first wanted command, even if others wait before it.
     pub fn take_first(&mut self, is_wanted: impl Fn(&Command) -> bool) -> Option<Command> {
         let found = self.0.iter().position(is_wanted)?;
         self.0.remove(found)
     }
 
-    /// Takes over what waits in another queue, as far as there is place.
+    /// Moves waiting commands from another queue, as far as there is room.
     #[cfg(not(target_arch = "wasm32"))]
     pub fn take_from(&mut self, other: &mut Self) {
         while self.0.len() < MOST_WAITING

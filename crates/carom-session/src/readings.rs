@@ -1,4 +1,4 @@
-//! What is measured while a scene runs.
+//! Measurements during a run.
 
 use carom::{DVec3, Snapshot, SphereId, StageCounts, World};
 
@@ -6,56 +6,56 @@ use crate::gas::{Enclosure, thermal_motion};
 use crate::impacts::{LastImpacts, ListedImpact};
 use crate::series::Series;
 
-/// Time over which impacts are counted for their rate \[s\]: long enough for a number that can be
-/// read, short enough to follow what happens.
+/// Time over which impacts are counted for their rate \[s\]: long enough for a readable number,
+/// short enough to follow changes.
 pub const RATE_WINDOW: f64 = 0.5;
 
-/// What all spheres have together, at one frame.
+/// Quantities of all spheres together at one frame.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Reading {
-    /// \[s\]
+    /// Time \[s\].
     pub time: f64,
-    /// \[J\]
+    /// Kinetic energy \[J\].
     pub kinetic_energy: f64,
-    /// In all forces that have one \[J\].
+    /// Potential energy in all forces that have a potential \[J\].
     pub potential_energy: f64,
-    /// \[kg m/s\]
+    /// Momentum \[kg m/s\].
     pub momentum: DVec3,
-    /// Impacts since the beginning.
+    /// Number of impacts since the beginning.
     pub impacts: u64,
-    /// Impacts per second, over the last [`RATE_WINDOW`] or since the last reading before it.
+    /// Impacts per second, over the last [`RATE_WINDOW`], or since the last reading before it.
     pub impact_rate: f64,
-    /// Temperature times Boltzmann's constant \[J\]: the mean of `m v²` along one direction, of the
-    /// motion relative to that of all together, over the directions in which there is any.
+    /// Temperature times Boltzmann's constant \[J\]: the mean of `m v²` per direction, relative to
+    /// the centre of mass, over the directions in which spheres move.
     pub thermal_energy: f64,
-    /// In how many directions there is any.
+    /// Number of directions in which spheres move.
     pub directions: u8,
-    /// Of the impacts on the first closed container, or by the virial theorem in a periodic box, over
-    /// the same time as the rate of impacts \[Pa\]; `None` where spheres are not shut in.
+    /// Pressure \[Pa\] from the impacts on the first closed container, or by the virial theorem in
+    /// a periodic box, over the time of the impact rate; `None` if the spheres are not enclosed.
     pub pressure: Option<f64>,
-    /// Spheres that were stepped in a zone by the rule `exact`.
+    /// Number of spheres that the rule `exact` stepped in zones.
     pub stepped: u32,
-    /// Work of the frame that led here, by stage.
+    /// Work of the last frame, by stage.
     pub work: StageCounts,
-    /// By which impacts have pressed since the beginning; see [`Enclosure::pressing`].
+    /// Sum of [`Enclosure::pressing`] since the beginning.
     pressed: f64,
 }
 
 impl Reading {
-    /// \[J\]
+    /// Total energy \[J\].
     pub fn total_energy(&self) -> f64 {
         self.kinetic_energy + self.potential_energy
     }
 }
 
-/// The sphere that was picked, at one frame.
+/// State of the picked sphere at one frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PickedReading {
-    /// \[s\]
+    /// Time \[s\].
     pub time: f64,
     /// Centre \[m\].
     pub position: DVec3,
-    /// \[m/s\]
+    /// Velocity \[m/s\].
     pub velocity: DVec3,
 }
 
@@ -65,30 +65,30 @@ impl PickedReading {
     }
 }
 
-/// What was counted since the beginning.
+/// Counts since the beginning.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Tally {
     pub impacts: u64,
-    /// See [`Enclosure::pressing`].
+    /// Sum of [`Enclosure::pressing`].
     pub pressed: f64,
 }
 
-/// Everything measured up to the present, in bounded memory.
+/// All measurements up to the present, in limited memory.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Readings {
-    /// Of the future too, until that is cut off.
+    /// Readings, including those of the future until it is cut off.
     all: Series<Reading>,
     picked: Option<SphereId>,
     picked_series: Series<PickedReading>,
     last_impacts: LastImpacts,
     pub tally: Tally,
-    /// Work of the frame that led to the present, and the spheres that were stepped in it.
+    /// Work and stepped spheres of the last frame.
     work: StageCounts,
     stepped: u32,
 }
 
 impl Readings {
-    /// Measures the present of the world, after a frame that began at `start` \[s\].
+    /// Measures the world after a frame that began at `start` \[s\].
     pub fn note(&mut self, frame: u64, start: f64, world: &World) {
         let report = world.report();
         self.tally.impacts += report.impacts.len() as u64;
@@ -100,7 +100,7 @@ impl Readings {
         self.measure(frame, world);
     }
 
-    /// Measures the present of the world, where it is time for that.
+    /// Measures the present of the world, if a point is due.
     pub fn measure(&mut self, frame: u64, world: &World) {
         if self.all.wants(frame) {
             self.all.push(frame, self.present(frame, world));
@@ -110,7 +110,7 @@ impl Readings {
         }
     }
 
-    /// What is measured at the present of the world.
+    /// Returns the measurements at the present of the world.
     pub fn present(&self, frame: u64, world: &World) -> Reading {
         let (time, Tally { impacts, pressed }) = (world.time(), self.tally);
         let motion = thermal_motion(world);
@@ -135,21 +135,21 @@ impl Readings {
         }
     }
 
-    /// The reading from which rates up to this frame, at `time` \[s\], are counted.
+    /// Reading from which rates up to this frame, at `time` \[s\], are counted.
     fn window(&self, frame: u64, time: f64) -> Option<Reading> {
         let past = self.all.until(frame.checked_sub(1)?);
         let outside = past.partition_point(|(_, reading)| reading.time <= time - RATE_WINDOW);
         past.get(outside.saturating_sub(1)).map(|(_, reading)| *reading)
     }
 
-    /// The picked sphere at the present of the world, if it is still there.
+    /// State of the picked sphere, if it still exists.
     pub fn present_of_picked(&self, world: &World) -> Option<PickedReading> {
         let sphere = world.sphere(self.picked?).ok()?;
         Some(PickedReading::new(world.time(), &sphere))
     }
 
-    /// Follows another sphere: from now on, and before as far as it is in `past`, which is ascending
-    /// by frame.
+    /// Picks another sphere: follows it from now on, and reads its past from `past`, which is
+    /// ascending by frame.
     pub fn pick<'a>(
         &mut self,
         sphere: Option<SphereId>,
@@ -167,15 +167,15 @@ impl Readings {
         }
     }
 
-    /// The sphere that is followed.
+    /// The picked sphere.
     pub fn picked(&self) -> Option<SphereId> {
         self.picked
     }
 
-    /// Goes back (or on) to a frame up to which this was counted.
+    /// Goes to another frame that was measured, with the counts at that frame.
     pub fn go_to(&mut self, frame: u64, tally: Tally) {
         self.tally = tally;
-        // A world that was put back has no report: what was measured then counts.
+        // A restored world has no report, so the stored measurement counts.
         let measured = self.all.until(frame).last();
         let last = measured.map(|(_, reading)| *reading).unwrap_or_default();
         (self.work, self.stepped) = (last.work, last.stepped);
@@ -183,7 +183,7 @@ impl Readings {
         self.last_impacts.cut(frame);
     }
 
-    /// Forgets what comes after this frame, at which the world was changed, and measures it anew.
+    /// Removes everything after this frame, at which the world was changed, and measures it again.
     pub fn cut(&mut self, frame: u64, world: &World) {
         match frame.checked_sub(1) {
             Some(before) => {
@@ -199,23 +199,23 @@ impl Readings {
         self.measure(frame, world);
     }
 
-    /// What was measured up to this frame.
+    /// Readings up to this frame.
     pub fn until(&self, frame: u64) -> impl Iterator<Item = &Reading> {
         self.all.until(frame).iter().map(|(_, reading)| reading)
     }
 
-    /// The picked sphere, up to this frame.
+    /// Readings of the picked sphere up to this frame.
     pub fn of_picked_until(&self, frame: u64) -> impl Iterator<Item = &PickedReading> {
         self.picked_series.until(frame).iter().map(|(_, reading)| reading)
     }
 
-    /// The last impacts, oldest first.
+    /// The most recent impacts, oldest first.
     pub fn last_impacts(&self) -> impl Iterator<Item = &ListedImpact> {
         self.last_impacts.iter()
     }
 }
 
-/// By how much a second a count grew up to `time` \[s\], from what it was `before`, when that was \[s\].
+/// Rate at which a count grew until `time` \[s\]; `before` is an earlier time \[s\] with its count.
 fn rate(time: f64, count: f64, before: Option<(f64, f64)>) -> f64 {
     before.map_or(
         0.0,

@@ -1,4 +1,4 @@
-//! A run repeated, forwards only.
+//! Repeats a run forwards only.
 
 use std::sync::Arc;
 
@@ -14,28 +14,28 @@ use crate::setup::Setup;
 use crate::subjects::Subjects;
 use crate::timetable::Timetable;
 
-/// A world that goes forwards, with the changes of a link made at their frames: what a
-/// [`Session`](crate::Session) of the same link is at each frame, to the bit, without a past and
-/// whatever else only an interface needs.
+/// A world that goes forwards and makes the changes of a link at their frames. At each frame it
+/// equals, bit for bit, a [`Session`](crate::Session) of the same link, but it stores no past and
+/// nothing that only an interface needs.
 #[derive(Debug)]
 pub struct Replay {
     scene: Scene,
     world: World,
     setup: Arc<Setup>,
-    /// No colours: a replay is not drawn.
+    /// Left without colours, because a replay is not drawn.
     looks: Looks,
     changes: Arc<Vec<PastChange>>,
-    /// How many of them have been made.
+    /// Number of changes made so far.
     made: usize,
     /// Number of frames taken.
     frame: u64,
 }
 
 impl Replay {
-    /// A scene without changes.
+    /// Opens a scene without changes.
     ///
     /// # Errors
-    /// [`SceneError`] if the scene makes no sense; only one put together in code can.
+    /// [`SceneError`] if the scene is invalid, which is only possible for one built in code.
     pub fn new(scene: Scene) -> Result<Self, SceneError> {
         let world = scene.world()?;
         let setup = Arc::new(Setup::new(&scene, &world));
@@ -43,55 +43,55 @@ impl Replay {
         Ok(Self { scene, world, setup, looks, changes, made, frame })
     }
 
-    /// A scene, the one of this link, at the beginning of its run.
+    /// Opens the scene of a link at the beginning of its run.
     ///
     /// # Errors
-    /// [`SessionError::Scene`] if the scene makes no sense, [`SessionError::Repeat`] for a change
-    /// at the beginning that is refused.
+    /// [`SessionError::Scene`] if the scene is invalid, [`SessionError::Repeat`] if a change at the
+    /// beginning is refused.
     pub fn of(link: &Link, scene: Scene) -> Result<Self, SessionError> {
         let mut replay = Self { changes: link.changes().clone(), ..Self::new(scene)? };
         replay.make_changes()?;
         Ok(replay)
     }
 
-    /// The frame nearest to a time \[s\], counted from the beginning of the run.
+    /// Frame nearest to a time \[s\], counted from the beginning of the run.
     ///
     /// # Errors
-    /// As [`Session::frame_at`](crate::Session::frame_at).
+    /// The same as those of [`Session::frame_at`](crate::Session::frame_at).
     pub fn frame_at(&self, time: f64) -> Result<u64, SessionError> {
         let mut timetable = Timetable::new(self.scene.simulation.frame_time);
         timetable.extend(&self.changes);
         timetable.frame_at(time)
     }
 
-    /// Takes one frame, and makes the changes that come then. The report of the frame is that of
-    /// the world.
+    /// Takes one frame and makes the changes at its end. The world contains the report of the
+    /// frame.
     ///
     /// # Errors
-    /// [`SessionError::World`] if the physics cannot take it; nothing has moved then.
-    /// [`SessionError::Repeat`] if the frame is taken, but a change there is refused.
+    /// [`SessionError::World`] if the physics refuses the step; then nothing has moved.
+    /// [`SessionError::Repeat`] if the frame was taken but a change there was refused.
     pub fn step(&mut self) -> Result<(), SessionError> {
         self.world.step(self.setup.simulation.frame_time)?;
         self.frame += 1;
         self.make_changes()
     }
 
-    /// Has steps end early once a request is made; see [`World::set_stop_request`].
+    /// Sets a request that ends steps early; see [`World::set_stop_request`].
     pub fn set_stop_request(&mut self, request: Option<StopRequest>) {
         self.world.set_stop_request(request);
     }
 
-    /// The world at present.
+    /// Present state of the world.
     pub fn world(&self) -> &World {
         &self.world
     }
 
-    /// The scene at the beginning.
+    /// Scene at the beginning.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
 
-    /// How it is stepped at present.
+    /// Present settings of the simulation.
     pub fn simulation(&self) -> &Simulation {
         &self.setup.simulation
     }

@@ -1,32 +1,32 @@
-//! Changes by hand that can be taken back, and made again.
+//! Undo and redo of manual edits.
 
 use std::sync::Arc;
 
 use crate::change::PastChange;
 
-/// Most changes by hand that can be taken back: more than anybody remembers.
+/// Most manual edits that can be undone: more than a user remembers.
 const MOST: usize = 100;
 
-/// All changes as they were at one time.
+/// All changes at one time.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Revision {
-    /// The frame that was the present then.
+    /// Present frame at that time.
     pub frame: u64,
-    /// Ascending by frame.
+    /// Changes, ascending by frame.
     pub changes: Arc<Vec<PastChange>>,
 }
 
-/// What there was before each change by hand, and what there was after those that were taken back.
+/// Changes before each manual edit, and after each edit that was undone.
 #[derive(Debug, Default)]
 pub(crate) struct Revisions {
-    /// The last one last.
+    /// States before edits; the most recent one is the last.
     before: Vec<Revision>,
-    /// The next one last.
+    /// States after undone edits; the next one to redo is the last.
     after: Vec<Revision>,
 }
 
 impl Revisions {
-    /// Notes what there is before a change by hand. What was taken back is lost.
+    /// Stores the changes before a manual edit. Undone edits can no longer be repeated.
     pub fn open(&mut self, before: Revision) {
         self.after.clear();
         self.before.push(before);
@@ -35,32 +35,32 @@ impl Revisions {
         }
     }
 
-    /// Notes that a change by hand went on. What was taken back is lost.
+    /// Records that the last manual edit was continued. Undone edits can no longer be repeated.
     pub fn go_on(&mut self) {
         self.after.clear();
     }
 
-    /// What there was before the last change by hand, in the place of what there is.
+    /// Returns the changes before the last manual edit; stores the present ones for [`Self::redo`].
     pub fn undo(&mut self, present: &Arc<Vec<PastChange>>) -> Option<Revision> {
         let found = self.before.pop()?;
         self.after.push(Revision { frame: found.frame, changes: present.clone() });
         Some(found)
     }
 
-    /// What there was after the change by hand that was taken back last, in the place of what there
-    /// is.
+    /// Returns the changes after the edit that was undone last; stores the present ones for
+    /// [`Self::undo`].
     pub fn redo(&mut self, present: &Arc<Vec<PastChange>>) -> Option<Revision> {
         let found = self.after.pop()?;
         self.before.push(Revision { frame: found.frame, changes: present.clone() });
         Some(found)
     }
 
-    /// How many changes by hand can be taken back.
+    /// Number of manual edits that can be undone.
     pub fn undoable(&self) -> usize {
         self.before.len()
     }
 
-    /// How many can be made again.
+    /// Number of edits that can be repeated.
     pub fn redoable(&self) -> usize {
         self.after.len()
     }

@@ -1,16 +1,15 @@
-//! Quantities over time, in bounded memory.
+//! Quantities over time in limited memory.
 
-/// Most points of a series: more than a screen has columns.
+/// Most points of a series: more than the columns of a screen.
 pub const MAX_POINTS: usize = 4096;
 
-/// A value for each of many frames, with a bound on how many: when there are more, every other one
-/// is dropped and from then on frames are twice as far apart, so that a long run is still shown
-/// from its beginning.
+/// Values at frames, with a limit on their number. When there are too many, every second point is
+/// dropped, and the distance of new points doubles: a long run remains visible from its beginning.
 #[derive(Debug, Clone)]
 pub struct Series<T> {
-    /// Ascending by frame.
+    /// Points, ascending by frame.
     points: Vec<(u64, T)>,
-    /// Frames that are a multiple of this are kept.
+    /// A frame is stored if its number is a multiple of this.
     stride: u64,
 }
 
@@ -21,12 +20,12 @@ impl<T> Default for Series<T> {
 }
 
 impl<T> Series<T> {
-    /// Whether the series has place for a point at this frame, and none there or later.
+    /// Whether the series stores this frame and has no point at it or later.
     pub fn wants(&self, frame: u64) -> bool {
         frame.is_multiple_of(self.stride) && self.points.last().is_none_or(|(at, _)| *at < frame)
     }
 
-    /// Appends a point, if [`Self::wants`] it.
+    /// Appends a point if [`Self::wants`] returns true.
     pub fn push(&mut self, frame: u64, value: T) {
         if !self.wants(frame) {
             return;
@@ -39,7 +38,7 @@ impl<T> Series<T> {
         }
     }
 
-    /// Drops what comes after this frame.
+    /// Drops the points after this frame.
     pub fn cut(&mut self, frame: u64) {
         self.points.truncate(self.until(frame).len());
     }
@@ -50,7 +49,7 @@ impl<T> Series<T> {
         self.stride = 1;
     }
 
-    /// Points up to this frame, with their frames.
+    /// Points up to this frame.
     pub fn until(&self, frame: u64) -> &[(u64, T)] {
         &self.points[..self.points.partition_point(|(at, _)| *at <= frame)]
     }

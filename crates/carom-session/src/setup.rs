@@ -1,24 +1,24 @@
-//! What a scene says besides its spheres, as changed since it was opened.
+//! Parts of a scene other than its spheres, as edited.
 
 use carom::{ColliderId, EmitterId, ForceId, World};
 use carom_scene::scene::{Collider, Emitter, Force, Scene, Simulation, Sphere};
 
-/// What a scene says besides its spheres, as changed since it was opened: what a world does not
-/// know (names, kinds of force, colours), under the ids by which the world knows it.
+/// Parts of a scene other than its spheres, as edited: everything that a world does not store
+/// (names, kinds of force, colours), under the ids of the world.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Setup {
-    /// How the scene is stepped.
+    /// Settings of the simulation.
     pub simulation: Simulation,
-    /// In the order in which they are added up.
+    /// Forces, in the order in which they are summed.
     pub forces: Vec<(ForceId, Force)>,
-    /// In their order, each where it was when the scene was opened; the world knows where it is.
+    /// Colliders in their order, with their poses as opened; the world has the present ones.
     pub colliders: Vec<(ColliderId, Collider)>,
-    /// In the order in which they emit.
+    /// Emitters, in the order in which they emit.
     pub emitters: Vec<(EmitterId, Emitter)>,
 }
 
 impl Setup {
-    /// Of a scene and the world that was made of it.
+    /// Creates the setup of a scene and its world.
     pub fn new(scene: &Scene, world: &World) -> Self {
         let forces = world.forces().map(|(id, _)| id).zip(scene.forces.iter().cloned());
         let all = scene.all_colliders();
@@ -32,7 +32,7 @@ impl Setup {
         }
     }
 
-    /// The scene `opened`, changed to this, without any sphere or spring.
+    /// Returns the scene `opened` with this setup, without spheres and springs.
     pub fn scene(&self, opened: &Scene) -> Scene {
         Scene {
             simulation: self.simulation.clone(),
@@ -47,12 +47,12 @@ impl Setup {
     }
 }
 
-/// Writes into a description of spheres what the physics calls them.
+/// Writes the properties of a sphere into its description.
 pub(crate) fn describe_sphere(sphere: &carom::Sphere, description: &mut Sphere) {
     *description = Sphere::of(sphere).painted((&*description).into());
 }
 
-/// Writes into the description of an emitter what the physics calls it.
+/// Writes the properties of an emitter into its description.
 pub(crate) fn describe_emitter(emitter: &carom::Emitter, description: &mut Emitter) {
     describe_sphere(&emitter.sphere, &mut description.sphere);
     description.position = emitter.position.to_array();

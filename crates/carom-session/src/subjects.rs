@@ -1,4 +1,4 @@
-//! All that edits change, and how each is made.
+//! Makes edits.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use crate::error::SessionError;
 use crate::looks::{self, Looks};
 use crate::setup::{Setup, describe_emitter};
 
-/// All that edits change.
+/// Everything that edits change.
 pub(crate) struct Subjects<'a> {
     pub world: &'a mut World,
     pub setup: &'a mut Arc<Setup>,
@@ -20,10 +20,11 @@ pub(crate) struct Subjects<'a> {
 }
 
 impl Subjects<'_> {
-    /// Makes a change, in the world and in the description of the scene.
+    /// Makes an edit in the world and in the description of the scene.
     ///
     /// # Errors
-    /// [`SessionError`], and nothing is changed: not even do flights begin anew.
+    /// [`SessionError`] if the edit is refused; then nothing changes, and no flights are computed
+    /// again.
     pub fn edit(self, edit: &Edit, scene: &Scene) -> Result<(), SessionError> {
         let Subjects { world, setup, looks } = self;
         match edit {
@@ -76,10 +77,10 @@ impl Subjects<'_> {
         }
     }
 
-    /// Makes a change, of whichever kind.
+    /// Makes a change of any kind.
     ///
     /// # Errors
-    /// As [`Self::edit`].
+    /// The same as those of [`Self::edit`].
     pub fn change(self, change: &Change, scene: &Scene) -> Result<(), SessionError> {
         match change {
             Change::Edit(edit) => self.edit(edit, scene),
@@ -91,10 +92,10 @@ impl Subjects<'_> {
     }
 }
 
-/// As it happens after a step that failed.
+/// Computes all flights again, as after a failed step.
 pub(crate) fn begin_flights_anew(world: &mut World) {
     let settings = *world.settings();
-    // Settings that the world has were not refused when it got them.
+    // These settings were accepted before.
     let _ = world.set_settings(settings);
 }
 
@@ -108,7 +109,7 @@ fn set_simulation(
     let smallest = world.spheres().radii().iter().copied().fold(f64::INFINITY, f64::min);
     check_writable(scene, &changed, smallest)?;
     let settings = changed.scene(scene).settings();
-    // Flights begin anew with settings, even with the same ones.
+    // Setting even equal settings would compute all flights again.
     if settings != *world.settings() {
         world.set_settings(settings)?;
     }
@@ -116,12 +117,12 @@ fn set_simulation(
     Ok(())
 }
 
-/// Refuses what no scene file could say, with `smallest` for the radius \[m\] of the smallest
-/// sphere; the words are those of scene files.
+/// Refuses a setup that no scene file could have. `smallest` is the radius \[m\] of the smallest
+/// sphere; errors use the names of scene files.
 fn check_writable(scene: &Scene, setup: &Setup, smallest: f64) -> Result<(), SceneError> {
     let mut probe = Setup { colliders: Vec::new(), ..setup.clone() }.scene(scene);
     probe.simulation.allow_overlap = true;
-    // What is wrong with the sphere itself, the world says.
+    // The world checks the sphere itself.
     if smallest.is_finite() && smallest > 0.0 {
         probe.spheres.push(scene::Sphere::at([0.0; 3], smallest));
     }
@@ -145,7 +146,8 @@ fn remove_force(
     world: &mut World,
     setup: &mut Arc<Setup>,
 ) -> Result<(), SessionError> {
-    // Looked up first: a world that does not know the force would let all flights begin anew.
+    // Checked first, because the world computes all flights again before it refuses an unknown
+    // force.
     if !setup.forces.iter().any(|it| it.0 == id) {
         return Err(Error::Unknown(Subject::Force(id)).into());
     }
@@ -154,7 +156,7 @@ fn remove_force(
     Ok(())
 }
 
-/// Changes what a collider is like, not where it is or what it is.
+/// Changes restitution or friction of a collider.
 fn set_collider(
     id: ColliderId,
     world: &mut World,
@@ -171,13 +173,13 @@ fn set_collider(
     Ok(())
 }
 
-/// Changes what all colliders are like.
+/// Changes restitution or friction of all colliders.
 fn set_all_colliders(
     world: &mut World,
     setup: &mut Arc<Setup>,
     change: impl Fn(Collider) -> Collider,
 ) -> Result<(), SessionError> {
-    // What is refused for one is refused for the first: none is changed then.
+    // A value that one collider refuses is refused by the first, so that none is changed.
     let ids: Vec<ColliderId> = setup.colliders.iter().map(|(id, _)| *id).collect();
     ids.into_iter().try_for_each(|id| set_collider(id, world, setup, &change))
 }

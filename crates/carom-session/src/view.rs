@@ -1,4 +1,4 @@
-//! What an interface shows of a session: a plain copy.
+//! Views: copies of everything that an interface shows of a session.
 
 use std::sync::Arc;
 
@@ -15,116 +15,117 @@ use crate::impacts::ListedImpact;
 use crate::readings::{PickedReading, Reading};
 use crate::setup::Setup;
 
-/// Time for which the marks of impacts last \[simulated s\].
+/// Time for which impacts are marked \[simulated s\].
 pub const MARKED: f64 = 0.1;
 
-/// All that an interface shows of a session, copied at one moment.
+/// Everything that an interface shows of a session, copied at one moment.
 #[derive(Debug, Clone)]
 pub struct View {
-    /// The scene as first opened: names, camera, light, colours.
+    /// The scene as opened: names, camera, light, colours.
     pub scene: Arc<Scene>,
-    /// What is not spheres, as edited.
+    /// Everything except spheres, as edited.
     pub setup: Arc<Setup>,
-    /// What was changed from outside, ascending by frame, the future included.
+    /// All changes, ascending by frame, including those in the future.
     pub changes: Arc<Vec<PastChange>>,
     /// Number of frames taken.
     pub frame: u64,
-    /// \[s\]
+    /// Time \[s\].
     pub time: f64,
-    /// The last frame reached.
+    /// Furthest frame reached.
     pub furthest_frame: u64,
-    /// Its time \[s\].
+    /// Time of the furthest frame \[s\].
     pub furthest: f64,
-    /// When edits were made, or are to be made again \[s\]; ascending, the future included.
+    /// Times of edits \[s\], ascending, including those in the future.
     pub edits: Vec<f64>,
-    /// How many edits by hand can be taken back.
+    /// Number of manual edits that can be undone.
     pub undoable: usize,
-    /// How many that were taken back can be made again.
+    /// Number of edits that can be repeated.
     pub redoable: usize,
-    /// The frame it is on the way to.
+    /// Frame to which the session is going.
     pub seeking: Option<u64>,
     /// All spheres.
     pub spheres: SphereArrays,
-    /// Springs, in the order in which their forces are added up.
+    /// Springs, in the order in which their forces are summed.
     pub springs: Vec<(SpringId, Spring)>,
-    /// Where the colliders of [`Setup::colliders`] are now.
+    /// Present poses of the colliders of [`Setup::colliders`].
     pub poses: Vec<Pose>,
-    /// What is measured now.
+    /// Present measurements.
     pub now: Reading,
-    /// What was measured until now, from the beginning.
+    /// Measurements from the beginning to the present.
     pub readings: Vec<Reading>,
-    /// The sphere that is followed; it may have gone.
+    /// The picked sphere; it may have been removed.
     pub picked: Option<SphereId>,
-    /// The picked sphere until now, from the beginning as far as the past is kept.
+    /// Measurements of the picked sphere to the present, as far back as the past is stored.
     pub picked_readings: Vec<PickedReading>,
-    /// The last impacts, oldest first.
+    /// The most recent impacts, oldest first.
     pub impacts: Vec<ListedImpact>,
-    /// The contacts that persist, with their forces, where [`Command::ShowContacts`] asks for them;
-    /// see [`carom::World::contacts`].
+    /// Persistent contacts with their forces, if [`Command::ShowContacts`] requested them; see
+    /// [`carom::World::contacts`].
     ///
     /// [`Command::ShowContacts`]: crate::Command::ShowContacts
     pub contacts: Vec<PersistentContact>,
-    /// How it is played.
+    /// State of playback.
     pub playback: Playback,
-    /// The same scene under the other rule, where two are compared.
+    /// View of the same scene under the other rule, if two are compared.
     pub other: Option<Box<View>>,
-    /// How far apart the two were until now.
+    /// Distances of the two worlds up to the present.
     pub distances: Vec<Distance>,
 }
 
 /// All spheres, one array per quantity, ascending by id.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct SphereArrays {
-    /// Ascending.
+    /// Ids, ascending.
     pub ids: Vec<SphereId>,
     /// Centres \[m\].
     pub positions: Vec<DVec3>,
-    /// Centres a frame ago \[m\].
+    /// Centres one frame ago \[m\].
     pub previous_positions: Vec<DVec3>,
-    /// \[m/s\]
+    /// Velocities \[m/s\].
     pub velocities: Vec<DVec3>,
-    /// \[m\]
+    /// Radii \[m\].
     pub radii: Vec<f64>,
-    /// \[kg\]
+    /// Masses \[kg\].
     pub masses: Vec<f64>,
     /// Coefficients of restitution.
     pub restitutions: Vec<f64>,
-    /// What each sphere says of friction; empty while none says anything.
+    /// Friction of each sphere; empty while no sphere has its own.
     pub frictions: Vec<Friction>,
     /// Moments of inertia divided by m r²; empty while all spheres are solid balls.
     pub inertia_factors: Vec<f64>,
-    /// Rotations from the coordinate system of each sphere to the world's; empty while no sphere was
-    /// ever turned.
+    /// Rotations from the coordinate system of each sphere to the world's; empty while no sphere
+    /// has rotated.
     pub orientations: Vec<DQuat>,
-    /// Orientations a frame ago; empty where nothing can turn a sphere ([`carom::World::has_spin`]).
+    /// Orientations one frame ago; empty if nothing can rotate a sphere
+    /// ([`carom::World::has_spin`]).
     pub previous_orientations: Vec<DQuat>,
-    /// Angular velocities \[rad/s\]; empty while no sphere was ever turned.
+    /// Angular velocities \[rad/s\]; empty while no sphere has rotated.
     pub angular_velocities: Vec<DVec3>,
-    /// Their looks, with the colour of their density where they have none of their own.
+    /// Paints, with the colours of densities for spheres without their own.
     pub paints: Vec<Paint>,
-    /// Another number when anything but the motion may have changed, within one scene.
+    /// Changes whenever anything except the motion may have changed, within one scene.
     pub stamp: u64,
 }
 
-/// How a session is played.
+/// State of playback.
 #[derive(Debug, Clone)]
 pub struct Playback {
-    /// Whether time goes on.
+    /// Whether the session is playing.
     pub playing: bool,
-    /// Wished for: simulated seconds per second.
+    /// Requested speed in simulated seconds per second.
     pub speed: f64,
-    /// Reached: simulated seconds per second; `None` before anything was measured.
+    /// Measured speed in simulated seconds per second; `None` before the first measurement.
     pub realtime_factor: Option<f64>,
-    /// Whether the machine keeps up with the wish.
+    /// Whether the machine keeps up with the requested speed.
     pub keeps_up: bool,
-    /// Part of the frame under way, in \[0, 1\]: a picture shows spheres so far on the way from
-    /// their previous positions to their positions.
+    /// Elapsed fraction of the current frame, in \[0, 1\]: a picture shows spheres at this fraction
+    /// between their previous positions and their positions.
     pub blend: f64,
-    /// How fast that part grows after this view was made \[1/s\].
+    /// Growth of `blend` after this view was made \[1/s\].
     pub blend_rate: f64,
-    /// What went wrong last; gone with the next thing that goes well.
+    /// The last error; removed by the next success.
     pub error: Option<Arc<SessionError>>,
-    /// The state as one number, where a command requested it.
+    /// State hash, if a command requested it.
     pub state_hash: Option<StateHash>,
 }
 
@@ -144,7 +145,7 @@ impl Default for Playback {
 }
 
 impl Default for View {
-    /// Of a scene with nothing in it.
+    /// View of an empty scene.
     fn default() -> Self {
         Self {
             scene: Arc::new(Scene::new("")),
@@ -175,7 +176,7 @@ impl Default for View {
 }
 
 impl View {
-    /// The present as a scene; see [`Session::scene_now`](crate::Session::scene_now).
+    /// Writes the present as a scene; see [`Session::scene_now`](crate::Session::scene_now).
     pub fn scene_now(&self) -> Scene {
         let mut scene = self.setup.scene(&self.scene);
         for (collider, pose) in scene.colliders.iter_mut().zip(&self.poses) {
@@ -186,16 +187,16 @@ impl View {
         let springs = self.springs.iter();
         let described = |(_, spring): &_| carom_scene::scene::Spring::of(spring, &self.spheres.ids);
         scene.springs.extend(springs.filter_map(described));
-        // Rules that find contacts late let spheres overlap; a scene has to admit it.
+        // Under rules that find contacts late, spheres overlap; the scene must allow it.
         if !scene.simulation.allow_overlap && scene.world().is_err() {
             scene.simulation.allow_overlap = true;
-            // What else is wrong with it, that does not help.
+            // If the scene is invalid for another reason, the setting does not help.
             scene.simulation.allow_overlap = scene.world().is_ok();
         }
         scene
     }
 
-    /// The impacts to be marked: those of the last [`MARKED`] seconds, oldest first.
+    /// Impacts to mark: those of the last [`MARKED`] seconds, oldest first.
     pub fn marks(&self) -> &[ListedImpact] {
         let first = self.impacts.partition_point(|impact| impact.time <= self.time - MARKED);
         &self.impacts[first..]
@@ -208,14 +209,14 @@ impl SphereArrays {
         self.ids.binary_search(&id).ok()
     }
 
-    /// How a sphere is turned when it is so far (`blend` in \[0, 1\]) on the shorter way from a frame
-    /// ago to now; `None` where nothing can turn a sphere.
+    /// Orientation of a sphere at the fraction `blend` in \[0, 1\] between one frame ago and now;
+    /// `None` if nothing can rotate a sphere.
     pub fn orientation(&self, index: usize, blend: f64) -> Option<DQuat> {
         let before = self.previous_orientations.get(index)?;
         Some(before.lerp(or(&self.orientations, index, DQuat::IDENTITY), blend))
     }
 
-    /// What the sphere at an index says of friction.
+    /// Friction of the sphere at `index`.
     pub fn friction(&self, index: usize) -> Friction {
         or(&self.frictions, index, Friction::default())
     }
@@ -225,7 +226,7 @@ impl SphereArrays {
         or(&self.angular_velocities, index, DVec3::ZERO)
     }
 
-    /// A sphere as scene files write it.
+    /// Describes a sphere as in scene files.
     fn described(&self, index: usize) -> Sphere {
         let usual = carom::Sphere::new(self.positions[index], self.radii[index]);
         let sphere = usual
@@ -240,12 +241,12 @@ impl SphereArrays {
     }
 }
 
-/// The value at an index of an array that is empty while all values are `usual`.
+/// Returns a value of an array that is empty while all values are `usual`.
 fn or<T: Copy>(values: &[T], index: usize, usual: T) -> T {
     values.get(index).copied().unwrap_or(usual)
 }
 
-/// Fills a list anew, in the memory it has.
+/// Replaces the content of a list in its existing memory.
 pub(crate) fn replace<T>(list: &mut Vec<T>, with: impl Iterator<Item = T>) {
     list.clear();
     list.extend(with);

@@ -1,4 +1,4 @@
-//! What a driver drives: one session, or two side by side.
+//! The session or comparison of a driver.
 
 use carom::{SphereId, StateHash, StopRequest};
 use carom_scene::scene::Simulation;
@@ -9,7 +9,7 @@ use crate::error::SessionError;
 use crate::session::Session;
 use crate::view::View;
 
-/// What a driver drives.
+/// The session or comparison of a driver.
 #[derive(Debug)]
 pub enum Watched {
     /// One session.
@@ -39,13 +39,12 @@ impl Watched {
         }
     }
 
-    /// What is driven, under two simulations, or alone under the one of the first; on the way to the
-    /// time of now. Everything that was changed comes again, but for changes of the simulation.
+    /// Opens the same scene under two simulations, or under the present first one only, and starts
+    /// to go to the present time. All changes are repeated except those of the simulation.
     ///
     /// # Errors
-    /// [`SessionError::Scene`] if the scene makes no sense under one of them,
-    /// [`SessionError::Repeat`] for a change at the beginning that is refused, and as
-    /// [`Session::frame_at`].
+    /// [`SessionError::Scene`] if the scene is invalid under one of them, [`SessionError::Repeat`]
+    /// if a change at the beginning is refused, and those of [`Session::frame_at`].
     pub fn compared(&self, simulations: Option<&[Simulation; 2]>) -> Result<Self, SessionError> {
         let session = self.session();
         let mut compared = match simulations {
@@ -56,7 +55,7 @@ impl Watched {
         Ok(compared)
     }
 
-    /// See [`Session::set_stop_request`].
+    /// Sets a request that ends steps early; see [`Session::set_stop_request`].
     pub fn set_stop_request(&mut self, request: Option<StopRequest>) {
         match self {
             Self::One(session) => session.set_stop_request(request),
@@ -64,7 +63,7 @@ impl Watched {
         }
     }
 
-    /// See [`Session::step`].
+    /// Takes one frame; see [`Session::step`].
     ///
     /// # Errors
     /// Those of [`Session::step`].
@@ -75,7 +74,7 @@ impl Watched {
         }
     }
 
-    /// See [`Session::seek`].
+    /// Starts to go to a frame; see [`Session::seek`].
     pub fn seek(&mut self, frame: u64) {
         match self {
             Self::One(session) => session.seek(frame),
@@ -83,7 +82,7 @@ impl Watched {
         }
     }
 
-    /// See [`Session::seeking`].
+    /// Frame to which it is going; see [`Session::seeking`].
     pub fn seeking(&self) -> Option<u64> {
         match self {
             Self::One(session) => session.seeking(),
@@ -91,7 +90,7 @@ impl Watched {
         }
     }
 
-    /// See [`Session::advance_seek`].
+    /// Takes frames towards the target; see [`Session::advance_seek`].
     ///
     /// # Errors
     /// Those of [`Session::advance_seek`].
@@ -102,10 +101,10 @@ impl Watched {
         }
     }
 
-    /// See [`Session::stop_seeking`].
+    /// Stops going to a frame; see [`Session::stop_seeking`].
     ///
     /// # Errors
-    /// As [`Comparison::stop_seeking`].
+    /// The same as those of [`Comparison::stop_seeking`].
     pub fn stop_seeking(&mut self) -> Result<(), SessionError> {
         match self {
             Self::One(session) => {
@@ -116,7 +115,7 @@ impl Watched {
         }
     }
 
-    /// See [`Session::edit`] and [`Comparison::edit`].
+    /// Makes an edit; see [`Session::edit`] and [`Comparison::edit`].
     ///
     /// # Errors
     /// Those of [`Session::edit`].
@@ -127,7 +126,7 @@ impl Watched {
         }
     }
 
-    /// See [`Session::edit_further`] and [`Comparison::edit_further`].
+    /// Continues the last edit; see [`Session::edit_further`] and [`Comparison::edit_further`].
     ///
     /// # Errors
     /// Those of [`Session::edit`].
@@ -138,7 +137,7 @@ impl Watched {
         }
     }
 
-    /// See [`Session::undo`].
+    /// Undoes the last manual edit; see [`Session::undo`].
     pub fn undo(&mut self) -> bool {
         match self {
             Self::One(session) => session.undo(),
@@ -146,7 +145,7 @@ impl Watched {
         }
     }
 
-    /// See [`Session::redo`].
+    /// Repeats the edit that was undone last; see [`Session::redo`].
     pub fn redo(&mut self) -> bool {
         match self {
             Self::One(session) => session.redo(),
@@ -154,7 +153,7 @@ impl Watched {
         }
     }
 
-    /// See [`Session::restart_with_values`].
+    /// Restarts with edited values; see [`Session::restart_with_values`].
     pub fn restart_with_values(&mut self) {
         match self {
             Self::One(session) => session.restart_with_values(),
@@ -162,7 +161,7 @@ impl Watched {
         }
     }
 
-    /// See [`Session::pick`].
+    /// Picks a sphere to follow; see [`Session::pick`].
     pub fn pick(&mut self, sphere: Option<SphereId>) {
         match self {
             Self::One(session) => session.pick(sphere),
@@ -170,7 +169,7 @@ impl Watched {
         }
     }
 
-    /// Copies all that an interface shows of it.
+    /// Copies everything that an interface shows.
     pub fn fill(&self, view: &mut View) {
         match self {
             Self::One(session) => {
@@ -182,7 +181,7 @@ impl Watched {
         }
     }
 
-    /// Copies the persistent contacts, where they are shown; otherwise the view has none.
+    /// Copies the persistent contacts if `are_shown`; otherwise the view gets none.
     pub(crate) fn fill_contacts(&self, view: &mut View, are_shown: bool) {
         let contacts = |session: &Session| {
             if are_shown { session.world().contacts() } else { Vec::new() }
@@ -193,7 +192,7 @@ impl Watched {
         }
     }
 
-    /// States as numbers: of the session, or of both.
+    /// State hashes of the session, or of both.
     pub fn state_hashes(&self) -> (StateHash, Option<StateHash>) {
         match self {
             Self::One(session) => (session.state_hash(), None),

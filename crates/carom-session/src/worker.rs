@@ -1,4 +1,4 @@
-//! A thread that moves a session by its own clock.
+//! A thread that runs a session by its own clock.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -13,34 +13,33 @@ use crate::player::Player;
 use crate::queue::Queue;
 use crate::view::View;
 
-/// Work between two looks at what was sent: commands and new views come at least so often, frames
-/// permitting.
+/// Time between checks for commands and new views, unless a frame takes longer.
 const SLICE: Duration = Duration::from_millis(8);
 
-/// A view that was not taken is renewed only so often: a view that is not taken is not drawn.
+/// Time after which a view that was not received is replaced: it is not being drawn.
 const UNSEEN: Duration = Duration::from_millis(33);
 
-/// On the way elsewhere, a view so often shows how far it has come.
+/// Time between views that show the progress of a seek.
 const PROGRESS: Duration = Duration::from_millis(100);
 
-/// The other end of the thread.
+/// Handle of the thread.
 #[derive(Debug)]
 pub(crate) struct Worker {
     shared: Arc<Shared>,
     thread: JoinHandle<()>,
-    /// When the view was made that was taken last.
+    /// Time at which the last received view was made.
     view_made: Instant,
 }
 
-/// What both threads see.
+/// Data shared by both threads.
 #[derive(Debug, Default)]
 struct Shared {
-    /// Set while something waits that a frame at work must not hold up.
+    /// Set while a command waits that interrupts the current frame.
     stops_frame: Arc<AtomicBool>,
     inbox: Mutex<Inbox>,
     has_mail: Condvar,
     outbox: Mutex<Outbox>,
-    /// Since when the thread is at work, while it is.
+    /// Time since which the thread works without a pause; `None` while it sleeps.
     at_work: Mutex<Option<Instant>>,
 }
 
@@ -50,7 +49,7 @@ struct Inbox {
     is_closed: bool,
 }
 
-/// Views go to and fro, so that their memory is used again.
+/// Views are passed back and forth, so that their memory is reused.
 #[derive(Debug, Default)]
 struct Outbox {
     newest: Option<(Box<View>, Instant)>,
@@ -84,7 +83,7 @@ impl Worker {
         Ok(())
     }
 
-    /// Takes the newest view, if there is a new one.
+    /// Receives the newest view; returns whether there is one.
     pub fn receive(&mut self, view: &mut Box<View>) -> bool {
         if self.thread.is_finished() {
             view.playback.playing = false;
@@ -97,13 +96,13 @@ impl Worker {
         true
     }
 
-    /// For how long the thread has been at work without looking up \[s\].
+    /// Time for which the thread has been working without a pause \[s\].
     pub fn seconds_at_work(&self) -> f64 {
         let since = lock(&self.shared.at_work).filter(|_| !self.thread.is_finished());
         since.map_or(0.0, |since| since.elapsed().as_secs_f64())
     }
 
-    /// Seconds since the view was made that was taken last.
+    /// Seconds since the last received view was made.
     pub fn seconds_since_view(&self) -> f64 {
         self.view_made.elapsed().as_secs_f64()
     }
@@ -117,7 +116,7 @@ impl Drop for Worker {
     }
 }
 
-/// What the thread does until the other end is dropped.
+/// Main loop of the thread, until the handle is dropped.
 fn work(mut player: Player, shared: &Shared, on_news: &dyn Fn()) {
     let mut view = Box::<View>::default();
     let mut published = Instant::now();
@@ -139,7 +138,8 @@ fn work(mut player: Player, shared: &Shared, on_news: &dyn Fn()) {
 }
 
 impl Shared {
-    /// Sleeps until there is work or mail, and hands over the mail. Returns whether to go on.
+    /// Sleeps until there is work or a command, and passes commands to the player. Returns whether
+    /// to continue.
     fn wait(&self, player: &mut Player, published: Instant) -> bool {
         let mut inbox = lock(&self.inbox);
         loop {
@@ -165,7 +165,7 @@ impl Shared {
         }
     }
 
-    /// Whether it is time for a new view.
+    /// Whether a new view should be published.
     fn is_view_due(&self, player: &Player, published: Instant) -> bool {
         let age = published.elapsed();
         if !player.has_news() || (player.is_seeking() && age < PROGRESS) {
@@ -174,7 +174,7 @@ impl Shared {
         age >= UNSEEN || lock(&self.outbox).newest.is_none()
     }
 
-    /// Puts a view where it is found; returns another one to fill.
+    /// Publishes a view; returns another one to fill.
     fn publish(&self, view: Box<View>) -> Box<View> {
         let mut outbox = lock(&self.outbox);
         let unseen = outbox.newest.replace((view, Instant::now()));
@@ -182,13 +182,13 @@ impl Shared {
     }
 }
 
-/// Longest sleep without a look at the clock.
+/// Longest time to sleep.
 const LONGEST_SLEEP: Duration = Duration::from_secs(3600);
 
-/// Time to sleep before there is something to do; `None` for ever.
+/// Time to sleep until there is work; `None` if there is none without a command.
 fn time_to_work(player: &Player, published: Instant) -> Option<Duration> {
     let work = player.seconds_to_work().map(|seconds| {
-        // A time too long for a duration is too long to sleep, too.
+        // A time that overflows a duration is limited as well.
         Duration::try_from_secs_f64(seconds).unwrap_or(LONGEST_SLEEP).min(LONGEST_SLEEP)
     });
     let news = player.has_news().then(|| UNSEEN.saturating_sub(published.elapsed()));
@@ -198,7 +198,8 @@ fn time_to_work(player: &Player, published: Instant) -> Option<Duration> {
     }
 }
 
-/// What the other thread left when it panicked is whole: it is only moved in and out.
+/// Locks a mutex even after a panic of the other thread: its content is only moved in and out, so
+/// it is always valid.
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -1,4 +1,4 @@
-//! Game objects to a scene.
+//! Builds a scene from game objects.
 
 use std::collections::BTreeMap;
 
@@ -19,25 +19,25 @@ use crate::shape::{Mesh, Placed, of_collider};
 use crate::value::Value;
 use crate::walls::{Face, enclosed};
 
-/// A scene on its way.
+/// A scene during the import.
 pub(crate) struct Building<'a> {
     pub scene: Scene,
-    /// Where parts of the scene are written, by their paths in the scene.
+    /// Places of parts in Unity's files, by their paths in the scene.
     pub places: BTreeMap<String, Place>,
     pub report: Vec<Omission>,
     pub project: &'a Project,
-    /// Colliders as they are in Unity's frame, beside those of the scene.
+    /// Colliders in Unity's coordinates, in the order of the scene's colliders.
     placed: Vec<(Placed, Node)>,
-    /// Forces of the first script that has some.
+    /// Forces of the first script that states some.
     forces: Option<Vec<Force>>,
-    /// Mass of spheres whose script does not say it, in kg.
+    /// Mass of spheres whose script states none \[kg\].
     mass: Option<f64>,
-    /// Looks by their materials' guids.
+    /// Looks of materials, by guid.
     looks: BTreeMap<String, Option<Look>>,
 }
 
 impl<'a> Building<'a> {
-    /// A scene without anything in it.
+    /// Creates an empty scene.
     pub fn new(name: &str, project: &'a Project, report: Vec<Omission>) -> Self {
         Self {
             scene: Scene::new(name),
@@ -51,10 +51,10 @@ impl<'a> Building<'a> {
         }
     }
 
-    /// Adds what cameras, lights and scripts of an object say.
+    /// Adds the cameras, lights and scripts of an object.
     ///
     /// # Errors
-    /// Values that make no sense, with the line.
+    /// [`ImportError`] with the line of an invalid value.
     pub fn add(&mut self, node: &Node, parts: &Parts<'_>) -> Result<(), ImportError> {
         let Self { scene, report, places, .. } = self;
         if let Some(camera) = parts.camera
@@ -163,7 +163,7 @@ impl<'a> Building<'a> {
     ) -> Result<(), ImportError> {
         let component = format!("script \"{}\"", script.kind.name);
         let of_mesh = parts.mesh.map(|it| Mesh::of(it.fields.get("m_Mesh")));
-        // The course tells the form by the tag.
+        // In the course, the tag determines the form.
         let of_tag = match node.tag.as_str() {
             "SphereCollider" => Some(Mesh::Sphere),
             "PlaneCollider" => Some(Mesh::Plane),
@@ -183,7 +183,7 @@ impl<'a> Building<'a> {
             }
         };
         let mut collider = Collider::new(placed.shape.clone());
-        // The course's formula leaves the velocity as it is where this is -1.
+        // With -1, the course's formula does not change the velocity.
         collider.trigger = restitution == -1.0;
         if !collider.trigger {
             if !(0.0..=1.0).contains(&restitution) {
@@ -234,14 +234,14 @@ impl<'a> Building<'a> {
         Ok(())
     }
 
-    /// Adds a sphere that `document` tells of.
+    /// Adds a sphere that `document` describes.
     pub fn push_sphere(&mut self, sphere: Sphere, document: &Document) {
         let place = format!("spheres[{}]", self.scene.spheres.len());
         self.places.insert(place, document.fields.place.clone());
         self.scene.spheres.push(sphere);
     }
 
-    /// Adds a collider that `document` tells of, where `placed` is.
+    /// Adds a collider that `document` describes, with the shape and pose of `placed`.
     pub fn push_collider(
         &mut self,
         mut collider: Collider,
@@ -263,9 +263,9 @@ impl<'a> Building<'a> {
         self.placed.push((placed, node.clone()));
     }
 
-    /// What an object looks like by its first material.
+    /// Look of an object, by its first material.
     pub fn look(&mut self, node: &Node, parts: &Parts<'_>) -> Result<Look, ImportError> {
-        /// Guids of files that come with Unity begin so.
+        /// Start of the guids of files that come with Unity.
         const BUILT_IN: &str = "0000000000000000";
         let plain = |visible| Look { color: None, finish: Finish::default(), visible };
         let Some(renderer) = parts.renderer else { return Ok(plain(false)) };
@@ -297,7 +297,7 @@ impl<'a> Building<'a> {
         Ok(Look { visible: enabled && look.visible, ..look })
     }
 
-    /// Puts together what needs the whole scene: forces, masses, and planes that enclose a box.
+    /// Completes the scene: forces, masses, and planes that enclose a box.
     pub fn finish(&mut self) {
         self.scene.forces.extend(self.forces.take().into_iter().flatten());
         let emitted = self.scene.emitters.iter_mut().map(|emitter| &mut emitter.sphere);
@@ -353,7 +353,8 @@ impl<'a> Building<'a> {
     }
 }
 
-/// The two names above a face: what is put together of planes is often scaled between them.
+/// Name of a box: the names of its two nearest ancestors, because boxes made of planes are often
+/// scaled by a parent.
 fn box_name(path: &str) -> String {
     let mut names: Vec<&str> = path.rsplit('/').skip(1).take(2).collect();
     names.reverse();

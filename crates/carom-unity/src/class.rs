@@ -1,31 +1,31 @@
-//! Unity's numbers for the classes that are understood.
+//! Numbers of Unity's classes that are imported.
 
-/// What holds components together.
+/// An object with components.
 pub(crate) const GAME_OBJECT: u32 = 1;
-/// Place, rotation and scale of a game object.
+/// Position, rotation and scale of a game object.
 pub(crate) const TRANSFORM: u32 = 4;
 pub(crate) const CAMERA: u32 = 20;
 pub(crate) const MATERIAL: u32 = 21;
-/// What draws a mesh, with its materials.
+/// Draws a mesh with materials.
 pub(crate) const MESH_RENDERER: u32 = 23;
-/// The mesh that is drawn.
+/// Refers to the mesh that is drawn.
 pub(crate) const MESH_FILTER: u32 = 33;
 pub(crate) const RIGIDBODY: u32 = 54;
 pub(crate) const MESH_COLLIDER: u32 = 64;
 pub(crate) const BOX_COLLIDER: u32 = 65;
 pub(crate) const LIGHT: u32 = 108;
-/// A component that is a script.
+/// A script component.
 pub(crate) const MONO_BEHAVIOUR: u32 = 114;
 pub(crate) const PHYSIC_MATERIAL: u32 = 134;
 pub(crate) const SPHERE_COLLIDER: u32 = 135;
-/// The transform of what lies on the screen.
+/// Transform of an element of the user interface.
 const RECT_TRANSFORM: u32 = 224;
 pub(crate) const PREFAB_INSTANCE: u32 = 1001;
 
-/// Settings of a scene, which say how it is lit and walked through.
+/// Settings of a scene, such as lighting and navigation.
 pub(crate) const SETTINGS: [u32; 5] = [29, 104, 157, 196, 1_660_057_539];
 
-/// Whether objects of a class say where a game object is.
+/// Whether the class is a transform of a game object.
 pub(crate) const fn is_transform(class: u32) -> bool {
     matches!(class, TRANSFORM | RECT_TRANSFORM)
 }

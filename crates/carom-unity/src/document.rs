@@ -1,4 +1,4 @@
-//! Files of Unity to documents, one for each object.
+//! Reads files of Unity as documents, one per object.
 
 use std::path::Path;
 use std::rc::Rc;
@@ -6,25 +6,25 @@ use std::rc::Rc;
 use crate::error::{ImportError, Place, read_text};
 use crate::value::{self, Kind, Value};
 
-/// An object as a file holds it.
+/// An object in a file.
 #[derive(Debug, Clone)]
 pub(crate) struct Document {
-    /// Unity's number for the class.
+    /// Unity's number of the class.
     pub class: u32,
-    /// Id in its file.
+    /// Id of the object in its file.
     pub id: i64,
-    /// Whether it stands for an object of a prefab, whose fields are in the file of the prefab.
+    /// Whether it stands for an object of a prefab, whose fields are in the prefab's file.
     pub stripped: bool,
-    /// The class by name.
+    /// Name of the class.
     pub class_name: String,
-    /// Its fields.
+    /// Fields of the object.
     pub fields: Value,
 }
 
 /// Reads all documents of a scene, prefab or asset.
 ///
 /// # Errors
-/// Files that cannot be read, are no text, or are broken, with the line.
+/// [`ImportError`] for a file that cannot be read, is no text, or is broken, with the line.
 pub(crate) fn read(path: &Path) -> Result<Vec<Document>, ImportError> {
     let text = read_text(path)?;
     let file: Rc<Path> = path.into();
@@ -56,7 +56,7 @@ pub(crate) fn read(path: &Path) -> Result<Vec<Document>, ImportError> {
     Ok(documents)
 }
 
-/// A document whose fields are still to come: `--- !u!4 &123 stripped`.
+/// Reads the header of a document, such as `--- !u!4 &123 stripped`; its fields are still empty.
 fn header(line: &str, place: Place) -> Result<Document, ImportError> {
     let mut words = line.split(' ').skip(1);
     let class = words.next().and_then(|word| word.strip_prefix("!u!")?.parse().ok());
@@ -73,7 +73,7 @@ fn header(line: &str, place: Place) -> Result<Document, ImportError> {
     Ok(Document { class, id, stripped, class_name: String::new(), fields })
 }
 
-/// The document with the fields of its text.
+/// Parses the text of a document and fills in its fields.
 fn filled(document: Document, text: &str) -> Result<Document, ImportError> {
     let place = &document.fields.place;
     let whole = value::read(text, &place.file, place.line)?;
@@ -86,7 +86,7 @@ fn filled(document: Document, text: &str) -> Result<Document, ImportError> {
     if !matches!(fields.kind, Kind::Map(_)) {
         return Err(fields.place.malformed(format!("{class_name} must have fields")));
     }
-    // The head of the document is where its object is.
+    // The place of the object is that of the header.
     let fields = Value { place: document.fields.place, kind: fields.kind };
     Ok(Document { class_name, fields, ..document })
 }

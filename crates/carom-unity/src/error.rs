@@ -1,4 +1,4 @@
-//! Why a scene of Unity is not imported, and where in its files.
+//! Errors of imports, with their places in files.
 
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
@@ -9,40 +9,40 @@ use thiserror::Error;
 /// Longest quotation of a file in an error \[characters\].
 const LONGEST: usize = 300;
 
-/// Why a scene is not imported.
+/// Why a scene cannot be imported.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ImportError {
     /// A file or folder cannot be read.
     #[error("cannot read {path}: {source}", path = .path.display())]
     Unreadable {
-        /// Which.
+        /// Path of the file or folder.
         path: PathBuf,
-        /// Why.
+        /// Error of the operating system.
         source: std::io::Error,
     },
-    /// A file says something that makes no sense.
+    /// The content of a file is invalid.
     #[error("{path}:{line}: {problem}", path = .path.display(), problem = legible(.problem, LONGEST))]
     Malformed {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
-        /// Line in it, from 1.
+        /// Number of the line, from 1.
         line: usize,
-        /// What is wrong there.
+        /// What is wrong with the line.
         problem: String,
     },
     /// The scene as a whole cannot be imported.
     #[error("{path}: {problem}", path = .path.display(), problem = legible(.problem, LONGEST))]
     Refused {
-        /// Its file.
+        /// Path of the file.
         path: PathBuf,
-        /// Why.
+        /// Reason.
         problem: String,
     },
-    /// What was read makes no scene that can run.
+    /// The imported scene is invalid.
     #[error("{path}: {source}", path = .path.display())]
     Scene {
-        /// The file of the scene.
+        /// Path of the scene's file.
         path: PathBuf,
         /// What is wrong with the scene.
         source: Box<SceneError>,
@@ -54,12 +54,12 @@ pub enum ImportError {
 pub(crate) struct Place {
     /// The file.
     pub file: Rc<Path>,
-    /// Line in it, from 1.
+    /// Number of the line, from 1.
     pub line: usize,
 }
 
 impl Place {
-    /// The error that something is wrong at this place.
+    /// Creates an error at this place.
     pub fn malformed(&self, problem: impl Into<String>) -> ImportError {
         ImportError::Malformed {
             path: self.file.to_path_buf(),

@@ -1,4 +1,4 @@
-//! Game objects with their names, places and components.
+//! Places game objects in the world, with their names and components.
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -12,31 +12,32 @@ use crate::error::ImportError;
 use crate::pose::{Pose, rounded};
 use crate::value::Value;
 
-/// A game object.
+/// A game object in the world.
 #[derive(Debug, Clone)]
 pub(crate) struct Node {
-    /// Names from the root of the scene, like `Maze/Wall`.
+    /// Path of names from the root of the scene, such as `Maze/Wall`.
     pub path: Rc<str>,
-    /// Its own name.
+    /// Name of the object.
     pub name: String,
-    /// Its tag.
+    /// Tag of the object.
     pub tag: String,
-    /// Id of the transform that it hangs on; 0 at the root.
+    /// Id of the parent transform; 0 at the root.
     pub parent: i64,
-    /// Rotation of the parent, in Unity's frame.
+    /// Rotation of the parent in Unity's coordinates.
     pub parent_rotation: DQuat,
-    /// Where it is.
+    /// Pose in the world.
     pub pose: Pose,
-    /// Whether it and all that it hangs on are active.
+    /// Whether the object and all its ancestors are active.
     pub active: bool,
     /// Indices of its components, in the order of the file.
     pub components: Vec<usize>,
 }
 
-/// The game objects that have a place, in the order in which their first documents come.
+/// Finds the game objects with transforms, in the order of their first documents.
 ///
 /// # Errors
-/// Transforms that hang on themselves or on too many others, and numbers that are none.
+/// [`ImportError`] for a transform that has itself or too many others as ancestors, or that
+/// contains an invalid number.
 pub(crate) fn nodes(
     objects: &[Document],
     report: &mut Vec<Omission>,
@@ -68,7 +69,7 @@ pub(crate) fn nodes(
         }
         match of_object.get(&owner.id) {
             Some(&node) => nodes[node].components.push(place),
-            // A game object that is there is in the report already.
+            // The report already contains this game object.
             None if graph.index.contains_key(&owner.id) => {}
             None => {
                 let reason = "its game object is not in the file, or in no known prefab";
@@ -83,7 +84,7 @@ struct Graph<'a> {
     objects: &'a [Document],
     /// Objects by id.
     index: BTreeMap<i64, usize>,
-    /// Nodes by the ids of their transforms; `None` where they hang on what is not there.
+    /// Nodes by the ids of their transforms; `None` if an ancestor is missing.
     placed: BTreeMap<i64, Option<Node>>,
 }
 
@@ -97,10 +98,10 @@ impl<'a> Graph<'a> {
         (owner.class == class::GAME_OBJECT).then_some(owner)
     }
 
-    /// The node of a transform.
+    /// Returns the node of a transform.
     fn place(&mut self, id: i64) -> Result<Option<Node>, ImportError> {
         const DEEPEST: usize = 1000;
-        // From the transform up to one that has its place, and down again.
+        // Go up to an ancestor that is already placed, then down again.
         let mut chain = Vec::new();
         let mut next = id;
         let mut above = loop {
@@ -137,7 +138,7 @@ impl<'a> Graph<'a> {
     }
 }
 
-/// What objects without a parent hang on.
+/// Parent of objects without a parent.
 fn root() -> Node {
     Node {
         path: "".into(),
@@ -152,7 +153,7 @@ fn root() -> Node {
 }
 
 fn node(owner: &Document, transform: &Document, above: &Node) -> Result<Node, ImportError> {
-    /// Characters of a path, the names of some parents left out beyond.
+    /// Longest path; names of ancestors are left out of longer ones \[characters\].
     const LONGEST: usize = 400;
     let name = name(owner).to_owned();
     let path = match above.path.is_empty() || above.path.len() + name.len() > LONGEST {
@@ -179,8 +180,8 @@ fn name(owner: &Document) -> &str {
     if name.is_empty() { "(without a name)" } else { name }
 }
 
-/// The local rotation. Unity computes in 32 bits, in which a unit quaternion has 7 decimals; its versions
-/// write the same rotation with 7 to 9 digits, which here become the same again.
+/// Reads the local rotation. Unity computes in 32 bits, in which a unit quaternion has 7 decimals.
+/// Its versions write 7 to 9 digits; rounding makes equal rotations equal again.
 fn rotation(transform: &Document) -> Result<DQuat, ImportError> {
     let field = "m_LocalRotation";
     let Some(written) = transform.fields.get(field) else { return Ok(DQuat::IDENTITY) };

@@ -1,4 +1,4 @@
-//! Scenes of Unity to scenes of Carom.
+//! Imports scenes of Unity.
 //!
 //! ```text
 //!  .unity, .prefab -> documents -> objects (instances of prefabs filled in) -> nodes (placed in the world)
@@ -6,8 +6,9 @@
 //!  fields of scripts -> mapping -----------------------------------------------> Scene and omissions
 //! ```
 //!
-//! [`import`] reads one scene; a [`Project`] finds the files that it refers to. What has no counterpart is
-//! listed ([`Omission`]), broken files are refused with the line ([`ImportError`]).
+//! [`import`] reads one scene; a [`Project`] finds the files to which it refers. Parts without a
+//! counterpart are reported ([`Omission`]), and broken files are refused with the line
+//! ([`ImportError`]).
 
 #![warn(clippy::unwrap_used)]
 

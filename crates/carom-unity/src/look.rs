@@ -1,4 +1,4 @@
-//! Cameras and lights.
+//! Imports cameras and lights.
 
 use carom_scene::import::{Omission, omit};
 use carom_scene::scene::{Camera, Colors, Scene, Sun};
@@ -9,7 +9,7 @@ use crate::graph::Node;
 use crate::pose::{mirrored, mirrored_rotation};
 use crate::value::Value;
 
-/// Takes a camera over, the first one or the main one.
+/// Imports a camera, if it is the first one or the main camera.
 pub(crate) fn camera(
     document: &Document,
     node: &Node,
@@ -31,7 +31,7 @@ pub(crate) fn camera(
         near: fields.number_at("near clip plane", 0.3)?,
         far: fields.number_at("far clip plane", 1000.0)?,
     });
-    // A plain colour, not the sky.
+    // The background is a colour, not the sky.
     if fields.number_at("m_ClearFlags", 1.0)? == 2.0
         && let Some(color) = fields.get("m_BackGroundColor")
     {
@@ -41,7 +41,7 @@ pub(crate) fn camera(
     Ok(true)
 }
 
-/// Takes a directional light over.
+/// Imports a directional light.
 pub(crate) fn light(
     document: &Document,
     node: &Node,
@@ -66,7 +66,7 @@ pub(crate) fn light(
 }
 
 fn rgb(value: &Value) -> Result<[f64; 3], ImportError> {
-    // Beyond 1 are colours for displays of high dynamic range.
+    // Parts above 1 are for displays of high dynamic range.
     let color = value.numbers("the colour", ["r", "g", "b"])?;
     Ok(color.map(|part| part.clamp(0.0, 1.0)))
 }

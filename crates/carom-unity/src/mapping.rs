@@ -1,4 +1,4 @@
-//! Which fields of scripts mean what: the file for `--map`.
+//! The file for `--map`: meanings of the fields of scripts.
 
 use std::path::Path;
 
@@ -6,129 +6,129 @@ use serde::Deserialize;
 
 use crate::error::{ImportError, read_text};
 
-/// What the fields of scripts mean.
+/// Meanings of the fields of scripts.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mapping {
-    /// Kinds of scripts; a script is of the first kind that fits.
+    /// Kinds of scripts; the first kind that fits a script counts.
     #[serde(default)]
     pub(crate) scripts: Vec<ScriptKind>,
 }
 
-/// Scripts that mean the same.
+/// Scripts whose fields have the same meanings.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ScriptKind {
-    /// What reports call it.
+    /// Name of the kind in reports.
     pub name: String,
-    /// File of the script, like `Spawner.cs`; any where it is missing.
+    /// File of the script, such as `Spawner.cs`; `None` for any file.
     pub file: Option<String>,
-    /// Fields that a script of this kind has.
+    /// Fields that every script of this kind has.
     #[serde(default)]
     pub fields: Vec<String>,
-    /// Fields that mean nothing here.
+    /// Fields that are ignored.
     #[serde(default)]
     pub unused: Vec<String>,
-    /// It emits spheres where its object is.
+    /// Fields of an emitter at the place of its object.
     pub emitter: Option<EmitterFields>,
-    /// It is a sphere.
+    /// Fields of a sphere.
     pub sphere: Option<SphereFields>,
-    /// Its object is a collider, in the form of its mesh.
+    /// Fields of a collider, whose shape is that of its object's mesh.
     pub collider: Option<ColliderFields>,
-    /// What all spheres have in common.
+    /// Common properties of all spheres.
     pub properties: Option<PropertyFields>,
     /// Forces on every sphere.
     pub forces: Option<ForceFields>,
 }
 
-/// A number of the script, or one for all scripts.
+/// A number: a constant, or a field of the script.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(untagged)]
 pub(crate) enum Number {
-    /// A number for all scripts.
+    /// A constant for all scripts.
     Constant(f64),
-    /// The name of the field.
+    /// Name of a field.
     Field(String),
 }
 
-/// A vector of the script in Unity's frame, or one for all scripts.
+/// A vector in Unity's coordinates: a constant, or a field of the script.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(untagged)]
 pub(crate) enum Vector {
-    /// A vector for all scripts.
+    /// A constant for all scripts.
     Constant([f64; 3]),
-    /// The name of the field.
+    /// Name of a field.
     Field(String),
 }
 
-/// What an emitter has.
+/// Fields of an emitter.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct EmitterFields {
-    /// In s.
+    /// Period \[s\].
     pub period: Number,
     pub max_spheres: Option<Number>,
-    /// In m.
+    /// Diameter \[m\].
     pub diameter: Number,
-    /// In kg.
+    /// Mass \[kg\].
     pub mass: Option<Number>,
-    /// In m/s, in the emitter's frame.
+    /// Velocity in the emitter's coordinates \[m/s\].
     pub velocity: Option<Vector>,
 }
 
-/// What a sphere has.
+/// Fields of a sphere.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SphereFields {
-    /// In m, in the world; where its object is where it is missing.
+    /// Position in the world \[m\]; default: that of its object.
     pub position: Option<Vector>,
-    /// In m; the scale of its object where it is missing.
+    /// Diameter \[m\]; default: the scale of its object.
     pub diameter: Option<Number>,
-    /// In kg.
+    /// Mass \[kg\].
     pub mass: Option<Number>,
-    /// In m/s, in the world.
+    /// Velocity in the world \[m/s\].
     pub velocity: Option<Vector>,
     pub restitution: Option<Number>,
 }
 
-/// What a collider has.
+/// Fields of a collider.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ColliderFields {
-    /// In [0, 1]; -1 for a collider that deflects nothing.
+    /// Restitution in [0, 1]; -1 for a collider that deflects nothing.
     pub restitution: Number,
 }
 
-/// What spheres have that say nothing else.
+/// Properties of spheres that state none.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PropertyFields {
-    /// In kg.
+    /// Mass \[kg\].
     pub mass: Option<Number>,
 }
 
-/// What acts on spheres.
+/// Forces on every sphere.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ForceFields {
-    /// In N.
+    /// Force \[N\].
     pub constant: Option<Vector>,
-    /// In m/s².
+    /// Acceleration \[m/s²\].
     pub gravity: Option<Vector>,
-    /// In kg/s.
+    /// Coefficient of drag \[kg/s\].
     pub viscous_drag: Option<Number>,
 }
 
 impl Mapping {
-    /// The scripts of the course.
+    /// Mapping of the scripts of the course.
     pub fn course() -> Self {
         toml::from_str(include_str!("course.toml")).expect("a test reads it")
     }
 
-    /// Reads a mapping file. Its kinds come before those of the course.
+    /// Reads a mapping file. Its kinds take precedence over those of the course.
     ///
     /// # Errors
-    /// Files that cannot be read, and what makes no sense in them, with the line.
+    /// [`ImportError`] for a file that cannot be read, or with the line of an error.
     pub fn from_file(path: &Path) -> Result<Self, ImportError> {
         let text = read_text(path)?;
         let malformed = |line: usize, problem: String| ImportError::Malformed {
@@ -152,7 +152,7 @@ impl Mapping {
 }
 
 impl ScriptKind {
-    /// Every field that it reads.
+    /// Names of all fields that a script of this kind uses.
     pub fn read_fields(&self) -> Vec<&str> {
         let mut fields: Vec<&str> = Vec::new();
         fields.extend(self.fields.iter().map(String::as_str));

@@ -1,4 +1,4 @@
-//! Materials: colours and finishes, and how surfaces bounce and rub.
+//! Imports materials: colours, finishes, restitution and friction.
 
 use carom_scene::scene::{Color, CombineRule, Finish};
 
@@ -8,33 +8,34 @@ use crate::error::ImportError;
 use crate::project::Project;
 use crate::value::Value;
 
-/// What an object looks like.
+/// Appearance of an object.
 #[derive(Debug, Clone)]
 pub(crate) struct Look {
-    /// `None` where its material says none.
+    /// Colour; `None` if its material states none.
     pub color: Option<Color>,
-    /// How its surface takes light.
+    /// How its surface reflects light.
     pub finish: Finish,
-    /// Whether it is seen at all.
+    /// Whether it is drawn.
     pub visible: bool,
 }
 
-/// What a material file says of a look, and what of it has no counterpart.
+/// Appearance stated by a material file, and its parts without a counterpart.
 #[derive(Debug, Clone)]
 pub(crate) struct Appearance {
     pub look: Look,
     pub left_out: Vec<&'static str>,
 }
 
-/// The appearance of a material file; `None` where the reference leads to no material of the project, or
-/// it has no colour.
+/// Reads the appearance from a material file; `None` if the reference leads to no material of the
+/// project, or the material has no colour.
 pub(crate) fn appearance(
     reference: &Value,
     project: &Project,
 ) -> Result<Option<Appearance>, ImportError> {
     let Some(fields) = asset(reference, class::MATERIAL, project)? else { return Ok(None) };
     let saved = fields.get("m_SavedProperties");
-    // Each is a table of one name; in files of Unity 5 and before, `first` and `second`.
+    // Each entry is a table with one name; in files of Unity 5 and earlier, with `first` and
+    // `second`.
     let named = |list: &str, name: &str| {
         saved?.get(list)?.items().iter().find_map(|it| it.get(name)).cloned()
     };
@@ -42,7 +43,7 @@ pub(crate) fn appearance(
     let Some(base) = color("_Color").or_else(|| color("_BaseColor")) else { return Ok(None) };
     let [r, g, b, opacity] = base.numbers("the colour", ["r", "g", "b", "a"])?;
     let float = |name: &str| named("m_Floats", name).map(|it| it.number(name)).transpose();
-    // By the standard shader, and by that of the Universal Render Pipeline.
+    // Name in the standard shader, then in that of the Universal Render Pipeline.
     let smoothness = float("_Glossiness")?.or(float("_Smoothness")?);
     let is_transparent = float("_Mode")?.unwrap_or(0.0) >= 2.0 || float("_Surface")? == Some(1.0);
     let finish = match (float("_Metallic")?, smoothness) {
@@ -71,7 +72,7 @@ pub(crate) fn appearance(
     Ok(Some(Appearance { look, left_out }))
 }
 
-/// How a surface bounces and rubs.
+/// Restitution and friction of a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Surface {
     pub bounciness: f64,
@@ -81,7 +82,7 @@ pub(crate) struct Surface {
 }
 
 impl Surface {
-    /// What Unity takes for a collider without a material.
+    /// Unity's default for a collider without a material.
     pub const DEFAULT: Self = Self {
         bounciness: 0.0,
         friction: 0.6,
@@ -89,7 +90,8 @@ impl Surface {
         friction_combine: CombineRule::Average,
     };
 
-    /// The surface of a file; `None` where the reference leads to no physic material of the project.
+    /// Reads a surface from a file; `None` if the reference leads to no physic material of the
+    /// project.
     pub fn of(reference: &Value, project: &Project) -> Result<Option<Self>, ImportError> {
         let Some(fields) = asset(reference, class::PHYSIC_MATERIAL, project)? else {
             return Ok(None);
@@ -112,7 +114,7 @@ impl Surface {
     }
 }
 
-/// The fields of the first object of a class in the file of a reference.
+/// Fields of the first object of a class in the file of a reference.
 fn asset(reference: &Value, class: u32, project: &Project) -> Result<Option<Value>, ImportError> {
     let guid = reference.reference().and_then(|it| it.guid);
     let Some(file) = guid.and_then(|guid| project.file(&guid).map(ToOwned::to_owned)) else {

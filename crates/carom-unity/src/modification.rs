@@ -1,23 +1,23 @@
-//! What an instance of a prefab changes of its objects.
+//! Modifications that an instance of a prefab makes in its objects.
 
 use crate::error::ImportError;
 use crate::value::{Kind, Value};
 
-/// One field that an instance changes.
+/// A field that an instance of a prefab modifies.
 pub(crate) struct Modification<'a> {
     /// Id of the object in the prefab.
     pub target: i64,
-    /// Path of the field, like `m_LocalPosition.x` or `m_Materials.Array.data[0]`.
+    /// Path of the field, such as `m_LocalPosition.x` or `m_Materials.Array.data[0]`.
     pub path: &'a str,
-    /// The text of the value, or the object that it refers to.
+    /// The new value: a text, or a reference to an object.
     value: &'a Value,
 }
 
 impl<'a> Modification<'a> {
-    /// An item of `m_Modifications`.
+    /// Reads an item of `m_Modifications`.
     ///
     /// # Errors
-    /// Where target, path or value are missing.
+    /// [`ImportError`] if target, path or value is missing.
     pub fn new(item: &'a Value) -> Result<Self, ImportError> {
         let part = |name: &str| {
             let missing = || item.place.malformed(format!("the modification has no {name}"));
@@ -34,10 +34,10 @@ impl<'a> Modification<'a> {
         Ok(Self { target, path, value })
     }
 
-    /// Writes the value into the fields of its target; what is missing on the way is made.
+    /// Sets the field of its target; creates missing parts of the path.
     ///
     /// # Errors
-    /// Paths that lead through a text, or that are too long.
+    /// [`ImportError`] if the path leads through a text, or is too long.
     pub fn apply(&self, fields: &mut Value) -> Result<(), ImportError> {
         const LONGEST: usize = 16;
         let steps = steps(self.path);
@@ -91,7 +91,7 @@ fn steps(path: &str) -> Vec<Step<'_>> {
     steps
 }
 
-/// Length of a list that a modification may make.
+/// Longest list that a modification may create.
 const LONGEST_LIST: usize = 10_000;
 
 fn resize(list: &mut Value, size: &Value) -> Option<()> {
@@ -113,7 +113,7 @@ fn item(list: &mut Value, index: usize) -> Option<&mut Value> {
     items.get_mut(index)
 }
 
-/// The items of a list; a value that holds nothing becomes one.
+/// Items of a list; turns an empty value into a list.
 fn made_list(value: &mut Value) -> Option<&mut Vec<Value>> {
     if matches!(&value.kind, Kind::Text(text) if text.is_empty()) {
         value.kind = Kind::List(Vec::new());

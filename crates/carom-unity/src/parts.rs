@@ -1,4 +1,4 @@
-//! The components of a game object by what they are.
+//! Sorts the components of a game object.
 
 use carom_scene::import::{Omission, omit};
 
@@ -10,12 +10,12 @@ use crate::project::Project;
 use crate::script::Script;
 use crate::value::Value;
 
-/// The components of a game object by what they are.
+/// Components of a game object by kind.
 #[derive(Default)]
 pub(crate) struct Parts<'a> {
     pub scripts: Vec<Script<'a>>,
     pub rigid_body: Option<&'a Document>,
-    /// Of Unity's own physics.
+    /// Colliders of Unity's own physics.
     pub colliders: Vec<&'a Document>,
     pub mesh: Option<&'a Document>,
     pub renderer: Option<&'a Document>,
@@ -24,7 +24,7 @@ pub(crate) struct Parts<'a> {
 }
 
 impl<'a> Parts<'a> {
-    /// Sorts the components of a node; what is unknown or disabled goes to the report.
+    /// Sorts the components of a node; reports those that are unknown or disabled.
     pub fn of(
         node: &Node,
         objects: &'a [Document],
@@ -58,13 +58,13 @@ impl<'a> Parts<'a> {
         parts
     }
 
-    /// Whether the object is a sphere that Unity's own physics moves.
+    /// Whether the object is a sphere moved by Unity's own physics.
     pub fn is_moving_sphere(&self) -> bool {
         let is_sphere = |it: &&Document| it.class == class::SPHERE_COLLIDER && !is_trigger(it);
         self.moves() && self.colliders.iter().any(is_sphere)
     }
 
-    /// Whether the body moves but is no sphere.
+    /// Whether the object is moved by Unity's own physics but is no sphere.
     pub fn is_moving_otherwise(&self) -> bool {
         self.moves() && !self.is_moving_sphere()
     }
@@ -74,7 +74,7 @@ impl<'a> Parts<'a> {
         self.rigid_body.is_some_and(|body| !is_set(body, "m_IsKinematic"))
     }
 
-    /// Lists fields of scripts that have no meaning here.
+    /// Reports fields of scripts that are not used.
     pub fn list_unread(&self, node: &Node, report: &mut Vec<Omission>) {
         for script in &self.scripts {
             for field in script.unread() {
@@ -85,12 +85,12 @@ impl<'a> Parts<'a> {
     }
 }
 
-/// Whether a collider of Unity reports contact and deflects nothing.
+/// Whether a collider of Unity is a trigger.
 pub(crate) fn is_trigger(collider: &Document) -> bool {
     is_set(collider, "m_IsTrigger")
 }
 
-/// Whether a field is there and not 0.
+/// Whether a field exists and is not 0.
 pub(crate) fn is_set(document: &Document, field: &str) -> bool {
     document.fields.get(field).and_then(Value::text).is_some_and(|it| it != "0")
 }

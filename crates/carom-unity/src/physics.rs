@@ -1,4 +1,4 @@
-//! What Unity's own physics moves: rigid bodies, its colliders, and their materials.
+//! Imports Unity's own physics: rigid bodies, colliders, and their materials.
 
 use std::collections::BTreeMap;
 
@@ -15,24 +15,24 @@ use crate::pose::mirrored;
 use crate::shape::{Placed, of_collider};
 use crate::value::Value;
 
-/// What Unity's own physics has in a scene.
+/// Unity's own physics in a scene.
 #[derive(Default)]
 pub(crate) struct Physics {
-    /// Surfaces by the guids of their files; the first is that of colliders without a material.
+    /// Surfaces by the guids of their files; the first one is for colliders without a material.
     surfaces: BTreeMap<String, Option<Surface>>,
-    /// How contacts bounce and rub, of all colliders that were added.
+    /// Combine rules of restitution and friction of all added colliders.
     combine: Vec<(CombineRule, CombineRule)>,
-    /// Drag of the bodies, in kg/s, each once.
+    /// Different drag coefficients of the bodies \[kg/s\].
     drags: Vec<f64>,
-    /// Whether a body falls.
+    /// Whether gravity acts on a body.
     gravity: bool,
 }
 
 impl Physics {
-    /// Adds a sphere that moves, or colliders that stay.
+    /// Adds a moving sphere, or fixed colliders.
     ///
     /// # Errors
-    /// Values that make no sense, with the line.
+    /// [`ImportError`] with the line of an invalid value.
     pub fn add(
         &mut self,
         node: &Node,
@@ -61,7 +61,7 @@ impl Physics {
                 }
                 Some(it) => {
                     self.add_body(it, placed, surface, (node, parts), building)?;
-                    // Further colliders of the body are listed, too.
+                    // Further colliders of the body are reported, too.
                     body = None;
                 }
                 None if parts.is_moving_sphere() => {
@@ -92,7 +92,7 @@ impl Physics {
         let look = building.look(node, parts)?;
         (sphere.color, sphere.finish) = (look.color, look.finish);
         building.push_sphere(sphere, body);
-        // Unity's drag is a rate: the force is that times mass and velocity.
+        // Unity's drag is a rate: the force is the rate times mass and velocity.
         let drag = mass * fields.number_at_either(["m_Drag", "m_LinearDamping"], 0.0)?;
         if !self.drags.contains(&drag) {
             self.drags.push(drag);
@@ -147,10 +147,10 @@ impl Physics {
         Ok(surface)
     }
 
-    /// Sets what holds for the whole scene: gravity, drag, and how contacts bounce and rub.
+    /// Sets gravity, drag and combine rules, which hold for the whole scene.
     ///
     /// # Errors
-    /// Gravity of the project that is no vector.
+    /// [`ImportError`] if the gravity of the project is no vector.
     pub fn finish(self, building: &mut Building<'_>) -> Result<(), ImportError> {
         let file = building.scene.name.clone();
         if self.gravity {
@@ -167,7 +167,7 @@ impl Physics {
                 omit(&mut building.report, &file, "Rigidbody", reason);
             }
         }
-        // Unity's order where the materials of a contact differ.
+        // Unity's order of precedence if the materials of a contact differ.
         const FIRST: [CombineRule; 4] = [
             CombineRule::Maximum,
             CombineRule::Product,

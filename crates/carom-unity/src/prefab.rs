@@ -1,4 +1,4 @@
-//! Files with instances of prefabs to all their objects, those of the prefabs among them.
+//! Reads files with all their objects, including those of prefab instances.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -17,29 +17,29 @@ use crate::value::{Kind, Value};
 pub(crate) struct Loader<'a> {
     project: &'a Project,
     loaded: BTreeMap<PathBuf, Rc<Vec<Document>>>,
-    /// The files that are being read: each holds an instance of the next one.
+    /// Files that are being read: each contains an instance of the next.
     open: Vec<PathBuf>,
-    /// Memory that copies of objects may still take, in bytes.
+    /// Remaining memory for copies of objects \[bytes\].
     memory_left: usize,
-    /// What was not understood.
+    /// Omissions so far.
     pub report: Vec<Omission>,
 }
 
 impl<'a> Loader<'a> {
-    /// A loader of files of this project.
+    /// Creates a loader for files of this project.
     pub fn new(project: &'a Project) -> Self {
-        /// Some prefabs of prefabs double with each line that is written: their copies are bounded, in
-        /// bytes.
+        /// Limit on the memory of copies \[bytes\]: nested prefabs can double the number of objects
+        /// with each line.
         const MEMORY: usize = 512 << 20;
         let report = project.omissions().to_vec();
         Self { project, loaded: BTreeMap::new(), open: Vec::new(), memory_left: MEMORY, report }
     }
 
-    /// All objects of a scene or prefab, in the order of the file; those of an instance of a prefab come in
-    /// its place.
+    /// Reads all objects of a scene or prefab, in the order of the file. The objects of a prefab
+    /// instance take its place.
     ///
     /// # Errors
-    /// Broken files; prefabs that hold themselves, or are too many.
+    /// [`ImportError`] for a broken file, or for prefabs that contain themselves or are too many.
     pub fn objects(&mut self, path: &Path) -> Result<Rc<Vec<Document>>, ImportError> {
         if let Some(objects) = self.loaded.get(path) {
             return Ok(objects.clone());
@@ -74,8 +74,8 @@ impl<'a> Loader<'a> {
         Ok(objects)
     }
 
-    /// The objects of an instance of a prefab. `known` has the ids that the file gives to some of them, by
-    /// their ids in the prefab.
+    /// Creates the objects of a prefab instance. `known` maps ids in the prefab to the ids that the
+    /// file gives to some of them.
     fn instance(
         &mut self,
         instance: &Document,
@@ -88,7 +88,7 @@ impl<'a> Loader<'a> {
             source.iter().filter(|object| !removed.contains(&object.id)).cloned().collect();
         self.pay(&objects, &instance.fields.place)?;
         let new_id = |id: i64| {
-            // Unity's own rule for the ids of objects in nested prefabs.
+            // Unity's rule for the ids of objects in nested prefabs.
             known.get(&id).copied().unwrap_or((instance.id ^ id) & i64::MAX)
         };
         let parent = changes.and_then(|it| it.get("m_TransformParent")?.reference());
@@ -120,7 +120,8 @@ impl<'a> Loader<'a> {
         Ok(objects)
     }
 
-    /// The file of the prefab, and what the instance changes; `None` where there is no such file.
+    /// Finds the file of the prefab, and the modifications of the instance; `None` if there is no
+    /// such file.
     fn source<'b>(
         &mut self,
         instance: &'b Document,
@@ -132,7 +133,7 @@ impl<'a> Loader<'a> {
         let changes = fields.get("m_Modification");
         let object = self.project.shown(&fields.place.file);
         let Some(guid) = source.and_then(Value::reference).and_then(|it| it.guid) else {
-            // Prefabs of Unity up to 2018.2 have such a document for themselves.
+            // Prefabs of Unity up to 2018.2 contain such a document for themselves.
             if fields.get("m_RootGameObject").is_none() {
                 omit(&mut self.report, &object, "prefab instance", "names no prefab");
             }
@@ -158,7 +159,7 @@ impl<'a> Loader<'a> {
         Ok(Some((path, changes)))
     }
 
-    /// Takes the memory of copies from what is left.
+    /// Subtracts the memory of copies from the remaining memory.
     fn pay(&mut self, objects: &[Document], place: &Place) -> Result<(), ImportError> {
         let cost = objects.iter().map(|it| size_of::<Document>() + it.fields.size()).sum();
         let too_much = || place.malformed("all instances of prefabs take more than 512 MiB");
@@ -167,7 +168,8 @@ impl<'a> Loader<'a> {
     }
 }
 
-/// The instance that a stripped document belongs to, and the id in the prefab of what it stands for.
+/// For a stripped document, returns the prefab instance and the id in the prefab of the object for
+/// which it stands.
 fn stands_for(document: &Document) -> Option<(i64, i64)> {
     let reference = |new: &str, old: &str| {
         document.fields.get(new).or_else(|| document.fields.get(old))?.reference()
@@ -186,7 +188,7 @@ fn set_father(fields: &mut Value, id: i64) {
     all.push(("m_Father".to_owned(), father));
 }
 
-/// Ids of what an instance leaves out: components, and objects with all that is below them.
+/// Ids that an instance removes: components, and objects with all their descendants.
 fn removed(instance: &Document, source: &[Document]) -> BTreeSet<i64> {
     let changes = instance.fields.get("m_Modification");
     let list = |name: &str| {
@@ -198,7 +200,8 @@ fn removed(instance: &Document, source: &[Document]) -> BTreeSet<i64> {
     if removed.is_empty() {
         return removed;
     }
-    // From father to children; a file may list them in any order, so again until no more come.
+    // Removes children of removed objects. A file may list them in any order, so this repeats until
+    // nothing changes.
     loop {
         let before = removed.len();
         for object in source {

@@ -1,4 +1,4 @@
-//! The project around a scene: which file has which guid.
+//! The project around a scene: finds files by guid.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -9,10 +9,10 @@ use carom_scene::import::{Omission, omit};
 use crate::document;
 use crate::error::{ImportError, read_text};
 
-/// The files of a project.
+/// Files of a project.
 #[derive(Debug, Default)]
 pub struct Project {
-    /// The folder `Assets`, or that of a scene outside one.
+    /// The folder `Assets`, or that of a scene outside such a folder.
     assets: PathBuf,
     by_guid: BTreeMap<String, PathBuf>,
     scenes: Vec<PathBuf>,
@@ -20,11 +20,11 @@ pub struct Project {
 }
 
 impl Project {
-    /// The project that a scene or folder is in: the nearest folder `Assets` around it; without one, its own
-    /// folder.
+    /// Finds the project of a scene or folder: the nearest folder `Assets` around it, or else its
+    /// own folder.
     ///
     /// # Errors
-    /// [`ImportError::Unreadable`] for a scene or folder that is not there.
+    /// [`ImportError::Unreadable`] if the scene or folder does not exist.
     pub fn around(path: &Path) -> Result<Self, ImportError> {
         let unreadable = |source| ImportError::Unreadable { path: path.to_path_buf(), source };
         let whole = path.canonicalize().map_err(unreadable)?;
@@ -36,10 +36,10 @@ impl Project {
         Ok(project)
     }
 
-    /// The scenes below a folder, in the order of their paths.
+    /// Lists the scenes below a folder, sorted by path.
     ///
     /// # Errors
-    /// [`ImportError::Refused`] where it has none.
+    /// [`ImportError::Refused`] if there are none.
     pub fn scenes(&self, folder: &Path) -> Result<Vec<PathBuf>, ImportError> {
         let unreadable = |source| ImportError::Unreadable { path: folder.to_path_buf(), source };
         let whole = folder.canonicalize().map_err(unreadable)?;
@@ -52,23 +52,23 @@ impl Project {
         Ok(scenes)
     }
 
-    /// The file of a guid.
+    /// Path of the file with this guid.
     pub(crate) fn file(&self, guid: &str) -> Option<&Path> {
         self.by_guid.get(guid).map(PathBuf::as_path)
     }
 
-    /// A file as reports call it: its path from the folder around `Assets`.
+    /// Path of a file in reports, relative to the folder that contains `Assets`.
     pub(crate) fn shown(&self, file: &Path) -> String {
         let root = self.assets.parent().unwrap_or(&self.assets);
         file.strip_prefix(root).unwrap_or(file).display().to_string()
     }
 
-    /// What of the project was not understood.
+    /// Omissions of the project.
     pub(crate) fn omissions(&self) -> &[Omission] {
         &self.omissions
     }
 
-    /// A setting of the project: a field of the first object of a file in `ProjectSettings`.
+    /// Reads a setting of the project: a field of the first object of a file in `ProjectSettings`.
     pub(crate) fn setting(
         &self,
         file: &str,
@@ -83,7 +83,7 @@ impl Project {
         Ok(documents.first().and_then(|it| it.fields.get(field)).cloned())
     }
 
-    /// Walks through the folders, with bounds on how many and how deep.
+    /// Searches the folders, with limits on number and depth.
     fn search(&mut self) {
         const DEEPEST: usize = 32;
         const MOST: usize = 200_000;
@@ -104,7 +104,7 @@ impl Project {
                     return;
                 }
                 let path = entry.path();
-                // Links are not followed: they may lead in circles.
+                // Symbolic links are not followed, because they may form circles.
                 match entry.file_type() {
                     Ok(kind) if kind.is_dir() && depth < DEEPEST => folders.push((path, depth + 1)),
                     Ok(kind) if kind.is_file() => self.add(path),
@@ -132,7 +132,7 @@ impl Project {
     }
 }
 
-/// The guid in a `.meta` file.
+/// Reads the guid from a `.meta` file.
 fn guid(path: &Path) -> Option<String> {
     let text = read_text(path).ok()?;
     let guid = text.lines().find_map(|line| line.strip_prefix("guid:"))?.trim();

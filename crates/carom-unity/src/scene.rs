@@ -1,4 +1,4 @@
-//! A scene of Unity to a scene of Carom: the stages in order.
+//! Imports a scene of Unity: the stages in order.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -18,17 +18,17 @@ use crate::physics::Physics;
 use crate::prefab::Loader;
 use crate::project::Project;
 
-/// What a scene of Unity does not say.
+/// Properties that a scene of Unity does not state.
 #[derive(Debug, Clone)]
 pub struct Options {
-    /// What the fields of scripts mean.
+    /// Meanings of the fields of scripts.
     pub mapping: Mapping,
-    /// The step rule; where it is missing `discrete` for spheres that scripts move, as the course does,
-    /// `exact` for others.
+    /// Rule; the default is `discrete` for spheres that scripts move, as in the course, and `exact`
+    /// for others.
     pub rule: Option<Rule>,
-    /// Length of a frame \[s\]; where it is missing the project's fixed time step, or 0.02.
+    /// Length of a frame \[s\]; the default is the project's fixed time step, or 0.02.
     pub frame_time: Option<f64>,
-    /// Time worth watching \[s\]; 10 where it is missing.
+    /// Duration \[s\]; the default is 10.
     pub duration: Option<f64>,
 }
 
@@ -38,19 +38,19 @@ impl Default for Options {
     }
 }
 
-/// A scene that was imported.
+/// An imported scene.
 #[derive(Debug)]
 pub struct Imported {
-    /// The scene; it makes a world.
+    /// The scene, which is valid.
     pub scene: Scene,
-    /// What was not understood or has no counterpart.
+    /// Parts that were ignored, replaced or not understood.
     pub omissions: Vec<Omission>,
 }
 
-/// Imports a scene, the files of `project` around it.
+/// Imports a scene of `project`.
 ///
 /// # Errors
-/// Files that cannot be read or are broken, and scenes that make no world.
+/// [`ImportError`] if a file cannot be read or is broken, or if the scene is invalid.
 pub fn import(path: &Path, project: &Project, options: &Options) -> Result<Imported, ImportError> {
     let whole = path.canonicalize();
     let whole =
@@ -93,7 +93,7 @@ pub fn import(path: &Path, project: &Project, options: &Options) -> Result<Impor
     checked(building, path)
 }
 
-/// What moves spheres.
+/// Whether scripts or Unity's own physics move spheres.
 #[derive(Clone, Copy)]
 struct Moves {
     by_scripts: bool,
@@ -110,7 +110,7 @@ impl Moves {
     }
 }
 
-/// The nodes that are active; the others go to the report.
+/// Returns the active nodes; reports the others.
 fn active(nodes: Vec<Node>, report: &mut Vec<Omission>) -> Vec<Node> {
     let (active, inactive): (Vec<_>, Vec<_>) = nodes.into_iter().partition(|node| node.active);
     for node in inactive {
@@ -119,7 +119,7 @@ fn active(nodes: Vec<Node>, report: &mut Vec<Omission>) -> Vec<Node> {
     active
 }
 
-/// Lists settings that say how a scene is lit and walked through.
+/// Reports settings such as lighting and navigation.
 fn list_settings(objects: &[Document], path: &Path, report: &mut Vec<Omission>) {
     let file = path.file_name().unwrap_or_default().to_string_lossy();
     for object in objects.iter().filter(|it| class::SETTINGS.contains(&it.class)) {
@@ -127,7 +127,7 @@ fn list_settings(objects: &[Document], path: &Path, report: &mut Vec<Omission>) 
     }
 }
 
-/// Lists meshes that are only drawn.
+/// Reports meshes that are only drawn.
 fn list_drawn(node: &Node, parts: &Parts<'_>, is_scripted: bool, report: &mut Vec<Omission>) {
     if parts.rigid_body.is_some() {
         omit(report, &node.path, "Rigidbody", "it has no collider");
@@ -137,7 +137,7 @@ fn list_drawn(node: &Node, parts: &Parts<'_>, is_scripted: bool, report: &mut Ve
     }
 }
 
-/// Sets how the scene is stepped.
+/// Sets rule, frame time and duration of the scene.
 fn simulate(
     scene: &mut Scene,
     moves: Moves,
@@ -156,11 +156,11 @@ fn simulate(
     Ok(())
 }
 
-/// The fixed time step of a project \[s\].
+/// Fixed time step of a project \[s\].
 fn fixed_time_step(project: &Project) -> Result<Option<f64>, ImportError> {
     let field = "Fixed Timestep";
     let Some(step) = project.setting("TimeManager.asset", field)? else { return Ok(None) };
-    // Since Unity 6 a number of ticks, and how many there are in a second.
+    // Since Unity 6 the time is a number of ticks with their rate per second.
     let ticks = step.get("m_Count").zip(step.get("m_Rate"));
     let step = match ticks {
         None => step.number(field)?,
@@ -172,7 +172,7 @@ fn fixed_time_step(project: &Project) -> Result<Option<f64>, ImportError> {
     Ok(Some(step))
 }
 
-/// The scene, if it makes a world.
+/// Returns the scene if it is valid.
 fn checked(building: Building<'_>, path: &Path) -> Result<Imported, ImportError> {
     let Building { mut scene, places, mut report, .. } = building;
     match made_runnable(&mut scene, &mut report) {
@@ -181,7 +181,7 @@ fn checked(building: Building<'_>, path: &Path) -> Result<Imported, ImportError>
     }
 }
 
-/// A refusal of a scene, at the line of Unity's file where that is known.
+/// Converts an error of the scene to one at the line of Unity's file, if that is known.
 fn at_place(error: SceneError, places: &BTreeMap<String, Place>, path: &Path) -> ImportError {
     if let SceneError::Invalid(fault) = &error {
         let part = match fault.field.find(']') {

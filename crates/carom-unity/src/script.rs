@@ -1,4 +1,4 @@
-//! Scripts of a scene, and what their fields mean.
+//! Reads scripts by the meanings of their fields.
 
 use carom::DVec3;
 
@@ -8,17 +8,17 @@ use crate::mapping::{Mapping, Number, ScriptKind, Vector};
 use crate::project::Project;
 use crate::value::{Kind, Value};
 
-/// A script of a known kind on an object.
+/// A script of a known kind.
 #[derive(Clone, Copy)]
 pub(crate) struct Script<'a> {
-    /// What its fields mean.
+    /// Kind of the script, with the meanings of its fields.
     pub kind: &'a ScriptKind,
-    /// Its fields.
+    /// Document with its fields.
     pub document: &'a Document,
 }
 
 impl<'a> Script<'a> {
-    /// The script of a component; `Err` says for the report why it is of no known kind.
+    /// Recognizes the script of a component; the error is the reason for the report.
     pub fn of(
         document: &'a Document,
         mapping: &'a Mapping,
@@ -41,13 +41,13 @@ impl<'a> Script<'a> {
         }
     }
 
-    /// Fields that have no meaning here.
+    /// Names of the fields that are not used.
     pub fn unread(&self) -> Vec<&'a str> {
         let read = self.kind.read_fields();
         own_fields(self.document).filter(|field| !read.contains(field)).collect()
     }
 
-    /// A number that the script must have.
+    /// Reads a number that must exist.
     pub fn number(&self, number: &Number) -> Result<f64, ImportError> {
         match number {
             Number::Constant(number) => Ok(*number),
@@ -55,7 +55,7 @@ impl<'a> Script<'a> {
         }
     }
 
-    /// A number that the script may have.
+    /// Reads a number that may be missing.
     pub fn some_number(&self, number: Option<&Number>) -> Result<Option<f64>, ImportError> {
         let is_there = |it: &&Number| match it {
             Number::Constant(_) => true,
@@ -64,7 +64,7 @@ impl<'a> Script<'a> {
         number.filter(is_there).map(|it| self.number(it)).transpose()
     }
 
-    /// A vector that the script may have, in Unity's frame.
+    /// Reads a vector that may be missing, in Unity's coordinates.
     pub fn some_vector(&self, vector: Option<&Vector>) -> Result<Option<DVec3>, ImportError> {
         let vector = match vector {
             None => return Ok(None),
@@ -84,7 +84,7 @@ impl<'a> Script<'a> {
     }
 }
 
-/// Names of the fields that Unity does not write for every script.
+/// Names of the fields of the script itself, without those that Unity writes for every script.
 fn own_fields(document: &Document) -> impl Iterator<Item = &str> {
     let fields = match &document.fields.kind {
         Kind::Map(fields) => fields.as_slice(),
@@ -93,7 +93,7 @@ fn own_fields(document: &Document) -> impl Iterator<Item = &str> {
     fields.iter().map(|(name, _)| name.as_str()).filter(|name| !name.starts_with("m_"))
 }
 
-/// Name of the file that the script is in.
+/// Name of the script's file.
 fn file(document: &Document, project: &Project) -> Option<String> {
     let guid = document.fields.get("m_Script")?.reference()?.guid?;
     Some(project.file(&guid)?.file_name()?.to_string_lossy().into_owned())

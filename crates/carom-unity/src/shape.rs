@@ -1,4 +1,4 @@
-//! Forms of colliders: built-in meshes, and the colliders of Unity's own physics.
+//! Shapes of colliders: built-in meshes, and colliders of Unity's own physics.
 
 use carom::{DQuat, DVec3};
 use carom_scene::import::shortened;
@@ -10,34 +10,34 @@ use crate::error::ImportError;
 use crate::pose::Pose;
 use crate::value::Value;
 
-/// A form at a place, in Unity's frame.
+/// A shape with its pose in Unity's coordinates.
 #[derive(Debug, Clone)]
 pub(crate) struct Placed {
     pub shape: Shape,
     pub position: DVec3,
     pub rotation: DQuat,
-    /// What is not quite so, if anything.
+    /// Description of an inexact conversion, if there is one.
     pub inexact: Option<&'static str>,
 }
 
 /// A mesh that comes with Unity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Mesh {
-    /// Of diameter 1.
+    /// A sphere of diameter 1.
     Sphere,
-    /// With edges of 1.
+    /// A cube with edges of 1.
     Cube,
-    /// 10 x 10 in the xz plane, facing +y.
+    /// A rectangle of 10 x 10 in the xz plane that faces +y.
     Plane,
-    /// 1 x 1 in the xy plane, facing -z.
+    /// A rectangle of 1 x 1 in the xy plane that faces -z.
     Quad,
 }
 
 impl Mesh {
-    /// The built-in mesh of a reference.
+    /// Finds the built-in mesh of a reference.
     ///
     /// # Errors
-    /// Why it is none, for the report.
+    /// The reason for the report, if it is no such mesh.
     pub fn of(reference: Option<&Value>) -> Result<Self, String> {
         const BUILT_IN: &str = "0000000000000000e000000000000000";
         let reference = reference.and_then(Value::reference).ok_or("it has no mesh")?;
@@ -55,7 +55,7 @@ impl Mesh {
         }
     }
 
-    /// The collider of this form at a pose.
+    /// Shape of this mesh at a pose.
     pub fn placed(self, pose: &Pose) -> Placed {
         let scale = pose.scale();
         let whole = Placed {
@@ -78,7 +78,7 @@ impl Mesh {
                 Placed { shape: Shape::Rectangle { size_x, size_z }, ..whole }
             }
             Self::Quad => {
-                // From +y to -z, about x.
+                // Rotates +y to -z, about x.
                 let half = 0.5_f64.sqrt();
                 let rotation = pose.rotation * DQuat::from_xyzw(-half, 0.0, 0.0, half);
                 let (size_x, size_z) = (short(scale.x), short(scale.y));
@@ -88,10 +88,10 @@ impl Mesh {
     }
 }
 
-/// The form of a collider of Unity's own physics; `Err` says for the report why it has none.
+/// Shape of a collider of Unity's own physics; the inner error is the reason for the report.
 ///
 /// # Errors
-/// Numbers that are none.
+/// [`ImportError`] for an invalid number.
 pub(crate) fn of_collider(
     collider: &Document,
     pose: &Pose,

@@ -1,4 +1,4 @@
-//! YAML to values, each with the place where it is written.
+//! Reads YAML as values with their places.
 
 use std::path::Path;
 use std::rc::Rc;
@@ -11,16 +11,16 @@ use crate::error::{ImportError, Place};
 /// A value of a document.
 #[derive(Debug, Clone)]
 pub(crate) struct Value {
-    /// Where it is written.
+    /// Place of the value in its file.
     pub place: Place,
-    /// What it is.
+    /// Content of the value.
     pub kind: Kind,
 }
 
-/// What a value is.
+/// Content of a value.
 #[derive(Debug, Clone)]
 pub(crate) enum Kind {
-    /// A number, a text, or nothing, as it is written.
+    /// The text of a number, a string, or an empty value.
     Text(String),
     /// A list.
     List(Vec<Value>),
@@ -28,17 +28,17 @@ pub(crate) enum Kind {
     Map(Vec<(String, Value)>),
 }
 
-/// What a `{fileID, guid}` refers to.
+/// Target of a `{fileID, guid}`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Reference {
-    /// Id of the object in its file; 0 for none.
+    /// Id of the object in its file; 0 for no object.
     pub id: i64,
-    /// The guid of the file; `None` for the file that refers.
+    /// Guid of the file; `None` for the same file.
     pub guid: Option<String>,
 }
 
 impl Value {
-    /// The value of a name in a map.
+    /// Value of a field in a map.
     pub fn get(&self, name: &str) -> Option<&Value> {
         match &self.kind {
             Kind::Map(fields) => fields.iter().find(|(it, _)| it == name).map(|(_, value)| value),
@@ -46,7 +46,7 @@ impl Value {
         }
     }
 
-    /// The items of a list; none where it is no list.
+    /// Items of a list; empty for other values.
     pub fn items(&self) -> &[Value] {
         match &self.kind {
             Kind::List(items) => items,
@@ -54,7 +54,7 @@ impl Value {
         }
     }
 
-    /// The values of a map; none where it is no map.
+    /// Values of a map; empty for other values.
     pub fn values(&self) -> impl Iterator<Item = &Value> {
         let fields = match &self.kind {
             Kind::Map(fields) => &fields[..],
@@ -63,7 +63,7 @@ impl Value {
         fields.iter().map(|(_, value)| value)
     }
 
-    /// The text as it is written.
+    /// Text of the value as written.
     pub fn text(&self) -> Option<&str> {
         match &self.kind {
             Kind::Text(text) => Some(text),
@@ -71,19 +71,19 @@ impl Value {
         }
     }
 
-    /// A finite number.
+    /// Reads a finite number.
     ///
     /// # Errors
-    /// At the place of the value, with `what` it is.
+    /// [`ImportError`] at the place of the value; `what` names it.
     pub fn number(&self, what: &str) -> Result<f64, ImportError> {
         let number = self.text().and_then(|text| text.parse::<f64>().ok());
         number.filter(|number| number.is_finite()).ok_or_else(|| self.not(what, "a finite number"))
     }
 
-    /// Numbers of these names.
+    /// Reads the numbers of these fields.
     ///
     /// # Errors
-    /// As [`Self::number`], and where one is missing.
+    /// The same as those of [`Self::number`], also if a field is missing.
     pub fn numbers<const N: usize>(
         &self,
         what: &str,
@@ -99,49 +99,49 @@ impl Value {
         Ok(numbers)
     }
 
-    /// A vector x, y, z.
+    /// Reads a vector with the fields x, y, z.
     ///
     /// # Errors
-    /// As [`Self::numbers`].
+    /// The same as those of [`Self::numbers`].
     pub fn vector(&self, what: &str) -> Result<[f64; 3], ImportError> {
         self.numbers(what, ["x", "y", "z"])
     }
 
-    /// The number under a name, `missing` where there is none.
+    /// Reads the number of a field; returns `missing` if the field does not exist.
     ///
     /// # Errors
-    /// As [`Self::number`].
+    /// The same as those of [`Self::number`].
     pub fn number_at(&self, name: &str, missing: f64) -> Result<f64, ImportError> {
         self.number_at_either([name; 2], missing)
     }
 
-    /// The number under the first of two names that is there, which versions of Unity have for one thing;
-    /// `missing` without both.
+    /// Reads the number of the first of two fields that exists; versions of Unity use different
+    /// names. Returns `missing` if neither exists.
     ///
     /// # Errors
-    /// As [`Self::number`], with the first name.
+    /// The same as those of [`Self::number`]; errors use the first name.
     pub fn number_at_either(&self, names: [&str; 2], missing: f64) -> Result<f64, ImportError> {
         let value = names.into_iter().find_map(|name| self.get(name));
         value.map_or(Ok(missing), |value| value.number(names[0]))
     }
 
-    /// The vector under a name, `missing` where there is none.
+    /// Reads the vector of a field; returns `missing` if the field does not exist.
     ///
     /// # Errors
-    /// As [`Self::vector`].
+    /// The same as those of [`Self::vector`].
     pub fn vector_at(&self, name: &str, missing: DVec3) -> Result<DVec3, ImportError> {
         let value = self.get(name);
         value.map_or(Ok(missing), |value| value.vector(name).map(DVec3::from_array))
     }
 
-    /// What it refers to; `None` where it is no reference, or refers to nothing.
+    /// Target of the reference; `None` for other values, and for a reference to nothing.
     pub fn reference(&self) -> Option<Reference> {
         let id = self.get("fileID")?.text()?.parse().ok().filter(|&id| id != 0)?;
         let guid = self.get("guid").and_then(Self::text).map(str::to_owned);
         Some(Reference { id, guid })
     }
 
-    /// About how many bytes it takes in memory.
+    /// Approximate memory of the value \[bytes\].
     pub fn size(&self) -> usize {
         let within = match &self.kind {
             Kind::Text(text) => text.len(),
@@ -151,7 +151,7 @@ impl Value {
         size_of::<Self>() + within
     }
 
-    /// Changes every reference into its own file.
+    /// Changes the ids of all references to the same file.
     pub fn refer(&mut self, change: &impl Fn(i64) -> i64) {
         match &mut self.kind {
             Kind::Text(_) => {}
@@ -181,17 +181,17 @@ impl Value {
     }
 }
 
-/// A list or map of which not everything is read yet.
+/// A list or map that is not yet complete.
 struct Unfinished {
     value: Value,
-    /// The name in a map whose value comes next.
+    /// Name of the next value in a map.
     name: Option<String>,
 }
 
-/// Reads one YAML document that begins after `lines_before` lines of `file`.
+/// Reads one YAML document that starts after `lines_before` lines of `file`.
 ///
 /// # Errors
-/// What is no YAML, aliases, and values more than 64 deep in each other.
+/// [`ImportError`] for text that is no YAML, for aliases, and for values nested more than 64 deep.
 pub(crate) fn read(
     text: &str,
     file: &Rc<Path>,

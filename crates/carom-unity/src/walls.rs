@@ -1,17 +1,17 @@
-//! Six planes that enclose a box become that box.
+//! Replaces six planes that enclose a box by the box.
 
 use carom::{DQuat, DVec3};
 use carom_scene::scene::{Collider, Shape};
 
-/// A rectangle of a group of rectangles that hang on the same object, in Unity's frame.
+/// A rectangle in Unity's coordinates, from a group with the same parent.
 pub(crate) struct Face<'a> {
     pub collider: &'a Collider,
     pub position: DVec3,
     pub rotation: DQuat,
 }
 
-/// Centre and size of the box whose faces these are, along the axes of `frame`; `None` where they are
-/// no faces of a box that all look outward and bounce alike.
+/// Finds centre and size of the box with these faces, along the axes of `frame`. Returns `None`
+/// unless the rectangles are all faces of a box, face outward and have equal properties.
 pub(crate) fn enclosed(faces: &[Face<'_>; 6], frame: DQuat) -> Option<(DVec3, DVec3)> {
     let first = faces[0].collider;
     let alike = |it: &Face<'_>| {
@@ -43,7 +43,7 @@ pub(crate) fn enclosed(faces: &[Face<'_>; 6], frame: DQuat) -> Option<(DVec3, DV
     (fits && scale.is_finite()).then_some((center, size))
 }
 
-/// Whether a rectangle is a side of the box, whole.
+/// Whether a rectangle is a whole face of the box.
 fn is_face(face: &Face<'_>, center: DVec3, size: DVec3, frame: DQuat) -> bool {
     let Shape::Rectangle { size_x, size_z } = face.collider.shape else { return false };
     let inward = frame.inverse();
@@ -58,7 +58,7 @@ fn is_face(face: &Face<'_>, center: DVec3, size: DVec3, frame: DQuat) -> bool {
         && (offset - expected).length() <= NEAR * scale
 }
 
-/// Part of a box by which numbers of 24 bits may miss each other.
+/// Largest distance between equal points, relative to the size of the box: numbers have 24 bits.
 const NEAR: f64 = 1e-5;
 
 fn is_near(number: f64, other: f64, scale: f64) -> bool {

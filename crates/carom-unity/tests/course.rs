@@ -1,5 +1,5 @@
-//! Scenes shaped like those of the course, with instances of prefabs and scripts: what is imported runs as the
-//! built-in scene. The numbers of the fixture are those of SimTest1.
+//! Scenes like those of the course, with prefab instances and scripts: the imported scene runs as
+//! the built-in one does. The numbers of the fixture are those of SimTest1.
 
 mod fixtures;
 
@@ -19,7 +19,7 @@ fn a_scene_like_the_first_of_the_course_runs_as_the_built_in_one() {
         let (spheres, others) = (world.spheres(), expected.spheres());
         assert_eq!(spheres.len(), others.len());
         for (position, other) in spheres.positions().iter().zip(others.positions()) {
-            // What the course's scenes must keep over ten seconds.
+            // Required accuracy of the course's scenes over ten seconds.
             assert!((*position - *other).length() < 1e-9, "{position} {other}");
         }
     }

@@ -1,4 +1,4 @@
-//! What scenes of Unity can hold, feature by feature.
+//! Imports of scenes, feature by feature.
 
 mod fixtures;
 
@@ -14,7 +14,7 @@ fn collider<'a>(scene: &'a Scene, name: &str) -> &'a Collider {
     found.unwrap_or_else(|| panic!("no {name} in {:?}", scene.colliders))
 }
 
-/// Numbers of Unity have 24 bits.
+/// Compares numbers of Unity, which have 24 bits.
 #[track_caller]
 fn assert_near<const N: usize>(numbers: [f64; N], expected: [f64; N]) {
     let near = numbers.iter().zip(expected).all(|(it, other)| (it - other).abs() < 1e-6);
@@ -27,7 +27,7 @@ fn six_planes_of_nested_prefabs_become_the_box_that_they_enclose() {
     let wall = collider(&scene, "Wall/Scaler");
     let Shape::Box { size } = wall.shape else { panic!("{wall:?}") };
     assert_near(size, [8.0, 2.0, 0.5]);
-    // Its parent is at z = 2, which is mirrored, and turned by a quarter about y, which is, too.
+    // Its parent is at z = 2 and is rotated by a quarter turn about y; both are mirrored.
     assert_near(wall.position, [1.0, 1.0, -2.0]);
     let half = 0.5_f64.sqrt();
     assert_near(wall.rotation, [0.0, -half, 0.0, half]);
@@ -87,7 +87,7 @@ fn rigid_bodies_that_are_spheres_move_under_the_project_s_gravity() {
         scene.forces,
         [
             Force::Gravity { acceleration: [0.0, -9.81, 0.0] },
-            // The drag of Unity is a rate.
+            // Unity's drag is a rate.
             Force::ViscousDrag { coefficient: 0.5 },
         ]
     );
@@ -119,7 +119,7 @@ fn a_quad_faces_what_comes_to_it_along_unity_s_z() {
     let scene = imported("Bodies").scene;
     let screen = collider(&scene, "Screen");
     assert_eq!(screen.shape, Shape::Rectangle { size_x: 4.0, size_z: 3.0 });
-    // The normal, local +y, is Unity's -z, mirrored: +z.
+    // The normal, local +y, is Unity's -z, mirrored to +z.
     let normal = carom::DQuat::from_array(screen.rotation).normalize() * carom::DVec3::Y;
     assert_near(normal.to_array(), [0.0, 0.0, 1.0]);
 }

@@ -1,4 +1,4 @@
-//! Broken files are refused with the file, the line, and what is wrong.
+//! Broken files are refused with the file, the line, and the problem.
 
 mod fixtures;
 
@@ -10,7 +10,7 @@ use fixtures::Copy;
 const FIRST: &str = "Assets/Scenes/First.unity";
 const BALL: &str = "Assets/Prefabs/Ball.prefab";
 
-/// The refusal of the first scene with one thing written otherwise.
+/// Replaces a text in a file and imports the first scene; returns the error.
 #[track_caller]
 fn refusal(file: &str, old: &str, new: &str) -> String {
     let copy = Copy::new();
@@ -18,7 +18,7 @@ fn refusal(file: &str, old: &str, new: &str) -> String {
     copy.refusal("First")
 }
 
-/// Line of the first `text` in a file of the project.
+/// Number of the first line with `text` in a file of the project.
 fn line(file: &str, text: &str) -> usize {
     let whole = fs::read_to_string(fixtures::project().join(file)).unwrap();
     1 + whole.lines().position(|line| line.contains(text)).unwrap()
@@ -57,7 +57,7 @@ fn a_conflict_of_a_merge_is_named_as_such() {
 fn broken_yaml_is_named_by_its_line() {
     let at = line(FIRST, "m_Fog");
     let text = refusal(FIRST, "m_Fog: 0", "m_Fog: {x: 1");
-    // The bracket is missed on the line after.
+    // The parser reports the missing bracket on the next line.
     assert!(text.starts_with(&format!("First.unity:{}: is no YAML: ", at + 1)), "{text}");
     let deep = format!("m_Fog: {}{}", "[".repeat(80), "]".repeat(80));
     let text = refusal(FIRST, "m_Fog: 0", &deep);
@@ -85,7 +85,7 @@ fn numbers_that_are_none_are_named_by_their_line() {
 
 #[test]
 fn values_that_make_no_sense_in_a_scene_are_named_by_their_script() {
-    // The line is that of the head of the script.
+    // The line is that of the script's header.
     let at = line(FIRST, "&81");
     let text = refusal(FIRST, "period: 0.7", "period: 0");
     assert!(text.starts_with(&format!("First.unity:{at}: emitters[0]")), "{text}");
@@ -138,7 +138,7 @@ fn prefabs_that_double_again_and_again_are_refused_in_time() {
         let below = format!("{:032}", level + 1);
         let text = match level {
             29 => format!("{head}--- !u!1 &{}\nGameObject:\n  m_Name: leaf\n", 1_u64 << 60),
-            // Each level has bits of its own, so that no two ids are the same.
+            // Each level uses its own bits, so that all ids differ.
             _ => {
                 let id = 1 << (2 * level);
                 format!("{head}{}{}", instance(id, &below), instance(2 * id, &below))
@@ -151,7 +151,7 @@ fn prefabs_that_double_again_and_again_are_refused_in_time() {
     fs::write(copy.path(FIRST), format!("{head}{}", instance(1 << 61, &"0".repeat(32)))).unwrap();
     let text = copy.refusal("First");
     assert!(text.ends_with("all instances of prefabs take more than 512 MiB"), "{text}");
-    // Half a gigabyte is copied in some seconds.
+    // Copying half a gigabyte takes some seconds.
     assert!(start.elapsed().as_secs() < 120);
 }
 

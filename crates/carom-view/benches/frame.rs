@@ -1,5 +1,5 @@
-//! What a frame of the interface costs, drawing of the picture aside: panels, plots and transport,
-//! with nothing new to show, and while a scene is played that hardly costs any physics.
+//! The time of a frame of the interface without drawing the picture: panels, plots and transport,
+//! with nothing new to show, and while a scene with little physics plays.
 
 #![allow(missing_docs)]
 
@@ -11,7 +11,7 @@ use carom_view::{Action, App, Desktop, Setup, Start};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use egui_kittest::Harness;
 
-/// This many spheres in a lattice, all flying the same way.
+/// Returns a scene with `count` spheres in a lattice, all with the same velocity.
 fn lattice(count: u32) -> Scene {
     let mut scene = Scene::new("lattice");
     let edge = f64::from(count).cbrt().ceil() as u32;

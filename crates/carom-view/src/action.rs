@@ -2,7 +2,7 @@
 
 use egui::{Context, Event, Key, KeyboardShortcut, Modifiers};
 
-/// Something a user wants done.
+/// An action that the user can request.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[allow(missing_docs)] // Each is explained in the table below, which users read as well.
 pub enum Action {
@@ -42,36 +42,36 @@ impl Action {
         SHORTCUTS.iter().find(|shortcut| shortcut.action == self)
     }
 
-    /// What it does and its keys, for people.
+    /// Returns the text of the action and its keys, for display.
     pub fn hint(self) -> String {
         let said = |it: &Shortcut| format!("{} ({})", it.text, it.keys_text());
         self.shortcut().map(said).unwrap_or_default()
     }
 
-    /// Its keys, for people.
+    /// Returns the keys of the action, for display.
     pub fn keys(self) -> String {
         self.shortcut().map(Shortcut::keys_text).unwrap_or_default()
     }
 
-    /// Whether it is done again and again while its key is held.
+    /// Returns whether the action repeats while its key is held.
     fn repeats(self) -> bool {
         matches!(self, Self::Step | Self::StepBack | Self::Faster | Self::Slower)
     }
 }
 
-/// A key for an action, and what it does.
+/// An action with its keys and its text.
 #[derive(Debug, Clone, Copy)]
 pub struct Shortcut {
-    /// What is done.
+    /// The action.
     pub action: Action,
-    /// Any of these does it.
+    /// The keys; each of them triggers the action.
     pub keys: &'static [KeyboardShortcut],
-    /// For people.
+    /// The text for display.
     pub text: &'static str,
 }
 
 impl Shortcut {
-    /// Its keys, for people.
+    /// Returns the names of the keys, for display.
     pub fn keys_text(&self) -> String {
         let name = |key: &KeyboardShortcut| {
             let control = if key.modifiers.command { "Ctrl + " } else { "" };
@@ -97,8 +97,8 @@ const fn shift(key: KeyboardShortcut) -> KeyboardShortcut {
 
 macro_rules! shortcuts {
     ($($action:ident: [$($key:expr),*], $text:literal;)*) => {
-        /// All shortcuts, in the order in which the help lists them. Keys with Shift come before those
-        /// without, which would take them as theirs.
+        /// All shortcuts, in the order of the help. Keys with Shift come before the same keys
+        /// without, which would match them, too.
         pub const SHORTCUTS: &[Shortcut] = &[
             $(Shortcut { action: Action::$action, keys: &[$($key),*], text: $text },)*
         ];
@@ -137,7 +137,7 @@ shortcuts! {
     Close: [key(Key::Escape)], "close a dialog or a message";
 }
 
-/// What steers a maze, for the help.
+/// Controls of a maze, for the help.
 pub const MAZE: &[(&str, &str)] = &[
     ("arrow keys, or W A S D", "tilt the maze"),
     ("right drag", "tilt the maze"),
@@ -145,7 +145,7 @@ pub const MAZE: &[(&str, &str)] = &[
     ("Enter, when it is won", "play again"),
 ];
 
-/// What the mouse does in the picture, for the help.
+/// Controls of the picture with the mouse, for the help.
 pub const MOUSE: &[(&str, &str)] = &[
     ("drag", "turn the camera"),
     ("right drag, or Shift + drag", "move the camera"),
@@ -158,9 +158,9 @@ pub const MOUSE: &[(&str, &str)] = &[
     ("two fingers", "move the camera, come nearer or go away; in a maze: turn it"),
 ];
 
-/// The actions whose keys were pressed; the keys are taken, so that no button sees them. While a
-/// text is being typed, only that of the help.
-/// Enter is left to others where they want it.
+/// Returns the actions whose keys were pressed, and consumes these keys so that no button reacts to
+/// them. While a text is typed, only the key of the help counts. With `without_enter`, Enter is
+/// left to others.
 pub fn pressed(context: &Context, without_enter: bool) -> Vec<Action> {
     let is_typing = context.text_edit_focused();
     let is_of_use = |key: &&KeyboardShortcut| !is_typing || key.logical_key == Key::F1;
@@ -172,7 +172,7 @@ pub fn pressed(context: &Context, without_enter: bool) -> Vec<Action> {
                         if *pressed == key.logical_key)
                 })
             };
-            // A key that is held does again only what is done by steps.
+            // A held key repeats only actions that move in steps.
             let counts = shortcut.action.repeats() || shortcut.keys.iter().any(is_fresh);
             shortcut.keys.iter().filter(is_of_use).any(|key| input.consume_shortcut(key)) && counts
         })

@@ -1,4 +1,4 @@
-//! Links to what is shown, for the host.
+//! Reports links to the present view to the host.
 
 use std::sync::Arc;
 
@@ -8,13 +8,14 @@ use egui::Context;
 
 use crate::host::Host;
 
-/// Least time between two links that the host gets \[s\].
+/// Shortest time between two links for the host \[s\].
 const INTERVAL: f64 = 1.0;
 
-/// The host gets no link to a scene file of more bytes as it goes on: no address bar takes it.
+/// A link to a running scene file longer than this is not reported \[byte\]: no address bar takes
+/// it.
 const LARGEST_FILE: usize = 100_000;
 
-/// Which link is shown.
+/// The link that the host has.
 #[derive(Default)]
 pub struct Address {
     told: Option<Moment>,
@@ -22,7 +23,7 @@ pub struct Address {
     told_at: f64,
 }
 
-/// All that a link depends on.
+/// Everything that a link depends on.
 #[derive(Debug, Clone)]
 pub struct Moment {
     scene: Arc<Scene>,
@@ -32,13 +33,13 @@ pub struct Moment {
 }
 
 impl Moment {
-    /// The moment that a view shows, seen from where a link to its scene says.
+    /// Returns the moment that a view shows, with the camera of the link `base`.
     pub fn of(view: &View, base: &Link) -> Self {
         let (scene, changes) = (view.scene.clone(), view.changes.clone());
         Self { scene, frame: view.frame, changes, camera: base.camera() }
     }
 
-    /// Whether a link to this is a link to the other, too.
+    /// Returns whether both moments have the same link.
     pub fn is_same(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.scene, &other.scene)
             && self.frame == other.frame
@@ -48,7 +49,8 @@ impl Moment {
 }
 
 impl Address {
-    /// Gives the host a link to what is shown, if it has changed and the last is not of just now.
+    /// Reports a link to the present view to the host, if the view has changed and the last report
+    /// is not too recent.
     pub fn tell(&mut self, view: &View, base: &Link, host: &mut dyn Host, context: &Context) {
         let is_large =
             matches!(base.source(), LinkSource::File { text, .. } if text.len() > LARGEST_FILE);

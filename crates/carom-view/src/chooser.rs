@@ -1,4 +1,4 @@
-//! The dialog in which a scene is chosen.
+//! The dialog that chooses a scene.
 
 use std::path::{Path, PathBuf};
 
@@ -16,7 +16,7 @@ use crate::look::{self, Look, Marks};
 use crate::orbit::{Orbit, Preset};
 use crate::studio::{Canvas, Studio};
 
-/// The dialog; scenes are read anew each time it opens.
+/// The dialog; it reads all scenes whenever it opens.
 #[derive(Default)]
 pub struct Chooser {
     open: bool,
@@ -25,31 +25,31 @@ pub struct Chooser {
     moved: bool,
     filter: String,
     selected: usize,
-    /// What went wrong before it opened.
+    /// An error from before the dialog opened.
     trouble: Option<String>,
     cards: Vec<Card>,
 }
 
-/// What was chosen.
+/// The choice of the user.
 pub enum Chosen {
     /// A scene of the list.
     Scene(Box<Scene>, Source),
     /// A file whose path was typed.
     File(PathBuf),
-    /// A file that the user is to be asked for.
+    /// A file to be chosen in a file dialog.
     AnyFile,
 }
 
 /// A scene in the list.
 struct Card {
     entry: Entry,
-    /// Whether it is listed as a file opened lately.
+    /// Whether the card is among the recently opened files.
     is_recent: bool,
     thumbnail: Thumbnail,
 }
 
 impl Card {
-    /// Whether it has a thumbnail of the scene of another card.
+    /// Returns whether this card has a thumbnail of the same scene as `other`.
     fn shows_same(&self, other: &Self) -> bool {
         let [own, others] = [self, other].map(|card| card.entry.scene.as_ref().ok());
         matches!(self.thumbnail, Thumbnail::Drawn(_)) && own.is_some() && own == others
@@ -59,25 +59,26 @@ impl Card {
 enum Thumbnail {
     Missing,
     Drawn(Box<Canvas>),
-    /// A scene that cannot be read has none.
+    /// The scene cannot be read.
     Impossible,
 }
 
-/// In points.
+/// Size of a thumbnail in points.
 const THUMBNAIL: Vec2 = Vec2::new(176.0, 99.0);
 
-/// Thumbnails show the scene at this part of its duration, at most so late \[s\], ...
+/// A thumbnail shows the scene at this part of its duration, but at most `LATEST` \[s\] after the
+/// start, ...
 const THUMBNAIL_PART: f64 = 0.25;
 const LATEST: f64 = 3.0;
-/// ... and at the beginning where that would take more than so many frames times spheres.
+/// ... and at the start if more than this many frames times spheres would be needed.
 const MOST_WORK: f64 = 40_000.0;
 
 impl Chooser {
-    /// Opens the dialog with all scenes there are now, first those of files opened lately. Thumbnails of scenes that are as
-    /// they were stay.
+    /// Opens the dialog with all present scenes, recent files first. Thumbnails of unchanged scenes
+    /// are kept.
     ///
     /// # Errors
-    /// If a folder of scenes has become unreadable; the list is as before then.
+    /// If a folder of scenes can no longer be read; the list is then unchanged.
     pub fn open(
         &mut self,
         library: &Library,
@@ -112,12 +113,12 @@ impl Chooser {
         Ok(())
     }
 
-    /// Says what went wrong before it opened.
+    /// Shows an error from before the dialog opened.
     pub fn complain(&mut self, why: &str) {
         self.trouble = Some(why.to_owned());
     }
 
-    /// Whether it is open.
+    /// Returns whether the dialog is open.
     pub fn is_open(&self) -> bool {
         self.open
     }
@@ -127,7 +128,7 @@ impl Chooser {
         self.open = false;
     }
 
-    /// Shows the dialog while it is open. Returns what was chosen, which closes it.
+    /// Shows the open dialog. Returns the choice, which closes the dialog.
     pub fn show(&mut self, context: &Context, studio: &mut Studio) -> Option<Chosen> {
         if !self.open {
             return None;
@@ -145,7 +146,8 @@ impl Chooser {
             }
             ui.separator();
             let height = (size.y - 160.0).clamp(120.0, 620.0);
-            // As high at once as it may be, whatever the filter leaves: nothing moves under a pointer.
+            // The list has its full height whatever the filter leaves, so that nothing moves under
+            // the pointer.
             scrolled_within(height).auto_shrink(false).show(ui, |ui| {
                 let typed = Path::new(self.filter.trim());
                 if found.is_empty() && typed.is_file() {
@@ -186,7 +188,8 @@ impl Chooser {
         file.or_else(|| self.choose(chosen?))
     }
 
-    /// The heading, with the filter and a way to other files. Returns that, if it is chosen.
+    /// Shows the heading with the filter and a button for other files. Returns [`Chosen::AnyFile`]
+    /// if that button was pressed.
     fn head(&mut self, ui: &mut Ui) -> Option<Chosen> {
         let mut file = None;
         ui.horizontal(|ui| {
@@ -201,7 +204,7 @@ impl Chooser {
                     .align(Align2::LEFT_CENTER);
                 let width = ui.available_width().min(220.0);
                 let response = ui.add(edit.desired_width(width));
-                // Where fingers point, a keyboard would cover the list.
+                // On a touch screen a keyboard would cover the list.
                 if self.just_opened && !is_touched(ui) {
                     response.request_focus();
                 }
@@ -213,7 +216,7 @@ impl Chooser {
         file
     }
 
-    /// The cards that the filter leaves.
+    /// Returns the indices of the cards that match the filter.
     fn found(&self) -> Vec<usize> {
         let wanted = self.filter.to_lowercase();
         let words: Vec<&str> = wanted.split_whitespace().collect();
@@ -228,8 +231,8 @@ impl Chooser {
         (0..self.cards.len()).filter(|&index| is_found(&self.cards[index])).collect()
     }
 
-    /// Arrow keys and Enter, while a text is being typed as well. Returns, if Enter was pressed, the card
-    /// that is chosen by it.
+    /// Handles the arrow keys and Enter, also while a text is typed. If Enter was pressed, returns
+    /// the selected card.
     fn keys(&mut self, context: &Context, found: &[usize]) -> Option<Option<usize>> {
         let mut entered = None;
         context.input_mut(|input| {
@@ -286,7 +289,8 @@ impl Chooser {
         response.clicked()
     }
 
-    /// Closes with a scene. One that cannot be read is shown with what is wrong, and stays.
+    /// Closes the dialog with the choice of this scene. A scene that cannot be read cannot be
+    /// chosen.
     fn choose(&mut self, index: usize) -> Option<Chosen> {
         let entry = &self.cards.get(index)?.entry;
         let scene = entry.scene.as_ref().ok()?.clone();
@@ -294,7 +298,7 @@ impl Chooser {
         Some(Chosen::Scene(Box::new(scene), entry.source.clone()))
     }
 
-    /// Draws one of the missing thumbnails: one a picture, so that the dialog is there at once.
+    /// Draws one of the missing thumbnails: one per frame, so that the dialog opens at once.
     fn draw_a_thumbnail(&mut self, context: &Context, studio: &mut Studio) {
         let missing =
             self.cards.iter_mut().find(|card| matches!(card.thumbnail, Thumbnail::Missing));
@@ -314,7 +318,7 @@ impl Chooser {
     }
 }
 
-/// What a scene is listed under: where built-in ones come from.
+/// Returns the heading under which a scene is listed: its origin if it is built in.
 fn group_of(card: &Card) -> String {
     if card.is_recent {
         return "Recent".to_owned();
@@ -342,7 +346,7 @@ fn picture(ui: &mut Ui, thumbnail: &Thumbnail) {
 
 fn about(ui: &mut Ui, scene: &Scene, source: &Source) {
     let title = if scene.title.is_empty() { &scene.name } else { &scene.title };
-    // Lines of text, nothing to press.
+    // Lines of text need no space for fingers.
     ui.spacing_mut().interact_size.y = 0.0;
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new(title).strong().size(15.0));
@@ -360,13 +364,13 @@ fn about(ui: &mut Ui, scene: &Scene, source: &Source) {
     }
 }
 
-/// A scene a little after its beginning, from its own camera.
+/// Draws a scene a little after its start, with its own camera.
 fn drawing_of(scene: &Scene) -> Option<(Drawing, Camera)> {
     let mut session = Session::new(scene.clone()).ok()?;
     let time = (THUMBNAIL_PART * scene.simulation.duration).min(LATEST);
     let frames = (time / scene.simulation.frame_time).floor();
     if frames * session.world().spheres().len().max(1) as f64 <= MOST_WORK {
-        // What fails later is shown as far as it came.
+        // If a step fails, the state before it is drawn.
         (0..frames as u64).try_for_each(|_| session.step()).ok();
     }
     let mut view = View::default();

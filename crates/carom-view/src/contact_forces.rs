@@ -7,14 +7,14 @@ use carom_session::View;
 
 const FORCE: Color = [0.62, 0.16, 0.78];
 
-/// Acceleration of the weight that sets the scale in a scene without steady forces \[m/s²\].
+/// Gravity that sets the scale of the arrows in a scene without steady forces \[m/s²\].
 const STANDARD_GRAVITY: f64 = 9.81;
 
-/// An arrow for each contact of the view that bears a force: from the point of contact along the
-/// normal, on body 2. Its length is in proportion to the force, by [`meters_per_newton`].
+/// Returns an arrow for each contact with a force: from the point of contact along the normal,
+/// towards body 2. Its length is proportional to the force, see [`meters_per_newton`].
 ///
 /// Balls are drawn a part `blend` of the way from their previous positions; each arrow moves with
-/// body 2. It is seen through balls, for most of it lies inside one.
+/// body 2. Balls do not hide it, because most of it lies inside one.
 pub fn arrows(view: &View, blend: f64) -> impl Iterator<Item = Arrow> {
     let scale = meters_per_newton(view);
     let bearing = view.contacts.iter().filter(|contact| contact.normal_force > 0.0);
@@ -25,10 +25,10 @@ pub fn arrows(view: &View, blend: f64) -> impl Iterator<Item = Arrow> {
     })
 }
 
-/// Length of the arrow of 1 N \[m\]: the mean of the steady forces on a ball, in most scenes its
-/// weight, makes an arrow as long as the mean radius. So the arrow of a single ball at rest on the
-/// floor ends at its centre, and one twice as long bears two balls. The scale stays the same while
-/// forces change, as long as no ball comes or goes.
+/// Returns the length of the arrow of 1 N \[m\]. The mean steady force on a ball, in most scenes
+/// its weight, makes an arrow as long as the mean radius: the arrow of a single ball at rest on the
+/// floor ends at its centre, and that below a column of two balls is twice as long. The scale
+/// changes only when balls appear or disappear.
 fn meters_per_newton(view: &View) -> f64 {
     let masses = &view.spheres.masses;
     let forces: f64 = masses.iter().map(|&mass| steady_force(view, mass).length()).sum();
@@ -37,7 +37,8 @@ fn meters_per_newton(view: &View) -> f64 {
     if forces > 0.0 { radii / forces } else { 0.0 }
 }
 
-/// Force on a ball of this mass \[kg\] that depends neither on place nor on motion \[N\].
+/// Returns the force on a ball of this mass \[kg\] that depends neither on position nor on velocity
+/// \[N\].
 fn steady_force(view: &View, mass: f64) -> DVec3 {
     let of_one = |force: &Force| match force {
         Force::Constant { force } => DVec3::from_array(*force),
@@ -47,7 +48,7 @@ fn steady_force(view: &View, mass: f64) -> DVec3 {
     view.setup.forces.iter().map(|(_, force)| of_one(force)).sum()
 }
 
-/// How far from its position body 2 of a contact is drawn \[m\].
+/// Returns the distance from the position of body 2 of a contact to where it is drawn \[m\].
 fn shift(view: &View, contact: &PersistentContact, blend: f64) -> DVec3 {
     let (BodyPair::Spheres(_, sphere) | BodyPair::Collider { sphere, .. }) = contact.between;
     let way = |index: usize| {
@@ -66,7 +67,7 @@ mod tests {
 
     use super::*;
 
-    /// Three balls of 1 m in a column under gravity, and a fourth that flies.
+    /// Three balls with a radius of 1 m in a column under gravity, and a fourth that flies.
     const COLUMN: &str = r#"
 name = "column"
 forces = [{ gravity = { acceleration = [0.0, -9.81, 0.0] } }]
@@ -103,7 +104,7 @@ mass = 2.0
             assert_eq!(arrows.len(), 3);
             for (arrow, (height, borne)) in arrows.iter().zip([(0.0, 3.0), (2.0, 2.0), (4.0, 1.0)])
             {
-                // The solver of the forces leaves 1e-12 of them.
+                // The solver of the forces has a relative error of 1e-12.
                 let near = |place: DVec3, y: f64| (place - DVec3::Y * y).length() < 1e-9;
                 assert!(near(arrow.start, height) && near(arrow.end, height + borne), "{arrow:?}");
             }

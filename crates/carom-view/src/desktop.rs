@@ -1,4 +1,4 @@
-//! What the desktop gives the interface: files in folders, films, gamepads.
+//! The desktop as a host of the interface: files in folders, films, gamepads.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use egui::DroppedFileHandle;
 use crate::host::{FilmMaker, Host, Inbox, ReadFile};
 use crate::watched_file::{INTERVAL, WatchedFile};
 
-/// A desktop, with the folder that pictures and films go to.
+/// The desktop, with the folder for pictures and films.
 #[derive(Default)]
 pub struct Desktop {
     folder: PathBuf,
@@ -20,25 +20,26 @@ pub struct Desktop {
     gamepad: crate::gamepad::Gamepad,
 }
 
-/// The default folder for pictures: `Pictures/carom` in the user's own folder,
-/// the present folder without one.
+/// Returns the default folder for pictures: `Pictures/carom` in the user's home folder, or in the
+/// current folder if there is no home folder.
 pub fn default_folder() -> PathBuf {
     let home = std::env::var_os("HOME").or_else(|| std::env::var_os("USERPROFILE"));
     home.map(PathBuf::from).unwrap_or_default().join("Pictures").join("carom")
 }
 
 impl Desktop {
-    /// A desktop whose pictures and films go to this folder, which is made when there are any.
+    /// Returns a desktop that saves pictures and films in this folder, which is created when
+    /// needed.
     pub fn new(folder: PathBuf) -> Self {
         Self { folder, ..Self::default() }
     }
 
-    /// This host, with this address of the page that opens links.
+    /// Returns this host with another address of the page that opens links.
     pub fn with_page(self, page: String) -> Self {
         Self { page: Some(page), ..self }
     }
 
-    /// A path in the folder that no file has yet: with a number where needed.
+    /// Returns an unused path in the folder, with a number if the plain name is taken.
     fn new_path(&self, name: &str, ending: &str) -> PathBuf {
         let first = self.folder.join(format!("{name}.{ending}"));
         let more = (2..).map(|number| self.folder.join(format!("{name}-{number}.{ending}")));
@@ -46,7 +47,7 @@ impl Desktop {
     }
 }
 
-/// Writes a file in a folder that may be missing.
+/// Writes a file and creates its folder if it is missing.
 fn write(folder: &Path, path: &Path, content: &[u8]) -> io::Result<()> {
     std::fs::create_dir_all(folder)?;
     std::fs::write(path, content)
@@ -67,7 +68,7 @@ impl Host for Desktop {
     fn open_file(&mut self, inbox: &Inbox) {
         let dialog = rfd::AsyncFileDialog::new().add_filter("Scenes and mazes", &["toml", "txt"]);
         let (picked, inbox) = (dialog.pick_file(), inbox.clone());
-        // The window goes on while the user chooses.
+        // A thread of its own, so that the window responds while the user chooses.
         std::thread::spawn(move || {
             if let Some(file) = pollster::block_on(picked) {
                 inbox.put(ReadFile::from_disk(file.path()));
@@ -128,7 +129,7 @@ mod film {
 
     use crate::host::FilmMaker;
 
-    /// A film in a file.
+    /// A film that is written to a file.
     pub struct FilmFile {
         pub film: Film,
         pub path: PathBuf,

@@ -1,4 +1,4 @@
-//! What leaves the interface: pictures, films and scene files.
+//! Output of the interface: pictures, films and scene files.
 
 use std::ops::Range;
 
@@ -12,7 +12,7 @@ use crate::recorder::{FRAMES_PER_SECOND, Recorder, SIZE};
 use crate::snapshot::Snapshot;
 use crate::studio::Studio;
 
-/// Pictures and films on their way out.
+/// Pictures and films that are not complete yet.
 #[derive(Default)]
 pub struct Exports {
     pictures: Vec<Pending>,
@@ -22,31 +22,31 @@ pub struct Exports {
 /// A picture that is being drawn.
 struct Pending {
     snapshot: Snapshot,
-    /// What its file is called.
+    /// File name without an ending.
     name: String,
-    /// What is written on it.
+    /// Text written on the picture.
     stamp: Option<String>,
 }
 
 impl Exports {
-    /// Saves plots of a scene at a time \[s\] when they have been drawn.
+    /// Saves plots of a scene at a time \[s\] as soon as they are drawn.
     pub fn save_plots(&mut self, plots: Snapshot, scene: &str, time: f64) {
         let name = format!("{}-plots", file_name(scene, time));
         self.pictures.push(Pending { snapshot: plots, name, stamp: None });
     }
 
-    /// Saves a picture of a scene at a time \[s\], which is written on it, when it has been drawn.
+    /// Saves a picture of a scene as soon as it is drawn, with the time written on it \[s\].
     pub fn save_picture(&mut self, snapshot: Snapshot, scene: &str, time: f64) {
         let (name, stamp) = (file_name(scene, time), Some(stamp_text(scene, time)));
         self.pictures.push(Pending { snapshot, name, stamp });
     }
 
-    /// Whether a film is being recorded.
+    /// Returns whether a film is being recorded.
     pub fn is_recording(&self) -> bool {
         self.recorder.as_ref().is_some_and(|recorder| !recorder.is_ending())
     }
 
-    /// Begins a film of a scene from a time on \[s\].
+    /// Starts a film of a scene at this time \[s\].
     pub fn begin_film(&mut self, scene: &str, time: f64, to: &mut Outlet) {
         if self.recorder.is_some() {
             to.notices.complain("the last film is being completed: try again in a moment");
@@ -58,28 +58,28 @@ impl Exports {
         }
     }
 
-    /// Ends the film that is being recorded, if one is.
+    /// Ends the film, if one is being recorded.
     pub fn end_film(&mut self) {
         if let Some(recorder) = &mut self.recorder {
             recorder.end();
         }
     }
 
-    /// Frames of the film that a picture of this size in pixels is to be drawn for, at a time \[s\].
+    /// Returns the film frames that are due at a time \[s\], and the size in pixels of the one
+    /// picture to draw for them.
     pub fn film_due(&mut self, time: f64) -> Option<([u32; 2], Range<u32>)> {
         let frames = self.recorder.as_mut()?.due(time)?;
         Some((SIZE, frames))
     }
 
-    /// Adds a picture that is being drawn for these frames.
+    /// Adds a picture that is still being drawn for these frames.
     pub fn add_to_film(&mut self, snapshot: Snapshot, frames: Range<u32>) {
         if let Some(recorder) = &mut self.recorder {
             recorder.add(snapshot, frames);
         }
     }
 
-    /// Saves what has been drawn since this was called last. Returns whether anything is still to
-    /// come.
+    /// Saves the pictures that are complete. Returns whether any are left.
     pub fn collect(&mut self, studio: &Studio, to: &mut Outlet) -> bool {
         let device = studio.device();
         let is_ready = |pending: &mut Pending| pending.snapshot.is_ready(device);
@@ -107,14 +107,14 @@ impl Exports {
     }
 }
 
-/// Where it all goes: files to the host, messages to the notices.
+/// The destination of exports: files go to the host, messages to the notices.
 pub struct Outlet<'a> {
     pub host: &'a mut dyn Host,
     pub notices: &'a mut Notices,
 }
 
 impl Outlet<'_> {
-    /// Saves a scene as it is at a time \[s\].
+    /// Saves the scene with its state at a time \[s\].
     pub fn save_scene(&mut self, scene: &Scene, time: f64) {
         self.save(&file_name(&scene.name, time), "toml", scene.to_toml().as_bytes());
     }

@@ -3,15 +3,15 @@
 use egui::Vec2;
 use gilrs::{Axis, Gilrs};
 
-/// The gamepads there are; none where the system has no support for them.
+/// The connected gamepads; none if the system has no support for them.
 #[derive(Default)]
 pub struct Gamepad {
-    /// Opened when first needed.
+    /// Opened at the first use.
     gilrs: Option<Option<Gilrs>>,
 }
 
 impl Gamepad {
-    /// The left stick of the first gamepad: right and down, each in \[-1, 1\].
+    /// Returns the left stick of the first gamepad: right and down, each in \[-1, 1\].
     pub fn stick(&mut self) -> Option<Vec2> {
         let gilrs = self.gilrs.get_or_insert_with(|| Gilrs::new().ok()).as_mut()?;
         while gilrs.next_event().is_some() {}

@@ -5,12 +5,12 @@ use egui::{Align2, Context, Grid, RichText, Ui, Window};
 use crate::action::{MAZE, MOUSE, SHORTCUTS};
 use crate::layout::{scrolled_within, show_closable};
 
-/// Shows every shortcut, and what the mouse does; first what steers a maze, where one is played.
+/// Shows all shortcuts and mouse actions; in a maze, first its controls.
 pub fn show(context: &Context, open: &mut bool, is_maze: bool) {
     const TITLE: &str = "Keys and mouse";
     let window = Window::new(TITLE).anchor(Align2::CENTER_CENTER, [0.0, 0.0]).resizable(false);
     show_closable(TITLE, window, context, open, |ui| {
-        // A small window shows a part of it.
+        // A small window scrolls the list.
         let room = (ui.ctx().content_rect().height() - 90.0).max(120.0);
         scrolled_within(room).show(ui, |ui| list(ui, is_maze));
     });

@@ -1,4 +1,4 @@
-//! What the interface needs of the program it runs in: a window of the desktop, a page, a test.
+//! The program that hosts the interface: a desktop window, a web page, a test.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
@@ -8,22 +8,22 @@ use carom_scene::Source;
 use carom_session::{LOCAL_PAGE, Link};
 use egui::{Context, DroppedFileHandle, Vec2};
 
-/// The program that the interface runs in. Texts of errors are for people.
+/// The program that hosts the interface. Error texts are for the user.
 pub trait Host {
-    /// Keeps a file for the user, called `name.ending` or, if there is one already, something
-    /// similar. Returns what it is called.
+    /// Saves a file for the user as `name.ending`, or under a similar name if that is taken.
+    /// Returns the name.
     ///
     /// # Errors
     /// If it cannot be written.
     fn save(&mut self, name: &str, ending: &str, content: &[u8]) -> Result<String, String>;
 
-    /// Reads a file that was dropped, now or later, into the inbox.
+    /// Reads a dropped file into the inbox, now or later.
     fn read(&mut self, file: &DroppedFileHandle, inbox: &Inbox);
 
-    /// Asks the user for a file, which is read, now or later, into the inbox.
+    /// Lets the user choose a file and reads it into the inbox, now or later.
     fn open_file(&mut self, inbox: &Inbox);
 
-    /// Begins a film called `name` of pictures of this size in pixels.
+    /// Starts a film called `name` of pictures of this size in pixels.
     ///
     /// # Errors
     /// If films cannot be made here.
@@ -34,96 +34,96 @@ pub trait Host {
         frames_per_second: u32,
     ) -> Result<Box<dyn FilmMaker>, String>;
 
-    /// Address of the page that opens links, without `#`.
+    /// Returns the address of the page that opens links, without `#`.
     fn page(&self) -> String {
         LOCAL_PAGE.to_owned()
     }
 
-    /// Whether links to what is shown are of use.
+    /// Returns whether the host uses links to the present view.
     fn shows_links(&self) -> bool {
         false
     }
 
-    /// A link to what is shown.
+    /// Receives a link to the present view.
     fn show_link(&mut self, _link: &Link) {}
 
-    /// Watches the file that a scene comes from, if it does come from one, instead of the last.
+    /// Watches the file of a scene for changes, instead of the last file.
     fn watch(&mut self, _source: &Source) {}
 
-    /// The watched file, once, if it was changed since the last call; `now` by any clock
-    /// \[s\].
+    /// Returns the watched file once after it changed. `now` is the time by any clock \[s\].
     fn changed_file(&mut self, _now: f64) -> Option<PathBuf> {
         None
     }
 
-    /// After how many seconds to look for a changed file again; `None` without one.
+    /// Returns the seconds until the next check for changes; `None` without a watched file.
     fn seconds_to_look(&self) -> Option<f64> {
         None
     }
 
-    /// What went wrong after it was said to be done: returns each once.
+    /// Returns an error of an action that was reported as done, once for each error.
     fn trouble(&mut self) -> Option<String> {
         None
     }
 
-    /// Whether it is a part of some document, with little room: panels are closed at first.
+    /// Returns whether the interface is embedded in a document: panels are closed at first to save
+    /// space.
     fn is_embedded(&self) -> bool {
         false
     }
 
-    /// Whether it is pointed with something as coarse as a finger.
+    /// Returns whether the pointer is as coarse as a finger.
     fn has_coarse_pointer(&self) -> bool {
         false
     }
 
-    /// Right and down by a gamepad's stick or a tilted device, each in \[-1, 1\].
+    /// Returns the tilt by a gamepad's stick or a tilted device: right and down, each in \[-1, 1\].
     fn stick(&mut self) -> Option<Vec2> {
         None
     }
 
-    /// Whether the user can tilt the device itself.
+    /// Returns whether the user can tilt the device itself.
     fn offers_tilt(&self) -> bool {
         false
     }
 
-    /// Begins or ends to tell the tilt of the device by [`Self::stick`].
+    /// Switches on or off that [`Self::stick`] returns the tilt of the device.
     fn use_tilt(&mut self, _on: bool) {}
 }
 
-/// A film in the making.
+/// A film that is being written.
 pub trait FilmMaker {
-    /// Adds a picture as the frame with this number, from 0 on.
+    /// Adds a picture as the frame with this number, from 0.
     ///
     /// # Errors
     /// If it cannot be added; the film can still be finished.
     fn add(&mut self, picture: &Picture, frame: u32) -> Result<(), String>;
 
-    /// Completes the film. Returns what it is called.
+    /// Completes the film. Returns its name.
     ///
     /// # Errors
     /// If it cannot be written.
     fn finish(self: Box<Self>) -> Result<String, String>;
 }
 
-/// Where files arrive that were dropped on the interface.
+/// Receives files that were opened or dropped.
 #[derive(Debug, Clone, Default)]
 pub struct Inbox {
     files: Arc<Mutex<Vec<ReadFile>>>,
-    /// Draws anew when a file arrives.
+    /// Redraws the interface when a file arrives.
     context: Context,
 }
 
-/// A file that was read, or why it could not be.
+/// A file that was read, or the error.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ReadFile {
-    /// Where it was; in a page, its name alone.
+    /// Path of the file; in a web page, its name alone.
     pub path: PathBuf,
-    /// What is in it.
+    /// Content of the file.
     pub content: Result<Vec<u8>, String>,
 }
 
 impl ReadFile {
-    /// Reads a file of the disk.
+    /// Reads a file from the disk.
     pub fn from_disk(path: &Path) -> Self {
         let content = std::fs::read(path).map_err(|error| error.to_string());
         Self { path: path.to_owned(), content }
@@ -131,7 +131,7 @@ impl ReadFile {
 }
 
 impl Inbox {
-    /// Of this interface, which is drawn anew when a file arrives.
+    /// Makes an inbox for the interface of this context, which is redrawn when a file arrives.
     pub(crate) fn new(context: Context) -> Self {
         Self { files: Arc::default(), context }
     }
@@ -144,7 +144,7 @@ impl Inbox {
         self.context.request_repaint();
     }
 
-    /// Takes out all files that have arrived.
+    /// Removes and returns all files that have arrived.
     pub(crate) fn take(&self) -> Vec<ReadFile> {
         self.files.lock().map(|mut files| std::mem::take(&mut *files)).unwrap_or_default()
     }

@@ -4,10 +4,10 @@ use carom::BodyPair;
 use carom_session::{Command, View};
 use egui::{Grid, ScrollArea, Ui};
 
-/// Rows shown: those that can be taken in.
+/// Largest number of rows: as many as a reader can take in.
 const ROWS: usize = 60;
 
-/// The last impacts, the newest first; a click on one picks its ball.
+/// Shows the last impacts, newest first; a click picks the ball.
 pub fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     if view.other.is_some() {
         ui.strong(format!("Of the left picture, {}", view.setup.simulation.rule));

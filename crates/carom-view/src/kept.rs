@@ -1,4 +1,4 @@
-//! What the interface keeps from start to start: layout, marks, files opened last, a game.
+//! Values kept between starts: layout, marks, recent files, a game.
 
 use std::path::{Path, PathBuf};
 
@@ -9,25 +9,25 @@ use serde::{Deserialize, Serialize};
 use crate::look::Marks;
 use crate::plots;
 
-/// Under this it is found again.
+/// Key of these values in the storage.
 const KEY: &str = "carom";
 
-/// Files that are remembered.
+/// Largest number of recent files.
 const MOST_RECENT: usize = 6;
 
-/// What is kept from start to start, and from scene to scene.
+/// Values kept between starts and between scenes.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Kept {
-    /// How scenes are shown.
+    /// Layout of scenes.
     pub layout: Layout,
-    /// Scene files opened last, the last one first.
+    /// Recent scene files, newest first.
     pub recent: Vec<PathBuf>,
-    /// The game that was played last.
+    /// The last game.
     pub game: Option<KeptGame>,
 }
 
-/// A game, to go on with.
+/// A game that can be continued.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct KeptGame {
     /// A link to its maze.
@@ -37,7 +37,7 @@ pub struct KeptGame {
     pub rolls: bool,
 }
 
-/// What is shown of a scene, and around it.
+/// The visible parts of a scene and around it.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Layout {
@@ -46,7 +46,7 @@ pub struct Layout {
     pub marks: Marks,
 }
 
-/// Which panels are open.
+/// The open panels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Panels {
     pub inspector: bool,
@@ -55,7 +55,7 @@ pub struct Panels {
 }
 
 impl Panels {
-    /// No panel.
+    /// No open panel.
     pub const NONE: Self = Self { inspector: false, plots: false, impacts: false };
 }
 
@@ -66,17 +66,18 @@ impl Default for Panels {
 }
 
 impl Kept {
-    /// What was kept; what it is at first where nothing was, or nothing that can be read.
+    /// Reads the values from the storage; returns the defaults if there are none or they cannot be
+    /// read.
     pub fn load(storage: Option<&dyn Storage>) -> Self {
         storage.and_then(|storage| eframe::get_value(storage, KEY)).unwrap_or_default()
     }
 
-    /// Keeps it.
+    /// Writes the values to the storage.
     pub fn save(&self, storage: &mut dyn Storage) {
         eframe::set_value(storage, KEY, self);
     }
 
-    /// Remembers a file that was opened.
+    /// Adds a file to the recent ones.
     pub fn remember(&mut self, path: &Path) {
         let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
         self.recent.retain(|it| *it != path);

@@ -1,64 +1,65 @@
-//! How much room there is, and what goes where.
+//! Layout for large and small windows.
 
 use egui::{Align, Button, Context, Layout, Panel, Rect, ScrollArea, Ui, Vec2, Window};
 
-/// Windows less wide than this are those of telephones, in points.
+/// Width below which a window counts as that of a telephone, in points.
 const NARROW: f32 = 640.0;
 
-/// Of the picture, that a sheet over its foot leaves free.
+/// Part of the picture that a sheet at its lower edge leaves free.
 const FREE: f32 = 0.55;
 
-/// Whether the window has little room beside the picture: bars take two lines then, what is
-/// seldom used waits in menus, and panels are sheets over the foot of the picture.
+/// Returns whether the window is narrow. Then bars take two lines, rare actions move into menus,
+/// and panels are sheets over the lower part of the picture.
 pub fn is_narrow(ui: &Ui) -> bool {
     ui.ctx().content_rect().width() < NARROW
 }
 
-/// Windows less high than this are those of telephones on their side, in points.
+/// Height below which a window counts as that of a telephone held sideways, in points.
 const LOW: f32 = 480.0;
 
-/// Whether the bar above everything is to have one line only.
+/// Returns whether the top bar has only one line.
 pub fn bar_has_one_line(ui: &Ui) -> bool {
     is_narrow(ui) || ui.ctx().content_rect().height() < LOW
 }
 
-/// A list that scrolls, so high in points at once as its contents fill: in a window of its own it would grow
-/// from picture to picture.
+/// Makes a scrolling list that has this height in points at once; otherwise it would grow from
+/// frame to frame in a window of its own.
 pub fn scrolled_within(height: f32) -> ScrollArea {
     ScrollArea::vertical().max_height(height).min_scrolled_height(height)
 }
 
-/// Least edge of what fingers press, in points (Web Content Accessibility Guidelines 2.2, 2.5.5).
+/// Smallest edge of a target for fingers, in points (Web Content Accessibility Guidelines 2.2,
+/// 2.5.5).
 const FINGER: f32 = 44.0;
 
-/// Makes all there is to press large enough for fingers.
+/// Makes all controls large enough for fingers.
 pub fn suit_fingers(context: &Context) {
     context.all_styles_mut(|style| {
         let spacing = &mut style.spacing;
         spacing.interact_size = Vec2::splat(FINGER);
-        // Around a symbol of fifteen points.
+        // Space around a symbol of fifteen points.
         spacing.button_padding.x = 15.0;
         spacing.icon_width = 24.0;
         spacing.icon_width_inner = 14.0;
     });
 }
 
-/// Whether all there is to press is large enough for fingers: then there is no keyboard.
+/// Returns whether controls are sized for fingers; then there is no keyboard.
 pub fn is_for_fingers(context: &Context) -> bool {
     context.global_style().spacing.interact_size.y >= FINGER
 }
 
-/// Whether somebody points with fingers, or may: a keyboard on the screen would cover things then.
+/// Returns whether the user may touch the screen, where a virtual keyboard would cover controls.
 pub fn is_touched(ui: &Ui) -> bool {
     is_for_fingers(ui.ctx()) || ui.input(|input| input.has_touch_screen())
 }
 
-/// What one does to press something.
+/// Returns the word for pressing a control.
 pub fn press_word(ui: &Ui) -> &'static str {
     if is_touched(ui) { "Tap" } else { "Click" }
 }
 
-/// Shows a window that can be closed: where fingers point, by a button large enough for them.
+/// Shows a window with a close button, which is large enough for fingers where needed.
 pub fn show_closable<'open>(
     title: &str,
     window: Window<'open>,
@@ -94,15 +95,15 @@ pub fn show_closable<'open>(
 #[derive(Debug, Clone, Copy)]
 pub struct Beside {
     pub title: &'static str,
-    /// At the right; else at the left.
+    /// Whether it is at the right, else at the left.
     pub is_right: bool,
-    /// Least, usual and largest width, in points.
+    /// Smallest, default and largest width, in points.
     pub widths: [f32; 3],
 }
 
 impl Beside {
-    /// Shows it while it is `open`: beside the picture where that keeps half of the window, of which
-    /// `room` is left for panels, in points; over the picture where it would not.
+    /// Shows the panel if it is `open`: beside the picture if the picture keeps half of the window,
+    /// else over the picture. `room` is the width left for panels, in points.
     pub fn show(
         self,
         ui: &mut Ui,
@@ -125,7 +126,7 @@ impl Beside {
         *room -= shown.response.rect.width();
     }
 
-    /// Over the picture: at its side, in narrow windows at its foot.
+    /// Shows the panel over the picture: at its side, in a narrow window at its lower edge.
     fn over(self, ui: &Ui, open: &mut bool, contents: impl FnOnce(&mut Ui)) {
         let picture = ui.available_rect_before_wrap();
         let mut place = picture.shrink(4.0);

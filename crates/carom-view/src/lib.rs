@@ -1,8 +1,8 @@
-//! The interface of Carom, one for desktop window and browser.
+//! The interface of Carom, the same for desktop window and browser.
 //!
-//! [`App`] is the interface: hosted by a window ([`window::open`]), a page or a test. It shows a
-//! scene being watched - whose physics is in [`carom_session`] - or a maze being played. A key or a
-//! button yields an [`Action`]; every panel reads the session's view and answers with commands.
+//! [`App`] is the interface; a window ([`window::open`]), a web page or a test hosts it. It shows a
+//! scene, whose physics is in [`carom_session`], or a maze game. A key or a button makes an
+//! [`Action`]; panels read the session's view and answer with commands.
 
 #![warn(clippy::unwrap_used)]
 

@@ -1,4 +1,4 @@
-//! The dialog with a link to what is shown, for people to copy.
+//! The dialog with a link to the present view.
 
 use carom_session::{Link, View};
 use egui::{Align2, Context, TextEdit, Window};
@@ -6,20 +6,20 @@ use egui::{Align2, Context, TextEdit, Window};
 use crate::address::Moment;
 use crate::layout::show_closable;
 
-/// The dialog with a link to what is shown.
+/// The dialog with a link to the present view.
 #[derive(Default)]
 pub struct LinkDialog {
     open: bool,
-    /// The link, and what it was made of.
+    /// The link, and the moment it was made for.
     link: Option<(Option<Moment>, String)>,
-    /// When it was copied last, by the clock of the interface \[s\].
+    /// Time of the last copy, by the clock of the interface \[s\].
     copied: Option<f64>,
 }
 
-/// How long it is said that the link was copied \[s\].
+/// How long the dialog reports a copy \[s\].
 const SAID: f64 = 3.0;
 
-/// Whether a link is of use on this machine alone.
+/// Returns whether a link works only on this machine.
 fn is_local(link: &str) -> bool {
     let host = link.split_once("://").map_or(link, |(_, rest)| rest);
     ["127.0.0.1", "localhost", "[::1]"]
@@ -28,7 +28,7 @@ fn is_local(link: &str) -> bool {
 }
 
 impl LinkDialog {
-    /// Opens the dialog, or closes it.
+    /// Opens or closes the dialog.
     pub fn toggle(&mut self) {
         self.open ^= true;
     }
@@ -38,13 +38,13 @@ impl LinkDialog {
         self.open = false;
     }
 
-    /// Whether it is open.
+    /// Returns whether the dialog is open.
     pub fn is_open(&self) -> bool {
         self.open
     }
 
-    /// Shows the dialog while it is open, with a link to this view of a run whose beginning has
-    /// another link, or to something that stays the same.
+    /// Shows the open dialog. `run` is the view and the link to its beginning; `None` for something
+    /// that does not change, such as a maze.
     pub fn show(
         &mut self,
         context: &Context,

@@ -1,4 +1,4 @@
-//! What a session looks like: its view as a drawing.
+//! Turns the view of a session into a drawing.
 
 use carom::{DQuat, DVec3, SphereId};
 use carom_render::{Arrow, Ball, Drawing, Light, Pattern, spring_line};
@@ -10,17 +10,17 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact_forces;
 
-/// What is drawn besides spheres and surfaces.
+/// Marks drawn besides spheres and surfaces.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Marks {
     /// Velocities as arrows.
     pub velocities: bool,
-    /// Contacts of the last moments with their normals.
+    /// Recent contacts with their normals.
     pub contacts: bool,
     /// Forces of persistent contacts as arrows.
     pub forces: bool,
-    /// Simulated time that an arrow is long \[s\].
+    /// Simulated time in which a sphere travels the length of its arrow \[s\].
     pub velocity_scale: f64,
 }
 
@@ -30,18 +30,18 @@ impl Default for Marks {
     }
 }
 
-/// How the picture is made of a view.
+/// How a view is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Look {
-    /// What is drawn besides.
+    /// Marks.
     pub marks: Marks,
-    /// Under a dark sky.
+    /// Whether the sky is dark.
     pub dark: bool,
-    /// Part of the way from the previous positions to the present ones, in \[0, 1\].
+    /// Part of the way from the previous to the present positions, in \[0, 1\].
     pub blend: f64,
 }
 
-/// Triggers that have no colour of their own.
+/// Colour of triggers that have none.
 const TRIGGER: Color = [0.95, 0.76, 0.20];
 const VELOCITY: Color = [0.13, 0.55, 0.33];
 const CONTACT: Color = [0.93, 0.26, 0.21];
@@ -50,7 +50,7 @@ const PICKED: Color = [1.0, 0.62, 0.10];
 /// Length of the normal of a contact, in radii of the sphere.
 const NORMAL_LENGTH: f64 = 1.5;
 
-/// Draws a view anew.
+/// Replaces a drawing by that of a view.
 pub fn draw(view: &View, look: &Look, drawing: &mut Drawing) {
     drawing.clear();
     let light = Light::of_scene(&view.scene);
@@ -67,13 +67,13 @@ pub fn draw(view: &View, look: &Look, drawing: &mut Drawing) {
     }
 }
 
-/// Where a sphere is shown \[m\].
+/// Returns the position at which a sphere is drawn \[m\].
 pub fn place(view: &View, index: usize, blend: f64) -> DVec3 {
     let (before, now) = (view.spheres.previous_positions[index], view.spheres.positions[index]);
     before.lerp(now, blend)
 }
 
-/// The colour of a collider as described in a scene.
+/// Returns the colour of a collider of the scene.
 fn collider_color(collider: &scene::Collider, colors: Option<&scene::Colors>) -> Color {
     let default = if collider.trigger { TRIGGER } else { Palette::COLLIDER };
     let of_scene = colors.and_then(|colors| colors.colliders).unwrap_or(default);
@@ -151,7 +151,7 @@ fn add_contacts(view: &View, drawing: &mut Drawing) {
     }
 }
 
-/// Radius of body 2 of an impact \[m\], 0 if it has gone.
+/// Returns the radius of body 2 of an impact \[m\], or 0 if it no longer exists.
 fn radius_of(view: &View, between: carom::BodyPair) -> f64 {
     let sphere: SphereId = match between {
         carom::BodyPair::Spheres(_, sphere) => sphere,
@@ -160,7 +160,7 @@ fn radius_of(view: &View, between: carom::BodyPair) -> f64 {
     view.spheres.index_of(sphere).map_or(0.0, |index| view.spheres.radii[index])
 }
 
-/// The sphere first met by a ray from `origin` along `direction` (unit vector), as drawn.
+/// Returns the first sphere on a ray from `origin` along `direction` (unit vector), as drawn.
 pub fn sphere_at(view: &View, blend: f64, origin: DVec3, direction: DVec3) -> Option<SphereId> {
     let mut first = (f64::INFINITY, None);
     for (i, id) in view.spheres.ids.iter().enumerate() {
@@ -203,7 +203,7 @@ mod tests {
         assert_eq!((plain.pattern, plain.rotation), (Pattern::Plain, DQuat::IDENTITY));
         let (banded, time) = ball(DVec3::X);
         assert_eq!(banded.pattern, Pattern::Banded);
-        // An angle of zero, from a cosine rounded.
+        // Zero up to the rounding of a cosine.
         assert!(banded.rotation.angle_between(DQuat::from_rotation_x(time)) < 1e-6);
     }
 }

@@ -1,4 +1,4 @@
-//! The maze game on the screen: keys and mouse to tilt, the game's picture, counts and times.
+//! The maze game on the screen: controls, picture, counts and times.
 
 use carom::DVec3;
 use carom_maze::{Game, GameError, GameEvent, GameState, Maze, Options, Steering, Tilt};
@@ -13,15 +13,15 @@ use crate::orbit::{Orbit, Preset, zoom_asked};
 use crate::snapshot::Snapshot;
 use crate::studio::{Canvas, Studio};
 
-/// Friction of a ball that rolls: enough for that at the steepest tilt, and so little that walls do not hold
-/// it.
+/// Friction of a rolling ball: enough to roll at the steepest tilt, but too little to hold it at
+/// walls.
 const FRICTION: f64 = 0.15;
 
-/// What the player is to do, where there is something to collect and where there is nothing.
+/// The player's task, with and without collectibles.
 const GOALS: [&str; 2] =
     ["Touch the red wall; collect all for a best time.", "Touch the red wall."];
 
-/// A game being played.
+/// A game that is being played.
 pub struct MazeScreen {
     game: Game,
     link: Link,
@@ -34,26 +34,26 @@ pub struct MazeScreen {
     dark: bool,
     /// Tilt by a gamepad or a tilted device, each part in \[-1, 1\].
     pub stick: Option<Vec2>,
-    /// How far a finger has been dragged in the picture, in points.
+    /// Distance that a finger has been dragged in the picture, in points.
     finger: Option<Vec2>,
-    /// Time played, standing at the win screen included \[s\].
+    /// Time played, including the win screen \[s\].
     clock: f64,
-    /// How long to say what happened last, by the clock of the interface \[s\].
+    /// Last message, and the time until which it is shown, by the clock of the interface \[s\].
     message: Option<(String, f64)>,
-    /// A game of another time goes on when the player does.
+    /// Whether a continued game waits for the player.
     waits: bool,
 }
 
-/// What the player wants besides tilting.
+/// Requests of the player besides tilting.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Wish {
-    /// Look at the maze as a scene, with all its values.
+    /// Watch the maze as a scene, with all its values.
     Watch,
     /// Play another maze.
     Next,
 }
 
-/// Keys that let the ball roll to +x and +z, by part of the full speed.
+/// Keys, and the parts of the full tilt towards +x and +z that they give.
 const KEYS: [(Key, f64, f64); 8] = [
     (Key::ArrowRight, 1.0, 0.0),
     (Key::ArrowLeft, -1.0, 0.0),
@@ -66,7 +66,7 @@ const KEYS: [(Key, f64, f64); 8] = [
 ];
 
 impl MazeScreen {
-    /// A new game; `link` leads to its maze.
+    /// Starts a game; `link` leads to its maze.
     ///
     /// # Errors
     /// If the maze cannot be played.
@@ -93,7 +93,7 @@ impl MazeScreen {
         })
     }
 
-    /// Whether the win screen is shown.
+    /// Returns whether the win screen is shown.
     pub fn is_won(&self) -> bool {
         matches!(self.game.state(), GameState::Won { .. })
     }
@@ -103,7 +103,7 @@ impl MazeScreen {
         &self.game
     }
 
-    /// What it takes to go on with the game at another time.
+    /// Returns what is needed to continue the game later.
     pub fn kept(&self) -> KeptGame {
         KeptGame {
             maze: self.link.to_string(),
@@ -112,7 +112,7 @@ impl MazeScreen {
         }
     }
 
-    /// Goes on with a game of another time, if that was in this maze and got anywhere.
+    /// Continues an earlier game, if it was in this maze.
     pub fn resume(&mut self, kept: &KeptGame) {
         if kept.maze != self.link.to_string()
             || self.set_rolls(kept.rolls).is_err()
@@ -130,10 +130,10 @@ impl MazeScreen {
         &self.link
     }
 
-    /// Plays on by the time since the last picture.
+    /// Advances the game by the time since the last frame.
     ///
     /// # Errors
-    /// If the physics refuses a frame; the game is as it was before.
+    /// If the physics refuses a frame; the game is then unchanged.
     pub fn advance(&mut self, ui: &Ui, steering: Steering) -> Result<(), GameError> {
         let wall_seconds = ui.input(|input| f64::from(input.unstable_dt));
         let now = ui.input(|input| input.time);
@@ -144,13 +144,13 @@ impl MazeScreen {
             self.clock += self.game.frame_time();
             let before = self.game.ball_in_maze().0;
             let stepped = self.game.step(steering).map(<[_]>::to_vec);
-            // What fails once would fail again.
+            // A step that failed once would fail again.
             let events = stepped.inspect_err(|_| self.pace.set_playing(false))?;
             for event in events {
                 self.note(event, now);
             }
             let way = self.game.ball_in_maze().0 - before;
-            // Starting again is no rolling.
+            // A jump back to the start is no rolling.
             let radius = self.game.maze().ball_radius();
             if way.length() < radius {
                 self.roll.on(way, DVec3::Y, radius);
@@ -170,7 +170,7 @@ impl MazeScreen {
         self.message = Some((text, now + 2.0));
     }
 
-    /// The tilt that keys, mouse or gamepad give.
+    /// Returns the tilt by keys, mouse, finger or gamepad.
     pub fn steering(&self, ui: &Ui) -> Steering {
         let most = self.game.options().max_tilt_degrees.to_radians();
         let towards =
@@ -183,7 +183,7 @@ impl MazeScreen {
             press.zip(input.pointer.latest_pos())
         });
         if let Some(way) = self.finger.or(by_mouse.map(|(from, to)| to - from)) {
-            // A fifth of the picture is a full tilt.
+            // A drag over a fifth of the picture is a full tilt.
             let full = 0.2 * ui.available_height().max(100.0);
             let way = (way / full).clamp(Vec2::splat(-1.0), Vec2::splat(1.0));
             return towards(f64::from(way.x), f64::from(way.y));
@@ -196,22 +196,22 @@ impl MazeScreen {
         Steering::roll(held[0].clamp(-1.0, 1.0), held[1].clamp(-1.0, 1.0))
     }
 
-    /// Time played, standing at the win screen included \[s\]: by it films go on.
+    /// Returns the time played, including the win screen \[s\]; films follow it.
     pub fn clock(&self) -> f64 {
         self.clock
     }
 
-    /// Whether the game goes on.
+    /// Returns whether the game is running.
     pub fn is_playing(&self) -> bool {
         self.pace.is_playing()
     }
 
-    /// Lets the game stand still, or go on.
+    /// Pauses or resumes the game.
     pub fn play_or_pause(&mut self) {
         self.pace.set_playing(!self.pace.is_playing());
     }
 
-    /// Starts again, the best time kept.
+    /// Restarts the game and keeps the best time.
     pub fn play_again(&mut self) {
         self.game.play_again();
         self.roll = Roll::START;
@@ -221,21 +221,21 @@ impl MazeScreen {
         }
     }
 
-    /// Whether the ball rolls by friction.
+    /// Returns whether the ball rolls by friction.
     pub fn rolls(&self) -> bool {
         self.game.options().friction > 0.0
     }
 
-    /// Has the ball roll by friction, or slide without any.
+    /// Chooses whether the ball rolls by friction or slides without any.
     ///
     /// # Errors
-    /// None but what the world had from the start.
+    /// Only errors that the world had from the start.
     pub fn set_rolls(&mut self, rolls: bool) -> Result<(), GameError> {
         let friction = if rolls { FRICTION } else { 0.0 };
         self.game.set_options(Options { friction, ..*self.game.options() })
     }
 
-    /// Whether the maze turns back to level when nothing steers it.
+    /// Returns whether the maze turns back to level when nothing steers it.
     pub fn levels_back(&self) -> bool {
         self.game.options().levels_back
     }
@@ -243,12 +243,12 @@ impl MazeScreen {
     /// Chooses whether the maze turns back to level when nothing steers it.
     ///
     /// # Errors
-    /// None but what the options had from the start.
+    /// Only errors that the options had from the start.
     pub fn set_levels_back(&mut self, levels_back: bool) -> Result<(), GameError> {
         self.game.set_options(Options { levels_back, ..*self.game.options() })
     }
 
-    /// Looks from a preset.
+    /// Moves the camera to a preset.
     pub fn look_from(&mut self, preset: Preset) {
         self.orbit = Some(self.preset(preset, 16.0 / 9.0));
     }
@@ -260,8 +260,8 @@ impl MazeScreen {
     }
 
     fn draw(&mut self) {
-        // Where friction does not turn the ball, the pattern shows the way along the maze, whichever way
-        // the maze is tilted.
+        // Without friction nothing turns the ball; its pattern then follows its path along the
+        // maze, however the maze is tilted.
         let rotation = if self.rolls() {
             self.game.world().spheres().get(0).orientation
         } else {
@@ -274,7 +274,7 @@ impl MazeScreen {
         }
     }
 
-    /// The game's picture with its counts. Returns what the player wants.
+    /// Shows the game and its counts. Returns a request of the player.
     pub fn picture(&mut self, ui: &mut Ui, studio: &mut Studio, dark: bool) -> Option<Wish> {
         self.dark = dark;
         self.counts(ui);
@@ -302,7 +302,7 @@ impl MazeScreen {
         self.won(ui)
     }
 
-    /// What the mouse or fingers do in the picture.
+    /// Handles mouse and fingers in the picture.
     fn hand(&mut self, ui: &Ui, response: &Response, orbit: &mut Orbit) {
         let (is_touched, fingers) = ui.input(|input| (input.any_touches(), input.multi_touch()));
         self.finger = None;
@@ -324,7 +324,7 @@ impl MazeScreen {
         }
     }
 
-    /// Collectibles, times and what is to be done, in a line above the picture.
+    /// Shows collectibles, times and the task in a line above the picture.
     fn counts(&self, ui: &mut Ui) {
         let of = self.game.maze().collectibles().count();
         let collected = (of > 0).then(|| format!("Collected {} of {of}", self.game.collected()));
@@ -362,7 +362,7 @@ impl MazeScreen {
         }
     }
 
-    /// Asks whether a game of another time goes on.
+    /// Asks whether to continue an earlier game.
     fn wait(&mut self, ui: &Ui) {
         if !self.waits {
             return;
@@ -377,7 +377,7 @@ impl MazeScreen {
                 self.play_again();
             }
         };
-        // At the foot, where the maze is not.
+        // At the lower edge, below the maze.
         let place = [0.0, -24.0];
         let area = Area::new(Id::unique("here you were")).anchor(Align2::CENTER_BOTTOM, place);
         area.show(ui.ctx(), |ui| {
@@ -391,7 +391,7 @@ impl MazeScreen {
         self.waits = false;
     }
 
-    /// The win text, and what comes next.
+    /// Shows the win screen. Returns a request of the player.
     fn won(&mut self, ui: &Ui) -> Option<Wish> {
         let GameState::Won { time } = self.game.state() else { return None };
         let has_all = self.game.remaining().next().is_none();
@@ -437,7 +437,7 @@ impl MazeScreen {
         wish
     }
 
-    /// A picture of what is shown now, of this size in pixels.
+    /// Starts to draw the present picture in this size in pixels.
     ///
     /// # Errors
     /// [`GpuError`]

@@ -1,11 +1,11 @@
-//! Messages to the user: what was done, and what went wrong.
+//! Messages to the user: actions that succeeded, and errors.
 
 use egui::{Align2, Area, Color32, Frame, Id, RichText, Ui};
 
-/// How long a message that needs no answer stays \[s\].
+/// How long a message without an error is shown \[s\].
 const SHOWN: f64 = 4.0;
 
-/// Messages, the oldest first.
+/// Messages, oldest first.
 #[derive(Debug, Default)]
 pub struct Notices {
     list: Vec<Notice>,
@@ -15,17 +15,17 @@ pub struct Notices {
 struct Notice {
     text: String,
     is_error: bool,
-    /// Since when it is shown, by the clock of the interface \[s\].
+    /// When it was first shown, by the clock of the interface \[s\].
     since: Option<f64>,
 }
 
 impl Notices {
-    /// Something was done.
+    /// Adds the message of an action that succeeded.
     pub fn tell(&mut self, text: impl Into<String>) {
         self.add(text.into(), false);
     }
 
-    /// Something went wrong: stays until it is closed.
+    /// Adds an error, which is shown until the user closes it.
     pub fn complain(&mut self, text: impl ToString) {
         self.add(text.to_string(), true);
     }
@@ -35,22 +35,22 @@ impl Notices {
         self.list.push(Notice { text, is_error, since: None });
     }
 
-    /// Whether anything went wrong that was not closed.
+    /// Returns whether an error is still open.
     pub fn any_error(&self) -> bool {
         self.list.iter().any(|notice| notice.is_error)
     }
 
-    /// The texts on show now, oldest first.
+    /// Returns the open messages, oldest first.
     pub fn texts(&self) -> impl Iterator<Item = &str> {
         self.list.iter().map(|notice| notice.text.as_str())
     }
 
-    /// Takes away all messages.
+    /// Removes all messages.
     pub fn clear(&mut self) {
         self.list.clear();
     }
 
-    /// Shows them at the upper edge.
+    /// Shows the messages at the upper edge.
     pub fn show(&mut self, ui: &mut Ui) {
         let now = ui.input(|input| input.time);
         self.list.retain_mut(|notice| {

@@ -1,16 +1,16 @@
-//! A page of the interface that no window shows, as a picture.
+//! Draws a page of the interface into a picture, without a window.
 
 use carom_render::{COLOR_FORMAT, Readback};
 use egui::{Context, Rect, Theme, Ui, Vec2};
 use egui_wgpu::{RenderState, Renderer, RendererOptions, ScreenDescriptor, wgpu};
 
-/// Fine enough for slides and print, where the device has textures so large.
+/// Resolution for slides and print, if the device can draw textures of that size.
 const PIXELS_PER_POINT: f32 = 2.0;
 
-/// Passes until everything knows its size.
+/// Number of layout passes until all sizes are known.
 const PASSES: usize = 3;
 
-/// Begins to draw a page of this size in points, in the colours of the window that `like` is of.
+/// Starts to draw a page of this size in points, in the colours of the window `like`.
 pub fn draw(
     RenderState { device, queue, .. }: &RenderState,
     like: &Context,

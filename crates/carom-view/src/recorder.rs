@@ -1,4 +1,4 @@
-//! A film of what is shown.
+//! Records a film of the view.
 
 use std::collections::VecDeque;
 use std::ops::Range;
@@ -8,49 +8,49 @@ use egui_wgpu::wgpu::Device;
 use crate::host::FilmMaker;
 use crate::snapshot::Snapshot;
 
-/// Frames of a film in a second of simulated time.
+/// Film frames per second of simulated time.
 pub const FRAMES_PER_SECOND: u32 = 30;
 
 /// Width and height of a film \[px\].
 pub const SIZE: [u32; 2] = [1280, 720];
 
-/// More than this between two pictures of the interface is a jump to another time \[s\]: the fastest
-/// speed on a machine that draws three pictures a second. Time that goes back is one, too.
+/// Largest step of time between two frames of the interface that is no jump \[s\]: the fastest
+/// speed on a machine that draws three frames a second. A step backwards is a jump, too.
 const JUMP: f64 = 3.5;
 
-/// Most pictures that are drawn at one time: enough to keep the device busy, few enough for memory.
+/// Largest number of pictures in progress: enough to keep the device busy, few enough for memory.
 const MOST_DRAWN: usize = 4;
 
-/// A film in the making: its frames are shown at equal distances of simulated time.
+/// A film that is being recorded, with frames at equal steps of simulated time.
 pub struct Recorder {
     film: Box<dyn FilmMaker>,
-    /// Time of the first frame \[s\]; moved along with jumps of time.
+    /// Time of the first frame \[s\]; jumps of time shift it.
     start: f64,
-    /// Time shown last \[s\].
+    /// Time of the last picture \[s\].
     last: f64,
-    /// Frames that pictures were drawn for.
+    /// Number of frames with a picture, finished or not.
     frames: u32,
-    /// Frames that are in the film.
+    /// Number of frames in the film.
     added: u32,
-    /// Pictures under way, each with the frames that it is shown in.
+    /// Pictures in progress, each with its frames.
     drawn: VecDeque<(Snapshot, Range<u32>)>,
-    /// Whether no frame follows any more.
+    /// Whether the film takes no more frames.
     is_ending: bool,
 }
 
 impl Recorder {
-    /// A film that begins at a time of the simulation \[s\].
+    /// Makes a recorder of a film that starts at this simulated time \[s\].
     pub fn new(film: Box<dyn FilmMaker>, start: f64) -> Self {
         let drawn = VecDeque::new();
         Self { film, start, last: start, frames: 0, added: 0, drawn, is_ending: false }
     }
 
-    /// Frames that are due at `time` \[s\]: one picture is to be drawn for all of them, so that the
-    /// film keeps its time on a machine that cannot draw fast enough.
+    /// Returns the frames due at `time` \[s\]. One picture is drawn for all of them, so that the
+    /// film keeps its speed on a slow machine.
     pub fn due(&mut self, time: f64) -> Option<Range<u32>> {
         let way = time - self.last;
         if !(0.0..=JUMP).contains(&way) {
-            // The film goes on with what is shown now.
+            // The film continues with the present picture.
             self.start += way;
         }
         self.last = time;
@@ -58,21 +58,21 @@ impl Recorder {
             return None;
         }
         let due = ((time - self.start) * f64::from(FRAMES_PER_SECOND)).floor() + 1.0;
-        // A cast of a number that is too large gives the largest.
+        // Casting a number that is too large returns the largest integer.
         let due = due as u32;
         (due > self.frames).then_some(self.frames..due)
     }
 
-    /// Adds a picture that is being drawn for these frames.
+    /// Adds a picture that is still being drawn for these frames.
     pub fn add(&mut self, snapshot: Snapshot, frames: Range<u32>) {
         self.frames = frames.end;
         self.drawn.push_back((snapshot, frames));
     }
 
-    /// Puts into the film what has been drawn.
+    /// Adds the finished pictures to the film.
     ///
     /// # Errors
-    /// If a picture was lost or cannot be added: then the film ends with the frames before.
+    /// If a picture was lost or cannot be added; the film then ends before it.
     pub fn collect(&mut self, device: &Device) -> Result<(), String> {
         let collected = self.add_drawn(device);
         if collected.is_err() {
@@ -96,22 +96,22 @@ impl Recorder {
         Ok(())
     }
 
-    /// Adds no more frames but those that are being drawn.
+    /// Ends the recording; only pictures in progress are still added.
     pub fn end(&mut self) {
         self.is_ending = true;
     }
 
-    /// Whether the film has all its frames.
+    /// Returns whether the film has all its frames.
     pub fn is_complete(&self) -> bool {
         self.is_ending && self.drawn.is_empty()
     }
 
-    /// Whether no frame follows any more.
+    /// Returns whether the recording has ended.
     pub fn is_ending(&self) -> bool {
         self.is_ending
     }
 
-    /// Completes the film. Returns what to tell.
+    /// Completes the film. Returns a message for the user.
     ///
     /// # Errors
     /// If it cannot be written.

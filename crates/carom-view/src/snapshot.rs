@@ -1,29 +1,29 @@
-//! Pictures that are drawn to be saved.
+//! Pictures to be saved, while they are drawn.
 
 use carom_render::{GpuError, Picture, Readback};
 use egui_wgpu::wgpu::Device;
 
-/// A picture that is being drawn; one part for each of the rules shown.
+/// A picture that is being drawn; one part for each rule shown.
 #[derive(Debug)]
 pub struct Snapshot {
     pub parts: Vec<Readback>,
 }
 
 impl Snapshot {
-    /// Whether [`Self::picture`] has an answer.
+    /// Returns whether [`Self::picture`] has a result.
     pub fn is_ready(&self, device: &Device) -> bool {
-        // To wait is the shortest way, but a page cannot.
+        // Waiting is the fastest, but a web page cannot wait.
         let may_wait = cfg!(not(target_arch = "wasm32"));
         self.parts.iter().all(|part| {
             if may_wait {
-                // What goes wrong is what the picture says.
+                // `picture` returns the error.
                 drop(part.wait(device));
             }
             may_wait || part.arrived(device)
         })
     }
 
-    /// The picture.
+    /// Returns the picture, with its parts side by side.
     ///
     /// # Errors
     /// [`GpuError`] if the device failed.

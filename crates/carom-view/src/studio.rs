@@ -1,4 +1,4 @@
-//! Pictures inside the interface.
+//! Draws pictures for the interface.
 
 use std::sync::{Arc, Mutex};
 
@@ -14,14 +14,14 @@ use crate::page;
 pub struct Studio {
     state: RenderState,
     renderer: Renderer,
-    /// For pictures that are saved; made when first needed.
+    /// For saved pictures; made at the first use.
     offscreen: Option<Offscreen>,
-    /// What went wrong on the device since the last [`Studio::failure`].
+    /// Error of the device since the last [`Studio::failure`].
     failure: Arc<Mutex<Option<String>>>,
     dropped: Dropped,
 }
 
-/// Notes what goes wrong on the device, instead of ending the program: the scene goes on.
+/// Records errors of the device. The default would end the program; the scene can continue.
 fn listen(device: &wgpu::Device, failure: &Arc<Mutex<Option<String>>>) {
     let note = |failure: &Arc<Mutex<Option<String>>>, text: String| {
         if let Ok(mut failure) = failure.lock() {
@@ -30,7 +30,7 @@ fn listen(device: &wgpu::Device, failure: &Arc<Mutex<Option<String>>>) {
     };
     let lost = Arc::clone(failure);
     device.set_device_lost_callback(move |reason, text| {
-        // That it ends with the program is no failure.
+        // The device is destroyed when the program ends; that is no error.
         if reason != wgpu::DeviceLostReason::Destroyed {
             note(&lost, format!("the graphics device was lost: {text}"));
         }
@@ -50,11 +50,11 @@ pub struct Canvas {
 struct Shown {
     target: Target,
     texture: TextureId,
-    /// Where the texture's name goes when it is needed no more.
+    /// Collects the texture when it is no longer needed.
     dropped: Dropped,
 }
 
-/// Names of textures that are shown in the present frame for the last time.
+/// Textures that are shown for the last time in the present frame.
 type Dropped = Arc<Mutex<Vec<TextureId>>>;
 
 impl Drop for Shown {
@@ -66,14 +66,14 @@ impl Drop for Shown {
 }
 
 impl Canvas {
-    /// What it shows, if anything was drawn into it.
+    /// Returns the texture, if anything was drawn into it.
     pub fn texture(&self) -> Option<TextureId> {
         self.shown.as_ref().map(|shown| shown.texture)
     }
 }
 
 impl Studio {
-    /// A studio on the device that draws the interface.
+    /// Makes a studio on the device that draws the interface.
     pub fn new(state: RenderState, quality: Quality) -> Self {
         let failure = Arc::new(Mutex::new(None));
         listen(&state.device, &failure);
@@ -81,19 +81,19 @@ impl Studio {
         Self { state, renderer, offscreen: None, failure, dropped: Dropped::default() }
     }
 
-    /// Begins a frame of the interface: frees the textures that were last shown in those before.
+    /// Starts a frame of the interface and frees textures that are no longer shown.
     pub fn begin_frame(&mut self) {
         let dropped = self.dropped.lock().map(|mut dropped| std::mem::take(&mut *dropped));
         let mut interface = self.state.renderer.write();
         dropped.unwrap_or_default().iter().for_each(|texture| interface.free_texture(texture));
     }
 
-    /// The device that it draws with.
+    /// Returns the graphics device.
     pub fn device(&self) -> &wgpu::Device {
         &self.state.device
     }
 
-    /// What went wrong on the device since the last call: lost, or out of memory.
+    /// Returns an error of the device since the last call: it was lost, or is out of memory.
     pub fn failure(&self) -> Option<String> {
         self.failure.lock().ok()?.take()
     }
@@ -119,13 +119,13 @@ impl Studio {
         }
     }
 
-    /// Begins to draw a page of the interface of this size in points, in the colours of the window that
-    /// `like` is of.
+    /// Starts to draw a page of the interface of this size in points, in the colours of the window
+    /// `like`.
     pub fn page(&self, like: &Context, size: Vec2, content: impl FnMut(&mut Ui)) -> Readback {
         page::draw(&self.state, like, size, content)
     }
 
-    /// Begins to draw a picture of this size in pixels, as fine as can be.
+    /// Starts to draw a picture of this size in pixels in the best quality.
     ///
     /// # Errors
     /// [`GpuError::Size`], [`GpuError::Memory`]

@@ -1,8 +1,8 @@
-//! Colours of the interface that can be read by everybody.
+//! Readable colours of the interface.
 
 use egui::{Color32, Context, Stroke, Theme, Visuals};
 
-/// Gives texts a contrast to what is behind them of 4.5 at least, in both themes (Web Content
+/// Sets a contrast of at least 4.5 between texts and their background in both themes (Web Content
 /// Accessibility Guidelines 2.2, 1.4.3).
 pub fn make_readable(context: &Context) {
     for theme in [Theme::Light, Theme::Dark] {

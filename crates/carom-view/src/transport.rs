@@ -1,4 +1,4 @@
-//! Playing, stepping, and going through time.
+//! The transport bar: play, step, and move through time.
 
 use carom_session::{Command, FASTEST, SLOWEST, View};
 use egui::{Align, Layout, Rangef, Rect, RichText, Slider, Stroke, Ui, Widget};
@@ -6,13 +6,13 @@ use egui::{Align, Layout, Rangef, Rect, RichText, Slider, Stroke, Ui, Widget};
 use crate::action::Action;
 use crate::layout::is_narrow;
 
-/// Speeds that the keys go through.
+/// Speeds that the keys select.
 const SPEEDS: [f64; 9] = [SLOWEST, 0.05, 0.1, 0.25, 0.5, 1.0, 2.0, 5.0, FASTEST];
 
-/// Windows at least so wide have the state hash in the bar, in points.
+/// Smallest width of a window with the state hash in the bar, in points.
 const ROOM_FOR_HASH: f32 = 960.0;
 
-/// The bar below the picture. Returns the action of the button pressed.
+/// Shows the bar below the picture. Returns the actions of the pressed buttons.
 pub fn show(
     ui: &mut Ui,
     view: &View,
@@ -58,7 +58,7 @@ pub fn show(
     actions
 }
 
-/// The time, and how it goes on.
+/// Shows the time and the speed.
 fn clock(ui: &mut Ui, view: &View, is_recording: bool) {
     ui.monospace(format!("t = {:9.4} s", view.time)).on_hover_text(format!(
         "frame {} of {} s each",
@@ -68,14 +68,14 @@ fn clock(ui: &mut Ui, view: &View, is_recording: bool) {
         ui.colored_label(ui.visuals().error_fg_color, "⏺ recording");
     }
     pace(ui, view);
-    // Where there is no room for it, the inspector has it.
+    // In a narrow window only the inspector shows it.
     let has_room = ui.ctx().content_rect().width() >= ROOM_FOR_HASH;
     if let Some(hash) = view.playback.state_hash.filter(|_| has_room) {
         ui.monospace(hash.to_string()).on_hover_text("the state as a number: see Link");
     }
 }
 
-/// The way to other times, in the rest of the line.
+/// Shows the time line in the rest of the line.
 fn way(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         if view.seeking.is_some() && ui.button("Stop").clicked() {
@@ -85,9 +85,9 @@ fn way(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     });
 }
 
-/// The next faster speed, or the next slower one.
+/// Returns the next faster or slower speed of the list.
 pub fn next_speed(speed: f64, faster: bool) -> f64 {
-    // A step of the list counts as reached within this part of it.
+    // Relative difference below which two speeds count as equal.
     const SAME: f64 = 1e-6;
     let mut found = SPEEDS
         .iter()
@@ -119,7 +119,7 @@ fn speed(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     }
 }
 
-/// Reads `1/20x`, `0.05` or `2x`.
+/// Parses `1/20x`, `0.05` or `2x`.
 fn parse_speed(text: &str) -> Option<f64> {
     let text = text.trim().trim_end_matches('x').trim();
     match text.split_once('/') {
@@ -130,7 +130,7 @@ fn parse_speed(text: &str) -> Option<f64> {
     }
 }
 
-/// Says so when the machine cannot keep up.
+/// Shows a warning if the machine cannot keep up.
 fn pace(ui: &mut Ui, view: &View) {
     let playback = &view.playback;
     if playback.playing && !playback.keeps_up {
@@ -164,9 +164,9 @@ fn time_line(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     }
 }
 
-/// Marks the times of edits on the time line, which lies here and ends at `end` \[s\].
+/// Marks the times of edits on the time line, which fills `line` and ends at `end` \[s\].
 fn marks(ui: &Ui, view: &View, line: Rect, end: f64) {
-    // As wide as the knob, the middle of which is at the time shown.
+    // The middle of the knob is at the present time, so the line is shorter by its width.
     let along = line.x_range().shrink(line.height() / 2.5);
     let painter = ui.painter_at(line);
     let color = ui.visuals().warn_fg_color;

@@ -1,22 +1,22 @@
-//! A scene file that is edited while it is watched.
+//! Watches a scene file for changes on the disk.
 
 use std::path::PathBuf;
 
 use carom_scene::{ChangedFile, Source};
 
-/// How often the file is looked at \[s\].
+/// Time between two checks of the file \[s\].
 pub const INTERVAL: f64 = 0.5;
 
-/// The file of the scene that is watched.
+/// The file of the watched scene.
 #[derive(Debug, Default)]
 pub struct WatchedFile {
     file: Option<ChangedFile>,
-    /// When it was looked at last, by the clock of the interface \[s\].
+    /// Time of the last check, by the clock of the interface \[s\].
     looked: f64,
 }
 
 impl WatchedFile {
-    /// Watches the file of a scene; none for a scene that comes from elsewhere.
+    /// Watches the file of a scene; stops watching if the scene comes from no file.
     pub fn watch(&mut self, source: &Source) {
         self.file = match source {
             Source::File(path) => Some(ChangedFile::new(path)),
@@ -24,12 +24,12 @@ impl WatchedFile {
         };
     }
 
-    /// Whether there is a file to watch.
+    /// Returns whether a file is watched.
     pub fn is_any(&self) -> bool {
         self.file.is_some()
     }
 
-    /// The file, once, if it was changed since it was looked at last.
+    /// Returns the file once after it changed.
     pub fn changed(&mut self, now: f64) -> Option<PathBuf> {
         if now - self.looked < INTERVAL {
             return None;

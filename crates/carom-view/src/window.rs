@@ -1,4 +1,4 @@
-//! The interface in a window of the desktop.
+//! The interface in a desktop window.
 
 use eframe::{NativeOptions, Renderer};
 use egui::ViewportBuilder;
@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use crate::app::{App, Setup};
 
-/// Why there is no window.
+/// The reason why no window could be opened.
 #[derive(Debug, Error)]
 #[error(
     "cannot open a window: {0}\n\
@@ -16,7 +16,7 @@ use crate::app::{App, Setup};
 )]
 pub struct WindowError(String);
 
-/// Opens the window and comes back when it is closed.
+/// Opens the window and returns when it is closed.
 ///
 /// # Errors
 /// [`WindowError`] without a display or graphics driver.
@@ -34,7 +34,7 @@ pub fn open(setup: Setup) -> Result<(), WindowError> {
         .map_err(|error| WindowError(without_place(&error.to_string())))
 }
 
-/// What went wrong, without the line of the source in which a library says that it noticed.
+/// Removes the source position that a library puts into its error.
 fn without_place(error: &str) -> String {
     let parts = error.split_once(" at ").and_then(|(what, rest)| {
         let (place, why) = rest.split_once(": ")?;

@@ -1,24 +1,24 @@
-//! The text that a scene was read from, whose parameters can be changed.
+//! The text of a scene whose parameters can be changed.
 
 use std::path::Path;
 
 use carom_scene::{Override, Parameter, Scene, SceneError, SceneText};
 use carom_session::{Link, LinkSource};
 
-/// A scene as it is written, with formulas where its author wrote some.
+/// A scene as text, with the formulas of its author.
 pub struct WrittenScene {
     text: SceneText,
     overrides: Vec<Override>,
-    /// What it comes to.
+    /// The scene that the text describes.
     scene: Scene,
     parameters: Vec<Parameter>,
 }
 
 impl WrittenScene {
-    /// The text of a scene file, which errors call `name`, with these values changed.
+    /// Reads the text of a scene file, called `name` in errors, with these values changed.
     ///
     /// # Errors
-    /// For a text that is no scene.
+    /// If the text is no valid scene.
     pub fn new(name: &str, text: &str, overrides: Vec<Override>) -> Result<Self, SceneError> {
         Self::of(SceneText::new(text, name)?, overrides)
     }
@@ -28,36 +28,36 @@ impl WrittenScene {
         Ok(Self { text, overrides, scene, parameters })
     }
 
-    /// A scene file of the disk and those that it includes, with these values changed.
+    /// Reads a scene file and the files that it includes, with these values changed.
     ///
     /// # Errors
-    /// If it cannot be read, or is no scene.
+    /// If it cannot be read, or is no valid scene.
     pub fn from_file(path: &Path, overrides: Vec<Override>) -> Result<Self, SceneError> {
         Self::of(SceneText::from_file(path)?, overrides)
     }
 
-    /// The scene that the text comes to.
+    /// Returns the scene that the text describes.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
 
-    /// The values that differ from the text.
+    /// Returns the values that differ from the text.
     pub fn overrides(&self) -> &[Override] {
         &self.overrides
     }
 
-    /// Its parameters, in the order of the file.
+    /// Returns the parameters, in the order of the file.
     pub fn parameters(&self) -> &[Parameter] {
         &self.parameters
     }
 
-    /// This text with another value of one of its parameters.
+    /// Returns this text with another value of one of its parameters.
     ///
     /// # Errors
-    /// If that makes no sense.
+    /// If the scene becomes invalid.
     pub fn with(&self, parameter: &Parameter) -> Result<Self, SceneError> {
         let Parameter { name, value, .. } = parameter;
-        // A whole number without a point counts something, and would from then on.
+        // A number without a decimal point would become an integer parameter.
         let value = if parameter.is_whole { format!("{value}") } else { format!("{value:?}") };
         let changed: Override = format!("parameters.{name}={value}").parse()?;
         let is_other = |it: &&Override| !it.to_string().starts_with(&format!("parameters.{name}="));
@@ -65,9 +65,9 @@ impl WrittenScene {
         Self::of(self.text.clone(), others.chain([changed]).collect())
     }
 
-    /// A link to its beginning, which keeps formulas.
+    /// Returns a link to the beginning of the scene, with its formulas.
     pub fn link(&self) -> Link {
-        // Links are for others: where the file lies here is not for them.
+        // A link is for others, so it contains only the file name, not the local path.
         let name = Path::new(self.text.name()).file_name().unwrap_or_default();
         let (name, text) = (name.to_string_lossy().into_owned(), self.text.whole().into_owned());
         Link::new(LinkSource::File { name, text }).with_overrides(self.overrides.clone())

@@ -1,8 +1,8 @@
-//! Hosts the interface of Carom in a page of a browser.
+//! Hosts the interface of Carom in a web page.
 //!
-//! The page's script makes a `Page` on a canvas and gives it what only a page has: downloads,
-//! films, the tilt of the device, the address bar (`services.rs` lists it). What the page shows can
-//! be read back as data (`Page::status`, `Page::widgets`), and scripts say what to do
+//! The page's script makes a `Page` on a canvas and passes it services that only a page has:
+//! downloads, films, the tilt of the device, the address bar (listed in `services.rs`). Scripts can
+//! read the state of the interface as data (`Page::status`, `Page::widgets`) and control the scene
 //! (`commands.rs`).
 
 #![cfg(target_arch = "wasm32")]
@@ -34,21 +34,21 @@ use crate::status::Status;
 use crate::version::Version;
 use crate::widgets::Widgets;
 
-/// The interface in a canvas of a page.
+/// The interface in the canvas of a web page.
 #[wasm_bindgen]
 pub struct Page {
     app: Rc<RefCell<App>>,
     context: Context,
     graphics: &'static str,
-    /// Names of all scenes that can be chosen, once a script has read them.
+    /// Names of all scenes, filled when a script first reads them.
     scenes: OnceCell<Vec<String>>,
-    /// Of the scene that is watched, as scripts know it.
+    /// Version of the watched scene for scripts.
     version: Version,
-    /// Keeps the interface going.
+    /// Runs the interface as long as it exists.
     runner: WebRunner,
 }
 
-/// What is there once the graphics device is.
+/// Parts of a page that exist once there is a graphics device.
 struct Started {
     app: Rc<RefCell<App>>,
     context: Context,
@@ -57,10 +57,11 @@ struct Started {
 
 #[wasm_bindgen]
 impl Page {
-    /// Starts the interface on a canvas, with the run that the part of the address after `#` tells.
+    /// Starts the interface on a canvas with the run in `fragment`, the part of the address after
+    /// `#`.
     ///
     /// # Errors
-    /// An `Error` with a message for people if the browser cannot draw.
+    /// An `Error` with a message for the user if the browser cannot draw.
     pub async fn start(
         canvas: HtmlCanvasElement,
         services: Services,
@@ -87,7 +88,8 @@ impl Page {
         Ok(Self { app, context, graphics, scenes, version, runner })
     }
 
-    /// Shows the run that the part of an address after `#` tells; says so where it cannot be shown.
+    /// Opens the run in the part of an address after `#`; the interface shows an error if it
+    /// cannot.
     #[wasm_bindgen(js_name = openFragment)]
     pub fn open_fragment(&self, fragment: &str) {
         if let Ok(mut app) = self.app.try_borrow_mut() {
@@ -96,35 +98,35 @@ impl Page {
         }
     }
 
-    /// What is shown, as plain data; see `status.rs` for its fields. `undefined` while a picture of
-    /// the interface is being made.
+    /// Returns the state of the interface as plain data; see `status.rs` for its fields.
+    /// `undefined` while a frame is being drawn.
     pub fn status(&self) -> JsValue {
         let Ok(app) = self.app.try_borrow() else { return JsValue::UNDEFINED };
-        // A page has no folders: what can be chosen stays the same.
+        // A page has no folders, so the list of scenes never changes.
         let scenes = self.scenes.get_or_init(|| status::scenes(&app));
         let version = self.version.of(&app);
         let status = Status::of(&app, scenes, version, &self.context, self.graphics);
         parsed(serde_json::to_string(&status))
     }
 
-    /// Every labelled part of the interface as it was shown last: role, label, value, and its place
-    /// in CSS pixels. Empty at the first call; from then on the next picture tells.
+    /// Returns every labelled control as last drawn: role, label, value, and position in CSS
+    /// pixels. The first call returns an empty list and starts the recording.
     pub fn widgets(&self) -> JsValue {
         parsed(serde_json::to_string(&Widgets::shown(&self.context)))
     }
 
-    /// Presses the part of the interface with this id, as `widgets` tells it; with the next picture.
+    /// Presses the control with this id from `widgets`, in the next frame.
     pub fn press(&self, id: &str) {
         Widgets::ask(&self.context, id, None);
     }
 
-    /// Sets the number of the part of the interface with this id; with the next picture.
+    /// Sets the number of the control with this id, in the next frame.
     #[wasm_bindgen(js_name = setNumber)]
     pub fn set_number(&self, id: &str, value: f64) {
         Widgets::ask(&self.context, id, Some(ActionData::NumericValue(value)));
     }
 
-    /// Sets the text of the field with this id; with the next picture.
+    /// Sets the text of the field with this id, in the next frame.
     #[wasm_bindgen(js_name = setText)]
     pub fn set_text(&self, id: &str, text: &str) {
         Widgets::ask(&self.context, id, Some(ActionData::Value(text.into())));
@@ -168,7 +170,7 @@ fn follow(app: &mut App, fragment: &str) {
     }
 }
 
-/// The interface, which the page can read between two of its pictures.
+/// The interface, shared with the page, which reads it between two frames.
 struct Shown(Rc<RefCell<App>>);
 
 impl eframe::App for Shown {

@@ -1,4 +1,4 @@
-//! What a page gives the interface: downloads, films, the tilt of the device.
+//! A web page as a host of the interface: downloads, films, the tilt of the device.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -12,14 +12,14 @@ use wasm_bindgen::closure::Closure;
 
 use crate::services::{FilmService, Services, message};
 
-/// A page.
+/// A web page.
 pub struct PageHost {
     services: Services,
     context: Context,
 }
 
 impl PageHost {
-    /// A page with these services.
+    /// Makes a host with the services of a page.
     pub fn new(services: Services, context: Context) -> Self {
         Self { services, context }
     }

@@ -1,45 +1,52 @@
-//! What the page's script gives to the interface.
+//! Services that the page's script provides to the interface.
 
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &str = r#"
-/** What the page gives to the interface. */
+/** Services that the page provides to the interface. */
 export interface Services {
-    /** Lets the user keep a file. */
+    /** Offers a file to the user for saving. */
     save(name: string, type: string, content: Uint8Array): void;
-    /** Asks the user for a file, and gives its name and content; nothing where none is chosen. */
+    /**
+     * Lets the user choose a file and passes its name and content to `take`; no call if none is
+     * chosen.
+     */
     openFile(take: (name: string, content: Uint8Array) => void): void;
-    /** Begins a film; throws an `Error` for people if the browser cannot make any. */
+    /**
+     * Starts a film; throws an `Error` with a message for the user if the browser cannot make any.
+     */
     beginFilm(width: number, height: number, framesPerSecond: number): FilmService;
-    /** Right and down by the tilt of the device, each in [-1, 1]; `null` while it is not known. */
+    /** Returns the tilt of the device, right and down, each in [-1, 1]; `null` while unknown. */
     tilt(): [number, number] | null;
-    /** Whether the device can tell its tilt. */
+    /** Returns whether the device can measure its tilt. */
     offersTilt(): boolean;
-    /** Begins or ends to listen to the tilt; the browser may ask the user for permission. */
+    /**
+     * Switches the measurement of the tilt on or off; the browser may ask the user for permission.
+     */
     useTilt(on: boolean): void;
     /** Shows the run in the address bar. */
     showFragment(fragment: string): void;
-    /** What went wrong since the last call, for people. */
+    /** Returns a message about an error since the last call, for the user. */
     trouble(): string | null;
-    /** Whether the canvas is a part of some other document, and no link leads there. */
+    /** Returns whether the canvas is embedded in another document that no link opens. */
     isEmbedded(): boolean;
-    /** How many spheres the run of a link may have; `null` for as many as usual. */
+    /** Returns the largest number of spheres in the run of a link; `null` for the default. */
     maxSpheres(): number | null;
 }
 
-/** A film in the making. */
+/** A film that is being written. */
 export interface FilmService {
-    /** Adds a picture of RGBA rows as the frame with this number, from 0 on; throws an `Error`. */
+    /** Adds a picture of RGBA rows as the frame with this number, from 0; throws an `Error`. */
     add(pixels: Uint8Array, frame: number): void;
-    /** Completes the film and lets the user keep it. Returns what it is called. */
+    /** Completes the film and offers it to the user for saving. Returns its name. */
     finish(name: string): string;
 }
 "#;
 
 #[wasm_bindgen]
 extern "C" {
-    /// What the page gives to the interface.
+    /// Services that the page provides to the interface.
     #[wasm_bindgen(typescript_type = "Services")]
     pub type Services;
 
@@ -78,7 +85,7 @@ extern "C" {
     #[wasm_bindgen(method, js_name = maxSpheres)]
     pub fn max_spheres(this: &Services) -> Option<f64>;
 
-    /// A film in the making.
+    /// A film that is being written.
     #[wasm_bindgen(typescript_type = "FilmService")]
     pub type FilmService;
 
@@ -89,7 +96,7 @@ extern "C" {
     pub fn finish(this: &FilmService, name: &str) -> Result<String, JsValue>;
 }
 
-/// The message of what a script threw.
+/// Returns the message of a thrown value.
 pub fn message(thrown: JsValue) -> String {
     match thrown.dyn_ref::<js_sys::Error>() {
         Some(error) => error.message().into(),

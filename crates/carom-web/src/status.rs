@@ -1,19 +1,19 @@
-//! What is shown, as plain data: for scripts of the page and for tests.
+//! The state of the interface as plain data, for scripts of the page and for tests.
 
 use carom::SphereId;
 use carom_view::App;
 use egui::Context;
 use serde::Serialize;
 
-/// What is shown.
+/// The state of the interface.
 #[derive(Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Status<'a> {
     /// `"empty"`, `"scene"` or `"maze"`.
     screen: &'static str,
-    /// Whether a scene is being chosen.
+    /// Whether the chooser is open.
     choosing: bool,
-    /// Names of all scenes that can be chosen.
+    /// Names of all scenes to choose from.
     scenes: &'a [String],
     /// Messages to the user, oldest first.
     notices: Vec<String>,
@@ -21,65 +21,65 @@ pub struct Status<'a> {
     recording: bool,
     /// `"WebGPU"` or `"WebGL2"`.
     graphics: &'static str,
-    /// Pictures of the interface so far.
+    /// Number of frames drawn.
     pictures: u64,
-    /// Time of the processor for the last of them \[s\].
+    /// Processor time for the last frame \[s\].
     cpu_seconds: Option<f32>,
-    /// The scene that is watched.
+    /// The watched scene.
     watching: Option<Watching>,
-    /// Another number whenever another scene is watched, or something is changed in it by hand.
+    /// Changes whenever another scene is watched or the user changes something in it.
     version: u32,
-    /// The maze that is played.
+    /// The maze being played.
     maze: Option<Maze>,
 }
 
-/// A scene that is watched.
+/// A watched scene.
 #[derive(Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 struct Watching {
     scene: String,
-    /// Where it comes from: `"built-in"`, a file's name, or else.
+    /// Origin of the scene: `"built-in"`, a file's name, or another text.
     source: String,
     rule: String,
     /// \[s\]
     time: f64,
     frame: u64,
     playing: bool,
-    /// Whether it is on the way to another time.
+    /// Whether a seek is in progress.
     seeking: bool,
     /// Simulated seconds per second.
     speed: f64,
     spheres: usize,
     impacts: u64,
-    /// Id of the sphere that is followed; it may have gone.
+    /// Id of the picked sphere, which may no longer exist.
     picked: Option<u64>,
-    /// Of all spheres \[J\].
+    /// Energy of all spheres \[J\].
     energy: f64,
-    /// Of all surfaces.
+    /// Restitutions of all surfaces.
     restitutions: Vec<f64>,
-    /// The state as a number, where it is shown.
+    /// Hash of the state, if it is shown.
     state_hash: Option<String>,
     /// Whether two rules are shown side by side.
     comparing: bool,
 }
 
-/// A maze that is played.
+/// A maze being played.
 #[derive(Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 struct Maze {
     scene: String,
     collected: usize,
-    /// All there are to collect.
+    /// Number of collectibles, taken or not.
     collectibles: usize,
     /// \[s\]
     elapsed: f64,
     won: bool,
-    /// The ball in the maze \[m\].
+    /// Position of the ball along the axes of the maze \[m\].
     ball: [f64; 3],
 }
 
 impl<'a> Status<'a> {
-    /// Of an interface.
+    /// Reads the state of an interface.
     pub fn of(
         app: &App,
         scenes: &'a [String],
@@ -138,7 +138,7 @@ impl<'a> Status<'a> {
     }
 }
 
-/// Names of all scenes that can be chosen.
+/// Returns the names of all scenes to choose from.
 pub fn scenes(app: &App) -> Vec<String> {
     let entries = app.library().entries().unwrap_or_default();
     entries.into_iter().map(|entry| entry.name).collect()

@@ -1,4 +1,4 @@
-//! Which scene is watched, and what was changed in it: a number that tells one from the next.
+//! A number that changes with the watched scene and with every change in it.
 
 use std::cell::{Cell, RefCell};
 use std::sync::Arc;
@@ -7,20 +7,20 @@ use carom_scene::scene::Scene;
 use carom_session::PastChange;
 use carom_view::App;
 
-/// A scene, and what was changed in it.
+/// A scene and its changes.
 type Edited = (Arc<Scene>, Arc<Vec<PastChange>>);
 
-/// Counts scenes and changes as they are looked at.
+/// Counts changes between calls of [`Self::of`].
 #[derive(Default)]
 pub struct Version {
     number: Cell<u32>,
-    /// What was there at the last look. Held, so that no other takes its place in memory.
+    /// Scene and changes at the last call. Kept alive, so that nothing else gets their address.
     seen: RefCell<Option<Edited>>,
 }
 
 impl Version {
-    /// Another number than at the last look if another scene is watched, or something was changed
-    /// in it by hand; the same without one.
+    /// Returns another number than before if another scene is watched or the user changed something
+    /// in it; the same number if no scene is watched.
     pub fn of(&self, app: &App) -> u32 {
         let Some(view) = app.watching().map(|watching| watching.view()) else {
             return self.number.get();

@@ -1,4 +1,4 @@
-//! Where the parts of the interface are, as assistive technology learns it, and what it asks of them.
+//! The controls of the interface as assistive technology sees them, and actions on them.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,28 +6,28 @@ use egui::accesskit::{Action, ActionData, ActionRequest, Node, NodeId, Role, Tog
 use egui::{Context, Event, FullOutput, Plugin, RawInput};
 use serde::Serialize;
 
-/// Listens to what the interface tells assistive technology, and hands on what that asks for.
+/// Receives what the interface reports to assistive technology, and passes on actions.
 #[derive(Default)]
 pub struct Widgets {
     shown: Vec<Widget>,
-    /// To be handed to the interface with its next picture.
+    /// Actions for the next frame.
     requests: Vec<ActionRequest>,
 }
 
-/// A labelled part of the interface.
+/// A labelled control of the interface.
 #[derive(Debug, Clone, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Widget {
-    /// Names it in requests; stays the same from picture to picture.
+    /// Identifies the control in requests; the same in all frames.
     id: String,
-    /// As AccessKit calls it, like `Button`.
+    /// Role by its name in AccessKit, for example `Button`.
     role: String,
     label: String,
     value: Option<String>,
-    /// From where to where a number goes.
+    /// Smallest and largest value of a number.
     range: Option<[f64; 2]>,
     disabled: bool,
-    /// Whether its text is only for reading.
+    /// Whether its text cannot be edited.
     read_only: bool,
     /// Left edge \[CSS px\].
     x: f64,
@@ -40,7 +40,7 @@ pub struct Widget {
 }
 
 impl Widgets {
-    /// What was shown last, in the order in which it is read; begins to listen at the first call.
+    /// Returns the controls as last drawn, in reading order. The first call starts the recording.
     pub fn shown(context: &Context) -> Vec<Widget> {
         let shown = context.with_plugin(|widgets: &mut Self| widgets.shown.clone());
         if shown.is_none() {
@@ -51,8 +51,8 @@ impl Widgets {
         shown.unwrap_or_default()
     }
 
-    /// Presses the widget with this id, or sets its value; nothing if it is gone, or before
-    /// [`Self::shown`] was called.
+    /// Presses the control with this id, or sets its value. Does nothing if the control no longer
+    /// exists or [`Self::shown`] was never called.
     pub fn ask(context: &Context, id: &str, value: Option<ActionData>) {
         let Ok(id) = id.parse() else { return };
         let request = ActionRequest {
@@ -97,14 +97,14 @@ impl Plugin for Widgets {
 
 fn widget(id: NodeId, node: &Node, zoom: f64) -> Option<Widget> {
     let bounds = node.bounds()?;
-    // Lines of a field are in its value.
+    // The value of a field contains its lines.
     if node.role() == Role::TextRun {
         return None;
     }
     let number = node.numeric_value().map(|value| value.to_string());
     let toggled = node.toggled().map(|toggled| (toggled == Toggled::True).to_string());
     let text = node.value().map(str::to_owned);
-    // What an empty field says names it.
+    // An empty field is named by its placeholder.
     let own = node.label().or(node.placeholder()).map(str::to_owned);
     let label = own.or_else(|| text.clone())?;
     Some(Widget {

@@ -18,7 +18,12 @@
 //!
 //! Right-handed coordinate system, y up, SI units, double precision. The same input gives the same
 //! bits on every platform: only `+ - * /`, `sqrt` and the `libm` crate are used, in a fixed order
-//! ([`World::state_hash`]). The formulas and their sources are in `docs/physics/`.
+//! ([`World::state_hash`]). The formulas and their sources are in
+//! `docs/physics/` of the repository.
+//!
+//! What is promised is what stands at the root of this crate: [`World`], [`Settings`], what is put into a
+//! world, reports and snapshots. The modules [`contact_time`], [`detect`] and [`respond`] are public so that
+//! the formulas can be read and tried alone; their functions may change in any version.
 
 #![warn(clippy::unwrap_used)]
 
@@ -83,7 +88,7 @@ pub use settings::{
     Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, Rule, Settings,
     WindBack, Zones,
 };
-pub use sphere::{Mass, SOLID_BALL, Sphere, THIN_SHELL, volume};
+pub use sphere::{Mass, SOLID_BALL, Sphere, SphereMotion, THIN_SHELL, volume};
 pub use work::StopRequest;
 pub use world::World;
 pub use world::snapshot::Snapshot;

@@ -6,6 +6,7 @@ use glam::{DQuat, DVec3};
 
 use crate::error::InvalidValue;
 use crate::friction::Friction;
+use crate::id::SphereId;
 use crate::validate;
 
 /// Moment of inertia of a solid ball, divided by m r².
@@ -169,4 +170,15 @@ impl Sphere {
 /// Volume of a sphere \[m³\], 4/3 π r³.
 pub fn volume(radius: f64) -> f64 {
     4.0 / 3.0 * PI * (radius * radius * radius)
+}
+
+/// Where a sphere is, and how fast: what [`World::set_motions`](crate::World::set_motions) gives it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SphereMotion {
+    /// The sphere.
+    pub id: SphereId,
+    /// Centre \[m\].
+    pub position: DVec3,
+    /// Velocity \[m/s\].
+    pub velocity: DVec3,
 }

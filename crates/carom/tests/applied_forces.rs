@@ -2,7 +2,7 @@
 
 use carom::{
     Boundary, Collider, DQuat, DVec3, Discrete, Error, Exact, Gravity, Pose, Rule, Settings, Shape,
-    Sphere, SphereId, World,
+    Sphere, SphereId, SphereMotion, World,
 };
 
 const FRAME: f64 = 0.02;
@@ -187,8 +187,9 @@ fn spheres_put_elsewhere_leave_the_others_alone_to_the_bit() {
         steer(&mut world, frame);
         steer(&mut other, frame);
         if frame % 5 == 4 {
-            let motion = (SphereId::from_number(3), DVec3::new(0.1, 0.3, -0.2), DVec3::Z);
-            other.set_motions(&[motion]).unwrap();
+            let id = SphereId::from_number(3);
+            let position = DVec3::new(0.1, 0.3, -0.2);
+            other.set_motions(&[SphereMotion { id, position, velocity: DVec3::Z }]).unwrap();
         }
         world.step(FRAME).unwrap();
         other.step(FRAME).unwrap();
@@ -216,7 +217,7 @@ fn spheres_put_elsewhere_still_meet_each_other() {
         world.step(FRAME).unwrap();
         let first = SphereId::from_number(0);
         let (place, fast) = (DVec3::new(0.0, 1.9, 0.0), DVec3::new(0.0, -20.0, 0.0));
-        world.set_motions(&[(first, place, fast)]).unwrap();
+        world.set_motions(&[SphereMotion { id: first, position: place, velocity: fast }]).unwrap();
         let mut impacts = 0;
         for _ in 0..20 {
             impacts += world.step(FRAME).unwrap().impacts.len();
@@ -246,7 +247,11 @@ fn a_run_from_a_clock_set_back_repeats_to_the_bit() {
                 .ids()
                 .iter()
                 .zip(&start)
-                .map(|(&id, ball)| (id, ball.position, ball.velocity))
+                .map(|(&id, ball)| SphereMotion {
+                    id,
+                    position: ball.position,
+                    velocity: ball.velocity,
+                })
                 .collect();
             world.set_motions(&motions).unwrap();
         }
@@ -278,14 +283,15 @@ fn what_makes_no_sense_is_refused_and_changes_nothing() {
     world.step(FRAME).unwrap();
     let (hash, forces) = (world.state_hash(), world.spheres().applied_forces().to_vec());
     let known = SphereId::from_number(0);
+    let moved = |id, position, velocity| SphereMotion { id, position, velocity };
     let unknown = SphereId::from_number(9);
     let nowhere = DVec3::splat(f64::NAN);
     let errors = [
         world.set_applied_forces(&[DVec3::X]),
         world.set_applied_forces(&[DVec3::X, nowhere]),
-        world.set_motions(&[(known, DVec3::X, DVec3::X), (unknown, DVec3::X, DVec3::X)]),
-        world.set_motions(&[(known, DVec3::X, DVec3::X), (known, nowhere, DVec3::X)]),
-        world.set_motions(&[(known, DVec3::X, DVec3::INFINITY)]),
+        world.set_motions(&[moved(known, DVec3::X, DVec3::X), moved(unknown, DVec3::X, DVec3::X)]),
+        world.set_motions(&[moved(known, DVec3::X, DVec3::X), moved(known, nowhere, DVec3::X)]),
+        world.set_motions(&[moved(known, DVec3::X, DVec3::INFINITY)]),
         world.set_time(f64::NAN),
     ];
     let told = [
@@ -314,4 +320,29 @@ fn what_a_force_has_given_stays_when_it_ends() {
     world.step(0.5).unwrap();
     assert_eq!(world.spheres().velocities()[0], DVec3::X);
     assert_eq!(world.spheres().positions()[0], 0.75 * DVec3::X);
+}
+
+#[test]
+fn an_impulse_changes_the_velocity_by_impulse_over_mass_and_nothing_else() {
+    for rule in rules() {
+        let ball = Sphere::new(DVec3::X, 0.5).with_velocity(DVec3::Y).with_mass(4.0);
+        let ball = ball.with_angular_velocity(DVec3::Z);
+        let mut world = world_of(rule, &[ball, ball], &[]);
+        let [first, second] = [0, 1].map(SphereId::from_number);
+        world.step(FRAME).unwrap();
+        let before = world.sphere(first).unwrap();
+        world.apply_impulse(first, DVec3::new(8.0, -4.0, 0.0)).unwrap();
+        let expected = before.with_velocity(DVec3::new(2.0, 0.0, 0.0));
+        assert_eq!(world.sphere(first).unwrap(), expected);
+        assert_eq!(world.sphere(second).unwrap(), before);
+        world.set_velocity(first, DVec3::ZERO).unwrap();
+        world.step(FRAME).unwrap();
+        assert_eq!(world.sphere(first).unwrap().position, before.position);
+        let unknown = SphereId::from_number(9);
+        assert!(matches!(world.apply_impulse(unknown, DVec3::X), Err(Error::Unknown { .. })));
+        let error = world
+            .apply_impulse(first, DVec3::splat(f64::MAX))
+            .and_then(|()| world.apply_impulse(first, DVec3::splat(f64::INFINITY)));
+        assert!(error.unwrap_err().to_string().contains("`velocity` must be finite"));
+    }
 }

@@ -1,8 +1,7 @@
-// How long a frame takes in the package, in Node.js, and in the native engine.
+// Compares the time of a frame in the package, in Node.js, with that in the native engine.
 //
-// `node compare.js NATIVE PACKAGE`: the program `frame_times` and the module of the package. Both take
-// turns, so that a machine that is busy with something else now and then is so for both; of each frame,
-// the shortest time of all runs counts.
+// `node compare.js NATIVE PACKAGE`: the program `frame_times` and the module of the package. They
+// take turns, so that other work on the machine slows both. The shortest time of each frame counts.
 
 import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
@@ -10,7 +9,7 @@ import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 
 const TURNS = 5;
-/** Runs in a turn; in the first, the machine code of the package is still being made. */
+/** Runs per turn; in the first, machine code of the package is still being compiled. */
 const RUNS = 4;
 
 const folder = import.meta.dirname;
@@ -47,7 +46,7 @@ for (const [name, file, overrides] of LOADS) {
   print("", "ratio", ratios(node, native));
 }
 
-/** A row of a table. */
+/** Prints a row of a table. */
 function print(load, what, values) {
   console.log(`| ${[load, what, ...values].join(" | ")} |`);
 }
@@ -60,7 +59,7 @@ function ratios(times, others) {
   return times.map((time, i) => (time / others[i]).toFixed(2));
 }
 
-/** Median, maximum and sum of times [ms]. */
+/** Returns median, maximum and sum of times [ms]. */
 function summary(times) {
   const sorted = times.toSorted((a, b) => a - b);
   const sum = sorted.reduce((sum, time) => sum + time, 0);
@@ -87,7 +86,7 @@ function packageTimes(file, overrides) {
   return shortest;
 }
 
-/** Times of the frames of a scene [ms], until its duration is over. */
+/** Returns the times of all frames until the scene's duration is over [ms]. */
 function frameTimes(world) {
   const { duration } = world.simulation;
   const times = [];

@@ -1,5 +1,5 @@
 // The two bodies of an impact or a contact.
 
-/** Body 1, a collider or a sphere, and body 2, a sphere. */
+/** Returns the ids of body 1, a collider or a sphere, and body 2, a sphere. */
 export const between = (isCollider, first, second) =>
   isCollider ? { collider: first, sphere: second } : { spheres: [first, second] };

@@ -1,8 +1,8 @@
-// Persistent contacts, from the rows of numbers that the engine makes of them.
+// Converts persistent contacts from the engine's rows of numbers.
 
 import { between } from "./bodies.js";
 
-/** Where what stands in a row. */
+/** Positions of the values in a row. */
 const AT = {
   isCollider: 0,
   first: 1,
@@ -16,7 +16,7 @@ const AT = {
 };
 const COLUMNS = 15;
 
-/** The contacts of a table, an object each. */
+/** Returns the contacts of a table as objects. */
 export function contacts(table) {
   return Array.from({ length: table.length / COLUMNS }, (_, i) =>
     contact(table.subarray(i * COLUMNS, (i + 1) * COLUMNS)),

@@ -1,18 +1,18 @@
-// What goes wrong, as JavaScript throws it.
+// Errors that the package throws.
 
 import { Failure } from "./engine.js";
 import { camelWords } from "./names.js";
 
-/** Something that the engine refused. What it was refused for is as it was before. */
+/** A call that the engine refused. The world is unchanged. */
 export class CaromError extends Error {
   name = "CaromError";
 }
 
-/** A scene, or a description of a part of one, that makes no sense. */
+/** An invalid scene or part of a scene. */
 export class SceneError extends CaromError {
   name = "SceneError";
 
-  /** @param {{ field?: string, line?: number }} place where it is wrong */
+  /** @param {{ field?: string, line?: number }} place where the error is */
   constructor(message, { field = "", line } = {}) {
     super(message);
     this.field = field;
@@ -20,7 +20,7 @@ export class SceneError extends CaromError {
   }
 }
 
-/** Calls the engine. What it refuses becomes an error with its message. */
+/** Calls the engine and converts its failures into errors. */
 export function attempt(call) {
   try {
     return call();
@@ -29,7 +29,9 @@ export function attempt(call) {
   }
 }
 
-/** An error about something described in JavaScript: the message spells names as it does. */
+/**
+ * Calls the engine with something described in JavaScript; messages spell names as JavaScript does.
+ */
 export function attemptPart(call) {
   try {
     return call();

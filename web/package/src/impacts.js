@@ -1,8 +1,8 @@
-// Impacts, from the rows of numbers that the engine makes of them.
+// Converts impacts from the engine's rows of numbers.
 
 import { between } from "./bodies.js";
 
-/** Where what stands in a row of the table of impacts. */
+/** Positions of the values in a row of the table of impacts. */
 export const IMPACT_COLUMNS = Object.freeze({
   time: 0,
   isCollider: 1,
@@ -17,7 +17,7 @@ export const IMPACT_COLUMNS = Object.freeze({
   count: 16,
 });
 
-/** The impacts of a table, an object each. */
+/** Returns the impacts of a table as objects. */
 export function impacts(table) {
   const { count } = IMPACT_COLUMNS;
   return Array.from({ length: table.length / count }, (_, i) =>

@@ -8,94 +8,120 @@
  * console.log(world.time, world.positions, world.stateHash());
  */
 
-/** Three numbers x, y, z: an array, a typed array, or anything that yields them, as `THREE.Vector3`. */
+/** Three numbers x, y, z: an array, a typed array, or any iterable, for example `THREE.Vector3`. */
 export type Vector = Iterable<number>;
 
-/** A rotation x, y, z, w, of any length but zero, as four numbers. */
+/** A rotation as a quaternion x, y, z, w of any length but zero. */
 export type Quaternion = Iterable<number>;
 
 /** Red, green, blue in [0, 1] (sRGB). */
 export type Color = [number, number, number];
 
-/** How a surface takes light: a soft highlight (`satin`) unless given. */
+/** How a surface reflects light; the default is `satin`, a soft highlight. */
 export type Finish = "matte" | "satin" | "glossy" | "metal" | "glass";
 
-/** A sphere as it is added. */
+/** Properties of a new sphere. */
 export interface SphereDescription {
-  /** Centre [m]; the origin unless given. */
+  /** Centre [m]; default: the origin. */
   position?: Vector;
-  /** [m/s]; at rest unless given. */
+  /** Velocity [m/s]; default: at rest. */
   velocity?: Vector;
-  /** [m], > 0. Give this or `diameter`. */
+  /** Radius [m], > 0. Give this or `diameter`. */
   radius?: number;
-  /** [m], > 0. Give this or `radius`. */
+  /** Diameter [m], > 0. Give this or `radius`. */
   diameter?: number;
-  /** [kg], > 0; 1 unless this or `density` is given. */
+  /** Mass [kg], > 0; default: 1 if `density` is not given. */
   mass?: number;
-  /** [kg/m³], > 0, instead of `mass`. */
+  /** Density [kg/m³], > 0, instead of `mass`. */
   density?: number;
-  /** Coefficient of restitution in [0, 1]; 1 unless given. */
+  /** Coefficient of restitution in [0, 1]; default: 1. */
   restitution?: number;
-  /** Coulomb's coefficient of friction, >= 0, by `exact` and `contact`; that of what it touches unless given. */
+<<<<<<< HEAD
+  /** Coulomb's coefficient of friction, >= 0, by `exact` and `contact`. If missing, the other body's value counts. */
   friction?: number;
-  /** Coefficient of rolling friction, >= 0; that of what it touches unless given. */
+  /** Coefficient of rolling friction, >= 0. If missing, the other body's value counts. */
   rollingFriction?: number;
-  /** Coefficient of spinning friction, >= 0; that of what it touches unless given. */
+  /** Coefficient of spinning friction, >= 0. If missing, the other body's value counts. */
   spinningFriction?: number;
-  /** Coefficient of tangential restitution in [0, 1]; that of what it touches unless given. */
+  /** Coefficient of tangential restitution in [0, 1]. If missing, the other body's value counts. */
+=======
+  /**
+   * Coulomb's coefficient of friction, >= 0, under `exact` and `contact`; default: that of the
+   * touching body.
+   */
+  friction?: number;
+  /** Coefficient of rolling friction, >= 0; default: that of the touching body. */
+  rollingFriction?: number;
+  /** Coefficient of spinning friction, >= 0; default: that of the touching body. */
+  spinningFriction?: number;
+  /** Coefficient of tangential restitution in [0, 1]; default: that of the touching body. */
+>>>>>>> plain-faces
   tangentialRestitution?: number;
-  /** How it is turned, x, y, z, w; not turned unless given. */
+  /** Orientation x, y, z, w; default: not rotated. */
   orientation?: Quaternion;
-  /** Along the axis [rad/s]; it does not turn unless given. */
+  /** Angular velocity [rad/s]; default: no rotation. */
   angularVelocity?: Vector;
-  /** Moment of inertia divided by m r², > 0; 0.4, that of a solid ball, unless given. */
+  /** Moment of inertia divided by m r², > 0; default: 0.4, that of a solid ball. */
   inertiaFactor?: number;
-  /** By density, or the scene's own, unless given. */
+  /** Colour; default: by density, or the scene's own. */
   color?: Iterable<number>;
-  /** How its surface takes light; it changes no motion. */
+  /** How the surface reflects light; without effect on motion. */
   finish?: Finish;
 }
 
-/** A sphere as it is. */
+/** A sphere in a world. */
 export interface Sphere {
   /** Centre [m]. */
   position: [number, number, number];
-  /** [m/s] */
+  /** Velocity [m/s]. */
   velocity: [number, number, number];
-  /** [m] */
+  /** Radius [m]. */
   radius: number;
-  /** [kg] */
+  /** Mass [kg]. */
   mass: number;
   /** Coefficient of restitution in [0, 1]. */
   restitution: number;
-  /** Coulomb's coefficient of friction, >= 0, by `exact` and `contact`; that of what it touches unless given. */
+<<<<<<< HEAD
+  /** Coulomb's coefficient of friction, >= 0, by `exact` and `contact`. If missing, the other body's value counts. */
   friction?: number;
-  /** Coefficient of rolling friction, >= 0; that of what it touches unless given. */
+  /** Coefficient of rolling friction, >= 0. If missing, the other body's value counts. */
   rollingFriction?: number;
-  /** Coefficient of spinning friction, >= 0; that of what it touches unless given. */
+  /** Coefficient of spinning friction, >= 0. If missing, the other body's value counts. */
   spinningFriction?: number;
-  /** Coefficient of tangential restitution in [0, 1]; that of what it touches unless given. */
+  /** Coefficient of tangential restitution in [0, 1]. If missing, the other body's value counts. */
+=======
+  /**
+   * Coulomb's coefficient of friction, >= 0, under `exact` and `contact`; if missing, that of the
+   * touching body.
+   */
+  friction?: number;
+  /** Coefficient of rolling friction, >= 0; if missing, that of the touching body. */
+  rollingFriction?: number;
+  /** Coefficient of spinning friction, >= 0; if missing, that of the touching body. */
+  spinningFriction?: number;
+  /** Coefficient of tangential restitution in [0, 1]; if missing, that of the touching body. */
+>>>>>>> plain-faces
   tangentialRestitution?: number;
-  /** How it is turned, x, y, z, w; not turned unless given. */
+  /** Orientation x, y, z, w; if missing, not rotated. */
   orientation?: [number, number, number, number];
-  /** Along the axis [rad/s]; it does not turn unless given. */
+  /** Angular velocity [rad/s]; if missing, no rotation. */
   angularVelocity?: [number, number, number];
-  /** Moment of inertia divided by m r², > 0; 0.4, that of a solid ball, unless given. */
+  /** Moment of inertia divided by m r², > 0; if missing, 0.4, that of a solid ball. */
   inertiaFactor?: number;
   /** Red, green, blue (sRGB). */
   color: Color;
-  /** How its surface takes light; it changes no motion. */
+  /** How the surface reflects light; without effect on motion. */
   finish?: Finish;
 }
 
-/** What a generator makes: spheres, or colliders whose names get the numbers of their places. */
+/** What a generator makes: spheres, or colliders, whose names get their index. */
 export type Generated = { sphere: SphereDescription } | { collider: ColliderDescription };
 
-/** Places for many spheres or colliders, as scene files describe them. */
+/** Positions of many spheres or colliders, as in scene files. */
 export type Generator =
   | { row: { count: number; start: Vector; step: Vector } & Generated }
   | { lattice: { counts: Vector; start: Vector; spacing: Vector } & Generated }
-  /** Rows, each centred on the one before; `counts` begin anew where there are more rows. */
+  /** Rows, each centred on the one before; `counts` repeat if there are more rows. */
   | {
       staggeredRows: {
         rows: number;
@@ -105,20 +131,20 @@ export type Generator =
         rowStep: Vector;
       } & Generated;
     }
-  /** Hexagonal layers, one above the other along +y; `spacing` is the diameter unless given. */
+  /** Hexagonal layers, one above the other along +y; the default `spacing` is the diameter. */
   | {
       closePacking: {
         counts: Vector;
         start: Vector;
         spacing?: number;
-        /** `"hcp"` unless given. */
+        /** Default: `"hcp"`. */
         stacking?: "hcp" | "fcc";
         sphere: SphereDescription;
       };
     }
   /**
-   * Evenly on a circle, about an axis that points up unless given; colliders are turned about it
-   * along with their places.
+   * Evenly on a circle about an axis, which points up by default. Colliders are rotated about it
+   * with their positions.
    */
   | {
       ring: {
@@ -140,79 +166,105 @@ export type Generator =
       };
     };
 
-/** Form of a collider in its own frame. Lengths are full ones [m], > 0. */
+/** Shape of a collider in its own frame. Lengths are full lengths [m], > 0. */
 export type Shape =
   | { sphere: { radius: number } }
-  /** In the local xz plane, facing local +y; from behind spheres pass it. */
+  /** In the local xz plane, facing local +y; spheres pass through it from behind. */
   | { rectangle: { sizeX: number; sizeZ: number } }
   /** Everything below the local xz plane. */
   | "half-space"
   | { box: { size: [number, number, number] } }
-  /** Hollow: walls without thickness, off which spheres bounce on either side. */
+  /** Hollow: walls without thickness, with spheres bouncing off on both sides. */
   | { container: { size: [number, number, number]; open?: Side | Side[] } };
 
 /** A side of a box in its own frame: towards -x, +x, -y, +y, -z, +z. */
 export type Side = "left" | "right" | "bottom" | "top" | "back" | "front";
 
-/** A surface as it is added. */
+/** Properties of a new collider. */
 export interface ColliderDescription {
   shape: Shape;
-  /** What it is called. */
+  /** Name. */
   name?: string;
-  /** Of its centre [m]; the origin unless given. */
+  /** Position of its centre [m]; default: the origin. */
   position?: Vector;
-  /** x, y, z, w; not turned unless given. */
+  /** Rotation x, y, z, w; default: not rotated. */
   rotation?: Quaternion;
-  /** Of its centre [m/s]. */
+  /** Velocity of its centre [m/s]. */
   velocity?: Vector;
-  /** About its centre, along the axis [rad/s]. */
+  /** Angular velocity about its centre [rad/s]. */
   angularVelocity?: Vector;
-  /** Coefficient of restitution in [0, 1]; 1 unless given. */
+  /** Coefficient of restitution in [0, 1]; default: 1. */
   restitution?: number;
-  /** Coulomb's coefficient of friction, >= 0, by `exact` and `contact`; that of what it touches unless given. */
+<<<<<<< HEAD
+  /** Coulomb's coefficient of friction, >= 0, by `exact` and `contact`. If missing, the other body's value counts. */
   friction?: number;
-  /** Coefficient of rolling friction, >= 0; that of what it touches unless given. */
+  /** Coefficient of rolling friction, >= 0. If missing, the other body's value counts. */
   rollingFriction?: number;
-  /** Coefficient of spinning friction, >= 0; that of what it touches unless given. */
+  /** Coefficient of spinning friction, >= 0. If missing, the other body's value counts. */
   spinningFriction?: number;
-  /** Coefficient of tangential restitution in [0, 1]; that of what it touches unless given. */
+  /** Coefficient of tangential restitution in [0, 1]. If missing, the other body's value counts. */
+=======
+  /**
+   * Coulomb's coefficient of friction, >= 0, under `exact` and `contact`; default: that of the
+   * touching body.
+   */
+  friction?: number;
+  /** Coefficient of rolling friction, >= 0; default: that of the touching body. */
+  rollingFriction?: number;
+  /** Coefficient of spinning friction, >= 0; default: that of the touching body. */
+  spinningFriction?: number;
+  /** Coefficient of tangential restitution in [0, 1]; default: that of the touching body. */
+>>>>>>> plain-faces
   tangentialRestitution?: number;
-  /** A trigger reports contact at the end of a frame, and deflects nothing. */
+  /** Whether it is a trigger, which reports contact at the end of a frame but deflects nothing. */
   trigger?: boolean;
-  /** Whether it is to be drawn. */
+  /** Whether it is drawn. */
   visible?: boolean;
-  /** The scene's own unless given. */
+  /** Colour; default: the scene's own. */
   color?: Iterable<number>;
-  /** How its surface takes light; it changes no motion. */
+  /** How the surface reflects light; without effect on motion. */
   finish?: Finish;
 }
 
-/** A surface as it is. */
+/** A collider in a world. */
 export interface Collider {
   id: number;
   name: string;
   shape: Shape;
-  /** [m] */
+  /** Position of its centre [m]. */
   position: [number, number, number];
-  /** x, y, z, w */
+  /** Rotation x, y, z, w. */
   rotation: [number, number, number, number];
-  /** [m/s] */
+  /** Velocity [m/s]. */
   velocity: [number, number, number];
-  /** [rad/s] */
+  /** Angular velocity [rad/s]. */
   angularVelocity: [number, number, number];
   restitution: number;
-  /** Coulomb's coefficient of friction, >= 0, by `exact` and `contact`; that of what it touches unless given. */
+<<<<<<< HEAD
+  /** Coulomb's coefficient of friction, >= 0, by `exact` and `contact`. If missing, the other body's value counts. */
   friction?: number;
-  /** Coefficient of rolling friction, >= 0; that of what it touches unless given. */
+  /** Coefficient of rolling friction, >= 0. If missing, the other body's value counts. */
   rollingFriction?: number;
-  /** Coefficient of spinning friction, >= 0; that of what it touches unless given. */
+  /** Coefficient of spinning friction, >= 0. If missing, the other body's value counts. */
   spinningFriction?: number;
-  /** Coefficient of tangential restitution in [0, 1]; that of what it touches unless given. */
+  /** Coefficient of tangential restitution in [0, 1]. If missing, the other body's value counts. */
+=======
+  /**
+   * Coulomb's coefficient of friction, >= 0, under `exact` and `contact`; if missing, that of the
+   * touching body.
+   */
+  friction?: number;
+  /** Coefficient of rolling friction, >= 0; if missing, that of the touching body. */
+  rollingFriction?: number;
+  /** Coefficient of spinning friction, >= 0; if missing, that of the touching body. */
+  spinningFriction?: number;
+  /** Coefficient of tangential restitution in [0, 1]; if missing, that of the touching body. */
+>>>>>>> plain-faces
   tangentialRestitution?: number;
   trigger: boolean;
   visible: boolean;
   color: Color;
-  /** How its surface takes light; it changes no motion. */
+  /** How the surface reflects light; without effect on motion. */
   finish?: Finish;
 }
 
@@ -220,19 +272,19 @@ export interface Collider {
 export type Force =
   /** The same acceleration for every sphere [m/s²]. */
   | { gravity: { acceleration: Vector } }
-  /** The same force on every sphere, whatever its mass [N]. */
+  /** The same force on every sphere [N], whatever its mass. */
   | { constant: { force: Vector } }
-  /** Against the velocity and proportional to it; the coefficient [kg/s], >= 0. */
+  /** Against the velocity and proportional to it; coefficient [kg/s], >= 0. */
   | { viscousDrag: { coefficient: number } }
   /** Gravity of a fixed point mass: G M [m³/s²]; `position` and `softening` [m]. */
   | {
       pointAttractor: { gravitationalParameter: number; position?: Vector; softening?: number };
     }
-  /** Gravity between spheres: nature's constant [m³/(kg s²)] unless given; `softening` [m]. */
+  /** Gravity between spheres; constant [m³/(kg s²)], by default nature's; `softening` [m]. */
   | { mutualGravity: { constant?: number; softening?: number; openingAngle?: number } }
-  /** Viscous drag in a wind [m/s]; the coefficient [kg/s], >= 0. */
+  /** Viscous drag in wind [m/s]; coefficient [kg/s], >= 0. */
   | { wind: { velocity: Vector; coefficient: number } }
-  /** Viscous drag in air that goes round an axis: circulation [m²/s], core radius [m]. */
+  /** Viscous drag in air that circles an axis: circulation [m²/s], core radius [m]. */
   | {
       vortex: {
         circulation: number;
@@ -242,7 +294,10 @@ export type Force =
         axis?: Vector;
       };
     }
-  /** Drag of a medium by the square of the velocity: density [kg/m³], viscosity [Pa s], wind [m/s]. */
+  /**
+   * Drag by the square of the velocity relative to a medium: density [kg/m³], viscosity [Pa s],
+   * wind [m/s].
+   */
   | {
       quadraticDrag: {
         density: number;
@@ -254,75 +309,79 @@ export type Force =
   /** Buoyancy in a fluid with a level surface: density [kg/m³], height [m], gravity [m/s²]. */
   | { buoyancy: { density: number; surfaceHeight?: number; gravity?: Vector } };
 
-/** What a spring joins: two spheres, or a sphere and a fixed point `anchor` [m]. Spheres go by their ids. */
+/** Ends of a spring: ids of two spheres, or the id of a sphere and a fixed point `anchor` [m]. */
 export type SpringEnds = { spheres: [number, number] } | { sphere: number; anchor: Vector };
 
-/** How a spring pulls. */
+/** Properties of a spring. */
 export interface SpringNumbers {
-  /** Length without force [m], >= 0; the length at the moment it is added unless given. */
+  /** Length without force [m], >= 0; default: the length when the spring is added. */
   restLength?: number;
-  /** [N/m], >= 0 */
+  /** Stiffness [N/m], >= 0. */
   stiffness: number;
-  /** [kg/s], >= 0; 0 unless given. */
+  /** Damping [kg/s], >= 0; default: 0. */
   damping?: number;
-  /** Whether it only pulls, as a thread does, which is slack up to its rest length. */
+  /** Whether it is a thread, which only pulls and is slack up to its rest length. */
   onlyPulls?: boolean;
 }
 
-/** A spring with a damper beside it, as it is added. */
+/** Properties of a new spring with a damper. */
 export type SpringDescription = SpringEnds & SpringNumbers;
 
-/** What changes of a spring. */
+/** Changes of a spring. */
 export interface SpringChanges extends Partial<SpringNumbers> {
-  /** Ids of the two spheres that it joins, instead of what it joined. */
+  /** Ids of its two spheres, instead of its present ends. */
   spheres?: [number, number];
-  /** Id of the sphere at its first end, of a spring that ends at a point. */
+  /** Id of the sphere at its first end, for a spring that ends at a point. */
   sphere?: number;
-  /** The fixed point [m] at which it ends. */
+  /** The fixed point at its second end [m]. */
   anchor?: Vector;
 }
 
-/** A spring as it is: it has `spheres`, or `sphere` and `anchor`. */
+/** A spring in a world: with `spheres`, or with `sphere` and `anchor`. */
 export interface Spring extends Required<SpringNumbers> {
   id: number;
-  /** Ids of the two spheres that it joins. */
+  /** Ids of its two spheres. */
   spheres?: [number, number];
-  /** Id of the sphere that it joins to a fixed point. */
+  /** Id of the sphere that it connects to a fixed point. */
   sphere?: number;
   /** The fixed point [m]. */
   anchor?: [number, number, number];
 }
 
-/** How spheres move under forces, by `bisect` and `discrete`; `exact` needs none. */
+/** How spheres move under forces, for `bisect` and `discrete`; `exact` needs none. */
 export type Integrator =
   "semi-implicit-euler" | "explicit-euler" | "velocity-verlet" | "runge-kutta-4";
 
-/** Coefficient of a contact from those of its two bodies. */
+/** How the coefficient of a contact follows from those of its two bodies. */
 export type CombineRule = "product" | "minimum" | "maximum" | "average" | "geometric-mean";
 
-/** How a world is stepped. */
+/** Simulation settings. */
 export interface Simulation {
-  /** `exact` (the default) finds every impact at its own time. */
+  /** `exact` (the default) finds every impact at its exact time. */
   rule: "exact" | "contact" | "bisect" | "discrete";
-  /** Length of a frame [s], > 0; 1/60 unless given. */
+  /** Frame time [s], > 0; default: 1/60. */
   frameTime: number;
-  /** Time worth watching [s], > 0. */
+  /** Duration that is worth watching [s], > 0. */
   duration: number;
-  /** Whether spheres collide with one another; with colliders they always do. */
+  /** Whether spheres collide with each other; they always collide with colliders. */
   spheresCollide: boolean;
-  /** Restitution of a contact from that of its two bodies. */
+  /** How the restitution of a contact follows from those of its two bodies. */
   combineRule: CombineRule;
-  /** Friction of a contact from that of its two bodies; `geometric-mean` unless given. */
+  /**
+   * How the friction of a contact follows from those of its two bodies; default: `geometric-mean`.
+   */
   frictionCombineRule?: CombineRule;
   /** Whether spheres may overlap at the start. */
   allowOverlap: boolean;
-  /** A box about the origin that repeats itself [m], `Infinity` along an open axis; by `exact`. */
+  /** A periodic box about the origin [m], `Infinity` along an open axis; under `exact`. */
   boundary: "open" | { periodic: { size: [number, number, number] } };
-  /** Parameters of `exact`: how impacts at one instant among spheres that touch are answered; how
-   *  long a contact lasts [s]; impacts per sphere and frame at most; whether spheres in contact that
-   *  take too much work are stepped ("automatic" unless given), from which work of a group in a tick
-   *  on, in contacts times iterations, and how long a tick is [s]; how long forces without a closed
-   *  form are held [s]. */
+  /**
+   * Parameters of `exact`: how simultaneous impacts among touching spheres are resolved; duration
+   * of a contact [s]; largest number of impacts per sphere and frame; whether contacts that take
+   * too much work are stepped (default: "automatic"), from which work of a group in a tick on, in
+   * contacts times iterations, and the length of a tick [s]; how long forces without a closed form
+   * are held constant [s].
+   */
   exact: {
     impactLaw: "reflection" | "simultaneous" | "sequential";
     contactDuration: number;
@@ -342,13 +401,15 @@ export interface Simulation {
   };
   /** Parameters of `discrete`. */
   discrete: { integrator: Integrator };
-  /** Parameters of `contact`: sub-steps of a frame, sweeps over all contacts in each, whether sweeps go
-   *  on until the solution has converged, and below which part of sqrt(a r), the speed after falling
-   *  through half its radius, a ball may fall asleep, none with 0; 8, 2, false and 0.02 unless given. */
+  /**
+   * Parameters of `contact`: sub-steps per frame, sweeps over all contacts in each, whether sweeps
+   * continue until convergence, and the speed below which a ball may fall asleep, as a part of
+   * sqrt(a r), the speed after falling half its radius (0: never). Defaults: 8, 2, false and 0.02.
+   */
   contact?: { subSteps: number; sweeps: number; converged: boolean; sleepSpeed: number };
 }
 
-/** New values for how a world is stepped; what is not named stays. */
+/** Changes of the simulation settings; missing ones stay. */
 export type SimulationChanges = Partial<
   Omit<Simulation, "exact" | "bisect" | "discrete" | "contact">
 > & {
@@ -358,13 +419,13 @@ export type SimulationChanges = Partial<
   contact?: Partial<NonNullable<Simulation["contact"]>>;
 };
 
-/** What a scene says besides what there is in its world. */
+/** A scene without the contents of its world. */
 export interface Scene {
   name: string;
   title?: string;
   description?: string;
   origin?: string;
-  /** Sources of spheres, in the words of scene files. */
+  /** Emitters of spheres in the format of scene files. */
   emitters?: object[];
   /** Looks along its local -z. */
   camera?: {
@@ -384,115 +445,125 @@ export interface Scene {
   };
 }
 
-/** Two bodies that met. */
+/** An impact of two bodies. */
 export interface Impact {
-  /** Since the start of the frame [s]. */
+  /** Time since the start of the frame [s]. */
   time: number;
-  /** Ids: of two spheres, bodies 1 and 2, or of a collider, body 1, and a sphere, body 2. */
+  /** Ids of two spheres, bodies 1 and 2, or of a collider, body 1, and a sphere, body 2. */
   between: { spheres: [number, number] } | { collider: number; sphere: number };
-  /** Where on the surface of body 1 [m]. */
+  /** Point on the surface of body 1 [m]. */
   point: [number, number, number];
   /** Unit normal from body 1 to body 2. */
   normal: [number, number, number];
-  /** Along the normal before the impact [m/s], > 0. */
+  /** Speed along the normal before the impact [m/s], > 0. */
   approachSpeed: number;
-  /** Along the normal after it [m/s]. */
+  /** Speed along the normal after the impact [m/s]. */
   separationSpeed: number;
-  /** On body 2 along the normal, on body 1 against it [N s]. */
+  /** Impulse along the normal [N s], on body 2; the opposite acts on body 1. */
   impulse: number;
-  /** Of friction, across the normal: on body 2, and against it on body 1 [N s]. */
+  /** Impulse of friction across the normal [N s], on body 2; the opposite acts on body 1. */
   tangentialImpulse: [number, number, number];
 }
 
-/** Two bodies that stay in contact, and the force between them. */
+/** Two bodies in persistent contact, and the force between them. */
 export interface PersistentContact {
-  /** Ids: of two spheres, bodies 1 and 2, or of a collider, body 1, and a sphere, body 2. */
+  /** Ids of two spheres, bodies 1 and 2, or of a collider, body 1, and a sphere, body 2. */
   between: { spheres: [number, number] } | { collider: number; sphere: number };
-  /** Where on the surface of body 1 [m]. */
+  /** Point on the surface of body 1 [m]. */
   point: [number, number, number];
   /** Unit normal from body 1 to body 2. */
   normal: [number, number, number];
-  /** Distance of the two surfaces [m]: zero but for rounding, negative where they overlap. */
+  /** Distance of the two surfaces [m]: zero up to rounding, negative if they overlap. */
   gap: number;
-  /** On body 2 along the normal, on body 1 against it [N], >= 0. */
+  /** Force along the normal [N], >= 0, on body 2; the opposite acts on body 1. */
   normalForce: number;
-  /** Force of friction on body 2, across the normal, and against it on body 1 [N]; zero under rules
-   *  without friction. */
+  /**
+   * Force of friction across the normal [N], on body 2; the opposite acts on body 1. Zero under
+   * rules without friction.
+   */
   tangentialForce: [number, number, number];
-  /** Whether the surfaces slide on each other, or would at the least touch: friction is as large as
-   *  it can be. */
+  /**
+   * Whether the surfaces slide on each other, or would under the smallest tangential force:
+   * friction is at its limit.
+   */
   isSliding: boolean;
 }
 
-/** The work of a frame by stage: counts that depend on the world alone, not on the machine. */
+/** The work of a frame by stage: counts that depend only on the world, not on the machine. */
 export interface StageCounts {
-  /** How often the next events of a sphere were predicted, by `exact`. */
+  /** Number of predictions of a sphere's next events, under `exact`. */
   predictions: number;
-  /** Pairs of spheres that were tested for a meeting; by other rules, for a contact. */
+  /** Pairs of spheres tested for an impact, or under other rules for a contact. */
   pairTests: number;
-  /** Events taken from the queue, void ones among them, by `exact`. */
+  /** Events taken from the queue, with outdated ones, under `exact`. */
   events: number;
-  /** How many of these events were cell crossings. */
+  /** Number of cell crossings among these events. */
   cellCrossings: number;
-  /** Groups of touching bodies that were answered as a whole, by `exact`. */
+  /** Groups of touching bodies resolved as a whole, under `exact`. */
   groups: number;
-  /** Iterations of the solvers of these groups, each counted once for every contact. */
+  /** Iterations of the solvers of these groups, counted once per contact. */
   solverIterations: number;
-  /** How often neighbours were found anew, by `contact`. */
+  /** Number of neighbour searches, under `contact`. */
   searches: number;
-  /** How often all contacts were gone through, by `contact`. */
+  /** Number of sweeps over all contacts, under `contact`. */
   sweeps: number;
-  /** Contacts that a sweep goes through at the end of the frame, by `contact`. */
+  /** Contacts per sweep at the end of the frame, under `contact`. */
   contacts: number;
 }
 
-/** What became of the energy in a frame: `totalEnergy()` changes by these, by the work of forces that
- *  have no potential, and by the error of the integration. */
+/**
+ * Changes of the energy in a frame: `totalEnergy()` changes by these, by the work of forces without
+ * a potential, and by the error of the integration.
+ */
 export interface EnergyAccount {
-  /** Work of contacts [J]: what restitution and friction took, <= 0 but for errors. */
+  /** Work of contacts [J]: the change by restitution and friction, <= 0 up to errors. */
   contacts: number;
   /** Work of moving colliders [J]. */
   colliders: number;
-  /** Work of moving spheres out of what they overlap [J]. */
+  /** Work of the correction of overlaps [J]. */
   correction: number;
-  /** Energy of emitted spheres, less that of those taken out [J]. */
+  /** Energy of emitted spheres minus that of removed ones [J]. */
   emission: number;
 }
 
-/** How good the solution of a frame is: by `contact`, and in the stepped zones of `exact`; else 0. */
+/** Quality of the solution of a frame under `contact`, and in stepped zones of `exact`; else 0. */
 export interface ContactAccount {
-  /** Sub-steps in which impulses were scaled down for them not to add energy. */
+  /** Sub-steps in which impulses were reduced so that they add no energy. */
   limitedSubSteps: number;
-  /** Largest change of a normal impulse in the last sweep, as a part of the largest impulse. */
+  /** Largest change of a normal impulse in the last sweep, relative to the largest impulse. */
   residual: number;
-  /** Largest overlap before it was corrected, as a part of the sum of radii. */
+  /** Largest overlap before its correction, relative to the sum of radii. */
   largestOverlap: number;
-  /** Spheres that sleep at the end of the frame: at rest, until something comes near or changes. */
+  /** Sleeping spheres at the end of the frame: at rest until something comes near or changes. */
   asleep: number;
-  /** How often a sphere was pressed into a surface by half its radius, in each sub-step: no motion keeps
-   *  apart what presses it. */
+  /**
+   * How often a sphere was pressed into a surface by half its radius, summed over sub-steps: no
+   * motion can separate what squeezes it.
+   */
   squeezed: number;
 }
 
-/** Spheres that were not moved from impact to impact by `exact`, but stepped: their contacts took too
- *  much work. How good their motion is, `ContactAccount` tells. */
+/**
+ * Spheres that `exact` stepped instead of moving them from impact to impact, because their contacts
+ * took too much work. `ContactAccount` has the quality of their motion.
+ */
 export interface ZoneAccount {
   /** Spheres in a zone at the end of the frame. */
   spheres: number;
-  /** Time that they spent in it in this frame, of all together [s]. */
+  /** Total time of all spheres in zones in this frame [s]. */
   sphereSeconds: number;
   /** Ticks at which a zone was stepped. */
   ticks: number;
-  /** Spheres that came into a zone. */
+  /** Spheres that joined a zone. */
   joined: number;
-  /** Spheres that left one. */
+  /** Spheres that left a zone. */
   left: number;
 }
 
-/** Where what stands in a row of `World.impactTable`; vectors take three places. */
+/** Positions of the values in a row of `World.impactTable`; vectors take three numbers. */
 export const IMPACT_COLUMNS: Readonly<{
   time: 0;
-  /** 1 where body 1 is a collider, 0 where it is a sphere. */
+  /** 1 if body 1 is a collider, 0 if it is a sphere. */
   isCollider: 1;
   /** Ids of bodies 1 and 2. */
   first: 2;
@@ -503,27 +574,27 @@ export const IMPACT_COLUMNS: Readonly<{
   separationSpeed: 11;
   impulse: 12;
   tangentialImpulse: 13;
-  /** Numbers in a row. */
+  /** Numbers per row. */
   count: 16;
 }>;
 
-/** A world at one moment. Its memory is given back when it is collected as garbage, or by `free`. */
+/** The state of a world at one time. Garbage collection or `free` releases its memory. */
 export interface Snapshot {
   free(): void;
 }
 
-/** Something that the engine refused. What it was refused for is as it was before. */
+/** A call that the engine refused. The world is unchanged. */
 export class CaromError extends Error {}
 
-/** A scene, or a description of a part of one, that makes no sense. */
+/** An invalid scene or part of a scene. */
 export class SceneError extends CaromError {
-  /** Path of the field that is to blame, like `colliders[1].restitution`; empty for none. */
+  /** Path of the faulty field, for example `colliders[1].restitution`; empty if there is none. */
   readonly field: string;
-  /** Line in the text of the scene, from 1, where it has one. */
+  /** Line in the text of the scene, from 1, if there is a text. */
   readonly line: number | undefined;
 }
 
-/** A built-in scene, as it is listed. */
+/** A built-in scene in the list. */
 export interface ListedScene {
   name: string;
   title: string;
@@ -531,75 +602,92 @@ export interface ListedScene {
   origin: string;
 }
 
-/** The built-in scenes. */
+/** Returns the list of built-in scenes. */
 export function scenes(): ListedScene[];
 
-/** New values for fields of a scene by their paths, as `carom run --set` takes them; `null` takes a
- *  field out: `{ "simulation.rule": "exact", "emitters.0.max_spheres": null }`. */
+/**
+ * New values for fields of a scene by their paths, as in `carom run --set`; `null` removes a field:
+ * `{ "simulation.rule": "exact", "emitters.0.max_spheres": null }`.
+ */
 export type Overrides = Record<string, unknown>;
 
 /**
- * Spheres, what acts on them, and what they bounce off.
+ * Spheres, forces on them, and colliders that they bounce off.
  *
- * **Arrays** (`positions` and the like) are views of the engine's own memory: nothing is copied, and
- * nothing is to be written there. Take them from the world each time: a step, an addition, or any other
- * world that makes the memory grow may move them. Copy (`.slice()`) what is to stay. Of rotation and
- * friction the engine has arrays only where a sphere needs them; elsewhere you get ones that say so.
+ * **Arrays** (`positions` and the like) are views of the engine's memory: they are not copied, and
+ * must not be written. Read them from the world each time, because a step, an addition, or any
+ * world that makes the memory grow may move them. Copy (`.slice()`) what you keep. The engine
+ * stores rotation and friction only if a sphere needs them; otherwise you get arrays of the
+ * defaults.
  *
- * A call that throws leaves the world as it was.
+ * A call that throws leaves the world unchanged.
  */
 export class World {
-  /** An empty world at time 0. @throws {SceneError} */
+  /** Makes an empty world at time 0. @throws {SceneError} */
   constructor(simulation?: SimulationChanges);
 
-  /** The world of a built-in scene, by name or title, or of the text of a scene file.
-   *  @throws {SceneError} with the line, where the text is wrong */
+  /**
+   * Makes the world of a built-in scene, by name or title, or of the text of a scene file.
+   * @throws {SceneError} with the line of the error in the text
+   */
   static fromScene(nameOrToml: string, overrides?: Overrides): World;
 
-  /** Advances the world by `dt` [s], a frame of the scene unless given. @throws {CaromError} */
+  /** Advances the world by `dt` [s]; default: the frame time of the scene. @throws {CaromError} */
   step(dt?: number): void;
-  /** The time of the next impact [s], if one comes within so many seconds. Costs as much as a copy of
-   *  the world and the step to that impact. @throws {CaromError} by other rules than `exact` */
+  /**
+   * Returns the time of the next impact [s], if it is within `within` [s]. Costs as much as a copy
+   * of the world and the step to that impact.
+   * @throws {CaromError} under other rules than `exact`
+   */
   nextEventTime(within: number): number | undefined;
-  /** Advances the world to its next impact, and answers it with all others at that instant; by
-   *  `within` [s] if none comes before. @throws {CaromError} by other rules than `exact` */
+  /**
+   * Advances the world to its next impact and resolves it with all others at that time, at most by
+   * `within` [s].
+   * @throws {CaromError} under other rules than `exact`
+   */
   stepToNextEvent(within: number): void;
-  /** Since the beginning [s]: the sum of all steps. */
+  /** Time since the start [s]: the sum of all steps. */
   readonly time: number;
-  /** Length of a frame of the scene [s]. */
+  /** Frame time of the scene [s]. */
   readonly frameTime: number;
 
-  /** Everything the future depends on, to return to. */
+  /** Returns a snapshot of everything that the future depends on. */
   snapshot(): Snapshot;
-  /** Returns to a snapshot, also of another world, bit for bit. The impacts of the last frame are
-   *  gone. */
+  /**
+   * Restores a snapshot of this or another world, bit for bit. The impacts of the last frame are
+   * removed.
+   */
   restore(snapshot: Snapshot): void;
-  /** The state as one number in 16 hexadecimal digits, to compare worlds to the bit: the same that
-   *  `carom run` prints. */
+  /**
+   * Returns the state hash in 16 hexadecimal digits, to compare worlds to the bit; `carom run`
+   * prints the same.
+   */
   stateHash(): string;
 
-  /** How many spheres there are. */
+  /** Number of spheres. */
   readonly count: number;
   /** Centres [m]: x, y, z, x, y, z, ... */
   readonly positions: Float64Array;
   /** Velocities [m/s]: x, y, z, x, y, z, ... */
   readonly velocities: Float64Array;
-  /** [m] */
+  /** Radii [m]. */
   readonly radii: Float64Array;
-  /** [kg] */
+  /** Masses [kg]. */
   readonly masses: Float64Array;
-  /** Ids, ascending; an id is never given twice. `ids.indexOf(id)` is the place in the arrays. */
+  /** Ids, ascending; an id is never reused. `ids.indexOf(id)` is the index in the arrays. */
   readonly ids: Float64Array;
-  /** Red, green, blue, red, ... in [0, 1] (sRGB). */
+  /** Colours: red, green, blue, red, ... in [0, 1] (sRGB). */
   readonly colors: Float32Array;
-  /** How spheres are turned: quaternions x, y, z, w, x, ... */
+  /** Orientations: quaternions x, y, z, w, x, ... */
   readonly orientations: Float64Array;
-  /** Angular velocities, along the axes [rad/s]: x, y, z, x, y, z, ... */
+  /** Angular velocities [rad/s]: x, y, z, x, y, z, ... */
   readonly angularVelocities: Float64Array;
   /** Moments of inertia divided by m r². */
   readonly inertiaFactors: Float64Array;
-  /** Coefficients of friction, >= 0; `NaN` where a sphere says nothing of it: then the coefficient of
-   *  what it touches counts. */
+  /**
+   * Coefficients of friction, >= 0; `NaN` for a sphere without its own: then the coefficient of the
+   * touching body counts.
+   */
   readonly frictions: Float64Array;
   /** Coefficients of rolling friction, as `frictions`. */
   readonly rollingFrictions: Float64Array;
@@ -607,105 +695,125 @@ export class World {
   readonly spinningFrictions: Float64Array;
   /** Coefficients of tangential restitution in [0, 1], as `frictions`. */
   readonly tangentialRestitutions: Float64Array;
-  /** Writes for each sphere the matrix of 4 by 4 that takes the unit sphere to it, turned as it is,
-   *  column by column: for `THREE.InstancedMesh.instanceMatrix.array`.
-   *  @throws {RangeError} if there is not room */
+  /**
+   * Writes for each sphere the 4 by 4 matrix that maps the unit sphere to it, with its rotation,
+   * column by column: for `THREE.InstancedMesh.instanceMatrix.array`.
+   * @throws {RangeError} if `matrices` is too short
+   */
   writeMatrices(matrices: Float32Array | Float64Array | number[]): void;
 
-  /** Impacts of the last frame in order of time, an object each. */
+  /** Impacts of the last frame in order of time. */
   readonly impacts: Impact[];
-  /** How many there are. */
+  /** Number of impacts of the last frame. */
   readonly impactCount: number;
-  /** The same as one array of numbers, `IMPACT_COLUMNS.count` for each, a view as those above. */
+  /** The impacts as one array, `IMPACT_COLUMNS.count` numbers for each; a view like those above. */
   readonly impactTable: Float64Array;
-  /** Spheres that emitters put into the world in the last frame. */
+  /** Ids of the spheres that emitters added in the last frame. */
   readonly emitted: number[];
-  /** Spheres that emitters took out again to make place. */
+  /** Ids of the spheres that emitters removed to make space. */
   readonly retired: number[];
-  /** Numbers of the spheres that emitters left out, for there was no room (`needs_room` of an emitter, the
-   *  default under the rule `contact`): no sphere ever has them. */
+  /**
+   * Ids of the spheres that emitters left out for lack of space (`needs_room` of an emitter, the
+   * default under the rule `contact`); no sphere ever has them.
+   */
   readonly leftOut: number[];
-  /** Spheres inside triggers at the end of the last frame. One that goes through a trigger within a frame is
-   *  not among them: make a trigger wider than the way of a frame, or the steps shorter. */
+  /**
+   * Spheres inside triggers at the end of the last frame. A sphere that passes a trigger within a
+   * frame is not among them: make a trigger wider than the path of a frame, or the steps shorter.
+   */
   readonly triggers: { collider: number; sphere: number }[];
   /** The work of the last frame. */
   readonly work: StageCounts;
-  /** What became of the energy in the last frame. */
+  /** Changes of the energy in the last frame. */
   readonly energyAccount: EnergyAccount;
-  /** How good the solution of the last frame is, by `contact` and in stepped zones. */
+  /** Quality of the solution of the last frame, under `contact` and in stepped zones. */
   readonly contactAccount: ContactAccount;
-  /** What was stepped in the last frame by `exact`. */
+  /** Spheres that `exact` stepped in the last frame. */
   readonly zoneAccount: ZoneAccount;
-  /** Whether spheres were in zones so far. */
+  /** Whether any sphere was ever in a zone. */
   readonly wasStepped: boolean;
 
-  /** The contacts that persist, in the order of ids, pairs of spheres first: what a ball that lies on
-   *  the floor is in. Known by `exact` and `contact` after a step; none where something was changed
-   *  since, or by other rules. By `exact`, reading them solves for the forces. */
+  /**
+   * Persistent contacts in the order of ids, pairs of spheres first; for example those of a ball
+   * that lies on the floor. Available after a step under `exact` and `contact`; empty after a
+   * change, or under other rules. Under `exact`, reading them solves for the forces.
+   */
   readonly contacts: PersistentContact[];
-  /** Whether spheres are turned or turn, or may come to: an emitter emits such, or there is friction,
-   *  which acts by `exact` and `contact`. */
+  /**
+   * Whether spheres are rotated or rotate, or may start to: because an emitter emits such spheres,
+   * or by friction, which acts under `exact` and `contact`.
+   */
   readonly hasSpin: boolean;
 
-  /** [J], the energy of rotation included. */
+  /** Returns the kinetic energy, with rotation [J]. */
   kineticEnergy(): number;
-  /** Kinetic energy of rotation [J]. */
+  /** Returns the kinetic energy of rotation [J]. */
   rotationalEnergy(): number;
-  /** [J], in all springs and all forces that have one. */
+  /** Returns the potential energy in all springs and forces that have one [J]. */
   potentialEnergy(): number;
-  /** [J] */
+  /** Returns the kinetic and potential energy [J]. */
   totalEnergy(): number;
-  /** [kg m/s] */
+  /** Returns the momentum [kg m/s]. */
   momentum(): [number, number, number];
-  /** About the origin [kg m²/s], that of spin included. */
+  /** Returns the angular momentum about the origin, with spin [kg m²/s]. */
   angularMomentum(): [number, number, number];
 
   /** Names, emitters, camera, light and colours of the scene. */
   readonly scene: Scene;
-  /** How the world is stepped. */
+  /** Simulation settings. */
   readonly simulation: Simulation;
-  /** Surfaces where they are now, to be drawn. */
+  /** Colliders with their present poses, for drawing. */
   readonly colliders: Collider[];
-  /** Forces, each with its id. */
+  /** Forces with their ids. */
   readonly forces: (Force & { id: number })[];
-  /** Springs, each with its id. */
+  /** Springs with their ids. */
   readonly springs: Spring[];
-  /** One sphere. @throws {CaromError} if it is not in the world */
+  /** Returns one sphere. @throws {CaromError} if it is not in the world */
   sphere(id: number): Sphere;
-  /** The world of now as the text of a scene file: there, time begins at 0, and emitters begin
-   *  anew. */
+  /**
+   * Returns the present world as the text of a scene file. There, time starts at 0 and emitters
+   * start again.
+   */
   toToml(): string;
 
-  /** Adds all of these, or nothing, and answers with their ids. They may overlap what is there.
-   *  @throws {SceneError} */
+  /**
+   * Adds all of these, or none. Returns their ids. They may overlap existing ones.
+   * @throws {SceneError}
+   */
   add(part: {
     spheres?: SphereDescription[];
     generators?: Generator[];
     colliders?: ColliderDescription[];
     forces?: Force[];
   }): { spheres: number[]; colliders: number[]; forces: number[] };
-  /** Adds one, and answers with its id. @throws {SceneError} */
+  /** Adds a sphere. Returns its id. @throws {SceneError} */
   addSphere(sphere: SphereDescription): number;
-  /** Adds one, and answers with its id. @throws {SceneError} */
+  /** Adds a collider. Returns its id. @throws {SceneError} */
   addCollider(collider: ColliderDescription): number;
-  /** Adds one, and answers with its id. @throws {SceneError} */
+  /** Adds a force. Returns its id. @throws {SceneError} */
   addForce(force: Force): number;
 
-  /** Adds a spring between two spheres, or from one to a fixed point, and answers with its id. It goes with
-   *  either sphere. @throws {CaromError} */
+  /**
+   * Adds a spring between two spheres, or from one to a fixed point. Returns its id. It is removed
+   * with either sphere.
+   * @throws {CaromError}
+   */
   addSpring(spring: SpringDescription): number;
 
-  /** Changes what is given of a sphere. @throws {CaromError} */
+  /** Changes the given properties of a sphere. @throws {CaromError} */
   setSphere(id: number, changes: SphereDescription): void;
-  /** Changes what is given of a collider. In a new place it is at once: what is there it does not push, and
-   *  a ball whose centre is in a box then falls through. What moves gets a `velocity` [m/s] and an
-   *  `angularVelocity` [rad/s], which take it along in the next steps. @throws {CaromError} */
+  /**
+   * Changes the given properties of a collider. A new position applies at once, without pushing
+   * spheres; a ball whose centre is then in a box falls through it. To move a collider, set
+   * `velocity` [m/s] and `angularVelocity` [rad/s], with which the next steps move it.
+   * @throws {CaromError}
+   */
   setCollider(id: number, changes: Partial<ColliderDescription>): void;
-  /** Puts a force in the place of another. @throws {CaromError} */
+  /** Replaces a force. @throws {CaromError} */
   setForce(id: number, force: Force): void;
-  /** Changes what is given of a spring: what it joins, or how it pulls. @throws {CaromError} */
+  /** Changes the given properties of a spring: its ends, or how it pulls. @throws {CaromError} */
   setSpring(id: number, changes: SpringChanges): void;
-  /** Changes what is given of how the world is stepped. @throws {SceneError} */
+  /** Changes the given simulation settings. @throws {SceneError} */
   setSimulation(changes: SimulationChanges): void;
   /** @throws {CaromError} if it is not in the world */
   removeSphere(id: number): void;
@@ -716,11 +824,11 @@ export class World {
   /** @throws {CaromError} if there is no such spring */
   removeSpring(id: number): void;
 
-  /** Gives the memory of the world back now, and not when it is collected as garbage. */
+  /** Releases the memory of the world now, without waiting for garbage collection. */
   free(): void;
 }
 
-// `using world = ...`, for those whose TypeScript knows it.
+// `using world = ...`, for versions of TypeScript that support it.
 declare global {
   interface SymbolConstructor {
     readonly dispose: unique symbol;

@@ -1,4 +1,4 @@
-// The package in a browser: a module that imports it waits until the engine has arrived.
+// The package in a browser: a module that imports it waits for the engine.
 import "./start.js";
 
 export * from "./exports.js";

@@ -1,4 +1,4 @@
-// The package in Node.js: the engine is read at once, nothing is waited for.
+// The package in Node.js: the engine is read synchronously.
 import "./start.node.js";
 
 export * from "./exports.js";

@@ -1,13 +1,13 @@
-// What instanced drawing wants: a matrix for each sphere.
+// Matrices for instanced drawing, one for each sphere.
 
-/** Numbers in a matrix of 4 by 4. */
+/** Numbers in a 4 by 4 matrix. */
 const SIZE = 16;
 
 /**
- * Writes for each sphere the matrix that takes the unit sphere to it, turned, column by column: what
- * three.js keeps in `InstancedMesh.instanceMatrix.array`.
+ * Writes for each sphere the matrix that maps the unit sphere to it, with its rotation, column by
+ * column: the format of `InstancedMesh.instanceMatrix.array` in three.js.
  *
- * @throws {RangeError} if `matrices` has not room for all
+ * @throws {RangeError} if `matrices` is too short
  */
 export function writeMatrices({ positions, radii, orientations }, matrices) {
   const room = Math.floor(matrices.length / SIZE);
@@ -16,7 +16,7 @@ export function writeMatrices({ positions, radii, orientations }, matrices) {
   }
   radii.forEach((radius, i) => {
     const start = SIZE * i;
-    // Number by number: a list for each sphere would take longer than all the rest.
+    // Written number by number: a list for each sphere would take longer than everything else.
     const x = orientations[4 * i];
     const y = orientations[4 * i + 1];
     const z = orientations[4 * i + 2];

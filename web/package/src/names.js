@@ -1,6 +1,6 @@
-// How names are spelled: snake_case in scene files, camelCase in JavaScript.
+// Converts names: snake_case in scene files, camelCase in JavaScript.
 
-/** Of all names with two words, scene files write these with a hyphen. */
+/** Names that scene files write with a hyphen. */
 const HYPHENATED = new Map([
   ["closePacking", "close-packing"],
   ["staggeredRows", "staggered-rows"],
@@ -11,19 +11,19 @@ const HYPHENATED = new Map([
 ]);
 const UNHYPHENATED = new Map([...HYPHENATED].map(([camel, kebab]) => [kebab, camel]));
 
-/** `angularVelocity` as scene files spell it. */
+/** Returns a name such as `angularVelocity` in the spelling of scene files. */
 export function snake(name) {
   return HYPHENATED.get(name) ?? name.replace(/[A-Z]/g, (letter) => `_${letter.toLowerCase()}`);
 }
 
-/** `angular_velocity` as JavaScript spells it. */
+/** Returns a name such as `angular_velocity` in the spelling of JavaScript. */
 export function camel(name) {
   return (
     UNHYPHENATED.get(name) ?? name.replace(/_([a-z0-9])/g, (_, letter) => letter.toUpperCase())
   );
 }
 
-/** A text in which every `word_with_underscores` is spelled as JavaScript does. */
+/** Returns a text with every `word_with_underscores` in the spelling of JavaScript. */
 export function camelWords(text) {
   return text.replace(
     /\b[a-z]+(?:_[a-z0-9]+)+\b|\b(?:close-packing|staggered-rows|viscous-drag|point-attractor|mutual-gravity|quadratic-drag)\b/g,
@@ -31,9 +31,9 @@ export function camelWords(text) {
   );
 }
 
-/** What the engine tells as JSON, with JavaScript's spelling of names. */
+/** Parses JSON of the engine, with names in the spelling of JavaScript. */
 export function parse(json) {
-  // JSON has no infinity: it writes null for one, and for nothing else.
+  // JSON has no infinity: the engine writes null for it, and for nothing else.
   return JSON.parse(json, (_, value) => (value === null ? Infinity : respelled(value)));
 }
 

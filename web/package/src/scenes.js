@@ -2,7 +2,7 @@ import * as engine from "./engine.js";
 import { attempt } from "./errors.js";
 import { parse } from "./names.js";
 
-/** The built-in scenes. */
+/** Returns the list of built-in scenes. */
 export function scenes() {
   return parse(attempt(() => engine.scenes()));
 }

@@ -1,14 +1,14 @@
-// From JavaScript's values to TOML, the language of scene files.
+// Converts JavaScript values to TOML, the language of scene files.
 
 import { snake } from "./names.js";
 
-/** The largest whole number up to which JavaScript counts without gaps, as TOML's integers do. */
+/** The largest integer that JavaScript can represent without gaps, as TOML's integers are. */
 const LARGEST_INTEGER = Number.MAX_SAFE_INTEGER;
 
 /**
- * A value as TOML writes it behind an equals sign. Whatever can be iterated is an array: lists,
- * typed arrays, the vectors and quaternions of three.js. Fields that are `undefined` or `null` are
- * left out.
+ * Returns a value as TOML writes it after an equals sign. Every iterable becomes an array: lists,
+ * typed arrays, vectors and quaternions of three.js. Fields that are `undefined` or `null` are left
+ * out.
  */
 export function toml(value) {
   switch (typeof value) {
@@ -27,12 +27,12 @@ export function toml(value) {
   throw new TypeError(`a scene cannot hold ${value === null ? "null" : typeof value}`);
 }
 
-/** The tables of a scene file, from an object that has them as its fields. */
+/** Returns the tables of a scene file from an object with one field per table. */
 export function tables(object) {
   return fields(object).join("\n");
 }
 
-/** A changed value of a scene, as `carom run --set` takes it: `path=value`. */
+/** Returns a changed value of a scene in the form of `carom run --set`: `path=value`. */
 export function override([path, value]) {
   return `${path}=${value === null || value === undefined ? "none" : toml(value)}`;
 }
@@ -51,6 +51,6 @@ function number(value) {
   if (Number.isNaN(value)) return "nan";
   if (!Number.isFinite(value)) return value > 0 ? "inf" : "-inf";
   if (Object.is(value, -0)) return "-0.0";
-  // Whole numbers beyond those must not be taken for integers, which TOML bounds at 2^63.
+  // Larger whole numbers must not become integers, which TOML limits to 2^63.
   return Math.abs(value) > LARGEST_INTEGER ? value.toExponential() : String(value);
 }

@@ -1,16 +1,19 @@
-// Arrays of the engine, looked at where they lie in its memory.
+// Views of arrays in the engine's memory.
 
 import { engineMemory } from "./engine.js";
 
 /**
- * The views of one world. A view is made anew only where the array has moved, has another length, or
- * where the memory has grown, which takes all views of it away.
+ * The views of one world. A view is made again only if its array has moved or has another length,
+ * or if the memory has grown, which invalidates all views.
  */
 export class Views {
   #views = new Map();
   #repeated = new Map();
 
-  /** The view of this name: `length` numbers of a `Type` of array from `place` on. */
+  /**
+   * Returns the view of this name: `length` numbers of the array type `Type` at the address
+   * `place`.
+   */
   at(name, Type, place, length) {
     const { buffer } = engineMemory();
     let view = this.#views.get(name);
@@ -21,8 +24,8 @@ export class Views {
     return view;
   }
   /**
-   * An array of this name that the engine has not made: the same numbers for each of `count` spheres.
-   * It lies outside of the memory of the engine, which so need not grow when it is read.
+   * Returns an array of this name that the engine does not store: the same numbers for each of
+   * `count` spheres. It is outside the engine's memory, which therefore need not grow.
    */
   repeated(name, numbers, count) {
     const length = numbers.length * count;

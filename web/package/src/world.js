@@ -1,5 +1,5 @@
-// The world, as JavaScript sees it. What its parts mean and which units they have stands in
-// `index.d.ts`, where editors look for it.
+// The world in JavaScript. `index.d.ts`, where editors look for documentation, explains its parts
+// and their units.
 
 import * as engine from "./engine.js";
 import { contacts } from "./contacts.js";
@@ -10,13 +10,13 @@ import { parse } from "./names.js";
 import { override, tables } from "./toml.js";
 import { Views } from "./views.js";
 
-/** A name holds no equals sign, and the text of a scene cannot do without. */
+/** A name contains no equals sign, and the text of a scene always does. */
 const isToml = (text) => text.includes("=");
 
 const EMPTY_SCENE = 'name = "world"';
 
 export class World {
-  /** The world of the engine; nothing once it is freed. */
+  /** The world of the engine; empty after `free`. */
   #engine;
   #views = new Views();
 
@@ -145,7 +145,7 @@ export class World {
     return this.#views.at(name, Type, world[name], width * world.count);
   }
 
-  /** An array that the engine has only where a sphere has other numbers than the usual ones. */
+  /** Returns an array that the engine stores only if a sphere differs from the default. */
   #viewOr(name, usual) {
     const world = this.#world;
     const isUsual = world[name] === undefined;
@@ -158,7 +158,7 @@ export class World {
     writeMatrices(this, matrices);
   }
 
-  // What happened in the last frame.
+  // Report of the last frame.
 
   get impacts() {
     return impacts(this.impactTable);
@@ -170,7 +170,7 @@ export class World {
 
   get impactTable() {
     const world = this.#world;
-    // First the place: the call makes the table, and the memory may grow with it.
+    // First the address: the call makes the table, and the memory may grow.
     const place = world.impacts;
     const length = IMPACT_COLUMNS.count * world.impactCount;
     return this.#views.at("impacts", Float64Array, place, length);
@@ -223,7 +223,7 @@ export class World {
     return this.#world.wasStepped;
   }
 
-  // What holds now.
+  // Present state.
 
   get contacts() {
     return contacts(this.#world.contacts);
@@ -259,7 +259,7 @@ export class World {
     return Array.from(this.#world.angularMomentum());
   }
 
-  // What there is.
+  // Contents of the world.
 
   get scene() {
     const { simulation, forces, colliders, ...scene } = parse(this.#world.scene());
@@ -291,7 +291,7 @@ export class World {
     return this.#world.toToml();
   }
 
-  // Adding, changing, removing.
+  // Add, change, remove.
 
   add({ spheres, generators, colliders, forces, ...others }) {
     const [unknown] = Object.keys(others);
@@ -321,7 +321,7 @@ export class World {
   }
 
   setSphere(id, changes) {
-    // A size or mass of another kind takes the place of the one there is.
+    // A size or mass of another kind replaces the present one.
     const { radius, mass, ...rest } = this.sphere(id);
     const size = changes.diameter === undefined ? { radius } : {};
     const weight = changes.density === undefined ? { mass } : {};
@@ -342,7 +342,7 @@ export class World {
 
   setSpring(id, changes) {
     const { id: _, ...now } = this.springs.find((spring) => spring.id === id) ?? {};
-    // A pair takes the place of a sphere and a point, and these of a pair.
+    // A pair replaces a sphere and a point, and the reverse.
     const { spheres, sphere, anchor, ...numbers } = now;
     const isToPoint = (changes.sphere ?? changes.anchor) !== undefined;
     const pair = isToPoint ? {} : { spheres };
@@ -378,17 +378,17 @@ export class World {
   }
 }
 
-// `using world = ...`, where the language has it.
+// `using world = ...`, if the language supports it.
 if (Symbol.dispose) World.prototype[Symbol.dispose] = World.prototype.free;
 
-// What a sphere has unless it is given otherwise.
+// Defaults of a sphere.
 const NOT_TURNED = [0, 0, 0, 1];
 const AT_REST = [0, 0, 0];
 const SOLID_BALL = [2 / 5];
-/** A sphere that says nothing of friction. */
+/** A sphere without its own friction. */
 const SILENT = [NaN];
 
-/** What scene files leave out of a collider. */
+/** Defaults of a collider, which scene files leave out. */
 const COLLIDER = {
   name: "",
   velocity: [0, 0, 0],
@@ -397,5 +397,5 @@ const COLLIDER = {
   visible: true,
 };
 
-/** What scene files leave out of a spring. */
+/** Defaults of a spring, which scene files leave out. */
 const SPRING = { damping: 0, onlyPulls: false };

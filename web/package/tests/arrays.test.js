@@ -1,11 +1,11 @@
-// Arrays are the engine's own memory, wherever that lies at the moment.
+// Arrays are the engine's own memory, even after the memory has moved.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { World } from "carom";
 
-/** More spheres than there is room for in the memory that a module starts with. */
+/** More spheres than the initial memory of a module can hold. */
 const CROWD = {
   lattice: {
     counts: [60, 60, 60],
@@ -105,7 +105,7 @@ test("spheres have the colours of their densities in the scene", () => {
 
 test("matrices turn the unit sphere as spheres are turned", () => {
   const world = new World();
-  // A third of a turn about (1, 1, 1) takes x to y, y to z, z to x.
+  // A third of a turn about (1, 1, 1) maps x to y, y to z, z to x.
   world.addSphere({ position: [7, 8, 9], radius: 2, orientation: [0.5, 0.5, 0.5, 0.5] });
   const matrix = new Float64Array(16).fill(NaN);
   world.writeMatrices(matrix);

@@ -1,5 +1,5 @@
-// The same bits in WebAssembly as in the native engine. Proves nothing about scenes that are not built
-// in, nor about longer runs. Fails where a compiler fuses, reorders or replaces arithmetic.
+// WebAssembly gives the same bits as the native engine. Not tested: scenes that are not built in,
+// and longer runs. Fails if a compiler fuses, reorders or replaces arithmetic.
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
@@ -9,7 +9,9 @@ import { scenes, World } from "carom";
 
 const native = JSON.parse(readFileSync(new URL("native_hashes.json", import.meta.url), "utf8"));
 
-/** Frames of a run that takes so long [s]; a billionth of a frame is rounding. */
+/**
+ * Returns the number of frames of a run of this duration [s]; a billionth of a frame is rounding.
+ */
 function frames(seconds, frameTime) {
   return Math.ceil(seconds / frameTime - 1e-9);
 }

@@ -1,5 +1,5 @@
-// Persistent contacts, steps to the next impact and the work of a frame. The engine's own tests check
-// forces and times; these prove that they arrive as they are.
+// Persistent contacts, steps to the next impact, and the work of a frame. The engine's own tests
+// check forces and times; these tests check that they reach JavaScript unchanged.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -8,7 +8,10 @@ import { CaromError, World } from "carom";
 
 const isNear = (value, expected) => Math.abs(value - expected) <= 1e-12 * Math.max(1, expected);
 
-/** An elastic ball of radius 1 m whose lowest point is 1 m above an elastic floor. */
+/**
+ * Returns a world with an elastic ball of radius 1 m whose lowest point is 1 m above an elastic
+ * floor.
+ */
 function ballAboveFloor(rule) {
   const world = new World({ rule });
   world.addForce({ gravity: { acceleration: [0, -8, 0] } });

@@ -1,11 +1,11 @@
-// What is refused, in which words, and that it leaves no trace.
+// Invalid calls are refused with clear messages and change nothing.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { CaromError, SceneError, World } from "carom";
 
-/** What a call throws. */
+/** Returns the error that a call throws. */
 function thrown(call) {
   try {
     call();
@@ -157,8 +157,8 @@ test("freed memory is used again: a thousand worlds need no more of it than ten"
     return world().positions.buffer.byteLength;
   };
   const few = make(10);
-  // Each call leaves one world, and memory grows by whole pages. A thousand worlds, each larger than
-  // 30 kB, would need some 500.
+  // A world that leaks would make memory grow by whole pages: a thousand worlds of more than 30 kB
+  // each would need about 500.
   const page = 65_536;
   assert.ok(make(1000) - few <= 4 * page);
 });

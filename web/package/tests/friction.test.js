@@ -1,4 +1,4 @@
-// Friction and rotation: what the engine does reaches JavaScript, and what JavaScript says reaches it.
+// Friction and rotation pass between the engine and JavaScript in both directions.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -8,7 +8,7 @@ import { IMPACT_COLUMNS, World } from "carom";
 const isNear = (value, expected, tolerance) =>
   Math.abs(value - expected) <= tolerance * Math.abs(expected);
 
-/** A ball that begins to slide on a floor, by the rule `contact`. */
+/** Returns a world with a ball that slides on a floor, under the rule `contact`. */
 function slidingBall() {
   const world = new World({ rule: "contact" });
   world.addForce({ gravity: { acceleration: [0, -9.81, 0] } });
@@ -29,7 +29,7 @@ test("an impact tells its impulse of friction", () => {
     world.addSphere({ position: [0, 0.8, 0], velocity: [4, -2, 0], radius: 0.1, mass: 2 });
     world.step();
     const [{ impulse, tangentialImpulse }] = world.impacts;
-    // It slides all the time: friction takes 0.25 of m (1 + e) v.
+    // It slides throughout: friction takes 0.25 of m (1 + e) v.
     assert.ok(isNear(impulse, 6, 1e-12));
     assert.ok(isNear(tangentialImpulse[0], -1.5, 1e-12));
     assert.equal(world.impactTable[IMPACT_COLUMNS.tangentialImpulse], tangentialImpulse[0]);
@@ -38,7 +38,8 @@ test("an impact tells its impulse of friction", () => {
 
 test("a ball that slides comes to roll", () => {
   const world = step(slidingBall(), 60);
-  // A solid ball that slid at 1 m/s rolls at 5/7 of that; sub-steps find the moment to their length.
+  // A solid ball that slid at 1 m/s rolls at 5/7 of that; sub-steps find that time to within their
+  // length.
   assert.ok(isNear(world.velocities[0], 5 / 7, 0.01));
   assert.ok(isNear(world.angularVelocities[2], -50 / 7, 0.01));
   assert.ok(isNear(Math.hypot(...world.orientations), 1, 1e-12));
@@ -77,7 +78,7 @@ test("contacts and the account tell of friction", () => {
 test("a ball that lies still falls asleep, and the account counts it", () => {
   const world = slidingBall();
   world.setSphere(0, { velocity: [0, 0, 0] });
-  // Half a second of rest, and some frames to come to it.
+  // Half a second at rest, and some frames until it is at rest.
   assert.equal(step(world, 60).contactAccount.asleep, 1);
 });
 
@@ -120,7 +121,7 @@ test("usual spheres are not turned, solid, and say nothing of friction", () => {
 
 const FRICTIONS = ["frictions", "rollingFrictions", "spinningFrictions", "tangentialRestitutions"];
 
-/** What a world says of friction, sphere by sphere. */
+/** Returns the friction of all spheres of a world. */
 const said = (world) =>
   Array.from({ length: world.count }, (_, i) => FRICTIONS.map((name) => world[name][i]));
 

@@ -1,4 +1,4 @@
-// What a frame reports.
+// The report of a frame.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -12,7 +12,7 @@ test("a dropped ball meets the floor when and as hard as the fall says", () => {
   const ball = world.addSphere({ position: [3, 1.3, 0], radius: 0.5, mass: 2 });
   world.step();
   const [impact] = world.impacts;
-  // It falls 0.8 m: 0.4 s, 4 m/s. Roundings only.
+  // It falls 0.8 m: 0.4 s, 4 m/s. Rounding errors only.
   const isNear = (value, expected) => Math.abs(value - expected) < 1e-12;
   assert.ok(isNear(impact.time, 0.4) && isNear(impact.approachSpeed, 4));
   assert.ok(isNear(impact.separationSpeed, 2) && isNear(impact.impulse, 12));
@@ -97,6 +97,6 @@ test("energy is the sum of its kinds, and stays without loss", () => {
   const energy = world.totalEnergy();
   for (let frame = 0; frame < 600; frame++) world.step();
   assert.equal(world.totalEnergy(), world.kineticEnergy() + world.potentialEnergy());
-  // A few roundings at each of some ten bounces.
+  // A few rounding errors at each of about ten bounces.
   assert.ok(Math.abs(world.totalEnergy() / energy - 1) < 1e-13);
 });

@@ -1,4 +1,4 @@
-// What the README shows of Node.js is what happens.
+// The example for Node.js in the README prints what the README shows.
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
@@ -7,7 +7,7 @@ import { test } from "node:test";
 
 const readme = readFileSync(new URL("../node_modules/carom/README.md", import.meta.url), "utf8");
 
-/** What a program prints that stands in the README. */
+/** Returns the output of a program. */
 function printed(program) {
   const [options, cwd] = [["--input-type=module", "--eval", program], import.meta.dirname];
   return execFileSync(process.execPath, options, { cwd, encoding: "utf8" });

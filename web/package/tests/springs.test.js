@@ -1,4 +1,4 @@
-// Springs that are added to a running world, changed there, and removed.
+// Springs are added to a running world, changed and removed.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -12,7 +12,7 @@ const SPRINGS = `springs = [
   { sphere = 2, anchor = [4, 0, 0], stiffness = 20, only_pulls = true },
 ]`;
 
-/** The balls, with the springs added one by one. */
+/** Returns a world with the balls, after adding the springs one by one. */
 function joined() {
   const world = World.fromScene(BALLS);
   const pair = { spheres: [0, 1], restLength: 0.5, stiffness: 10, damping: 0.25 };
@@ -38,12 +38,12 @@ test("springs that are added make the bits of a scene with them", () => {
 test("a world says which springs it has, by ids of spheres", () => {
   const world = joined();
   world.removeSphere(0);
-  // The spring of that sphere went with it; without a length, one is at rest as it comes.
+  // The spring of that sphere was removed with it; a spring without a length is at rest when added.
   const thread = { id: 1, sphere: 2, anchor: [4, 0, 0], restLength: 1.5, stiffness: 20 };
   assert.deepEqual(world.springs, [{ ...thread, damping: 0, onlyPulls: true }]);
   const id = world.addSpring({ spheres: world.ids, stiffness: "2 kN/m" });
   assert.deepEqual([id, world.springs[1].spheres, world.springs[1].stiffness], [2, [1, 2], 2000]);
-  // In a scene file they have numbers.
+  // In a scene file, spheres are numbered.
   assert.deepEqual(World.fromScene(world.toToml()).springs[1].spheres, [0, 1]);
 });
 

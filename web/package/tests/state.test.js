@@ -1,4 +1,4 @@
-// Going back, writing down, changing.
+// Snapshots, scene files, changes.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -118,7 +118,7 @@ test("of a sphere only what is named is changed", () => {
   world.setSphere(id, { diameter: 2, density: 1 });
   const volume = (4 / 3) * Math.PI;
   assert.deepEqual(world.sphere(id).radius, 1);
-  // A rounding in the constant, one in the product.
+  // One rounding error of the constant, one of the product.
   assert.ok(Math.abs(world.sphere(id).mass / volume - 1) < 1e-15);
 });
 

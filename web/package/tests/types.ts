@@ -1,4 +1,4 @@
-// The declarations say what there is: this file is never run, only checked. A line after
+// The declarations match the package. This file is only type-checked, never run. A line after
 // `@ts-expect-error` must be wrong.
 
 import { CaromError, IMPACT_COLUMNS, SceneError, scenes, World } from "carom";

@@ -1,11 +1,11 @@
-// A film encoded frame by frame with WebCodecs: every frame at its exact time.
+// Films encoded frame by frame with WebCodecs, with exact times.
 
 import { Trouble } from "../trouble.js";
 
 /** @import { Format, Frame, Maker } from "./film.js" */
 
 /**
- * Compressions from the most widely played on; what is H.264 becomes an MP4, the others WebM.
+ * Codecs, the most widely playable first. H.264 is written as MP4, the others as WebM.
  *
  * @type {["avc", "vp9", "vp8"]}
  */
@@ -22,7 +22,7 @@ export class Encoded {
   constructor(format) {
     this.#format = format;
     this.#begun = this.#begin();
-    // The next frame that is added reports what went wrong.
+    // The next added frame reports the error.
     this.#begun.catch(() => {});
   }
 
@@ -31,7 +31,7 @@ export class Encoded {
     const { source, media } = await this.#begun;
     const { rowBytes, width, height, framesPerSecond } = this.#format;
     const sample = new media.VideoSample(pixels, {
-      // Opacity does not count: what is behind a film?
+      // Opacity is ignored: a film has nothing behind it.
       format: "RGBX",
       codedWidth: width,
       codedHeight: height,
@@ -39,7 +39,7 @@ export class Encoded {
       timestamp: number / framesPerSecond,
       duration: 1 / framesPerSecond,
     });
-    // Waits while the encoder has enough to do.
+    // Waits while the encoder is busy.
     await source.add(sample);
     sample.close();
   }

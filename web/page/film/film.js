@@ -1,24 +1,24 @@
-// Films of what is shown: frames in, a download out.
+// Films of the view: frames go in, and a download comes out.
 
 import { save } from "../download.js";
 import { Trouble, inWords, noteTrouble } from "../trouble.js";
 import { Encoded } from "./encoded.js";
 import { Recorded } from "./recorded.js";
 
-/** Frames that wait take no more memory than this [bytes]; browsers end pages at about 2 GB. */
+/** Largest memory for waiting frames [bytes]; browsers end pages at about 2 GB. */
 const ROOM = 768e6;
 
 /**
  * @typedef {object} Frame
- * @property {Uint8Array<ArrayBuffer>} pixels rows of RGBA, as wide as the film was begun
- * @property {number} number from 0 on
+ * @property {Uint8Array<ArrayBuffer>} pixels rows of RGBA, of the film's original width
+ * @property {number} number from 0
  *
- * @typedef {object} Maker makes a file of frames
- * @property {string | null} extension of the file's name; null while it is not known
- * @property {(frame: Frame) => Promise<void>} add takes a frame; done when the next may come
+ * @typedef {object} Maker makes a file from frames
+ * @property {string | null} extension of the file's name; null while unknown
+ * @property {(frame: Frame) => Promise<void>} add takes a frame; resolves when the next may come
  * @property {() => Promise<Blob>} finish
  *
- * @typedef {object} Format of the frames that are added, and of the film
+ * @typedef {object} Format of the added frames, and of the film
  * @property {number} rowBytes
  * @property {number} width even [pixels]
  * @property {number} height even [pixels]
@@ -26,15 +26,15 @@ const ROOM = 768e6;
  */
 
 /**
- * Begins a film of pictures of this size in pixels; throws an error in words for people if this
- * browser cannot make films.
+ * Starts a film of pictures of this size in pixels. Throws an error with a message for the user if
+ * this browser cannot make films.
  *
  * @param {number} width
  * @param {number} height
  * @param {number} framesPerSecond
  */
 export function beginFilm(width, height, framesPerSecond) {
-  // Films store colours at half the resolution, and so are of even size: an odd row is left out.
+  // Films store colours at half the resolution, so their size is even: an odd row is cut off.
   const format = { rowBytes: width * 4, width: width & ~1, height: height & ~1, framesPerSecond };
   if (format.width === 0 || format.height === 0) {
     throw new Trouble(`A film of ${width} by ${height} pixels cannot be made.`);
@@ -56,16 +56,16 @@ function makerOf(format) {
   throw new Trouble("This browser cannot make films: it has neither WebCodecs nor MediaRecorder.");
 }
 
-/** Lets frames wait until their maker has time for them. */
+/** Queues frames until their maker is ready for them. */
 class Film {
   #frameBytes;
   #maker;
-  /** Frames that wait. */
+  /** Number of waiting frames. */
   #waiting = 0;
-  /** What is being done, one thing after another. */
+  /** The present work; tasks run one after another. */
   #work = Promise.resolve();
   /**
-   * Why it cannot be made.
+   * The reason why the film cannot be made.
    *
    * @type {string | null}
    */
@@ -81,11 +81,11 @@ class Film {
   }
 
   /**
-   * Adds a frame, a copy of these rows of RGBA from above. Throws an error in words for people if
-   * it cannot be added; the film can still be finished if frames only came too fast.
+   * Adds a frame, a copy of these rows of RGBA from the top. Throws an error with a message for the
+   * user if it cannot be added. If frames only came too fast, the film can still be finished.
    *
    * @param {Uint8Array} pixels
-   * @param {number} number from 0 on
+   * @param {number} number from 0
    */
   add(pixels, number) {
     this.#check();
@@ -104,8 +104,8 @@ class Film {
   }
 
   /**
-   * Encodes the frames that wait, then saves the film. Throws an error in words for people if it
-   * cannot be made; what goes wrong later is noted.
+   * Encodes the waiting frames, then saves the film. Throws an error with a message for the user if
+   * it cannot be made; a later error is noted.
    *
    * @param {string} name
    * @returns {string} the file's name

@@ -1,5 +1,5 @@
-// What films need of the library that writes them: a module of its own, so that only this is
-// fetched, and only with the first film.
+// The parts of the film library that are needed: a separate module, so that only these are fetched,
+// and only with the first film.
 
 export {
   BufferTarget,

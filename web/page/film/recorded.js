@@ -1,10 +1,10 @@
-// A film recorded as it is shown, where a browser has MediaRecorder alone.
+// Films recorded in real time, for browsers that have only MediaRecorder.
 
 import { Trouble } from "../trouble.js";
 
 /** @import { Format, Frame, Maker } from "./film.js" */
 
-/** From the most widely played on. */
+/** Types, the most widely playable first. */
 const TYPES = [
   "video/mp4;codecs=avc1",
   "video/webm;codecs=vp9",
@@ -12,12 +12,12 @@ const TYPES = [
   "video/webm",
 ];
 
-/** Enough for spheres at 1280 by 720 not to show blocks [bits per second]. */
+/** Enough for spheres at 1280 by 720 without visible blocks [bits per second]. */
 const BITS_PER_SECOND = 8e6;
 
 /**
- * Shows each frame on a hidden canvas for as long as it lasts, and records that; between frames the
- * recorder pauses, so that frames which come late do not make the film longer.
+ * Shows each frame on a hidden canvas for its duration and records it. Between frames the recorder
+ * pauses, so that late frames do not make the film longer.
  *
  * @implements {Maker}
  */
@@ -43,7 +43,7 @@ export class Recorded {
     canvas.height = format.height;
     const context = canvas.getContext("2d", { alpha: false });
     this.#context = /** @type {CanvasRenderingContext2D} */ (context);
-    // No frames but those that `requestFrame` takes.
+    // Only `requestFrame` captures frames.
     const stream = canvas.captureStream(0);
     this.#track = /** @type {CanvasCaptureMediaStreamTrack} */ (stream.getVideoTracks()[0]);
     this.#recorder = new MediaRecorder(stream, { mimeType, videoBitsPerSecond: BITS_PER_SECOND });

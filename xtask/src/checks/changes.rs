@@ -95,7 +95,7 @@ mod tests {
     }
 
     fn part(reads: Reads) -> Part {
-        Part { name: "a", after: &[], reads, run: || Ok(()) }
+        Part::new("a", &[], reads, || Ok(()))
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! An archive of a release: a folder of its name, packed.
+//! Archives of a release: a folder with the archive's name, packed.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -6,48 +6,48 @@ use std::process::Command;
 use super::files;
 use crate::shell::{Outcome, finish, output, printed};
 
-/// Options with which GNU's `tar` makes the same archive of the same files for every user.
+/// Options of GNU `tar` that make archives independent of the user and the order of files.
 const SAME: [&str; 4] = ["--sort=name", "--owner=0", "--group=0", "--numeric-owner"];
 
-/// An archive that is put together.
+/// An archive that is being assembled.
 pub struct Archive {
     name: String,
-    /// What is packed lies in its folder `name`.
+    /// The folder that contains the folder `name`, which is packed.
     staging: PathBuf,
 }
 
 impl Archive {
-    /// An empty one.
+    /// Makes an empty archive.
     pub fn new(name: String) -> Outcome<Self> {
         let staging = files::staging(&name)?;
         Ok(Self { name, staging })
     }
 
-    /// Where a file or folder of the archive lies until it is packed.
+    /// Returns the path of a file or folder of the archive before it is packed.
     pub fn place(&self, inside: &str) -> PathBuf {
         self.staging.join(&self.name).join(inside)
     }
 
-    /// Adds a file, or a folder with all that is in it.
+    /// Adds a file, or a folder with its contents.
     pub fn add(&self, from: &Path, inside: &str) -> Outcome {
         files::copy(from, &self.place(inside))
     }
 
-    /// Packs it, and puts it among the files of the release. Returns the file.
+    /// Packs the archive into the files of the release. Returns the file.
     pub fn pack(&self) -> Outcome<PathBuf> {
         let file = format!("{}.tar.gz", self.name);
         let mut command = Command::new("tar");
         if output("tar", &["--version"]).is_some_and(|text| text.contains("GNU")) {
             command.args(SAME);
         }
-        // Names without folders: a colon is a machine to some versions of `tar`.
+        // File names without folders: some versions of `tar` take a colon for a machine name.
         command.args(["-czf", &file, &self.name]).current_dir(&self.staging);
         finish("tar", &mut command)?;
         files::publish(&self.staging.join(file))
     }
 }
 
-/// The names of the files in an archive of the release.
+/// Returns the names of the files in an archive of the release.
 pub fn names_in(file: &Path) -> Outcome<Vec<String>> {
     let name = file.file_name().unwrap_or_default();
     let folder = file.parent().unwrap_or(file);
@@ -55,7 +55,7 @@ pub fn names_in(file: &Path) -> Outcome<Vec<String>> {
     Ok(text.lines().filter(|line| !line.ends_with('/')).map(str::to_owned).collect())
 }
 
-/// Refuses an archive that lacks one of these files. Their names begin below the folder that it holds.
+/// Fails if an archive lacks one of these files. Names are relative to the folder in the archive.
 pub fn demand(file: &Path, wanted: &[impl AsRef<str>]) -> Outcome {
     let names = names_in(file)?;
     let has = |wanted: &str| {
@@ -68,7 +68,7 @@ pub fn demand(file: &Path, wanted: &[impl AsRef<str>]) -> Outcome {
     Err(format!("{} lacks {}", file.display(), missing.join(", ")))
 }
 
-/// Unpacks an archive as its users do. Returns the folder that it holds.
+/// Unpacks an archive as users do. Returns the folder in it.
 pub fn unpack(file: &Path) -> Outcome<PathBuf> {
     let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let folder = files::staging(&format!("unpacked-{name}"))?;

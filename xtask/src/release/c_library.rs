@@ -1,4 +1,4 @@
-//! The archive of the C interface: libraries, header, the class for C#, the guide and its programs.
+//! The archive of the C interface: libraries, header, C# class, guide and example programs.
 
 use std::path::Path;
 use std::process::Command;
@@ -10,7 +10,7 @@ use crate::notices;
 use crate::shell::{Outcome, cargo, finish, host, root, target_folder};
 use crate::sources::read;
 
-/// What stands in the archive as it stands in the repository: from where, to where.
+/// Files of the repository that are copied into the archive: source and destination.
 const FILES: [(&str, &str); 6] = [
     ("crates/carom-c/include/carom.h", "include/carom.h"),
     ("crates/carom-c/csharp/CaromWorld.cs", "csharp/CaromWorld.cs"),
@@ -20,7 +20,7 @@ const FILES: [(&str, &str); 6] = [
     ("LICENSE-MIT", "LICENSE-MIT"),
 ];
 
-/// The shared library, and what a program links to besides.
+/// The shared library, and the files that programs link to.
 const LIBRARIES: &[&str] = if cfg!(windows) {
     &["carom_c.dll", "carom_c.dll.lib", "carom_c.lib"]
 } else if cfg!(target_os = "macos") {
@@ -29,7 +29,7 @@ const LIBRARIES: &[&str] = if cfg!(windows) {
     &["libcarom_c.so", "libcarom_c.a"]
 };
 
-/// Makes the archive, and compiles a program with what it holds.
+/// Makes the archive, and compiles a program with its content.
 pub fn make() -> Outcome {
     cargo(&["build", "--profile", "dist", "--package", "carom-c"])?;
     let archive = Archive::new(format!("carom-c-{VERSION}-{}", host()?))?;
@@ -37,7 +37,8 @@ pub fn make() -> Outcome {
         archive.add(&target_folder().join("dist").join(name), &format!("lib/{name}"))?;
     }
     if cfg!(target_os = "macos") {
-        // Programs look for it by this name: where they are, not where it was built.
+        // Programs find the library by this name relative to themselves, not by the path of its
+        // build.
         let mut command = Command::new("install_name_tool");
         command.args(["-id", "@rpath/libcarom_c.dylib"]);
         finish("install_name_tool", command.arg(archive.place("lib/libcarom_c.dylib")))?;
@@ -57,7 +58,7 @@ pub fn make() -> Outcome {
     try_out(&unpack(&file)?)
 }
 
-/// The guide with links to what is in the archive; of others, the text alone.
+/// Returns the guide with links to files in the archive; other links become plain text.
 fn for_archive(guide: &str) -> String {
     let guide = guide.replace("](../crates/carom-c/", "](");
     let mut text = String::new();
@@ -81,7 +82,7 @@ fn for_archive(guide: &str) -> String {
     text + rest
 }
 
-/// Compiles the smallest program with the shared and with the static library, and runs both.
+/// Compiles the smallest program with the shared and the static library, and runs both.
 fn try_out(folder: &Path) -> Outcome {
     let path = format!("-Wl,-rpath,{}", folder.join("lib").display());
     let shared = ["-Llib", "-lcarom_c", &path];

@@ -1,4 +1,4 @@
-//! The archive of the command `carom`: the program, what shells and `man` read of it, licences.
+//! The archive of the command `carom`: program, shell completions, manual page, licences.
 
 use std::path::Path;
 use std::process::Command;
@@ -9,14 +9,14 @@ use super::versions::VERSION;
 use crate::shell::{Outcome, cargo, finish, host, printed, root, target_folder};
 use crate::{notices, setup};
 
-/// What stands in the archive as it stands in the repository: from where, to where.
+/// Files of the repository that are copied into the archive: source and destination.
 const FILES: [(&str, &str); 4] = [
     ("crates/carom-cli/README.md", "README.md"),
     ("CHANGELOG.md", "CHANGELOG.md"),
     ("LICENSE-APACHE", "LICENSE-APACHE"),
     ("LICENSE-MIT", "LICENSE-MIT"),
 ];
-/// Shells, and the files in which they look for what completes words.
+/// Shells, and the names of their completion files.
 const SHELLS: [(&str, &str); 5] = [
     ("bash", "carom.bash"),
     ("elvish", "carom.elv"),
@@ -25,7 +25,7 @@ const SHELLS: [(&str, &str); 5] = [
     ("zsh", "_carom"),
 ];
 
-/// Makes the archive, and runs the program that it holds.
+/// Makes the archive, and runs the program in it.
 pub fn make() -> Outcome {
     setup::graphics()?;
     cargo(&["build", "--profile", "dist", "--package", "carom-cli"])?;
@@ -47,7 +47,7 @@ pub fn make() -> Outcome {
     try_out(&unpack(&file)?, &program)
 }
 
-/// Runs a scene with the program, and asks it for its version.
+/// Runs a scene with the program, and checks its version.
 fn try_out(folder: &Path, program: &str) -> Outcome {
     let program = folder.join(program);
     files::run_in(folder, "carom", Command::new(&program).args(["run", "simtest1"]))?;

@@ -1,4 +1,4 @@
-//! The crates that registries get: what they say of themselves, and what their packages hold.
+//! The published crates: their metadata, and the content of their packages.
 
 use std::fs;
 
@@ -9,17 +9,17 @@ use crate::member::{Member, all, built_from, in_order_of_publishing};
 use crate::setup;
 use crate::shell::{Outcome, cargo_with, target_folder};
 
-/// What crates.io takes at most \[bytes\].
+/// Largest package that crates.io accepts \[bytes\].
 const LARGEST: u64 = 10 * 1024 * 1024;
-/// Words to find a crate by that crates.io takes at most.
+/// Largest number of keywords that crates.io accepts.
 const KEYWORDS: usize = 5;
-/// What draws: crates that use it take minutes to compile.
+/// The crate that draws; crates that use it take minutes to compile.
 const RENDERER: &str = "carom-render";
-/// What each package holds besides its sources.
+/// Files in each package besides sources.
 const HELD: [&str; 5] =
     ["Cargo.toml", "LICENSE-APACHE", "LICENSE-MIT", "README.md", "Cargo.toml.orig"];
 
-/// Refuses crates that registries would take without a description, and those that have no order.
+/// Checks the metadata of crates that registries would accept without, and that they have an order.
 pub fn check(members: &[Member]) -> Outcome {
     let mut faults = Vec::new();
     for member in in_order_of_publishing(members)? {
@@ -28,7 +28,7 @@ pub fn check(members: &[Member]) -> Outcome {
     if faults.is_empty() { Ok(()) } else { Err(format!("crates:\n{}", faults.join("\n"))) }
 }
 
-/// Packs all crates, and compiles from their packages those that draw nothing, or all.
+/// Packs all crates, and compiles those that do not draw, or all, from their packages.
 pub fn make(verifies_all: bool) -> Outcome {
     let members = all()?;
     let order = in_order_of_publishing(&members)?;
@@ -52,18 +52,18 @@ pub fn make(verifies_all: bool) -> Outcome {
     Ok(())
 }
 
-/// Packs crates together: those that are not in the registry yet find each other.
+/// Packs crates together, so that unpublished ones find each other.
 fn package(members: &[&Member], options: &[&str]) -> Outcome {
     let mut arguments = vec!["package", "--quiet", "--allow-dirty"];
     arguments.extend(options);
     for member in members {
         arguments.extend(["--package", &member.name]);
     }
-    // What is compiled here is thrown away.
+    // The output of this compilation is not kept.
     cargo_with(&arguments, &[("CARGO_PROFILE_DEV_DEBUG", "false")])
 }
 
-/// What a crate does not say of itself.
+/// Returns the missing metadata of a crate.
 fn faults_of(member: &Member) -> Vec<String> {
     let described = &member.described;
     let has_text = |field: &str| described[field].as_str().is_some_and(|text| !text.is_empty());

@@ -1,4 +1,4 @@
-//! The folder of what a release publishes.
+//! The folder of files that a release publishes.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,41 +7,42 @@ use std::process::Command;
 use crate::files::{self, emptied, made, remove, said};
 use crate::shell::{Outcome, finish, printed, succeeds, target_folder};
 
-/// The name of the file of checksums.
+/// Name of the file of checksums.
 pub const CHECKSUMS: &str = "SHA256SUMS";
 
-/// Programs that print checksums as `sha256sum -c` reads them, with their arguments: GNU's, then those of macOS.
+/// Programs, with arguments, that print checksums in the format of `sha256sum -c`: GNU's, then that
+/// of macOS.
 const PROGRAMS: [&[&str]; 2] = [&["sha256sum"], &["shasum", "--algorithm", "256"]];
 
-/// Where archives are left.
+/// Returns the folder of the archives.
 pub fn folder() -> Outcome<PathBuf> {
     made(target_folder().join("release-files"))
 }
 
-/// An empty folder to put an archive together in.
+/// Returns an empty folder to assemble an archive in.
 pub fn staging(name: &str) -> Outcome<PathBuf> {
     emptied(target_folder().join("release-staging").join(name))
 }
 
-/// Removes the archives of before.
+/// Removes earlier archives.
 pub fn clear() -> Outcome {
     remove(&target_folder().join("release-files"))
 }
 
-/// Copies a file, or a folder with all that is in it; what is on the way to it is made.
+/// Copies a file, or a folder with its contents, and makes missing folders.
 pub fn copy(from: &Path, to: &Path) -> Outcome {
     made(to.parent().unwrap_or(to).to_owned())?;
     files::copy(from, to)
 }
 
-/// Puts a file that others made among those of the release.
+/// Copies a file into the folder of the release. Returns its path.
 pub fn publish(file: &Path) -> Outcome<PathBuf> {
     let place = folder()?.join(file.file_name().unwrap_or_default());
     copy(file, &place)?;
     Ok(place)
 }
 
-/// The names of the archives, sorted.
+/// Returns the names of the archives in order.
 pub fn names() -> Outcome<Vec<String>> {
     let folder = folder()?;
     let entries = fs::read_dir(&folder).map_err(|error| said(&folder, &error))?;

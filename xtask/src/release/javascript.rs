@@ -1,4 +1,4 @@
-//! What a release has for browsers and Node.js: the JavaScript package, and the page.
+//! The JavaScript package and the page of a release.
 
 use std::process::Command;
 
@@ -11,12 +11,12 @@ use crate::wasm_toolchain::TARGET;
 use crate::web_tools::folder;
 use crate::{js_package, notices, web};
 
-/// Loads the package that was unpacked, and steps a world.
+/// Loads the unpacked package and steps a world.
 const PROGRAM: &str = "import { World } from './src/index.node.js'; \
                        const world = World.fromScene('tutorial4'); \
                        world.step(); console.log(world.stateHash());";
 
-/// Packs the JavaScript package, and uses what the archive holds.
+/// Packs the JavaScript package, and tries the content of the archive.
 pub fn make_package() -> Outcome {
     let file = files::publish(&js_package::build(Purpose::Use)?)?;
     let wanted = ["package.json", "README.md", "LICENSE-MIT", "src/engine_bg.wasm"];
@@ -27,7 +27,7 @@ pub fn make_package() -> Outcome {
     files::run_in(&package, "node", node.args(["--input-type=module", "--eval", PROGRAM]))
 }
 
-/// Packs the page, for any server of static files.
+/// Packs the page for any server of static files.
 pub fn make_page() -> Outcome {
     web::build()?;
     let archive = Archive::new(format!("carom-page-{VERSION}"))?;

@@ -1,7 +1,7 @@
-//! What a published crate or package refers to: addresses, and files that it holds itself.
+//! Checks links and embedded files of published crates and packages.
 //!
-//! docs.rs shows no files of the repository, registries show READMEs alone, and a package holds what lies in the folder of
-//! its crate.
+//! docs.rs shows no files of the repository, registries show only READMEs, and a package contains
+//! only the folder of its crate.
 
 use std::path::Path;
 
@@ -11,14 +11,14 @@ use crate::member::Member;
 use crate::shell::{Outcome, root};
 use crate::sources::{files_of, read, seen_from_root};
 
-/// READMEs of packages that are no crates.
+/// READMEs of packages that are not crates.
 const READMES: [&str; 2] = ["python/README.md", "web/package/README.md"];
-/// Endings of files that links lead to.
+/// Extensions of files that links may lead to.
 const ENDINGS: [&str; 6] = [".md", ".rs", ".toml", ".png", ".html", ".ipynb"];
-/// Macros that put files into what is compiled.
+/// Macros that embed files into the compiled code.
 const MACROS: [&str; 2] = ["include_str!(", "include_bytes!("];
 
-/// Refuses links and embedded files that are not in the package.
+/// Reports links and embedded files that are not in the package.
 pub fn check(members: &[Member]) -> Outcome {
     let mut faults = Vec::new();
     for member in members.iter().filter(|it| it.is_published) {
@@ -47,7 +47,7 @@ fn fault(file: &Path, (line, what): &(usize, String)) -> String {
     format!("  {}:{line}: {what}", seen_from_root(file).display())
 }
 
-/// The documentation of a source, each line where it was.
+/// Returns the documentation of a source, with lines in their places.
 fn documentation(source: &str) -> String {
     let lines = source.lines().map(|line| {
         let line = line.trim_start();
@@ -56,7 +56,8 @@ fn documentation(source: &str) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// The links of a document to files, with their lines; addresses and names of types are no files.
+/// Returns links of a document to files, with their lines. Addresses and names of types are not
+/// files.
 fn relative_links(text: &str) -> Vec<(usize, String)> {
     let inline = Markdown::parse(text).links.into_iter().map(|link| (link.line, link.text));
     let referred = text.lines().enumerate().filter_map(|(number, line)| {
@@ -73,11 +74,11 @@ fn is_file(link: &str) -> bool {
     !is_address && (path.contains('/') || has_ending || path.starts_with("LICENSE"))
 }
 
-/// The files outside of a folder that a source embeds, with their lines.
+/// Returns embedded files outside of a folder, with their lines.
 fn outside(source: &str, file: &Path, folder: &Path) -> Vec<(usize, String)> {
     let calls = MACROS.iter().flat_map(|name| source.match_indices(*name));
     let found = calls.filter_map(|(at, name)| {
-        // The path, or the beginning of it where it is put together.
+        // The path, or its start if it is composed.
         let path = source[at + name.len()..].split('"').nth(1)?;
         let line = source[..at].matches('\n').count() + 1;
         let is_outside = !normal(&file.parent()?.join(path)).starts_with(folder);

@@ -1,7 +1,7 @@
 //! `cargo xtask release`: makes and checks everything that a release publishes.
 //!
-//! Nothing is published here: archives are left in `target/release-files`, beside their checksums. The parts are
-//! independent of each other, so that other machines make those that differ between systems.
+//! It publishes nothing: archives are written to `target/release-files`, with their checksums. The
+//! parts are independent, so that other machines can make those that differ between systems.
 
 mod archive;
 mod c_library;
@@ -21,24 +21,25 @@ use crate::shell::Outcome;
 use crate::wasm::Purpose;
 use crate::web;
 
-/// A part of a release, which can be made alone.
+/// A part of a release, which can be made by itself.
 struct Part {
     name: &'static str,
     make: fn(Options) -> Outcome,
 }
 
-/// How the parts are made.
+/// Options for all parts.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 struct Options {
-    /// Compiles every crate from its package, and the wheel from the source distribution; without, what draws is packed
-    /// and not compiled once more.
+    /// Whether every crate is compiled from its package, and the wheel from the source
+    /// distribution. Otherwise crates that draw are only packed.
     is_full: bool,
-    /// Takes the viewer for notebooks that lies in the Python package: another machine made it.
+    /// Whether the viewer for notebooks in the Python package is kept, because another machine has
+    /// built it.
     keeps_viewer: bool,
 }
 
 impl Options {
-    /// Puts the viewer for notebooks into the Python package, unless it is there, before that is built.
+    /// Builds the viewer for notebooks into the Python package if needed, then calls `make`.
     fn with_viewer(self, make: impl FnOnce() -> Outcome) -> Outcome {
         if !self.keeps_viewer {
             web::build_for_notebooks(Purpose::Use)?;
@@ -61,7 +62,8 @@ const PARTS: [Part; 7] = [
     Part { name: "wheel", make: |options| options.with_viewer(wheel::make) },
 ];
 
-/// Makes the parts that `words` of the command line name, all without, and prints the table of the archives.
+/// Makes the parts named in `words` of the command line, by default all, and prints the table of
+/// the archives.
 pub fn dry_run(words: &[&str]) -> Outcome {
     let (parts, options) = chosen(words)?;
     check()?;
@@ -76,7 +78,7 @@ pub fn dry_run(words: &[&str]) -> Outcome {
     table::print()
 }
 
-/// Checks what needs no build: versions, what crates say of themselves, links that lead out of a package.
+/// Checks what needs no build: versions, metadata of crates, links that lead out of a package.
 pub fn check() -> Outcome {
     let members = member::all()?;
     versions::check(&members)?;
@@ -84,14 +86,14 @@ pub fn check() -> Outcome {
     links::check(&members)
 }
 
-/// Refuses to publish what is not complete; `tag` is the name of the release in Git.
+/// Fails if the release is not ready to be published; `tag` is its name in Git.
 pub fn check_readiness(tag: &str) -> Outcome {
     check()?;
     let open = readiness::open_points(Some(tag))?;
     if open.is_empty() { Ok(()) } else { Err(format!("before a release:\n{}", open.join("\n"))) }
 }
 
-/// The parts that words of the command line name, and how they are made.
+/// Returns the parts and options named in words of the command line.
 fn chosen(words: &[&str]) -> Outcome<(Vec<&'static Part>, Options)> {
     let (mut parts, mut options) = (Vec::new(), Options::default());
     let mut words = words.iter();
@@ -109,7 +111,7 @@ fn chosen(words: &[&str]) -> Outcome<(Vec<&'static Part>, Options)> {
     Ok((parts, options))
 }
 
-/// The part of a name.
+/// Returns the part with this name.
 fn part(name: &str) -> Outcome<&'static Part> {
     PARTS.iter().find(|part| part.name == name).ok_or_else(|| {
         let names: Vec<&str> = PARTS.iter().map(|part| part.name).collect();

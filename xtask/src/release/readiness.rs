@@ -1,16 +1,16 @@
-//! What has to be done before a release is published, and not before it is tried.
+//! Requirements for publishing a release, which a dry run does not need.
 
 use super::versions::{VERSION, is_in_changelog};
 use crate::documents;
 use crate::member;
 use crate::shell::Outcome;
 
-/// An address that leads nowhere ends so.
+/// The host of an address that leads nowhere ends in this.
 const RESERVED: &str = ".example";
-/// Files that users read away from the repository, and that name its address.
+/// Files that users read away from the repository, and that contain its address.
 const NAME_THE_ADDRESS: [&str; 3] = ["CITATION.cff", "pyproject.toml", "web/package/package.json"];
 
-/// What is left to be done. `tag` is the name of the release in Git, where it has one.
+/// Returns what is missing. `tag` is the name of the release in Git, if it has one.
 pub fn open_points(tag: Option<&str>) -> Outcome<Vec<String>> {
     let mut open = Vec::new();
     if let Some(tag) = tag.filter(|tag| *tag != format!("v{VERSION}")) {
@@ -32,7 +32,7 @@ pub fn open_points(tag: Option<&str>) -> Outcome<Vec<String>> {
     Ok(open)
 }
 
-/// The address of the repository.
+/// Returns the address of the repository.
 fn address() -> Outcome<String> {
     let engine = member::all()?.into_iter().find(|it| it.name == "carom");
     let address = engine.and_then(|it| Some(it.described["repository"].as_str()?.to_owned()));

@@ -11,7 +11,7 @@ use crate::shell::{Outcome, cargo_program, printed, root};
 
 /// The crate that the Python package is built from.
 const ENGINE: &str = "carom-py";
-/// What the distribution holds besides crates.
+/// Files of the distribution besides crates.
 const HELD: [&str; 8] = [
     "Cargo.lock",
     "Cargo.toml",
@@ -22,10 +22,11 @@ const HELD: [&str; 8] = [
     "python/README.md",
     "python/carom/__init__.py",
 ];
-/// What cargo adds to a package of a crate.
+/// Files that cargo adds to a package of a crate.
 const ADDED: [&str; 3] = [".cargo_vcs_info.json", "Cargo.lock", "Cargo.toml.orig"];
 
-/// Makes it, and checks that it holds what it is built from; builds a wheel of it where `builds` says so.
+/// Makes the distribution and checks that it is complete. Builds a wheel from it if `builds` is
+/// true.
 pub fn make(builds: bool) -> Outcome {
     let environment = Environment::new("python/release")?;
     environment.pip(&["install", "maturin"])?;
@@ -43,7 +44,7 @@ pub fn make(builds: bool) -> Outcome {
     Ok(())
 }
 
-/// Refuses a distribution that lacks a file of a crate that it is built from.
+/// Fails if a distribution lacks a file of a crate that it is built from.
 fn check(file: &Path) -> Outcome {
     archive::demand(file, &HELD)?;
     let names = archive::names_in(file)?;
@@ -61,7 +62,7 @@ fn check(file: &Path) -> Outcome {
     Ok(())
 }
 
-/// Has cargo read every manifest of what was unpacked, and find all that they name.
+/// Lets cargo resolve the unpacked manifests, which fails if a dependency is missing.
 fn resolve(folder: &Path) -> Outcome {
     let mut command = Command::new(cargo_program());
     command.args(["metadata", "--format-version", "1", "--quiet", "--manifest-path"]);
@@ -69,7 +70,7 @@ fn resolve(folder: &Path) -> Outcome {
     files::run_in(folder, "cargo", command.stdout(Stdio::null()))
 }
 
-/// The files of a crate that its package holds.
+/// Returns the files in the package of a crate.
 fn packaged(member: &Member) -> Outcome<Vec<String>> {
     let mut command = Command::new(cargo_program());
     command.args(["package", "--list", "--quiet", "--allow-dirty", "--package", &member.name]);

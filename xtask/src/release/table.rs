@@ -1,4 +1,4 @@
-//! The table of a release: its archives with their sizes, the order of its crates, what is left to be done.
+//! The table of a release: archives with sizes, order of crates, and open requirements.
 
 use std::fs;
 
@@ -6,7 +6,7 @@ use super::{files, readiness};
 use crate::member;
 use crate::shell::Outcome;
 
-/// Prints it.
+/// Prints the table.
 pub fn print() -> Outcome {
     let folder = files::folder()?;
     println!("\n{:>11}  {}", "bytes", folder.display());
@@ -26,7 +26,7 @@ pub fn print() -> Outcome {
     Ok(())
 }
 
-/// A number with a comma after each three digits.
+/// Formats a number with a comma before every three digits.
 fn grouped(number: u64) -> String {
     let digits = number.to_string();
     let starts_group = |place: usize| place > 0 && (digits.len() - place).is_multiple_of(3);

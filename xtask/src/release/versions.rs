@@ -1,4 +1,4 @@
-//! One version everywhere: crates, Python package, JavaScript package, citation.
+//! Checks that crates, Python package, JavaScript package and citation have the same version.
 
 use crate::documents;
 use crate::member::Member;
@@ -7,11 +7,11 @@ use crate::shell::Outcome;
 /// The version of this release.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// Files with a line that bears the version: what stands before it, and after it.
+/// Files with a line that contains the version: the text before it, and after it.
 const LINES: [(&str, &str, &str); 2] =
     [("web/package/package.json", "  \"version\": \"", "\","), ("CITATION.cff", "version: ", "")];
 
-/// Refuses versions that differ.
+/// Reports versions that differ.
 pub fn check(members: &[Member]) -> Outcome {
     let mut faults: Vec<String> = members.iter().flat_map(faults_of).collect();
     for (file, before, after) in LINES {
@@ -26,7 +26,7 @@ pub fn check(members: &[Member]) -> Outcome {
     if faults.is_empty() { Ok(()) } else { Err(format!("versions:\n{}", faults.join("\n"))) }
 }
 
-/// Whether the changes of a version have a heading of their own.
+/// Returns whether the changelog has a heading for a version.
 pub fn is_in_changelog(text: &str, version: &str) -> bool {
     text.lines().filter_map(|line| line.strip_prefix("## ")).any(|heading| {
         heading.split(|letter: char| " [],(".contains(letter)).any(|word| word == version)
@@ -48,7 +48,7 @@ fn faults_of(member: &Member) -> Vec<String> {
     faults
 }
 
-/// Whether a `pyproject.toml` leaves the version to the crate.
+/// Returns whether a `pyproject.toml` takes the version from the crate.
 fn takes_version_of_crate(text: &str) -> bool {
     let project = text.split("\n[project]\n").nth(1).unwrap_or_default();
     let project = project.split("\n[").next().unwrap_or_default();

@@ -7,17 +7,17 @@ use crate::notices;
 use crate::python::Environment;
 use crate::shell::{Outcome, host, root, target_folder};
 
-/// What the name of every wheel says: which versions of Python take it.
+/// Part of the name of every wheel that states the supported versions of Python.
 const VERSIONS_OF_PYTHON: &str = "-cp310-abi3-";
-/// Runs a scene with the package that was installed, and prints its version.
+/// Runs a scene with the installed package and prints its version.
 const PROGRAM: &str = "import importlib.metadata, carom; \
                        carom.load('simtest1').run(seconds=1); \
                        print(importlib.metadata.version('carom'))";
 
-/// Makes the wheel, and uses it in a clean environment.
+/// Makes the wheel, and tries it in a clean environment.
 ///
-/// On Linux, maturin refuses libraries that not every distribution has, and names the oldest C library that the wheel takes
-/// (`manylinux_2_35`: glibc 2.35).
+/// On Linux, maturin refuses libraries that some distributions lack, and puts the oldest supported
+/// C library into the name of the wheel (`manylinux_2_35`: glibc 2.35).
 pub fn make() -> Outcome {
     let environment = Environment::new("python/release")?;
     environment.pip(&["install", "maturin"])?;

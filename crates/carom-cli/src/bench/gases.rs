@@ -22,7 +22,7 @@ struct Published {
     /// Millions of impacts per second: Smallenburg, "Efficient event-driven simulations of hard
     /// spheres", Eur. Phys. J. E 45, 22 (2022).
     rate: f64,
-    /// Whether only a benchmark of everything measures it.
+    /// Whether only `--full` measures it.
     is_large: bool,
 }
 
@@ -44,37 +44,37 @@ const fn published(count: usize, packing_fraction: f64, rate: f64) -> Published 
 pub const NOTE: &str =
     "published: Smallenburg, Eur. Phys. J. E 45, 22 (2022), one core of another machine";
 
-/// Impacts in a run: enough for a second, and for every sphere to take part.
+/// Fewest impacts in a run: enough for about a second, and for every sphere to take part.
 const FEWEST_IMPACTS: u64 = 200_000;
 
-/// Collisions of a sphere in a frame: to write where all spheres are costs little then.
+/// Collisions per sphere in a frame: enough that writing the state of all spheres costs little.
 const COLLISIONS_PER_FRAME: f64 = 1.0;
 
-/// Impacts in a frame, at most: more would make its report a large part of the memory measured.
+/// Most impacts in a frame: the report of more would be a large part of the measured memory.
 const MOST_IMPACTS_OF_A_FRAME: f64 = 125_000.0;
 
-/// How fast a gas is.
+/// Speed of a gas.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct GasRow {
     spheres: usize,
     packing_fraction: f64,
-    /// In each run.
+    /// Impacts in each run.
     impacts: u64,
     /// The rate of each run \[1/s\].
     runs: Vec<f64>,
-    /// Their median \[1/s\].
+    /// Median of the rates \[1/s\].
     impacts_per_second: f64,
-    /// \[1/s\], where there is a figure.
+    /// Published rate \[1/s\], if there is one.
     published: Option<f64>,
     ratio: Option<f64>,
-    /// Growth of the largest memory held, where the system tells it.
+    /// Growth of the peak memory per sphere, if the system reports it.
     bytes_per_sphere: Option<f64>,
-    /// Over all runs.
+    /// Work per impact over all runs.
     work_per_impact: Option<StageWork<f64>>,
 }
 
-/// Measures the gases of the set, each in a process of its own: so that each has its own largest
-/// memory, and none the heap that another one left.
+/// Measures each gas of the set in a process of its own, so that peak memory and heap are not
+/// affected by another gas.
 pub fn measure_set(args: &Bench) -> Result<Vec<GasRow>, Failure> {
     SET.iter().filter(|it| args.full || !it.is_large).map(|it| measure_apart(it, args)).collect()
 }
@@ -103,7 +103,7 @@ fn measure_apart(published: &Published, args: &Bench) -> Result<GasRow, Failure>
     Ok(GasRow { published: Some(1e6 * rate), ratio: Some(ratio), ..row })
 }
 
-/// What of the figures of a process comes back.
+/// The part of a process's output that is read back.
 #[derive(Deserialize)]
 struct Apart {
     gases: Vec<GasRow>,
@@ -119,7 +119,7 @@ pub fn measure(filling: Filling, args: &Bench) -> Result<GasRow, Failure> {
         )));
     }
     let memory_before = machine::peak_memory();
-    // Each impact is a collision of two spheres.
+    // Each impact is a collision for two spheres.
     let longest = 2.0 * MOST_IMPACTS_OF_A_FRAME / filling.count as f64;
     let h = filling.time_of(COLLISIONS_PER_FRAME.min(longest));
     let mut world = gas::gas(filling, Speeds::Equilibrium, Rule::default(), 1)?;
@@ -143,14 +143,14 @@ pub fn measure(filling: Filling, args: &Bench) -> Result<GasRow, Failure> {
     })
 }
 
-/// What happened in all runs.
+/// Totals over all runs.
 #[derive(Default)]
 struct Counted {
     impacts: u64,
     work: StageCounts,
 }
 
-/// Impacts per second over at least this many.
+/// Measures impacts per second over at least `impacts` impacts.
 fn rate(
     world: &mut World,
     h: f64,

@@ -1,5 +1,5 @@
-//! Heaps under the rule `contact`, and in stepped zones of `exact`: how long a frame takes, how deep balls
-//! overlap, and whether they come to rest.
+//! Heaps under the rule `contact`, and in stepped zones of `exact`: time per frame, depth of
+//! overlaps, and whether balls come to rest.
 
 use std::time::Instant;
 
@@ -20,17 +20,17 @@ const FRAMES: u32 = 600;
 const RADIUS: f64 = 0.5;
 /// Distance of balls in a pile \[m\].
 const SPACING: f64 = 1.05;
-/// The balls that rain onto a sphere, and that sphere \[m\].
+/// Radius of the balls that fall onto a fixed sphere, and of that sphere \[m\].
 const DROP_RADIUS: f64 = 0.15;
 const TARGET_RADIUS: f64 = 10.0;
-/// Distance of these balls, across and up \[m\].
+/// Distance of these balls, horizontally and vertically \[m\].
 const DROP_SPACING: [f64; 2] = [0.57, 0.8];
 
 pub const NOTE: &str = "pile: balls of radius 0.5 m on a lattice fall into a box; rain: balls of radius 0.15 m \
                         fall onto a fixed sphere of 10 m; 600 frames of 1/60 s, e = 0; overlap as a part \
                         of the radius at the end and at worst";
 
-/// What is measured.
+/// A heap to measure.
 #[derive(Debug, Clone, Copy)]
 struct Heap {
     rule: Rule,
@@ -39,7 +39,7 @@ struct Heap {
     friction: f64,
 }
 
-/// What balls fall onto.
+/// Surface onto which balls fall.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 enum Kind {
@@ -49,37 +49,37 @@ enum Kind {
     Rain,
 }
 
-/// What came out of a heap.
+/// Results of a heap.
 #[derive(Debug, Clone, Serialize)]
 pub struct HeapRow {
     rule: Rule,
     kind: Kind,
     balls: usize,
     friction: f64,
-    /// Milliseconds for a frame, of each run on one thread.
+    /// Mean time per frame of each run on one thread \[ms\].
     runs: Vec<f64>,
-    /// Their median \[ms\].
+    /// Median of the runs \[ms\].
     frame_milliseconds: f64,
     /// Threads of [`Self::threads_frame_milliseconds`].
     threads: usize,
-    /// Milliseconds for a frame with all threads, the median of as many runs.
+    /// Time per frame on all threads, the median of the same number of runs \[ms\].
     threads_frame_milliseconds: f64,
-    /// Milliseconds for a frame among the last hundred.
+    /// Time per frame in the last hundred frames \[ms\].
     last_milliseconds: f64,
-    /// Milliseconds for the frame that took longest \[ms\].
+    /// Longest time of a frame \[ms\].
     longest_milliseconds: f64,
-    /// Largest overlap at the end, as a part of the radius.
+    /// Largest overlap at the end, as a fraction of the radius.
     overlap: f64,
-    /// Largest overlap in any sub-step, as a part of the radius.
+    /// Largest overlap in any sub-step, as a fraction of the radius.
     worst_overlap: f64,
-    /// Root of the mean square of the speeds at the end \[m/s\].
+    /// Root mean square of the speeds at the end \[m/s\].
     rms_speed: f64,
-    /// Balls that sleep at the end.
+    /// Number of sleeping balls at the end.
     asleep: u32,
     state: String,
 }
 
-/// Measures the heaps of the set, each on one thread and on all; the largest only where `full`.
+/// Measures each heap of the set on one thread and on all; the largest heap only if `full`.
 pub fn measure_set(runs: u32, full: bool) -> Result<Vec<HeapRow>, Failure> {
     let pile = |count, friction| Heap { rule: Rule::Contact, kind: Kind::Pile, count, friction };
     let smooth = [2_000, 10_000].map(|count| pile(count, 0.0));
@@ -120,7 +120,7 @@ fn run(heap: Heap) -> Result<HeapRow, Error> {
         let began = Instant::now();
         let report = world.step(FRAME)?;
         times.push(1e3 * began.elapsed().as_secs_f64());
-        // Of the sum of two radii.
+        // The report states overlaps as a fraction of the sum of two radii.
         worst = worst.max(2.0 * report.contact_account.largest_overlap);
     }
     let spheres = world.spheres();
@@ -169,7 +169,8 @@ impl Heap {
         Ok(world)
     }
 
-    /// Balls on a lattice, each second layer shifted by a tenth of a radius, over an open box.
+    /// Adds balls on a lattice above an open box; every second layer is shifted by a tenth of a
+    /// radius.
     fn add_pile(self, world: &mut World) -> Result<(), Error> {
         let side = (0.8 * libm::cbrt(self.count as f64) - 1e-9).ceil() as usize;
         let width = side as f64 * SPACING;
@@ -198,7 +199,7 @@ impl Heap {
         Ok(())
     }
 
-    /// Balls on a lattice as in `tutorial4`, only more of them, above a larger fixed sphere.
+    /// Adds balls on a lattice above a larger fixed sphere, like `tutorial4` with more balls.
     fn add_rain(self, world: &mut World) -> Result<(), Error> {
         let ball = Shape::Sphere { radius: TARGET_RADIUS };
         world.add_collider(Collider::new(ball, Pose::at(DVec3::ZERO)))?;

@@ -1,6 +1,6 @@
-//! The median, which one odd run does not move.
+//! Median of measurements, which a single outlier does not change.
 
-/// The median of some figures; of an even number of them, the lower one of the middle.
+/// Returns the median; for an even number of figures, the lower of the two in the middle.
 pub fn median(mut figures: Vec<f64>) -> f64 {
     figures.sort_by(f64::total_cmp);
     figures.get((figures.len().max(1) - 1) / 2).copied().unwrap_or(f64::NAN)

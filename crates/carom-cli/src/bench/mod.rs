@@ -1,4 +1,4 @@
-//! The command `bench`: how fast gases, heaps and scenes run.
+//! The command `bench`: measures the speed of gases, heaps and scenes.
 
 mod gases;
 mod heaps;
@@ -19,7 +19,7 @@ use gases::GasRow;
 use heaps::HeapRow;
 use scenes::SceneRow;
 
-/// Measures, and prints what came out: all on one thread, and heaps on all threads, too.
+/// Measures everything on one thread, and heaps also on all threads; prints the results.
 pub fn bench(args: &Bench) -> Result<(), Failure> {
     let figures = threads::on(1, || measure(args))?;
     Ok(figures.print(args.json)?)
@@ -50,7 +50,7 @@ fn measure(args: &Bench) -> Result<Figures, Failure> {
     Ok(figures)
 }
 
-/// All that was measured, and where.
+/// All measurements, and the machine.
 #[derive(Debug, Serialize)]
 struct Figures {
     machine: Machine,

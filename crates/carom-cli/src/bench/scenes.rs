@@ -23,10 +23,10 @@ const SET: [&str; 8] = [
     "simtest6",
 ];
 
-/// How long a measurement takes at least: short scenes are run again and again.
+/// Shortest duration of a measurement: short scenes are repeated.
 const SHORTEST: Duration = Duration::from_millis(200);
 
-/// How fast a scene is.
+/// Speed of a scene.
 #[derive(Debug, Clone, Serialize)]
 pub struct SceneRow {
     scene: String,
@@ -37,7 +37,7 @@ pub struct SceneRow {
     work_per_impact: Option<StageWork<f64>>,
     /// The rate of each run \[1/s\].
     runs: Vec<f64>,
-    /// Their median \[1/s\].
+    /// Median of the rates \[1/s\].
     sphere_frames_per_second: f64,
 }
 
@@ -65,14 +65,14 @@ fn measure(name: &str, runs: u32) -> Result<SceneRow, Failure> {
     })
 }
 
-/// A scene, run once or more often.
+/// Repeated runs of a scene.
 #[derive(Clone, Copy, Default)]
 struct Passage {
-    /// Of the scene once.
+    /// Frames in one run of the scene.
     frames: u64,
     impacts: u64,
     work: StageCounts,
-    /// Sphere-frames per second of all.
+    /// Sphere-frames per second over all runs.
     rate: f64,
 }
 

@@ -1,16 +1,16 @@
-//! Columns of a table that tell the work of an impact.
+//! Table columns with the work per impact.
 
 use crate::stage_work::StageWork;
 use crate::table::Side;
 
-/// Names of the columns: the stages that take most of the time where spheres meet one by one.
+/// Names of the columns: the stages that take most time if spheres collide in pairs.
 pub const NAMES: [(&str, Side); 3] = [
     ("predictions/impact", Side::Right),
     ("pair tests/impact", Side::Right),
     ("cell crossings/impact", Side::Right),
 ];
 
-/// The texts of a row, one for each column.
+/// Texts of a row, one per column.
 pub fn texts(work: Option<StageWork<f64>>) -> [String; NAMES.len()] {
     let counts = |work: StageWork<f64>| [work.predictions, work.pair_tests, work.cell_crossings];
     match work.map(counts) {

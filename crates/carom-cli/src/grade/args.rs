@@ -1,4 +1,4 @@
-//! What `carom grade` is given.
+//! Arguments of `carom grade`.
 
 use std::path::PathBuf;
 
@@ -19,16 +19,17 @@ pub struct Grade {
     /// The scene: name, title or file; without it, the scene whose name is in the name of the run's file.
     #[arg(long)]
     pub scene: Option<String>,
-    /// What is different in the scene.
+    /// Overrides of the scene.
     #[command(flatten)]
     pub changes: Changes,
-    /// How the files are read.
+    /// Format of the files.
     #[command(flatten)]
     pub format: Format,
-    /// How far a place may be off, in m, besides what rounding in single precision does.
+    /// Tolerance of positions, in m, in addition to rounding in single precision.
     #[arg(long, value_name = "M", default_value_t = TOLERANCE, value_parser = positive)]
     pub tolerance: f64,
-    /// Write a page about the run; of several runs, or where this is a folder, a page each into this folder.
+    /// Write a page about the run; for several runs, or if this is a folder, a page for each run
+    /// into the folder.
     #[arg(long, value_name = "PATH")]
     pub report: Option<PathBuf>,
     /// Write a row for each run to a .csv file.
@@ -47,13 +48,13 @@ pub struct Grade {
         conflicts_with = "runs"
     )]
     pub plant: Vec<String>,
-    /// Where --plant writes; `-` is the standard output.
+    /// File of --plant; `-` is the standard output.
     #[arg(long, short, value_name = "PATH", default_value = "-")]
     pub out: PathBuf,
-    /// How long the run of --plant is, instead of the scene's own duration.
+    /// Length of the run of --plant, instead of the scene's own duration.
     #[arg(long, short, value_name = "S", value_parser = positive, requires = "plant")]
     pub seconds: Option<f64>,
-    /// Whether files that are there are replaced.
+    /// Whether existing files are replaced.
     #[command(flatten)]
     pub replacing: Replacing,
     /// Print JSON instead of text.
@@ -105,7 +106,7 @@ fn columns(text: &str) -> Result<Columns, String> {
 }
 
 impl Format {
-    /// How to read a run in frames of this length \[s\].
+    /// Describes how to read a run with frames of this length \[s\].
     pub fn reading(&self, frame_time: f64) -> Reading {
         let length_unit = match self.length_unit {
             LengthUnit::M => 1.0,

@@ -1,4 +1,4 @@
-//! The command `grade`: recorded runs of students against the course's rule.
+//! The command `grade`: compares recorded runs of students with the course's rule.
 
 mod args;
 mod planted;
@@ -23,7 +23,7 @@ use row::Row;
 use crate::failure::{Failure, complain, legible};
 use crate::table::{Side, Table};
 
-/// Grades runs, or lists the known mistakes, or writes a run that has some.
+/// Grades runs, lists the known mistakes, or writes a run that contains some.
 pub fn grade(library: &Library, args: &Grade) -> Result<(), Failure> {
     if args.mistakes {
         return planted::list(args.json);
@@ -60,11 +60,12 @@ pub fn grade(library: &Library, args: &Grade) -> Result<(), Failure> {
     if rows.iter().all(is_same) { Ok(()) } else { Err(Failure::Differs) }
 }
 
-/// One grader for each scene: runs of the rule and of the mistakes serve all files.
+/// One grader per scene, so that runs of the rule and of the mistakes are computed once for all
+/// files.
 struct Graders<'a> {
     library: &'a Library,
     args: &'a Grade,
-    /// Of scenes, where the files are to say which.
+    /// Names of scenes, if the names of files select the scene.
     names: Vec<String>,
     of_scene: BTreeMap<String, Grader>,
 }
@@ -93,14 +94,14 @@ fn grader(library: &Library, args: &Grade, scene: Option<&str>) -> Result<Grader
     Ok(Grader::new(Course::of(&scene).map_err(refused)?, args.tolerance))
 }
 
-/// Names of all scenes, long ones first.
+/// Names of all scenes, the longest first.
 fn names(library: &Library) -> Result<Vec<String>, Failure> {
     let mut names: Vec<String> = library.entries()?.into_iter().map(|entry| entry.name).collect();
     names.sort_by_key(|name| std::cmp::Reverse(name.len()));
     Ok(names)
 }
 
-/// The scene whose name is in the name of a file; of several, that of the longest name.
+/// Finds the scene whose name is part of the name of a file; the longest name counts.
 fn named_in<'a>(names: &'a [String], run: &Path) -> Result<&'a str, Failure> {
     let stem = run.file_stem().unwrap_or_default().to_string_lossy().to_lowercase();
     let found = names.iter().find(|name| stem.contains(&name.to_lowercase()));
@@ -111,15 +112,15 @@ fn named_in<'a>(names: &'a [String], run: &Path) -> Result<&'a str, Failure> {
     })
 }
 
-/// Where pages are written.
+/// Target of the report pages.
 struct Reports<'a> {
     path: Option<&'a Path>,
-    /// Whether it is a folder with a page for each run.
+    /// Whether `path` is a folder with a page for each run.
     is_folder: bool,
 }
 
 impl<'a> Reports<'a> {
-    /// Refuses pages that are there already.
+    /// Refuses to replace existing pages.
     fn of(args: &'a Grade) -> Result<Self, Failure> {
         let path = args.report.as_deref();
         let is_folder = args.runs.len() > 1 || path.is_some_and(Path::is_dir);

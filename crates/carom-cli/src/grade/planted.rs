@@ -1,4 +1,4 @@
-//! The known mistakes, and runs that have some.
+//! Lists the known mistakes, and writes runs that contain some.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
@@ -12,7 +12,7 @@ use super::args::Grade;
 use super::refusal::{refused, unwritable};
 use crate::failure::Failure;
 
-/// A mistake as `--mistakes --json` prints it.
+/// A mistake in the output of `--mistakes --json`.
 #[derive(Serialize)]
 struct Listed {
     name: &'static str,
@@ -41,7 +41,7 @@ pub fn list(json: bool) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Writes a run with the mistakes that the arguments name.
+/// Writes a run with the mistakes named by the arguments.
 pub fn write(grader: &Grader, args: &Grade) -> Result<(), Failure> {
     let named = args.plant.iter().filter(|name| *name != "none");
     let mistakes: Result<Mistakes, _> = named.map(|name| Mistake::named(name)).collect();

@@ -1,4 +1,4 @@
-//! Why runs are not graded, and files not written.
+//! Converts errors of grading and of writing files.
 
 use std::io;
 use std::path::Path;
@@ -7,7 +7,7 @@ use carom_grade::GradeError;
 
 use crate::failure::Failure;
 
-/// Why a run is not graded.
+/// Converts an error of grading.
 pub fn refused(error: GradeError) -> Failure {
     match error {
         GradeError::Scene(error) => error.into(),
@@ -15,7 +15,7 @@ pub fn refused(error: GradeError) -> Failure {
     }
 }
 
-/// Why a file is not written.
+/// Converts an error of writing a file.
 pub fn unwritable(path: &Path, error: &io::Error) -> Failure {
     Failure::Fault(format!("cannot write {}: {error}", path.display()))
 }

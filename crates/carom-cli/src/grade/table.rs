@@ -1,4 +1,4 @@
-//! A row for each run.
+//! Table with a row for each run.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use super::refusal::unwritable;
 use super::row::Row;
 use crate::failure::Failure;
 
-/// Names of the columns of the file.
+/// Columns of the file.
 const COLUMNS: [&str; 16] = [
     "run",
     "scene",
@@ -67,7 +67,7 @@ fn record(row: &Row) -> [String; COLUMNS.len()] {
     ]
 }
 
-/// What the printed table shows of a run.
+/// Cells of a run in the printed table.
 pub fn cells(row: &Row) -> [String; 7] {
     let verdict = row.verdict.as_ref();
     let departure = verdict.and_then(|it| it.departure.as_ref());

@@ -1,4 +1,4 @@
-//! The command lines of what draws.
+//! Arguments of the commands that draw.
 
 use std::path::PathBuf;
 
@@ -32,7 +32,7 @@ pub struct Look {
 /// Draw a scene.
 #[derive(Debug, clap::Args)]
 pub struct Picture {
-    /// Which scene.
+    /// The scene.
     #[command(flatten)]
     pub choice: Choice,
     /// Step rule, instead of the scene's own.
@@ -40,16 +40,16 @@ pub struct Picture {
     pub rule: Option<String>,
     /// When: the frame of the scene nearest to this time. The start, unless given.
     #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = not_negative)]
-    // What other commands call their times.
+    // The names that other commands use for times.
     #[arg(allow_negative_numbers = true, aliases = ["seconds", "time"])]
     pub at: f64,
-    /// How it is seen.
+    /// Camera, size and quality.
     #[command(flatten)]
     pub look: Look,
     /// The picture, .png.
     #[arg(long, short, value_name = "PATH")]
     pub out: PathBuf,
-    /// Whether a file that is there is replaced.
+    /// Whether an existing file is replaced.
     #[command(flatten)]
     pub replacing: Replacing,
 }
@@ -60,7 +60,7 @@ pub struct Record {
     /// Name or title of a scene, or a scene file; with --play also a drawn maze, .txt.
     #[arg(required_unless_present = "all")]
     pub scene: Option<String>,
-    /// What is different.
+    /// Overrides of the scene.
     #[command(flatten)]
     pub changes: Changes,
     /// Step rule, instead of the scene's own.
@@ -73,11 +73,11 @@ pub struct Record {
     /// Frames per second: 24, 25, 30, 50, 60, 120 or another divisor of 90,000 up to 240.
     #[arg(long, default_value_t = 30)]
     pub fps: u32,
-    /// How it is seen.
+    /// Camera, size and quality.
     #[command(flatten)]
     pub look: Look,
     /// Film a recorded run of this scene: a table that `carom run --out` wrote, .csv. Between its
-    /// frames, balls are shown on the curve that their places and velocities tell.
+    /// frames, balls move on curves given by their positions and velocities.
     #[arg(long, value_name = "CSV")]
     pub from: Option<PathBuf>,
     /// Film the maze game in this scene: a player tilts the maze, collects everything within
@@ -91,7 +91,7 @@ pub struct Record {
     /// The film, .mp4; with --all, a folder.
     #[arg(long, short, value_name = "PATH")]
     pub out: PathBuf,
-    /// Whether files that are there are replaced.
+    /// Whether existing files are replaced.
     #[command(flatten)]
     pub replacing: Replacing,
 }
@@ -114,7 +114,7 @@ pub struct Maze {
     pub print: bool,
 }
 
-/// Two whole numbers with an x in between.
+/// Parses two whole numbers with an x between them.
 fn pair<T: std::str::FromStr>(text: &str) -> Option<[T; 2]> {
     let (first, second) = text.split_once(['x', 'X'])?;
     Some([first.trim().parse().ok()?, second.trim().parse().ok()?])

@@ -1,4 +1,4 @@
-//! Draws a running world, its spheres and springs from there or from elsewhere.
+//! Draws a running world.
 
 use carom::{SphereId, Spring};
 use carom_render::{Ball, Drawing, Light, spring_line};
@@ -6,8 +6,8 @@ use carom_scene::{Palette, Scene};
 
 use super::running::{Running, Seen};
 
-/// Draws these spheres, in the order of their numbers, with these springs, and the surfaces of a world at a time
-/// \[s\] up to which it has gone.
+/// Draws these spheres, by number, with these springs, and the colliders of a running world at
+/// `time` \[s\], which it must have reached.
 pub fn draw(
     scene: &Scene,
     running: &Running,

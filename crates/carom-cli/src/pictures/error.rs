@@ -1,4 +1,4 @@
-//! Why a picture or a film cannot be taken.
+//! Errors of pictures and films.
 
 use carom_maze::GameError;
 use carom_render::{FilmError, GpuError, PictureError};
@@ -6,23 +6,23 @@ use carom_scene::SceneError;
 use carom_scene::recording::ReplayError;
 use thiserror::Error;
 
-/// Why a picture or a film cannot be taken.
+/// Why a picture or a film cannot be made.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ShootError {
-    /// The scene makes no sense.
+    /// The scene is invalid.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// A step that cannot be taken.
+    /// A step failed.
     #[error(transparent)]
     Physics(#[from] carom::Error),
     /// The recording cannot be played.
     #[error(transparent)]
     Replay(#[from] ReplayError),
-    /// The game cannot go on.
+    /// The game cannot continue.
     #[error(transparent)]
     Game(#[from] GameError),
-    /// Nothing can be drawn.
+    /// The graphics device failed.
     #[error(transparent)]
     Graphics(#[from] GpuError),
     /// The picture cannot be written.

@@ -1,4 +1,4 @@
-//! How what draws fails.
+//! Converts errors of drawing.
 
 use carom_maze::{GameError, MazeError, PlanError};
 use carom_render::{FilmError, GpuError, PictureError};

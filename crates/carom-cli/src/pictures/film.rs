@@ -1,4 +1,4 @@
-//! A film: footage, frame by frame.
+//! Records a film frame by frame.
 
 use std::path::Path;
 
@@ -8,33 +8,33 @@ use super::error::ShootError;
 use super::footage::Footage;
 use super::studio::Studio;
 
-/// A film that is to be made.
+/// File and rate of a film to record.
 pub struct Order<'a> {
-    /// Where it goes.
+    /// File of the film.
     pub path: &'a Path,
-    /// Its frames per second.
+    /// Frames per second.
     pub fps: u32,
 }
 
-/// A film that is being made.
+/// A film that is being recorded.
 ///
-/// Dropped before [`Self::finish`], what was filmed until then is a film, too.
+/// If it is dropped before [`Self::finish`], the frames recorded so far are kept as a film.
 pub struct Filming<'a> {
     film: Film,
     footage: &'a mut dyn Footage,
     studio: &'a mut Studio,
     camera: Camera,
     fps: f64,
-    /// How many it has.
+    /// Number of frames so far.
     frames: u64,
 }
 
 impl<'a> Filming<'a> {
-    /// Begins a film of pictures from this studio.
+    /// Starts a film of `footage`.
     ///
     /// # Errors
-    /// [`ShootError`] if films cannot have this size or rate, if the file cannot be written, or as
-    /// [`Studio::camera`].
+    /// [`ShootError`] if a film cannot have this size or rate, if the file cannot be written, or
+    /// for an error of [`Studio::camera`].
     pub fn begin(
         order: Order,
         footage: &'a mut dyn Footage,
@@ -46,10 +46,10 @@ impl<'a> Filming<'a> {
         Ok(Self { film, footage, studio, camera, fps: f64::from(order.fps), frames: 0 })
     }
 
-    /// Takes a frame, and tells its time \[s\].
+    /// Records a frame; returns its time \[s\].
     ///
     /// # Errors
-    /// [`ShootError`] if footage, graphics device or disk fail.
+    /// [`ShootError`] if footage, graphics device or disk fails.
     pub fn take_frame(&mut self) -> Result<f64, ShootError> {
         let time = self.frames as f64 / self.fps;
         self.film.add(&self.studio.picture(self.footage, time, &self.camera)?)?;
@@ -57,10 +57,10 @@ impl<'a> Filming<'a> {
         Ok(time)
     }
 
-    /// Writes the film.
+    /// Completes the film.
     ///
     /// # Errors
-    /// [`FilmError`] for a film without frames, and a disk that fails.
+    /// [`FilmError`] if the film has no frames, or the disk fails.
     pub fn finish(self) -> Result<FilmSummary, FilmError> {
         self.film.finish()
     }

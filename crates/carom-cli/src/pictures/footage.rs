@@ -1,4 +1,4 @@
-//! What can be filmed.
+//! Things that can be filmed.
 
 use carom::StopRequest;
 use carom_render::Drawing;
@@ -6,42 +6,42 @@ use carom_scene::Scene;
 
 use super::error::ShootError;
 
-/// Something to see at any time.
+/// A source of pictures at any time.
 pub trait Footage: Send {
-    /// What it is called for people.
+    /// Title for people.
     fn title(&self) -> &str;
 
-    /// The scene that says where from and in which light it is seen.
+    /// Scene that determines camera and light.
     fn scene(&self) -> &Scene;
 
-    /// Has frames of the physics end early once a request is made; footage without any has nothing to
-    /// stop.
+    /// Sets a request that ends a frame of the physics early; does nothing if the footage has no
+    /// physics.
     fn set_stop_request(&mut self, _request: StopRequest) {}
 
-    /// Draws what is to be seen at a time \[s\] that is not before the last one.
+    /// Draws the picture at `time` \[s\], which must not be before the last one.
     ///
     /// # Errors
-    /// [`ShootError`] if it cannot go on to that time.
+    /// [`ShootError`] if that time cannot be reached.
     fn draw(&mut self, time: f64, drawing: &mut Drawing) -> Result<Words, ShootError>;
 }
 
-/// What is written on a picture.
+/// Text on a picture.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Words {
-    /// When this is, and how things stand: after the title, in the corner.
+    /// Time and status, shown after the title in the corner.
     pub stamp: String,
-    /// Large, in the middle.
+    /// Large text in the middle.
     pub caption: Option<&'static str>,
 }
 
 impl Words {
-    /// The time \[s\] alone.
+    /// Text with the time \[s\] only.
     pub fn at(time: f64) -> Self {
         Self { stamp: format!("t = {time:.3} s"), caption: None }
     }
 }
 
-/// What a scene is called for people.
+/// Title of a scene for people.
 pub fn title(scene: &Scene) -> &str {
     if scene.title.is_empty() { &scene.name } else { &scene.title }
 }

@@ -1,4 +1,4 @@
-//! The command `maze`, and mazes by name.
+//! The command `maze`, and finding mazes by name.
 
 use std::fmt::Display;
 use std::io::{self, Write};
@@ -40,7 +40,7 @@ fn play(_: Library, _: &args::Maze, _: &Config) -> Result<(), Failure> {
     Err(Failure::Usage(message.to_owned()))
 }
 
-/// The maze in a drawing, .txt, or in a scene.
+/// Reads the maze in a drawing, .txt, or in a scene.
 pub fn find(library: &Library, name: &str) -> Result<carom_maze::Maze, Failure> {
     if !name.ends_with(".txt") {
         return Ok(carom_maze::Maze::from_scene(&library.find(name, &[])?.0)?);

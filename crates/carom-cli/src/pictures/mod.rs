@@ -1,8 +1,9 @@
-//! What draws: the commands `picture`, `record`, and the maze game without its window; and what
-//! these are made of, for Python.
+//! Drawing: the commands `picture` and `record`, the maze game without its window, and the parts
+//! that Python uses.
 //!
-//! A *footage* knows what is to be seen at any time: a scene being stepped, a recording, a game. A
-//! *studio* draws that, from where the user wants to look; a film is that done many times.
+//! A *footage* draws its picture at any time: a scene that is stepped, a recording, or a game. A
+//! *studio* turns these into pictures from the camera that the user chose; a film is a sequence of
+//! them.
 
 pub(crate) mod args;
 mod drawn;

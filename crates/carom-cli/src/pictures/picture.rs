@@ -1,4 +1,4 @@
-//! The command `picture`: a scene at a time, as PNG.
+//! The command `picture`: draws a scene at a time as PNG.
 
 use std::path::Path;
 
@@ -33,7 +33,7 @@ pub fn picture(library: &Library, args: &Picture) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Refuses a file whose name promises something else than what it will be.
+/// Refuses a file whose ending names another format.
 pub fn check_ending(path: &Path, ending: &str) -> Result<(), Failure> {
     let own = path.extension().unwrap_or_default();
     if own.eq_ignore_ascii_case(ending) {

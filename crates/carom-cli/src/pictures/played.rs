@@ -1,4 +1,4 @@
-//! The maze game, as footage: a player tilts the maze.
+//! The maze game as footage: a player tilts the maze.
 
 use carom::DVec3;
 use carom_maze::{Game, GameError, GameState, Maze, Options, Player};
@@ -9,17 +9,17 @@ use super::error::ShootError;
 use super::footage::{Footage, Words};
 use crate::failure::Failure;
 
-/// Frames of the game in a second, at least: as many as it is made for.
+/// Fewest frames of the game per second: the rate for which it is made.
 const FRAMES_PER_SECOND: u32 = 60;
-/// How long the end is seen \[s\].
+/// Time for which the end is shown \[s\].
 const AFTER_THE_END: f64 = 3.0;
-/// A player that has not won by then has lost the way \[s\].
+/// Longest game \[s\]: a player that has not won by then will not.
 const PATIENCE: f64 = 600.0;
 
-/// A game that is played while it is filmed.
+/// A game that is played while it is recorded.
 ///
-/// The game may choose its frames, so a frame of the film is a whole number of them, and nothing is
-/// shown that is not a frame of the game.
+/// A frame of the film is a whole number of frames of the game, so every picture shows a frame of
+/// the game.
 pub struct Played {
     game: Game,
     player: Player,
@@ -30,7 +30,8 @@ pub struct Played {
 }
 
 impl Played {
-    /// A game for a film of so many frames per second, whose player wants everything within reach.
+    /// Creates a game for a film of `fps` frames per second. Its player collects everything within
+    /// reach.
     pub fn new(maze: Maze, fps: u32) -> Result<Self, Failure> {
         let reachable = Player::new(&maze, 0)?.reachable().count();
         let player = Player::new(&maze, reachable)?;
@@ -42,8 +43,8 @@ impl Played {
         Ok(Self { game, player, palette, roll: Roll::START, frames: 0, title })
     }
 
-    /// How long a film of it is \[s\]: until it is won, and a little more; `None` if the player
-    /// loses the way.
+    /// Length of the film \[s\]: until the game is won, and a little longer. Returns `None` if the
+    /// player does not win.
     pub fn duration(&self) -> Result<Option<f64>, Failure> {
         let (mut game, mut player) = (self.game.clone(), self.player.clone());
         let mut time = 0.0;
@@ -64,7 +65,7 @@ impl Played {
         self.game.step(steering)?;
         let way = self.game.ball_in_maze().0 - before;
         let radius = self.game.maze().ball_radius();
-        // Starting again is no rolling.
+        // A jump to the start is no rolling.
         if way.length() < radius {
             self.roll.on(way, DVec3::Y, radius);
         }
@@ -88,7 +89,7 @@ impl Footage for Played {
             self.step()?;
         }
         let game = &self.game;
-        // The pattern shows the rolling along the maze, whichever way the maze is tilted.
+        // The pattern shows the motion relative to the maze, however it is tilted.
         let rotation = game.tilt() * self.roll.rotation;
         draw_world(game.scene(), game.world(), &self.palette, |_| Some(rotation), drawing);
         let of = game.maze().collectibles().count();

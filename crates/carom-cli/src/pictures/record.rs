@@ -18,7 +18,7 @@ use super::studio::Studio;
 use crate::failure::Failure;
 use crate::interruption::interruption;
 
-/// What `--all` films besides the maze game: files and scenes.
+/// Files and scenes of `--all`, without the maze game.
 const ALL: [(&str, &str); 10] = [
     ("SimTest1.mp4", "simtest1"),
     ("SimTest2.mp4", "simtest2"),
@@ -34,10 +34,10 @@ const ALL: [(&str, &str); 10] = [
 /// The file of the maze game.
 const GAME: &str = "MazeGame.mp4";
 
-/// Footage, and how much of it is filmed \[s\].
+/// Footage with the length to record \[s\].
 type Take = (Box<dyn Footage>, f64);
 
-/// Films a scene, a recorded run, a game, or everything there is.
+/// Records a scene, a recorded run, a game, or all built-in films.
 pub fn record(library: &Library, args: &Record) -> Result<(), Failure> {
     let Some(scene) = &args.scene else {
         return record_all(args);
@@ -49,7 +49,7 @@ pub fn record(library: &Library, args: &Record) -> Result<(), Failure> {
     shoot(order(args, &args.out), take, &mut Studio::new(args.look.clone())?, &interrupted)
 }
 
-/// One film after the other; those that are finished stay, whatever becomes of the next.
+/// Records all films; finished ones stay even if a later one fails.
 fn record_all(args: &Record) -> Result<(), Failure> {
     let library = Library::new();
     let films = ALL.iter().map(|(file, _)| *file).chain([GAME]);
@@ -82,7 +82,7 @@ fn take(library: &Library, args: &Record, scene: &str) -> Result<Take, Failure> 
     }
 }
 
-/// A scene goes on for as long as is wanted; with `--all`, no longer than it is made for.
+/// Footage of a scene, of any length; with `--all`, at most the duration of the scene.
 fn stepped(scene: Scene, args: &Record) -> Result<Take, Failure> {
     let duration = scene.simulation.duration;
     let wanted = args.seconds.unwrap_or(duration);
@@ -90,14 +90,14 @@ fn stepped(scene: Scene, args: &Record) -> Result<Take, Failure> {
     Ok((Box::new(Stepped::new(scene)?), seconds))
 }
 
-/// A recording ends.
+/// Footage of a recording, at most until its end.
 fn replayed(path: &Path, scene: Scene, args: &Record) -> Result<Take, Failure> {
     let replayed = Replayed::open(path, scene)?;
     let duration = replayed.duration();
     Ok((Box::new(replayed), args.seconds.map_or(duration, |wanted| wanted.min(duration))))
 }
 
-/// A game ends when it is won; one that is not has to be cut.
+/// Footage of a game until it is won. A game that is not won needs `--seconds`.
 fn game(maze: Maze, args: &Record) -> Result<Take, Failure> {
     let played = Played::new(maze, args.fps)?;
     let seconds = match (played.duration()?, args.seconds) {

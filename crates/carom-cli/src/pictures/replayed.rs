@@ -1,4 +1,4 @@
-//! A recorded run, as footage.
+//! A recorded run as footage.
 
 use std::path::Path;
 
@@ -15,19 +15,20 @@ use super::running::{Running, Seen};
 /// A recording that is played while it is filmed.
 pub struct Replayed {
     scene: Scene,
-    /// The surfaces alone: they move by themselves, so no table has them.
+    /// World with the colliders only: recordings do not contain them, because they move by
+    /// themselves.
     surfaces: Running,
     playback: Playback,
     palette: Palette,
     duration: f64,
-    /// Kept where the recording ends.
+    /// Spheres of the last picture, shown after the end of the recording.
     spheres: Vec<Seen>,
-    /// Those of the scene at its start; one goes with its spheres.
+    /// Springs at the start of the scene; a spring disappears with its spheres.
     springs: Vec<Spring>,
 }
 
 impl Replayed {
-    /// A recording of this scene.
+    /// Opens a recording of this scene.
     pub fn open(path: &Path, scene: Scene) -> Result<Self, ShootError> {
         let mut duration = 0.0;
         let mut replay = Replay::open(path, &scene)?;
@@ -52,7 +53,7 @@ impl Replayed {
         })
     }
 
-    /// The time of its last frame \[s\].
+    /// Time of the last frame \[s\].
     pub fn duration(&self) -> f64 {
         self.duration
     }

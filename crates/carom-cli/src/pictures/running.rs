@@ -1,41 +1,42 @@
-//! A world on its way: stepped by frames, seen at any time.
+//! A world that is stepped by frames and drawn at any time.
 
 use carom::{Boundary, DQuat, DVec3, Pose, SphereId, StopRequest, World};
 use carom_scene::{Scene, SceneError};
 
-/// A frame counts as that of a time if it is no farther away than this \[s\]: sums of frame times
-/// and k / rate differ by rounding only, frames by far more.
+/// Largest difference of times that count as equal \[s\]: sums of frame times and k / rate differ
+/// by rounding errors only, frames by much more.
 const SAME_TIME: f64 = 1e-9;
 
-/// A sphere as it is seen.
+/// State of a sphere in a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Seen {
     /// Place in the order of appearance, from 0.
     pub number: u64,
     /// Centre \[m\].
     pub position: DVec3,
-    /// In m.
+    /// Radius \[m\].
     pub radius: f64,
-    /// In kg.
+    /// Mass \[kg\].
     pub mass: f64,
-    /// From its own coordinate system to the world's; `None` where spheres have no spin.
+    /// Rotation from the sphere's own coordinate system to the world's; `None` if spheres have no
+    /// spin.
     pub orientation: Option<DQuat>,
 }
 
-/// A world that is stepped by the frames of its scene, and seen at times between them, too.
+/// A world that is stepped by the frames of its scene, and can also be shown between them.
 ///
-/// At the time of a frame everything is exactly where the frame has it. In between, spheres and
-/// surfaces are on the straight way from the frame before to the one after, and turn the shorter
-/// way; a sphere that is not in both is seen until the one before it is gone, and not before the
-/// first one it is in.
+/// At the time of a frame, positions are exactly those of the frame. Between two frames, spheres
+/// and colliders are interpolated linearly, and rotate by the smaller angle. A sphere that is
+/// missing in the second frame is shown until that frame; one that is missing in the first frame is
+/// shown from the second on.
 pub struct Running {
     world: World,
     frame_time: f64,
-    /// The frame before the one the world is in.
+    /// The frame before the present state of the world.
     before: Frame,
 }
 
-/// What was where.
+/// Positions in a frame.
 #[derive(Debug, Default)]
 struct Frame {
     time: f64,
@@ -44,24 +45,24 @@ struct Frame {
 }
 
 impl Running {
-    /// The world of a scene, at its start.
+    /// Creates the world of a scene at its start.
     pub fn new(scene: &Scene) -> Result<Self, SceneError> {
         let world = scene.world()?;
         let before = Frame { time: world.time(), ..Frame::default() };
         Ok(Self { world, frame_time: scene.simulation.frame_time, before })
     }
 
-    /// The world in the frame of the last time requested, or the first one after it.
+    /// World in the first frame that is not before the last time requested.
     pub fn world(&self) -> &World {
         &self.world
     }
 
-    /// Has frames end early once a request is made.
+    /// Sets a request that ends a frame early.
     pub fn set_stop_request(&mut self, request: StopRequest) {
         self.world.set_stop_request(Some(request));
     }
 
-    /// Takes one frame.
+    /// Steps one frame.
     pub fn step(&mut self) -> Result<(), carom::Error> {
         self.before.time = self.world.time();
         self.before.spheres.clear();
@@ -72,7 +73,7 @@ impl Running {
         Ok(())
     }
 
-    /// Takes all frames to this time \[s\].
+    /// Steps all frames up to `time` \[s\].
     pub fn go_to(&mut self, time: f64) -> Result<(), carom::Error> {
         while self.world.time() < time - SAME_TIME {
             self.step()?;
@@ -80,14 +81,15 @@ impl Running {
         Ok(())
     }
 
-    /// Part of the way from the frame before to the present one; `None` in that frame itself.
+    /// Fraction of the time between the previous frame and the present one; `None` at the present
+    /// frame.
     fn part(&self, time: f64) -> Option<f64> {
         let h = self.world.time() - self.before.time;
         let part = (time - self.before.time) / h;
         (time < self.world.time() - SAME_TIME).then_some(part)
     }
 
-    /// The spheres at a time \[s\] up to which it has gone.
+    /// Spheres at `time` \[s\], which must have been reached.
     pub fn spheres(&self, time: f64) -> Vec<Seen> {
         let Some(part) = self.part(time) else {
             return spheres(&self.world).map(|(_, seen)| seen).collect();
@@ -107,7 +109,7 @@ impl Running {
         self.before.spheres.iter().map(between).collect()
     }
 
-    /// The poses of the surfaces at a time \[s\] up to which it has gone.
+    /// Poses of the colliders at `time` \[s\], which must have been reached.
     pub fn poses(&self, time: f64) -> Vec<Pose> {
         let now = self.world.colliders().map(|(_, collider)| collider.pose);
         let Some(part) = self.part(time) else {
@@ -131,12 +133,12 @@ fn spheres(world: &World) -> impl Iterator<Item = (SphereId, Seen)> + '_ {
     })
 }
 
-/// The shortest of the ways \[m\] that are the same under a boundary.
+/// Shortest periodic image of a displacement \[m\].
 fn nearest(way: DVec3, boundary: Boundary) -> DVec3 {
     let Boundary::Periodic { size } = boundary else {
         return way;
     };
-    // Along an open axis, there is one way only.
+    // An open axis has one image only.
     let along = |way: f64, size: f64| {
         if size.is_finite() { way - (way / size).round() * size } else { way }
     };
@@ -157,7 +159,7 @@ mod tests {
     fn at_the_time_of_a_frame_spheres_are_those_of_the_frame() {
         let mut running = running("simtest1", &[]);
         let mut world = Library::new().find("simtest1", &[]).unwrap().0.world().unwrap();
-        // Frames of 0.02 s: every tenth is one of 5 a second.
+        // Frames of 0.02 s: every tenth coincides with one of 5 per second.
         for film_frame in 1..=20 {
             (0..10).for_each(|_| drop(world.step(0.02).unwrap().clone()));
             let time = f64::from(film_frame) / 5.0;
@@ -174,7 +176,7 @@ mod tests {
         running.go_to(0.75).unwrap();
         let at = |time| running.spheres(time)[0].position;
         let (before, now) = (at(0.5 + 1e-8), at(1.0));
-        // The frame before is 1e-8 s away, at speeds of a few m/s.
+        // The previous frame is 1e-8 s away, at speeds of a few m/s.
         assert!((at(0.75) - 0.5 * (before + now)).length() < 1e-6);
         assert!(before != now);
     }
@@ -189,10 +191,10 @@ mod tests {
         running.world.add_sphere(ball).unwrap();
         running.go_to(0.75).unwrap();
         let at = |time| running.spheres(time).last().unwrap().orientation.unwrap();
-        // From 3.5 to 4 rad, across the turn at which the sign of a rotation changes.
+        // From 3.5 to 4 rad, where the sign of the quaternion changes.
         for (time, angle) in [(0.75, 3.75), (1.0, 4.0)] {
             let expected = DQuat::from_rotation_y(angle);
-            // An angle of zero, from a cosine rounded.
+            // The angle is zero up to the rounding of its cosine.
             assert!(at(time).angle_between(expected) < 1e-6, "{time}: {}", at(time));
         }
     }
@@ -201,7 +203,7 @@ mod tests {
     fn an_emitted_sphere_is_not_seen_before_its_first_frame() {
         let changes = ["simulation.frame_time=0.5", "simulation.rule=exact"];
         let mut running = running("simtest1", &changes);
-        // The second one comes at 0.7 s.
+        // The second sphere is emitted at 0.7 s.
         running.go_to(0.6).unwrap();
         assert_eq!([0.6, 0.8, 1.0].map(|time| running.spheres(time).len()), [1, 1, 2]);
     }
@@ -210,7 +212,7 @@ mod tests {
     fn through_the_side_of_a_periodic_box_the_way_is_short() {
         let boundary = Boundary::Periodic { size: DVec3::new(2.0, f64::INFINITY, 2.0) };
         let way = nearest(DVec3::new(-1.6, -1.6, 0.3), boundary);
-        // One rounding of numbers up to 2.
+        // One rounding error of numbers up to 2.
         assert!((way - DVec3::new(0.4, -1.6, 0.3)).length() < 1e-15, "{way}");
     }
 
@@ -219,7 +221,7 @@ mod tests {
         let mut running =
             running("simtest1", &["simulation.frame_time=0.5", "colliders.0.velocity=[2, 0, 0]"]);
         running.go_to(0.75).unwrap();
-        // After 0.75 s at 2 m/s; a rounding or two of numbers up to 2.
+        // 0.75 s at 2 m/s; one or two rounding errors of numbers up to 2.
         assert!((running.poses(0.75)[0].position.x - 1.5).abs() < 1e-15);
     }
 }

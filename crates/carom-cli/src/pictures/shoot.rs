@@ -1,4 +1,4 @@
-//! Filming with progress on a terminal.
+//! Records a film with a progress bar.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -16,9 +16,9 @@ use crate::failure::{Failure, both};
 use crate::length::whole_frames;
 use crate::progress::Progress;
 
-/// Films footage for so many seconds, up to a whole frame of the film, and prints a line about the film.
+/// Records `seconds` of footage, rounded up to whole frames, and prints a line about the film.
 ///
-/// After an error or an interruption, the frames until then are a film.
+/// After an error or an interruption, the frames recorded so far are kept as a film.
 pub fn shoot(
     order: Order,
     (mut footage, seconds): (Box<dyn Footage>, f64),
@@ -28,7 +28,7 @@ pub fn shoot(
     let began = Instant::now();
     footage.set_stop_request(StopRequest::from(Arc::clone(interrupted)));
     let path = order.path;
-    // A film of nothing is none: the first frame is in it.
+    // A film has at least one frame.
     let frames = whole_frames(seconds, 1.0 / f64::from(order.fps))?.max(1);
     let mut filming = Filming::begin(order, footage.as_mut(), studio)?;
     let progress = Progress::new(frames);
@@ -43,12 +43,13 @@ pub fn shoot(
     drop(progress);
     let told = match filming.finish() {
         Ok(summary) => tell(path, summary, began).map_err(Failure::from),
-        // Why there is no frame is known.
+        // The reason for having no frame is already known.
         Err(FilmError::Empty { .. }) if result.is_err() => Ok(()),
         Err(error) => Err(error.into()),
     };
     if matches!(result, Err(Failure::Interrupted)) {
-        // The frame at work was given up; where a film of those before fails, the line says that.
+        // The current frame was abandoned; if the earlier frames cannot be saved, that error is
+        // reported.
         result = Ok(());
     }
     both(result, told)?;

@@ -1,4 +1,4 @@
-//! A scene being stepped, as footage.
+//! A scene that is stepped as footage.
 
 use carom::{Spring, StopRequest};
 use carom_render::Drawing;
@@ -9,7 +9,7 @@ use super::error::ShootError;
 use super::footage::{Footage, Words, title};
 use super::running::Running;
 
-/// A scene that is stepped while it is filmed.
+/// A scene that is stepped while it is recorded.
 pub struct Stepped {
     scene: Scene,
     running: Running,
@@ -17,20 +17,20 @@ pub struct Stepped {
 }
 
 impl Stepped {
-    /// A scene at its start.
+    /// Creates a scene at its start.
     ///
     /// # Errors
-    /// [`SceneError`] if it makes no sense.
+    /// [`SceneError`] if it is invalid.
     pub fn new(scene: Scene) -> Result<Self, SceneError> {
         let running = Running::new(&scene)?;
         let palette = Palette::new(&scene)?;
         Ok(Self { scene, running, palette })
     }
 
-    /// Takes one frame; the time \[s\] then.
+    /// Steps one frame; returns the time \[s\] at its end.
     ///
     /// # Errors
-    /// As [`carom::World::step`].
+    /// The same as those of [`carom::World::step`].
     pub fn step(&mut self) -> Result<f64, carom::Error> {
         self.running.step()?;
         Ok(self.running.world().time())
@@ -53,7 +53,7 @@ impl Footage for Stepped {
     fn draw(&mut self, time: f64, drawing: &mut Drawing) -> Result<Words, ShootError> {
         let Self { scene, running, palette } = self;
         running.go_to(time)?;
-        // Not the film's time, which may be a rounding before the frame of an emission.
+        // The time of the film may be a rounding error before the frame of an emission.
         palette.follow(running.world().time());
         let springs: Vec<Spring> = running.world().springs().map(|(_, spring)| *spring).collect();
         let seen = (&running.spheres(time)[..], &springs[..]);

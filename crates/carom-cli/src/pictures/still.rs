@@ -1,4 +1,4 @@
-//! A world as it is now, as footage.
+//! The present state of a world as footage.
 
 use carom::World;
 use carom_render::{Drawing, draw_world};
@@ -7,13 +7,13 @@ use carom_scene::{Palette, Scene};
 use super::error::ShootError;
 use super::footage::{Footage, Words, title};
 
-/// A world that does not move while it is seen.
+/// A world that does not move while it is drawn.
 pub struct Still<'a> {
-    /// What there is besides spheres: its colliders are those of the world, in its order.
+    /// Everything except spheres; its colliders are those of the world, in the same order.
     pub scene: &'a Scene,
-    /// What is seen.
+    /// World that is drawn.
     pub world: &'a World,
-    /// Its colours, followed to its time.
+    /// Colours, followed to the time of the world.
     pub palette: &'a Palette,
 }
 

@@ -1,4 +1,4 @@
-//! Where pictures are made.
+//! Makes pictures of footage.
 
 use carom_render::{Camera, Drawing, Framing, GpuError, Offscreen, Picture, caption, stamp};
 
@@ -6,7 +6,7 @@ use super::args::Look;
 use super::error::ShootError;
 use super::footage::{Footage, Words};
 
-/// Draws footage as the user wants to see it.
+/// Draws footage with the camera, size and quality that the user chose.
 #[derive(Debug)]
 pub struct Studio {
     look: Look,
@@ -15,24 +15,24 @@ pub struct Studio {
 }
 
 impl Studio {
-    /// A studio on a graphics device of its own.
+    /// Creates a studio with its own graphics device.
     ///
     /// # Errors
-    /// [`GpuError`] if there is no device, or none for pictures of this size.
+    /// [`GpuError`] if there is no device, or the device does not support pictures of this size.
     pub fn new(look: Look) -> Result<Self, GpuError> {
         let offscreen = Offscreen::new(look.size, look.quality)?;
         Ok(Self { look, offscreen, drawing: Drawing::default() })
     }
 
-    /// Width and height of its pictures in pixels.
+    /// Width and height of its pictures \[pixels\].
     pub fn size(&self) -> [u32; 2] {
         self.look.size
     }
 
-    /// A camera for footage, by what is to be seen from this time \[s\] on.
+    /// Chooses a camera for footage that starts at `time` \[s\].
     ///
     /// # Errors
-    /// As [`Footage::draw`].
+    /// The same as those of [`Footage::draw`].
     pub fn camera(&mut self, footage: &mut dyn Footage, time: f64) -> Result<Camera, ShootError> {
         footage.draw(time, &mut self.drawing)?;
         let [width, height] = self.look.size.map(f64::from);
@@ -43,10 +43,10 @@ impl Studio {
         Ok(self.look.camera.camera(of_scene, &framing.whole, aspect))
     }
 
-    /// Footage at a time \[s\].
+    /// Draws the picture of footage at `time` \[s\].
     ///
     /// # Errors
-    /// As [`Footage::draw`], and if the device fails.
+    /// The same as those of [`Footage::draw`], and errors of the graphics device.
     pub fn picture(
         &mut self,
         footage: &mut dyn Footage,

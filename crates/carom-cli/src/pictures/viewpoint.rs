@@ -1,26 +1,26 @@
-//! Where the user wants to look from.
+//! Cameras chosen on the command line.
 
 use std::str::FromStr;
 
 use carom::DVec3;
 use carom_render::{Bounds, Camera, Preset};
 
-/// Where a picture is taken from.
+/// Camera chosen on the command line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Viewpoint {
-    /// A place that suits the scene.
+    /// A camera that depends on the scene.
     Preset(Preset),
-    /// From one point to another \[m\].
+    /// A camera at one point that looks at another \[m\].
     Between {
-        /// The camera.
+        /// Position of the camera.
         position: DVec3,
-        /// What is in the middle of the picture.
+        /// Point in the middle of the picture.
         target: DVec3,
     },
 }
 
 impl Viewpoint {
-    /// The camera there, in a picture of this width to height.
+    /// Creates the camera for a picture; `aspect` is width / height.
     pub fn camera(&self, of_scene: Option<Camera>, bounds: &Bounds, aspect: f64) -> Camera {
         match *self {
             Self::Preset(preset) => preset.camera(of_scene, bounds, aspect),

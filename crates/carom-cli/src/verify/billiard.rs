@@ -1,4 +1,5 @@
-//! Galperin's billiard: a wall, a ball at rest, and a heavy ball coming in count the digits of pi.
+//! Galperin's billiard: the impacts between a wall, a ball at rest and an approaching heavy ball
+//! count the digits of pi.
 //!
 //! Galperin, "Playing pool with π (the number π from a billiard point of view)", Regular and
 //! Chaotic Dynamics 8, 375 (2003).
@@ -8,13 +9,13 @@ use carom::{Collider, DVec3, Error, Pose, Rule, Shape, Sphere, World};
 use super::claim::{Claim, Expected, Measured, Outcome, Tolerance};
 use super::setup::{half_space, world};
 
-/// Impacts for a mass ratio of `100^k`, the first `k + 1` digits of pi.
+/// Number of impacts for a mass ratio of `100^k`: the first `k + 1` digits of pi.
 const DIGITS: [f64; 7] = [3.0, 31.0, 314.0, 3_141.0, 31_415.0, 314_159.0, 3_141_592.0];
 
-/// A frame lasts this part of the time the heavy ball would need to reach the wall, so that the
-/// impacts, most of them near the turning point, are spread over many frames.
+/// Length of a frame as a fraction of the time in which the heavy ball would reach the wall. Most
+/// impacts occur near the turning point; so they are spread over many frames.
 const PART_OF_APPROACH: f64 = 0.1;
-/// More than the approach and the way back take.
+/// More frames than the approach and the return take.
 const MOST_FRAMES: usize = 10_000;
 const RADIUS: f64 = 0.5;
 
@@ -55,7 +56,8 @@ fn count(rule: Rule, k: usize, wall: Wall) -> Outcome {
     Err(format!("still going on after {impacts} impacts").into())
 }
 
-/// The wall at x = 0, a ball of 1 kg at rest, and one of `100^k` kg coming in at 1 m/s.
+/// Creates the wall at x = 0, a ball of 1 kg at rest, and one of `100^k` kg that approaches at 1
+/// m/s.
 fn billiard(rule: Rule, k: usize, wall: Wall) -> Result<World, Error> {
     let mut world = world(rule)?;
     let half_space = half_space(DVec3::ZERO, DVec3::X);

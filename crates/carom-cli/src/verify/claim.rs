@@ -1,4 +1,4 @@
-//! What a claim is.
+//! Claims: names, expected values, tolerances and measurements.
 
 use std::error::Error;
 
@@ -10,45 +10,45 @@ pub struct Claim {
     pub expected: Expected,
     pub tolerance: Tolerance,
     pub effort: Effort,
-    /// The rule it is about, or any.
+    /// The only rule for which it is claimed; `None` for all.
     pub rule: Option<Rule>,
     pub measure: Box<Measure>,
 }
 
-/// Measures what a claim is about under a rule.
+/// Measures the value of a claim under a rule.
 pub type Measure = dyn Fn(Rule) -> Outcome + Send + Sync;
 
-/// What came out, or why nothing did.
+/// Measured value, or why there is none.
 pub type Outcome = Result<Measured, Fault>;
 
-/// Why nothing came out.
+/// Why there is no measured value.
 pub type Fault = Box<dyn Error + Send + Sync>;
 
-/// The value a claim is about.
+/// Expected value of a claim.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Expected {
     pub value: f64,
-    /// Where it comes from.
+    /// Source of the value.
     pub source: &'static str,
 }
 
 impl Expected {
-    /// A value and where it comes from.
+    /// Creates an expected value with its source.
     pub fn value(value: f64, source: &'static str) -> Self {
         Self { value, source }
     }
 
-    /// No error, of whatever a claim measures the error of.
+    /// Expects an error of zero.
     pub fn no_error(source: &'static str) -> Self {
         Self { value: 0.0, source }
     }
 }
 
-/// How far the measured value may be from the expected one, and why.
+/// Largest difference between measured and expected value, with the reason.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tolerance {
     pub bound: f64,
-    /// Whether the bound is a part of the expected value.
+    /// Whether the bound is relative to the expected value.
     pub is_relative: bool,
     pub reason: &'static str,
 }
@@ -62,19 +62,19 @@ impl Tolerance {
         Self { bound, is_relative: true, reason }
     }
 
-    /// The value itself.
+    /// Allows no difference.
     pub fn none(reason: &'static str) -> Self {
         Self::absolute(0.0, reason)
     }
 
-    /// How far `measured` is from `expected`, in the manner of the bound.
+    /// Error of `measured`: absolute or relative, as the bound.
     pub fn error(&self, measured: f64, expected: f64) -> f64 {
         let error = (measured - expected).abs();
         if self.is_relative { error / expected.abs() } else { error }
     }
 }
 
-/// How long a claim takes.
+/// Duration of the check of a claim.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Effort {
     /// Seconds.
@@ -83,28 +83,28 @@ pub enum Effort {
     Full,
 }
 
-/// What came out.
+/// A measured value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measured {
     pub value: f64,
-    /// Of the worlds at their ends.
+    /// Hash of the worlds at their ends.
     pub state: StateHash,
     /// Whether spheres were stepped in zones, which is not exact.
     pub was_stepped: bool,
 }
 
 impl Measured {
-    /// A value measured in one world.
+    /// Creates a value measured in one world.
     pub fn in_world(world: &World, value: f64) -> Self {
         Self { value, state: world.state_hash(), was_stepped: world.was_stepped() }
     }
 
-    /// The largest of several values.
+    /// Returns the largest of several values.
     pub fn largest(measured: impl IntoIterator<Item = Self>) -> Self {
         Self::folded(measured, f64::max)
     }
 
-    /// The sum of several values.
+    /// Returns the sum of several values.
     pub fn sum(measured: impl IntoIterator<Item = Self>) -> Self {
         Self::folded(measured, |a, b| a + b)
     }
@@ -112,7 +112,7 @@ impl Measured {
     fn folded(measured: impl IntoIterator<Item = Self>, fold: impl Fn(f64, f64) -> f64) -> Self {
         let none = Self { value: 0.0, state: StateHash(0), was_stepped: false };
         measured.into_iter().fold(none, |all, one| Self {
-            // What is no number shall not get lost in a maximum.
+            // `f64::max` would drop NaN.
             value: if (all.value + one.value).is_nan() {
                 f64::NAN
             } else {
@@ -125,7 +125,7 @@ impl Measured {
 }
 
 impl Claim {
-    /// A claim about every rule that takes seconds to check.
+    /// Creates a claim about every rule that takes seconds to check.
     pub fn new(
         name: impl Into<String>,
         expected: Expected,
@@ -136,12 +136,12 @@ impl Claim {
         Self { name: name.into(), expected, tolerance, effort, rule, measure }
     }
 
-    /// The same claim, about this rule only.
+    /// Restricts the claim to one rule.
     pub fn about(self, rule: Rule) -> Self {
         Self { rule: Some(rule), ..self }
     }
 
-    /// The same claim, taking minutes.
+    /// Marks the claim as one that takes minutes.
     pub fn slow(self) -> Self {
         Self { effort: Effort::Full, ..self }
     }

@@ -1,4 +1,4 @@
-//! Columns of grains that collapse: how far they run out, how high a heap they leave, and at which angle.
+//! Collapsing columns of grains: run-out, height and angle of the remaining heap.
 
 use carom::{BodyPair, Contact, DVec3, Error, Friction, Rule, Sphere, SphereId, World};
 
@@ -44,7 +44,7 @@ pub fn claims() -> Vec<Claim> {
     claims.into_iter().map(|claim| claim.about(Rule::Contact(Contact::default()))).collect()
 }
 
-/// Of the steps from one friction to the next, those that make the angle of a heap larger.
+/// Counts the steps from one friction to the next at which the angle of the heap increases.
 fn rises(frictions: [Friction; 3]) -> Outcome {
     let (mut last, mut steps, mut heaps) = (f64::INFINITY, 0, Vec::new());
     for friction in frictions {
@@ -56,8 +56,8 @@ fn rises(frictions: [Friction; 3]) -> Outcome {
     Ok(Measured { value: f64::from(steps), ..Measured::sum(heaps) })
 }
 
-/// The angle of what a column of grains leaves behind \[degrees\]: of the cone with the same mean height and
-/// mean distance from the axis, a quarter of its height and half of its radius.
+/// Angle of the heap that a collapsed column leaves \[degrees\]: that of a cone with the same mean
+/// height (a quarter of its height) and mean distance from the axis (half of its radius).
 fn angle_of_repose(friction: Friction) -> Outcome {
     let mut world = empty()?;
     add_floor(&mut world, friction)?;
@@ -75,18 +75,18 @@ fn angle_of_repose(friction: Friction) -> Outcome {
     Ok(Measured::in_world(&world, libm::atan(2.0 * height / away).to_degrees()))
 }
 
-/// A column of discs and what it became, in parts of half of its width.
+/// A column of discs and its heap, in units of half its width.
 struct Collapse {
     /// Height of the column.
     aspect: f64,
-    /// Way of the front of what is connected by contacts.
+    /// Distance of the front of the connected heap from its start.
     run_out: f64,
     /// Height of the heap.
     height: f64,
     measured: Measured,
 }
 
-/// The way of the front, in parts of 2.5 times the height of the column.
+/// Run-out relative to 2.5 times the height of the column.
 fn run_out() -> Outcome {
     let collapse = collapse(60.0, 1.0)?;
     let part = collapse.run_out / (2.5 * collapse.aspect);
@@ -99,8 +99,8 @@ fn height_exponent() -> Outcome {
     Ok(Measured { value: power, ..Measured::sum([low.measured, high.measured]) })
 }
 
-/// Lets a column of discs collapse to both sides, with the friction and the restitution of Staron and Hinch.
-/// Half of its width is `half` diameters, its height about `aspect` times that.
+/// Lets a column of discs collapse to both sides, with the friction and restitution of Staron and
+/// Hinch. Half of its width is `half` diameters; its height is about `aspect` times that.
 fn collapse(half: f64, aspect: f64) -> Result<Collapse, Fault> {
     let mut world = empty()?;
     add_floor(&mut world, 1.0)?;
@@ -127,8 +127,8 @@ fn collapse(half: f64, aspect: f64) -> Result<Collapse, Fault> {
     Ok(Collapse { aspect: before / half, run_out, height, measured })
 }
 
-/// Adds discs in loose layers between two walls: spheres in a plane, with the mass and the inertia of discs,
-/// and of radii that differ by a fifth.
+/// Adds discs in loose layers between two walls: spheres in a plane with the mass and inertia of
+/// discs. Their radii vary by a fifth.
 fn add_discs(world: &mut World, count: usize, half: f64) -> Result<(), Error> {
     let mut numbers = Numbers::new(1);
     let row = ((2.0 * half / DIAMETER - 0.2) / 1.25) as usize;
@@ -147,7 +147,7 @@ fn add_discs(world: &mut World, count: usize, half: f64) -> Result<(), Error> {
     Ok(())
 }
 
-/// The largest group of spheres that contacts connect, by their places in the list.
+/// Returns the largest group of spheres connected by contacts, as indices.
 fn connected(world: &World) -> Vec<usize> {
     let spheres = world.spheres();
     let mut neighbours = vec![Vec::new(); spheres.len()];

@@ -1,4 +1,4 @@
-//! What a long run of elastic impacts keeps.
+//! Conservation laws in a long run of elastic impacts.
 
 use std::sync::{Arc, OnceLock};
 
@@ -10,9 +10,9 @@ use crate::gas::{Filling, Speeds, add_spheres, gas};
 
 const FILLING: Filling = Filling { count: 1_000, packing_fraction: 0.2 };
 const IMPACTS: usize = 1_000_000;
-/// Frames between two looks at all pairs of spheres.
+/// Number of frames between two checks of all pairs of spheres.
 const FRAMES_PER_LOOK: usize = 100;
-/// Many more than the impacts should take.
+/// Many more frames than the impacts should take.
 const MOST_FRAMES: usize = 100_000;
 
 pub fn claims() -> Vec<Claim> {
@@ -20,7 +20,7 @@ pub fn claims() -> Vec<Claim> {
     runs.into_iter().flatten().collect()
 }
 
-/// The claims about a run, which is made once for all of them.
+/// Claims about a run that is made once for all of them.
 fn of_runs(place: &str, run: fn(Rule) -> Result<Kept, Fault>) -> [Claim; 5] {
     let shared = Arc::new(OnceLock::new());
     let claim = |name: &str, bound: f64, reason: &'static str, part: fn(&Kept) -> f64| {
@@ -49,17 +49,17 @@ fn of_runs(place: &str, run: fn(Rule) -> Result<Kept, Fault>) -> [Claim; 5] {
 
 /// Largest errors of a run.
 struct Kept {
-    /// Of the energy, relative.
+    /// Relative error of the energy.
     energy: f64,
-    /// Of the momentum, in parts of the sum of the sizes of the momenta.
+    /// Error of the momentum, relative to the sum of the magnitudes of the momenta.
     momentum: f64,
-    /// In radii.
+    /// Overlap in radii.
     overlap: f64,
-    /// Largest relative error of energy in a single entry of the ledger; no number where a rule keeps
-    /// none.
+    /// Largest relative error of energy in a single entry of the ledger; NaN if the rule keeps no
+    /// ledger.
     impact_energy: f64,
     impact_momentum: f64,
-    /// At the end.
+    /// State at the end.
     state: Measured,
 }
 
@@ -69,7 +69,7 @@ fn periodic(rule: Rule) -> Result<Kept, Fault> {
 
 fn walled(rule: Rule) -> Result<Kept, Fault> {
     let mut world = world(rule)?;
-    // The cube is for the centres.
+    // The edge of the filling is meant for centres.
     add_walls(&mut world, FILLING.edge() + 1.0)?;
     add_spheres(&mut world, FILLING, Speeds::Equilibrium, 1)?;
     run(world)
@@ -78,7 +78,7 @@ fn walled(rule: Rule) -> Result<Kept, Fault> {
 fn run(mut world: World) -> Result<Kept, Fault> {
     let energy = world.kinetic_energy();
     let sizes: f64 = world.spheres().velocities().iter().map(|v| v.length()).sum();
-    // What the spheres had at first and walls gave them since.
+    // Momentum at the start, plus what walls have added since.
     let mut momentum = world.momentum();
     let (mut overlap, mut impact_energy, mut impact_momentum) = (0.0_f64, 0.0_f64, 0.0_f64);
     let (mut impacts, mut entries, mut frames) = (0, 0, 0);
@@ -100,7 +100,7 @@ fn run(mut world: World) -> Result<Kept, Fault> {
             overlap = overlap.max(deepest_overlap(&world));
         }
     }
-    // A run without impacts keeps everything, and shows nothing; nor does an empty ledger.
+    // Without impacts, or with an empty ledger, conservation would prove nothing.
     if impacts < IMPACTS {
         return Err(format!("only {impacts} impacts").into());
     }
@@ -117,7 +117,7 @@ fn run(mut world: World) -> Result<Kept, Fault> {
     })
 }
 
-/// Deepest overlap, in radii of one half.
+/// Deepest overlap in radii of one half.
 fn deepest_overlap(world: &World) -> f64 {
     let depth = match *world.settings() {
         Settings { boundary: Boundary::Periodic { size }, .. } => {
@@ -128,7 +128,7 @@ fn deepest_overlap(world: &World) -> f64 {
     depth.max(0.0) / 0.5
 }
 
-/// Smallest distance of two centres in a periodic box.
+/// Smallest distance between two centres in a periodic box.
 fn nearest_distance(places: &[DVec3], size: DVec3) -> f64 {
     let mut nearest = f64::INFINITY;
     for (j, place) in places.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! How fast results of the rule `contact` come nearer to their limit as sub-steps become shorter.
+//! Order of convergence of the rule `contact` as sub-steps become shorter.
 
 use carom::{Collider, Contact, DVec3, Error, Gravity, Pose, Rule, Shape, Sphere, World};
 
@@ -6,9 +6,9 @@ use super::claim::{Claim, Expected, Fault, Measured, Outcome, Tolerance};
 use super::setup::{FRAME, G, half_space, run_until, world};
 
 const RADIUS: f64 = 0.1;
-/// Sub-steps of a frame, and twice as many, between which the order is measured.
+/// Numbers of sub-steps per frame between which the order is measured.
 const SUB_STEPS: [u32; 2] = [8, 16];
-/// Sub-steps of what results are compared with where there is no closed form.
+/// Number of sub-steps of the reference if there is no closed form.
 const FINE: u32 = 1024;
 
 pub fn claims() -> Vec<Claim> {
@@ -41,12 +41,13 @@ pub fn claims() -> Vec<Claim> {
     claims.into_iter().map(|claim| claim.about(Rule::Contact(Contact::default()))).collect()
 }
 
-/// What a motion is compared with.
+/// Settings of the reference.
 fn fine() -> Contact {
     Contact::default().with_sub_steps(FINE).with_converged(true)
 }
 
-/// How often halving the sub-step halves an error.
+/// Order of convergence: the base-2 logarithm of the ratio of the errors for long and short
+/// sub-steps.
 fn order_by(
     motion: fn(Contact) -> Result<World, Error>,
     error: impl Fn(&World) -> f64,
@@ -56,7 +57,7 @@ fn order_by(
     Ok(Measured::in_world(&short, libm::log2(error(&long) / error(&short))))
 }
 
-/// The order, with the distance of balls from where they should be for the error.
+/// Order of convergence of the distance of balls from `limit`.
 fn order_of(motion: fn(Contact) -> Result<World, Error>, limit: &World) -> Outcome {
     order_by(motion, |world| distance(world, limit))
 }
@@ -68,7 +69,7 @@ fn error_of_sweeps() -> Outcome {
     Ok(Measured::in_world(&few, distance(&few, &limit) / distance(&all, &limit)))
 }
 
-/// Largest distance of a ball of one world from the same ball of the other \[m\].
+/// Largest distance between the same ball in two worlds \[m\].
 fn distance(first: &World, second: &World) -> f64 {
     let places = first.spheres().positions().iter().zip(second.spheres().positions());
     places.map(|(first, second)| first.distance(*second)).fold(0.0, f64::max)
@@ -95,7 +96,7 @@ fn across_incline(rule: Contact) -> Result<World, Error> {
 const START: f64 = 0.3;
 /// Radius of that sphere \[m\].
 const FIXED: f64 = 1.0;
-/// For how long it rolls \[s\]: it does not leave the sphere yet.
+/// Duration of the rolling \[s\]; the ball does not leave the sphere before.
 const ROLLING_TIME: f64 = 0.5;
 
 fn off_sphere(rule: Contact) -> Result<World, Error> {
@@ -109,8 +110,8 @@ fn off_sphere(rule: Contact) -> Result<World, Error> {
     Ok(world)
 }
 
-/// Where that ball is in the end: `angle'' = 5/7 g/(R + r) sin(angle)`, by the method of Runge and Kutta in
-/// steps so short that only rounding is left.
+/// Angle at the end of the rolling: `angle'' = 5/7 g/(R + r) sin(angle)`, integrated by Runge-Kutta
+/// in steps so short that only rounding errors remain.
 fn angle_of_rolling() -> f64 {
     let steps = 2_000;
     let h = ROLLING_TIME / f64::from(steps);
@@ -127,7 +128,7 @@ fn angle_of_rolling() -> f64 {
     angle
 }
 
-/// Three balls that touch on a floor without friction, and one on top.
+/// Three touching balls on a floor without friction, with one on top.
 fn apart(rule: Contact) -> Result<World, Error> {
     let mut world = empty(rule)?;
     world.add_collider(half_space(DVec3::ZERO, DVec3::Y).with_restitution(0.0))?;

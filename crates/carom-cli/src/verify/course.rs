@@ -1,13 +1,13 @@
-//! The built-in scenes.
+//! Claims about the built-in scenes.
 
 use carom::{DQuat, DVec3, Discrete, Rule, SphereId, World};
 use carom_scene::{BUILT_IN_FILES, Library, Override, Scene};
 
 use super::claim::{Claim, Expected, Measured, Outcome, Tolerance};
 
-/// Frames of which all are parts of the longest \[s\].
+/// Lengths of frames; the longest is a multiple of each \[s\].
 const FRAMES: [f64; 3] = [1.0 / 30.0, 1.0 / 60.0, 1.0 / 240.0];
-/// Longest frames that are compared.
+/// Number of the longest frames that are compared.
 const LONGEST_FRAMES: usize = 150;
 
 pub fn claims() -> Vec<Claim> {
@@ -34,7 +34,7 @@ pub fn claims() -> Vec<Claim> {
     claims
 }
 
-/// Whether a scene is made for sub-steps: its balls come to rest in heaps.
+/// Whether the scene is made for the rule `contact`, because its balls come to rest in heaps.
 fn is_for_contact(name: &str) -> bool {
     scene(name, &[]).is_ok_and(|scene| scene.simulation.rule == carom_scene::scene::Rule::Contact)
 }
@@ -44,7 +44,7 @@ fn scene(name: &str, overrides: &[String]) -> Result<Scene, carom_scene::SceneEr
     Ok(Library::new().find(name, &overrides?)?.0)
 }
 
-/// Largest distance between places of one sphere in frames of different lengths.
+/// Largest distance between positions of one sphere for different lengths of frames.
 fn frame_length(name: &str, rule: Rule) -> Outcome {
     let rule = match rule {
         Rule::Discrete(_) => "discrete",
@@ -73,7 +73,8 @@ fn frame_length(name: &str, rule: Rule) -> Outcome {
     Ok(Measured { value: worst, ..all })
 }
 
-/// Between the places of one sphere in two worlds; infinite if a sphere is in only one of them.
+/// Largest distance between positions of one sphere in two worlds; infinite if their spheres
+/// differ.
 fn largest_distance(first: &World, second: &World) -> f64 {
     let (a, b) = (first.spheres(), second.spheres());
     if a.ids() != b.ids() {
@@ -90,7 +91,7 @@ fn leaving_the_picture() -> Outcome {
     let mut world = scene.world()?;
     world.step(h)?;
     let first: SphereId = world.spheres().ids()[0];
-    // It is emitted above the picture, comes into it, and leaves it.
+    // The ball starts above the picture, enters it and leaves it.
     let mut was_seen = false;
     while world.time() < 30.0 {
         let ball = world.sphere(first)?;
@@ -104,13 +105,13 @@ fn leaving_the_picture() -> Outcome {
     Err("still in the picture after 30 s".into())
 }
 
-/// Whether a sphere is wholly outside the picture of a scene's camera, 16 wide and 9 high.
+/// Whether a sphere lies entirely outside the picture of the scene's camera, of ratio 16 : 9.
 fn is_out_of_picture(scene: &Scene, center: DVec3, radius: f64) -> bool {
     let Some(camera) = scene.camera.as_ref() else { return false };
     let rotation = DQuat::from_array(camera.rotation).normalize();
     let local = rotation.inverse() * (center - DVec3::from_array(camera.position));
     let tangent = libm::tan((0.5 * camera.vertical_fov_degrees).to_radians());
-    // The planes at the sides go through the camera: distance outward.
+    // The planes at the sides contain the camera; this is the distance outward.
     let outward = |along: f64, tangent: f64| {
         (along.abs() + local.z * tangent) / (1.0 + tangent * tangent).sqrt()
     };

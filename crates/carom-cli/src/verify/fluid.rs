@@ -7,12 +7,12 @@ use carom::{BodyPair, Rule, World};
 use super::claim::{Claim, Expected, Measured, Outcome, Tolerance};
 use crate::gas::{COLLISIONS_TO_EQUILIBRIUM, Filling, Speeds, gas, run_collisions};
 
-/// Fills a face-centred cubic lattice of 10 cells along an edge.
+/// Number of spheres: fills a face-centred cubic lattice of 10 cells along an edge.
 const COUNT: usize = 4_000;
-/// Spheres of a fluid of 20 cells along each edge, for the full verification.
+/// Number of spheres for the full verification, with 20 cells along an edge.
 const LARGE_COUNT: usize = 32_000;
-/// Collisions per sphere over which is averaged; with this many and 4,000 spheres, the standard
-/// error of the pressure is about 0.2 %.
+/// Collisions per sphere for averages: with 4,000 spheres, the standard error of the pressure is
+/// about 0.2 %.
 const COLLISIONS: f64 = 200.0;
 
 pub fn claims() -> Vec<Claim> {
@@ -41,7 +41,7 @@ pub fn claims() -> Vec<Claim> {
     claims
 }
 
-/// The claim about the pressure at a packing fraction, where the compressibility factor is `z`.
+/// Claim about the pressure at a packing fraction, where the compressibility factor is `z`.
 fn pressure(packing_fraction: f64, z: f64, count: usize, tolerance: Tolerance) -> Claim {
     Claim::new(
         format!("compressibility factor at packing fraction {packing_fraction}, N = {count}"),
@@ -65,7 +65,7 @@ fn compressibility(rule: Rule, filling: Filling) -> Outcome {
     while (impacts as f64) < 0.5 * COLLISIONS * filling.count as f64 {
         let report = world.step(h)?;
         impacts += report.impacts.len();
-        // The spheres touch: the distance of their centres is the diameter.
+        // The spheres touch, so the distance of their centres is the diameter.
         virial += report.impacts.iter().map(|impact| impact.impulse).sum::<f64>();
     }
     let time = world.time() - begin;
@@ -104,7 +104,7 @@ fn fourth_moment(rule: Rule) -> Outcome {
     Ok(Measured::in_world(&world, sum / f64::from(looks)))
 }
 
-/// `<v^4>/<v^2>^2` now.
+/// Present value of `<v^4>/<v^2>^2`.
 fn moment(world: &World) -> f64 {
     let squares = || world.spheres().velocities().iter().map(|v| v.length_squared());
     let count = world.spheres().len() as f64;
@@ -112,7 +112,7 @@ fn moment(world: &World) -> f64 {
     squares().map(|square| square * square).sum::<f64>() / count / (mean * mean)
 }
 
-/// A gas that has forgotten its start.
+/// Creates a gas in equilibrium.
 fn equilibrium(filling: Filling, rule: Rule) -> Result<World, carom::Error> {
     let mut world = gas(filling, Speeds::Equilibrium, rule, 1)?;
     run_collisions(&mut world, filling.frame_time(), COLLISIONS_TO_EQUILIBRIUM)?;

@@ -1,4 +1,4 @@
-//! Forces that depend on where spheres are: springs, pendulums, orbits, drag.
+//! Forces that depend on positions: springs, pendulums, orbits, drag.
 
 use std::f64::consts::{PI, TAU};
 
@@ -12,7 +12,7 @@ use super::setup::{FRAME, G, run_until, world, world_with};
 
 pub fn claims() -> Vec<Claim> {
     let verlet = Discrete::default().with_integrator(Integrator::VelocityVerlet);
-    // Force ticks at the ends of frames, to be compared with an integrator.
+    // Force ticks at the ends of frames, for comparison with an integrator.
     let exact = |h| Exact::default().with_force_tick(h).into();
     let mut claims = vec![
         frames_of_oscillator("exact", exact(FRAME)),
@@ -34,12 +34,12 @@ pub fn claims() -> Vec<Claim> {
     claims
 }
 
-/// A rule with this integrator.
+/// Rule `discrete` with this integrator.
 fn by(integrator: Integrator) -> Rule {
     Discrete::default().with_integrator(integrator).into()
 }
 
-/// A sphere of 2 kg on a spring of 50 N/m, 1 m from where it is without a force.
+/// Creates a sphere of 2 kg on a spring of 50 N/m, displaced by 1 m.
 fn on_spring(rule: Rule, damping: f64) -> Result<World, carom::Error> {
     let mut world = world(rule)?;
     let ball = world.add_sphere(Sphere::new(DVec3::X, 0.1).with_mass(2.0))?;
@@ -72,7 +72,7 @@ fn frames_of_oscillator(name: &str, rule: Rule) -> Claim {
     claim.about(rule)
 }
 
-/// A sphere on a spring with this ratio of damping, after ten periods and a quarter by Runge and Kutta.
+/// Sphere on a spring with this damping ratio, after ten and a quarter periods by Runge-Kutta.
 fn oscillator(ratio: f64, name: &'static str) -> Claim {
     let claim = Claim::new(
         name,
@@ -85,7 +85,7 @@ fn oscillator(ratio: f64, name: &'static str) -> Claim {
             let mut world = on_spring(rule, ratio * 2.0 * 2.0 * W)?;
             let (b, w) = (ratio * W, W * libm::sqrt(1.0 - ratio * ratio));
             let h = TAU / W / 1000.0;
-            // At the quarter an error of the phase shows most.
+            // At a quarter period, an error of the phase has the largest effect.
             run_until(&mut world, 10_250.0 * h, h)?;
             let phase = w * world.time();
             let swing = libm::cos(phase) + b / w * libm::sin(phase);
@@ -97,10 +97,10 @@ fn oscillator(ratio: f64, name: &'static str) -> Claim {
     claim.about(by(Integrator::RungeKutta4))
 }
 
-/// Half the large axis of the ellipse \[m\], its eccentricity, and the gravitational parameter \[m³/s²\].
+/// Semi-major axis of the ellipse \[m\], eccentricity, and gravitational parameter \[m³/s²\].
 const ORBIT: [f64; 3] = [1.5, 0.5, 3.0];
 
-/// A sphere in the pericentre of its ellipse about a point.
+/// Creates a sphere at the pericentre of its ellipse about a point.
 fn in_pericentre() -> Result<World, carom::Error> {
     let [a, e, mu] = ORBIT;
     let mut world = world_with(Integrator::RungeKutta4)?;
@@ -125,7 +125,7 @@ fn kepler_period() -> Claim {
             let mut world = in_pericentre()?;
             let h = period() / 10_000.0;
             run_until(&mut world, 9_990.0 * h, h)?;
-            // In the pericentre the distance from the axis goes through 0.
+            // At the pericentre, z changes its sign.
             let mut before = f64::NAN;
             while world.spheres().positions()[0].z < 0.0 {
                 before = world.spheres().positions()[0].z;
@@ -162,10 +162,10 @@ fn kepler_energy() -> Claim {
     claim.about(by(Integrator::RungeKutta4))
 }
 
-/// A thousandth of the period of a circle of [`energy_of_two_bodies`], twice over \[s\].
+/// A thousandth of the period of a circular orbit in [`energy_of_two_bodies`] \[s\].
 const ORBIT_FRAME: f64 = PI / 1000.0;
 
-/// Two bodies of equal mass that go round each other on ellipses, more than a hundred times.
+/// Two bodies of equal mass on elliptical orbits about each other, for more than a hundred orbits.
 fn energy_of_two_bodies(name: &str, rule: Rule) -> Claim {
     let claim = Claim::new(
         format!("gravity between spheres by {name}: energy over 100 orbits [start]"),
@@ -177,7 +177,7 @@ fn energy_of_two_bodies(name: &str, rule: Rule) -> Claim {
         |rule| {
             let mut world = world(rule)?;
             world.add_force(MutualGravity::new(2.0))?;
-            // A circle would need the speed 1.
+            // A circular orbit would have speed 1.
             for side in [1.0, -1.0] {
                 let start = Sphere::new(DVec3::new(0.5 * side, 0.0, 0.0), 0.01);
                 world.add_sphere(start.with_velocity(DVec3::new(0.0, 0.8 * side, 0.0)))?;
@@ -194,7 +194,7 @@ fn energy_of_two_bodies(name: &str, rule: Rule) -> Claim {
     claim.about(rule)
 }
 
-/// A pendulum on a spring so stiff that its length does not matter.
+/// A pendulum on a spring so stiff that its extension hardly matters.
 fn pendulum() -> Claim {
     let (angle, stiffness) = (0.1, 1e10);
     let square = angle * angle;
@@ -207,7 +207,7 @@ fn pendulum() -> Claim {
             let mut world = world(rule)?;
             world.add_force(Gravity::new(DVec3::new(0.0, -G, 0.0)))?;
             let (sin, cos) = (libm::sin(angle), libm::cos(angle));
-            // At its length under the weight, so that it does not swing along the spring.
+            // Stretched by the weight, so that it does not oscillate along the spring.
             let length = 1.0 + G * cos / stiffness;
             let ball = world.add_sphere(Sphere::new(length * DVec3::new(-sin, -cos, 0.0), 0.1))?;
             world.add_spring(Spring::to_point(ball, DVec3::ZERO, 1.0).with_stiffness(stiffness))?;
@@ -247,7 +247,7 @@ fn terminal_velocity() -> Claim {
     )
 }
 
-/// A chain between two fixed points, every sphere of it struck: the largest change of its energy.
+/// Largest change of energy of a chain between two fixed points, after every sphere was struck.
 fn chain(count: u32, name: &'static str) -> Claim {
     let claim = Claim::new(
         name,
@@ -264,7 +264,7 @@ fn chain_energy(rule: Rule, count: u32) -> Outcome {
     let mut balls = Vec::new();
     for i in 0..count {
         let at = f64::from(i);
-        // Different for each, without a pattern.
+        // Irregular velocities, different for each sphere.
         let blow = DVec3::new(libm::sin(7.1 * at * at), libm::sin(3.3 * at * at), 0.0);
         let start = Sphere::new(DVec3::new(at, 0.0, 0.0), 0.1).with_velocity(blow);
         balls.push(world.add_sphere(start)?);

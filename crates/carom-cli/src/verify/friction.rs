@@ -1,4 +1,5 @@
-//! Friction and spin under the rule `contact`: sliding, rolling, bouncing, and heaps that stand by it.
+//! Friction and spin under the rule `contact`: sliding, rolling, bouncing, and heaps held by
+//! friction.
 
 use carom::{Collider, Contact, DQuat, DVec3, Error, Friction, Gravity, Pose, Rule, Shape, Sphere};
 use carom::{SphereId, World};
@@ -7,7 +8,7 @@ use super::claim::{Claim, Expected, Measured, Outcome, Tolerance};
 use super::setup::{FRAME, G, run_until, world};
 
 const RADIUS: f64 = 0.1;
-/// What a frame is cut into by default.
+/// Length of a sub-step by default \[s\].
 const SUB_STEP: f64 = FRAME / 8.0;
 
 const ROUNDING: &str = "rounding of some hundred sub-steps";
@@ -77,7 +78,7 @@ pub fn claims() -> Vec<Claim> {
     claims.into_iter().map(|claim| claim.about(Rule::Contact(Contact::default()))).collect()
 }
 
-/// From which friction on two balls that touch bear a third.
+/// Smallest friction with which two touching balls support a third.
 fn pyramids() -> [Claim; 2] {
     let sticks = libm::tan(15.0_f64.to_radians());
     let source = "statics: the direction of the force on each contact";
@@ -98,7 +99,8 @@ fn pyramids() -> [Claim; 2] {
     ]
 }
 
-/// A world under the rule with a plane through the origin that rises towards +x by this angle \[rad\].
+/// Creates a world under the rule `contact` with a plane through the origin that rises towards +x
+/// by this angle \[rad\].
 fn on_plane(angle: f64, friction: impl Into<Friction>) -> Result<World, Error> {
     let mut world = world(Contact::default().into())?;
     world.add_force(Gravity::new(DVec3::new(0.0, -G, 0.0)))?;
@@ -114,7 +116,7 @@ fn ball_on_floor(world: &mut World, velocity: DVec3, spin: DVec3) -> Result<Sphe
     world.add_sphere(ball.with_angular_velocity(spin))
 }
 
-/// The speed with which a ball that slid rolls, and since when.
+/// Speed at which a sliding ball starts to roll, and the time.
 fn sliding() -> Result<(Measured, Measured), super::claim::Fault> {
     let mut world = on_plane(0.0, 0.2)?;
     let id = ball_on_floor(&mut world, 3.0 * DVec3::X, DVec3::ZERO)?;
@@ -130,7 +132,7 @@ fn sliding() -> Result<(Measured, Measured), super::claim::Fault> {
     Ok((Measured::in_world(&world, speed), Measured::in_world(&world, rolls_since)))
 }
 
-/// Acceleration of a ball on an incline, as a part of that without friction.
+/// Acceleration of a ball on an incline, relative to that without friction.
 fn incline(mu: f64) -> Outcome {
     let angle = 0.5;
     let mut world = on_plane(angle, mu)?;
@@ -141,7 +143,8 @@ fn incline(mu: f64) -> Outcome {
     Ok(Measured::in_world(&world, speed / (G * sine * world.time())))
 }
 
-/// How far the slip after a bounce is from that before, turned round, and the energy from what it was.
+/// Deviation of a bounce from the ideal: of the slip from its reverse, and of the energy from its
+/// value before.
 pub fn superball(rule: Rule) -> Outcome {
     let mut world = world(rule)?;
     let friction = Friction::sliding(100.0).with_tangential_restitution(1.0);
@@ -160,7 +163,7 @@ pub fn superball(rule: Rule) -> Outcome {
     Ok(Measured::in_world(&world, turned.max(gain)))
 }
 
-/// How far a ball rolls that began with 1 m/s.
+/// Distance that a ball rolls from a speed of 1 m/s.
 fn rolling_friction() -> Outcome {
     let mut world = on_plane(0.0, Friction::sliding(0.5).with_rolling(0.02))?;
     let id = ball_on_floor(&mut world, DVec3::X, -1.0 / RADIUS * DVec3::Z)?;
@@ -168,8 +171,8 @@ fn rolling_friction() -> Outcome {
     Ok(Measured::in_world(&world, world.sphere(id)?.position.x))
 }
 
-/// Tangential coefficient of restitution, and spin afterwards, of a ball that hits a plate at this angle
-/// to its normal.
+/// Tangential coefficient of restitution of a ball that hits a plate at this angle to its normal,
+/// and its spin afterwards.
 pub fn oblique(rule: Rule, degrees: f64) -> Result<(Measured, Measured), super::claim::Fault> {
     let mut world = world(rule)?;
     let plate = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO)).with_restitution(0.98);
@@ -186,7 +189,8 @@ pub fn oblique(rule: Rule, degrees: f64) -> Result<(Measured, Measured), super::
     Ok((Measured::in_world(&world, tangential), Measured::in_world(&world, spin)))
 }
 
-/// The coefficient of friction from which on a heap stands, by halving an interval; `stands` gives 1 or 0.
+/// Smallest coefficient of friction with which a heap stands, by bisection; `stands` measures 1 or
+/// 0.
 fn threshold(low: f64, high: f64, stands: impl Fn(f64) -> Outcome) -> Outcome {
     let (mut falls_at, mut stands_at) = (low, high);
     let mut measured = Vec::new();
@@ -203,9 +207,10 @@ fn threshold(low: f64, high: f64, stands: impl Fn(f64) -> Outcome) -> Outcome {
     Ok(Measured { value: stands_at, ..end })
 }
 
-/// Whether a ball on two that touch is still there after three seconds: 1 or 0.
+/// Measures 1 if a ball on two touching balls is still there after three seconds, else 0.
 fn pyramid(balls: f64, floor: f64) -> Outcome {
-    // The geometric mean of what floor and balls say is that of the contact.
+    // The friction of a contact is the geometric mean of both, so the plane's is chosen to give
+    // `floor`.
     let mut world = on_plane(0.0, floor * floor / balls)?;
     for x in [-RADIUS, RADIUS] {
         let place = DVec3::new(x, RADIUS, 0.0);
@@ -218,9 +223,10 @@ fn pyramid(balls: f64, floor: f64) -> Outcome {
     Ok(Measured::in_world(&world, f64::from(u8::from(stands))))
 }
 
-/// Whether four balls that touch still stand after three seconds: 1 or 0.
+/// Measures 1 if four touching balls still stand after three seconds, else 0.
 fn tetrahedron(balls: f64, floor: f64) -> Outcome {
-    // The geometric mean of what floor and balls say is that of the contact.
+    // The friction of a contact is the geometric mean of both, so the plane's is chosen to give
+    // `floor`.
     let mut world = on_plane(0.0, floor * floor / balls)?;
     let ring = 2.0 / 3.0_f64.sqrt() * RADIUS;
     for number in 0..3 {

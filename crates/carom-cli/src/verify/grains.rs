@@ -1,4 +1,4 @@
-//! Grains: many balls under gravity that fall, settle and flow, under the rule `contact`.
+//! Grains: many balls under gravity that fall, settle and flow under the rule `contact`.
 
 use carom::{BodyPair, ColliderId, CombineRule, Contact, DVec3, Error, Friction, Gravity};
 use carom::{Sphere, World};
@@ -6,12 +6,12 @@ use carom::{Sphere, World};
 use super::setup::{FRAME, G, half_space, world};
 use crate::numbers::Numbers;
 
-/// Of a grain \[m\]: of one that flows, a sub-step is an eightieth of the time `sqrt(d/g)`.
+/// Diameter of a grain \[m\]; for flowing grains, a sub-step is an eightieth of `sqrt(d/g)`.
 pub const DIAMETER: f64 = 0.3;
-/// Distance of grains before they fall, in diameters: a packing fraction of 0.24.
+/// Distance of grains before they fall, in diameters; the packing fraction is 0.24.
 const SPACING: f64 = 1.3;
 
-/// An empty world with gravity, in which the smaller coefficient of friction counts.
+/// Creates an empty world with gravity, in which the smaller coefficient of friction counts.
 pub fn empty() -> Result<World, Error> {
     let mut world = world(Contact::default().into())?;
     world.set_settings(world.settings().with_friction_combine_rule(CombineRule::Minimum))?;
@@ -19,18 +19,18 @@ pub fn empty() -> Result<World, Error> {
     Ok(world)
 }
 
-/// A grain that does not bounce.
+/// Creates a grain that does not bounce.
 pub fn grain(diameter: f64, friction: impl Into<Friction>) -> Sphere {
     Sphere::new(DVec3::ZERO, 0.5 * diameter).with_restitution(0.0).with_friction(friction)
 }
 
-/// A floor at height 0 on which nothing bounces.
+/// Adds a floor at height 0 on which nothing bounces.
 pub fn add_floor(world: &mut World, friction: impl Into<Friction>) -> Result<ColliderId, Error> {
     let floor = half_space(DVec3::ZERO, DVec3::Y).with_restitution(0.0);
     world.add_collider(floor.with_friction(friction))
 }
 
-/// Four walls about a square of this width about the y axis.
+/// Adds four walls around a square of this width about the y axis.
 pub fn add_shaft(world: &mut World, width: f64, friction: f64) -> Result<[ColliderId; 4], Error> {
     let mut add = |normal: DVec3| {
         let wall = half_space(-0.5 * width * normal, normal).with_restitution(0.0);
@@ -39,7 +39,8 @@ pub fn add_shaft(world: &mut World, width: f64, friction: f64) -> Result<[Collid
     Ok([add(DVec3::X)?, add(DVec3::NEG_X)?, add(DVec3::Z)?, add(DVec3::NEG_Z)?])
 }
 
-/// Puts so many grains into a shaft of this width above a floor: in loose layers, a little at random.
+/// Puts `count` grains into a shaft of this width above a floor, in loose layers with random
+/// shifts.
 pub fn fill(world: &mut World, grain: Sphere, count: usize, width: f64) -> Result<(), Error> {
     let mut numbers = Numbers::new(1);
     let diameter = 2.0 * grain.radius;
@@ -58,7 +59,7 @@ pub fn fill(world: &mut World, grain: Sphere, count: usize, width: f64) -> Resul
     Ok(())
 }
 
-/// Steps for this time \[s\], or until nothing moves.
+/// Steps for `time` \[s\], or until nothing moves.
 pub fn settle(world: &mut World, time: f64) -> Result<(), Error> {
     let end = world.time() + time - 0.5 * FRAME;
     while world.time() < end {
@@ -75,8 +76,7 @@ pub fn top(world: &World) -> f64 {
     world.spheres().positions().iter().map(|position| position.y).fold(0.0, f64::max)
 }
 
-/// The contacts of spheres with this collider: where, and the forces along the normal and across it on the
-/// spheres \[N\].
+/// Contacts of spheres with a collider: point, and normal and tangential force on the sphere \[N\].
 pub fn contacts_with(
     world: &World,
     wanted: ColliderId,

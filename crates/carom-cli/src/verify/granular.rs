@@ -10,7 +10,7 @@ use crate::gas::{COLLISIONS_TO_EQUILIBRIUM, Filling, Speeds, gas, run_collisions
 const E: f64 = 0.95;
 /// Collisions per sphere while it cools, long before clusters form.
 const COLLISIONS: f64 = 20.0;
-/// So dilute that the velocities of spheres that meet are independent, as in Haff's argument.
+/// Dilute, so that the velocities of colliding spheres are independent, as in Haff's argument.
 const FILLING: Filling = Filling { count: 16_384, packing_fraction: 0.05 };
 const REASON: &str =
     "0.24 % as speeds are not quite Maxwell's (van Noije, Ernst 1998), statistics 0.25 %";
@@ -45,7 +45,7 @@ pub fn claims() -> Vec<Claim> {
     ]
 }
 
-/// A gas in elastic equilibrium, of spheres that are inelastic from now on.
+/// Creates a gas in elastic equilibrium whose spheres are inelastic from now on.
 fn about_to_cool(rule: Rule) -> Result<World, Error> {
     let mut world = gas(FILLING, Speeds::Equilibrium, rule, 1)?;
     run_collisions(&mut world, FILLING.frame_time(), COLLISIONS_TO_EQUILIBRIUM)?;
@@ -65,7 +65,7 @@ fn loss_per_collision(rule: Rule) -> Outcome {
     Ok(Measured::in_world(&cooling, loss))
 }
 
-/// The value farthest from 1, over as long as it takes to cool to a half.
+/// Value farthest from 1 until the temperature has fallen to a half.
 fn temperature_by_time(rule: Rule) -> Outcome {
     let mut cooling = about_to_cool(rule)?;
     let before = cooling.kinetic_energy();
@@ -82,17 +82,17 @@ fn temperature_by_time(rule: Rule) -> Outcome {
     Ok(Measured::in_world(&cooling, farthest))
 }
 
-/// Balls in a line at rest, the outermost two coming in; gives the time that is reached.
+/// Balls in a line that approach the middle; measures the time that is reached.
 fn collapse(rule: Rule, count: usize, e: f64) -> Outcome {
     let rule = match rule {
-        // A ball takes part in a few impacts, and then in some dozens that become ever shorter.
+        // A ball takes part in a few impacts, then in dozens at ever shorter intervals.
         Rule::Exact(parameters) => Rule::Exact(parameters.with_max_impacts(10_000)),
         other => other,
     };
     let mut world = world(rule)?;
     world.set_settings(world.settings().with_combine_rule(CombineRule::Minimum))?;
     for i in 0..count {
-        // Towards the middle, the faster the farther.
+        // Velocities point to the middle and increase with the distance.
         let place = i as f64 - 0.5 * (count - 1) as f64;
         let sphere = Sphere::new(DVec3::new(1.5 * place, 0.0, 0.0), 0.5).with_restitution(e);
         world.add_sphere(sphere.with_velocity(DVec3::new(-place, 0.0, 0.0)))?;

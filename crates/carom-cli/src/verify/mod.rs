@@ -1,7 +1,7 @@
 //! The command `verify`: checks this build against exact results and published values of physics.
 //!
-//! A [`Claim`] has a name that can be false, a value with its source, a tolerance with its reason,
-//! and a function that measures. There is a file of claims for each topic.
+//! A [`Claim`] has a name, a value with its source, a tolerance with its reason, and a function
+//! that measures. Each topic has a file of claims.
 
 mod billiard;
 mod claim;
@@ -37,7 +37,7 @@ use crate::machine;
 use claim::{Claim, Effort};
 use report::{Finding, Report};
 
-/// Checks claims and prints what came out.
+/// Checks claims and prints the results.
 pub fn verify(args: &Verify) -> Result<(), Failure> {
     let claims = claims(args);
     if claims.is_empty() {
@@ -56,7 +56,7 @@ pub fn verify(args: &Verify) -> Result<(), Failure> {
     }
 }
 
-/// Names of topics, and the claims about each.
+/// Name of a topic, and a function that returns its claims.
 type Topic = (&'static str, fn() -> Vec<Claim>);
 
 /// All topics, in the order in which their claims are printed.
@@ -80,7 +80,7 @@ const TOPICS: [Topic; 17] = [
     ("course", course::claims),
 ];
 
-/// The claims that the arguments name.
+/// Claims that the arguments select.
 fn claims(args: &Verify) -> Vec<Claim> {
     let of_topic = |(topic, claims): &Topic| {
         let is_wanted = |claim: &Claim| {
@@ -95,7 +95,7 @@ fn claims(args: &Verify) -> Vec<Claim> {
     TOPICS.iter().flat_map(of_topic).collect()
 }
 
-/// A rule with its default parameters.
+/// Creates a rule with its default parameters.
 fn rule_named(name: &str) -> Rule {
     match name {
         "discrete" => Rule::Discrete(Discrete::default()),
@@ -105,7 +105,7 @@ fn rule_named(name: &str) -> Rule {
     }
 }
 
-/// Checks claims on all cores; gives the findings in the order of the claims.
+/// Checks claims on all cores; returns the findings in the order of the claims.
 fn check_all(claims: &[Claim], rule: Rule) -> Vec<Finding> {
     let next = AtomicUsize::new(0);
     let findings = Mutex::new(Vec::new());
@@ -126,7 +126,7 @@ fn check_all(claims: &[Claim], rule: Rule) -> Vec<Finding> {
     findings.into_iter().map(|(_, finding)| finding).collect()
 }
 
-/// The next claim that no thread has taken yet, and its number.
+/// Returns the next claim that no thread has taken, with its index.
 fn take<'a>(claims: &'a [Claim], next: &AtomicUsize) -> Option<(usize, &'a Claim)> {
     let i = next.fetch_add(1, Ordering::Relaxed);
     claims.get(i).map(|claim| (i, claim))

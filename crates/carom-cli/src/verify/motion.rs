@@ -1,4 +1,4 @@
-//! Motion between impacts: closed forms of nature, and of the schemes.
+//! Motion between impacts: closed forms of the exact motion, and of the integration schemes.
 
 use carom::{
     Bisect, ConstantForce, DVec3, Discrete, Error, Gravity, Integrator, Rule, Sphere, ViscousDrag,
@@ -10,7 +10,7 @@ use super::setup::{FRAME, G, run_until, world, world_with};
 
 const FROM: DVec3 = DVec3::new(3.0, 100.0, -2.0);
 const SPEED: DVec3 = DVec3::new(1.5, 20.0, -0.5);
-/// How long the flights last \[s\].
+/// Duration of the flights \[s\].
 const DURATION: f64 = 10.0;
 
 pub fn claims() -> Vec<Claim> {
@@ -73,7 +73,7 @@ fn free_flight(rule: Rule) -> Outcome {
     Ok(Measured::in_world(&world, error))
 }
 
-/// A flight under gravity and drag of coefficient `k` \[kg/s\].
+/// Error of a flight under gravity and drag of coefficient `k` \[kg/s\].
 fn drag(rule: Rule, k: f64) -> Outcome {
     let mass = 2.0;
     let mut world = world(rule)?;
@@ -88,11 +88,11 @@ fn drag(rule: Rule, k: f64) -> Outcome {
     Ok(Measured::in_world(&world, error))
 }
 
-/// Position and velocity after `t` \[s\] of `x'' = a - c x'`.
+/// Position and velocity after `t` \[s\] for `x'' = a - c x'`.
 fn under_drag(a: DVec3, c: f64, t: f64) -> (DVec3, DVec3) {
     let s = c * t;
     if s < 1e-6 {
-        // In powers of c t; the first term left out is of the order of (c t)².
+        // Series in c t; the first omitted term is of the order of (c t)².
         let x = FROM + t * SPEED * (1.0 - s / 2.0) + 0.5 * t * t * a * (1.0 - s / 3.0);
         return (x, SPEED * (1.0 - s) + t * a * (1.0 - s / 2.0));
     }
@@ -111,7 +111,7 @@ fn terminal_velocity(rule: Rule) -> Outcome {
     Ok(Measured::in_world(&world, world.spheres().velocities()[0].y))
 }
 
-/// A fall from rest at the origin through 600 frames.
+/// Claim about a fall from rest at the origin over 600 frames.
 fn scheme(
     name: String,
     expected: f64,
@@ -133,9 +133,10 @@ fn scheme(
     claim.about(Rule::Discrete(Discrete::default()))
 }
 
-/// Times of contact by halving a frame, in parts of what the halvings leave.
+/// Claim about times of contact found by halving a frame; the error is relative to the final
+/// bracket.
 fn bisection_error(halvings: u32) -> Claim {
-    // So small that no contact is found before the halvings have ended.
+    // The tolerance is so small that no search ends before the last halving.
     let parameters = Bisect::default().with_tolerance(1e-14);
     let rule = Rule::Bisect(parameters.with_max_halvings(halvings));
     let claim = Claim::new(
@@ -154,7 +155,7 @@ fn bisection_error(halvings: u32) -> Claim {
     claim.about(rule)
 }
 
-/// Error of the time of an impact that is due at `time` \[s\] within the first frame.
+/// Error of the time of an impact that occurs at `time` \[s\] within the first frame.
 fn contact_time_error(rule: Rule, time: f64) -> Result<Measured, Error> {
     let mut world = world(rule)?;
     let speed = 1.5;

@@ -1,20 +1,21 @@
-//! Random packings: how much of space balls fill that have settled under gravity, and on how many contacts
-//! they rest.
+//! Random packings: packing fraction of balls that settled under gravity, and number of contacts
+//! per ball.
 
 use carom::{BodyPair, Contact, DVec3, Error, Rule, World};
 
 use super::claim::{Claim, Expected, Measured, Outcome, Tolerance};
 use super::grains::{add_floor, add_shaft, empty, fill, grain, settle, top};
 
-/// Of a ball \[m\]. Large, for sub-steps short in relation to the time of its fall by a diameter: a packing
-/// without friction rests on the least contacts possible, and what a sub-step is in error by keeps it moving.
+/// Diameter of a ball \[m\]. It is large, so that sub-steps are short compared with the fall by a
+/// diameter: a packing without friction has the fewest possible contacts, and errors of the
+/// sub-steps keep it moving.
 const DIAMETER: f64 = 1.0;
-/// Distance from walls, floor and surface at which their layers are no longer seen, in diameters.
+/// Distance from walls, floor and surface beyond which they cause no layers, in diameters.
 const AWAY: f64 = 3.0;
-/// Distance of the points at which is looked whether a ball is there, in diameters.
+/// Spacing of the points that are tested for balls, in diameters.
 const MESH: f64 = 0.04;
 
-/// Balls in the boxes whose packing fractions are averaged.
+/// Numbers of balls in the boxes whose packing fractions are averaged.
 const BOXES: [usize; 3] = [2_900, 3_000, 3_100];
 
 const STATISTICS: &str = "0.005 between boxes that differ by chance, of which the mean of three is taken, and the way of \
@@ -59,7 +60,7 @@ pub fn claims() -> Vec<Claim> {
     claims.into_iter().map(|claim| claim.about(Rule::Contact(Contact::default()))).collect()
 }
 
-/// Balls that have settled in a box of this width \[diameters\].
+/// Lets balls settle in a box of this width \[diameters\].
 fn settled(count: usize, width: f64, mu: f64, time: f64) -> Result<World, Error> {
     let mut world = empty()?;
     add_floor(&mut world, mu)?;
@@ -69,7 +70,7 @@ fn settled(count: usize, width: f64, mu: f64, time: f64) -> Result<World, Error>
     Ok(world)
 }
 
-/// The mean of some boxes that differ by chance. The world is that of the last.
+/// Mean packing fraction of several boxes. The state is that of the last box.
 fn fraction(width: f64, mu: f64, time: f64) -> Outcome {
     let (mut sum, mut world) = (0.0, World::default());
     for count in BOXES {
@@ -79,14 +80,14 @@ fn fraction(width: f64, mu: f64, time: f64) -> Outcome {
     Ok(Measured::in_world(&world, sum / BOXES.len() as f64))
 }
 
-/// All contacts, also with walls and floor, by all balls.
+/// Number of contacts, including those with walls and floor, per ball.
 fn contacts_for_each() -> Outcome {
     let count = 1_000;
     let world = settled(count, 10.0, 0.0, 60.0)?;
     Ok(Measured::in_world(&world, world.contacts().len() as f64 / count as f64))
 }
 
-/// Of the steps from one coefficient of friction to the next, from 6 contacts on and to 4, those downwards.
+/// Counts the decreases of the number of contacts, from 6 over increasing friction to 4.
 fn contacts_by_friction() -> Outcome {
     let (mut last, mut steps, mut worlds) = (6.0, 0, Vec::new());
     for mu in [0.1, 0.3, 1.0] {
@@ -100,7 +101,7 @@ fn contacts_by_friction() -> Outcome {
     Ok(Measured { value: f64::from(steps), ..Measured::sum(worlds) })
 }
 
-/// A part of space, from one corner to the other.
+/// A box-shaped region between two corners.
 #[derive(Debug, Clone, Copy)]
 struct Region {
     from: DVec3,
@@ -108,7 +109,7 @@ struct Region {
 }
 
 impl Region {
-    /// What is in the bulk of balls in a box of this width \[diameters\].
+    /// Region of a box of this width \[diameters\] that is far from walls, floor and surface.
     fn away_from_walls(world: &World, width: f64) -> Self {
         let side = (0.5 * width - AWAY) * DIAMETER;
         let (bottom, top) = (AWAY * DIAMETER, top(world) - AWAY * DIAMETER);
@@ -120,12 +121,12 @@ impl Region {
     }
 }
 
-/// The part of a region that balls fill, by looking at the points of a mesh.
+/// Fraction of a region that is inside balls, measured at the points of a mesh.
 fn packing_fraction(world: &World, region: Region) -> f64 {
     let spheres = world.spheres();
     let cells = ((region.to - region.from) / (MESH * DIAMETER)).floor();
     let mesh = (region.to - region.from) / cells;
-    // The points of an axis that lie within `half` of `middle`.
+    // Indices of the points on an axis within `half` of `middle`.
     let range = |middle: f64, half: f64, axis: usize| {
         let number = |x: f64| (x - region.from[axis]) / mesh[axis] - 0.5;
         let first = number(middle - half).ceil().max(0.0);
@@ -150,7 +151,7 @@ fn packing_fraction(world: &World, region: Region) -> f64 {
     filled as f64 / (cells.x * cells.y * cells.z)
 }
 
-/// Mean number of contacts that bear a force, of the balls in a region.
+/// Mean number of contacts with a force, over the balls in a region.
 fn coordination(world: &World, region: Region) -> f64 {
     let spheres = world.spheres();
     let is_inside: Vec<bool> =

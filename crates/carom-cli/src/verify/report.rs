@@ -1,4 +1,4 @@
-//! What came of checking claims, as a table or as JSON.
+//! Results of claims, as a table or as JSON.
 
 use std::io::{self, Write};
 use std::time::Duration;
@@ -10,21 +10,21 @@ use crate::args::Verify;
 use crate::machine::Machine;
 use crate::table::{Side, Table};
 
-/// What came of a claim.
+/// Result of a claim.
 #[derive(Debug, Clone, Serialize)]
 pub struct Finding {
     claim: String,
     expected: f64,
     source: &'static str,
-    /// Missing where the measurement failed.
+    /// `None` if the measurement failed.
     measured: Option<f64>,
     error: Option<f64>,
     tolerance: f64,
-    /// Whether error and tolerance are parts of the expected value.
+    /// Whether error and tolerance are relative to the expected value.
     relative: bool,
     reason: &'static str,
     verdict: Verdict,
-    /// Why there is no measurement.
+    /// Why the measurement failed.
     fault: Option<String>,
     state_hash: Option<String>,
     wall_time: f64,
@@ -88,7 +88,7 @@ impl Finding {
     }
 }
 
-/// A number with as many digits as figures have in print.
+/// Formats a number with the digits that are usual in print.
 fn number(value: f64) -> String {
     match value.abs() {
         0.0 => "0".to_owned(),
@@ -98,7 +98,7 @@ fn number(value: f64) -> String {
     }
 }
 
-/// All findings, and where they were made.
+/// All findings, with the machine.
 #[derive(Debug, Serialize)]
 pub struct Report<'a> {
     machine: Machine,

@@ -45,7 +45,7 @@ pub fn claims() -> Vec<Claim> {
     ]
 }
 
-/// Balls one above the other over a floor, each this far \[m\] above what is below, 10 s later.
+/// Stacks balls over a floor with gaps of `gap` \[m\], and returns the world 10 s later.
 fn stacked(rule: Rule, gap: f64, e: f64) -> Result<carom::World, carom::Error> {
     let mut world = world_with_floor(rule, e)?;
     let mut settings = *world.settings();
@@ -72,9 +72,9 @@ fn gaps_of_stack(rule: Rule, gap: f64, e: f64) -> Outcome {
     Ok(Measured::in_world(&world, errors.fold(0.0, f64::max)))
 }
 
-/// Lets a ball slide down a fixed sphere, from rest near the top. Gives the cosine of the angle at
-/// which it leaves, in parts of that at the start, and the largest error of its energy, in parts
-/// of the energy of the fall.
+/// Lets a ball slide down a fixed sphere, from rest near the top. Measures the cosine of the angle
+/// at which it leaves, relative to that at the start, and the largest error of the energy, relative
+/// to the energy of the fall.
 fn leaving(rule: Rule) -> Result<(Measured, Measured), Fault> {
     let (fixed, radius) = (1.0, 0.25);
     let reach = fixed + radius;
@@ -88,7 +88,7 @@ fn leaving(rule: Rule) -> Result<(Measured, Measured), Fault> {
         world.step(1e-4)?;
         worst = worst.max((world.total_energy() - energy).abs());
         let place = world.spheres().positions()[0];
-        // Farther than rounding and the pieces of the path leave it.
+        // Larger than the deviations by rounding and by the pieces of the path.
         if place.length() - reach > 1e-9 {
             break;
         }

@@ -1,5 +1,5 @@
-//! Friction and spin under the rule `exact`: bounces, and balls that slide, roll, spin and stop, where closed
-//! forms exist; and shots of billiards.
+//! Friction and spin under the rule `exact`: bounces and sliding, rolling, spinning and stopping
+//! balls compared with closed forms; and shots of billiards.
 
 use carom::{
     Collider, DVec3, Error, Exact, Friction, Gravity, Pose, Shape, Sphere, SphereId, World,
@@ -24,7 +24,7 @@ pub fn claims() -> Vec<Claim> {
     claims.into_iter().map(|claim| claim.about(Exact::default().into())).collect()
 }
 
-/// Balls on a level floor.
+/// Claims about balls on a level floor.
 fn on_the_level() -> Vec<Claim> {
     let (v, mu) = (3.0, 0.2);
     let rolls_at = 2.0 * v / (7.0 * mu * G);
@@ -79,7 +79,7 @@ fn on_the_level() -> Vec<Claim> {
     ]
 }
 
-/// Balls struck with spin.
+/// Claims about balls struck with spin.
 fn shots() -> Vec<Claim> {
     let mu = 0.2;
     let draw = ball(DVec3::X, 150.0 * DVec3::Z);
@@ -115,7 +115,7 @@ fn shots() -> Vec<Claim> {
     ]
 }
 
-/// Balls on inclines, seen from coordinates that are tilted with them.
+/// Claims about balls on inclines, in coordinates tilted with the incline.
 fn inclines() -> Vec<Claim> {
     let mut claims = Vec::new();
     for (mu, expected) in [(0.5, 5.0 / 7.0), (0.16, 5.0 / 7.0), (0.1, 1.0 - 0.1 / libm::tan(0.5))] {
@@ -152,7 +152,7 @@ fn inclines() -> Vec<Claim> {
     claims
 }
 
-/// A ball that rolls off a fixed sphere, and one that rolls over an edge.
+/// Claims about a ball that rolls off a fixed sphere, and one that rolls over an edge.
 fn curves() -> [Claim; 2] {
     let source = "conservation of energy; it leaves at cos = 10/17";
     let reason = "pieces of path of a thousandth of a radian";
@@ -172,8 +172,8 @@ fn curves() -> [Claim; 2] {
     ]
 }
 
-/// The largest error of the speed of a ball that rolls off a fixed sphere, but for the last degrees, where
-/// it slides.
+/// Largest error of the speed of a ball that rolls off a fixed sphere, without the last degrees,
+/// where it slides.
 fn dome() -> Outcome {
     let mut world = world(Exact::default().into())?;
     world.add_force(Gravity::new(-G * DVec3::Y))?;
@@ -196,7 +196,7 @@ fn dome() -> Outcome {
     }
 }
 
-/// The largest change of energy of a ball that rolls over the edge of a table, as long as it does.
+/// Largest relative change of energy of a ball that rolls over the edge of a table.
 fn table() -> Outcome {
     let mut world = world(Exact::default().into())?;
     world.add_force(Gravity::new(-G * DVec3::Y))?;
@@ -215,7 +215,7 @@ fn table() -> Outcome {
     Ok(Measured::in_world(&world, error))
 }
 
-/// Balls that bounce with friction.
+/// Claims about balls that bounce with friction.
 fn bounces() -> Vec<Claim> {
     let mut claims = vec![Claim::new(
         "exact: a superball turns its slip round, and keeps its energy [relative]",
@@ -237,7 +237,7 @@ fn bounces() -> Vec<Claim> {
     claims
 }
 
-/// A shot that pooltool took, and a break.
+/// Claims about a shot computed by pooltool, and about a break.
 fn billiards() -> Vec<Claim> {
     let source = "pooltool 0.3.3, elastic balls without friction, cloth 0.2, 0.01 and 0.0127";
     let reason = "it finds the time of the impact to 4e-11 m";
@@ -261,18 +261,18 @@ fn billiards() -> Vec<Claim> {
     claims
 }
 
-/// A ball that touches the floor.
+/// Creates a ball that touches the floor.
 fn ball(velocity: DVec3, angular_velocity: DVec3) -> Sphere {
     let ball = Sphere::new(RADIUS * DVec3::Y, RADIUS).with_velocity(velocity);
     ball.with_angular_velocity(angular_velocity)
 }
 
-/// Velocity of the point of a ball that touches the floor \[m/s\].
+/// Velocity of the ball's surface at its contact with the floor \[m/s\].
 fn slip(ball: &Sphere) -> DVec3 {
     ball.velocity.with_y(0.0) + ball.angular_velocity.cross(-ball.radius * DVec3::Y)
 }
 
-/// A floor at height 0 under this gravity.
+/// Creates a world with a floor at height 0 and this gravity.
 fn floor(friction: impl Into<Friction>, gravity: DVec3) -> Result<World, Error> {
     let mut world = world(Exact::default().into())?;
     world.add_force(Gravity::new(gravity))?;
@@ -281,13 +281,13 @@ fn floor(friction: impl Into<Friction>, gravity: DVec3) -> Result<World, Error> 
     Ok(world)
 }
 
-/// A ball that has rolled.
+/// A ball after rolling, in its world.
 struct Rolled {
     world: World,
     id: SphereId,
 }
 
-/// A ball on a floor after a time \[s\], in whole frames and a rest.
+/// Simulates a ball on a floor for `time` \[s\].
 fn roll(
     friction: impl Into<Friction>,
     gravity: DVec3,
@@ -300,7 +300,7 @@ fn roll(
     Ok(Rolled { world, id })
 }
 
-/// Takes a world to a time \[s\], in whole frames and a rest.
+/// Advances a world to `time` \[s\], in whole frames and a shorter last one.
 fn go_to(world: &mut World, time: f64) -> Result<(), Error> {
     while world.time() + FRAME < time {
         world.step(FRAME)?;
@@ -318,12 +318,12 @@ impl Rolled {
     }
 }
 
-/// How a draw shot is at one of its events, of two balls on a cloth.
+/// State of a draw shot at one of its events: two balls on a cloth.
 struct PooltoolEvent {
     name: &'static str,
     /// \[s\]
     time: f64,
-    /// Places on the cloth \[m\] and velocities \[m/s\] of the cue ball and the other one.
+    /// Positions on the cloth \[m\] and velocities \[m/s\] of the cue ball and the object ball.
     state: [[[f64; 2]; 2]; 2],
 }
 
@@ -357,14 +357,14 @@ const POOLTOOL: [PooltoolEvent; 3] = [
     },
 ];
 
-/// The largest difference of a place \[m\] or a velocity \[m/s\] to those of an event, of both balls.
+/// Largest difference of a position \[m\] or a velocity \[m/s\] from the state at an event.
 ///
-/// Its rolling friction is a deceleration, 5/7 of the torque that it stands for here.
+/// The rolling friction of pooltool is a deceleration: 5/7 of the value that Carom uses.
 fn draw_shot(event: &PooltoolEvent) -> Outcome {
     let radius = 0.028575;
     let cloth = Friction::sliding(0.2).with_rolling(0.01 * 7.0 / 5.0);
     let mut world = floor(cloth.with_spinning(radius * 4.0 / 9.0), -G * DVec3::Y)?;
-    // Without friction between the balls.
+    // The balls have no friction on each other.
     let on_cloth = |x: f64, y: f64| Sphere::new(DVec3::new(x, radius, -y), radius);
     let cue = on_cloth(0.5, 0.5).with_velocity(-1.4 * DVec3::Z);
     let balls = [cue.with_angular_velocity(60.0 * DVec3::X), on_cloth(0.505, 0.9)];
@@ -380,7 +380,7 @@ fn draw_shot(event: &PooltoolEvent) -> Outcome {
     Ok(Measured::in_world(&world, error))
 }
 
-/// The largest part of its energy that a break of a rack of touching balls gains in a frame.
+/// Largest relative gain of energy in a frame of a break, with a rack of touching balls.
 fn rack_break() -> Outcome {
     let cloth = Friction::sliding(0.2).with_rolling(0.01).with_spinning(0.04);
     let mut world = floor(cloth, -G * DVec3::Y)?;

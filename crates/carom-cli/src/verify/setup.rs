@@ -1,4 +1,4 @@
-//! Worlds that several claims begin with.
+//! Worlds that several claims start from.
 
 use carom::{
     Collider, DQuat, DVec3, Discrete, Error, Gravity, Integrator, Pose, Rule, Settings, Shape,
@@ -10,17 +10,17 @@ pub const FRAME: f64 = 1.0 / 60.0;
 /// Acceleration of gravity \[m/s²\].
 pub const G: f64 = 9.81;
 
-/// An empty world under a rule.
+/// Creates an empty world under a rule.
 pub fn world(rule: Rule) -> Result<World, Error> {
     World::new(Settings::default().with_rule(rule))
 }
 
-/// An empty world under the rule `discrete` with this integrator.
+/// Creates an empty world under the rule `discrete` with this integrator.
 pub fn world_with(integrator: Integrator) -> Result<World, Error> {
     world(Discrete::default().with_integrator(integrator).into())
 }
 
-/// A world with gravity downward and a floor at height 0 of this restitution.
+/// Creates a world with gravity and a floor at height 0 with this restitution.
 pub fn world_with_floor(rule: Rule, restitution: f64) -> Result<World, Error> {
     let mut world = world(rule)?;
     world.add_force(Gravity::new(DVec3::new(0.0, -G, 0.0)))?;
@@ -28,13 +28,13 @@ pub fn world_with_floor(rule: Rule, restitution: f64) -> Result<World, Error> {
     Ok(world)
 }
 
-/// A half-space whose surface goes through `point` and faces `normal`.
+/// Creates a half-space whose surface contains `point` and faces `normal`.
 pub fn half_space(point: DVec3, normal: DVec3) -> Collider {
     let rotation = DQuat::from_rotation_arc(DVec3::Y, normal);
     Collider::new(Shape::HalfSpace, Pose::at(point).rotated(rotation))
 }
 
-/// Six half-spaces that leave a cube of this edge about the origin free.
+/// Adds six half-spaces around a cube with this edge about the origin.
 pub fn add_walls(world: &mut World, edge: f64) -> Result<(), Error> {
     for normal in [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z] {
         world.add_collider(half_space(-0.5 * edge * normal, normal))?;
@@ -42,9 +42,9 @@ pub fn add_walls(world: &mut World, edge: f64) -> Result<(), Error> {
     Ok(())
 }
 
-/// Steps to this time \[s\], in whole frames.
+/// Steps to `time` \[s\] in whole frames.
 pub fn run_until(world: &mut World, time: f64, h: f64) -> Result<(), Error> {
-    // Up to whole frames; a billionth of a frame is rounding.
+    // The number of frames is rounded up; 1e-9 of a frame is a rounding error.
     while world.time() < time - 1e-9 * h {
         world.step(h)?;
     }

@@ -1,4 +1,4 @@
-//! Grains in a silo: what its floor bears, and how fast it empties.
+//! Grains in a silo: force on the floor, and rate of discharge.
 
 use carom::{Collider, ColliderId, Contact, DVec3, Error, Pose, Rule, Shape, SphereId, World};
 
@@ -10,17 +10,18 @@ use super::setup::{FRAME, G, run_until};
 
 /// Coefficient of friction between grains.
 const MU: f64 = 0.5;
-/// Coefficient of friction on the walls of a column: so low that grains slide there, and do not roll.
+/// Coefficient of friction at the walls of a column: so low that grains slide there instead of
+/// rolling.
 const WALL_MU: f64 = 0.2;
 /// Width of a column \[diameters\].
 const COLUMN_WIDTH: f64 = 7.0;
 
-/// Grains in a silo that empties.
+/// Number of grains in the silo.
 const COUNT: usize = 3_000;
-/// Its width \[diameters\].
+/// Width of the silo \[diameters\].
 const SILO_WIDTH: f64 = 12.0;
-/// Coefficients of Beverloo's law: of the rate through a circle of the opening's width, and of the width
-/// that the edge takes \[diameters\].
+/// Coefficients of Beverloo's law: of the rate through a circular opening, and of the part of its
+/// width that the edge blocks \[diameters\].
 const BEVERLOO: [f64; 2] = [0.58, 1.4];
 
 pub fn claims() -> Vec<Claim> {
@@ -57,8 +58,8 @@ pub fn claims() -> Vec<Claim> {
     claims.into_iter().map(|claim| claim.about(Rule::Contact(Contact::default()))).collect()
 }
 
-/// What the floor of a column bears, by what Janssen's formula says. The floor sinks slowly, so that the
-/// friction at the walls points upwards and is used up.
+/// Force on the floor of a column, relative to Janssen's formula. The floor sinks slowly, so that
+/// the friction at the walls points upwards and is fully mobilized.
 fn column(count: usize) -> Outcome {
     let mut world = empty()?;
     let floor = add_floor(&mut world, MU)?;
@@ -70,7 +71,7 @@ fn column(count: usize) -> Outcome {
     let sinking = world.collider(floor)?.moving(-speed * DVec3::Y, DVec3::ZERO);
     world.set_collider(floor, sinking)?;
     let (looks, apart) = (20, 0.2);
-    // A tall column needs some diameters of way until it slides along all of its walls.
+    // A tall column moves by several diameters before it slides along all walls.
     let begin = world.time() + 30.0;
     let mut sums = [0.0; 2];
     for look in 0..looks {
@@ -81,13 +82,13 @@ fn column(count: usize) -> Outcome {
     Ok(Measured::in_world(&world, sums[0] / sums[1]))
 }
 
-/// The force on the floor of a column, and the one by Janssen's formula \[N\].
+/// Force on the floor of a column, and the force by Janssen's formula \[N\].
 fn floor_forces(world: &World, floor: ColliderId, walls: &[ColliderId]) -> Result<[f64; 2], Error> {
     let spheres = world.spheres();
     let bottom = world.collider(floor)?.pose.position.y;
     let borne = contacts_with(world, floor).map(|(_, normal, _)| normal).sum();
-    // The vertical force through all heights, times the height: of the weight above each, less what the
-    // walls bear above it.
+    // Integral over the height of the vertical force: the weight above each height, minus the force
+    // of the walls above it.
     let (mut weight, mut moment) = (0.0, 0.0);
     for (position, mass) in spheres.positions().iter().zip(spheres.masses()) {
         weight += G * mass;
@@ -101,14 +102,14 @@ fn floor_forces(world: &World, floor: ColliderId, walls: &[ColliderId]) -> Resul
             moment -= tangential.y * (point.y - bottom);
         }
     }
-    // Horizontal by vertical pressure.
+    // Ratio of horizontal to vertical pressure.
     let width = COLUMN_WIDTH * DIAMETER;
     let ratio = pressing * width / (4.0 * moment);
     let length = width / (4.0 * WALL_MU * ratio);
     Ok([borne, weight * length / height * (1.0 - libm::exp(-height / length))])
 }
 
-/// A silo that is full, and closed by a lid below.
+/// Creates a full silo that is closed by a lid below.
 fn silo() -> Result<(World, ColliderId), Error> {
     let mut world = empty()?;
     let lid = add_floor(&mut world, MU)?;
@@ -119,14 +120,15 @@ fn silo() -> Result<(World, ColliderId), Error> {
     Ok((world, lid))
 }
 
-/// The rate at which grains leave a silo through an opening of this width \[diameters\], by Beverloo's.
+/// Rate of discharge through an opening of this width \[diameters\], relative to Beverloo's law.
 fn discharge(opening: f64) -> Outcome {
     let (mut world, lid) = silo()?;
     let part = discharge_from(&mut world, lid, opening)?;
     Ok(Measured::in_world(&world, part))
 }
 
-/// Opens a silo; the rate by Beverloo's, from when a tenth of the grains has left until half of them has.
+/// Opens a silo; returns its rate relative to Beverloo's law, measured while between a tenth and
+/// half of the grains have left.
 fn discharge_from(world: &mut World, lid: ColliderId, opening: f64) -> Result<f64, Fault> {
     let width = SILO_WIDTH * DIAMETER;
     let density = COUNT as f64 / (width * width * top(world));
@@ -142,7 +144,7 @@ fn discharge_from(world: &mut World, lid: ColliderId, opening: f64) -> Result<f6
             return Err("the opening is blocked".into());
         }
         world.step(FRAME)?;
-        // Rarely: neighbours are found anew for it.
+        // Rarely, because removal rebuilds the neighbour lists.
         if frame % 32 == 0 {
             removed += remove_fallen(world)?;
         }
@@ -153,19 +155,19 @@ fn discharge_from(world: &mut World, lid: ColliderId, opening: f64) -> Result<f6
     }
     let rate = (left - before) as f64 / (world.time() - begin);
     let [c, k] = BEVERLOO;
-    // A square has 4/pi times the area of the circle.
+    // The area of a square is 4/pi times that of the circle.
     let c = c * 4.0 / std::f64::consts::PI;
     let free = (opening - k) * DIAMETER;
     Ok(rate / (c * density * G.sqrt() * free * free * free.sqrt()))
 }
 
-/// What has fallen out of a silo.
+/// Ids of the grains that fell out of a silo.
 fn fallen(world: &World) -> impl Iterator<Item = SphereId> {
     let spheres = world.spheres().ids().iter().zip(world.spheres().positions());
     spheres.filter(|(_, position)| position.y < -2.0 * DIAMETER).map(|(&id, _)| id)
 }
 
-/// Removes what has fallen out of a silo; gives how many.
+/// Removes the grains that fell out of a silo; returns their number.
 fn remove_fallen(world: &mut World) -> Result<usize, Error> {
     let out: Vec<SphereId> = fallen(world).collect();
     for &id in &out {
@@ -174,7 +176,7 @@ fn remove_fallen(world: &mut World) -> Result<usize, Error> {
     Ok(out.len())
 }
 
-/// A floor at height 0, with a square opening of this width \[m\] in its middle.
+/// Adds a floor at height 0 with a square opening of this width \[m\] in its middle.
 fn add_floor_with_opening(world: &mut World, opening: f64) -> Result<(), Error> {
     let width = SILO_WIDTH * DIAMETER;
     let border = 0.5 * (width - opening);

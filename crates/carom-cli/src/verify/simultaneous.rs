@@ -1,6 +1,6 @@
-//! Several impacts at once: rows, symmetric hits, and groups at random.
+//! Simultaneous impacts: rows, symmetric hits, and random groups.
 //!
-//! The five properties are those that Smith, Kaufman, Vouga, Tamstorf and Grinspun demand of an
+//! The five properties are those that Smith, Kaufman, Vouga, Tamstorf and Grinspun require of an
 //! impact operator: "Reflections on Simultaneous Impact", ACM TOG 31(4), 2012.
 
 use carom::{BodyPair, DVec3, Error, Impact, Rule, Sphere, World};
@@ -9,9 +9,9 @@ use super::claim::{Claim, Expected, Measured, Outcome, Tolerance};
 use super::setup::{FRAME, run_until, world};
 use crate::numbers::Numbers;
 
-/// Balls of the cradle.
+/// Number of balls in the cradle.
 const BALLS: usize = 5;
-/// Groups at random for each property.
+/// Number of random groups for each property.
 const GROUPS: usize = 100;
 const SPHERES_PER_GROUP: usize = 12;
 const SOURCE: &str = "Smith et al. 2012";
@@ -65,7 +65,7 @@ pub fn claims() -> Vec<Claim> {
     claims
 }
 
-/// k balls of a touching cradle in, k out.
+/// Claim that a touching cradle hit by k balls ejects k balls.
 fn cradle(k: usize) -> Claim {
     Claim::new(
         format!("cradle of {BALLS}, {k} in: {k} out at the same speed [m/s]"),
@@ -75,7 +75,7 @@ fn cradle(k: usize) -> Claim {
     )
 }
 
-/// Largest error of the velocities of these balls, after k balls came in at 1 m/s from the left.
+/// Largest error of the velocities of these balls, after k balls arrived at 1 m/s from the left.
 fn cradle_error(rule: Rule, k: usize, balls: std::ops::Range<usize>) -> Result<Measured, Error> {
     let mut world = world(rule)?;
     for i in 0..BALLS {
@@ -91,7 +91,7 @@ fn cradle_error(rule: Rule, k: usize, balls: std::ops::Range<usize>) -> Result<M
     Ok(Measured::in_world(&world, balls.map(error).fold(0.0, f64::max)))
 }
 
-/// A ball at 1 m/s along x, centred, into two touching ones at rest.
+/// Simulates a central hit of a ball at 1 m/s along x on two touching balls at rest.
 fn hit_two(rule: Rule) -> Result<World, Error> {
     let mut world = world(rule)?;
     world.add_sphere(Sphere::new(DVec3::new(-4.0, 0.0, 0.0), 0.5).with_velocity(DVec3::X))?;
@@ -117,12 +117,12 @@ fn asymmetry_of_one_into_two(rule: Rule) -> Outcome {
     let velocities = world.spheres().velocities();
     let mirrored = velocities[1] * DVec3::new(1.0, 1.0, -1.0);
     let error = (mirrored - velocities[2]).length() + velocities[0].z.abs();
-    // Without an impact, everything is symmetric.
+    // Without an impact, any result would be symmetric.
     let value = if velocities[1] == DVec3::ZERO { f64::INFINITY } else { error };
     Ok(Measured::in_world(&world, value))
 }
 
-/// A group that was answered at once.
+/// A group of spheres before and after its impacts were answered.
 struct Answered {
     masses: Vec<f64>,
     places: Vec<DVec3>,
@@ -131,12 +131,12 @@ struct Answered {
     impacts: Vec<Impact>,
 }
 
-/// So short a frame \[s\] that nothing meets in it but what touches.
+/// Length of a frame \[s\] in which only touching spheres collide.
 const INSTANT: f64 = 1e-9;
-/// Centres of spheres of diameter 1 that are less than this apart touch.
+/// Spheres of diameter 1 touch if their centres are closer than this.
 const TOUCHING: f64 = 1.0 + 1e-9;
 
-/// Lets a group of touching spheres of diameter 1 answer its impacts.
+/// Answers the impacts of a group of touching spheres of diameter 1.
 fn answered(
     rule: Rule,
     places: Vec<DVec3>,
@@ -153,7 +153,7 @@ fn answered(
     Ok((Measured::in_world(&world, 0.0), Answered { masses, places, before, after, impacts }))
 }
 
-/// Largest error of groups at random.
+/// Largest error of random groups.
 fn groups(rule: Rule, error: fn(&Answered) -> f64) -> Outcome {
     let mut numbers = Numbers::new(1);
     let mut measured = Vec::new();
@@ -167,9 +167,9 @@ fn groups(rule: Rule, error: fn(&Answered) -> f64) -> Outcome {
     Ok(Measured::largest(measured))
 }
 
-/// Places of touching spheres: neighbours on a face-centred cubic lattice, all x >= 0.
+/// Random centres of touching spheres: neighbours on a face-centred cubic lattice with x >= 0.
 fn cluster(numbers: &mut Numbers) -> Vec<DVec3> {
-    // In units of half the lattice's constant; neighbours differ by 1 along two axes.
+    // In units of half the lattice constant; neighbours differ by 1 along two axes.
     let mut sites = vec![[0_i32; 3]];
     while sites.len() < SPHERES_PER_GROUP {
         let mut site = sites[numbers.index(sites.len())];
@@ -185,7 +185,8 @@ fn cluster(numbers: &mut Numbers) -> Vec<DVec3> {
     sites.iter().map(|site| unit * DVec3::from_array(site.map(f64::from))).collect()
 }
 
-/// Largest difference between a group that is its own mirror image in x, and its mirror image.
+/// Largest difference between a group that is symmetric in x and its mirror image after the
+/// impacts.
 fn symmetric_groups(rule: Rule) -> Outcome {
     let mut numbers = Numbers::new(2);
     let mirror = |v: DVec3| v * DVec3::new(-1.0, 1.0, 1.0);
@@ -196,7 +197,7 @@ fn symmetric_groups(rule: Rule) -> Outcome {
         for place in cluster(&mut numbers) {
             let (mass, velocity) = (numbers.between(0.2, 5.0), numbers.normal_vector());
             let first = places.len();
-            // On the mirror itself there is one sphere, which moves along it.
+            // A sphere on the plane of symmetry is single and moves along the plane.
             let is_single = place.x == 0.0;
             places.push(place);
             velocities.push(if is_single {
@@ -225,7 +226,7 @@ fn fastest(answered: &Answered) -> f64 {
     answered.before.iter().map(|v| v.length()).fold(0.0, f64::max)
 }
 
-/// Largest speed at which two touching spheres close after.
+/// Largest speed at which touching spheres still approach after the impacts.
 fn approach_after(answered: &Answered) -> f64 {
     let Answered { places, after, .. } = answered;
     let mut worst: f64 = 0.0;
@@ -254,7 +255,7 @@ fn momentum_error(answered: &Answered) -> f64 {
     change.length() / scale
 }
 
-/// What the impulses, all positive, leave unexplained of the changes of momentum.
+/// Largest change of momentum that the impulses, which must not be negative, do not explain.
 fn impulse_error(answered: &Answered) -> f64 {
     let Answered { masses, before, after, impacts, .. } = answered;
     let mut left: Vec<DVec3> =

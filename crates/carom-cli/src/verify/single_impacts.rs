@@ -1,4 +1,4 @@
-//! One impact at a time: drops, and two spheres.
+//! Single impacts: drops, and two spheres.
 
 use carom::{DVec3, Error, Rule, Sphere, World};
 
@@ -6,11 +6,11 @@ use super::claim::{Claim, Expected, Measured, Outcome, Tolerance};
 use super::setup::{FRAME, G, run_until, world, world_with_floor};
 use crate::numbers::Numbers;
 
-/// Height of the gap through which balls are dropped \[m\].
+/// Height from which balls are dropped \[m\].
 const H: f64 = 1.0;
 const RADIUS: f64 = 0.25;
 
-/// What bounces shorter than the duration of a contact would have added is left out.
+/// Reason of a tolerance: the time of bounces that are too short to be simulated.
 const CUT_OFF: &str = "bounces no higher than 256 roundings of the coordinates: 1.5e-7 s / (1 - e)";
 
 pub fn claims() -> Vec<Claim> {
@@ -53,11 +53,11 @@ pub fn claims() -> Vec<Claim> {
     claims
 }
 
-/// The claims about a drop with restitution `e`.
+/// Claims about a drop with restitution `e`.
 fn drop_claims(e: f64) -> [Claim; 3] {
     let time = (2.0 * H / G).sqrt() * (1.0 + e) / (1.0 - e);
     let path = H * (1.0 + e * e) / (1.0 - e * e);
-    // The centre of the ball at rest is a radius from the origin.
+    // At rest, the centre of the ball is a radius from the origin.
     let contact_duration = (8.0 * 256.0 * f64::EPSILON * (RADIUS + RADIUS) / G).sqrt();
     [
         Claim::new(
@@ -81,14 +81,14 @@ fn drop_claims(e: f64) -> [Claim; 3] {
     ]
 }
 
-/// A ball above a floor, by the gap `H`.
+/// Creates a ball above a floor with the gap `H`.
 fn ball_above_floor(rule: Rule, e: f64) -> Result<World, Error> {
     let mut world = world_with_floor(rule, e)?;
     world.add_sphere(Sphere::new(DVec3::new(0.0, RADIUS + H, 0.0), RADIUS))?;
     Ok(world)
 }
 
-/// Height to which the ball rises from its present state \[m\].
+/// Greatest height that the ball reaches from its present state \[m\].
 fn apex(world: &World) -> f64 {
     let spheres = world.spheres();
     let speed = spheres.velocities()[0].y;
@@ -115,19 +115,19 @@ fn apexes(rule: Rule, e: f64) -> Outcome {
 struct Fall(Vec<f64>);
 
 impl Fall {
-    /// The last one: then the ball is at rest.
+    /// Time of the last impact, after which the ball is at rest.
     fn last(&self) -> f64 {
         self.0.last().copied().unwrap_or(f64::NAN)
     }
 
-    /// Length of the path \[m\]: the fall, and a rise and a fall of `g Δt²/8` each between impacts.
+    /// Length of the path \[m\]: the first fall, and `g Δt²/8` up and down between impacts.
     fn path(&self) -> f64 {
         let flights = self.0.windows(2).map(|pair| pair[1] - pair[0]);
         H + flights.map(|t| 0.25 * G * t * t).sum::<f64>()
     }
 }
 
-/// Drops a ball and watches it half a second longer than it should take to come to rest.
+/// Drops a ball and measures until half a second after it should have come to rest.
 fn drop(rule: Rule, e: f64, rest: f64, measure: impl Fn(&Fall) -> f64) -> Outcome {
     let mut world = ball_above_floor(rule, e)?;
     let mut times = Vec::new();
@@ -140,7 +140,7 @@ fn drop(rule: Rule, e: f64, rest: f64, measure: impl Fn(&Fall) -> f64) -> Outcom
 
 fn elastic_drop(rule: Rule) -> Outcome {
     let mut world = ball_above_floor(rule, 1.0)?;
-    // From one bounce to the next 0.9 s go by: every flight is looked at.
+    // Bounces are 0.9 s apart, so every flight is checked.
     let (frame, mut bounces, mut worst) = (0.25, 0, 0.0_f64);
     while bounces < 10_000 && world.time() < 10_000.0 {
         bounces += world.step(frame)?.impacts.len();
@@ -164,31 +164,31 @@ fn head_on(rule: Rule) -> Outcome {
     Ok(Measured::in_world(&world, error))
 }
 
-/// Two spheres before and after their impact.
+/// Two spheres before and after an impact.
 struct Pair {
     masses: [f64; 2],
     before: [DVec3; 2],
     after: [DVec3; 2],
-    /// Line of centres when they meet, from the first to the second.
+    /// Direction from the first centre to the second at the impact.
     normal: DVec3,
 }
 
-/// Which spheres meet.
+/// Kinds of pairs that collide.
 #[derive(Debug, Clone, Copy)]
 enum Kind {
-    /// Equal masses, the second one at rest.
+    /// Equal masses; the second sphere is at rest.
     OneAtRest,
-    /// Mass ratios up to 64, both moving.
+    /// Mass ratios up to 64; both spheres move.
     Unequal,
 }
 
-/// Largest error of a hundred impacts of two spheres, all different.
+/// Largest error over a hundred different impacts of two spheres.
 fn pairs(rule: Rule, kind: Kind, error: fn(&Pair) -> f64) -> Outcome {
     let mut numbers = Numbers::new(1);
     let measured: Result<Vec<Measured>, Error> = (0..100)
         .map(|_| {
             let normal = numbers.direction();
-            // They close at 60 degrees from the line of centres at most.
+            // They approach at up to 60 degrees from the line of centres.
             let closing = loop {
                 let direction = numbers.direction();
                 if direction.dot(normal) > 0.5 {
@@ -207,7 +207,7 @@ fn pairs(rule: Rule, kind: Kind, error: fn(&Pair) -> f64) -> Outcome {
     Ok(Measured::largest(measured?))
 }
 
-/// Lets two spheres meet after a second, and measures.
+/// Lets two spheres collide after a second, and measures the error.
 fn collide(rule: Rule, pair: Pair, error: fn(&Pair) -> f64) -> Result<Measured, Error> {
     let mut world = world(rule)?;
     let radii = [0.3, 0.2];
@@ -242,7 +242,7 @@ fn across_the_line(pair: &Pair) -> f64 {
     errors.fold(0.0, f64::max) / speed(pair)
 }
 
-/// The larger speed before.
+/// Larger of the two speeds before the impact.
 fn speed(pair: &Pair) -> f64 {
     pair.before[0].length().max(pair.before[1].length())
 }

@@ -1,8 +1,7 @@
-//! No tunnelling: at any speed, every impact happens, and none that should not.
+//! No tunnelling: at any speed, every impact occurs, and no other.
 //!
-//! Small balls are shot at a target from where they reach it within one frame, half of them so that
-//! they hit it at a known place, half so that they pass it closely. All targets are convex: a ball
-//! that is reflected never comes back.
+//! Small balls are shot at a target that they reach within one frame: half of them hit a known
+//! point, half of them pass closely. All targets are convex, so a reflected ball does not return.
 
 use carom::{BodyPair, Collider, DVec3, Error, Pose, Rule, Shape, Sphere, World};
 
@@ -12,11 +11,11 @@ use crate::numbers::Numbers;
 
 /// Radius of the balls \[m\].
 const RADIUS: f64 = 1e-3;
-/// \[m/s\]; at the largest a ball flies 1,700 km in a frame, a thousand million times its radius.
+/// Speeds \[m/s\]; at the highest, a ball flies 1,700 km in a frame, 1e9 times its radius.
 const SPEEDS: [f64; 4] = [1e2, 1e4, 1e6, 1e8];
-/// Shots at each speed.
+/// Number of shots at each speed.
 const SHOTS: usize = 50;
-/// Those that pass do so at this part of the radius.
+/// Distance at which balls pass, relative to the distance at which they hit.
 const PASSING: f64 = 1.05;
 
 pub fn claims() -> Vec<Claim> {
@@ -59,11 +58,11 @@ enum Target {
     BoxCorner,
 }
 
-/// A ball on its way.
+/// A ball on its way to the target.
 struct Shot {
     /// A point of the target's surface nearest to the ball's path \[m\].
     point: DVec3,
-    /// From that point to the ball when it is nearest.
+    /// Direction from that point to the ball at its closest approach.
     normal: DVec3,
     /// Direction of flight.
     direction: DVec3,
@@ -71,7 +70,7 @@ struct Shot {
 }
 
 impl Target {
-    /// Fixed shape of the target, about the origin.
+    /// Shape of the target at the origin; `None` for a moving ball.
     fn shape(self) -> Option<Shape> {
         match self {
             Self::Ball => None,
@@ -83,11 +82,11 @@ impl Target {
         }
     }
 
-    /// A point of the surface and a normal there.
+    /// Random point of the surface, with a normal there.
     fn point_and_normal(self, numbers: &mut Numbers) -> (DVec3, DVec3) {
         let top = if matches!(self, Self::BoxEdge | Self::BoxCorner) { 1.0 } else { 0.0 };
         let (x, z) = (numbers.between(-0.9, 0.9), numbers.between(-1.4, 1.4));
-        // Well between the normals of the faces that meet at an edge or a corner.
+        // Clearly between the normals of the faces that meet at an edge or a corner.
         let [a, b, c] = [0; 3].map(|_| numbers.between(0.2, 1.0));
         match self {
             Self::Ball => (DVec3::ZERO, numbers.direction()),
@@ -105,7 +104,8 @@ impl Target {
         }
     }
 
-    /// A shot that hits or passes. Rectangles have a front only: there it comes from.
+    /// Random shot that hits or passes. At rectangles, which have only a front, it comes from the
+    /// front.
     fn shot(self, is_hit: bool, numbers: &mut Numbers) -> Shot {
         let (point, normal) = self.point_and_normal(numbers);
         let direction = loop {
@@ -128,7 +128,7 @@ fn shoot_all(rule: Rule, target: Target) -> Outcome {
     for speed in SPEEDS {
         for i in 0..SHOTS {
             let shot = target.shot(i % 2 == 0, &mut numbers);
-            // When the ball is where it is nearest.
+            // Time of the closest approach.
             let time = FRAME * numbers.between(0.05, 0.9);
             measured.push(match target.shape() {
                 Some(shape) => shoot_at(rule, shape, &shot, speed, time)?,
@@ -139,7 +139,7 @@ fn shoot_all(rule: Rule, target: Target) -> Outcome {
     Ok(Measured::sum(measured))
 }
 
-/// Shoots at a fixed shape; 1 if what should happen does.
+/// Shoots at a fixed shape; measures 1 if the outcome is right, else 0.
 fn shoot_at(
     rule: Rule,
     shape: Shape,
@@ -159,7 +159,8 @@ fn shoot_at(
     Ok(Measured::in_world(&world, f64::from(u8::from(is_right))))
 }
 
-/// Shoots two balls of equal mass at each other, each with half the speed, both carried along.
+/// Shoots two balls of equal mass at each other, each with half the speed, with a common velocity
+/// added.
 fn shoot_ball_at_ball(rule: Rule, shot: &Shot, speed: f64, time: f64) -> Result<Measured, Error> {
     let mut world = world(rule)?;
     let distance = if shot.is_hit { 2.0 * RADIUS } else { 2.0 * PASSING * RADIUS };
@@ -176,17 +177,19 @@ fn shoot_ball_at_ball(rule: Rule, shot: &Shot, speed: f64, time: f64) -> Result<
     Ok(Measured::in_world(&world, f64::from(u8::from(is_right))))
 }
 
-/// Whether the first ball was hit once, and its velocity changed by `change`, or passed.
+/// Whether the first ball was hit once and its velocity changed by `change`, or passed if it
+/// should.
 fn is_right(world: &World, shot: &Shot, impacts: usize, before: DVec3, change: DVec3) -> bool {
     let after = world.spheres().velocities()[0];
     if !shot.is_hit {
         return impacts == 0 && after == before;
     }
-    // Places 1,700 km away are known to 0.2 nm, and with them the normal to 1e-6 of the radius.
+    // At 1,700 km, positions have a resolution of 0.2 nm, so the normal is known to 1e-6 of the
+    // radius.
     impacts == 1 && (after - before - change).length() < 1e-4 * before.length()
 }
 
-/// What a ball flies to and fro between.
+/// Sides between which a ball flies to and fro.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Sides {
     HalfSpaces,
@@ -194,10 +197,10 @@ enum Sides {
     FixedSpheres,
 }
 
-/// A ball to and fro between two sides.
+/// Claim about a ball that flies to and fro between two sides.
 fn between(sides: Sides, name: &str) -> Claim {
-    // From one impact to the next it flies 10 m. It begins in the middle, so that it ends a sixth
-    // of a flight beyond it, far from an impact.
+    // Impacts are 10 m apart. The ball starts in the middle and ends a sixth of a flight beyond it,
+    // far from an impact.
     let (flights, speed) = (150_000.0_f64, 1e8_f64);
     let duration = (flights + 1.0 / 6.0) * 10.0 / speed;
     Claim::new(
@@ -222,7 +225,7 @@ fn is_with_collider(between: BodyPair) -> bool {
     matches!(between, BodyPair::Collider { .. })
 }
 
-/// A fixed body whose surface is 5 m and a radius from the origin along x.
+/// Creates a fixed body whose surface is 5 m plus a radius from the origin along x.
 fn side_of(sides: Sides, side: f64) -> Collider {
     let place = side * (5.0 + RADIUS) * DVec3::X;
     let half_space = half_space(place, -side * DVec3::X);

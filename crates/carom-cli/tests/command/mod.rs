@@ -8,22 +8,22 @@ use tempfile::TempDir;
 /// Path of the program.
 pub const CAROM: &str = env!("CARGO_BIN_EXE_carom");
 
-/// The command, in an environment that says nothing of scenes and pages, and without a configuration.
+/// Creates the command in an environment without scenes, pages and configuration.
 pub fn carom() -> Command {
     let mut command = Command::new(CAROM);
     command.env_remove("CAROM_SCENES").env_remove("CAROM_PAGE");
     command.env_remove("CAROM_CONFIG").env("XDG_CONFIG_HOME", "/nowhere");
-    // Wayland's library complains aloud where this is missing.
+    // Wayland's library prints an error if this is missing.
     command.env("XDG_RUNTIME_DIR", std::env::temp_dir());
     command
 }
 
-/// What becomes of the command with these arguments.
+/// Runs the command with these arguments.
 pub fn run(arguments: &[&str]) -> Output {
     carom().args(arguments).output().unwrap()
 }
 
-/// The standard output of a run that succeeded without a word on the standard error stream.
+/// Returns the standard output of a run that succeeded and printed no error.
 #[track_caller]
 pub fn text_of(output: Output) -> String {
     let errors = String::from_utf8_lossy(&output.stderr);
@@ -32,13 +32,13 @@ pub fn text_of(output: Output) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
-/// Runs successfully; gives the standard output.
+/// Runs the command, which must succeed; returns the standard output.
 #[track_caller]
 pub fn good(arguments: &[&str]) -> String {
     text_of(run(arguments))
 }
 
-/// Fails with this code; gives the standard error stream.
+/// Runs the command, which must fail with this code; returns the standard error stream.
 #[track_caller]
 pub fn bad(arguments: &[&str], code: i32) -> String {
     let output = run(arguments);
@@ -48,7 +48,7 @@ pub fn bad(arguments: &[&str], code: i32) -> String {
     errors
 }
 
-/// Fails with this code and one line on the standard error stream; gives it.
+/// Runs the command, which must fail with this code and one line of error; returns the line.
 #[track_caller]
 pub fn bad_line(arguments: &[&str], code: i32) -> String {
     let errors = bad(arguments, code);
@@ -61,18 +61,18 @@ pub fn path(folder: &TempDir, name: &str) -> String {
     folder.path().join(name).to_str().unwrap().to_owned()
 }
 
-/// How many runs are killed in each format.
+/// Number of runs that are killed for each format.
 pub fn kills() -> u64 {
     std::env::var("KILLS").ok().and_then(|text| text.parse().ok()).unwrap_or(2)
 }
 
-/// Moments of kills \[ms\], spread over the first two seconds without order, however few they are: the first two are
-/// 1100 and 201.
+/// Times at which runs are killed \[ms\], scattered over the first two seconds for any number of
+/// kills: the first two are 1100 and 201.
 pub fn moments() -> impl Iterator<Item = u64> {
     (1..=kills()).map(|k| k * 1100 % 1999)
 }
 
-/// Times \[s\] and positions \[m\] of all balls that move, in the frames of an animation after its start.
+/// Times \[s\] and positions \[m\] of all moving balls in an animation, after the start.
 pub fn keys(animation: &str) -> Vec<(f64, Vec<f64>)> {
     let bytes = std::fs::read(animation).unwrap();
     let word = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap()) as usize;

@@ -1,11 +1,11 @@
-//! What a frame adds to a file: nodes, meshes and what belongs to them are only ever added.
+//! Additions of a frame to a file: nodes, meshes and their parts are only ever added.
 
 use super::arrays::Arrays;
 use super::nodes::Nodes;
 use crate::document::{Document, Scene};
 use crate::rigid_body::{RigidBodies, Shapes};
 
-/// How much of a file there is.
+/// Lengths of the lists of a file at one time.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Marks {
     nodes: usize,
@@ -21,8 +21,8 @@ pub(super) struct Marks {
 }
 
 impl Marks {
-    /// Sets the marks to what there is now; returns what there was not before, with the bytes of its arrays. `None` where
-    /// nothing is new.
+    /// Moves the marks to the present lengths. Returns what was added since the last call, with the
+    /// bytes of new arrays; `None` if nothing was added.
     pub fn advance(&mut self, nodes: &Nodes, arrays: &Arrays) -> Option<(Document, Vec<u8>)> {
         let Nodes { document, bodies, .. } = nodes;
         let is_start = self.nodes == 0;
@@ -56,13 +56,13 @@ impl Marks {
     }
 }
 
-/// What comes in a list after a mark, which is set to its end.
+/// Returns the part of a list after `mark`, and sets the mark to its end.
 fn since<T: Clone>(list: &[T], mark: &mut usize) -> Vec<T> {
     let before = std::mem::replace(mark, list.len());
     list[before..].to_vec()
 }
 
-/// Puts together what frames added.
+/// Appends the additions of a frame to a document.
 pub(super) fn extend(whole: &mut Document, added: Document) {
     whole.scene = whole.scene.or(added.scene);
     let mut roots = added.scenes.into_iter();

@@ -1,13 +1,13 @@
-//! Where numbers lie in the binary part of a file.
+//! Arrays in the binary part of a file.
 
 use crate::document::{Accessor, BufferView, FLOAT, UNSIGNED_SHORT};
 
-/// Vertices.
+/// Target of views with vertices.
 const ARRAY_BUFFER: u32 = 34_962;
-/// Indices of vertices.
+/// Target of views with indices of vertices.
 const ELEMENT_ARRAY_BUFFER: u32 = 34_963;
 
-/// The binary part of a file, all but the keys of tracks, which come last.
+/// The binary part of a file without the keys of tracks, which come last.
 #[derive(Debug, Default)]
 pub(super) struct Arrays {
     pub bytes: Vec<u8>,
@@ -16,7 +16,7 @@ pub(super) struct Arrays {
 }
 
 impl Arrays {
-    /// Adds places or normals of vertices; returns their accessor.
+    /// Adds positions or normals of vertices; returns their accessor.
     pub fn push_vertices(&mut self, vertices: &[[f32; 3]]) -> usize {
         let view = self.push_view(vertices.as_flattened().iter().flat_map(|it| it.to_le_bytes()));
         self.views[view].target = Some(ARRAY_BUFFER);
@@ -49,7 +49,7 @@ impl Arrays {
         self.push_view(times.iter().flat_map(|it| it.to_le_bytes()))
     }
 
-    /// Adds an accessor to times that are in a view from this index on.
+    /// Adds an accessor to the times of a view from index `start` on.
     pub fn push_times_in(&mut self, view: usize, start: usize, times: &[f32]) -> usize {
         let end = |time: Option<&f32>| time.map(|it| f64::from(*it)).into_iter().collect();
         let (min, max, byte_offset) = (end(times.first()), end(times.last()), 4 * start as u64);
@@ -62,7 +62,7 @@ impl Arrays {
         self.push(accessor(view, "VEC3", scales.len()))
     }
 
-    /// Adds an accessor to keys, this many bytes after the beginning of a view.
+    /// Adds an accessor to keys that start `byte_offset` bytes after the start of a view.
     pub fn push_keys_in(
         &mut self,
         view: usize,
@@ -73,7 +73,7 @@ impl Arrays {
         self.push(Accessor { byte_offset, ..accessor(view, kind, count) })
     }
 
-    /// Adds a view of bytes that come after all those here.
+    /// Adds a view of bytes that follow all bytes in this list.
     pub fn push_later(&mut self, byte_length: u64) -> usize {
         self.views.push(view(self.bytes.len() as u64, byte_length));
         self.views.len() - 1
@@ -83,7 +83,7 @@ impl Arrays {
         let start = self.bytes.len();
         self.bytes.extend(bytes);
         self.views.push(view(start as u64, (self.bytes.len() - start) as u64));
-        // Numbers of 32 bits lie at multiples of 4.
+        // Numbers of 32 bits are aligned to 4 bytes.
         self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
         self.views.len() - 1
     }

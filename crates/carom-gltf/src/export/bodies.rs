@@ -1,4 +1,4 @@
-//! What physics other programs have for the bodies of a world, as the extension `KHR_physics_rigid_bodies` says it.
+//! Bodies of a world in the extension `KHR_physics_rigid_bodies`, for physics in other programs.
 
 use carom::{Collider, DQuat, DVec3, Friction, SOLID_BALL, Shape, Sphere};
 use carom_scene::scene::{CombineRule, Force, Scene};
@@ -8,10 +8,10 @@ use crate::rigid_body::{
     Shapes, SphereShape,
 };
 
-/// Gravity on a body whose factor is 1 \[m/s²\].
+/// Gravity on a body with factor 1 \[m/s²\].
 const GRAVITY: f64 = 9.81;
 
-/// Shapes and materials that bodies refer to by their numbers.
+/// Shapes and materials, to which bodies refer by index.
 #[derive(Debug)]
 pub(super) struct Bodies {
     pub shapes: Shapes,
@@ -22,7 +22,7 @@ pub(super) struct Bodies {
 }
 
 impl Bodies {
-    /// Those of a scene, without any yet.
+    /// Creates the bodies of a scene, which are still empty.
     pub fn new(scene: &Scene) -> Self {
         let downward = |force: &Force| match force {
             Force::Gravity { acceleration } => -acceleration[1] / GRAVITY,
@@ -38,7 +38,7 @@ impl Bodies {
         }
     }
 
-    /// A sphere whose node is scaled by its radius.
+    /// Creates the body of a sphere whose node is scaled by its radius.
     pub fn sphere(&mut self, sphere: &Sphere) -> Box<NodeBody> {
         let (mass, radius) = (sphere.kilograms(), sphere.radius);
         let inertia = sphere.inertia_factor * mass * radius * radius;
@@ -55,7 +55,8 @@ impl Bodies {
         Box::new(NodeBody { motion: Some(motion), collider, ..NodeBody::default() })
     }
 
-    /// A collider whose node is scaled by its size; of a container, its walls have the shapes.
+    /// Creates the body of a collider whose node is scaled by its size. The walls of a container
+    /// have bodies of their own.
     pub fn collider(&mut self, collider: &Collider) -> Option<Box<NodeBody>> {
         let shape = match collider.shape {
             Shape::Sphere { .. } => Some(unit_sphere()),
@@ -78,7 +79,7 @@ impl Bodies {
         (!is_empty).then(|| Box::new(body))
     }
 
-    /// A wall of a container, 1 by 1: spheres bounce off it on either side.
+    /// Creates the body of a wall of a container, 1 by 1; spheres bounce off both sides.
     pub fn wall(&mut self, container: &Collider) -> Box<NodeBody> {
         Box::new(self.fixed(plane(Some(1.0), true), container))
     }
@@ -99,7 +100,8 @@ impl Bodies {
     }
 
     fn material(&mut self, restitution: f64, friction: Friction) -> usize {
-        // What says nothing leaves friction to its partner; there is no way to say so.
+        // Without friction of its own, a collider takes that of its partner; the format cannot
+        // express this.
         let friction = friction.sliding.unwrap_or(0.0);
         let material = PhysicsMaterial {
             static_friction: friction,
@@ -112,7 +114,7 @@ impl Bodies {
     }
 }
 
-/// Where a value is in a list, at whose end it is added if it is not there.
+/// Index of a value in a list; appends it if it is missing.
 pub(super) fn place_of<T: PartialEq>(list: &mut Vec<T>, value: T) -> usize {
     list.iter().position(|it| *it == value).unwrap_or_else(|| {
         list.push(value);
@@ -120,11 +122,11 @@ pub(super) fn place_of<T: PartialEq>(list: &mut Vec<T>, value: T) -> usize {
     })
 }
 
-/// Motion with these velocities in the world, of a node that is turned so.
+/// Converts velocities in world coordinates to those of a node with this rotation.
 fn moving(velocity: DVec3, angular_velocity: DVec3, rotation: DQuat) -> Motion {
     let rotation = rotation.normalize();
     let local = |vector: DVec3| {
-        // Round-off only where the node is turned.
+        // Without a rotation, avoid its rounding errors.
         let is_turned = rotation != DQuat::IDENTITY;
         let local = if is_turned { rotation.inverse() * vector } else { vector };
         (vector != DVec3::ZERO).then_some(local.to_array())
@@ -157,7 +159,7 @@ fn plane(size: Option<f64>, double_sided: bool) -> rigid_body::Shape {
     }
 }
 
-/// The way of combining that is nearest; for the root of the product there is none.
+/// Nearest combine mode; the format has no geometric mean.
 fn combine(rule: CombineRule) -> Combine {
     match rule {
         CombineRule::Product => Combine::Multiply,

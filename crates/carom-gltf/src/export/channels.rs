@@ -1,4 +1,4 @@
-//! What of which node moves when.
+//! Channels of an animation.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -7,9 +7,9 @@ use super::arrays::Arrays;
 use super::tracks::Track;
 use crate::document::{Animation, Channel, Sampler, Target};
 
-/// The animation of these tracks, and the arrays that it refers to; the keys of positions
-/// and rotations are to come after all bytes that are there then, in the order of the tracks. `None` where all
-/// is at rest.
+/// Creates the animation of these tracks, and adds its arrays. The keys of positions and rotations
+/// must follow after all bytes of the arrays, in the order of the tracks. Returns `None` if nothing
+/// moves.
 pub(super) fn of_tracks(
     tracks: &[&Track],
     times: &[f32],
@@ -22,7 +22,7 @@ pub(super) fn of_tracks(
     }
     let bytes: u64 = tracks.iter().map(|track| track.bytes()).sum();
     if bytes > 0 {
-        // Before the view that comes last, all others.
+        // The view of the times must come before the view that is last.
         let _ = channels.times_view();
         let view = channels.arrays.push_later(bytes);
         let mut offset = 0;
@@ -47,16 +47,17 @@ fn empty() -> Animation {
 
 struct Channels<'a> {
     arrays: &'a mut Arrays,
-    /// Of all frames \[s\].
+    /// Times of all frames \[s\].
     times: &'a [f32],
     times_view: Option<usize>,
-    /// Accessors of the times of some frames.
+    /// Accessors of times by range of frames.
     inputs: BTreeMap<(u32, u32), usize>,
     animation: Animation,
 }
 
 impl Channels<'_> {
-    /// Adds the sizes of a body, where they change, or where it is not always there: each holds until the next.
+    /// Adds the scales of a body, if they change or the body does not exist in all frames. Each key
+    /// holds until the next.
     fn push_scales(&mut self, track: &Track) {
         let frames = self.times.len() as u32;
         let Range { start, end } = track.frames;
@@ -74,7 +75,7 @@ impl Channels<'_> {
         self.push(track.node, "scale", "STEP", [input, output]);
     }
 
-    /// The accessor of the times of these frames.
+    /// Returns the accessor of the times of these frames.
     fn times_of(&mut self, frames: &Range<u32>) -> usize {
         let view = self.times_view();
         let (arrays, times) = (&mut *self.arrays, self.times);
@@ -85,7 +86,7 @@ impl Channels<'_> {
             .or_insert_with(|| arrays.push_times_in(view, start, &times[start..end]))
     }
 
-    /// The view of the times of all frames.
+    /// Returns the view of the times of all frames.
     fn times_view(&mut self) -> usize {
         *self.times_view.get_or_insert_with(|| self.arrays.push_times_view(self.times))
     }

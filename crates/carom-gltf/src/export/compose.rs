@@ -1,4 +1,4 @@
-//! The complete file of an animation, made of its frames.
+//! Creates the complete file of an animation from its frames.
 
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Read, Write};
@@ -14,7 +14,8 @@ use crate::document::{Asset, Buffer, Document};
 use crate::extensions::{BODIES, LIGHTS, SHAPES, TRANSMISSION};
 use crate::glb;
 
-/// Writes the animation of the whole frames of an unfinished one; `None` for a file that is none.
+/// Writes the animation of the complete frames of an unfinished file; `None` if the file is of
+/// another kind.
 pub(super) fn compose(source: &mut File, target: File) -> io::Result<Option<Recovered>> {
     let Some((places, extent)) = frames::scan(source)? else { return Ok(None) };
     if places.is_empty() {
@@ -32,17 +33,17 @@ pub(super) fn compose(source: &mut File, target: File) -> io::Result<Option<Reco
     Ok(Some(recovered))
 }
 
-/// All of a run but its rows.
+/// Everything of a run except its rows.
 #[derive(Debug, Default)]
 struct Run {
     document: Document,
-    /// Bytes of arrays.
+    /// Bytes of the arrays.
     bytes: Vec<u8>,
     balls: Tracks,
     colliders: Tracks,
-    /// \[s\], one for each frame.
+    /// Time of each frame \[s\].
     times: Vec<f32>,
-    /// \[s\]
+    /// Time of the last frame \[s\].
     last: Option<f64>,
 }
 
@@ -90,7 +91,7 @@ impl Run {
     }
 }
 
-/// Says of which version the file is, and what of glTF it needs.
+/// Sets the version of the file and the extensions that it uses.
 fn complete(document: &mut Document) {
     let generator = format!("Carom {}", env!("CARGO_PKG_VERSION"));
     document.asset = Some(Asset { version: "2.0".to_owned(), generator });

@@ -1,7 +1,7 @@
-//! The growing form of an animation: frame after frame, in the unfinished file.
+//! The unfinished file of an animation, to which frames are appended.
 //!
-//! The head of a frame has the lengths of the three parts of its body \[byte\]: JSON of what it changes and adds; arrays that
-//! are new; rows of all colliders, and then of all balls.
+//! The head of a frame contains the lengths of the three parts of its body \[byte\]: JSON of its
+//! changes and additions; new arrays; rows of all colliders, then of all balls.
 
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
@@ -12,32 +12,33 @@ use serde::{Deserialize, Serialize};
 use super::tracks::Changes;
 use crate::document::Document;
 
-/// What the file begins with.
+/// First bytes of the file.
 const MAGIC: &Magic = b"carom glb 1\x1a\r\n\0\0";
 
-/// What a frame changes and adds.
+/// Changes and additions of a frame.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Frame {
-    /// \[s\]
+    /// Time \[s\].
     pub time: f64,
     #[serde(default)]
     pub balls: Changes,
     #[serde(default)]
     pub colliders: Changes,
-    /// What is new of the file.
+    /// Additions to the document.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub added: Option<Document>,
 }
 
-/// Begins a file.
+/// Starts a file.
 pub(super) fn begin(file: &mut File) -> io::Result<()> {
     file.write_all(MAGIC)
 }
 
-/// Appends a frame with these arrays and rows; it is with the operating system thereafter.
+/// Appends a frame with these arrays and rows. On return, it has been passed to the operating
+/// system.
 ///
 /// # Errors
-/// If the disk is full or gone, and for numbers that are not finite.
+/// [`io::Error`] if the disk is full or gone, or if a number is not finite.
 pub(super) fn append(
     file: &mut File,
     chunk: &mut Vec<u8>,
@@ -46,7 +47,7 @@ pub(super) fn append(
     rows: &[u8],
 ) -> io::Result<()> {
     let json = serde_json::to_vec(frame)?;
-    // What is infinite has no form in JSON.
+    // JSON cannot represent infinity.
     if frame.added.is_some() && serde_json::from_slice::<Frame>(&json).is_err() {
         let text = "a number of this scene is too large for an animation";
         return Err(io::Error::new(io::ErrorKind::InvalidInput, text));
@@ -57,23 +58,24 @@ pub(super) fn append(
     record.end()
 }
 
-/// A whole frame in a file.
+/// A complete frame in a file.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place {
-    /// Where it begins \[byte\].
+    /// Start of the frame \[byte\].
     start: u64,
-    /// \[byte\]
+    /// Lengths of its parts \[byte\].
     lengths: Words,
 }
 
 impl Place {
-    /// Where its rows begin, and their length \[byte\].
+    /// Start and length of its rows \[byte\].
     pub fn rows(&self) -> (u64, u64) {
         let [json, arrays, rows] = self.lengths;
         (self.start + HEAD + json + arrays, rows)
     }
 
-    /// Reads it, and appends its arrays to others. The file is before its rows then.
+    /// Reads the frame and appends its arrays to `arrays`. Afterwards, the file is positioned at
+    /// its rows.
     pub fn read(&self, file: &mut File, arrays: &mut Vec<u8>) -> io::Result<Frame> {
         let [json_length, arrays_length, _] = self.lengths;
         file.seek(SeekFrom::Start(self.start + HEAD))?;
@@ -84,7 +86,7 @@ impl Place {
     }
 }
 
-/// The whole frames of a file, and how far it is whole; `None` for a file that is no unfinished animation.
+/// Finds the complete frames of a file; `None` if it is no unfinished animation.
 pub(super) fn scan(file: &mut File) -> io::Result<Option<(Vec<Place>, Extent)>> {
     let mut places = Vec::new();
     let length = |[json, arrays, rows]: &Words| json.checked_add(*arrays)?.checked_add(*rows);

@@ -1,41 +1,41 @@
-//! What bodies look like: meshes of size 1, which nodes scale.
+//! Meshes of size 1 for bodies, which nodes scale.
 
 use carom::Sides;
 
 use super::arrays::Arrays;
 use crate::document::{Attributes, Primitive};
 
-/// Form of a mesh.
+/// Shape of a mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Form {
     /// A sphere of radius 1.
     Sphere,
-    /// A sphere of radius 1 in two tones: a band and two caps show how it turns.
+    /// A sphere of radius 1 in two tones: a band and two caps make its rotation visible.
     BandedSphere,
-    /// 1 by 1 in the xz plane, facing +y.
+    /// A square of 1 by 1 in the xz plane that faces +y.
     Square,
-    /// With edges of 1.
+    /// A cube with edges of 1.
     Cube,
-    /// The walls of a hollow box with edges of 1, seen from within.
+    /// Walls of a hollow box with edges of 1, visible from within.
     Walls {
-        /// Where there is none.
+        /// Sides without a wall.
         open: Sides,
     },
 }
 
-/// Slices of a sphere about its axis, and stacks along it.
+/// Number of slices of a sphere around its axis, and of stacks along it.
 const SLICES: usize = 32;
 const STACKS: usize = 16;
-/// The stacks of the band, and of one cap; half a ball's height each way is about 0.2.
+/// Stacks of the band, and number of stacks of a cap; each covers about 0.2 of the radius.
 const BAND: std::ops::Range<usize> = STACKS / 2 - 1..STACKS / 2 + 1;
 const CAP: usize = 3;
 
-/// Vertices and indices that are in a file already.
+/// Vertices and indices that the file already contains.
 #[derive(Debug, Default)]
 pub(super) struct Geometry {
-    /// Vertices of a sphere, which are its normals, too.
+    /// Vertices of a sphere, which are also its normals.
     sphere: Option<usize>,
-    /// Indices of a sphere in one tone, and of one in two.
+    /// Indices of a sphere in one tone, and in two.
     plain: Option<usize>,
     banded: Option<[usize; 2]>,
     square: Option<[usize; 3]>,
@@ -43,7 +43,8 @@ pub(super) struct Geometry {
 }
 
 impl Geometry {
-    /// The triangles of a form: in the colour of the body, and, of a banded sphere, in the other tone.
+    /// Returns the triangles of a form: those in the colour of the body, then those in the second
+    /// tone of a banded sphere.
     pub fn triangles(&mut self, form: Form, arrays: &mut Arrays) -> Vec<Primitive> {
         match form {
             Form::Sphere => {
@@ -88,7 +89,7 @@ fn primitive(position: usize, normal: usize, indices: usize) -> Primitive {
     Primitive { attributes, indices: Some(indices), material: None, mode: 4, targets: Vec::new() }
 }
 
-/// Places on a sphere of radius 1, whose axis is x.
+/// Vertices of a sphere of radius 1 with axis x.
 fn sphere_vertices() -> Vec<[f32; 3]> {
     let mut vertices = Vec::new();
     for stack in 0..=STACKS {
@@ -101,7 +102,7 @@ fn sphere_vertices() -> Vec<[f32; 3]> {
     vertices
 }
 
-/// Indices of the triangles of some stacks of a sphere.
+/// Indices of the triangles in the chosen stacks of a sphere.
 fn sphere_indices(is_chosen: impl Fn(usize) -> bool) -> Vec<u16> {
     let corner = |stack: usize, slice: usize| (stack * (SLICES + 1) + slice) as u16;
     let mut indices = Vec::new();
@@ -109,7 +110,7 @@ fn sphere_indices(is_chosen: impl Fn(usize) -> bool) -> Vec<u16> {
         for slice in 0..SLICES {
             let [a, b] = [corner(stack, slice), corner(stack, slice + 1)];
             let [c, d] = [corner(stack + 1, slice), corner(stack + 1, slice + 1)];
-            // At a pole, one side of the quad is a point.
+            // At a pole, a quad is a triangle.
             if stack > 0 {
                 indices.extend([a, b, d]);
             }
@@ -121,15 +122,15 @@ fn sphere_indices(is_chosen: impl Fn(usize) -> bool) -> Vec<u16> {
     indices
 }
 
-/// Whether a stack is part of the band or of a cap.
+/// Whether a stack belongs to the band or a cap.
 fn is_mark(stack: usize) -> bool {
     BAND.contains(&stack) || !(CAP..STACKS - CAP).contains(&stack)
 }
 
-/// Cosine and sine of a part of the full angle.
+/// Cosine and sine of the fraction `part / of` of the full angle.
 fn circle_point(part: usize, of: usize) -> (f64, f64) {
     let angle = 2.0 * std::f64::consts::PI * part as f64 / of as f64;
-    // At quarters, where round-off would be seen, they are exact.
+    // At quarters, where rounding errors would be visible, the values are exact.
     match 4 * part {
         quarters if quarters == of => (0.0, 1.0),
         quarters if quarters == 2 * of => (-1.0, 0.0),
@@ -145,7 +146,7 @@ fn square(arrays: &mut Arrays) -> [usize; 3] {
     [vertices, normals, arrays.push_indices(&[0, 1, 2, 0, 2, 3])]
 }
 
-/// The faces of a cube that are not open: seen from outside, or, where `outward` is -1, from within.
+/// Faces of a cube that are not open, visible from outside, or from within if `outward` is -1.
 fn cube(arrays: &mut Arrays, open: Sides, outward: f32) -> [usize; 3] {
     let (mut vertices, mut normals, mut indices) = (Vec::new(), Vec::new(), Vec::new());
     let is_open = open.to_array();
@@ -161,7 +162,7 @@ fn cube(arrays: &mut Arrays, open: Sides, outward: f32) -> [usize; 3] {
             normal[axis] = sign * outward;
             normals.push(normal);
         }
-        // Across, along and axis are right-handed.
+        // The directions across, along and axis are right-handed.
         let front = if sign * outward > 0.0 { [0, 1, 2, 0, 2, 3] } else { [0, 2, 1, 0, 3, 2] };
         indices.extend(front.map(|it| first + it));
     }

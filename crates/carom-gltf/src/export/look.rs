@@ -1,4 +1,4 @@
-//! Colours and finishes, camera and light.
+//! Materials, camera and light.
 
 use carom_scene::Coat;
 use carom_scene::scene::{Camera, Color, Finish, Scene, Sun};
@@ -8,12 +8,12 @@ use crate::document::{
     self, Light, Material, MaterialExtensions, MetallicRoughness, Perspective, Transmission,
 };
 
-/// The tone of band and caps.
+/// Second tone of balls.
 const LIGHT_TONE: Color = [0.92, 0.92, 0.90];
-/// How much of the light tone band and caps have; the rest is the colour of the ball.
+/// Fraction of the second tone in bands and caps; the rest is the colour of the ball.
 const LIGHT_PART: f64 = 0.85;
 
-/// How a surface looks in this coat; `is_mark` where it is the band of a ball, or a cap.
+/// Creates the material of a coat; `is_mark` for the band and caps of a ball.
 pub(super) fn material(coat: Coat, double_sided: bool, is_mark: bool) -> Material {
     let toned = |i: usize| coat.color[i] + LIGHT_PART * (LIGHT_TONE[i] - coat.color[i]);
     let color = if is_mark { [0, 1, 2].map(toned) } else { coat.color };
@@ -33,7 +33,7 @@ pub(super) fn material(coat: Coat, double_sided: bool, is_mark: bool) -> Materia
     }
 }
 
-/// What a scene's camera sees.
+/// Converts the camera of a scene.
 pub(super) fn camera(camera: &Camera) -> document::Camera {
     let perspective = Perspective {
         yfov: camera.vertical_fov_degrees.to_radians(),
@@ -43,14 +43,15 @@ pub(super) fn camera(camera: &Camera) -> document::Camera {
     document::Camera { kind: "perspective".to_owned(), perspective: Some(perspective) }
 }
 
-/// A scene's light. A white, matte surface that faces a light of intensity 1 looks white: for that, its
-/// illuminance is pi, of which such a surface sends back a pi-th part in each direction.
+/// Converts the light of a scene. A white, matte surface that faces a light of intensity 1 should
+/// look white. Such a surface reflects 1/pi of the illuminance in each direction, so the
+/// illuminance is pi.
 pub(super) fn light(sun: &Sun) -> Light {
     let intensity = std::f64::consts::PI * sun.intensity;
     Light { kind: "directional".to_owned(), color: sun.color.map(linear), intensity }
 }
 
-/// The scene's light, or that of a clear morning.
+/// Light of the scene; the default is that of a clear morning.
 pub(super) fn sun(scene: &Scene) -> Sun {
     scene.sun.clone().unwrap_or_else(|| {
         let to_sun = carom::DVec3::new(0.35, 0.8, 0.48).normalize();

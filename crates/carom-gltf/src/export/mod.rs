@@ -1,4 +1,4 @@
-//! Runs as animations.
+//! Records runs as animations.
 
 mod addition;
 mod arrays;
@@ -29,48 +29,50 @@ use frames::Frame;
 use nodes::{Nodes, coat_of};
 use tracks::{Changes, Placement, Tracks};
 
-/// Why a recording cannot begin.
+/// Why a recording cannot be started.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ExportError {
     /// The file cannot be written.
     #[error(transparent)]
     Unwritable(#[from] io::Error),
-    /// The scene makes no sense.
+    /// The scene is invalid.
     #[error(transparent)]
     Scene(#[from] SceneError),
 }
 
-/// A run, recorded as an animation in one binary glTF file (.glb).
+/// Records a run as an animation in one binary glTF file (.glb).
 ///
-/// Each ball is a node with a sphere of radius 1, scaled by its radius; each collider a node with its shape of
-/// size 1. Keys are the frames, with straight ways between them. What appears later has no size before, and
-/// none after it is gone. Nodes begin as the world does, in 64 bits; keys have 32 bits.
+/// Each ball is a node with a sphere of radius 1, scaled by its radius; each collider is a node
+/// with its shape of size 1. Keys are the frames, with linear interpolation. A body has scale 0
+/// before it appears and after it is removed. Nodes contain the state at the start in 64 bits; keys
+/// have 32 bits.
 ///
-/// The file gets its name once it is complete. Until then its frames are in `NAME.0.unfinished` beside it (1, 2, ... where
-/// another one is left), some 100 bytes for each and 28 for each ball and collider in it. A frame is with the operating
-/// system when it is written, and [`recover_animation`] makes the animation of what a killed process leaves. In memory are
-/// some 3 kB for each ball; at the end 64 MiB of rows at a time and 60 bytes for each frame, too.
+/// The file gets its name once it is complete. Until then its frames are in `NAME.0.unfinished`
+/// beside it (1, 2, ... if others exist): about 100 bytes per frame, and 28 bytes per frame for
+/// each ball and collider. A frame that was written has been passed to the operating system, and
+/// [`recover_animation`] creates the animation of a killed process. The recording takes about 3 kB
+/// of memory per ball; completion takes 64 MiB and 60 bytes per frame in addition.
 pub struct Animation {
     unfinished: Unfinished,
     palette: Palette,
     nodes: Nodes,
     arrays: Arrays,
-    /// How much of nodes and arrays is in the unfinished file.
+    /// Lengths of the lists of nodes and arrays that the unfinished file contains.
     marks: Marks,
     balls: Tracks,
     colliders: Tracks,
-    /// Of the last frame \[s\].
+    /// Time of the last frame \[s\].
     time: Option<f32>,
-    /// Frames in the unfinished file.
+    /// Number of frames in the unfinished file.
     frames: u64,
-    /// What the complete file may take \[byte\].
+    /// Largest size of the complete file \[byte\].
     most_bytes: u64,
-    /// Whether spheres turn; known from the start on.
+    /// Whether spheres can rotate; decided at the start.
     has_spin: bool,
-    /// Whether a frame was written in part: then nothing comes after it.
+    /// Whether a frame was written only partly; then no frame may follow.
     broken: bool,
-    /// Memory that is used again.
+    /// Buffer that is reused.
     chunk: Vec<u8>,
 }
 
@@ -81,10 +83,10 @@ impl std::fmt::Debug for Animation {
 }
 
 impl Animation {
-    /// Begins a recording with the world as it is, which was made of this scene.
+    /// Starts a recording with the present state of a world, which was created from this scene.
     ///
     /// # Errors
-    /// For a place that cannot be written to, and a scene that makes no sense.
+    /// [`ExportError`] if the file cannot be written, or the scene is invalid.
     pub fn create(path: &Path, scene: &Scene, world: &World) -> Result<Self, ExportError> {
         let palette = Palette::new(scene)?;
         let (unfinished, ()) = Unfinished::begin(path, frames::begin)?;
@@ -106,14 +108,14 @@ impl Animation {
         match animation.push(world, Some(scene)) {
             Ok(()) => Ok(animation),
             Err(error) => {
-                // An error here comes after another one.
+                // Ignored, because an earlier error is being reported.
                 animation.unfinished.remove().ok();
                 Err(error.into())
             }
         }
     }
 
-    /// Adds a frame; the first one, of a world that was made of a scene.
+    /// Adds a frame; the first one with the scene of the world.
     fn push(&mut self, world: &World, scene: Option<&Scene>) -> io::Result<()> {
         let time = world.time() as f32;
         if self.time.is_some_and(|last| last >= time) {
@@ -141,9 +143,9 @@ impl Animation {
         Ok(())
     }
 
-    /// What the complete file takes at most, with the frame that is being added \[byte\].
+    /// Upper bound of the size of the complete file, with the frame that is being added \[byte\].
     fn bytes(&self) -> u64 {
-        // What a node takes in the JSON, with its channels, generously.
+        // Generous size of a node in the JSON, with its channels.
         const NODE: u64 = 1500;
         const TIME: u64 = 4;
         let json = NODE * self.nodes.document.nodes.len() as u64;
@@ -151,12 +153,12 @@ impl Animation {
         json + keys + self.arrays.bytes.len() as u64
     }
 
-    /// Its unfinished file, which says all that it knows of the run, and how many frames are in that.
+    /// Returns the unfinished file, which contains the whole run, and its number of frames.
     fn into_unfinished(self) -> (Unfinished, u64) {
         (self.unfinished, self.frames)
     }
 
-    /// Adds the rows of colliders; those that are there at the start are in the looks of the scene.
+    /// Adds the rows of colliders; at the start, `scene` describes their looks.
     fn push_colliders(
         &mut self,
         world: &World,
@@ -213,11 +215,12 @@ impl Format for Animation {
     }
 }
 
-/// Makes the animation `target` of what a killed run left in `unfinished`, and removes that.
+/// Creates the animation `target` from the file `unfinished` of a killed run, and removes
+/// `unfinished`.
 ///
 /// # Errors
-/// [`RecoveryError`]; then `unfinished` and `target` are as they were before, but where the complete file is there and
-/// only `unfinished` cannot be removed.
+/// [`RecoveryError`]. Both files are then unchanged, except if only the removal of `unfinished`
+/// failed.
 pub fn recover_animation(unfinished: &Path, target: &Path) -> Result<Recovered, RecoveryError> {
     recover_by(unfinished, target, compose)
 }

@@ -1,4 +1,4 @@
-//! The nodes of a file: colliders, camera, light and balls, with their meshes and materials.
+//! Nodes of a file: colliders, camera, light and balls, with their meshes and materials.
 
 use carom::{Collider, DQuat, DVec3, Shape, Sides, Sphere, World};
 use carom_scene::scene::Scene;
@@ -11,26 +11,26 @@ use super::look;
 use super::tracks::Placement;
 use crate::document::{Camera, Document, LightReference, Lights, Mesh, Node, NodeExtensions};
 
-/// How many nodes a mesh of one coat has, and which.
+/// Properties by which meshes are shared.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct MeshKey {
     form: Form,
     coat: Coat,
 }
 
-/// A file on its way: everything but arrays.
+/// The document of a file during the recording.
 pub(super) struct Nodes {
     pub document: Document,
     pub bodies: Bodies,
     geometry: Geometry,
-    /// Of the document's meshes.
+    /// Keys of the document's meshes.
     meshes: Vec<MeshKey>,
-    /// How far the scene reaches from the origin \[m\]: half-spaces are drawn beyond that.
+    /// Extent of the scene from the origin \[m\]; half-spaces are drawn larger than that.
     extent: f64,
 }
 
 impl Nodes {
-    /// The nodes of a scene's camera and light.
+    /// Creates the nodes of camera and light.
     pub fn new(scene: &Scene, world: &World) -> Self {
         let mut nodes = Self {
             document: Document::default(),
@@ -56,7 +56,7 @@ impl Nodes {
         nodes
     }
 
-    /// Adds a collider: its node, which may have walls as children. Returns the index of the node.
+    /// Adds the node of a collider, with the walls of a container as children. Returns its index.
     pub fn push_collider(
         &mut self,
         name: &str,
@@ -83,7 +83,7 @@ impl Nodes {
         self.push(Node { children: walls, mesh, extensions, ..node })
     }
 
-    /// Adds a collider that is not there at the start, and has no size then. Returns the index of its node.
+    /// Adds the node of a collider that appears later, with scale 0. Returns its index.
     pub fn push_later_collider(
         &mut self,
         name: &str,
@@ -96,7 +96,7 @@ impl Nodes {
         node
     }
 
-    /// Where the node of a collider is, and how its mesh of size 1 is scaled.
+    /// Placement of the node of a collider, whose mesh has size 1.
     pub fn collider_place(&self, collider: &Collider) -> Placement {
         let scale = match collider.shape {
             Shape::Sphere { radius } => [radius; 3],
@@ -108,7 +108,8 @@ impl Nodes {
         Placement { position, rotation, scale }
     }
 
-    /// Adds a ball; `is_there` at the start, `banded` to show how it turns. Returns the index of its node.
+    /// Adds the node of a ball: `is_there` at the start, `banded` to make its rotation visible.
+    /// Returns its index.
     pub fn push_ball(
         &mut self,
         number: u64,
@@ -120,7 +121,7 @@ impl Nodes {
         let (coat, banded) = look;
         let form = if banded { Form::BandedSphere } else { Form::Sphere };
         let mesh = self.mesh(MeshKey { form, coat }, arrays);
-        // What is not there yet is no body of the start.
+        // A ball that appears later has no body.
         let body = is_there.then(|| self.bodies.sphere(sphere));
         let radius = if is_there { sphere.radius } else { 0.0 };
         let rotation = sphere.orientation.normalize();
@@ -129,7 +130,7 @@ impl Nodes {
         self.push(Node { mesh, extensions, ..node })
     }
 
-    /// The walls of a container, each in the frame of a box of size 1.
+    /// Adds the walls of a container, each in the coordinates of a box of size 1.
     fn push_walls(&mut self, container: &Collider, open: Sides) -> Vec<usize> {
         let is_open = open.to_array();
         let names = ["left", "right", "bottom", "top", "back", "front"];
@@ -152,7 +153,7 @@ impl Nodes {
             .collect()
     }
 
-    /// The mesh of a form in a coat; none where there is nothing to see.
+    /// Index of the mesh of a form in a coat; `None` if it has no triangles.
     fn mesh(&mut self, key: MeshKey, arrays: &mut Arrays) -> Option<usize> {
         if let Some(known) = self.meshes.iter().position(|it| *it == key) {
             return Some(known);
@@ -171,7 +172,7 @@ impl Nodes {
         Some(self.meshes.len() - 1)
     }
 
-    /// Adds a node that hangs on no other.
+    /// Adds a node without a parent; returns its index.
     fn push(&mut self, node: Node) -> usize {
         if self.document.scenes.is_empty() {
             self.document.scenes.push(Default::default());
@@ -184,7 +185,7 @@ impl Nodes {
     }
 }
 
-/// The coat of a sphere of a world.
+/// Coat of a sphere of a world.
 pub(super) fn coat_of(palette: &Palette, number: u64, sphere: &Sphere) -> Coat {
     palette.sphere(number, sphere.radius, sphere.kilograms())
 }
@@ -200,7 +201,7 @@ fn placed(name: &str, position: DVec3, rotation: DQuat, scale: [f64; 3]) -> Node
     }
 }
 
-/// How far spheres and finite colliders reach from the origin \[m\]; 1 at least.
+/// Largest distance of spheres and finite colliders from the origin \[m\]; at least 1.
 fn extent(world: &World) -> f64 {
     let spheres = world.spheres();
     let balls = spheres.positions().iter().zip(spheres.radii());

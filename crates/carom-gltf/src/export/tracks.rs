@@ -1,6 +1,6 @@
-//! Where bodies are, frame by frame, turned into a track for each body.
+//! Collects the states of bodies frame by frame, and writes a track for each body.
 //!
-//! Frames come one after the other, but an animation holds one body after the other: rows wait in the unfinished
+//! Frames arrive one by one, but an animation stores body after body. Rows stay in the unfinished
 //! file until all frames are known.
 
 use std::fs::File;
@@ -9,27 +9,27 @@ use std::io::{self, Read, Seek, SeekFrom, Write};
 use carom::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
-/// Where a body is, and how large.
+/// Position, rotation and scale of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Placement {
-    /// \[m\]
+    /// Position \[m\].
     pub position: DVec3,
-    /// Of length 1.
+    /// Rotation, normalized.
     pub rotation: DQuat,
-    /// What its mesh, of size 1, is scaled by \[m\].
+    /// Scale of its mesh of size 1 \[m\].
     pub scale: [f64; 3],
 }
 
-/// One body, through all frames.
+/// A body over all frames.
 #[derive(Debug, Clone)]
 pub(super) struct Track {
-    /// The number of the body.
+    /// Number of the body.
     pub number: u64,
-    /// The index of its node.
+    /// Index of its node.
     pub node: usize,
-    /// The first frame in which it is there, and the one after the last.
+    /// First frame in which the body exists, and the one after the last.
     pub frames: std::ops::Range<u32>,
-    /// From which frames on it has which scale.
+    /// Scales, each with the frame from which it holds.
     pub scales: Vec<(u32, [f64; 3])>,
     /// Whether its position changes.
     pub moves: bool,
@@ -39,14 +39,14 @@ pub(super) struct Track {
 }
 
 impl Track {
-    /// Of a body that comes in this frame.
+    /// Starts the track of a body that appears in this frame.
     fn new(came: Came, frame: u32) -> Self {
         let Came { number, node, scale } = came;
         let (frames, scales, last) = (frame..frame, vec![(frame, scale)], [0.0; Row::NUMBERS]);
         Self { number, node, frames, scales, moves: false, turns: false, last }
     }
 
-    /// Goes on by a frame.
+    /// Adds a frame.
     fn push(&mut self, row: [f32; Row::NUMBERS]) {
         if self.frames.is_empty() {
             self.last = row;
@@ -57,12 +57,12 @@ impl Track {
         self.last = row;
     }
 
-    /// Number of frames in which it is there.
+    /// Number of frames in which the body exists.
     pub fn len(&self) -> usize {
         self.frames.len()
     }
 
-    /// Bytes of its keys.
+    /// Length of its keys \[byte\].
     pub fn bytes(&self) -> u64 {
         let numbers = 3 * u64::from(self.moves) + 4 * u64::from(self.turns);
         4 * numbers * self.len() as u64
@@ -76,8 +76,8 @@ impl Row {
     const NUMBERS: usize = 7;
     pub const BYTES: usize = 4 * Self::NUMBERS;
 
-    /// Of two opposite quaternions, which turn alike, the one nearer to that of `last`: what is between two
-    /// keys is then the shorter way from one to the other.
+    /// Creates a row. Of two opposite quaternions, which are the same rotation, it takes the one
+    /// nearer to `last`, so that interpolation follows the smaller angle.
     fn of(place: &Placement, last: Option<&[f32; Self::NUMBERS]>) -> [f32; Self::NUMBERS] {
         let [x, y, z] = place.position.to_array().map(|it| it as f32);
         let turn = place.rotation.to_array().map(|it| it as f32);
@@ -94,16 +94,16 @@ impl Row {
     }
 }
 
-/// A body that was not there before.
+/// A body that appears in a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Came {
     number: u64,
-    /// The index of its node.
+    /// Index of its node.
     node: usize,
     scale: [f64; 3],
 }
 
-/// Which bodies come, go or change their size in a frame; their numbers ascend.
+/// Bodies that appear, disappear or change their scale in a frame; numbers ascend.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub(super) struct Changes {
@@ -115,34 +115,34 @@ pub(super) struct Changes {
     scaled: Vec<(u64, [f64; 3])>,
 }
 
-/// Tracks on their way.
+/// Tracks of all bodies.
 #[derive(Debug, Default)]
 pub(super) struct Tracks {
     tracks: Vec<Track>,
-    /// Indices of the tracks of bodies that are there, in the order of their numbers.
+    /// Indices of the tracks of existing bodies, by number.
     alive: Vec<usize>,
-    /// Where the rows of each frame begin in the unfinished file \[byte\].
+    /// Start of the rows of each frame in the unfinished file \[byte\].
     rows: Vec<u64>,
-    /// Bytes of the keys of all tracks.
+    /// Length of the keys of all tracks \[byte\].
     bytes: u64,
 }
 
 impl Tracks {
-    /// Bytes of rows that are in memory at a time.
+    /// Most bytes of rows in memory.
     const BLOCK: usize = 64 << 20;
 
-    /// All tracks, in the order in which their bodies came.
+    /// All tracks, in the order in which their bodies appeared.
     pub fn tracks(&self) -> &[Track] {
         &self.tracks
     }
 
-    /// Bytes of the keys of all tracks.
+    /// Length of the keys of all tracks \[byte\].
     pub fn bytes(&self) -> u64 {
         self.bytes
     }
 
-    /// Adds a frame: bodies in the order of their numbers, which are never given again; `node` has the index of the
-    /// node of one that was not there before. Appends their rows to `rows`, and returns what else changes.
+    /// Adds a frame with these bodies, by number; numbers are never reused. `node` returns the node
+    /// of a new body. Appends the rows to `rows`, and returns the other changes.
     pub fn push(
         &mut self,
         bodies: impl Iterator<Item = (u64, Placement)>,
@@ -154,7 +154,7 @@ impl Tracks {
         let before = std::mem::take(&mut self.alive);
         let mut before = before.into_iter().peekable();
         for (number, place) in bodies {
-            // What comes before it in the order is no longer there.
+            // Bodies with smaller numbers no longer exist.
             while let Some(gone) = before.next_if(|&index| self.tracks[index].number < number) {
                 changes.gone.push(self.tracks[gone].number);
             }
@@ -176,8 +176,8 @@ impl Tracks {
         changes
     }
 
-    /// Adds a frame of which this changes, and whose rows begin at this place of the unfinished file; reads them from
-    /// `rows`. Returns whether all bodies have one.
+    /// Adds a frame with these changes; its rows start at `place` in the unfinished file and are
+    /// read from `rows`. Returns whether all bodies have a row.
     pub fn repeat(&mut self, changes: &Changes, place: u64, mut rows: impl Read) -> bool {
         let frame = self.begin(place);
         let Changes { gone, came, scaled } = changes;
@@ -208,7 +208,7 @@ impl Tracks {
         (self.alive.len() * Row::BYTES) as u64
     }
 
-    /// Begins a frame; returns its number.
+    /// Starts a frame; returns its number.
     fn begin(&mut self, place: u64) -> u32 {
         self.rows.push(place);
         self.rows.len() as u32 - 1
@@ -220,7 +220,7 @@ impl Tracks {
         self.tracks.len() - 1
     }
 
-    /// Sets the scale of a body from a frame on; returns whether it was another one.
+    /// Sets the scale of a body from a frame on; returns whether it changed.
     fn scale(&mut self, index: usize, frame: u32, scale: [f64; 3]) -> bool {
         let scales = &mut self.tracks[index].scales;
         let is_other = scales.last().is_none_or(|last| last.1 != scale);
@@ -237,8 +237,8 @@ impl Tracks {
         self.bytes += track.bytes();
     }
 
-    /// Writes the keys of all tracks, of rows in this file: of each the positions, if it moves, and then the rotations, if
-    /// it turns.
+    /// Writes the keys of all tracks, with rows read from `file`: for each track the positions if
+    /// it moves, then the rotations if it rotates.
     pub fn write_keys(self, file: &mut File, out: &mut impl Write) -> io::Result<()> {
         let Self { tracks, mut rows, .. } = self;
         let mut rest = &tracks[..];
@@ -260,7 +260,7 @@ impl Tracks {
     }
 }
 
-/// How many of these tracks fit into so many bytes, one at least.
+/// Number of tracks whose rows fit into `most` bytes; at least one.
 fn block_len(tracks: &[Track], most: usize) -> usize {
     let mut bytes = 0;
     let fits = tracks.iter().take_while(|track| {
@@ -270,8 +270,8 @@ fn block_len(tracks: &[Track], most: usize) -> usize {
     fits.count().max(1)
 }
 
-/// The rows of each track of a block; `places` are those of each frame of this block and later ones, and thereafter of the
-/// later ones only.
+/// Reads the rows of each track of a block. `places` contains the start of the rows of this block
+/// and later ones in each frame; on return, that of the later ones.
 fn read_block(file: &mut File, block: &[Track], places: &mut [u64]) -> io::Result<Vec<Vec<u8>>> {
     let is_still = |track: &Track| !track.moves && !track.turns;
     let needed = |track: &Track| if is_still(track) { 0 } else { track.len() * Row::BYTES };
@@ -308,7 +308,7 @@ mod tests {
         Placement { position: DVec3::X * x, rotation: DQuat::IDENTITY, scale: [1.0; 3] }
     }
 
-    /// Frames, as tracks and as a file of rows with what changes besides.
+    /// Converts frames to tracks, and to a file of rows with the other changes.
     fn tracks(frames: &[Vec<(u64, Placement)>]) -> (Tracks, File) {
         let (mut tracks, mut repeated) = (Tracks::default(), Tracks::default());
         let mut file = tempfile::tempfile().unwrap();
@@ -324,7 +324,8 @@ mod tests {
         (repeated, file)
     }
 
-    /// Body 0 is there throughout, 1 in the first frame, 2 rests from the second on, 3 moves from there on.
+    /// Body 0 exists in all frames, 1 in the first only; 2 rests from the second frame on, 3 moves
+    /// from there on.
     fn some() -> (Tracks, File) {
         tracks(&[
             vec![(0, at(0.0)), (1, at(10.0))],

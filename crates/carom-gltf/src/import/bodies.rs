@@ -1,4 +1,4 @@
-//! Bodies as `KHR_physics_rigid_bodies` describes them.
+//! Imports bodies of `KHR_physics_rigid_bodies`.
 
 use std::collections::BTreeSet;
 
@@ -17,26 +17,26 @@ use super::solid::Solid;
 use crate::document::Document;
 use crate::rigid_body::{Collider, Combine, Motion, NodeBody, PhysicsMaterial};
 
-/// What physics has in a scene.
+/// Bodies of a scene.
 pub(super) struct Bodies<'a> {
     document: &'a Document,
     nodes: &'a [Placed],
-    /// Of each node, the one whose body it belongs to: itself, or the nearest above it that moves.
+    /// For each node, the node of its body: itself, or the nearest ancestor that moves.
     owners: Vec<Option<usize>>,
-    /// The mesh that each node shows: its own, or that of one above it in its body.
+    /// Mesh of each node: its own, or that of an ancestor in its body.
     shown: Vec<Option<usize>>,
-    /// Nodes that colliders are at or below.
+    /// Nodes that have colliders, or descendants with colliders.
     with_colliders: BTreeSet<usize>,
-    /// Owners whose sphere is in the scene.
+    /// Nodes of bodies whose sphere was added to the scene.
     added: BTreeSet<usize>,
-    /// How contacts rub and bounce, of all colliders that were added.
+    /// Combine modes of friction and restitution of all added colliders.
     combine: BTreeSet<(Combine, Combine)>,
-    /// Factors of gravity, each once.
+    /// Different factors of gravity.
     gravity_factors: Vec<f64>,
 }
 
 impl<'a> Bodies<'a> {
-    /// The bodies of a scene, none of them in it yet.
+    /// Creates the bodies of a scene, none of them added yet.
     pub fn new(document: &'a Document, nodes: &'a [Placed]) -> Self {
         let mut bodies = Self {
             document,
@@ -65,7 +65,7 @@ impl<'a> Bodies<'a> {
         bodies
     }
 
-    /// Whether a node belongs to a body, or has colliders at or below it.
+    /// Whether a node belongs to a body, or has colliders or descendants with colliders.
     pub fn has(&self, node: usize) -> bool {
         self.owners[node].is_some() || self.with_colliders.contains(&node)
     }
@@ -74,10 +74,10 @@ impl<'a> Bodies<'a> {
         self.document.nodes[node.index].extensions.body.as_deref()
     }
 
-    /// Adds what a node has: a sphere that moves, or colliders.
+    /// Adds a node as a moving sphere, or as colliders.
     ///
     /// # Errors
-    /// What is wrong with the file.
+    /// [`Malformed`] if the file is invalid.
     pub fn add(
         &mut self,
         index: usize,
@@ -132,7 +132,7 @@ impl<'a> Bodies<'a> {
         Ok(())
     }
 
-    /// Whether a body goes its way whatever it meets.
+    /// Whether the motion of a body is not affected by collisions.
     fn is_kinematic(&self, owner: usize) -> bool {
         self.motion(owner).is_kinematic || self.motion(owner).mass == Some(0.0)
     }
@@ -192,7 +192,7 @@ impl<'a> Bodies<'a> {
         let mut collider = scene::Collider::new(solid.shape.clone());
         (collider.position, collider.rotation) = (solid.position, solid.rotation);
         (collider.color, collider.finish) = (look.color, look.finish);
-        // What has no mesh is not drawn.
+        // Colliders without a mesh are not drawn.
         collider.visible = self.mesh(index).is_some();
         collider.trigger = is_trigger;
         if !is_trigger {
@@ -221,7 +221,7 @@ impl<'a> Bodies<'a> {
         building.push_collider(collider, node);
     }
 
-    /// The form of a collider, and whether it is hit from both sides.
+    /// Form of a collider, and whether both of its sides are solid.
     fn form(
         &self,
         collider: &Collider,
@@ -275,7 +275,7 @@ impl<'a> Bodies<'a> {
         Ok(material)
     }
 
-    /// The mesh that shows a collider: of its node, of one above it in its body, or of one right below it.
+    /// Mesh of a collider: that of its node, of an ancestor in its body, or of a child.
     fn mesh(&self, index: usize) -> Option<usize> {
         let below = || {
             let children = &self.document.nodes[self.nodes[index].index].children;
@@ -288,7 +288,7 @@ impl<'a> Bodies<'a> {
         self.mesh(index).map_or(Ok(Look::default()), |mesh| Look::of(self.document, mesh))
     }
 
-    /// Sets what holds for the whole scene: gravity, and how contacts bounce and rub.
+    /// Sets gravity and combine rules, which hold for the whole scene.
     pub fn finish(self, building: &mut Building) {
         /// \[m/s²\]
         const GRAVITY: f64 = 9.81;
@@ -322,7 +322,7 @@ impl<'a> Bodies<'a> {
     }
 }
 
-/// A collider that is read.
+/// Properties of a collider in the file.
 struct Part {
     solid: Solid,
     double_sided: bool,
@@ -361,9 +361,9 @@ fn shape_form(shape: &crate::rigid_body::Shape) -> Result<(Form, bool), &'static
     }
 }
 
-/// Moment of inertia of a ball divided by m r², if it is the same about all axes.
+/// Moment of inertia of a ball divided by m r²; `None` if it differs between axes.
 fn inertia_factor([x, y, z]: [f64; 3], mass: f64, radius: f64) -> Option<f64> {
-    // Round-off of 32 bits, which other programs write.
+    // Rounding error of 32-bit numbers, which other programs write.
     const EQUAL: f64 = 1e-6;
     let equals = |a: f64, b: f64| (a - b).abs() <= EQUAL * a.abs();
     let factor = x / (mass * radius * radius);

@@ -1,4 +1,4 @@
-//! A scene on its way.
+//! A scene during the import.
 
 use std::collections::BTreeMap;
 
@@ -7,17 +7,17 @@ use carom_scene::scene::{Collider, Scene, Sphere};
 
 use super::graph::Placed;
 
-/// A scene on its way.
+/// A scene during the import.
 #[derive(Debug)]
 pub(super) struct Building {
     pub scene: Scene,
-    /// Where parts of the scene are in the file, by their paths in the scene.
+    /// Places of parts in the file, by their paths in the scene.
     pub places: BTreeMap<String, String>,
     pub report: Vec<Omission>,
 }
 
 impl Building {
-    /// A scene without anything in it.
+    /// Creates an empty scene.
     pub fn new(name: &str) -> Self {
         Self { scene: Scene::new(plain_name(name)), places: BTreeMap::new(), report: Vec::new() }
     }

@@ -1,4 +1,4 @@
-//! Why a glTF file is not imported, and where in it.
+//! Errors of imports, with their places in the file.
 
 use std::path::{Path, PathBuf};
 
@@ -8,19 +8,19 @@ use thiserror::Error;
 /// Longest quotation of a file in an error \[characters\].
 const LONGEST: usize = 300;
 
-/// Why a file is not imported.
+/// Why a file cannot be imported.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ImportError {
     /// A file cannot be read.
     #[error("cannot read {path}: {source}", path = .path.display())]
     Unreadable {
-        /// Which.
+        /// Path of the file.
         path: PathBuf,
-        /// Why.
+        /// Error of the operating system.
         source: std::io::Error,
     },
-    /// A file says something that makes no sense.
+    /// The content of a file is invalid.
     #[error(
         "{path}: {place}: {problem}",
         path = .path.display(),
@@ -28,24 +28,24 @@ pub enum ImportError {
         problem = legible(.problem, LONGEST)
     )]
     Malformed {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
-        /// Where in it, as `nodes[3].mesh`, with the line if it is a text.
+        /// Place in the file, such as `nodes[3].mesh`, with the line in a text.
         place: String,
-        /// What is wrong there.
+        /// What is wrong at that place.
         problem: String,
     },
-    /// What was read makes no scene that can run.
+    /// The imported scene is invalid.
     #[error("{path}: {source}", path = .path.display())]
     Scene {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
         /// What is wrong with the scene.
         source: Box<SceneError>,
     },
 }
 
-/// Something that is wrong at a place of the JSON.
+/// An error at a place of the JSON.
 #[derive(Debug)]
 pub(super) struct Malformed {
     pub place: String,
@@ -53,12 +53,12 @@ pub(super) struct Malformed {
 }
 
 impl Malformed {
-    /// Something is wrong at this place.
+    /// Creates an error at a place.
     pub fn at(place: impl Into<String>, problem: impl Into<String>) -> Self {
         Self { place: place.into(), problem: problem.into() }
     }
 
-    /// The error, of a file.
+    /// Converts to the error of a file.
     pub fn in_file(self, path: &Path) -> ImportError {
         let Self { place, problem } = self;
         ImportError::Malformed { path: path.to_path_buf(), place, problem }

@@ -1,4 +1,4 @@
-//! Files: the JSON, and the buffers it refers to.
+//! Reads glTF files with their buffers.
 
 use std::cell::{Cell, OnceCell};
 use std::fs;
@@ -14,21 +14,21 @@ use super::error::{ImportError, Malformed};
 use crate::document::Document;
 use crate::glb;
 
-/// The largest file that is read, and most of all buffers \[bytes\].
+/// Largest size of a file, and of all buffers together \[bytes\].
 const LARGEST: u64 = 1 << 30;
-/// The largest JSON that is read \[bytes\]: what it describes takes many times as much memory.
+/// Largest size of the JSON \[bytes\]; its content takes many times as much memory.
 const LARGEST_JSON: usize = 64 << 20;
-/// Most numbers that are read of all meshes: many may refer to the same bytes.
+/// Most numbers that are read for all meshes, because many meshes may use the same bytes.
 const MOST_NUMBERS: usize = 100_000_000;
 
-/// A glTF file, and the files beside it that its buffers lie in, each read when it is first needed.
+/// A glTF file. Files of its buffers are read when they are first needed.
 pub(super) struct File {
     pub document: Document,
     folder: PathBuf,
     /// The binary part of a .glb file.
     binary: Option<Vec<u8>>,
     buffers: Vec<OnceCell<Vec<u8>>>,
-    /// Bytes and numbers that may still be read.
+    /// Remaining budget of bytes and numbers.
     bytes_left: Cell<u64>,
     numbers_left: Cell<usize>,
 }
@@ -56,14 +56,14 @@ impl File {
         Ok(Self { document, folder, binary, buffers, bytes_left, numbers_left })
     }
 
-    /// Takes so many numbers of those that may be read; whether there are as many.
+    /// Takes `count` numbers from the budget; returns whether it was sufficient.
     pub fn take_numbers(&self, count: usize) -> bool {
         let left = self.numbers_left.get().checked_sub(count);
         self.numbers_left.set(left.unwrap_or(0));
         left.is_some()
     }
 
-    /// The bytes of a buffer, as many as it says it has.
+    /// Returns the bytes of a buffer, as many as its length states.
     pub fn buffer(&self, index: usize) -> Result<&[u8], Malformed> {
         let place = || format!("buffers[{index}]");
         let missing = || Malformed::at(place(), "is not there");
@@ -85,7 +85,8 @@ impl File {
         bytes.ok_or_else(has_less)
     }
 
-    /// The bytes of an address: in itself, or of a file in the folder of the glTF file, or below.
+    /// Reads the bytes of an address: from itself, or from a file in the folder of the glTF file or
+    /// below.
     fn load(&self, uri: &str) -> Result<Vec<u8>, String> {
         if let Some(data) = uri.strip_prefix("data:") {
             let (_, bytes) = data.split_once(";base64,").ok_or("holds no base64")?;
@@ -99,7 +100,7 @@ impl File {
         }
         let unreadable = |error| format!("cannot read {}: {error}", plain_name(&name));
         let whole = self.folder.join(relative).canonicalize().map_err(unreadable)?;
-        // A link may lead elsewhere.
+        // A symbolic link may lead elsewhere.
         if !whole.starts_with(&self.folder) {
             return Err(format!("{} is no file in the folder of the scene", plain_name(&name)));
         }
@@ -109,14 +110,14 @@ impl File {
     }
 }
 
-/// Reads a file of so many bytes at most.
+/// Reads a file of at most `most` bytes.
 fn read_bounded(path: &Path, most: u64) -> io::Result<Vec<u8>> {
-    // To open a pipe would wait for its writer.
+    // Opening a pipe would wait for its writer.
     if !fs::metadata(path)?.is_file() {
         return Err(io::Error::other("is no file"));
     }
     let mut bytes = Vec::new();
-    // A file may grow while it is read, and some have a length of 0 and no end.
+    // A file may grow while it is read; some files have length 0 but no end.
     fs::File::open(path)?.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > most {
         return Err(io::Error::other("is larger than 1 GiB, or all buffers together are"));
@@ -130,7 +131,7 @@ fn parse(json: &[u8]) -> Result<Document, Malformed> {
         let path = error.path().to_string();
         let error = error.into_inner();
         let line = format!("line {}", error.line());
-        // A question mark stands for what the text ends in.
+        // The parser writes a question mark for an unknown part of the path.
         let path = path.trim_end_matches(['.', '?']);
         let place = if path.is_empty() { line } else { format!("{line}, {}", plain_name(path)) };
         let text = error.to_string();

@@ -1,4 +1,4 @@
-//! The nodes of a scene, placed in the world.
+//! Places the nodes of a scene in the world.
 
 use carom_scene::import::plain_name;
 
@@ -6,39 +6,41 @@ use super::error::Malformed;
 use super::pose::Pose;
 use crate::document::Document;
 
-/// A node with its place.
+/// A node with its pose in the world.
 #[derive(Debug)]
 pub(super) struct Placed {
-    /// Its index in the file.
+    /// Index in the file.
     pub index: usize,
-    /// Names from the root of the scene, like `Maze/Wall`.
+    /// Path of names from the root of the scene, such as `Maze/Wall`.
     pub path: String,
-    /// Its own name.
+    /// Name of the node.
     pub name: String,
-    /// Where it is.
+    /// Pose in the world.
     pub pose: Pose,
-    /// Where its parent is among the placed nodes.
+    /// Index of its parent in the list of placed nodes.
     pub parent: Option<usize>,
 }
 
 impl Placed {
-    /// Where it is in the file.
+    /// Place of the node in the file, for errors.
     pub fn place(&self) -> String {
         format!("nodes[{}] ({})", self.index, self.name)
     }
 }
 
-/// Longest path of names that is kept \[bytes\].
+/// Longest path of names \[bytes\].
 const LONGEST: usize = 200;
 
-/// The nodes of the scene that is shown first, parents before their children.
+/// Places the nodes of the default scene; parents come before their children.
 ///
 /// # Errors
-/// For nodes that are not there, hang on two others or on themselves, or have numbers that make no place.
+/// [`Malformed`] if a node is missing, has several parents or itself as an ancestor, or has an
+/// invalid transformation.
 pub(super) fn nodes(document: &Document) -> Result<Vec<Placed>, Malformed> {
     let mut seen = vec![false; document.nodes.len()];
     let mut placed: Vec<Placed> = Vec::new();
-    // Those whose places are still to be found; the last one first, so that the order is that of the file.
+    // Nodes that are still to be placed, in reverse order, so that the result is in the order of
+    // the file.
     let mut waiting: Vec<(usize, Option<usize>)> =
         roots(document)?.into_iter().rev().map(|root| (root, None)).collect();
     while let Some((index, parent)) = waiting.pop() {
@@ -69,7 +71,7 @@ pub(super) fn nodes(document: &Document) -> Result<Vec<Placed>, Malformed> {
     Ok(placed)
 }
 
-/// The nodes that hang on no other.
+/// Nodes without parents.
 fn roots(document: &Document) -> Result<Vec<usize>, Malformed> {
     if document.scenes.is_empty() {
         let mut is_child = vec![false; document.nodes.len()];

@@ -1,4 +1,4 @@
-//! Cameras, lights, and colours.
+//! Imports cameras, lights and colours.
 
 use carom_scene::import::{omit, shortened};
 use carom_scene::scene::{Camera, Color, Finish, Sun};
@@ -10,14 +10,14 @@ use super::pose::written;
 use crate::color::srgb;
 use crate::document::{Document, Material, MetallicRoughness};
 
-/// Lights up to this illuminance \[lx\] are meant for the eye, where pi is plain daylight; others for
-/// photometry, where the sun has up to 100,000.
+/// Largest illuminance \[lx\] in units where pi is daylight. Larger values are photometric; there
+/// the sun has up to 100,000.
 const MOST_FOR_THE_EYE: f64 = 32.0;
 
-/// Takes the camera and the light of a node over, the first of each.
+/// Imports the camera and the light of a node, unless the scene already has one.
 ///
 /// # Errors
-/// For a camera or light that is not there.
+/// [`Malformed`] if the camera or light does not exist.
 pub(super) fn add(
     document: &Document,
     node: &Placed,
@@ -70,20 +70,20 @@ pub(super) fn add(
     Ok(())
 }
 
-/// What a mesh looks like.
+/// Appearance of a mesh.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Look {
     pub color: Option<Color>,
     pub finish: Finish,
-    /// Whether it is seen from both sides.
+    /// Whether both sides are visible.
     pub double_sided: bool,
 }
 
 impl Look {
-    /// The look of the first material of a mesh.
+    /// Reads the first material of a mesh.
     ///
     /// # Errors
-    /// For a mesh or material that is not there.
+    /// [`Malformed`] if the mesh or material does not exist.
     pub fn of(document: &Document, mesh: usize) -> Result<Self, Malformed> {
         let missing = |place: String| Malformed::at(place, "is not there");
         let found = document.meshes.get(mesh).ok_or_else(|| missing(format!("meshes[{mesh}]")))?;
@@ -110,7 +110,7 @@ fn finish(material: &Material) -> Finish {
         return Finish::Glass;
     }
     match (*metallic_factor, *roughness_factor) {
-        // The file says nothing of it.
+        // The file states neither.
         (None, None) => Finish::default(),
         (metallic, roughness) => {
             Finish::of_metallic_roughness([metallic.unwrap_or(1.0), roughness.unwrap_or(1.0)])

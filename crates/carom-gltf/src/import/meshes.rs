@@ -1,4 +1,4 @@
-//! Forms of meshes, each found once.
+//! Recognizes each mesh of a file once.
 
 use std::collections::BTreeMap;
 
@@ -7,22 +7,22 @@ use super::file::File;
 use super::form::{self, Form};
 use super::vertices::triangles;
 
-/// The forms of a file's meshes, as far as they were needed.
+/// Forms of a file's meshes, found when first needed.
 pub(super) struct Meshes<'a> {
     file: &'a File,
     forms: BTreeMap<usize, Result<Form, &'static str>>,
 }
 
 impl<'a> Meshes<'a> {
-    /// Those of a file.
+    /// Creates an empty list for a file.
     pub fn new(file: &'a File) -> Self {
         Self { file, forms: BTreeMap::new() }
     }
 
-    /// The form of a mesh; `Err` in `Ok` says for the report why it has none.
+    /// Form of a mesh; the inner error is the reason for the report.
     ///
     /// # Errors
-    /// What is wrong with the file.
+    /// [`Malformed`] if the file is invalid.
     pub fn form(&mut self, mesh: usize) -> Result<Result<Form, &'static str>, Malformed> {
         if let Some(known) = self.forms.get(&mesh) {
             return Ok(*known);

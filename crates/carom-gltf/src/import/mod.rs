@@ -1,4 +1,4 @@
-//! A glTF file to a scene: the stages in order.
+//! Imports a glTF file as a scene.
 
 mod bodies;
 mod building;
@@ -31,33 +31,33 @@ use solid::Solid;
 
 pub use error::ImportError;
 
-/// What a glTF file does not say.
+/// Properties that a glTF file does not state.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Options {
-    /// The step rule; `exact` where it is missing.
+    /// Rule; the default is `exact`.
     pub rule: Option<Rule>,
-    /// Length of a frame \[s\]; that of a new scene where it is missing.
+    /// Length of a frame \[s\]; the default is that of a new scene.
     pub frame_time: Option<f64>,
-    /// Time worth watching \[s\]; 10 where it is missing.
+    /// Duration \[s\]; the default is 10.
     pub duration: Option<f64>,
 }
 
-/// A scene that was imported.
+/// An imported scene.
 #[derive(Debug)]
 pub struct Imported {
-    /// The scene; it makes a world.
+    /// The scene, which is valid.
     pub scene: Scene,
-    /// What was not understood or has no counterpart.
+    /// Parts of the file that were ignored, replaced or not understood.
     pub omissions: Vec<Omission>,
 }
 
-/// Imports a .gltf or .glb file. Buffers may lie in files in its folder, or below.
+/// Imports a .gltf or .glb file. Buffers may be files in its folder or below.
 ///
-/// Where nodes have `KHR_physics_rigid_bodies`, these are the spheres and colliders; else meshes are: those of spheres
-/// move, those of boxes and rectangles stay.
+/// If nodes use `KHR_physics_rigid_bodies`, these become spheres and colliders. Otherwise meshes
+/// do: spheres move, boxes and rectangles are fixed.
 ///
 /// # Errors
-/// Files that cannot be read or are broken, and scenes that make no world.
+/// [`ImportError`] if a file cannot be read or is broken, or if the scene is invalid.
 pub fn import(path: &Path, options: &Options) -> Result<Imported, ImportError> {
     let file = File::read(path)?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
@@ -107,7 +107,7 @@ fn build(file: &File, building: &mut Building) -> Result<(), Malformed> {
     Ok(())
 }
 
-/// Adds what a mesh looks like: a sphere that moves, or a collider.
+/// Adds a mesh without physics as a moving sphere or a collider.
 fn add_mesh(
     document: &Document,
     node: &Placed,
@@ -149,7 +149,7 @@ fn add_mesh(
     Ok(())
 }
 
-/// Refuses files that cannot be understood without an extension that is not read.
+/// Refuses a file that requires an extension which is not supported.
 fn refuse_unknown(document: &Document) -> Result<(), Malformed> {
     for (i, name) in document.extensions_required.iter().enumerate() {
         let is_look = ["KHR_materials_", "KHR_texture_", "EXT_texture_"];
@@ -162,7 +162,7 @@ fn refuse_unknown(document: &Document) -> Result<(), Malformed> {
     Ok(())
 }
 
-/// Lists what of a file is not read.
+/// Reports the unsupported parts of a file.
 fn list_unread(document: &Document, building: &mut Building) {
     let Building { scene, report, .. } = building;
     for name in &document.extensions_used {

@@ -1,4 +1,4 @@
-//! Where nodes are.
+//! Poses of nodes.
 
 use carom::{DQuat, DVec3};
 use carom_scene::import::shortened;
@@ -6,21 +6,21 @@ use glam::DMat3;
 
 use crate::document::Node;
 
-/// Place, rotation and scale of a node in the world.
+/// Position, rotation and scale of a node in the world.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pose {
-    /// \[m\]
+    /// Position \[m\].
     pub position: DVec3,
-    /// Of length 1.
+    /// Rotation, normalized.
     pub rotation: DQuat,
-    /// What the local axes become in the world, lengths included.
+    /// Images of the local axes in the world, including their lengths.
     axes: [DVec3; 3],
-    /// The scale as the file says it, where no parent changes any number.
+    /// Scale as stated in the file, if no parent changes any number.
     written_scale: Option<DVec3>,
 }
 
 impl Pose {
-    /// The world itself.
+    /// Pose of the world.
     pub const WORLD: Self = Self {
         position: DVec3::ZERO,
         rotation: DQuat::IDENTITY,
@@ -28,7 +28,7 @@ impl Pose {
         written_scale: Some(DVec3::ONE),
     };
 
-    /// The pose of a child of a node at this pose; `None` where its numbers make no pose.
+    /// Pose of a child node; `None` if its transformation is invalid.
     pub fn child(&self, node: &Node) -> Option<Self> {
         let numbers = |it: &[f64; 3]| DVec3::from_array(it.map(written));
         let (position, rotation, axes, scale) = match &node.matrix {
@@ -59,7 +59,7 @@ impl Pose {
         is_finite.then_some(child)
     }
 
-    /// The pose at a local point, turned by a local rotation.
+    /// Pose at a local point, with a local rotation.
     pub fn at(&self, point: DVec3, rotation: DQuat) -> Self {
         let is_unmoved = point == DVec3::ZERO && rotation == DQuat::IDENTITY;
         if is_unmoved {
@@ -74,7 +74,7 @@ impl Pose {
         }
     }
 
-    /// Lengths along the local axes of what is 1 long in the local frame; negative where it is mirrored.
+    /// Scale along the local axes; negative if mirrored.
     pub fn scale(&self) -> DVec3 {
         self.written_scale.unwrap_or_else(|| {
             let [x, y, z] = self.local_axes();
@@ -82,22 +82,22 @@ impl Pose {
         })
     }
 
-    /// Whether the scales of its parents shear it.
+    /// Whether the scales of its parents shear the node.
     pub fn is_sheared(&self) -> bool {
-        // Numbers have 24 bits: what they shear by is round-off up to this part of the scale.
+        // Numbers have 24 bits, so a smaller shear, relative to the scale, is a rounding error.
         const ROUNDOFF: f64 = 1e-5;
         let [x, y, z] = self.local_axes();
         let beside = [x.y, x.z, y.x, y.z, z.x, z.y];
         beside.iter().any(|part| part.abs() > ROUNDOFF * self.scale().abs().max_element())
     }
 
-    /// The position as a scene has it: without the round-off of parents.
+    /// Position for a scene, without the rounding errors of parents.
     pub fn written_position(&self) -> [f64; 3] {
         let position = self.position.to_array();
         if self.written_scale.is_some() { position } else { shortened(position) }
     }
 
-    /// A length as a scene has it, which this pose has scaled.
+    /// Scaled length for a scene, without the rounding errors of parents.
     pub fn written_length(&self, length: f64) -> f64 {
         if self.written_scale.is_some() { length } else { shortened([length])[0] }
     }
@@ -115,16 +115,15 @@ impl Pose {
     }
 }
 
-/// A number that other programs wrote with all digits of its 32 bits, with as few as it needs: 0.1 for
-/// 0.10000000149011612. All others as they are.
+/// Shortens a number that another program wrote with all digits of its 32 bits: 0.10000000149011612
+/// becomes 0.1. Returns other numbers unchanged.
 pub(super) fn written(number: f64) -> f64 {
     let narrow = number as f32;
     let is_narrow = f64::from(narrow) == number;
     if is_narrow { narrow.to_string().parse().unwrap_or(number) } else { number }
 }
 
-/// The rotation of axes that scales and shears may have changed: that keeps the direction of y, and the side
-/// of x.
+/// Rotation of axes that may be scaled and sheared. It keeps the direction of y, and the side of x.
 fn rotation_of([x, y, z]: [DVec3; 3]) -> DQuat {
     let y = y.try_normalize().or_else(|| z.cross(x).try_normalize()).unwrap_or(DVec3::Y);
     let x = (x - y * x.dot(y)).try_normalize().unwrap_or_else(|| y.any_orthonormal_vector());

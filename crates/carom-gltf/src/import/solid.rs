@@ -1,4 +1,4 @@
-//! Shapes where they are.
+//! Shapes at their poses.
 
 use carom::{DQuat, DVec3};
 use carom_scene::scene::{Quaternion, Shape, Vector};
@@ -6,18 +6,18 @@ use carom_scene::scene::{Quaternion, Shape, Vector};
 use super::form::Form;
 use super::pose::Pose;
 
-/// A shape at a place.
+/// A shape at a pose.
 #[derive(Debug, Clone)]
 pub(super) struct Solid {
     pub shape: Shape,
     pub position: Vector,
     pub rotation: Quaternion,
-    /// What is not quite so, if anything.
+    /// Description of an inexact conversion, if there is one.
     pub inexact: Option<&'static str>,
 }
 
 impl Solid {
-    /// A form at the pose of its node; `Err` says for the report why there is none.
+    /// Places a form at the pose of its node; the error is the reason for the report.
     pub fn of(form: &Form, pose: &Pose) -> Result<Self, &'static str> {
         let (center, rotation) = match *form {
             Form::Sphere { center, .. } => (center, DQuat::IDENTITY),
@@ -50,7 +50,7 @@ impl Solid {
             Form::HalfSpace => (Shape::HalfSpace, sheared),
         };
         let is_flat = matches!(shape, Shape::Rectangle { .. } | Shape::HalfSpace);
-        // A surface that is mirrored faces the other way.
+        // A mirrored surface faces the opposite direction.
         let rotation = match is_flat && pose.scale().y < 0.0 {
             true => pose.rotation * DQuat::from_xyzw(1.0, 0.0, 0.0, 0.0),
             false => pose.rotation,
@@ -59,7 +59,7 @@ impl Solid {
         Ok(Self { shape, position, rotation, inexact })
     }
 
-    /// The other side of a rectangle.
+    /// Returns the back side of a rectangle.
     pub fn back(&self) -> Self {
         let around = DQuat::from_xyzw(1.0, 0.0, 0.0, 0.0);
         let rotation = DQuat::from_array(self.rotation) * around;
@@ -67,6 +67,6 @@ impl Solid {
     }
 }
 
-/// Why a node is no body.
+/// Why a node cannot be imported.
 pub(super) const NO_SIZE: &str = "has no size at the start: it appears later";
 const SHEARED: &str = "the scales of its parents shear it; its form is kept unsheared";

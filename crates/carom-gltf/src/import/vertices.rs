@@ -1,4 +1,4 @@
-//! Triangles of meshes: indices and vertices out of buffers.
+//! Reads triangles of meshes from buffers.
 
 use carom::DVec3;
 
@@ -12,10 +12,10 @@ pub(super) type Triangle = [DVec3; 3];
 /// Most triangles of one mesh.
 const MOST: usize = 10_000_000;
 
-/// The triangles of a mesh.
+/// Reads the triangles of a mesh.
 ///
 /// # Errors
-/// In `Ok`, why they are not read, for the report; else what is wrong with the file.
+/// The inner error is the reason for the report; [`Malformed`] if the file is invalid.
 pub(super) fn triangles(
     file: &File,
     mesh: usize,
@@ -58,7 +58,7 @@ fn of_primitive(
                 Ok(indices) => indices,
                 Err(reason) => return Ok(Err(reason)),
             };
-            // Many meshes may share vertices, each with indices of some.
+            // Many meshes may share vertices and use only some of them.
             let corner = |[index]: [f64; 1]| vertices.get(index as usize).map(DVec3::from_array);
             let corners: Option<Vec<DVec3>> = indices.all().map(corner).collect();
             corners.ok_or_else(|| Malformed::at(place, "an index is beyond its vertices"))?
@@ -70,7 +70,7 @@ fn of_primitive(
     Ok(Ok(assembled(&corners, primitive.mode)))
 }
 
-/// Triangles of a list, a strip or a fan of corners.
+/// Converts corners of a list, strip or fan to triangles.
 fn assembled(corners: &[DVec3], mode: u32) -> Vec<Triangle> {
     let triple = |a: usize, b: usize, c: usize| [corners[a], corners[b], corners[c]];
     let after = corners.len().saturating_sub(2);
@@ -81,11 +81,11 @@ fn assembled(corners: &[DVec3], mode: u32) -> Vec<Triangle> {
     }
 }
 
-/// Elements of an accessor, `WIDTH` numbers each. An element is decoded when an index names it.
+/// Elements of an accessor with `WIDTH` numbers each, decoded on access.
 struct Elements<'a, const WIDTH: usize> {
     bytes: &'a [u8],
     count: usize,
-    /// From an element to the next one \[bytes\].
+    /// Distance from one element to the next \[bytes\].
     stride: usize,
     component: Component,
 }
@@ -107,7 +107,7 @@ impl<const WIDTH: usize> Elements<'_, WIDTH> {
     }
 }
 
-/// The elements of an accessor.
+/// Finds the elements of an accessor.
 fn elements<'a, const WIDTH: usize>(
     file: &'a File,
     index: usize,
@@ -159,9 +159,9 @@ fn elements<'a, const WIDTH: usize>(
     Ok(Ok(Elements { bytes, count, stride, component }))
 }
 
-/// How one number is written.
+/// Format of a number in a buffer.
 struct Component {
-    /// \[bytes\]
+    /// Length \[bytes\].
     size: usize,
     read: fn(&[u8]) -> f64,
 }
@@ -180,7 +180,7 @@ fn component(accessor: &Accessor) -> Option<Component> {
         (5123, false) => of(2, |it| f64::from(u16::from_le_bytes(bytes(it)))),
         (5125, false) => of(4, |it| f64::from(u32::from_le_bytes(bytes(it)))),
         (5126, false) => of(4, |it| f64::from(f32::from_le_bytes(bytes(it)))),
-        // KHR_mesh_quantization.
+        // Normalized integers of KHR_mesh_quantization.
         (5120, true) => of(1, |it| (f64::from(i8::from_le_bytes(bytes(it))) / 127.0).max(-1.0)),
         (5121, true) => of(1, |it| f64::from(it[0]) / 255.0),
         (5122, true) => of(2, |it| (f64::from(i16::from_le_bytes(bytes(it))) / 32767.0).max(-1.0)),

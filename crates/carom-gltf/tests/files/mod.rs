@@ -1,4 +1,4 @@
-//! glTF files that tests put together.
+//! Builds glTF files for tests.
 #![allow(dead_code, reason = "each test uses a part")]
 
 use std::path::{Path, PathBuf};
@@ -9,14 +9,14 @@ use carom_gltf::{ImportError, Imported, Options};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-/// A file on its way.
+/// A file under construction.
 pub struct Gltf {
     pub json: Value,
     bytes: Vec<u8>,
 }
 
 impl Gltf {
-    /// A file with these nodes, all of them in the scene but for children.
+    /// Creates a file with these nodes; all nodes without parents are in the scene.
     pub fn with_nodes(nodes: Value) -> Self {
         let children: Vec<u64> = nodes
             .as_array()
@@ -37,13 +37,13 @@ impl Gltf {
         Self { json, bytes: Vec::new() }
     }
 
-    /// With a value at the top.
+    /// Sets a value at the top level.
     pub fn with(mut self, name: &str, value: Value) -> Self {
         self.json[name] = value;
         self
     }
 
-    /// With a mesh of these triangles, and this material if any.
+    /// Adds a mesh of these triangles, with a material if there is one.
     pub fn with_mesh(
         mut self,
         vertices: &[[f32; 3]],
@@ -78,25 +78,25 @@ impl Gltf {
         accessors.len() - 1
     }
 
-    /// As .gltf, its buffer in itself.
+    /// Writes the file as .gltf with an embedded buffer.
     pub fn text(&self) -> String {
         let uri = format!("data:application/octet-stream;base64,{}", STANDARD.encode(&self.bytes));
         self.text_with_buffer(&uri)
     }
 
-    /// As .gltf, its buffer at an address.
+    /// Writes the file as .gltf with its buffer at an address.
     pub fn text_with_buffer(&self, uri: &str) -> String {
         let mut json = self.json.clone();
         json["buffers"] = json!([{ "byteLength": self.bytes.len(), "uri": uri }]);
         serde_json::to_string_pretty(&json).unwrap()
     }
 
-    /// What the buffer holds.
+    /// Content of the buffer.
     pub fn buffer(&self) -> &[u8] {
         &self.bytes
     }
 
-    /// As .glb.
+    /// Writes the file as .glb.
     pub fn binary(&self) -> Vec<u8> {
         let mut json = self.json.clone();
         json["buffers"] = json!([{ "byteLength": self.bytes.len() }]);
@@ -115,18 +115,18 @@ impl Gltf {
         .concat()
     }
 
-    /// Imports it, as .gltf.
+    /// Imports the file as .gltf.
     pub fn import(&self) -> Result<Imported, ImportError> {
         import_bytes("scene.gltf", self.text().as_bytes())
     }
 
-    /// Imports it, as .gltf, and nothing is wrong.
+    /// Imports the file as .gltf, which must succeed.
     pub fn imported(&self) -> Imported {
         self.import().unwrap()
     }
 }
 
-/// Imports a file of these bytes.
+/// Imports a file with this content.
 pub fn import_bytes(name: &str, bytes: &[u8]) -> Result<Imported, ImportError> {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join(name);
@@ -134,17 +134,17 @@ pub fn import_bytes(name: &str, bytes: &[u8]) -> Result<Imported, ImportError> {
     carom_gltf::import(&path, &Options::default())
 }
 
-/// A file of the fixtures.
+/// Path of a file of the fixtures.
 pub fn fixture(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures").join(name)
 }
 
-/// The lines of a report.
+/// Lines of a report.
 pub fn report(imported: &Imported) -> Vec<String> {
     imported.omissions.iter().map(ToString::to_string).collect()
 }
 
-/// A sphere about a point, of slices and half as many stacks.
+/// Triangles of a sphere about a point, with `slices` slices and half as many stacks.
 pub fn sphere(center: [f32; 3], radius: f32, slices: u16) -> (Vec<[f32; 3]>, Vec<u16>) {
     let stacks = slices / 2;
     let mut vertices = Vec::new();
@@ -167,7 +167,7 @@ pub fn sphere(center: [f32; 3], radius: f32, slices: u16) -> (Vec<[f32; 3]>, Vec
     (vertices, indices)
 }
 
-/// A box about the origin.
+/// Triangles of a box about the origin.
 pub fn cube(size: [f32; 3]) -> (Vec<[f32; 3]>, Vec<u16>) {
     let corner =
         |i: u16| [0, 1, 2].map(|axis| if i >> axis & 1 == 1 { 0.5 } else { -0.5 } * size[axis]);
@@ -177,7 +177,7 @@ pub fn cube(size: [f32; 3]) -> (Vec<[f32; 3]>, Vec<u16>) {
     ((0..8).map(corner).collect(), indices)
 }
 
-/// A rectangle in the xz plane that faces +y.
+/// Triangles of a rectangle in the xz plane that faces +y.
 pub fn rectangle(x: f32, z: f32) -> (Vec<[f32; 3]>, Vec<u16>) {
     let (x, z) = (0.5 * x, 0.5 * z);
     (vec![[-x, 0.0, z], [x, 0.0, z], [x, 0.0, -z], [-x, 0.0, -z]], vec![0, 1, 2, 0, 2, 3])

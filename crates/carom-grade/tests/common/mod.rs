@@ -1,4 +1,4 @@
-//! Runs with known mistakes, as a student's program would record them.
+//! Tables of runs with known mistakes, as a student's program would write them.
 #![allow(dead_code, reason = "each file of tests uses some of it")]
 
 use std::fmt::Write;
@@ -18,14 +18,14 @@ pub fn grader(scene: &str) -> Grader {
     Grader::new(Course::of(&scene).unwrap(), TOLERANCE)
 }
 
-/// What is written of a run.
+/// Format of a table.
 #[derive(Debug, Clone, Copy)]
 pub struct Style {
     /// Largest noise of a coordinate \[m\].
     pub noise: f64,
-    /// Every how many frames.
+    /// Number of frames from one row to the next.
     pub every: usize,
-    /// The first frame.
+    /// First frame in the table.
     pub first: usize,
     pub velocities: bool,
     pub seed: u64,
@@ -37,7 +37,7 @@ impl Default for Style {
     }
 }
 
-/// The table of a run.
+/// Writes the table of a run.
 pub fn table(tracks: &Tracks, style: Style) -> String {
     let mut random = Pcg64::seed_from_u64(style.seed);
     let mut noise = || style.noise * (f64::from(random.next_u32()) / f64::from(1_u32 << 31) - 1.0);
@@ -65,7 +65,7 @@ pub fn recorded(text: &str) -> Recorded {
     Recorded::parse(Path::new("run.csv"), text.as_bytes(), &Reading::default()).unwrap()
 }
 
-/// A run with these mistakes, in single precision.
+/// Records a run with these mistakes in single precision.
 pub fn planted(grader: &Grader, mistakes: Mistakes, seconds: f64, style: Style) -> Recorded {
     let tracks = grader.planted(mistakes, seconds, true);
     recorded(&table(&tracks, style))

@@ -1,5 +1,6 @@
-//! The course's program as a student writes it in Unity: single precision, left-handed coordinates, and
-//! collisions in the frame of each collider. It has nothing in common with the rule that grades it.
+//! The course's program as a student writes it in Unity: single precision, left-handed coordinates,
+//! and collisions in the coordinates of each collider. It shares no code with the rule that grades
+//! it.
 
 use std::fmt::Write;
 
@@ -8,7 +9,7 @@ use carom_scene::scene::{Force, Shape};
 
 type V = [f32; 3];
 
-/// What this student gets wrong.
+/// Mistakes of this student.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Slips {
     pub explicit_euler: bool,
@@ -39,7 +40,7 @@ fn cross(a: V, b: V) -> V {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// `q v`, as Unity's `Quaternion * Vector3`.
+/// Rotates a vector, as Unity's `Quaternion * Vector3`.
 fn turned([x, y, z, w]: [f32; 4], v: V) -> V {
     let u = [x, y, z];
     let t = scaled(cross(u, v), 2.0);
@@ -51,7 +52,7 @@ fn single(v: [f64; 3]) -> V {
     [v[0] as f32, v[1] as f32, -v[2] as f32]
 }
 
-/// The table that the student's recorder writes, in Unity's coordinates.
+/// Writes the table of the student's recorder, in Unity's coordinates.
 pub fn table(scene: &Scene, seconds: f64, slips: Slips) -> String {
     let emitter = &scene.emitters[0];
     let (mass, radius) =
@@ -101,7 +102,7 @@ fn move_ball(ball: &mut Ball, scene: &Scene, (dt, mass): (f32, f32), slips: Slip
 
 fn collide(ball: &mut Ball, collider: &carom_scene::scene::Collider, radius: f32, slips: Slips) {
     let [x, y, z, w] = collider.rotation.map(|it| it as f32);
-    // Mirrored as Unity has it, and the way back.
+    // The rotation in Unity's mirrored coordinates, and its inverse.
     let (to_world, to_local) = ([-x, -y, z, w], [x, y, -z, w]);
     let center = single(collider.position);
     let position = turned(to_local, add(ball.position, scaled(center, -1.0)));

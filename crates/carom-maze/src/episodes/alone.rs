@@ -1,4 +1,4 @@
-//! A world in which one ball after the other takes a frame, alone.
+//! A world in which single balls take their frames one after the other.
 
 use carom::{DVec3, Rule, Snapshot, Sphere, SphereId, World};
 
@@ -6,11 +6,11 @@ use super::Arena;
 use super::ball::{self, Ball};
 use crate::error::EpisodeError;
 
-/// A maze with one ball. What becomes of a ball in a frame depends on nothing but how it comes to that.
+/// A maze with one ball. The result of a frame depends only on the state of its ball.
 #[derive(Debug, Clone)]
 pub(super) struct Alone {
     world: World,
-    /// Without what a rule keeps of the frames of other balls.
+    /// State before the first frame, without data that a rule keeps from frames of other balls.
     unplayed: Snapshot,
 }
 
@@ -21,8 +21,8 @@ impl Alone {
         Ok(Self { unplayed: world.snapshot(), world })
     }
 
-    /// Moves the ball of this id, as it is, by a frame under a weight \[N\]; notes what it touches. Gives
-    /// how it moves then.
+    /// Moves the ball with this id by a frame under a weight \[N\] and notes what it touches.
+    /// Returns the ball after the frame.
     pub fn take_frame(
         &mut self,
         id: SphereId,

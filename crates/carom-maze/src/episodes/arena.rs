@@ -1,4 +1,4 @@
-//! What all episodes in a maze share: the world to roll in, and what is known of it.
+//! Data that all episodes in a maze share: the world, and what is computed from the maze once.
 
 use carom::{ColliderId, DVec3, Rule, World, Zones};
 use carom_scene::scene::Force;
@@ -11,40 +11,39 @@ use crate::error::{EpisodeError, MazeError};
 use crate::floor::Floor;
 use crate::maze::{Maze, Role};
 
-/// As many bits as there are for what a ball has taken.
+/// A ball has one bit for each collectible.
 const MOST_COLLECTIBLES: usize = u64::BITS as usize;
-/// Impacts of a ball in a frame under the rule `exact`. A rolling ball needs some ten; one that
-/// needs more than this takes the frame by the rule `discrete`.
+/// Largest number of impacts of a ball in a frame under the rule `exact`. A rolling ball needs about
+/// ten. A ball that needs more takes the frame by the rule `discrete`.
 const MOST_IMPACTS: u32 = 2_000;
-/// What a place to start from leaves to walls, beyond the ball \[cells of the floor\]: the middle of
-/// a cell is known to be free but for a hundredth of a radius.
+/// Least distance between walls and a ball at a start, beyond its radius \[cells of the floor\].
+/// The middle of a cell is known to be free only up to a hundredth of a radius.
 const FREE_CELLS: f64 = 2.0;
 
-/// A maze, made ready for episodes. It can be shared by many [`Episodes`](super::Episodes).
+/// A maze prepared for episodes. Many [`Episodes`](super::Episodes) can share it.
 #[derive(Debug, Clone)]
 pub struct Arena {
     maze: Maze,
     options: EpisodeOptions,
-    /// One ball without weight, the rule that of the options.
+    /// The world with one ball without weight, under the rule of the options.
     world: World,
-    /// By number of collider.
+    /// Role of each collider, by its number.
     roles: Vec<Role>,
     ground: Ground,
     collectibles: usize,
-    /// Where balls may start: the maze's own start, and others.
+    /// Possible starts: the maze's own start, then others.
     starts: Vec<DVec3>,
     observation_bounds: [Vec<f32>; 2],
-    /// Only for shaping.
+    /// Costs of ways; only for shaping.
     ways: Option<Ways>,
 }
 
 impl Arena {
-    /// Prepares a maze. Of the scene's forces only drag is kept; weight is what
-    /// [`Maze::gravity`] says.
+    /// Prepares a maze. Of the scene's forces only drag is kept; the weight comes from
+    /// [`Maze::gravity`].
     ///
     /// # Errors
-    /// [`EpisodeError`] for an option that makes no sense, and for a maze with more than 64
-    /// collectibles.
+    /// [`EpisodeError`] for an invalid option, and for a maze with more than 64 collectibles.
     pub fn new(maze: Maze, options: EpisodeOptions) -> Result<Self, EpisodeError> {
         options.validate(maze.start().y)?;
         let collectibles = maze.collectibles().count();
@@ -77,75 +76,76 @@ impl Arena {
         })
     }
 
-    /// The maze.
+    /// Returns the maze.
     pub fn maze(&self) -> &Maze {
         &self.maze
     }
 
-    /// How episodes are played in it.
+    /// Returns the options of the episodes.
     pub fn options(&self) -> &EpisodeOptions {
         &self.options
     }
 
-    /// How many collectibles there are.
+    /// Returns the number of collectibles.
     pub fn collectibles(&self) -> usize {
         self.collectibles
     }
 
-    /// Where balls may start \[m\]: first the maze's own start, then all middles of cells of the floor
-    /// that can be reached from it, free on all sides, not at an end wall and not at a collectible.
+    /// Returns the possible starts \[m\]: the maze's own start, then the middles of all cells of
+    /// the floor that can be reached from it, are free on all sides, and touch neither an end wall
+    /// nor a collectible.
     pub fn starts(&self) -> &[DVec3] {
         &self.starts
     }
 
-    /// How many numbers an observation has.
+    /// Returns the length of an observation.
     pub fn observation_length(&self) -> usize {
         self.observation_bounds[0].len()
     }
 
-    /// The least and the most that each number of an observation can be: places are within a box
-    /// about the maze, speeds at most what a ball gains from rest that rolls along the diagonal of
-    /// that box at the steepest.
+    /// Returns the smallest and the largest value of each number of an observation. Positions are
+    /// within a box around the maze. The largest speed is that of a ball that starts at rest and
+    /// rolls along the diagonal of that box at the steepest tilt.
     pub fn observation_bounds(&self) -> [&[f32]; 2] {
         let [low, high] = &self.observation_bounds;
         [low, high]
     }
 
-    /// Whether a ball at a place \[m\] has ground under it, and does not fall.
+    /// Returns whether there is ground under a ball at a position \[m\].
     pub(super) fn has_ground_at(&self, place: DVec3) -> bool {
         self.ground.reaches(place)
     }
 
-    /// Weight of a ball \[N\].
+    /// Returns the weight of a ball \[N\].
     pub(super) fn weight(&self) -> f64 {
         self.maze.gravity() * self.world.spheres().masses()[0]
     }
 
-    /// Potential of a ball at a place \[m\] that has taken some collectibles, as shaping needs it;
-    /// `None` without shaping, and where nothing is known.
+    /// Returns the potential for shaping of a ball at a position \[m\] with these collectibles
+    /// taken; `None` without shaping and where the cost is unknown.
     pub(super) fn potential(&self, place: DVec3, taken: u64) -> Option<f64> {
         let cost = self.ways.as_ref()?.to_goal(place, taken)?;
         Some(-self.options.rewards.shaping * cost)
     }
 
-    /// A world of one ball, which has no weight.
+    /// Returns the world with one ball, which has no weight.
     pub(super) fn world(&self) -> &World {
         &self.world
     }
 
-    /// What a collider is in the game.
+    /// Returns the role of a collider.
     pub(super) fn role(&self, id: ColliderId) -> Role {
-        // In a world made of a scene, colliders are numbered as in the scene.
+        // The world was made from the scene, so it numbers colliders as the scene does.
         self.roles.get(id.number() as usize).copied().unwrap_or(Role::Wall)
     }
 }
 
-/// Whether a force slows balls down.
+/// Returns whether a force slows balls down.
 fn is_drag(force: &Force) -> bool {
     matches!(force, Force::ViscousDrag { coefficient } if *coefficient > 0.0)
 }
 
-/// The rule, with a bound that keeps frames short.
+/// Returns the rule with a limit on impacts, which keeps frames short.
 fn limited(rule: Rule) -> Rule {
     match rule {
         Rule::Exact(exact) => {

@@ -1,4 +1,4 @@
-//! One ball's episode.
+//! The episode of one ball.
 
 use carom::{BodyPair, DVec3, SphereId, World};
 
@@ -8,39 +8,39 @@ use crate::maze::Role;
 use crate::random::Numbers;
 use crate::tilt::Tilt;
 
-/// Whether and how an episode has ended.
+/// State or result of an episode.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outcome {
-    /// It goes on.
+    /// The episode continues.
     Rolling,
     /// The ball touched an end wall.
     Won,
     /// The ball fell out of the maze.
     Fell,
-    /// It took as many steps as it may, and nothing else ended it.
+    /// The episode reached its largest number of steps.
     TimeUp,
 }
 
-/// A ball's episode, but for its motion.
+/// The episode of a ball, except for its motion.
 #[derive(Debug, Clone)]
 pub(super) struct Ball {
     pub tilt: Tilt,
-    /// A bit for each collectible.
+    /// The taken collectibles, one bit each.
     pub taken: u64,
     pub outcome: Outcome,
     pub steps: u32,
     pub reward: f64,
-    /// Where it is, as shaping sees it; zero without shaping.
+    /// Potential for shaping at the last step; 0 without shaping.
     potential: f64,
     numbers: Numbers,
 }
 
-/// How tilts follow actions, in one frame.
+/// How fast and how far a tilt follows actions in one frame.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Steering {
     /// \[rad\]
     steepest: f64,
-    /// About each axis in a frame \[rad\].
+    /// Largest turn about each axis in a frame \[rad\].
     most: f64,
 }
 
@@ -78,7 +78,7 @@ impl Ball {
         places[self.numbers.below(places.len())]
     }
 
-    /// Begins an episode at a place.
+    /// Starts an episode at a position.
     pub fn begin(&mut self, place: DVec3, arena: &Arena) {
         (self.tilt, self.taken) = (Tilt::LEVEL, 0);
         (self.outcome, self.steps, self.reward) = (Outcome::Rolling, 0, 0.0);
@@ -90,14 +90,14 @@ impl Ball {
         self.reward = if is_rolling { arena.options().rewards.step } else { 0.0 };
     }
 
-    /// Counts a step that ended at a place.
+    /// Ends a step at a position: adds the shaping reward and checks the limit of steps.
     pub fn end_step(&mut self, place: DVec3, arena: &Arena) {
         let EpisodeOptions { max_steps, rewards, .. } = arena.options();
         self.steps = self.steps.saturating_add(1);
         if rewards.shaping > 0.0 {
             let after = match self.outcome {
                 Outcome::Won | Outcome::Fell => 0.0,
-                // Where nothing is known, nothing changes.
+                // Where the potential is unknown, it stays unchanged.
                 _ => arena.potential(place, self.taken).unwrap_or(self.potential),
             };
             if self.outcome != Outcome::TimeUp {
@@ -137,13 +137,15 @@ impl Ball {
     }
 }
 
-/// Which ball a sphere is: the balls are all spheres there ever were.
+/// Returns the index of the ball of a sphere. Spheres are never removed, so their numbers are the
+/// indices.
 pub(super) fn index_of(id: SphereId) -> usize {
     id.number() as usize
 }
 
-/// Notes what balls touched in a frame: collectibles first, which count in the frame that wins.
-/// `index_of` says which ball a sphere is, if it counts.
+/// Records what balls touched in a frame. Collectibles come first, so that they count in a frame
+/// that wins. `index_of` returns the index of a sphere's ball, or `None` for a sphere that does not
+/// count.
 pub(super) fn note(
     world: &World,
     balls: &mut [Ball],
@@ -157,7 +159,7 @@ pub(super) fn note(
             balls[index].take(collectible, arena);
         }
     }
-    // What rolls up to a wall slowly is in contact with it, without an impact.
+    // A ball that rolls up to a wall slowly is in contact without an impact.
     let contacts = if arena.options().friction > 0.0 { world.contacts() } else { Vec::new() };
     let in_contact = contacts.iter().map(|contact| contact.between);
     for between in report.impacts.iter().map(|impact| impact.between).chain(in_contact) {

@@ -1,4 +1,4 @@
-//! What balls roll on, and where it ends.
+//! The ground that balls roll on, with its edges.
 
 use carom::{DQuat, DVec3};
 use carom_scene::scene::{Collider, Shape};
@@ -25,8 +25,8 @@ impl Ground {
         Self(maze.with_role(|role| role == Role::Ground).filter_map(Patch::of).collect())
     }
 
-    /// Whether there is ground right under or over a place. A ball whose centre has passed the rim
-    /// falls, whatever is done.
+    /// Returns whether there is ground straight below or above a position. A ball whose centre has
+    /// passed the edge falls under any action.
     pub fn reaches(&self, place: DVec3) -> bool {
         self.0.iter().any(|patch| patch.reaches(place))
     }

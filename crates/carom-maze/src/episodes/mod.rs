@@ -1,4 +1,4 @@
-//! Episodes for agents that learn: many balls at once, each for itself, in one maze.
+//! Episodes for learning agents: many independent balls in one maze.
 
 mod alone;
 mod arena;
@@ -11,7 +11,7 @@ mod ways;
 
 use std::sync::Arc;
 
-use carom::{Contact, DQuat, DVec3, Error, SphereId, World};
+use carom::{Contact, DQuat, DVec3, Error, SphereId, SphereMotion, World};
 use carom_scene::scene::Scene;
 
 use crate::error::EpisodeError;
@@ -28,24 +28,23 @@ pub use options::{EpisodeOptions, Rewards};
 /// Where an episode starts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Start {
-    /// At the maze's start.
+    /// The maze's start.
     #[default]
     Maze,
-    /// At any of [`Arena::starts`], all alike, by the ball's own random numbers.
+    /// One of [`Arena::starts`], all equally likely, chosen by the ball's own random numbers.
     Random,
 }
 
-/// Episodes of many balls in one maze, which do not see each other.
+/// Episodes of many balls in one maze, which do not affect each other.
 ///
-/// The maze stands still, and the weight of each ball is turned by a tilt of its own: forces that a
-/// turning maze would have on the ball are left out. An action is the tilt that is wanted, in parts
-/// of the steepest; the tilt follows as fast as [`EpisodeOptions::tilt_speed_degrees_per_second`] lets
-/// it. A ball that touches a collectible has it, and goes on; touching an end wall wins, and falling
-/// out of the maze ends the episode, too, as soon as the centre is past the rim of the ground. After that the ball rolls on, and earns nothing, until it
-/// is [reset](Self::reset).
+/// The maze is at rest. The weight of each ball is turned by its own tilt, so the motion of a
+/// turning maze exerts no force. An action is the wanted tilt as a part of the steepest; the tilt
+/// follows at [`EpisodeOptions::tilt_speed_degrees_per_second`]. A ball takes a collectible by
+/// touching it. An episode is won when the ball touches an end wall. It also ends when the ball
+/// falls: when its centre passes the edge of the ground. After that the ball moves on without
+/// rewards until it is [reset](Self::reset).
 ///
-/// What an episode becomes depends, to the bit, on its start and its actions alone, not on how many
-/// others there are.
+/// The bits of an episode depend only on its start and its actions, not on the other balls.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -64,7 +63,7 @@ pub enum Start {
 #[derive(Debug, Clone)]
 pub struct Episodes {
     arena: Arc<Arena>,
-    /// All balls; the number of each is its place in `balls`.
+    /// All balls; the number of each sphere is its index in `balls`.
     world: World,
     balls: Vec<Ball>,
     /// Weight of each ball along the axes of the maze \[N\].
@@ -73,15 +72,15 @@ pub struct Episodes {
     /// Takes the frames of balls with friction.
     rolling: Option<Alone>,
     /// Working memory of resets.
-    moved: Vec<(SphereId, DVec3, DVec3)>,
+    moved: Vec<SphereMotion>,
 }
 
 impl Episodes {
-    /// Episodes of `count` balls at the maze's start, the maze level. Random numbers are those of the
-    /// seeds 0, 1, 2, ...
+    /// Starts `count` episodes at the maze's start with a level maze. The balls' random numbers
+    /// have the seeds 0, 1, 2, ...
     ///
     /// # Errors
-    /// [`EpisodeError::Count`] for no balls.
+    /// [`EpisodeError::Count`] if `count` is 0.
     pub fn new(arena: Arc<Arena>, count: usize) -> Result<Self, EpisodeError> {
         if count == 0 {
             let what = "the number of balls";
@@ -104,13 +103,14 @@ impl Episodes {
         Ok(episodes)
     }
 
-    /// Takes a step: an action for each ball, the tilt wanted towards +x and +z, in parts of the
-    /// steepest in \[-1, 1\]; more is cut off. A positive part lowers the maze there.
+    /// Takes a step with an action for each ball: the wanted tilt towards +x and +z, as parts of
+    /// the steepest in \[-1, 1\]. Values outside are clamped. A positive part lowers the maze at
+    /// that side.
     ///
     /// # Errors
-    /// [`EpisodeError::Count`] for another number of actions than balls, [`EpisodeError::Action`] for
-    /// one that is not finite: then nothing is done. [`EpisodeError::Physics`] if a number would
-    /// overflow; the frame in which it would is not taken.
+    /// [`EpisodeError::Count`] if the number of actions differs from that of balls,
+    /// [`EpisodeError::Action`] for an action that is not finite; nothing happens then.
+    /// [`EpisodeError::Physics`] if a number would overflow; that frame is not taken.
     pub fn step(&mut self, actions: &[[f64; 2]]) -> Result<(), EpisodeError> {
         let (balls, count) = (self.balls.len(), actions.len());
         if balls != count {
@@ -150,7 +150,7 @@ impl Episodes {
         Ok(())
     }
 
-    /// Moves all balls by a frame, and notes what they touch.
+    /// Moves all balls by a frame and records what they touch.
     fn step_world(&mut self) -> Result<(), EpisodeError> {
         let Self { arena, world, balls, weights, .. } = self;
         if let Some(rolling) = &mut self.rolling {
@@ -165,7 +165,7 @@ impl Episodes {
         self.rescue.clear();
         loop {
             self.world.set_applied_forces(&self.weights)?;
-            // Times round differently: at all times the same frame has the same bits.
+            // Times differ in rounding: with the same time, the same frame has the same bits.
             self.world.set_time(0.0)?;
             match self.world.step(self.arena.options().frame_time).map(drop) {
                 Ok(()) => break,
@@ -183,21 +183,22 @@ impl Episodes {
         self.rescue.release(&mut self.world, &mut self.balls, &self.arena)
     }
 
-    /// Starts new episodes of some balls, the maze level for them.
+    /// Starts new episodes of some balls, with a level maze.
     ///
     /// # Errors
-    /// [`EpisodeError::NoBall`] for one that is not there; then none is reset.
+    /// [`EpisodeError::NoBall`] for an index without a ball; then none is reset.
     pub fn reset(&mut self, balls: &[usize], start: Start) -> Result<(), EpisodeError> {
         balls.iter().try_for_each(|&ball| self.check(ball))?;
         self.moved.clear();
         for &index in balls {
             let ball = &mut self.balls[index];
-            let place = match start {
+            let position = match start {
                 Start::Maze => self.arena.maze().start(),
                 Start::Random => ball.choose(self.arena.starts()),
             };
-            ball.begin(place, &self.arena);
-            self.moved.push((self.world.spheres().ids()[index], place, DVec3::ZERO));
+            ball.begin(position, &self.arena);
+            let id = self.world.spheres().ids()[index];
+            self.moved.push(SphereMotion { id, position, velocity: DVec3::ZERO });
         }
         self.world.set_motions(&self.moved)?;
         if self.rolling.is_some() {
@@ -210,10 +211,10 @@ impl Episodes {
         Ok(())
     }
 
-    /// Gives a ball the random numbers of a seed, from which it chooses where to start.
+    /// Sets the seed of the random numbers with which a ball chooses its starts.
     ///
     /// # Errors
-    /// [`EpisodeError::NoBall`] if it is not there.
+    /// [`EpisodeError::NoBall`] for an index without a ball.
     pub fn seed(&mut self, ball: usize, seed: u64) -> Result<(), EpisodeError> {
         self.check(ball)?;
         self.balls[ball].seed(seed);
@@ -225,70 +226,71 @@ impl Episodes {
         if ball < balls { Ok(()) } else { Err(EpisodeError::NoBall { ball, balls }) }
     }
 
-    /// The maze, and how it is played.
+    /// Returns the arena.
     pub fn arena(&self) -> &Arena {
         &self.arena
     }
 
-    /// How many balls there are.
+    /// Returns the number of balls.
     pub fn len(&self) -> usize {
         self.balls.len()
     }
 
-    /// Never: there is one ball at least.
+    /// Returns `false`: there is at least one ball.
     pub fn is_empty(&self) -> bool {
         self.balls.is_empty()
     }
 
-    /// Centre \[m\] and velocity \[m/s\] of a ball along the axes of the maze.
+    /// Returns centre \[m\] and velocity \[m/s\] of a ball along the axes of the maze.
     ///
     /// # Panics
-    /// If it is not there; so do those below.
+    /// For an index without a ball, as the methods below.
     pub fn motion(&self, ball: usize) -> (DVec3, DVec3) {
         let spheres = self.world.spheres();
         (spheres.positions()[ball], spheres.velocities()[ball])
     }
 
-    /// How the maze is tilted for a ball.
+    /// Returns the tilt of the maze for a ball.
     pub fn tilt(&self, ball: usize) -> Tilt {
         self.balls[ball].tilt
     }
 
-    /// Which collectibles a ball has taken in this episode: bit i for the i-th.
+    /// Returns the collectibles that a ball has taken in this episode; bit i is the i-th.
     pub fn taken(&self, ball: usize) -> u64 {
         self.balls[ball].taken
     }
 
-    /// Whether an episode goes on.
+    /// Returns whether an episode continues, or how it ended.
     pub fn outcome(&self, ball: usize) -> Outcome {
         self.balls[ball].outcome
     }
 
-    /// What the last step earned.
+    /// Returns the reward of the last step.
     pub fn reward(&self, ball: usize) -> f64 {
         self.balls[ball].reward
     }
 
-    /// Steps since the episode began.
+    /// Returns the number of steps since the episode began.
     pub fn steps(&self, ball: usize) -> u32 {
         self.balls[ball].steps
     }
 
-    /// Writes what an agent sees, as many of these numbers as there is place for:
+    /// Writes the observation of an agent; a shorter slice gets its first numbers:
     ///
     /// - the centre of the ball along x and z \[m\], in the maze's own frame;
     /// - its velocity along x and z \[m/s\];
     /// - the slope of the maze down towards +x and +z \[rad\];
-    /// - for each collectible 1 if it is still there, else 0.
+    /// - for each collectible, 1 if it is not taken yet, else 0.
     ///
-    /// Each is within [`Arena::observation_bounds`]; what is not is cut off.
+    /// Every number is clamped to [`Arena::observation_bounds`].
     pub fn observe(&self, ball: usize, out: &mut [f32]) {
         let (place, velocity) = self.motion(ball);
         let Ball { tilt, taken, .. } = self.balls[ball];
         observation::write((place, velocity), tilt, taken, self.arena.observation_bounds(), out);
     }
 
-    /// How everything looks for a ball, in the world: the maze tilted, without what the ball has taken.
+    /// Returns the scene as a ball sees it, along the axes of the world: the maze tilted, without
+    /// the collectibles taken.
     pub fn scene(&self, ball: usize) -> Scene {
         let (rotation, (place, velocity)) = (self.tilt(ball).rotation(), self.motion(ball));
         let mut scene = self.arena.maze().scene().clone();
@@ -313,8 +315,8 @@ impl Episodes {
         scene
     }
 
-    /// Frames of single balls that were taken by the rule `discrete`, because in them the ball met
-    /// walls more often than the rule `exact` is allowed to follow.
+    /// Returns the number of frames of single balls that were taken by the rule `discrete`, because
+    /// the ball hit walls more often than the rule `exact` may follow.
     pub fn rough_frames(&self) -> u64 {
         self.rescue.frames()
     }

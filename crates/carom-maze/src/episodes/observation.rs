@@ -1,4 +1,4 @@
-//! What an agent sees of its ball.
+//! Observations of agents.
 
 use std::iter::repeat_n;
 
@@ -9,10 +9,10 @@ use crate::floor;
 use crate::maze::Maze;
 use crate::tilt::Tilt;
 
-/// Place, velocity and tilt, two numbers each, stand before the collectibles.
+/// Position, velocity and tilt, two numbers each, come before the collectibles.
 const BEFORE_COLLECTIBLES: usize = 6;
 
-/// The least and the most that each number of an observation can be.
+/// Returns the smallest and the largest value of each number of an observation.
 pub(super) fn bounds(maze: &Maze, options: &EpisodeOptions) -> [Vec<f32>; 2] {
     let [low, high] = floor::bounds(maze);
     let tilt = options.max_tilt_degrees.to_radians();
@@ -26,8 +26,8 @@ pub(super) fn bounds(maze: &Maze, options: &EpisodeOptions) -> [Vec<f32>; 2] {
     [of(low, -1.0, 0.0), of(high, 1.0, 1.0)]
 }
 
-/// Writes an observation of a ball with this place \[m\] and velocity \[m/s\]. What is out of bounds is
-/// cut off.
+/// Writes the observation of a ball with this position \[m\] and velocity \[m/s\], clamped to its
+/// bounds.
 pub(super) fn write(
     (place, velocity): (DVec3, DVec3),
     tilt: Tilt,

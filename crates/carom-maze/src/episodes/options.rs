@@ -1,31 +1,31 @@
-//! How episodes are played: values chosen for all balls.
+//! Options of episodes, the same for all balls.
 
 use carom::Rule;
 
 use crate::error::EpisodeError;
 
-/// How episodes are played.
+/// Options of episodes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EpisodeOptions {
-    /// How frames are taken.
+    /// The rule that advances frames.
     pub rule: Rule,
     /// Length of a frame \[s\], > 0.
     pub frame_time: f64,
-    /// Frames in a step: for so long an action holds. At least 1.
+    /// Frames per step, at least 1; an action holds for one step.
     pub frames_per_step: u32,
-    /// Coefficient of friction of the ball, >= 0. Without any it slides, as in the course's maze, and does
-    /// not turn; with some it rolls, and the rule `contact` takes all frames.
+    /// Coefficient of friction of the ball, >= 0. At 0 the ball slides without turning, as in the
+    /// course's maze. Above 0 it rolls, and the rule `contact` takes all frames.
     pub friction: f64,
-    /// Largest tilt against level \[°\], in (0, 45].
+    /// Largest angle between the maze and level \[°\], in (0, 45].
     pub max_tilt_degrees: f64,
-    /// How fast the maze turns about each axis \[°/s\], > 0; infinite: at once.
+    /// Turning speed of the maze about each axis \[°/s\], > 0; infinite: at once.
     pub tilt_speed_degrees_per_second: f64,
-    /// An episode ends when its ball is below this, along the maze's own up \[m\], as it does when the
-    /// centre of the ball is past the rim of the ground.
+    /// Height below which the ball has fallen, along the maze's own up \[m\]. It has also fallen
+    /// when its centre passes the edge of the ground.
     pub reset_height: f64,
-    /// Steps after which an episode is over; `None`: it goes on until it is won or the ball falls.
+    /// Largest number of steps of an episode; `None`: no limit.
     pub max_steps: Option<u32>,
-    /// What is worth how much.
+    /// Rewards.
     pub rewards: Rewards,
 }
 
@@ -33,12 +33,12 @@ impl Default for EpisodeOptions {
     fn default() -> Self {
         Self {
             rule: Rule::default(),
-            // The course's.
+            // As in the course.
             frame_time: 0.02,
             frames_per_step: 1,
             friction: 0.0,
             max_tilt_degrees: 20.0,
-            // A quick hand: from level to the steepest in a third of a second.
+            // A quick hand: from level to the steepest tilt in a third of a second.
             tilt_speed_degrees_per_second: 60.0,
             reset_height: -5.0,
             max_steps: None,
@@ -47,12 +47,12 @@ impl Default for EpisodeOptions {
     }
 }
 
-/// What is worth how much.
+/// Rewards of an episode.
 ///
-/// Shaping shows the way before anything is reached, and leaves the best way to play the best: with
-/// the potential Φ = -`shaping` · (cost of the way to the nearest collectible that is left, or to the
-/// end wall if none is), each step adds `discount` · Φ(after) - Φ(before), and Φ = 0 where an episode
-/// ends won or fallen (A. Y. Ng, D. Harada, S. Russell, "Policy invariance under reward
+/// Shaping rewards progress before anything is reached, and keeps the optimal policy optimal. With
+/// the potential Φ = -`shaping` · (cost of the way to the nearest remaining collectible, or to the
+/// end wall if none remains), each step adds `discount` · Φ(after) - Φ(before). Φ = 0 where an
+/// episode ends won or fallen (A. Y. Ng, D. Harada, S. Russell, "Policy invariance under reward
 /// transformations", ICML 1999).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rewards {
@@ -64,9 +64,9 @@ pub struct Rewards {
     pub fall: f64,
     /// For each step.
     pub step: f64,
-    /// For each metre of the way, >= 0; zero: no shaping. Along walls a metre counts more.
+    /// Per metre of the way, >= 0; 0: no shaping. A metre along a wall counts more.
     pub shaping: f64,
-    /// Discount of the agent that is shaped, in \[0, 1\].
+    /// The agent's discount, in \[0, 1\].
     pub discount: f64,
 }
 
@@ -84,7 +84,7 @@ impl Default for Rewards {
 }
 
 impl EpisodeOptions {
-    /// Refuses values that make no sense for a ball that starts at a height \[m\].
+    /// Checks the options for a ball that starts at a height \[m\].
     pub(crate) fn validate(&self, start: f64) -> Result<(), EpisodeError> {
         let require = |good: bool, field, requirement, value| {
             if good { Ok(()) } else { Err(EpisodeError::Option { field, requirement, value }) }

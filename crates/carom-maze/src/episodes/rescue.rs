@@ -1,17 +1,17 @@
-//! Balls that meet walls too often in a frame, and take it by another rule.
+//! Balls that hit walls too often in a frame, and take it by another rule.
 
-use carom::{DVec3, Discrete, Sphere, SphereId, World};
+use carom::{DVec3, Discrete, Sphere, SphereId, SphereMotion, World};
 
 use super::Arena;
 use super::alone::Alone;
 use super::ball::Ball;
 use crate::error::EpisodeError;
 
-/// What becomes of balls whose frame the rule `exact` refuses: while the others take it they are
-/// parked at the start of the maze, and then each takes it by the rule `discrete`, which always ends.
+/// Handles balls whose frame the rule `exact` refuses. They are parked at the start of the maze
+/// while the others take the frame. Then each takes it by the rule `discrete`, which always ends.
 #[derive(Debug, Clone)]
 pub(super) struct Rescue {
-    /// By the rule `discrete`.
+    /// World under the rule `discrete`.
     alone: Alone,
     parked: Vec<Parked>,
     frames: u64,
@@ -42,7 +42,7 @@ impl Rescue {
         self.frames
     }
 
-    /// Takes a ball out of the way of a frame: it lies at the start of the maze.
+    /// Parks a ball at the start of the maze for a frame.
     pub fn park(
         &mut self,
         id: SphereId,
@@ -53,10 +53,14 @@ impl Rescue {
         let ball = world.sphere(id)?;
         self.parked.push(Parked { id, ball, weight: *weight });
         *weight = arena.weight() * DVec3::NEG_Y;
-        Ok(world.set_motions(&[(id, arena.maze().start(), DVec3::ZERO)])?)
+        Ok(world.set_motions(&[SphereMotion {
+            id,
+            position: arena.maze().start(),
+            velocity: DVec3::ZERO,
+        }])?)
     }
 
-    /// Lets the parked balls take their frame, and puts them back.
+    /// Lets each parked ball take its frame and puts it back.
     pub fn release(
         &mut self,
         world: &mut World,
@@ -66,7 +70,8 @@ impl Rescue {
         for &Parked { id, ball, weight } in &self.parked {
             self.frames += 1;
             let after = self.alone.take_frame(id, ball, weight, balls, arena)?;
-            world.set_motions(&[(id, after.position, after.velocity)])?;
+            let Sphere { position, velocity, .. } = after;
+            world.set_motions(&[SphereMotion { id, position, velocity }])?;
         }
         Ok(())
     }

@@ -1,4 +1,4 @@
-//! How far it is to what is to be reached.
+//! Costs of the ways to collectibles and end walls.
 
 use carom::DVec3;
 
@@ -9,9 +9,9 @@ use crate::maze::Maze;
 #[derive(Debug, Clone)]
 pub(crate) struct Ways {
     floor: Floor,
-    /// The free cell that is nearest to each; for cells that are far from any, `None`.
+    /// The nearest free cell of each cell; `None` if none is near.
     nearest: Vec<Option<u32>>,
-    /// By collectible, cost from each cell \[m\]; infinite where there is no way.
+    /// For each collectible, the cost from each cell \[m\]; infinite if there is no way.
     to_collectibles: Vec<Vec<f32>>,
     to_end_walls: Vec<f32>,
 }
@@ -29,8 +29,8 @@ impl Ways {
         Self { floor, nearest, to_collectibles, to_end_walls }
     }
 
-    /// Cost of the way \[m\] from a place to the nearest collectible that is left, or to an end wall if
-    /// none is that can be reached; `None` off the floor, and where there is no way.
+    /// Returns the cost of the way \[m\] from a position to the nearest remaining collectible, or
+    /// to an end wall if none can be reached; `None` off the floor and where there is no way.
     pub fn to_goal(&self, place: DVec3, taken: u64) -> Option<f64> {
         let cell = self.nearest[self.floor.cell_at(place)?]? as usize;
         let left = self.to_collectibles.iter().enumerate();

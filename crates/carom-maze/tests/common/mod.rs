@@ -1,10 +1,10 @@
-//! Small mazes that tests play in.
+//! Small mazes for tests.
 #![allow(dead_code, reason = "no test uses all of them")]
 
 use carom_maze::{Game, GameEvent, Maze, Options, Steering};
 use carom_scene::scene::{Collider, Force, Scene, Shape, Sphere};
 
-/// A collider at a place, not turned.
+/// Returns a collider at a position, without rotation.
 pub fn collider(name: &str, shape: Shape, position: [f64; 3]) -> Collider {
     Collider { name: name.to_owned(), position, restitution: 0.0, ..Collider::new(shape) }
 }
@@ -18,8 +18,8 @@ pub fn collectible(position: [f64; 3]) -> Collider {
     Collider { trigger: true, ..collider("collectible", shape, position) }
 }
 
-/// A square floor of 20 m at a height \[m\], without walls; the ball on it in the middle, the end
-/// wall at x = -3. Gravity is 9.8 m/s².
+/// Returns a square floor of 20 m at a height \[m\] without walls, with the ball in its middle and
+/// the end wall at x = -3. Gravity is 9.8 m/s².
 pub fn open_floor(height: f64) -> Scene {
     let mut scene = Scene::new("open");
     scene.forces = vec![Force::Gravity { acceleration: [0.0, -9.8, 0.0] }];
@@ -40,7 +40,7 @@ pub fn game_with(scene: &Scene, options: Options) -> Game {
     Game::new(Maze::from_scene(scene).unwrap(), options).unwrap()
 }
 
-/// Plays until something happens, for some seconds at most; what happened.
+/// Plays until an event happens, at most for `seconds`; returns the events.
 pub fn until_event(game: &mut Game, steering: Steering, seconds: f64) -> Vec<GameEvent> {
     for _ in 0..(seconds / game.frame_time()) as usize {
         let events = game.step(steering).unwrap().to_vec();
@@ -51,7 +51,7 @@ pub fn until_event(game: &mut Game, steering: Steering, seconds: f64) -> Vec<Gam
     Vec::new()
 }
 
-/// Plays for some seconds.
+/// Plays for this time \[s\].
 pub fn play(game: &mut Game, steering: Steering, seconds: f64) {
     for _ in 0..(seconds / game.frame_time()).round() as usize {
         game.step(steering).unwrap();

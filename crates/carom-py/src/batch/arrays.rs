@@ -1,4 +1,4 @@
-//! Arrays of all worlds of a batch, as NumPy sees them.
+//! Arrays of all worlds of a batch for NumPy.
 
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
@@ -8,17 +8,17 @@ use crate::arrays::Quantities;
 use crate::quantity::Quantity;
 use crate::written::Written;
 
-/// The arrays that a script has read, with a row for each world that has places for as many spheres as there are
-/// in the world with the most. When that is another number, others are made at the next read.
+/// The arrays that a script has read, with a row for each world. A row has space for the largest
+/// number of spheres in any world; if that number changes, new arrays are made at the next read.
 #[derive(Debug, Default)]
 pub struct BatchArrays {
-    /// Spheres for which there are places.
+    /// Number of spheres per row.
     most: usize,
     quantities: Quantities,
 }
 
 impl BatchArrays {
-    /// The array of a quantity, with the values of now.
+    /// Returns the array of a quantity with its present values.
     pub fn get(
         &mut self,
         py: Python<'_>,
@@ -30,32 +30,33 @@ impl BatchArrays {
         self.quantities.get(py, quantity, shape, |values| write(quantity, members, values))
     }
 
-    /// Writes what a frame changes into the arrays that are there.
+    /// Writes quantities that a frame changes into existing arrays.
     pub fn write_motion(&mut self, py: Python<'_>, members: &Members) {
-        // Where spheres come and go, so does everything else.
+        // If emitters add or remove spheres, all quantities change.
         let is_same = members.worlds().all(|world| world.emitters().len() == 0);
         let changed: &[Quantity] = if is_same { &Quantity::MOTION } else { &Quantity::ALL };
         self.write(py, members, changed);
     }
 
-    /// Writes everything into the arrays that are there.
+    /// Writes all quantities into existing arrays.
     pub fn write_all(&mut self, py: Python<'_>, members: &Members) {
         self.write(py, members, &Quantity::ALL);
     }
 
-    /// What a script has written into them; rows are the places of all worlds, one world after another.
+    /// Returns the values that a script wrote; rows run through all places of one world after
+    /// another.
     pub fn written(&self, py: Python<'_>, members: &Members) -> Vec<Written> {
         self.quantities.written(py, |quantity, values| write(quantity, members, values))
     }
 
     fn write(&mut self, py: Python<'_>, members: &Members, quantities: &[Quantity]) {
-        // An array that could not be frozen is let go of all the same.
+        // An array that could not be made read-only is dropped as well.
         let _ = self.follow(py, members);
         let write = |quantity, values: &mut [f64]| write(quantity, members, values);
         self.quantities.write(py, quantities, write);
     }
 
-    /// Lets go of the arrays if they have places for another number of spheres.
+    /// Drops the arrays if the number of spheres per row changed.
     fn follow(&mut self, py: Python<'_>, members: &Members) -> PyResult<()> {
         let most = members.most_spheres();
         if self.most == most {
@@ -66,7 +67,7 @@ impl BatchArrays {
     }
 }
 
-/// The ids of all worlds, one after another; -1 where there is no sphere.
+/// Returns the ids of all worlds, one world after another; -1 for an empty place.
 pub fn ids<'py>(py: Python<'py>, members: &Members) -> PyResult<Bound<'py, PyAny>> {
     let most = members.most_spheres();
     let mut all = vec![-1_i64; members.len() * most];
@@ -77,7 +78,7 @@ pub fn ids<'py>(py: Python<'py>, members: &Members) -> PyResult<Bound<'py, PyAny
     Ok(PyArray1::from_vec(py, all).reshape([members.len(), most])?.into_any())
 }
 
-/// Writes a quantity of all worlds, one after another; nan where there is no sphere.
+/// Writes a quantity of all worlds, one world after another; NaN for an empty place.
 fn write(quantity: Quantity, members: &Members, values: &mut [f64]) {
     let width = quantity.width();
     let places = (width * members.most_spheres()).max(1);

@@ -16,28 +16,28 @@ use crate::stop::Watch;
 use crate::threads::Pool;
 use crate::written::{self, Written};
 
-/// Spheres that a thread steps before it takes more work: below it, to share costs more.
+/// Smallest number of spheres per task of a thread: sharing less work costs more than it saves.
 const SPHERES_PER_TASK: usize = 64;
 
-/// Worlds that step together. No result depends on how many threads there are.
+/// Worlds that step together. No result depends on the number of threads.
 #[derive(Debug)]
 pub struct Members {
     members: Vec<Member>,
-    /// None where one thread does everything.
+    /// `None` if one thread does everything.
     pool: Option<Pool>,
 }
 
-/// What is left to do in a world.
+/// Remaining work of a world.
 #[derive(Debug, Clone)]
 pub struct Progress {
-    /// Frames.
+    /// Number of frames.
     pub left: u64,
-    /// Why the world refused one; then none is left.
+    /// Error of the frame that the world refused; then no frames remain.
     pub refused: Option<Failure>,
 }
 
 impl Progress {
-    /// Whether a handler of a signal has ended frames.
+    /// Returns whether a signal handler ended the frames.
     pub fn is_stopped(&self) -> bool {
         self.refused.as_ref().is_some_and(Failure::is_stop)
     }
@@ -50,10 +50,10 @@ struct Member {
 }
 
 impl Members {
-    /// Worlds that start in these states: one state for all `count`, or one for each.
+    /// Makes worlds in these states: one state for all `count`, or one for each.
     ///
     /// # Errors
-    /// [`Failure`] for no worlds, and for more than there is memory for.
+    /// [`Failure`] for no worlds, and if there is not enough memory.
     pub fn new(starts: Vec<Snapshot>, count: usize, pool: Option<Pool>) -> Result<Self, Failure> {
         if count == 0 || ![1, count].contains(&starts.len()) {
             return Err(Failure::value("n", format_args!("must be at least 1, not {count}")));
@@ -77,28 +77,30 @@ impl Members {
         self.members.iter().map(Member::world)
     }
 
-    /// The report of the last frame of each world, and when that started \[s\].
+    /// Returns the report of the last frame of each world, and the time when the frame started
+    /// \[s\].
     pub fn reports(&self) -> impl Iterator<Item = (f64, &StepReport)> {
         self.members.iter().map(|it| (it.now.frame_start, it.world().report()))
     }
 
-    /// Length of a frame of the first world's scene \[s\].
+    /// Returns the frame time of the first world's scene \[s\].
     pub fn frame_time(&self) -> f64 {
         self.members[0].now.frame_time(None)
     }
 
-    /// How many spheres there are in the world with the most.
+    /// Returns the largest number of spheres in any world.
     pub fn most_spheres(&self) -> usize {
         self.worlds().map(|world| world.spheres().len()).max().unwrap_or(0)
     }
 
-    /// The shape of an array of all worlds.
+    /// Returns the shape of an array of all worlds.
     pub fn shape_of(&self, quantity: Quantity) -> Vec<usize> {
         [vec![self.len()], quantity.shape(self.most_spheres())].concat()
     }
 
-    /// Takes frames of `dt` \[s\], or of each world's own length, in every world. A world that refuses a frame
-    /// stays as it was before that; a signal whose handler raises an exception stops all of them.
+    /// Takes frames of `dt` \[s\], or of each world's own frame time, in every world. A world that
+    /// refuses a frame keeps its state before that frame. An exception in a signal handler stops
+    /// all worlds.
     pub fn step(&mut self, dt: Option<f64>, progress: &mut [Progress]) {
         let watch = Watch::begin();
         let request = watch.request();
@@ -122,7 +124,7 @@ impl Members {
         }
     }
 
-    /// Has worlds return to where they started: those of these numbers that are there, or all.
+    /// Resets worlds to their start: those with these indices, or all. Ignores unknown indices.
     pub fn reset(&mut self, worlds: Option<&[usize]>) {
         match worlds {
             None => self.members.iter_mut().for_each(Member::reset),
@@ -136,12 +138,13 @@ impl Members {
         }
     }
 
-    /// The state of a world.
+    /// Returns the state of a world.
     pub fn snapshot(&self, world: usize) -> Option<Snapshot> {
         self.members.get(world).map(|member| member.now.snapshot())
     }
 
-    /// The states that worlds start from, each once, and which of them is that of each world.
+    /// Returns the start states without repetition, and for each world the index of its start
+    /// state.
     pub fn starts(&self) -> (Vec<Snapshot>, Vec<usize>) {
         let mut starts = Vec::new();
         let mut places = BTreeMap::new();
@@ -155,7 +158,7 @@ impl Members {
         (starts, of_worlds)
     }
 
-    /// Puts a world into another state, and leaves where it starts from.
+    /// Sets the state of a world, but keeps its start state.
     ///
     /// # Errors
     /// Those of [`Self::restore`].
@@ -168,7 +171,7 @@ impl Members {
         Ok(())
     }
 
-    /// Puts a world into another state, from which it starts from now on.
+    /// Sets both the state and the start state of a world.
     ///
     /// # Errors
     /// [`Failure`] if there is no such world.
@@ -182,18 +185,18 @@ impl Members {
         Ok(())
     }
 
-    /// Sets a quantity of all spheres of all worlds; if a value is refused, none is set. `values` have places
-    /// for as many spheres in each world as there are in the one with the most.
+    /// Sets a quantity of all spheres in all worlds; if a value is refused, none is set. In
+    /// `values` each world has space for the largest number of spheres in any world.
     ///
     /// # Errors
-    /// [`Failure`] for a number that makes no sense.
+    /// [`Failure`] for an invalid number.
     pub fn set(&mut self, quantity: Quantity, values: &[f64]) -> Result<(), Failure> {
         let places = (quantity.width() * self.most_spheres()).max(1);
         let own_of = |world: &World, number: usize| {
             let first = number * places;
             &values[first..first + quantity.width() * world.spheres().len()]
         };
-        // What no world takes is found before any is changed.
+        // Values that no world accepts are found before any world is changed.
         let may_be = |own: &[f64]| own.iter().all(|&value| quantity.may_be(value));
         let is_wrong = |&number: &usize| !may_be(own_of(self.members[number].world(), number));
         if let Some(number) = (0..self.len()).find(is_wrong) {
@@ -219,11 +222,11 @@ impl Members {
 }
 
 impl Members {
-    /// Has worlds take over what was written into arrays of all of them; if one refuses a value, all are as
-    /// they were.
+    /// Applies the values that a script wrote into arrays of all worlds. If a world refuses a
+    /// value, all worlds stay unchanged.
     ///
     /// # Errors
-    /// [`Failure`] that names the array, the world and the row.
+    /// [`Failure`] with the array, the world and the row.
     pub fn take_over(&mut self, written: &[Written]) -> Result<(), Failure> {
         let most = self.most_spheres();
         let of_all = |row: usize| format!("{}, {}", row / most, row % most);

@@ -1,6 +1,6 @@
-//! Many worlds that step together, as Python holds them.
+//! Many worlds that step together, for Python.
 
-// What is said of methods here is read in Python, where units stand in plain brackets.
+// Python shows these comments as docstrings, with units in plain brackets.
 #![allow(rustdoc::broken_intra_doc_links)]
 
 mod arrays;
@@ -25,9 +25,9 @@ use crate::threads;
 use arrays::BatchArrays;
 use members::{Members, Progress};
 
-/// What `carom.Batch` stands on: worlds, and the arrays that Python sees of all of them.
+/// Base class of `carom.Batch`: worlds, and the arrays that Python sees of all of them.
 ///
-/// Several threads may use one: their calls wait for each other.
+/// Several threads may use it; their calls wait for each other.
 #[pyclass(frozen, subclass, module = "carom._carom")]
 #[derive(Debug)]
 pub struct BatchEngine(Mutex<Inner>);
@@ -38,11 +38,11 @@ struct Inner {
     arrays: BatchArrays,
 }
 
-/// Rows of all worlds as words, and how many each world has.
+/// Rows of all worlds as 64-bit words, and the number of rows of each world.
 type Words<'py> = (Bound<'py, PyArray1<u64>>, Vec<usize>);
 
 impl BatchEngine {
-    /// Waits until no other thread is at work on these worlds, and takes over what was written into their arrays.
+    /// Waits for other threads, and applies values that a script wrote into the arrays.
     fn lock(&self, py: Python<'_>) -> PyResult<MutexGuard<'_, Inner>> {
         let mut guard = self.lock_as_it_is(py)?;
         let Inner { members, arrays } = &mut *guard;
@@ -51,7 +51,8 @@ impl BatchEngine {
             let taken = members.take_over(&written);
             arrays.write_all(py, members);
             if let Err(failure) = taken {
-                // To make an exception runs Python, which may run a handler that waits for this lock.
+                // Making an exception runs Python, which may run a handler that waits for this
+                // lock.
                 drop(guard);
                 return Err(failure.into());
             }
@@ -59,8 +60,8 @@ impl BatchEngine {
         Ok(guard)
     }
 
-    /// Waits until no other thread is at work on these worlds. The handler of a signal that comes in the middle of
-    /// a step of them would wait for itself.
+    /// Waits for other threads. In a signal handler during a step of these worlds, returns an error
+    /// instead, because waiting would never end.
     fn lock_as_it_is(&self, py: Python<'_>) -> PyResult<MutexGuard<'_, Inner>> {
         if stop::is_in_handler() {
             let at_work = |_| PyRuntimeError::new_err("this batch is in the middle of a step");
@@ -70,7 +71,7 @@ impl BatchEngine {
         self.0.lock_py_attached(py).map_err(broken)
     }
 
-    /// Changes worlds, and brings the arrays up to date.
+    /// Changes worlds and updates the arrays.
     fn change<T>(
         &self,
         py: Python<'_>,
@@ -93,7 +94,7 @@ impl BatchEngine {
 
     fn set_quantity(&self, quantity: Quantity, values: &Bound<'_, PyAny>) -> PyResult<()> {
         let py = values.py();
-        // To read what Python gives can run any code of Python: not under the lock.
+        // Reading arguments can run any Python code, so the lock is not held.
         let shape = self.lock_as_it_is(py)?.members.shape_of(quantity);
         let values = arguments::array(quantity.name(), values, &shape)?;
         self.change(py, |members| members.set(quantity, &values))
@@ -101,8 +102,8 @@ impl BatchEngine {
 }
 
 impl BatchEngine {
-    /// What the last frame of each world, which began at a time \[s\], has `push` write: it tells how
-    /// many rows.
+    /// Returns the rows that `push` writes for the last frame of each world. `push` gets the start
+    /// time of the frame \[s\] and returns its number of rows.
     fn words<'py>(
         &self,
         py: Python<'py>,
@@ -116,10 +117,10 @@ impl BatchEngine {
     }
 }
 
-/// Making a batch, and moving it.
+/// Constructor, steps and snapshots.
 #[pymethods]
 impl BatchEngine {
-    /// Worlds in the states of `snapshots`: one for all `count`, or one for each.
+    /// Makes worlds in the states of `snapshots`: one for all `count`, or one for each.
     #[new]
     fn new(
         snapshots: Vec<PyRef<'_, Snapshot>>,
@@ -132,8 +133,8 @@ impl BatchEngine {
         Ok(Self(Mutex::new(Inner { members, arrays: BatchArrays::default() })))
     }
 
-    /// Takes frames in every world; returns the worlds that refused one, and why. Ctrl-C leaves each world
-    /// after a whole frame, some after more of them than others.
+    /// Takes frames in every world. Returns the worlds that refused a frame, with their errors.
+    /// After Ctrl-C each world has taken whole frames, but not all the same number.
     #[pyo3(name = "_step")]
     fn step(
         &self,
@@ -156,7 +157,7 @@ impl BatchEngine {
         Ok(refused.filter_map(|(world, failure)| Some((world, failure?.into()))).collect())
     }
 
-    /// Has worlds return to where they started: those of these numbers, or all.
+    /// Resets worlds to their start: those with these indices, or all.
     #[pyo3(name = "_reset")]
     fn reset(&self, py: Python<'_>, worlds: Option<Vec<usize>>) -> PyResult<()> {
         self.change(py, |members| {
@@ -165,43 +166,44 @@ impl BatchEngine {
         })
     }
 
-    /// The state of one world.
+    /// Returns the state of a world.
     #[pyo3(name = "_snapshot")]
     fn snapshot(&self, py: Python<'_>, world: usize) -> PyResult<Snapshot> {
         let snapshot = self.lock(py)?.members.snapshot(world);
         snapshot.ok_or_else(|| PyIndexError::new_err("world: out of range"))
     }
 
-    /// Puts one world into another state, from which it starts from now on.
+    /// Sets both the state and the start state of a world.
     #[pyo3(name = "_restore")]
     fn restore(&self, py: Python<'_>, world: usize, snapshot: &Snapshot) -> PyResult<()> {
         self.change(py, |members| members.restore(world, snapshot))
     }
 
-    /// The states that worlds start from, each once, and which of them is that of each world.
+    /// Returns the start states without repetition, and for each world the index of its start
+    /// state.
     #[pyo3(name = "_starts")]
     fn starts(&self, py: Python<'_>) -> PyResult<(Vec<Snapshot>, Vec<usize>)> {
         Ok(self.lock(py)?.members.starts())
     }
 
-    /// Puts one world into another state, and leaves where it starts from.
+    /// Sets the state of a world, but keeps its start state.
     #[pyo3(name = "_go_on_from")]
     fn go_on_from(&self, py: Python<'_>, world: usize, snapshot: &Snapshot) -> PyResult<()> {
         self.change(py, |members| members.go_on_from(world, snapshot))
     }
 
-    /// The number of worlds.
+    /// Returns the number of worlds.
     fn __len__(&self, py: Python<'_>) -> PyResult<usize> {
         Ok(self.lock_as_it_is(py)?.members.len())
     }
 
-    /// Length of a frame of the first world's scene [s].
+    /// Frame time of the first world's scene [s].
     #[getter]
     fn frame_time(&self, py: Python<'_>) -> PyResult<f64> {
         Ok(self.lock_as_it_is(py)?.members.frame_time())
     }
 
-    /// Time of each world since its beginning [s], shape (n,). A copy.
+    /// Time of each world since its start [s], shape (n,). A copy.
     #[getter]
     fn times<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let guard = self.lock(py)?;
@@ -214,7 +216,7 @@ impl BatchEngine {
         arrays::ids(py, &self.lock(py)?.members)
     }
 
-    /// How many spheres each world has, shape (n,), int64. A copy.
+    /// Number of spheres of each world, shape (n,), int64. A copy.
     #[getter]
     fn counts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<i64>>> {
         let guard = self.lock(py)?;
@@ -222,8 +224,8 @@ impl BatchEngine {
         Ok(PyArray1::from_iter(py, guard.members.worlds().map(count)))
     }
 
-    /// State hash of each world as a number, shape (n,), uint64: `int(world.state_hash, 16)` of the
-    /// world alone. A copy.
+    /// State hash of each world as a number, shape (n,), uint64, equal to `int(world.state_hash,
+    /// 16)` of that world. A copy.
     #[getter]
     fn state_hashes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u64>>> {
         let guard = self.lock(py)?;
@@ -237,7 +239,8 @@ impl BatchEngine {
         Ok(PyArray1::from_iter(py, guard.members.worlds().map(|world| world.kinetic_energy())))
     }
 
-    /// The impacts of the last frame of all worlds, as words, and how many each world has.
+    /// Returns the impacts of the last frame of all worlds as words, and their number for each
+    /// world.
     fn _impact_words<'py>(&self, py: Python<'py>) -> PyResult<Words<'py>> {
         self.words(py, |table, start, report| {
             table.push_impacts(start, &report.impacts);
@@ -245,7 +248,7 @@ impl BatchEngine {
         })
     }
 
-    /// The spheres inside triggers, as rows of words.
+    /// Returns the spheres inside triggers as words, and their number for each world.
     fn _trigger_words<'py>(&self, py: Python<'py>) -> PyResult<Words<'py>> {
         self.words(py, |table, _, report| {
             table.push_triggers(&report.triggers);

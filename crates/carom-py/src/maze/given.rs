@@ -1,4 +1,4 @@
-//! What Python says of a maze and of how it is played.
+//! Reads a maze and its options from Python.
 
 use std::{fs, io};
 
@@ -37,10 +37,10 @@ impl<'py> Given<'py> {
         self.item(name)?.extract().map_err(wrong)
     }
 
-    /// The maze, made ready.
+    /// Returns the prepared maze.
     ///
     /// # Errors
-    /// An exception that names the argument that makes no sense.
+    /// An exception that names the invalid argument.
     pub fn arena(&self) -> PyResult<Arena> {
         let options = self.options()?;
         let maze = match self.text("maze")?.as_str() {
@@ -90,7 +90,7 @@ impl<'py> Given<'py> {
     }
 }
 
-/// The course's maze, a built-in one, one drawn in a file, or drawn in the text itself.
+/// Returns the course's maze, a built-in one, one drawn in a file, or one drawn in the text itself.
 fn named(name: &str) -> Result<Maze, Failure> {
     if name == "course" {
         return Ok(Maze::course()?);
@@ -117,7 +117,7 @@ fn named(name: &str) -> Result<Maze, Failure> {
     Ok(Maze::from_text(&text, name)?)
 }
 
-/// Where episodes start.
+/// Parses where episodes start.
 ///
 /// # Errors
 /// [`Failure`] for another word than `"maze"` or `"random"`.
@@ -132,7 +132,7 @@ pub fn start(word: &str) -> Result<Start, Failure> {
     }
 }
 
-/// What becomes of episodes that are over, in the words of Gymnasium.
+/// Parses what happens after an episode ends, by the words of Gymnasium.
 ///
 /// # Errors
 /// [`Failure`] for another word.

@@ -1,6 +1,6 @@
-//! Episodes in a maze, as the environments of `carom.gym` need them.
+//! Episodes in a maze for the environments of `carom.gym`.
 
-// What is said of methods here is read in Python, where units stand in plain brackets.
+// Python shows these comments as docstrings, with units in plain brackets.
 #![allow(rustdoc::broken_intra_doc_links)]
 
 mod given;
@@ -22,7 +22,7 @@ use given::Given;
 use results::{Ended, Results};
 use team::Team;
 
-/// Episodes of many balls in one maze: what the environments of `carom.gym` stand on.
+/// Episodes of many balls in one maze, used by the environments of `carom.gym`.
 #[pyclass(frozen, module = "carom._carom")]
 #[derive(Debug)]
 pub struct MazeEpisodes(Mutex<Inner>);
@@ -33,14 +33,14 @@ struct Inner {
     actions: Vec<[f64; 2]>,
 }
 
-/// How many collectibles each ball has, and whether it won.
+/// Number of collectibles that each ball has, and whether it won.
 type StateArrays<'py> = (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<bool>>);
 
-/// The least and the most of each number of an observation.
+/// Smallest and largest value of each number of an observation.
 type Bounds<'py> = (Bound<'py, PyArray1<f32>>, Bound<'py, PyArray1<f32>>);
 
-/// Observations, rewards, terminated, truncated, states; then which episodes ended and were started
-/// anew, their last observations, and their last states.
+/// Observations, rewards, terminated, truncated, states; then the indices, last observations and
+/// last states of episodes that ended and were restarted.
 type Step<'py> = (
     Bound<'py, PyArray2<f32>>,
     Bound<'py, PyArray1<f64>>,
@@ -54,7 +54,8 @@ type Step<'py> = (
 
 #[pymethods]
 impl MazeEpisodes {
-    /// Episodes of `num_envs` balls; `given` are the arguments of `carom.gym.MazeEnv`, by name.
+    /// Makes episodes of `num_envs` balls; `given` holds the arguments of `carom.gym.MazeEnv` by
+    /// name.
     #[new]
     fn new(
         num_envs: &Bound<'_, PyAny>,
@@ -71,7 +72,7 @@ impl MazeEpisodes {
         Ok(Self(Mutex::new(Inner { team, actions: Vec::new() })))
     }
 
-    /// Takes a step: `actions` are the tilts wanted, (n, 2). Other threads run meanwhile.
+    /// Takes a step with the wanted tilts `actions`, shape (n, 2). Other threads run meanwhile.
     fn step<'py>(&self, py: Python<'py>, actions: &Bound<'py, PyAny>) -> PyResult<Step<'py>> {
         let mut guard = self.lock(py)?;
         let Inner { team, actions: wanted } = &mut *guard;
@@ -81,8 +82,8 @@ impl MazeEpisodes {
         arrays(py, results, length)
     }
 
-    /// Starts new episodes of the balls that are marked, n of them, with new random numbers where
-    /// there is a seed; at "maze", the start, or at "random" places.
+    /// Starts new episodes of the marked balls, n booleans, and sets the seed of a ball that has
+    /// one. Episodes start at the maze's start ("maze") or at random positions ("random").
     fn reset<'py>(
         &self,
         py: Python<'py>,
@@ -102,7 +103,7 @@ impl MazeEpisodes {
         arrays(py, results, team.arena().observation_length())
     }
 
-    /// The least and the most that each number of an observation can be.
+    /// Smallest and largest value of each number of an observation.
     #[getter]
     fn bounds<'py>(&self, py: Python<'py>) -> PyResult<Bounds<'py>> {
         let guard = self.lock(py)?;
@@ -110,7 +111,8 @@ impl MazeEpisodes {
         Ok((PyArray1::from_slice(py, low), PyArray1::from_slice(py, high)))
     }
 
-    /// How everything looks for a ball, as a scene in TOML: the maze tilted, without what it has taken.
+    /// Returns the scene as a ball sees it in TOML: the maze tilted, without the collectibles
+    /// taken.
     fn scene_toml(&self, py: Python<'_>, ball: &Bound<'_, PyAny>) -> PyResult<String> {
         let ball = arguments::count("ball", ball)? as usize;
         let team = &self.lock(py)?.team;
@@ -120,13 +122,13 @@ impl MazeEpisodes {
         Ok(episodes.scene(place).to_toml())
     }
 
-    /// Frames of single balls that the rule "exact" refused and "discrete" took.
+    /// Number of frames of single balls that the rule "exact" refused and "discrete" took.
     #[getter]
     fn rough_frames(&self, py: Python<'_>) -> PyResult<u64> {
         Ok(self.lock(py)?.team.rough_frames())
     }
 
-    /// Time that all steps took in the engine, without conversions from and to NumPy [s].
+    /// Time of all steps in the engine, without conversions from and to NumPy [s].
     #[getter(_seconds_in_engine)]
     fn seconds_in_engine(&self, py: Python<'_>) -> PyResult<f64> {
         Ok(self.lock(py)?.team.seconds())
@@ -140,14 +142,14 @@ impl MazeEpisodes {
     }
 }
 
-/// Reads actions for so many balls.
+/// Reads actions for `count` balls.
 fn read_actions(
     given: &Bound<'_, PyAny>,
     count: usize,
     actions: &mut Vec<[f64; 2]>,
 ) -> PyResult<()> {
     actions.clear();
-    // What agents give; anything else is brought into its form first.
+    // The type that agents pass; anything else is converted first.
     if let Ok(array) = given.cast::<PyArrayDyn<f32>>()
         && array.shape() == [count, 2]
         && let Ok(numbers) = array.try_readonly()

@@ -1,23 +1,23 @@
-//! What a step gives agents: arrays with a row for each ball.
+//! Results of a step: arrays with a row for each ball.
 
 use carom_maze::{Episodes, Outcome};
 
 /// Arrays with a row for each ball.
 #[derive(Debug)]
 pub struct Results {
-    /// As many numbers as an observation has, for each ball.
+    /// The observation of each ball.
     pub observations: Vec<f32>,
     pub rewards: Vec<f64>,
     pub terminated: Vec<bool>,
     pub truncated: Vec<bool>,
-    /// How many collectibles each has.
+    /// Number of collectibles of each ball.
     pub collected: Vec<i64>,
-    /// Whether it touched an end wall.
+    /// Whether each ball touched an end wall.
     pub won: Vec<bool>,
     pub ended: Ended,
 }
 
-/// Where the step that ends an episode starts a new one: which ended, and how.
+/// Episodes that ended in a step that starts new ones at once, with their last state.
 #[derive(Debug, Default)]
 pub struct Ended {
     pub balls: Vec<i64>,
@@ -26,7 +26,7 @@ pub struct Ended {
     pub won: Vec<bool>,
 }
 
-/// The rows of some balls, one after the other.
+/// The rows of consecutive balls.
 #[derive(Debug)]
 pub struct Rows<'a> {
     observations: &'a mut [f32],
@@ -38,7 +38,7 @@ pub struct Rows<'a> {
 }
 
 impl Results {
-    /// Rows of zeros.
+    /// Returns rows of zeros.
     pub fn new(balls: usize, observation_length: usize) -> Self {
         Self {
             observations: vec![0.0; balls * observation_length],
@@ -51,7 +51,7 @@ impl Results {
         }
     }
 
-    /// The rows in parts for so many balls each; fewer in the last.
+    /// Splits the rows into parts of `balls` rows; the last may have fewer.
     pub fn split(&mut self, balls: usize, observation_length: usize) -> Vec<Rows<'_>> {
         let mut rewards = self.rewards.chunks_mut(balls);
         let mut terminated = self.terminated.chunks_mut(balls);
@@ -72,7 +72,7 @@ impl Results {
 }
 
 impl Rows<'_> {
-    /// What the step did: earned, ended.
+    /// Writes rewards and ends of the step.
     pub fn write_outcomes(&mut self, episodes: &Episodes) {
         for ball in 0..episodes.len() {
             let outcome = episodes.outcome(ball);
@@ -82,7 +82,7 @@ impl Rows<'_> {
         }
     }
 
-    /// Where the balls are now.
+    /// Writes the present states of the balls.
     pub fn write_states(&mut self, episodes: &Episodes) {
         let length = episodes.arena().observation_length();
         for (ball, observation) in self.observations.chunks_exact_mut(length).enumerate() {
@@ -101,7 +101,7 @@ impl Ended {
         self.won.clear();
     }
 
-    /// How the episodes of some balls ended.
+    /// Appends the last states of the episodes of some balls.
     pub fn push(&mut self, episodes: &Episodes, balls: &[usize]) {
         for &ball in balls {
             let begin = self.observations.len();
@@ -113,7 +113,7 @@ impl Ended {
         }
     }
 
-    /// Appends what ended among other balls, the first of which has this number.
+    /// Appends the ended episodes of another block, whose first ball has the index `first`.
     pub fn append(&mut self, other: &Self, first: usize) {
         self.balls.extend(other.balls.iter().map(|ball| ball + first as i64));
         self.observations.extend_from_slice(&other.observations);

@@ -1,4 +1,4 @@
-//! Many episodes, on several threads.
+//! Many episodes on several threads.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -11,31 +11,31 @@ use super::results::{Ended, Results, Rows};
 use crate::failure::Failure;
 use crate::threads::{self, Pool};
 
-/// Balls that one thread takes at a time: few enough to stay in its cache, with what belongs to them.
+/// Number of balls per block, few enough for a thread's cache.
 const BALLS_IN_A_BLOCK: usize = 512;
 
-/// What becomes of episodes that are over.
+/// What happens after an episode ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Autoreset {
-    /// The next step starts a new one, whatever the action.
+    /// The next step starts a new episode and ignores the action.
     NextStep,
-    /// The step that ends one starts a new one.
+    /// The step that ends an episode starts a new one.
     SameStep,
-    /// Nothing.
+    /// The episode stays ended.
     Disabled,
 }
 
-/// Many episodes, in blocks that threads share. No result depends on how many threads there are.
+/// Many episodes in blocks that threads share. No result depends on the number of threads.
 #[derive(Debug)]
 pub struct Team {
     arena: Arc<Arena>,
     blocks: Vec<Block>,
-    /// None where one thread does everything.
+    /// `None` if one thread does everything.
     pool: Option<Pool>,
     autoreset: Autoreset,
-    /// Where episodes start unless a reset says otherwise.
+    /// Where episodes start by default.
     start: Start,
-    /// Time that steps took \[s\].
+    /// Total time of all steps \[s\].
     seconds: f64,
 }
 
@@ -43,14 +43,14 @@ pub struct Team {
 #[derive(Debug)]
 struct Block {
     episodes: Episodes,
-    /// Where the step that ends an episode starts a new one, what ended in the last.
+    /// Episodes that ended in the last step, if that step starts new ones.
     ended: Ended,
     /// Balls to be reset; working memory.
     over: Vec<usize>,
 }
 
 impl Team {
-    /// Episodes of `count` balls, on so many threads; `None`: on as many as there are processors.
+    /// Makes episodes of `count` balls on this number of threads; `None`: as many as processors.
     ///
     /// # Errors
     /// [`Failure`] for no balls, and if threads cannot be started.
@@ -79,12 +79,12 @@ impl Team {
         &self.arena
     }
 
-    /// How many balls there are.
+    /// Returns the number of balls.
     pub fn len(&self) -> usize {
         self.blocks.iter().map(|block| block.episodes.len()).sum()
     }
 
-    /// The episodes among which a ball is, and its place there.
+    /// Returns the episodes that contain a ball, and its index there.
     pub fn find(&self, ball: usize) -> Option<(&Episodes, usize)> {
         let block = self.blocks.get(ball / BALLS_IN_A_BLOCK)?;
         let place = ball % BALLS_IN_A_BLOCK;
@@ -125,8 +125,8 @@ impl Team {
         (Results::new(self.len(), length), length)
     }
 
-    /// Starts new episodes of the balls that are marked, with new random numbers where there is a
-    /// seed; both lists have an entry for each ball.
+    /// Starts new episodes of the marked balls, and sets the seed of a ball that has one; both
+    /// lists have an entry for each ball.
     ///
     /// # Errors
     /// [`Failure`] if the engine refuses the start.
@@ -146,19 +146,19 @@ impl Team {
         Ok(results)
     }
 
-    /// Time that all steps took \[s\].
+    /// Returns the total time of all steps \[s\].
     pub fn seconds(&self) -> f64 {
         self.seconds
     }
 
-    /// Frames of single balls that the rule `exact` refused.
+    /// Returns the number of frames of single balls that the rule `exact` refused.
     pub fn rough_frames(&self) -> u64 {
         self.blocks.iter().map(|block| block.episodes.rough_frames()).sum()
     }
 }
 
 impl Block {
-    /// Which balls are here, if this is the block of a number.
+    /// Returns the indices of the balls in this block, if it is number `number`.
     fn balls(&self, number: usize) -> Range<usize> {
         let first = number * BALLS_IN_A_BLOCK;
         first..first + self.episodes.len()
@@ -216,7 +216,7 @@ impl Block {
     }
 }
 
-/// Balls whose episodes are over.
+/// Finds the balls whose episodes are over.
 fn find_over(episodes: &Episodes, over: &mut Vec<usize>) {
     over.clear();
     over.extend((0..episodes.len()).filter(|&it| episodes.outcome(it) != Outcome::Rolling));

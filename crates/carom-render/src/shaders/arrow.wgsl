@@ -1,11 +1,11 @@
-// Arrows of a width given in pixels, always facing the eye: a shaft of two triangles, a head of one.
+// Arrows of a width in pixels that always face the eye: a shaft of two triangles, a head of one.
 
 struct Instance {
     // Relative to the eye; w: width in pixels.
     @location(0) start: vec4<f32>,
     // w: 1 with a head, 0 without.
     @location(1) end: vec4<f32>,
-    // w: 1 in front of everything, 0 where it is.
+    // w: 1 in front of everything, 0 at its own depth.
     @location(2) color: vec4<f32>,
 }
 
@@ -14,14 +14,14 @@ struct Varying {
     @location(0) @interpolate(flat) color: vec4<f32>,
 }
 
-// Nearer than this part of the depth range to the eye, arrows are cut off.
+// Arrows are cut off where they are nearer to the eye than this part of the depth range.
 const NEAREST: f32 = 1e-3;
 
 @vertex
 fn vertex(@builtin(vertex_index) index: u32, arrow: Instance) -> Varying {
     var start = globals.clip_from_eye * vec4<f32>(arrow.start.xyz, 1.0);
     var end = globals.clip_from_eye * vec4<f32>(arrow.end.xyz, 1.0);
-    // What lies behind the eye is cut off.
+    // Cuts off the part behind the eye.
     if start.w < NEAREST && end.w > NEAREST {
         start = mix(start, end, (NEAREST - start.w) / (end.w - start.w));
     } else if end.w < NEAREST && start.w > NEAREST {

@@ -1,9 +1,9 @@
-// The grid below a scene without ground: lines and the shadows on it, which can be seen through.
+// The grid below a scene without ground: transparent but for its lines and the shadows on it.
 
 struct Varying {
     @builtin(position) clip: vec4<f32>,
     @location(0) point: vec3<f32>,
-    // Along the grid, from one of its lines.
+    // Coordinates on the grid, from one of its lines.
     @location(1) place: vec2<f32>,
     // Distance of its lines, and how far it reaches.
     @location(2) @interpolate(flat) size: vec2<f32>,
@@ -34,10 +34,10 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
     let coarse = grid(in.place, in.size.x * 5.0, pixel);
     let haze = smoothstep(0.1, 1.0, length(in.place) / in.size.y);
 
-    // Shadows straight below tell where balls are; those of the sun would tell it twice.
+    // Only shadows straight below, which show where balls are; those of the sun would repeat it.
     let shade = 0.35 * (1.0 - skylight(in.point, vec3<f32>(0.0, 1.0, 0.0), 1.0)) * (1.0 - haze);
     let line = max(0.16 * fine, 0.26 * coarse) * (1.0 - haze);
-    // Lines are lighter than a dark ground, and darker than a light one.
+    // Lines are lighter than dark ground and darker than light ground.
     let tone = select(0.85, 0.12, dot(globals.ground.rgb, vec3<f32>(0.2126, 0.7152, 0.0722)) > 0.2);
     let opacity = line + shade - line * shade;
     return vec4<f32>(vec3<f32>(tone * line * (1.0 - shade)), opacity);

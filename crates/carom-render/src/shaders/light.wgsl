@@ -1,33 +1,34 @@
-// Sun, sky and shadows: how what is drawn is lit. Positions are relative to the eye.
+// Sun, sky and shadows: the light on what is drawn. Positions are relative to the eye.
 
 const MOST_CUTS: i32 = 8;
 
 struct Globals {
     clip_from_eye: mat4x4<f32>,
-    // Shadow maps: of the sun, and of the sky straight above.
+    // Shadow maps of the sun, and of the sky straight above.
     sun_from_eye: mat4x4<f32>,
     sky_from_eye: mat4x4<f32>,
     // To the sun; w: size of a texel of the sun's map, in m.
     to_sun: vec4<f32>,
-    // Linear colours. Sun, w: 1 where shadows are softened by several taps.
+    // Linear colours. Sun, w: 1 if shadows are softened by several samples.
     sun: vec4<f32>,
     // Sky straight above, w: size of a texel of the sky's map, in m.
     zenith: vec4<f32>,
-    // Sky above the horizon, w: 1 where coverage is by several samples a pixel.
+    // Sky above the horizon, w: 1 if a pixel has several samples.
     horizon: vec4<f32>,
-    // What the ground sends back from below, w: part of the edge of its map that the sky takes.
+    // Light reflected by the ground; w: used part of an edge of the sky's shadow map.
     ground: vec4<f32>,
-    // The view: ahead (w: part of the edge of its map that the sun takes), and to the right and upper
-    // edge of the picture at distance 1.
+    // The view: ahead (w: used part of an edge of the sun's shadow map), and vectors to the right
+    // and upper edge of the picture at distance 1.
     ahead: vec4<f32>,
     right: vec4<f32>,
     up: vec4<f32>,
-    // Width and height of the picture in pixels, length of a texel of shadow maps.
+    // Width and height of the picture in pixels, size of a texel as a part of a shadow map.
     picture: vec4<f32>,
-    // The box in which half-spaces but the ground are seen; w: how much farther inclines are.
+    // The box in which half-spaces other than the ground are drawn; w: how much farther inclines
+    // go.
     room_min: vec4<f32>,
     room_max: vec4<f32>,
-    // Half-spaces that others are cut off at: normal, distance from the eye along it.
+    // Planes that cut other half-spaces off: normal, distance from the eye along it.
     cuts: array<vec4<f32>, MOST_CUTS>,
 }
 
@@ -39,18 +40,19 @@ fn tap(place: vec2<f32>, layer: i32, depth: f32) -> f32 {
     return textureSampleCompareLevel(shadow_maps, shadow_sampler, place, layer, depth);
 }
 
-// How much of the light of a map arrives, from 0 to 1. `part`: of the edge of the map that is used;
-// `spread`: distance of taps, in texels; 0 for a single one.
+// Returns the part of the light that arrives, from 0 to 1. `part`: used part of an edge of the map;
+// `spread`: distance of the samples, in texels; 0 for a single one.
 fn light_through(map: vec4<f32>, layer: i32, part: f32, spread: f32) -> f32 {
     let of_whole = map.xy * vec2<f32>(0.5, -0.5) + 0.5;
     if any(of_whole < vec2<f32>(0.0)) || any(of_whole > vec2<f32>(1.0)) {
         return 1.0;
     }
     let place = of_whole * part;
-    // What lies behind all that casts shadows is as deep as that.
+    // Points behind everything that casts shadows get the largest depth.
     let depth = min(map.z, 1.0);
     if globals.sun.w < 0.5 || spread == 0.0 {
-        // Two taps a texel apart: of the pattern of what glass shades, always one of each.
+        // Two samples a texel apart: glass shades every other texel, so one sample falls on each
+        // kind.
         let half_texel = vec2<f32>(0.5 * globals.picture.z, 0.0);
         return 0.5 * (tap(place - half_texel, layer, depth) + tap(place + half_texel, layer, depth));
     }
@@ -58,7 +60,7 @@ fn light_through(map: vec4<f32>, layer: i32, part: f32, spread: f32) -> f32 {
     let texel = globals.picture.z * spread;
     for (var i = -1; i <= 1; i++) {
         for (var j = -1; j <= 1; j++) {
-            // Turned by atan(1/2), so that taps fall on no row or column twice.
+            // Rotated by atan(1/2), so that no two samples share a row or column.
             let step = vec2<f32>(f32(i) + 0.5 * f32(j), f32(j) - 0.5 * f32(i));
             sum += tap(place + step * texel, layer, depth);
         }
@@ -66,15 +68,15 @@ fn light_through(map: vec4<f32>, layer: i32, part: f32, spread: f32) -> f32 {
     return sum / 9.0;
 }
 
-// The sky in a direction.
+// Returns the colour of the sky in a direction.
 fn sky(direction: vec3<f32>) -> vec3<f32> {
     let height = direction.y;
     let above = mix(globals.horizon.rgb, globals.zenith.rgb, sqrt(max(height, 0.0)));
-    // Below the horizon the tone of the ground, haze in between.
+    // Below the horizon is the tone of the ground, with haze in between.
     return mix(above, globals.ground.rgb, smoothstep(0.0, 0.35, -height));
 }
 
-// sRGB (IEC 61966-2-1) of a linear colour.
+// Converts a linear colour to sRGB (IEC 61966-2-1).
 fn encoded(linear: vec3<f32>) -> vec3<f32> {
     let color = clamp(linear, vec3<f32>(0.0), vec3<f32>(1.0));
     let dark = color * 12.92;
@@ -86,31 +88,31 @@ struct Surface {
     point: vec3<f32>,
     normal: vec3<f32>,
     color: vec3<f32>,
-    // From 0 to 1, where the finish does not say.
+    // From 0 to 1; used if the finish does not set it.
     gloss: f32,
     finish: f32,
 }
 
-// How much of the sun arrives at a point of a surface with this normal, shadows of others counted.
+// Returns the part of the sun's light that arrives at a surface point, with shadows of others.
 // `spread`: 1 for soft shadows, 0 for hard ones.
 fn sunlight(point: vec3<f32>, normal: vec3<f32>, spread: f32) -> f32 {
     let off = off_surface(point, normal, globals.to_sun.xyz, globals.to_sun.w, 0.6, 2.4);
     return light_through(globals.sun_from_eye * vec4<f32>(off, 1.0), 0, globals.ahead.w, 1.2 * spread);
 }
 
-// How much of the sky straight above arrives there.
+// Returns the part of the light of the sky straight above that arrives at a surface point.
 fn skylight(point: vec3<f32>, normal: vec3<f32>, spread: f32) -> f32 {
     let off = off_surface(point, normal, vec3<f32>(0.0, 1.0, 0.0), globals.zenith.w, 1.0, 3.5);
     let map = globals.sky_from_eye * vec4<f32>(off, 1.0);
-    // Far below, the sky reaches around what hides its zenith.
+    // Far below, light of the sky comes from around what hides its zenith.
     if map.z > 1.0 {
         return 1.0;
     }
     return light_through(map, 1, globals.ground.w, 1.5 * spread);
 }
 
-// A point off a surface, so that it does not shade itself: by these many texels where light falls
-// straight, and so many more where it grazes, where a tap aside lies as deep below the surface.
+// Moves a point off a surface so that the surface does not shade itself: by `straight` texels, and
+// by `grazing` texels more where light grazes, because neighbouring samples lie deeper there.
 fn off_surface(
     point: vec3<f32>,
     normal: vec3<f32>,
@@ -155,7 +157,8 @@ fn lit_by(surface: Surface, spread: f32) -> vec3<f32> {
     return diffuse + surface.gloss * (0.35 * highlight * globals.sun.rgb + 0.28 * grazing * mirrored);
 }
 
-// What a polished surface sends back of sky and sun; a: the part of the light that it mirrors.
+// Returns what a polished surface reflects of sky and sun; a: the part of the light that it
+// reflects.
 fn polish(surface: Surface, sunlit: f32) -> vec4<f32> {
     let n = surface.normal;
     let to_eye = -normalize(surface.point);
@@ -170,8 +173,8 @@ fn polish(surface: Surface, sunlit: f32) -> vec4<f32> {
     return vec4<f32>(part * room(reflect(-to_eye, n)) + sun * globals.sun.rgb, part.g);
 }
 
-// What a polished surface mirrors: the sky, brighter above and darker around the horizon than it is
-// drawn, as a room with a lamp is, for else its curve would hardly be seen.
+// Returns what a polished surface reflects in a direction: the sky, but brighter above and darker
+// around the horizon, like a room with a lamp. The plain sky would hardly show the surface's curve.
 fn room(direction: vec3<f32>) -> vec3<f32> {
     let lamp = smoothstep(0.55, 0.75, direction.y);
     let band = smoothstep(-0.12, 0.1, direction.y);

@@ -1,7 +1,7 @@
-// What instances say: kinds, finishes, rotations, corners of the triangles of a rectangle or box by their number, and
+// Reads instances: kinds, finishes, rotations, the corner of each vertex of a rectangle or box, and
 // the lines of grids.
 
-// A kind, or a pattern, and a finish share a number.
+// One number holds a finish and a kind or pattern.
 fn kind_of(packed: f32) -> f32 {
     return packed % KINDS;
 }
@@ -16,7 +16,7 @@ fn rotate(q: vec4<f32>, v: vec3<f32>) -> vec3<f32> {
 
 const KINDS: f32 = 8.0;
 
-// Finishes: of those between, a surface has its own gloss.
+// Finishes; any number between has the surface's own gloss.
 const MATTE: f32 = 1.0;
 const GLOSSY: f32 = 2.0;
 const METAL: f32 = 3.0;
@@ -27,7 +27,7 @@ struct Corner {
     normal: vec3<f32>,
 }
 
-// `kind` 1: a box of six faces, twelve triangles; else the face of local +y at height 0.
+// `kind` 1: a box of six faces, twelve triangles; else one face with the normal +y at height 0.
 fn corner_of(index: u32, kind: f32) -> Corner {
     let face = index / 6u;
     let of_face = index % 6u;
@@ -53,7 +53,7 @@ fn corner_of(index: u32, kind: f32) -> Corner {
     return corner;
 }
 
-// How much of a pixel lies on the lines of a square grid; none where they come too close.
+// Returns the part of a pixel that lies on the lines of a square grid; 0 where lines are too close.
 fn grid(place: vec2<f32>, distance: f32, pixel: vec2<f32>) -> f32 {
     let cell = abs(fract(place / distance + 0.5) - 0.5) * distance;
     let line = 1.0 - smoothstep(0.5 * pixel, 1.5 * pixel, cell);

@@ -1,8 +1,8 @@
-// Depth as a light sees it that comes from one direction.
+// Shadow maps: depth seen from a light of one direction.
 
 struct Light {
     map_from_eye: mat4x4<f32>,
-    // Unit vectors: the way light travels, and two across it.
+    // Unit vectors: the direction in which light travels, and two across it.
     ahead: vec4<f32>,
     right: vec4<f32>,
     up: vec4<f32>,
@@ -31,12 +31,12 @@ fn sphere_vertex(
     return out;
 }
 
-// The disc of a sphere across the light shades all that the sphere does: what lies between it and the
-// cap before it is in the sphere.
+// A disc across the light casts the same shadow as its sphere: the space between the disc and the
+// cap in front of it is inside the sphere.
 @fragment
 fn sphere_fragment(in: SphereVarying) {
     let outside = dot(in.corner, in.corner);
-    // Glass lets half of the light through: every other texel.
+    // Glass lets half of the light through: it covers every other texel.
     let odd = (i32(in.clip.x) + i32(in.clip.y)) % 2 != 0;
     if outside > 1.0 || (in.finish == GLASS && odd) {
         discard;

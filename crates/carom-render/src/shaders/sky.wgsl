@@ -1,4 +1,4 @@
-// What lies behind everything: one triangle over the whole picture, at infinity.
+// The sky behind everything: one triangle over the whole picture, at infinity.
 
 struct Varying {
     @builtin(position) clip: vec4<f32>,

@@ -1,5 +1,5 @@
-// Spheres, each a square that faces the eye, on which every pixel looks for the sphere along its
-// own ray: round at any distance, with the right depth.
+// Spheres. Each is a square that faces the eye; every pixel intersects its own ray with the sphere,
+// so it is round at any distance and has the right depth.
 
 struct Instance {
     // Relative to the eye; w: radius.
@@ -22,12 +22,12 @@ const FIXED: f32 = 2.0;
 const GLOWING: f32 = 3.0;
 const BANDED: f32 = 4.0;
 
-// Of the pattern of a banded ball, in radii from the centre: half the height of the band, and where
-// its spots and the caps at its poles begin.
+// The pattern of a banded ball, in radii from the centre: half the height of the band, and where
+// spots and polar caps begin.
 const BAND: f32 = 0.32;
 const SPOT: f32 = 0.97;
 
-// Refractive index of glass, and how much a ball of it hides in its middle of what is behind it.
+// Refractive index of glass, and opacity in the middle of a glass ball.
 const GLASS_INDEX: f32 = 1.5;
 const GLASS_OPACITY: f32 = 0.55;
 
@@ -36,8 +36,8 @@ fn vertex(@builtin(vertex_index) index: u32, sphere: Instance) -> Varying {
     let radius = sphere.center.w;
     let distance = length(sphere.center.xyz);
     let frame = frame_of(sphere.center.xyz);
-    // The cone of rays that touch the sphere cuts the plane through its centre in a circle a
-    // little larger than it. A margin leaves place for the soft edge.
+    // The cone of rays that touch the sphere cuts the plane through its centre in a circle a little
+    // larger than the sphere. A margin leaves space for the soft edge.
     let room = max(distance * distance - radius * radius, 1e-6 * distance * distance);
     let reach = radius * distance * inverseSqrt(room);
     let pixel = 2.0 * length(globals.up.xyz) * distance / globals.picture.y;
@@ -58,13 +58,14 @@ struct Pixel {
     @builtin(frag_depth) depth: f32,
 }
 
-// Where the ray through a pixel meets a sphere.
+// The point where the ray through a pixel meets a sphere.
 struct Hit {
     point: vec3<f32>,
     normal: vec3<f32>,
     // Unit vector.
     direction: vec3<f32>,
-    // Way along the ray to the point nearest to the centre, and how far from the centre that is.
+    // Distance along the ray to the point nearest to the centre, and that point's distance from the
+    // centre.
     along: f32,
     miss: f32,
     // Width of a pixel there.
@@ -132,8 +133,8 @@ fn fragment(in: Varying) -> Pixel {
     return out;
 }
 
-// A ball of glass: what is behind it shows through, in its tint, and the sky by refraction and, ever
-// more towards the rim, by reflection.
+// A ball of glass: what is behind it shows through in its tint. It refracts the sky, and reflects
+// it more towards the rim.
 @fragment
 fn glass(in: Varying) -> Pixel {
     let hit = hit(in.ray, in.center);
@@ -147,11 +148,11 @@ fn glass(in: Varying) -> Pixel {
     surface.finish = GLASS;
     let facing = dot(hit.normal, globals.to_sun.xyz);
     let shine = polish(surface, sunlight(hit.point, hit.normal, 1.0) * step(0.0, facing));
-    // Bent where the ray comes in and where it goes out.
+    // The ray bends where it enters and where it leaves.
     let inner = refract(hit.direction, hit.normal, 1.0 / GLASS_INDEX);
     let exit = hit.normal - 2.0 * dot(hit.normal, inner) * inner;
     let through = refract(inner, -exit, GLASS_INDEX);
-    // The longer its way through the glass, the more the light takes of its colour.
+    // Light takes more colour on a longer path through the glass.
     let outward = hit.miss / in.center.w;
     let way = sqrt(max(1.0 - outward * outward, 0.0));
     let tint = mix(vec3<f32>(1.0), in.color.rgb, 0.6 + 0.4 * way);
@@ -165,8 +166,8 @@ fn glass(in: Varying) -> Pixel {
     return out;
 }
 
-// Balls of a few pixels: octagons at their centres, as large as the circles that one sees. What they
-// hide behind them costs nothing, which the depth that a program computes itself does not allow.
+// Balls of a few pixels: octagons at their centres, of the size of the visible circles. The device
+// skips hidden ones, which it cannot do for a shader that computes depth itself.
 struct SmallVarying {
     @builtin(position) clip: vec4<f32>,
     // On the octagon, in radii.
@@ -175,8 +176,8 @@ struct SmallVarying {
     @location(2) @interpolate(flat) color: vec4<f32>,
 }
 
-// Corners of an octagon in the order of a strip, in eighths of a turn, and how far from its middle
-// they are if it has the area of a circle of radius 1.
+// Corners of an octagon in the order of a strip, in eighths of a turn, and their distance from the
+// middle: the octagon has the area of a circle of radius 1.
 const STRIP = array<f32, 8>(0.0, 1.0, 7.0, 2.0, 6.0, 3.0, 5.0, 4.0);
 const OCTAGON: f32 = 1.053926;
 
@@ -212,14 +213,14 @@ fn small_fragment(in: SmallVarying) -> @location(0) vec4<f32> {
     return vec4<f32>(encoded(lit_by(surface, 0.0)), 1.0);
 }
 
-// To the right, upward and ahead for what faces the eye.
+// Returns directions to the right, upward and ahead for something that faces the eye.
 fn frame_of(center: vec3<f32>) -> mat3x3<f32> {
     let ahead = center / max(length(center), 1e-12);
     let aside = normalize(cross(ahead, select(vec3(0.0, 1.0, 0.0), vec3(1.0, 0.0, 0.0), abs(ahead.y) > 0.9)));
     return mat3x3<f32>(aside, cross(aside, ahead), ahead);
 }
 
-// A lighter band and two caps: shows how a ball rolls, from every side.
+// Paints a lighter band and two caps, which show from every side how a ball rolls.
 fn striped(color: vec3<f32>, local: vec3<f32>, blur: f32) -> vec3<f32> {
     let band = 1.0 - smoothstep(0.16 - blur, 0.16 + blur, abs(local.x));
     let caps = smoothstep(0.86 - blur, 0.86 + blur, abs(local.x));
@@ -228,38 +229,38 @@ fn striped(color: vec3<f32>, local: vec3<f32>, blur: f32) -> vec3<f32> {
     return mix(mix(color, color * 0.45, other), light, max(band, caps));
 }
 
-// A broad band with two spots, and small caps at its poles: whichever axis a ball turns about, one of
-// them is in sight, and moves. `pixel`: size of a pixel in radii.
+// Paints a broad band with two spots and small polar caps: for a turn about any axis, one of them
+// is visible and moves. `pixel`: size of a pixel in radii.
 fn banded(color: vec3<f32>, local: vec3<f32>, to_eye: vec3<f32>, pixel: f32) -> vec3<f32> {
-    // How much each coordinate changes across a pixel: without end at the outline.
+    // How much each coordinate changes across a pixel; unbounded at the outline.
     let slope = to_eye / max(dot(local, to_eye), 0.05);
     let change = sqrt(max(1.0 - 2.0 * slope * local + slope * slope, vec3<f32>(0.0)));
     let soft = clamp(1.3 * pixel * change, vec3<f32>(0.012), vec3<f32>(2.0));
     let band = inside(local.x + BAND, soft.x) - inside(local.x - BAND, soft.x);
     let caps = inside(abs(local.x) - SPOT, soft.x);
     let spots = inside(abs(local.z) - SPOT, soft.z);
-    // Of a ball of a few pixels, the mean is seen; spots and caps are of the same size.
+    // A ball of a few pixels shows the mean; spots and caps have the same size.
     let shown = mix(band + caps - spots, BAND, smoothstep(0.2, 0.6, pixel));
     return mix(color, other_tone(color), shown);
 }
 
-// Part of a pixel beyond an edge at a distance, where pixels are so wide.
+// Returns the part of a pixel beyond an edge at a distance, for pixels of this width.
 fn inside(distance: f32, width: f32) -> f32 {
     return clamp(distance / width + 0.5, 0.0, 1.0);
 }
 
-// A lighter tone of a colour, of a light colour a darker one.
+// Returns a lighter tone of a colour, or a darker tone of a light colour.
 fn other_tone(color: vec3<f32>) -> vec3<f32> {
     let luminance = dot(color, vec3<f32>(0.2126, 0.7152, 0.0722));
     return select(mix(color, vec3<f32>(1.0), 0.28), color * 0.55, luminance > 0.4);
 }
 
-// Fine parallels: what is fixed looks turned on a lathe.
+// Paints fine parallels, which make a fixed ball look turned on a lathe.
 fn ringed(color: vec3<f32>, local: vec3<f32>, blur: f32) -> vec3<f32> {
     let latitude = local.y * 8.0;
     let line = abs(fract(latitude) - 0.5);
     let soft = 8.0 * blur;
-    // From afar none are left: they would look like a flaw of the shadows.
+    // Far away they vanish: they would look like errors of the shadows.
     let visible = clamp(0.3 - 2.5 * soft, 0.0, 0.3);
     return color * (1.0 - visible * (1.0 - smoothstep(0.03, 0.06 + soft, line)));
 }

@@ -4,9 +4,9 @@ struct Instance {
     // Relative to the eye; w: kind and finish.
     @location(0) center: vec4<f32>,
     @location(1) rotation: vec4<f32>,
-    // Half of the lengths along the local axes; w: distance of the lines of its grid.
+    // Half of the lengths along the local axes; w: distance of the grid lines.
     @location(2) extent: vec4<f32>,
-    // Linear; w: opacity, below 0 where only the rims of faces are seen.
+    // Linear; w: opacity, negative if only the rims of faces are drawn.
     @location(3) color: vec4<f32>,
 }
 
@@ -24,7 +24,7 @@ struct Varying {
 }
 
 const BOX: f32 = 1.0;
-// Half-spaces: the ground goes on to the horizon, inclines farther than walls.
+// Half-spaces: the ground goes on to the horizon, inclines go farther than walls.
 const GROUND: f32 = 2.0;
 const WALL: f32 = 3.0;
 const INCLINE: f32 = 4.0;
@@ -50,13 +50,13 @@ fn vertex(@builtin(vertex_index) index: u32, instance: Instance) -> Varying {
 
 @fragment
 fn fragment(in: Varying) -> @location(0) vec4<f32> {
-    // Where a pixel has one sample, every other one shows what can be seen through.
+    // With one sample a pixel, translucent surfaces cover every other pixel.
     let odd = (i32(in.clip.x) + i32(in.clip.y)) % 2 != 0;
     if in.color.w >= 0.0 && in.color.w < 1.0 && globals.horizon.w < 0.5 && odd {
         discard;
     }
     let is_front = dot(in.normal, in.point) < 0.0;
-    // The two coordinates on the face, and how far it reaches along them.
+    // The two coordinates on the face, and its half lengths along them.
     var place = in.local.xz;
     var reach = in.extent.xz;
     if abs(in.face.x) > 0.5 {
@@ -98,7 +98,7 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
         let to_edge = (reach - abs(place)) / pixel;
         let edge = 1.0 - smoothstep(0.4, 1.6, min(to_edge.x, to_edge.y));
         color *= 1.0 - 0.35 * edge;
-        // Of glass, one sees the edges best.
+        // Glass is most visible at its edges.
         opacity = select(opacity, mix(opacity, 0.8, edge), in.finish == GLASS);
     }
 
@@ -110,14 +110,15 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
     surface.finish = in.finish;
     var shown = lit(surface);
     if in.kind == GROUND {
-        // Fades into the haze before its edge.
+        // The ground fades into the haze before its edge.
         let haze = smoothstep(0.12, 0.75, distance / in.extent.x);
         shown = mix(shown, sky(in.point / max(distance, 1e-12)), haze);
     }
     return vec4<f32>(encoded(shown), opacity);
 }
 
-// How far a point of a half-space is from where others, or the room, cut it off: negative beyond.
+// Returns the distance of a point of a half-space from where other half-spaces or the room cut it
+// off; negative beyond.
 fn inside_room(point: vec3<f32>, kind: f32) -> f32 {
     // Half-spaces do not cut themselves off.
     let slack = 1e-3 * length(point);

@@ -1,11 +1,11 @@
-//! How many a generator may make.
+//! Limits on the number of spheres or colliders that a generator creates.
 
 use crate::budget::Budget;
 use crate::error::Problem;
 use crate::requirement::check;
 use crate::scene::Generator;
 
-/// Checks that a generator, of the fields at `path`, makes spheres or colliders, and how many.
+/// Checks that the generator at `path` creates either spheres or colliders, and not too many.
 pub(super) fn check_count(generator: &Generator, path: &str) -> Result<(), Problem> {
     let (most, made) = match (generator.sphere(), generator.collider()) {
         (Some(_), None) => (Budget::MOST.spheres, "spheres"),

@@ -1,4 +1,4 @@
-//! Generators of spheres and colliders.
+//! Creates the spheres and colliders of generators.
 
 mod count;
 mod place;
@@ -19,7 +19,7 @@ use crate::scene::values::vector;
 use crate::scene::{Collider, Generator, Scene, Sphere};
 
 impl Generator {
-    /// The spheres it stands for, one by one, when `world` holds what comes before them.
+    /// Creates the spheres of the generator. `world` holds the spheres and colliders before them.
     pub(crate) fn spheres(&self, world: &World, path: &str) -> Result<Vec<Sphere>, Problem> {
         if matches!(self, Self::Random { .. }) {
             return self.scatter(world, path);
@@ -29,7 +29,7 @@ impl Generator {
         Ok(places.iter().map(|place| at(place.center, template)).collect())
     }
 
-    /// The colliders it stands for, one by one.
+    /// Creates the colliders of the generator.
     pub(crate) fn colliders(&self, path: &str) -> Result<Vec<Collider>, Problem> {
         let Some(template) = self.collider() else { return Ok(Vec::new()) };
         let turned = |place: &Place| match self {
@@ -44,7 +44,7 @@ impl Generator {
         Ok(self.all_places(path)?.iter().map(collider).collect())
     }
 
-    /// Its places, but for those that depend on what is there.
+    /// Places of a regular generator; empty for a random one, whose places depend on the world.
     fn all_places(&self, path: &str) -> Result<Vec<Place>, Problem> {
         check_count(self, path)?;
         match self {
@@ -62,8 +62,8 @@ impl Generator {
 }
 
 impl Scene {
-    /// All colliders, in the order in which its world has them: the single ones, then those of
-    /// generators. A generator that makes no sense makes none.
+    /// Returns all colliders in the order of the world: the single ones, then those of generators.
+    /// An invalid generator adds none.
     pub fn all_colliders(&self) -> Cow<'_, [Collider]> {
         if self.generators.iter().all(|generator| generator.collider().is_none()) {
             return Cow::Borrowed(&self.colliders);
@@ -73,7 +73,7 @@ impl Scene {
     }
 }
 
-/// A collider turned about the origin, with its velocities.
+/// Turns a collider, with its velocities, about the origin.
 fn turned(collider: &Collider, turn: DQuat) -> Collider {
     let rotation = DQuat::from_array(collider.rotation);
     let turned = |written| (turn * vector(written)).to_array();
@@ -86,13 +86,13 @@ fn turned(collider: &Collider, turn: DQuat) -> Collider {
     }
 }
 
-/// A sphere of a generator whose place is this \[m\].
+/// Copies the sphere of a generator to a place \[m\].
 fn at(place: DVec3, template: &Sphere) -> Sphere {
     let position = (place + vector(template.position)).to_array();
     Sphere { position, ..template.clone() }
 }
 
-/// Distance of neighbours in a close packing \[m\], a diameter unless given.
+/// Distance of neighbours in a close packing \[m\]; a diameter if the scene states none.
 fn distance(given: Option<f64>, template: &Sphere, path: &str) -> Result<f64, Problem> {
     let Some(spacing) = given else {
         return Ok(2.0 * sphere(template, &format!("{path}.sphere"))?.radius);
@@ -101,7 +101,7 @@ fn distance(given: Option<f64>, template: &Sphere, path: &str) -> Result<f64, Pr
     Ok(spacing)
 }
 
-/// Adds the spheres of a generator, written at `path`, to a world.
+/// Adds the spheres of the generator at `path` to a world.
 pub(crate) fn fill(world: &mut World, generator: &Generator, path: &str) -> Result<(), Problem> {
     let spheres = generator.spheres(world, path)?;
     let path = format!("{path}.sphere");

@@ -18,7 +18,7 @@ use crate::scene::{Generator, Sphere};
 const TRIES_PER_SPHERE: u32 = 10_000;
 
 impl Generator {
-    /// The spheres of a random filling; of another kind, none.
+    /// Creates the spheres of a random filling; returns none for another generator.
     pub(super) fn scatter(&self, world: &World, path: &str) -> Result<Vec<Sphere>, Problem> {
         let Self::Random { count, min, max, seed, speed, radius_range, sphere } = self else {
             return Ok(Vec::new());
@@ -73,7 +73,7 @@ fn radii(template: &Sphere, range: Option<[f64; 2]>, path: &str) -> Result<[f64;
         check_positive(radius, &format!("{sphere_path}.radius"))?;
         return Ok([radius, radius]);
     };
-    // What it says besides is not used, and has to make sense all the same.
+    // The sizes of the template are not used, but must be valid.
     for (field, size) in [("radius", template.radius), ("diameter", template.diameter)] {
         size.map_or(Ok(()), |size| check_positive(size, &format!("{path}.sphere.{field}")))?;
     }
@@ -84,22 +84,22 @@ fn radii(template: &Sphere, range: Option<[f64; 2]>, path: &str) -> Result<[f64;
     Ok([smallest, largest])
 }
 
-/// Random numbers, the same on every platform.
+/// Random numbers that are the same on every platform.
 struct Numbers(Pcg64);
 
 impl Numbers {
-    /// In [0, 1).
+    /// Returns a number in [0, 1).
     fn unit(&mut self) -> f64 {
         // The top 53 bits: every value is a multiple of 2^-53, so this is exact.
         (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// In the unit cube.
+    /// Returns a point in the unit cube.
     fn vector(&mut self) -> DVec3 {
         DVec3::new(self.unit(), self.unit(), self.unit())
     }
 
-    /// A unit vector, all directions alike: from the points of a ball.
+    /// Returns a unit vector, uniformly distributed: a random point of the unit ball, normalized.
     fn direction(&mut self) -> DVec3 {
         loop {
             let point = 2.0 * self.vector() - 1.0;
@@ -111,14 +111,15 @@ impl Numbers {
     }
 }
 
-/// Spheres that have their places already.
+/// Spheres that are placed already.
 struct Placed<'a> {
     world: &'a World,
-    /// By size class; the cells of class k are 2^k m wide, and hold spheres not wider than that.
+    /// Cells by size class: those of class k are 2^k m wide and hold spheres of at most that
+    /// diameter.
     classes: BTreeMap<i32, Cells>,
 }
 
-/// Spheres of one size class, by the cell of their centres.
+/// Spheres of one size class by the cell of their centre.
 #[derive(Default)]
 struct Cells {
     spheres: Vec<(DVec3, f64)>,
@@ -149,7 +150,8 @@ impl<'a> Placed<'a> {
                 let reach = DVec3::splat(radius + 0.5 * 2f64.powi(class));
                 let (low, high) = (cell(center - reach, class), cell(center + reach, class));
                 let count = (0..3).map(|axis| high[axis].saturating_sub(low[axis]) as f64 + 1.0);
-                // A sphere far larger than the cells: fewer spheres to look at than cells.
+                // A sphere far larger than the cells overlaps more cells than there are spheres:
+                // search the spheres.
                 if count.product::<f64>() > cells.spheres.len() as f64 {
                     return cells.spheres.iter().all(is_apart);
                 }
@@ -159,7 +161,7 @@ impl<'a> Placed<'a> {
 }
 
 impl Cells {
-    /// The spheres in a block of cells.
+    /// Iterates over the spheres in a block of cells.
     fn between(&self, low: [i64; 3], high: [i64; 3]) -> impl Iterator<Item = &(DVec3, f64)> {
         (low[0]..=high[0])
             .flat_map(move |x| (low[1]..=high[1]).map(move |y| (x, y)))
@@ -170,7 +172,7 @@ impl Cells {
     }
 }
 
-/// The cell of a place, of the cells of a size class.
+/// Cell of a place in the grid of a size class.
 fn cell(place: DVec3, class: i32) -> [i64; 3] {
     (place / 2f64.powi(class)).floor().to_array().map(|part| part as i64)
 }

@@ -1,4 +1,4 @@
-//! Places in regular order.
+//! Places in regular patterns.
 
 use carom::{DQuat, DVec3};
 
@@ -31,7 +31,7 @@ pub(super) fn lattice(lattice: &Lattice, path: &str) -> Result<Vec<Place>, Probl
     Ok(cells.map(place).collect())
 }
 
-/// Places in a close packing, whose neighbours are this far apart, layer by layer.
+/// Places in a close packing, layer by layer; neighbours are `spacing` apart.
 pub(super) fn close_packing(
     counts: [u32; 3],
     stacking: Stacking,
@@ -52,10 +52,11 @@ pub(super) fn close_packing(
     Ok(rows.flat_map(along).collect())
 }
 
-/// Where a row of a close packing begins whose neighbours are one apart.
+/// First place of a row in a close packing of spacing 1.
 fn row_of_packing([layer, row]: [u32; 2], stacking: Stacking) -> DVec3 {
-    // A sphere of a layer lies over the middle of a triangle of the layer below: half a sphere on in
-    // its row, and a third of the way to the next. The second such step comes back in the row.
+    // A sphere lies above the middle of a triangle of the layer below: half a spacing further in
+    // its row, and a third of the way to the next row. Two such shifts move a row by a whole
+    // spacing.
     let steps = layer
         % match stacking {
             Stacking::Hcp => 2,
@@ -71,7 +72,7 @@ fn row_of_packing([layer, row]: [u32; 2], stacking: Stacking) -> DVec3 {
 
 /// Places evenly on a circle.
 pub(super) fn ring(ring: &Ring, path: &str) -> Result<Vec<Place>, Problem> {
-    /// Beyond this, the axis is nearly along x: the circle hardly reaches to that side.
+    /// Above this component of the axis, y is the better start: x is almost parallel to the axis.
     const NEARLY: f64 = 0.9;
     check_vector(ring.center, &format!("{path}.center"))?;
     check_positive(ring.radius, &format!("{path}.radius"))?;
@@ -88,14 +89,14 @@ pub(super) fn ring(ring: &Ring, path: &str) -> Result<Vec<Place>, Problem> {
     Ok((0..ring.count).map(place).collect())
 }
 
-/// How far the place of this number, from 0, is turned about the axis of its ring.
+/// Rotation of place `i`, from 0, about the axis of its ring.
 pub(super) fn turn_on_ring(ring: &Ring, i: u32) -> DQuat {
     let (sin, cos) = libm::sincos(0.5 * angle(ring, i));
     let [x, y, z] = (sin * vector(ring.axis).normalize()).to_array();
     DQuat::from_xyzw(x, y, z, cos)
 }
 
-/// From the first place of a ring to the one of this number, from 0 \[rad\].
+/// Angle from the first place of a ring to place `i` \[rad\].
 fn angle(ring: &Ring, i: u32) -> f64 {
     std::f64::consts::TAU / f64::from(ring.count) * f64::from(i)
 }

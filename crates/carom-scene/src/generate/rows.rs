@@ -6,7 +6,7 @@ use crate::requirement::{check, check_vector};
 use crate::scene::StaggeredRows;
 use crate::scene::values::vector;
 
-/// Places with the numbers of row and place.
+/// Places in staggered rows, numbered by row and place in the row.
 pub(super) fn staggered(rows: &StaggeredRows, path: &str) -> Result<Vec<Place>, Problem> {
     check(rows.counts.iter().all(|&count| count > 0), &format!("{path}.counts"), || {
         format!("must be at least 1 each, not {:?}", rows.counts)

@@ -13,15 +13,15 @@ use super::table_file::{TableFile, digits};
 /// position \[m\], velocity \[m/s\].
 pub(super) const HEADER: [&str; 8] = ["t", "ball", "x", "y", "z", "vx", "vy", "vz"];
 
-/// Further columns where spheres turn: orientation as a quaternion.
+/// Additional columns if spheres can rotate: orientation as a quaternion.
 pub(super) const ORIENTATION: [&str; 4] = ["qx", "qy", "qz", "qw"];
 
-/// Columns after those of the orientation: angular velocity \[rad/s\].
+/// Columns after the orientation: angular velocity \[rad/s\].
 pub(super) const ANGULAR_VELOCITY: [&str; 3] = ["wx", "wy", "wz"];
 
 pub(super) struct CsvTable {
     writer: csv::Writer<TableFile>,
-    /// Whether there are the columns of rotation; unknown before the first frame.
+    /// Whether the table has the columns of rotation; `None` before the first frame.
     has_rotation: Option<bool>,
 }
 
@@ -38,8 +38,8 @@ impl CsvTable {
         Self { writer: csv::Writer::from_writer(file), has_rotation: None }
     }
 
-    /// Writes the names of the columns, unless they are there; returns whether rotation is among
-    /// them.
+    /// Writes the header if it is not yet written. Returns whether the table has the columns of
+    /// rotation.
     fn begin(&mut self, has_rotation: impl FnOnce() -> bool) -> io::Result<bool> {
         if let Some(has_rotation) = self.has_rotation {
             return Ok(has_rotation);
@@ -76,7 +76,7 @@ impl Format for CsvTable {
     }
 
     fn finish(mut self: Box<Self>) -> io::Result<()> {
-        // Without a frame there is nothing that could turn.
+        // Without a frame the header is still missing.
         self.begin(|| false)?;
         self.writer.flush()
     }

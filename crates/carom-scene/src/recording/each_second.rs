@@ -1,8 +1,8 @@
-//! When the list of a series is put on the disk.
+//! A timer for the list of files of a series.
 
 use std::time::{Duration, Instant};
 
-/// Strikes once a second: what is written then is a second old at most when a process is killed.
+/// A timer of one second: a killed process loses at most the last second of the list.
 #[derive(Debug)]
 pub(super) struct EachSecond {
     last: Instant,
@@ -13,7 +13,7 @@ impl EachSecond {
         Self { last: Instant::now() }
     }
 
-    /// Whether the last time that it struck is a second ago.
+    /// Returns `true` once a second has passed since it last did.
     pub fn strikes(&mut self) -> bool {
         let strikes = self.last.elapsed() >= Duration::from_secs(1);
         if strikes {

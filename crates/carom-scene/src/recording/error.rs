@@ -1,4 +1,4 @@
-//! Why a recording fails.
+//! Errors of recordings.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -9,29 +9,29 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum RecordingError {
-    /// The ending of the file name names no format.
+    /// The ending of the file name belongs to no format.
     #[error("cannot tell the format of {path}: use {known}", known = ENDINGS)]
     UnknownFormat {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
     },
     /// The file cannot be written.
     #[error("cannot write {path}: {source}")]
     Unwritable {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// Why.
+        /// Error of the operating system.
         source: io::Error,
     },
 }
 
 const ENDINGS: &str = ".csv, .npz, or .pvd (a series of .vtp files for ParaView)";
 
-/// The place cannot be written to.
+/// Converts an error of writing to `path`.
 pub(super) fn unwritable(path: &Path, source: io::Error) -> RecordingError {
     let of_table = source.get_ref().and_then(|it| it.downcast_ref::<csv::Error>());
     let source = match of_table.map(csv::Error::kind) {
-        // The kind of an error is lost where a table passes it on.
+        // The csv writer wraps the error and hides its kind; restore it.
         Some(csv::ErrorKind::Io(inner)) => io::Error::new(inner.kind(), inner.to_string()),
         _ => source,
     };

@@ -1,20 +1,21 @@
-//! A writer that fails only once.
+//! A writer that reports only its first error.
 
 use std::io::{self, Seek, SeekFrom, Write};
 
-/// Passes on what is written until that fails; what is written after that is lost in silence. The
-/// writer of archives completes them when it is dropped, and prints a line if it cannot.
+/// Passes bytes on until writing fails; it discards later bytes without an error. The zip writer
+/// completes its archive when it is dropped, and would print an error if it could not.
 pub(super) struct FailingOnce<W> {
     inner: W,
-    /// Where the next byte goes.
+    /// Position of the next byte.
     position: u64,
-    /// Where the last byte is. After an error the position is there: what is completed then must not begin after it ends.
+    /// End of the written bytes. After an error the position is set to it, because the parts that
+    /// the zip writer completes must not start after they end.
     end: u64,
     has_failed: bool,
 }
 
 impl<W> FailingOnce<W> {
-    /// Begins at the beginning of `inner`.
+    /// Starts at position 0 of `inner`.
     pub fn new(inner: W) -> Self {
         Self { inner, position: 0, end: 0, has_failed: false }
     }

@@ -4,18 +4,18 @@ use std::io;
 
 use carom::World;
 
-/// One format of trajectories.
+/// Writer of one file format for trajectories.
 pub trait Format: Send {
-    /// Writes the spheres as they are now: what a killed process has written can be read, where the format can be
-    /// read before its end.
+    /// Writes the current state of all spheres. If the format can be read before its end, the frame
+    /// can be read even when the process is killed afterwards.
     ///
     /// # Errors
-    /// If the disk is full or gone, or the format has no room for more.
+    /// [`io::Error`] if the disk is full or gone, or if the format has no room for more.
     fn write(&mut self, world: &World) -> io::Result<()>;
 
     /// Completes the file.
     ///
     /// # Errors
-    /// If the disk is full or gone.
+    /// [`io::Error`] if the disk is full or gone.
     fn finish(self: Box<Self>) -> io::Result<()>;
 }

@@ -1,4 +1,4 @@
-//! Tables as CSV files with a header that is known from the start.
+//! CSV files with a fixed header.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -20,7 +20,7 @@ impl HeadedTable {
         Self::of(file, path, header)
     }
 
-    /// Writes to `out`, which errors call `name`.
+    /// Writes to `out`; errors call it `name`.
     pub fn new(
         out: impl Write + Send + 'static,
         name: &str,
@@ -46,7 +46,7 @@ impl HeadedTable {
         written.map_err(|source| unwritable(&self.path, source))
     }
 
-    /// Hands all rows on to the operating system.
+    /// Passes all rows to the operating system.
     pub fn flush(&mut self) -> Result<(), RecordingError> {
         self.writer.flush().map_err(|source| unwritable(&self.path, source))
     }

@@ -1,4 +1,4 @@
-//! Impacts as CSV: one row per impact.
+//! Records impacts as CSV: one row per impact.
 
 use std::io;
 use std::path::Path;
@@ -9,9 +9,9 @@ use super::error::RecordingError;
 use super::headed_table::HeadedTable;
 use super::table_file::digits;
 
-/// Columns: time \[s\]; kind and number of body 1 (`sphere` or `collider`) and number of body 2, a
-/// sphere; point \[m\]; normal from 1 to 2; approach speed \[m/s\]; impulse along the normal, and of friction
-/// across it, on body 2 \[N s\].
+/// Columns: time \[s\]; kind (`sphere` or `collider`) and number of body 1, and number of body 2, a
+/// sphere; point \[m\]; normal from 1 to 2; approach speed \[m/s\]; normal impulse and tangential
+/// impulse on body 2 \[N s\].
 pub(super) const HEADER: [&str; 15] = [
     "t",
     "kind1",
@@ -38,15 +38,15 @@ impl ImpactTable {
     /// Creates the file.
     ///
     /// # Errors
-    /// For a place that cannot be written to.
+    /// [`RecordingError`] if the file cannot be written.
     pub fn create(path: &Path) -> Result<Self, RecordingError> {
         HeadedTable::create(path, &HEADER).map(Self)
     }
 
-    /// Writes CSV to `out`, which errors call `name`.
+    /// Writes CSV to `out`; errors call it `name`.
     ///
     /// # Errors
-    /// If it takes nothing.
+    /// [`RecordingError`] if `out` cannot be written to.
     pub fn csv(out: impl io::Write + Send + 'static, name: &str) -> Result<Self, RecordingError> {
         HeadedTable::new(out, name, &HEADER).map(Self)
     }
@@ -54,7 +54,7 @@ impl ImpactTable {
     /// Writes the impacts of a step that started at `start` \[s\].
     ///
     /// # Errors
-    /// If the disk is full or gone.
+    /// [`RecordingError`] if the disk is full or gone.
     pub fn write(&mut self, start: f64, impacts: &[Impact]) -> Result<(), RecordingError> {
         impacts.iter().try_for_each(|impact| self.0.write(fields(start, impact)))?;
         if impacts.is_empty() { Ok(()) } else { self.0.flush() }
@@ -63,7 +63,7 @@ impl ImpactTable {
     /// Completes the file.
     ///
     /// # Errors
-    /// If the disk is full or gone.
+    /// [`RecordingError`] if the disk is full or gone.
     pub fn finish(mut self) -> Result<(), RecordingError> {
         self.0.flush()
     }
@@ -76,7 +76,7 @@ fn fields(start: f64, impact: &Impact) -> Vec<String> {
     fields
 }
 
-/// The bodies of an impact, when and where: the first columns of a row, as in [`HEADER`].
+/// First columns of a row, as in [`HEADER`]: time, bodies, point and normal of an impact.
 pub(super) fn impact_fields(start: f64, impact: &Impact) -> Vec<String> {
     let (kind, body1, ball2) = match impact.between {
         BodyPair::Spheres(first, second) => ("sphere", first.number(), second.number()),

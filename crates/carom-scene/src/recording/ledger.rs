@@ -1,4 +1,4 @@
-//! The ledger as CSV: one row per impact, with the account of the group it was answered in.
+//! Records the ledger as CSV: one row per impact, with momentum and energy of its group.
 
 use std::io;
 use std::path::Path;
@@ -10,10 +10,11 @@ use super::headed_table::HeadedTable;
 use super::impacts::impact_fields;
 use super::table_file::digits;
 
-/// Columns: those of the impacts up to the normal; speeds of approach and separation \[m/s\] and
-/// impulse \[N s\]; that of friction \[N s\]; the law, the number of the group in the run and how many impacts it has; momentum
-/// of the group before and after, less what colliders gave \[kg m/s\]; its kinetic energy before, after
-/// (less the work of moving colliders), and the change that restitution demands \[J\].
+/// Columns: those of the impacts up to the normal; approach and separation speed \[m/s\]; normal
+/// impulse and tangential impulse \[N s\]; impact law; number of the group in the run, and number
+/// of its impacts; momentum of the group before and after, without the contribution of colliders
+/// \[kg m/s\]; its kinetic energy before, after (without the work of moving colliders), and the
+/// change that restitution requires \[J\].
 pub(super) const HEADER: [&str; 28] = [
     "t",
     "kind1",
@@ -49,7 +50,7 @@ pub(super) const HEADER: [&str; 28] = [
 #[derive(Debug)]
 pub struct LedgerTable {
     table: HeadedTable,
-    /// Groups of the steps written so far.
+    /// Number of groups in the steps written so far.
     groups: usize,
 }
 
@@ -57,15 +58,15 @@ impl LedgerTable {
     /// Creates the file.
     ///
     /// # Errors
-    /// For a place that cannot be written to.
+    /// [`RecordingError`] if the file cannot be written.
     pub fn create(path: &Path) -> Result<Self, RecordingError> {
         Ok(Self { table: HeadedTable::create(path, &HEADER)?, groups: 0 })
     }
 
-    /// Writes CSV to `out`, which errors call `name`.
+    /// Writes CSV to `out`; errors call it `name`.
     ///
     /// # Errors
-    /// If it takes nothing.
+    /// [`RecordingError`] if `out` cannot be written to.
     pub fn csv(out: impl io::Write + Send + 'static, name: &str) -> Result<Self, RecordingError> {
         Ok(Self { table: HeadedTable::new(out, name, &HEADER)?, groups: 0 })
     }
@@ -73,7 +74,7 @@ impl LedgerTable {
     /// Writes the impacts of a step that started at `start` \[s\].
     ///
     /// # Errors
-    /// If the disk is full or gone.
+    /// [`RecordingError`] if the disk is full or gone.
     pub fn write(&mut self, start: f64, report: &StepReport) -> Result<(), RecordingError> {
         for entry in report.ledger() {
             let group =
@@ -87,7 +88,7 @@ impl LedgerTable {
     /// Completes the file.
     ///
     /// # Errors
-    /// If the disk is full or gone.
+    /// [`RecordingError`] if the disk is full or gone.
     pub fn finish(mut self) -> Result<(), RecordingError> {
         self.table.flush()
     }

@@ -1,6 +1,6 @@
 //! Recordings on disk: trajectories as CSV, NPZ or VTK, impacts as CSV. Trajectories in CSV can be
-//! played again. Where spheres turn, or friction can make them turn, trajectories have orientations
-//! and angular velocities, too; the first frame decides.
+//! played back. If spheres rotate at the first frame, or friction can make them rotate,
+//! trajectories also contain orientations and angular velocities.
 
 mod csv_table;
 mod each_second;
@@ -70,18 +70,18 @@ impl std::fmt::Debug for Trajectory {
 }
 
 impl Trajectory {
-    /// Creates the file, and the folders above it that are missing. Its ending tells the format: `.csv`, `.npz`, or
-    /// `.pvd` / `.vtp`; a pipe or a device with another one gets CSV.
+    /// Creates the file, and missing folders above it. The ending selects the format: `.csv`,
+    /// `.npz`, or `.pvd` / `.vtp`. A pipe or device with another ending gets CSV.
     ///
     /// # Errors
-    /// For another ending, or a place that cannot be written to.
+    /// [`RecordingError`] for another ending, or if the file cannot be written.
     pub fn create(path: &Path) -> Result<Self, RecordingError> {
         let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         let format: io::Result<Box<dyn Format>> = match ending.as_str() {
             "csv" => csv_table::CsvTable::create(path).map(|format| Box::new(format) as _),
             "npz" => npz::Npz::create(path).map(|format| Box::new(format) as _),
             "pvd" | "vtp" => vtk::Series::create(path).map(|format| Box::new(format) as _),
-            // A pipe or a device is often named by the system, without an ending.
+            // The system often names pipes and devices, without an ending.
             _ if is_stream(path) => csv_table::CsvTable::create(path).map(|it| Box::new(it) as _),
             _ => return Err(RecordingError::UnknownFormat { path: path.to_owned() }),
         };
@@ -89,44 +89,44 @@ impl Trajectory {
         Ok(Self { path: path.to_owned(), format, frames: 0 })
     }
 
-    /// Writes in a format of another crate to the file at `path`, which errors name.
+    /// Writes to the file at `path` in the format of another crate.
     pub fn in_format(path: &Path, format: Box<dyn Format>) -> Self {
         Self { path: path.to_owned(), format, frames: 0 }
     }
 
-    /// Writes CSV to `out`, which errors call `name`.
+    /// Writes CSV to `out`; errors call it `name`.
     pub fn csv(out: impl io::Write + Send + 'static, name: &str) -> Self {
         let format = Box::new(csv_table::CsvTable::new(Box::new(out)));
         Self { path: PathBuf::from(name), format, frames: 0 }
     }
 
-    /// Writes the spheres as they are now, in order of their numbers.
+    /// Writes the current state of all spheres, by ascending number.
     ///
     /// # Errors
-    /// If the disk is full or gone.
+    /// [`RecordingError`] if the disk is full or gone.
     pub fn write(&mut self, world: &World) -> Result<(), RecordingError> {
         self.format.write(world).map_err(|source| unwritable(&self.path, source))?;
         self.frames += 1;
         Ok(())
     }
 
-    /// Frames that are written.
+    /// Number of frames written so far.
     pub fn frames(&self) -> u64 {
         self.frames
     }
 
-    /// Completes the file. Until then there is no archive, but what [`recover`] makes one of; tables and
-    /// series are readable, series but for their last second.
+    /// Completes the file. Before that, tables can be read, and a series except for its last
+    /// second; an NPZ archive does not exist yet, but [`recover`] creates it after a crash.
     ///
     /// # Errors
-    /// If the disk is full or gone.
+    /// [`RecordingError`] if the disk is full or gone.
     pub fn finish(self) -> Result<(), RecordingError> {
         let Self { path, format, .. } = self;
         format.finish().map_err(|source| unwritable(&path, source))
     }
 }
 
-/// Whether a path leads to a pipe, a device or the like.
+/// Whether the path leads to a pipe, a device or another file without a length.
 fn is_stream(path: &Path) -> bool {
     std::fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir())
 }

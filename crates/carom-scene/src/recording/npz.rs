@@ -1,9 +1,9 @@
 //! Trajectories as NPZ, for NumPy: one array per quantity, one row per sphere and frame.
 //!
-//! Arrays: `t` and `ball` (rows), `position` and `velocity` (rows, 3), and `frame_start`
-//! (frames + 1): the rows of frame k are `frame_start[k] .. frame_start[k + 1]`. Where spheres turn,
-//! `orientation` (rows, 4; x, y, z, w) and `angular_velocity` (rows, 3), too. Then `time` (frames), and of each
-//! sphere of any frame `id`, `radius` and `mass`, as they were last.
+//! Arrays: `t` and `ball` (rows), `position` and `velocity` (rows, 3), and `frame_start` (frames +
+//! 1): the rows of frame k are `frame_start[k] .. frame_start[k + 1]`. If spheres can rotate, also
+//! `orientation` (rows, 4; x, y, z, w) and `angular_velocity` (rows, 3). Then `time` (frames), and
+//! `id`, `radius` and `mass` with the last values of every sphere of any frame.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -22,12 +22,12 @@ use super::records;
 use super::recovered::{Recovered, complete};
 use crate::unfinished::Unfinished;
 
-/// An NPZ file holds one array after the other, frames come one after the other: they go to a
-/// journal beside the file, of which that is made at the end.
+/// An NPZ file stores array after array, but frames arrive one by one. They go to a journal beside
+/// the file, from which the file is created at the end.
 pub(super) struct Npz {
     unfinished: Unfinished,
     journal: JournalWriter,
-    /// In the journal.
+    /// Number of frames in the journal.
     frames: u64,
 }
 
@@ -51,7 +51,8 @@ impl Format for Npz {
     }
 }
 
-/// Writes the archive of the whole frames of a journal; `None` for a file that is none.
+/// Writes the archive of the complete frames of a journal. Returns `None` if `source` is no
+/// journal.
 pub(super) fn close(source: &mut File, target: File) -> io::Result<Option<Recovered>> {
     let Some(mut journal) = Journal::open(source)? else { return Ok(None) };
     archive(&mut journal, target)?;
@@ -64,7 +65,7 @@ fn archive(journal: &mut Journal, file: impl Write + Seek) -> io::Result<()> {
     write_archive(journal, file).map_err(|error| {
         let of_zip = error.get_ref().and_then(|it| it.downcast_ref::<ZipError>());
         match of_zip {
-            // What failed is the disk, not the form of the archive.
+            // The disk failed, not the format of the archive.
             Some(ZipError::Io(inner)) => io::Error::new(inner.kind(), inner.to_string()),
             _ => error,
         }
@@ -93,7 +94,7 @@ fn write_archive(journal: &mut Journal, file: impl Write + Seek) -> io::Result<(
     zip.finish()?.flush()
 }
 
-/// Radius \[m\] and mass \[kg\] of spheres by their numbers, as they were last.
+/// Last radius \[m\] and mass \[kg\] of each sphere, by number.
 fn bodies(journal: &mut Journal) -> io::Result<BTreeMap<u64, [f64; 2]>> {
     let mut known = BTreeMap::new();
     let mut ids = Vec::new();
@@ -121,7 +122,7 @@ fn bodies(journal: &mut Journal) -> io::Result<BTreeMap<u64, [f64; 2]>> {
 
 type Zip<W> = zip::ZipWriter<FailingOnce<BufWriter<W>>>;
 
-/// Begins an array, and gives what its values are pushed into.
+/// Starts an array in the archive and returns a writer for its values.
 fn begin<'a, T: npyz::AutoSerialize, W: Write + Seek>(
     zip: &'a mut Zip<W>,
     name: &str,
@@ -132,7 +133,7 @@ fn begin<'a, T: npyz::AutoSerialize, W: Write + Seek>(
     npyz::WriteOptions::new().default_dtype().shape(shape).writer(zip).begin_nd()
 }
 
-/// Appends these values to the archive.
+/// Writes an array with these values.
 fn append_all<T: npyz::AutoSerialize, W: Write + Seek>(
     zip: &mut Zip<W>,
     name: &str,
@@ -143,7 +144,8 @@ fn append_all<T: npyz::AutoSerialize, W: Write + Seek>(
     array.finish()
 }
 
-/// Appends a number of each frame to the archive, so many times as `value` says.
+/// Writes an array with one value per frame, repeated. `value` returns the value and how often it
+/// is written; `length` is the total.
 fn per_frame<W: Write + Seek>(
     zip: &mut Zip<W>,
     journal: &mut Journal,
@@ -159,7 +161,7 @@ fn per_frame<W: Write + Seek>(
     array.finish()
 }
 
-/// Appends the first row of each frame, and the number of rows.
+/// Writes the array of the first row of each frame, followed by the total number of rows.
 fn frame_starts<W: Write + Seek>(zip: &mut Zip<W>, journal: &mut Journal) -> io::Result<()> {
     let mut array = begin(zip, "frame_start", &[journal.extent.whole.records + 1])?;
     let mut row = 0_i64;
@@ -171,7 +173,7 @@ fn frame_starts<W: Write + Seek>(zip: &mut Zip<W>, journal: &mut Journal) -> io:
     array.finish()
 }
 
-/// Appends a column to the archive, its words read as `T`.
+/// Writes a column of all frames as an array; `value` converts a word.
 fn column<T: npyz::AutoSerialize, W: Write + Seek>(
     zip: &mut Zip<W>,
     journal: &mut Journal,
@@ -194,10 +196,10 @@ mod tests {
 
     use super::*;
 
-    /// A disk that is full from a write on.
+    /// A disk that becomes full.
     struct Full {
         content: Cursor<Vec<u8>>,
-        /// Writes that succeed.
+        /// Number of writes that succeed.
         left: usize,
     }
 

@@ -1,7 +1,7 @@
-//! The growing form of NPZ files: frame after frame.
+//! The journal of an NPZ file: a file to which frames are appended.
 //!
-//! The head of a frame has its time \[s\], the number of spheres, and [`ROTATION`] and [`BODIES`] as bits; the body,
-//! its columns one after the other.
+//! The head of a frame contains its time \[s\], the number of spheres, and the bits [`ROTATION`]
+//! and [`BODIES`]. The body contains its columns one after the other.
 
 use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
@@ -11,14 +11,14 @@ use carom::World;
 use super::records::{self, CHUNK, HEAD, Magic, RecordWriter, WORD, Words, parse_head};
 use super::rotation::{angular_velocity, orientation};
 
-/// What a journal begins with.
+/// First bytes of a journal.
 const MAGIC: &Magic = b"carom npz 1\x1a\r\n\0\0";
-/// Bit of a frame with the columns of rotation.
+/// Bit of a frame that has the columns of rotation.
 const ROTATION: u64 = 1;
-/// Bit of a frame with radii and masses: those before do not hold any longer.
+/// Bit of a frame that has radii and masses, which replace the earlier ones.
 const BODIES: u64 = 2;
 
-/// What a frame has of every sphere.
+/// A column of a frame, with values for every sphere.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Column {
     Ball,
@@ -31,7 +31,7 @@ pub(super) enum Column {
 }
 
 impl Column {
-    /// In the order of the file.
+    /// All columns, in the order of the file.
     const ALL: [Self; 7] = [
         Self::Ball,
         Self::Position,
@@ -42,7 +42,7 @@ impl Column {
         Self::Mass,
     ];
 
-    /// Numbers of a sphere.
+    /// Number of values per sphere.
     pub const fn width(self) -> u64 {
         match self {
             Self::Ball | Self::Radius | Self::Mass => 1,
@@ -60,12 +60,13 @@ impl Column {
     }
 }
 
-/// Writes a journal; each frame is with the operating system when [`Self::write`] returns.
+/// Writes a journal. When [`Self::write`] returns, the frame has been passed to the operating
+/// system.
 #[derive(Debug)]
 pub(super) struct JournalWriter {
-    /// Whether spheres turn; known from the first frame on.
+    /// Whether frames have rotations; the first frame decides.
     has_rotation: Option<bool>,
-    /// Numbers, radii \[m\] and masses \[kg\] of the last frame.
+    /// Numbers, radii \[m\] and masses \[kg\] in the last frame.
     bodies: (Vec<u64>, Vec<f64>, Vec<f64>),
     chunk: Vec<u8>,
 }
@@ -77,7 +78,7 @@ impl JournalWriter {
         Ok(Self { has_rotation: None, bodies, chunk: Vec::new() })
     }
 
-    /// Appends the spheres as they are now.
+    /// Appends the current state of all spheres.
     pub fn write(&mut self, world: &World, out: &mut impl Write) -> io::Result<()> {
         let has_rotation = *self.has_rotation.get_or_insert_with(|| world.has_spin());
         let bits = u64::from(has_rotation) * ROTATION + u64::from(self.renew(world)) * BODIES;
@@ -89,7 +90,7 @@ impl JournalWriter {
         record.end()
     }
 
-    /// Notes numbers, radii and masses; tells whether they are others than before.
+    /// Stores numbers, radii and masses; returns whether they changed since the last frame.
     fn renew(&mut self, world: &World) -> bool {
         let spheres = world.spheres();
         let (ids, radii, masses) = &mut self.bodies;
@@ -131,7 +132,7 @@ fn push_numbers(record: &mut RecordWriter<impl Write>, numbers: &[f64]) -> io::R
     numbers.iter().try_for_each(|number| record.push(&number.to_le_bytes()))
 }
 
-/// The head of a frame, and where its columns are.
+/// The head of a frame; it determines the positions of the columns.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Head {
     pub time: f64,
@@ -146,7 +147,8 @@ impl Head {
         Self { time: f64::from_bits(time), count, bits }
     }
 
-    /// Where a column begins after the head, and its bytes; `None` where the frame has none.
+    /// Offset of a column after the head, and its length \[bytes\]; `None` if the frame does not
+    /// have the column.
     fn place(self, column: Column) -> Option<(u64, u64)> {
         let before = Column::ALL.into_iter().take_while(|it| *it != column);
         let before = before.filter(|it| it.is_in(self.bits)).map(Column::width);
@@ -154,7 +156,7 @@ impl Head {
         column.is_in(self.bits).then(|| (bytes(before.sum()), bytes(column.width())))
     }
 
-    /// Bytes of all columns; `None` where that is more than any file has.
+    /// Length of all columns \[bytes\]; `None` if it overflows.
     fn body(self) -> Option<u64> {
         let columns = Column::ALL.into_iter().filter(|it| it.is_in(self.bits));
         self.count.checked_mul(WORD * columns.map(Column::width).sum::<u64>())
@@ -169,28 +171,28 @@ impl Head {
     }
 }
 
-/// What is whole of a journal.
+/// The complete part of a journal.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Extent {
     pub whole: records::Extent,
-    /// Spheres of all frames together.
+    /// Number of spheres, summed over all frames.
     pub rows: u64,
     pub has_rotation: bool,
     /// Time of the last frame \[s\].
     pub last: Option<f64>,
 }
 
-/// Reads a journal, as often as is wanted.
+/// Reads a journal, any number of times.
 pub(super) struct Journal<'a> {
     file: &'a mut File,
     pub extent: Extent,
 }
 
 impl<'a> Journal<'a> {
-    /// Finds what is whole; `None` for a file that is no journal.
+    /// Finds the complete part of a journal; `None` if the file is no journal.
     pub fn open(file: &'a mut File) -> io::Result<Option<Self>> {
         let mut extent = Extent::default();
-        // Spheres turn in all frames, or in none.
+        // Either all frames have rotations, or none has.
         let mut turning = None;
         let length = |words: &Words| {
             let head = Head::of(words);
@@ -207,7 +209,7 @@ impl<'a> Journal<'a> {
         Ok(whole.map(|whole| Self { file, extent: Extent { whole, ..extent } }))
     }
 
-    /// Gives every whole frame to `each`, with what reads a column of it.
+    /// Calls `each` with every complete frame and a reader of its columns.
     pub fn frames(
         &mut self,
         mut each: impl FnMut(Head, &mut Columns) -> io::Result<()>,
@@ -229,11 +231,11 @@ impl<'a> Journal<'a> {
     }
 }
 
-/// The columns of one frame.
+/// Reads the columns of one frame.
 pub(super) struct Columns<'a, 'b> {
     reader: &'a mut BufReader<&'b mut File>,
     head: Head,
-    /// Bytes after the head.
+    /// Position after the head \[bytes\].
     at: u64,
 }
 
@@ -244,7 +246,7 @@ impl Columns<'_, '_> {
         Ok(())
     }
 
-    /// The words of a column, one after the other; none where the frame has no such column.
+    /// Calls `each` with the words of a column; with none if the frame does not have the column.
     pub fn words(
         &mut self,
         column: Column,

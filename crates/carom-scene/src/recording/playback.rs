@@ -1,35 +1,35 @@
-//! A recording at any time: between its frames, too.
+//! Plays a recording at any time, also between its frames.
 
 use carom::{Boundary, DQuat, DVec3};
 
 use super::replay::{Replay, ReplayBall, ReplayError, ReplayFrame};
 
-/// A recorded frame counts as that of a time if it is no farther away than this \[s\]: sums of
-/// frame times and k / rate differ by rounding only, frames by far more.
+/// Largest difference of times that count as equal \[s\]: sums of frame times and k / rate differ
+/// by rounding errors only, frames by much more.
 const SAME_TIME: f64 = 1e-9;
 
-/// Plays a recording at times that go on and on, like those of the frames of a film.
+/// Plays a recording at ascending times, such as those of the frames of a film.
 ///
-/// At the time of a recorded frame (give or take a nanosecond), balls are exactly as recorded; at 0
-/// and up to the first one, the scene's start counts as a frame. In between, each ball follows the
-/// cubic Hermite curve
+/// At the time of a recorded frame (to a nanosecond), balls are exactly as recorded. The start of
+/// the scene counts as a frame before the first one. Between frames, each ball follows the cubic
+/// Hermite curve
 ///
 /// ```text
 /// x(t) = (2s³ - 3s² + 1) x1 + (s³ - 2s² + s) h v1 + (3s² - 2s³) x2 + (s³ - s²) h v2,
 /// ```
 ///
-/// with h = t2 - t1 and s = (t - t1) / h, from place and velocity in the frames at t1 and t2. It is
-/// free flight exactly where the force is constant. Where the recording has orientations, balls turn the
-/// shorter way. An impact in between is smoothed away: record
-/// at the times that are to be seen (or more often) to see impacts as they were. A ball that is not
-/// in both frames is seen until the one before it is gone, and not before the first one it is in.
+/// with h = t2 - t1 and s = (t - t1) / h, from position and velocity in the frames at t1 and t2.
+/// Under a constant force this is exactly the free flight. If the recording has orientations, balls
+/// rotate by the smaller angle. An impact between two frames is smoothed: to see impacts as they
+/// were, record at the times to be shown, or more often. A ball that is missing in the second frame
+/// is shown until that frame; one that is missing in the first frame is shown from the second on.
 #[derive(Debug)]
 pub struct Playback {
     replay: Replay,
     boundary: Boundary,
-    /// Not after the last time requested.
+    /// Last frame that is not after the last time requested.
     before: Option<ReplayFrame>,
-    /// After it.
+    /// First frame after that time.
     after: Option<ReplayFrame>,
 }
 
@@ -37,21 +37,21 @@ impl Playback {
     /// Plays a recording from the start of its scene.
     ///
     /// # Errors
-    /// As [`Replay::next_frame`].
+    /// The same as those of [`Replay::next_frame`].
     pub fn new(mut replay: Replay) -> Result<Self, ReplayError> {
         let boundary = replay.boundary();
         let after = replay.next_frame()?;
         let start = replay.start().clone();
-        // A recording may have the start, too; then that is as good.
+        // The recording may contain the start as its first frame.
         let before = after.as_ref().is_none_or(|first| start.time < first.time).then_some(start);
         Ok(Self { replay, boundary, before, after })
     }
 
-    /// The balls at this time \[s\], or at the last frame before the last time requested if that is
-    /// later; `None` once the recording is over.
+    /// Returns the balls at `time` \[s\], or in the last frame before the latest time requested if
+    /// that frame is later; `None` after the end of the recording.
     ///
     /// # Errors
-    /// As [`Replay::next_frame`].
+    /// The same as those of [`Replay::next_frame`].
     pub fn at(&mut self, time: f64) -> Result<Option<ReplayFrame>, ReplayError> {
         while let Some(frame) = self.after.take_if(|frame| frame.time <= time + SAME_TIME) {
             self.before = Some(frame);
@@ -60,14 +60,14 @@ impl Playback {
         Ok(match (&self.before, &self.after) {
             (Some(before), _) if before.time >= time - SAME_TIME => Some(before.clone()),
             (Some(before), Some(after)) => Some(between(before, after, time, self.boundary)),
-            // Before the first frame of a recording that begins before its scene.
+            // The recording begins before its scene: use its first frame.
             (None, Some(after)) => Some(after.clone()),
             (_, None) => None,
         })
     }
 }
 
-/// The balls at a time \[s\] between two frames.
+/// Interpolates the balls at a time \[s\] between two frames.
 fn between(
     before: &ReplayFrame,
     after: &ReplayFrame,
@@ -83,12 +83,12 @@ fn between(
     ReplayFrame { time, balls: balls.collect() }
 }
 
-/// A ball at the part `s` of the time `h` \[s\] between two states.
+/// Interpolates a ball between two states `h` \[s\] apart, at the fraction `s`.
 fn curve(from: &ReplayBall, to: &ReplayBall, s: f64, h: f64, boundary: Boundary) -> ReplayBall {
     let (x1, v1, v2) = (from.position, from.velocity, to.velocity);
     let x2 = near(to.position, x1 + 0.5 * h * (v1 + v2), boundary);
     let (s2, s3) = (s * s, s * s * s);
-    // About the first place, so that a ball at rest stays exactly where it is.
+    // Relative to the first position, so that a ball at rest stays exactly where it is.
     let position =
         x1 + (3.0 * s2 - 2.0 * s3) * (x2 - x1) + h * ((s3 - 2.0 * s2 + s) * v1 + (s3 - s2) * v2);
     let velocity = (6.0 * s - 6.0 * s2) * (x2 - x1) / h
@@ -100,13 +100,13 @@ fn curve(from: &ReplayBall, to: &ReplayBall, s: f64, h: f64, boundary: Boundary)
     ReplayBall { position, velocity, orientation, ..*from }
 }
 
-/// The image of a place that is nearest to another, under a boundary.
+/// Returns the periodic image of a position that is nearest to another position.
 fn near(place: DVec3, to: DVec3, boundary: Boundary) -> DVec3 {
     let Boundary::Periodic { size } = boundary else {
         return place;
     };
     let image = |place: f64, to: f64, size: f64| {
-        // Along an open axis, there is one image only.
+        // An open axis has one image only.
         if size.is_finite() { place + ((to - place) / size).round() * size } else { place }
     };
     DVec3::new(
@@ -138,7 +138,7 @@ mod tests {
         for s in [0.1, 0.5, 0.77] {
             let t: f64 = s * h;
             let found = between(&before, &after, 1.0 + t, Boundary::Open).balls[0];
-            // A few roundings of numbers up to 5.
+            // A few rounding errors of numbers up to 5.
             assert!((found.position.x - (x + v * t + 0.5 * a * t * t)).abs() < 1e-14);
             assert!((found.velocity.x - (v + a * t)).abs() < 1e-13);
         }
@@ -161,7 +161,7 @@ mod tests {
         };
         let (before, after) = (frame(1.0, &[turned(0.3, 1.0)]), frame(2.0, &[turned(0.5, -1.0)]));
         let found = between(&before, &after, 1.5, Boundary::Open).balls[0].orientation.unwrap();
-        // An angle of zero, from a cosine rounded.
+        // The angle is zero up to the rounding of its cosine.
         assert!(found.angle_between(DQuat::from_rotation_y(0.4)) < 1e-7, "{found}");
         let plain = frame(2.0, &[ball(0, 0.0, 0.0)]);
         assert_eq!(between(&before, &plain, 1.5, Boundary::Open).balls[0].orientation, None);

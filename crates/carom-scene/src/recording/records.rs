@@ -1,33 +1,35 @@
-//! Files that grow record by record, each with its checksums: what is whole of them can be read whenever their writer
-//! stops.
+//! Files of records with checksums. Complete records can be read even if the writer was stopped at
+//! any moment.
 //!
-//! All numbers are little-endian words of 64 bits. After the bytes that tell what kind of file it is, a record is a head
-//! - three words, and the checksum of these -, a body whose length follows from the head, and the checksum of that.
+//! All numbers are little-endian words of 64 bits. A file starts with [`Magic`] bytes that identify
+//! its kind. A record consists of a head (three words and their checksum), a body, whose length
+//! follows from the head, and the checksum of the body.
 
 use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, Write};
 
 use xxhash_rust::xxh3::{Xxh3, xxh3_64};
 
-/// The bytes that tell what kind of file it is.
+/// First bytes of a file, which identify its kind.
 pub type Magic = [u8; 16];
 
-/// What a head says.
+/// Content of the head of a record.
 pub type Words = [u64; 3];
 
-/// A word \[byte\].
+/// Length of a word \[byte\].
 pub(super) const WORD: u64 = 8;
-/// The head of a record \[byte\].
+/// Length of the head of a record \[byte\].
 pub const HEAD: u64 = 4 * WORD;
-/// So much is gathered before it is written: most records are written at once, and none needs more memory \[byte\].
+/// Length of the buffer of a record \[byte\]: most records are written in one piece, and none needs
+/// more memory.
 pub(super) const CHUNK: usize = 1 << 16;
 
-/// A record on its way to the disk; it is with the operating system when [`Self::end`] returns.
+/// Writes a record. When [`Self::end`] returns, the record has been passed to the operating system.
 pub struct RecordWriter<'a, W> {
     chunk: &'a mut Vec<u8>,
     out: &'a mut W,
     sum: Xxh3,
-    /// Bytes at the beginning of the chunk that are not to be added to the sum: those of the head.
+    /// Number of bytes at the start of the buffer that the checksum of the body excludes: the head.
     summed: usize,
 }
 
@@ -38,7 +40,7 @@ impl<W> std::fmt::Debug for RecordWriter<'_, W> {
 }
 
 impl<'a, W: Write> RecordWriter<'a, W> {
-    /// Begins a record with this head. `chunk` is memory that is used again.
+    /// Starts a record with this head. `chunk` is a buffer that is reused.
     pub fn begin(chunk: &'a mut Vec<u8>, out: &'a mut W, words: Words) -> Self {
         chunk.clear();
         chunk.extend(words.iter().flat_map(|word| word.to_le_bytes()));
@@ -47,10 +49,10 @@ impl<'a, W: Write> RecordWriter<'a, W> {
         Self { chunk, out, sum: Xxh3::new(), summed: HEAD as usize }
     }
 
-    /// Adds to the body.
+    /// Appends bytes to the body.
     ///
     /// # Errors
-    /// If the disk is full or gone.
+    /// [`io::Error`] if the disk is full or gone.
     pub fn push(&mut self, bytes: &[u8]) -> io::Result<()> {
         if self.chunk.len() + bytes.len() > CHUNK {
             self.sum.update(&self.chunk[self.summed..]);
@@ -66,10 +68,10 @@ impl<'a, W: Write> RecordWriter<'a, W> {
         Ok(())
     }
 
-    /// Ends the record.
+    /// Writes the rest of the record and its checksum.
     ///
     /// # Errors
-    /// If the disk is full or gone.
+    /// [`io::Error`] if the disk is full or gone.
     pub fn end(mut self) -> io::Result<()> {
         self.sum.update(&self.chunk[self.summed..]);
         self.chunk.extend(self.sum.digest().to_le_bytes());
@@ -77,7 +79,7 @@ impl<'a, W: Write> RecordWriter<'a, W> {
     }
 }
 
-/// The words of a head.
+/// Reads the head of a record; `None` if its checksum is wrong.
 pub(super) fn parse_head(bytes: &[u8; HEAD as usize]) -> Option<Words> {
     let (words, sum) = bytes.split_last_chunk()?;
     let is_whole = xxh3_64(words) == u64::from_le_bytes(*sum);
@@ -87,26 +89,27 @@ pub(super) fn parse_head(bytes: &[u8; HEAD as usize]) -> Option<Words> {
     is_whole.then_some([next()?, next()?, next()?])
 }
 
-/// How far a file is whole.
+/// The complete part of a file.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Extent {
-    /// Whole records.
+    /// Number of complete records.
     pub records: u64,
-    /// Bytes up to the end of the last one.
+    /// End of the last complete record \[bytes\].
     pub end: u64,
-    /// Bytes after that.
+    /// Number of bytes after that.
     pub rest: u64,
-    /// Whether these are no record that was cut short, but something else.
+    /// Whether those bytes are damaged, as opposed to a record that was cut short.
     pub is_damaged: bool,
 }
 
-/// Reads a file from its beginning, and finds how far it is whole; `None` for one of another kind.
+/// Reads a file from its start and finds its complete part. Returns `None` if it does not start
+/// with `magic`.
 ///
-/// `length` tells how long the body after a head is \[byte\]; `None` where no record has such a head. `each` gets the place of every
-/// whole record in the file, and its head.
+/// `length` returns the length of the body after a head \[byte\], or `None` if the head is invalid.
+/// `each` is called with the position and the head of every complete record.
 ///
 /// # Errors
-/// If the file cannot be read.
+/// [`io::Error`] if the file cannot be read.
 pub fn scan(
     file: &mut File,
     magic: &Magic,
@@ -134,7 +137,7 @@ pub fn scan(
     Ok(Some(extent))
 }
 
-/// Reads a record that is whole; returns its head, and how many bytes it has.
+/// Reads a record; returns its head and its length, or `None` if it is not complete.
 fn record(
     reader: &mut impl Read,
     whole: u64,

@@ -1,4 +1,4 @@
-//! Complete files of unfinished ones.
+//! Completes unfinished recordings.
 
 use std::fs::File;
 use std::io;
@@ -8,17 +8,17 @@ use thiserror::Error;
 
 use crate::unfinished::Unfinished;
 
-/// What was recovered of a recording.
+/// What was recovered from an unfinished recording.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Recovered {
-    /// Frames.
+    /// Number of frames.
     pub frames: u64,
-    /// Time of the last one \[s\]; `None` without a frame.
+    /// Time of the last frame \[s\]; `None` without a frame.
     pub last: Option<f64>,
-    /// Bytes after the last whole frame, which are left out.
+    /// Number of bytes after the last complete frame, which are lost.
     pub left_out: u64,
-    /// Whether these are no frame that was cut short, but something else, like what a failing disk leaves. Then the
-    /// unfinished file stays.
+    /// Whether those bytes are damaged, for example by a failing disk, as opposed to a frame that
+    /// was cut short. If they are, the unfinished file is kept.
     pub is_damaged: bool,
 }
 
@@ -29,45 +29,46 @@ pub enum RecoveryError {
     /// The file cannot be read, or is still being written.
     #[error("cannot recover {path}: {source}")]
     Unreadable {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// Why.
+        /// Error of the operating system.
         source: io::Error,
     },
-    /// The file is none that a run left.
+    /// The file was not left by a run.
     #[error("{path} is no unfinished recording")]
     Foreign {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
     },
-    /// The file has no frame that is whole.
+    /// The file has no complete frame.
     #[error("{path} has no whole frame")]
     Empty {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
     },
     /// The file is no table that a run writes.
     #[error("{path} is no table of a run: its first line names other columns")]
     ForeignTable {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
     },
     /// The complete file cannot be written.
     #[error("cannot write {path}: {source}")]
     Unwritable {
-        /// The complete file.
+        /// Path of the complete file.
         path: PathBuf,
-        /// Why.
+        /// Error of the operating system.
         source: io::Error,
     },
 }
 
-/// Makes the complete file `target` of what a killed run left in `unfinished`, and removes that, if nothing in it is
-/// damaged. `close` reads the one and writes the other; it has `None` to say where the first is of another kind.
+/// Creates the complete file `target` from the file `unfinished` of a killed run. Removes
+/// `unfinished` unless part of it is damaged. `close` reads `unfinished` and writes `target`; it
+/// returns `None` if `unfinished` is of another kind.
 ///
 /// # Errors
-/// [`RecoveryError`]; then `unfinished` and `target` are as they were before, but where the complete file is there and
-/// only `unfinished` cannot be removed.
+/// [`RecoveryError`]. Both files are then unchanged, except if only the removal of `unfinished`
+/// failed.
 pub fn recover_by(
     unfinished: &Path,
     target: &Path,
@@ -78,7 +79,7 @@ pub fn recover_by(
     let closed = file.close(|source, target| close(source, target)?.ok_or(NotMade::Foreign));
     let recovered = closed.map_err(|error| match error {
         NotMade::Foreign => RecoveryError::Foreign { path: unfinished.to_owned() },
-        // What is said there makes no sense.
+        // The content is invalid.
         NotMade::Unwritable(source) if source.kind() == io::ErrorKind::InvalidData => {
             unreadable(source)
         }
@@ -92,11 +93,12 @@ pub fn recover_by(
     Ok(recovered)
 }
 
-/// Makes the complete file of an unfinished one in which so many frames were written, and removes that. `close` is as
-/// that of [`recover_by`].
+/// Creates the complete file from an unfinished one, which must contain `frames` frames, and
+/// removes the unfinished one. `close` is as in [`recover_by`].
 ///
 /// # Errors
-/// If `close` or the disk fails, or it found other frames; then the unfinished file stays, and the error says where.
+/// [`io::Error`] if `close` or the disk fails, or the number of frames differs. The unfinished file
+/// is then kept, and the error contains its path.
 pub fn complete(
     mut unfinished: Unfinished,
     frames: u64,
@@ -117,9 +119,9 @@ pub fn complete(
     }
 }
 
-/// Why a complete file is not made.
+/// Why a complete file was not created.
 enum NotMade {
-    /// The unfinished one is of another kind.
+    /// The unfinished file is of another kind.
     Foreign,
     Unwritable(io::Error),
 }

@@ -1,4 +1,4 @@
-//! What killed runs leave, made complete.
+//! Completes recordings of killed runs.
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
@@ -8,21 +8,23 @@ use super::recovered::{Recovered, RecoveryError, recover_by};
 use super::{csv_table, impacts, ledger, npz};
 use crate::unfinished::lock;
 
-/// Makes the NPZ file `target` of what a killed run left in `unfinished`, and removes that.
+/// Creates the NPZ file `target` from the file `unfinished` of a killed run, and removes
+/// `unfinished`.
 ///
 /// # Errors
-/// [`RecoveryError`]; then `unfinished` and `target` are as they were before, but where the complete file is there and
-/// only `unfinished` cannot be removed.
+/// [`RecoveryError`]. Both files are then unchanged, except if only the removal of `unfinished`
+/// failed.
 pub fn recover(unfinished: &Path, target: &Path) -> Result<Recovered, RecoveryError> {
     recover_by(unfinished, target, npz::close)
 }
 
-/// Cuts off the last line of a table if it has no end, as a killed run may leave it; returns how many
-/// bytes that were.
+/// Removes the last line of a table if it is incomplete, as a killed run may leave it. Returns the
+/// number of bytes removed.
 ///
 /// # Errors
-/// [`RecoveryError::Unreadable`], [`RecoveryError::Foreign`] for a file whose first line has no end,
-/// [`RecoveryError::ForeignTable`] for one that does not begin as a trajectory, a table of impacts or a ledger.
+/// [`RecoveryError::Unreadable`]; [`RecoveryError::Foreign`] if the first line is incomplete;
+/// [`RecoveryError::ForeignTable`] if the header is not that of a trajectory, a table of impacts or
+/// a ledger.
 pub fn recover_table(path: &Path) -> Result<u64, RecoveryError> {
     let unreadable = |source| RecoveryError::Unreadable { path: path.to_owned(), source };
     let foreign = || RecoveryError::Foreign { path: path.to_owned() };
@@ -36,17 +38,17 @@ pub fn recover_table(path: &Path) -> Result<u64, RecoveryError> {
     cut_last_line(&mut file).map_err(unreadable)?.ok_or_else(foreign)
 }
 
-/// Longer than the names of all columns of any table \[bytes\].
+/// Upper bound of the length of any header \[bytes\].
 const LONGEST_HEADER: u64 = 4096;
 
-/// The first line, without its end; `None` where it has none.
+/// Reads the first line without its end; `None` if it is incomplete.
 fn first_line(file: &mut File) -> io::Result<Option<Vec<u8>>> {
     let mut line = Vec::new();
     BufReader::new(file.by_ref().take(LONGEST_HEADER)).read_until(b'\n', &mut line)?;
     Ok(line.strip_suffix(b"\n").map(<[u8]>::to_vec))
 }
 
-/// Whether these are the names of the columns of a table that runs write.
+/// Whether the line is the header of a table that runs write.
 fn is_header(line: &[u8]) -> bool {
     let turning =
         [&csv_table::HEADER[..], &csv_table::ORIENTATION[..], &csv_table::ANGULAR_VELOCITY[..]]
@@ -56,7 +58,7 @@ fn is_header(line: &[u8]) -> bool {
     known.iter().any(|names| names.join(",").as_bytes() == line)
 }
 
-/// `None` where no line has an end.
+/// Removes an incomplete last line; returns its length, or `None` if the file has no complete line.
 fn cut_last_line(file: &mut File) -> io::Result<Option<u64>> {
     let length = file.seek(SeekFrom::End(0))?;
     let mut block = [0; 4096];
@@ -82,7 +84,7 @@ fn cut_last_line(file: &mut File) -> io::Result<Option<u64>> {
 mod tests {
     use super::*;
 
-    /// What becomes of a file with this content.
+    /// Recovers a file with this content; returns the result and the new content.
     fn recovered(content: &str) -> (Result<u64, RecoveryError>, String) {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("t.csv");

@@ -1,4 +1,4 @@
-//! How spheres are turned and turn, in recordings.
+//! Orientations and angular velocities in recordings.
 
 use carom::{DQuat, DVec3, World};
 

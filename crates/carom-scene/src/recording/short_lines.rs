@@ -1,28 +1,29 @@
-//! A reader that refuses lines without end.
+//! A reader that limits the length of lines.
 
 use std::io::{self, Read};
 
 use thiserror::Error;
 
-/// Most bytes of a line: many times those of all columns of a recording, and of some that others add.
+/// Most bytes of a line: many times the length of a row of a recording, even with some added
+/// columns.
 pub(super) const LONGEST_LINE: usize = 1 << 16;
 
 /// A line is longer than [`LONGEST_LINE`].
 #[derive(Debug, Error)]
 #[error("line {line} is too long")]
 pub(super) struct TooLong {
-    /// From 1.
+    /// Number of the line, from 1.
     pub line: u64,
 }
 
-/// Passes on what it reads, as long as no line is too long: a file without ends of lines would fill
+/// Passes bytes on and returns an error if a line is too long: a file without line ends would fill
 /// the memory.
 #[derive(Debug)]
 pub(super) struct ShortLines<R> {
     inner: R,
-    /// Ends of lines so far.
+    /// Number of line ends so far.
     lines: u64,
-    /// Bytes since the last one.
+    /// Number of bytes since the last line end.
     length: usize,
 }
 

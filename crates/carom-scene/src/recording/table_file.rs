@@ -1,4 +1,4 @@
-//! Tables as CSV files.
+//! Files to which tables are written.
 
 use std::fmt;
 use std::fs::{File, OpenOptions};
@@ -9,27 +9,27 @@ use crate::unfinished::create_folders_of;
 #[cfg(unix)]
 use crate::unfinished::lock;
 
-/// What a table is written to. Each flush marks the end of whole rows: after an error, a file is cut
-/// there, and what is written later is lost in silence.
+/// A writer that keeps only whole rows. Each flush marks the end of whole rows; after an error, the
+/// file is cut there, and later bytes are discarded without an error.
 pub(super) struct TableFile {
     out: Box<dyn Write + Send>,
-    /// That file, where it can be cut.
+    /// The same file, if it can be cut.
     file: Option<File>,
     position: u64,
-    /// Where the last whole row ends.
+    /// End of the last whole row.
     whole: u64,
     has_failed: bool,
 }
 
 impl TableFile {
-    /// Opens a file, and creates it and the folders above it where they are missing.
+    /// Opens or creates a file, with missing folders above it.
     pub fn create(path: &Path) -> io::Result<Self> {
         create_folders_of(path)?;
-        // Its old content stays until it is known that no other run writes it.
+        // The old content stays until the lock shows that no other run writes the file.
         let file = OpenOptions::new().write(true).create(true).truncate(false).open(path)?;
         // Pipes and devices have neither a lock nor a length.
         if file.metadata()?.is_file() {
-            // Elsewhere, what is locked could not be read while it grows.
+            // On other systems, a locked file could not be read while it grows.
             #[cfg(unix)]
             lock(&file)?;
             file.set_len(0)?;
@@ -85,7 +85,7 @@ impl Write for TableFile {
     }
 }
 
-/// A number with 17 significant digits: as many as tell any two doubles apart.
+/// Writes a number with 17 significant digits, which distinguish any two doubles.
 pub(super) fn digits(value: f64) -> String {
     format!("{value:.16e}")
 }

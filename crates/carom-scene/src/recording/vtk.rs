@@ -15,13 +15,13 @@ use super::format::Format;
 use super::rotation::{angular_velocity, orientation};
 use crate::unfinished::create_folders_of;
 
-/// The file `NAME.pvd`, and `000000.vtp`, `000001.vtp`, ... in the folder `NAME_frames` beside it.
+/// Writes `NAME.pvd`, and `000000.vtp`, `000001.vtp`, ... in the folder `NAME_frames` beside it.
 pub(super) struct Series {
     path: PathBuf,
     times: Vec<f64>,
-    /// When the list is written.
+    /// Limits how often the list is written.
     clock: EachSecond,
-    /// Whether spheres turn; known from the first frame on.
+    /// Whether frames have rotations; the first frame decides.
     has_rotation: bool,
 }
 
@@ -44,14 +44,15 @@ impl Series {
         format!("{}_frames", self.path.file_stem().unwrap_or_default().to_string_lossy())
     }
 
-    /// The file of a frame, as seen from the list.
+    /// Path of the file of a frame, relative to the list.
     fn frame_file(&self, frame: usize) -> String {
         format!("{}/{frame:06}.vtp", self.folder())
     }
 
-    /// Writes the list of all frames up to now over the one before, which is whole until then.
+    /// Writes the list of all frames so far. The previous list stays complete until the new one
+    /// replaces it.
     fn write_list(&self) -> io::Result<()> {
-        // What is no file of its own, like a link or a device, stays what it is.
+        // A link or a device is written in place, not replaced.
         let replaces = self.path.symlink_metadata().is_ok_and(|it| it.is_file());
         let target =
             if replaces { self.path.with_extension("pvd.unfinished") } else { self.path.clone() };
@@ -98,7 +99,7 @@ impl Format for Series {
 
     fn finish(self: Box<Self>) -> io::Result<()> {
         self.write_list()?;
-        // Of a longer series that was there before, the rest is left.
+        // Removes later frames of an earlier, longer series.
         let later = (self.times.len()..).map(|frame| self.frame_file(frame));
         let mut later = later.map(|name| self.path.with_file_name(name));
         while std::fs::remove_file(later.next().unwrap_or_default()).is_ok() {}
@@ -106,15 +107,15 @@ impl Format for Series {
     }
 }
 
-/// Removes a file that is written in part. An error here comes after another one.
+/// Removes a partly written file. Errors are ignored, because an earlier error is being reported.
 fn remove_part(path: &Path) {
     if path.symlink_metadata().is_ok_and(|it| it.is_file()) {
         drop(std::fs::remove_file(path));
     }
 }
 
-/// The spheres as points, with what belongs to each; in ParaView, glyphs of the `diameter` show
-/// them as they are. Where spheres turn, orientations are quaternions w, x, y, z, as VTK has them.
+/// Converts the spheres to points with attributes; in ParaView, glyphs of the `diameter` show them.
+/// Orientations are quaternions in the order w, x, y, z, as in VTK.
 fn frame(world: &World, has_rotation: bool) -> Vtk {
     let spheres = world.spheres();
     let count = spheres.len() as u64;

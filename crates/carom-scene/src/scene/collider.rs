@@ -7,60 +7,59 @@ use super::finish::Finish;
 use super::rotation;
 use super::values::{Color, Quaternion, Vector, is_default, one, unturned};
 
-/// A fixed shape that spheres bounce off.
+/// A fixed or steadily moving shape that spheres bounce off.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Collider {
-    /// What it is called.
+    /// Name, for reports.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub name: String,
-    /// Its form.
+    /// Shape.
     pub shape: Shape,
-    /// Where its centre is, in m.
+    /// Position of its centre, in m.
     #[serde(default)]
     pub position: Vector,
-    /// How it is turned.
+    /// Rotation about its centre.
     #[schemars(with = "rotation::Rotation")]
     #[serde(default = "unturned", deserialize_with = "rotation::read")]
     pub rotation: Quaternion,
-    /// How fast its centre moves, in m/s.
+    /// Velocity of its centre, in m/s.
     #[serde(default, skip_serializing_if = "is_default")]
     pub velocity: Vector,
-    /// How fast it turns about its centre, along the axis, in rad/s.
+    /// Angular velocity about its centre, in rad/s.
     #[serde(default, skip_serializing_if = "is_default")]
     pub angular_velocity: Vector,
     /// Coefficient of restitution in [0, 1].
     #[schemars(range(min = 0.0, max = 1.0))]
     #[serde(default = "one")]
     pub restitution: f64,
-    /// Coulomb's coefficient of friction, >= 0, under the rules `exact` and `contact`; that of what it touches
-    /// where it is missing.
+    /// Coulomb's coefficient of friction, >= 0, under the rules `exact` and `contact`. If missing, the other body's
+    /// value counts.
     #[schemars(range(min = 0.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction: Option<f64>,
-    /// Coefficient of rolling friction, >= 0; that of what it touches where it is missing.
+    /// Coefficient of rolling friction, >= 0. If missing, the other body's value counts.
     #[schemars(range(min = 0.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rolling_friction: Option<f64>,
-    /// Coefficient of spinning friction, >= 0; that of what it touches where it is missing.
+    /// Coefficient of spinning friction, >= 0. If missing, the other body's value counts.
     #[schemars(range(min = 0.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spinning_friction: Option<f64>,
-    /// Coefficient of tangential restitution in [0, 1]; that of what it touches where it is
-    /// missing.
+    /// Coefficient of tangential restitution in [0, 1]. If missing, the other body's value counts.
     #[schemars(range(min = 0.0, max = 1.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tangential_restitution: Option<f64>,
-    /// A trigger reports contact and deflects nothing.
+    /// Whether it only reports spheres and deflects none.
     #[serde(default, skip_serializing_if = "is_default")]
     pub trigger: bool,
-    /// Whether it is drawn.
+    /// Whether it is drawn; true by default.
     #[serde(default = "yes", skip_serializing_if = "is_true")]
     pub visible: bool,
-    /// Its colour; the scene's own for surfaces where it is missing.
+    /// Colour. If missing, that of the scene's colliders.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub color: Option<Color>,
-    /// How its surface takes light.
+    /// How its surface reflects light.
     #[serde(default, skip_serializing_if = "is_default")]
     pub finish: Finish,
 }
@@ -88,7 +87,7 @@ impl Collider {
     }
 }
 
-/// Form of a collider in its own frame.
+/// Shape of a collider in its own coordinates.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Shape {
@@ -98,7 +97,7 @@ pub enum Shape {
         #[schemars(extend("exclusiveMinimum" = 0.0))]
         radius: f64,
     },
-    /// A rectangle in its local xz plane that faces local +y; from behind spheres pass it.
+    /// A rectangle in its local xz plane that faces local +y. Spheres pass it from behind.
     Rectangle {
         /// Full length along local x, in m, > 0.
         #[schemars(extend("exclusiveMinimum" = 0.0))]
@@ -114,19 +113,18 @@ pub enum Shape {
         /// Full lengths along local x, y, z, in m, each > 0.
         size: Vector,
     },
-    /// A hollow box: walls without thickness, off which spheres bounce on either side. One sees
-    /// through those that are nearer than what is in it.
+    /// A hollow box. Its walls have no thickness; spheres bounce off both sides.
     Container {
         /// Full lengths along local x, y, z, in m, each > 0.
         size: Vector,
-        /// Sides without a wall: one, or a list; none where it is missing.
+        /// Sides without a wall: one, or a list. By default none.
         #[schemars(with = "OneOrMore")]
         #[serde(default, skip_serializing_if = "Vec::is_empty", with = "one_or_more")]
         open: Vec<Side>,
     },
 }
 
-/// A side of a box in its own frame.
+/// A side of a box in its own coordinates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Side {
@@ -144,14 +142,14 @@ pub enum Side {
     Front,
 }
 
-/// How sides are written.
+/// One side, or several.
 #[derive(JsonSchema)]
 #[serde(untagged)]
 #[expect(dead_code, reason = "describes what is written")]
 enum OneOrMore {
     /// One side.
     One(Side),
-    /// Several.
+    /// A list of sides.
     More(Vec<Side>),
 }
 

@@ -12,66 +12,66 @@ use super::values::{Vector, is_default};
 pub enum Force {
     /// The same force on every sphere, whatever its mass.
     Constant {
-        /// In N.
+        /// Force, in N.
         force: Vector,
     },
     /// The same acceleration for every sphere.
     Gravity {
-        /// In m/s².
+        /// Acceleration, in m/s².
         acceleration: Vector,
     },
     /// Drag against the velocity and proportional to it.
     ViscousDrag {
-        /// In kg/s, >= 0
+        /// Drag coefficient, in kg/s, >= 0.
         #[schemars(range(min = 0.0))]
         coefficient: f64,
     },
-    /// Gravity of a point mass that stays where it is, as of a sun.
+    /// Gravity of a fixed point mass, such as a sun.
     PointAttractor {
-        /// Where it is, in m.
+        /// Position of the point, in m.
         #[serde(default)]
         position: Vector,
-        /// Gravitational parameter G M, in m³/s²; a negative one repels.
+        /// Gravitational parameter G M, in m³/s². A negative one repels.
         gravitational_parameter: f64,
-        /// Softening length, in m, >= 0: nearer, the force goes to zero instead of growing.
+        /// Softening length, in m, >= 0. At smaller distances the force falls to zero. By default 0.
         #[schemars(range(min = 0.0))]
         #[serde(default, skip_serializing_if = "is_default")]
         softening: f64,
     },
-    /// Gravity between spheres: every one attracts every other one.
+    /// Gravity between all pairs of spheres.
     MutualGravity {
-        /// Gravitational constant, in m³/(kg s²); nature's unless given. A negative one repels.
+        /// Gravitational constant, in m³/(kg s²). A negative one repels.
         #[serde(default = "newton")]
         constant: f64,
-        /// Softening length, in m, >= 0: nearer, the force goes to zero instead of growing.
+        /// Softening length, in m, >= 0. At smaller distances the force falls to zero. By default 0.
         #[schemars(range(min = 0.0))]
         #[serde(default, skip_serializing_if = "is_default")]
         softening: f64,
-        /// Of more than a thousand spheres, those in a cube count as one where its edge divided by its
-        /// distance is less than this, in [0, 1]; with 0 every pair is summed.
+        /// Accuracy above a thousand spheres, in [0, 1]: a cube of spheres counts as one if its edge divided by its
+        /// distance is smaller. With 0 every pair is summed.
         #[schemars(range(min = 0.0, max = 1.0))]
         #[serde(default = "half")]
         opening_angle: f64,
     },
     /// Viscous drag in a wind that is the same everywhere.
     Wind {
-        /// Of the air, in m/s.
+        /// Velocity of the air, in m/s.
         velocity: Vector,
         /// Drag coefficient, in kg/s, >= 0.
         #[schemars(range(min = 0.0))]
         coefficient: f64,
     },
-    /// Viscous drag in air that goes round an axis.
+    /// Viscous drag in air that circles an axis.
     Vortex {
         /// A point of the axis, in m.
         #[serde(default)]
         position: Vector,
-        /// Direction of the axis, of any length but zero; the air goes round it by the right-hand rule.
+        /// Direction of the axis, of any length but zero. The air circles it by the right-hand rule.
         #[serde(default = "up")]
         axis: Vector,
         /// Circulation, in m²/s.
         circulation: f64,
-        /// Where the air is fastest, in m from the axis, > 0.
+        /// Distance from the axis at which the air is fastest, in m, > 0.
         #[schemars(extend("exclusiveMinimum" = 0.0))]
         core_radius: f64,
         /// Drag coefficient, in kg/s, >= 0.
@@ -80,31 +80,31 @@ pub enum Force {
     },
     /// Drag of a medium, proportional to the square of the velocity.
     QuadraticDrag {
-        /// Of the medium, in kg/m³, >= 0: 1.2 for air, 1000 for water.
+        /// Density of the medium, in kg/m³, >= 0: 1.2 for air, 1000 for water.
         #[schemars(range(min = 0.0))]
         density: f64,
         /// Drag coefficient, >= 0.
         #[schemars(range(min = 0.0))]
         #[serde(default = "newtons_drag")]
         drag_coefficient: f64,
-        /// Dynamic viscosity of the medium, in Pa s, >= 0. With one, the drag coefficient of slow spheres
-        /// depends on the Reynolds number.
+        /// Dynamic viscosity of the medium, in Pa s, >= 0. With it, the drag coefficient of slow spheres depends on the
+        /// Reynolds number.
         #[schemars(range(min = 0.0))]
         #[serde(default, skip_serializing_if = "is_default")]
         viscosity: f64,
-        /// Velocity of the medium, in m/s.
+        /// Velocity of the medium, in m/s. By default at rest.
         #[serde(default, skip_serializing_if = "is_default")]
         wind: Vector,
     },
     /// Buoyancy in a fluid with a level surface.
     Buoyancy {
-        /// Of the fluid, in kg/m³, >= 0.
+        /// Density of the fluid, in kg/m³, >= 0.
         #[schemars(range(min = 0.0))]
         density: f64,
         /// Height of the surface above the origin, in m.
         #[serde(default)]
         surface_height: f64,
-        /// Acceleration of gravity, in m/s², not zero: it makes the fluid heavy, and says where up is.
+        /// Acceleration of gravity in the fluid, in m/s², not zero. It points down.
         #[serde(default = "earth")]
         gravity: Vector,
     },

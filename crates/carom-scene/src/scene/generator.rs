@@ -21,18 +21,18 @@ pub enum Generator {
     /// Close packing of equal spheres in hexagonal layers, one above the other along +y: in a layer
     /// rows run along x, and every second row is shifted by half a sphere.
     ClosePacking {
-        /// How many spheres in a row, layers, and rows in a layer: along x, y and z, each >= 1.
+        /// Spheres in a row, layers, and rows in a layer (along x, y and z), each >= 1.
         counts: [u32; 3],
         /// Centre of the first, in m.
         start: Vector,
-        /// Distance of the centres of neighbours, in m, > 0; the diameter where it is missing.
+        /// Distance of the centres of neighbours, in m, > 0. By default the diameter.
         #[schemars(extend("exclusiveMinimum" = 0.0))]
         #[serde(default, skip_serializing_if = "Option::is_none")]
         spacing: Option<f64>,
         /// The order of layers.
         #[serde(default)]
         stacking: Stacking,
-        /// What they have in common.
+        /// Properties of the spheres.
         sphere: Sphere,
     },
     /// Spheres or colliders evenly on a circle.
@@ -42,20 +42,20 @@ pub enum Generator {
         /// How many, >= 1.
         #[schemars(range(min = 1))]
         count: u32,
-        /// Lower corner of the box that holds the whole spheres, in m.
+        /// Lower corner of the box, in m. Whole spheres lie in it.
         min: Vector,
         /// Upper corner of the box, in m.
         max: Vector,
-        /// The same seed gives the same scene.
+        /// Seed; the same seed gives the same scene.
         seed: u32,
-        /// Speed, in m/s, >= 0, in a random direction, on top of the common velocity.
+        /// Speed in a random direction, in m/s, >= 0, added to the velocity of `sphere`.
         #[schemars(range(min = 0.0))]
         #[serde(default)]
         speed: f64,
-        /// Smallest and largest radius, in m, evenly distributed, instead of the common one.
+        /// Smallest and largest radius, in m, evenly distributed, instead of that of `sphere`.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         radius_range: Option<[f64; 2]>,
-        /// What they have in common.
+        /// Properties of the spheres.
         sphere: Sphere,
     },
 }
@@ -70,13 +70,12 @@ pub struct Row {
     pub count: u32,
     /// Centre of the first, in m.
     pub start: Vector,
-    /// From each centre to the next, in m.
+    /// Vector from each place to the next, in m.
     pub step: Vector,
-    /// What spheres have in common. Give this or `collider`.
+    /// Properties of the spheres. Give this or `collider`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sphere: Option<Sphere>,
-    /// What colliders have in common; its position is an offset, its name gets its number.
-    /// Give this or `sphere`.
+    /// Properties of the colliders. The position is an offset; the name gets a number. Give this or `sphere`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub collider: Option<Collider>,
 }
@@ -92,11 +91,11 @@ pub struct Lattice {
     pub start: Vector,
     /// Distance of neighbours along x, y and z, in m.
     pub spacing: Vector,
-    /// What spheres have in common. Give this or `collider`.
+    /// Properties of the spheres. Give this or `collider`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sphere: Option<Sphere>,
-    /// What colliders have in common; its position is an offset, its name gets its numbers along x, y and z.
-    /// Give this or `sphere`.
+    /// Properties of the colliders. The position is an offset; the name gets numbers along x, y and z. Give this or
+    /// `sphere`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub collider: Option<Collider>,
 }
@@ -109,20 +108,20 @@ pub struct Ring {
     /// How many, >= 1.
     #[schemars(range(min = 1))]
     pub count: u32,
-    /// Of the circle, in m.
+    /// Centre of the circle, in m.
     pub center: Vector,
-    /// From the centre of the circle to the places, in m, > 0.
+    /// Radius of the circle, in m, > 0.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub radius: f64,
-    /// Direction about which they go round, by the right-hand rule; of any length but zero. The
-    /// first is at the side of +x, or of +y where the axis is nearly along x.
+    /// Axis of the circle, of any length but zero. Places follow the right-hand rule. The first is at the side of
+    /// +x, or of +y if the axis is nearly along x.
     #[serde(default = "up")]
     pub axis: Vector,
-    /// What spheres have in common. Give this or `collider`.
+    /// Properties of the spheres. Give this or `collider`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sphere: Option<Sphere>,
-    /// The first collider, its position an offset; it is turned about the axis to make the others,
-    /// with its velocities. Its name gets the number of each. Give this or `sphere`.
+    /// The first collider; the position is an offset. The others are turned about the axis, with their velocities; the
+    /// name gets a number. Give this or `sphere`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub collider: Option<Collider>,
 }
@@ -135,21 +134,21 @@ pub struct StaggeredRows {
     /// How many rows, >= 1.
     #[schemars(range(min = 1))]
     pub rows: u32,
-    /// How many in each row, >= 1: [13, 12] staggers rows, [1, 2, 3] is a triangle. Where there are
-    /// more rows than numbers, these begin anew.
+    /// Places in each row, >= 1: [13, 12] staggers rows, [1, 2, 3] is a triangle. If there are more rows than numbers,
+    /// the numbers repeat.
     #[schemars(length(min = 1))]
     pub counts: Vec<u32>,
     /// Centre of the first of the first row, in m.
     pub start: Vector,
-    /// From each to the next in a row, in m.
+    /// Vector from each place to the next in a row, in m.
     pub step: Vector,
-    /// From the middle of each row to that of the next, in m.
+    /// Vector from the middle of each row to that of the next, in m.
     pub row_step: Vector,
-    /// What spheres have in common. Give this or `collider`.
+    /// Properties of the spheres. Give this or `collider`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sphere: Option<Sphere>,
-    /// What colliders have in common; its position is an offset, its name gets the numbers of row
-    /// and place. Give this or `sphere`.
+    /// Properties of the colliders. The position is an offset; the name gets the numbers of row and place. Give this or
+    /// `sphere`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub collider: Option<Collider>,
 }
@@ -165,7 +164,7 @@ impl StaggeredRows {
     }
 }
 
-/// In which order the layers of a close packing follow each other.
+/// Order of the layers of a close packing.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stacking {

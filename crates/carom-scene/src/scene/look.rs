@@ -6,12 +6,12 @@ use serde::{Deserialize, Serialize};
 use super::rotation;
 use super::values::{Color, Quaternion, Vector, one, unturned};
 
-/// Where to look from. The camera looks along its local -z.
+/// A camera. It looks along its local -z.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "WrittenCamera")]
 #[schemars(with = "WrittenCamera")]
 pub struct Camera {
-    /// In m.
+    /// Position, in m.
     pub position: Vector,
     /// Rotation of the camera.
     pub rotation: Quaternion,
@@ -23,18 +23,18 @@ pub struct Camera {
     pub far: f64,
 }
 
-/// Where to look from. The camera looks along its local -z.
+/// A camera. It looks along its local -z.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "Camera")]
 struct WrittenCamera {
-    /// In m.
+    /// Position, in m.
     position: Vector,
-    /// Rotation of the camera; unturned where neither it nor `look_at` is given.
+    /// Rotation. Give this or `look_at`.
     #[schemars(with = "rotation::Rotation")]
     #[serde(default, deserialize_with = "rotation::read_some")]
     rotation: Option<Quaternion>,
-    /// A point to look at instead of a rotation, in m; +y is upward in the picture.
+    /// Point to look at, in m; +y is up in the picture.
     look_at: Option<Vector>,
     /// Vertical field of view, in degrees, in (0, 180).
     #[schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = 180.0))]
@@ -93,20 +93,20 @@ pub struct Sun {
     pub intensity: f64,
 }
 
-/// Colours of what has none of its own.
+/// Colours of things without their own colour.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Colors {
-    /// Behind everything.
+    /// Colour of the background.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub background: Option<Color>,
-    /// Colliders.
+    /// Colour of colliders.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub colliders: Option<Color>,
-    /// Spheres whose density is not listed.
+    /// Colour of spheres of other densities.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spheres: Option<Color>,
-    /// Spheres by their density.
+    /// Colours of spheres by density.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub densities: Vec<DensityColor>,
 }
@@ -115,9 +115,9 @@ pub struct Colors {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DensityColor {
-    /// In kg/m³, > 0
+    /// Density, in kg/m³, > 0.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub density: f64,
-    /// Their colour.
+    /// Colour of these spheres.
     pub color: Color,
 }

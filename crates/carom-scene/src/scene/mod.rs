@@ -31,24 +31,24 @@ pub use sphere::Sphere;
 pub use spring::Spring;
 pub use values::{Color, Quaternion, Vector};
 
-/// A Carom scene: spheres, what acts on them, what they bounce off, and how to look at it.
-/// Right-handed frame, y up, SI units.
+/// A Carom scene: spheres, forces, surfaces, and how the scene looks. The coordinate system is right-handed, y is up,
+/// units are SI.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
-    /// Short name, as typed on the command line; that of the file without its ending, unless given.
+    /// Short name, as typed on the command line. By default that of the file without its ending.
     #[serde(default)]
     pub name: String,
-    /// Name as shown to people; the scene is found by it too.
+    /// Name that people see; the scene is also found by it.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub title: String,
-    /// What there is to see, in a sentence or two.
+    /// What the scene shows, in a sentence or two.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub description: String,
-    /// Where the scene comes from.
+    /// Source of the scene.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub origin: String,
-    /// How the scene is stepped.
+    /// Rule, frame and other settings of the simulation.
     #[serde(default)]
     pub simulation: Simulation,
     /// Forces on every sphere; they add up.
@@ -57,25 +57,25 @@ pub struct Scene {
     /// Single spheres.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub spheres: Vec<Sphere>,
-    /// Places for many spheres or colliders, which come after the single ones.
+    /// Places for many spheres or colliders. They come after the single ones.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub generators: Vec<Generator>,
     /// Springs and threads, between spheres or from one to a fixed point.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub springs: Vec<Spring>,
-    /// Fixed shapes, in the order in which the rule `discrete` looks at them.
+    /// Surfaces, in the order in which the rule `discrete` tests them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub colliders: Vec<Collider>,
     /// Sources of spheres.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub emitters: Vec<Emitter>,
-    /// Where to look from; fitted to the scene where it is missing.
+    /// Camera. By default one that shows the whole scene.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub camera: Option<Camera>,
     /// The light.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sun: Option<Sun>,
-    /// Colours of what has none of its own.
+    /// Colours of things without their own colour.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub colors: Option<Colors>,
 }

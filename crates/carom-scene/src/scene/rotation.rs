@@ -23,14 +23,14 @@ pub(super) enum Rotation {
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Turn {
-    /// Axis of the turn, of any length but zero; counterclockwise, seen against it.
+    /// Axis of the turn, of any length but zero. The turn is counterclockwise, seen against the axis.
     axis: Option<Vector>,
     /// Angle of the turn about the axis, in degrees.
     degrees: Option<f64>,
-    /// Angles about the axes x, y and z, in degrees: turned about z first, then about x, then about y,
-    /// about axes that stay (the order of Unity's inspector).
+    /// Angles about the fixed axes x, y and z, in degrees, applied about z first, then x, then y (the order of Unity's
+    /// inspector).
     euler_degrees: Option<Vector>,
-    /// Where +y points to, of any length but zero: the normal of a half-space or rectangle.
+    /// Direction to which +y turns, of any length but zero: the normal of a half-space or rectangle.
     normal: Option<Vector>,
 }
 

@@ -5,28 +5,28 @@ use serde::{Deserialize, Serialize};
 
 use super::values::{Vector, is_default};
 
-/// How a scene is stepped.
+/// Rule, frame and other settings of the simulation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Simulation {
-    /// The step rule.
+    /// The rule.
     pub rule: Rule,
     /// Length of a frame, in s, > 0.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub frame_time: f64,
-    /// Time worth watching, in s, > 0: what `carom run` takes by default.
+    /// Time worth watching, in s, > 0. `carom run` runs for it by default.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub duration: f64,
-    /// Whether spheres collide with one another; with colliders they always do.
+    /// Whether spheres collide with each other. They always collide with colliders.
     pub spheres_collide: bool,
-    /// Restitution of a contact from that of its two bodies.
+    /// How the restitution of a contact follows from those of its bodies.
     pub combine_rule: CombineRule,
-    /// Friction of a contact from that of its two bodies.
+    /// How the friction of a contact follows from those of its bodies. By default `geometric-mean`.
     #[serde(skip_serializing_if = "is_geometric_mean")]
     pub friction_combine_rule: CombineRule,
     /// Whether spheres may overlap each other or colliders at the start.
     pub allow_overlap: bool,
-    /// What is around the spheres, besides colliders.
+    /// Open space or a periodic box.
     pub boundary: Boundary,
     /// Parameters of the rule `exact`.
     pub exact: Exact,
@@ -62,18 +62,18 @@ impl Default for Simulation {
     }
 }
 
-/// A step rule.
+/// How the world goes through a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Rule {
-    /// Move every sphere by the frame, then answer what overlaps (the course's rule).
+    /// Moves every sphere by the frame, then answers overlaps (the course's rule).
     Discrete,
-    /// Wind back what intersects and find the time of contact by bisection (the tutorial's rule).
+    /// Winds back what intersects and finds the time of contact by bisection (the tutorial's rule).
     Bisect,
-    /// Fly in closed form from impact to impact, each at its own time: nothing is missed.
+    /// Flies in closed form from impact to impact, each at its own time; misses nothing.
     #[default]
     Exact,
-    /// Cut frames into sub-steps and solve all contacts of each together: for heaps and friction.
+    /// Cuts frames into sub-steps and solves all contacts of each together; for heaps and friction.
     Contact,
 }
 
@@ -104,29 +104,29 @@ impl std::fmt::Display for Rule {
     }
 }
 
-/// How impacts at one instant among spheres that touch are answered.
+/// Law for several impacts at one instant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ImpactLaw {
-    /// Pair after pair, as other engines do; it breaks symmetries.
+    /// One pair after the other, as other engines do. Breaks symmetries.
     Sequential,
-    /// Newton's law of restitution at all contacts at once; it does not pass impacts on.
+    /// Newton's law at all contacts at once. Does not pass impacts on.
     Simultaneous,
-    /// Generalized reflection: keeps symmetries, and passes impacts on as Newton's cradle does.
+    /// Generalized reflection. Keeps symmetries and passes impacts on, as Newton's cradle does.
     #[default]
     Reflection,
 }
 
-/// What is around the spheres, besides colliders.
+/// Open space or a periodic box.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Boundary {
-    /// Nothing.
+    /// Open space.
     #[default]
     Open,
-    /// A box about the origin that repeats itself without end; only with the rule `exact`.
+    /// A periodic box about the origin; only under the rule `exact`.
     Periodic {
-        /// Edges, in m, each > 0; `inf` along an axis that is open.
+        /// Edges, in m, each > 0; `inf` along an open axis.
         size: Vector,
     },
 }
@@ -135,28 +135,29 @@ pub enum Boundary {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Exact {
-    /// How impacts at one instant among spheres that touch are answered.
+    /// Law for several impacts at one instant.
     pub impact_law: ImpactLaw,
-    /// How long a contact lasts at least, in s, > 0: bodies that would meet again sooner stay together.
+    /// Shortest duration of a contact, in s, > 0. Bodies that would meet again sooner stay in contact.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub contact_duration: f64,
-    /// Impacts and other work per sphere in a frame, >= 1; more makes a stepped zone, or without zones is
+    /// Most impacts and other work of a sphere in a frame, >= 1. More makes a stepped zone; without zones the step is
     /// refused.
     #[schemars(range(min = 1))]
     pub max_impacts: u32,
-    /// Whether spheres in contact that take too much work are stepped.
+    /// Whether spheres in contact that take too much work are stepped. By default `automatic`.
     #[serde(skip_serializing_if = "is_default")]
     pub zones: Zones,
-    /// Work of a group of spheres in a tick, in contacts times iterations, >= 1; more makes a stepped zone.
+    /// Most work of a group of spheres in a tick, in contacts times iterations, >= 1. More makes a stepped zone. By
+    /// default 300,000.
     #[schemars(range(min = 1))]
     #[serde(skip_serializing_if = "is_default_zone_budget")]
     pub zone_budget: u32,
-    /// Time between two ticks, at which zones are stepped, in s, > 0.
+    /// Time between two ticks, at which zones are stepped, in s, > 0. By default 1/480.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     #[serde(skip_serializing_if = "is_default_zone_tick")]
     pub zone_tick: f64,
-    /// Time between two force ticks, in s, > 0: springs, forces between spheres and others that are not linear
-    /// are held constant from one to the next. It is halved where springs need it.
+    /// Time between two force ticks, in s, > 0. Springs and other forces that are not linear are constant from one to
+    /// the next. Stiff springs shorten it. By default 1/240.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     #[serde(skip_serializing_if = "is_default_force_tick")]
     pub force_tick: f64,
@@ -191,18 +192,18 @@ impl Default for Exact {
     }
 }
 
-/// What becomes of spheres in contact whose impacts take too much work.
+/// Treatment of spheres in contact whose impacts take too much work.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Zones {
-    /// They are stepped as by the rule `contact`, until they have come apart.
+    /// They are stepped by sub-steps of `contact` until they come apart.
     #[default]
     Automatic,
-    /// Every impact is answered, whatever it takes.
+    /// Every impact is answered.
     Never,
 }
 
-/// How spheres move under forces.
+/// Scheme that moves spheres under forces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Integrator {
@@ -239,18 +240,18 @@ pub enum CombineRule {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Bisect {
-    /// How spheres move under forces.
+    /// Scheme that moves spheres under forces.
     pub integrator: Integrator,
     /// Distance of surfaces that counts as touching, in m, >= 0.
     #[schemars(range(min = 0.0))]
     pub tolerance: f64,
-    /// Halvings in search of a contact, >= 1.
+    /// Halvings of a search for a contact, >= 1.
     #[schemars(range(min = 1))]
     pub max_halvings: u32,
-    /// How often two bodies may meet in a frame, >= 1; then the rest of it is taken in one piece.
+    /// Most impacts of two bodies in a frame, >= 1. After them the rest of the frame is one piece.
     #[schemars(range(min = 1))]
     pub max_impacts: u32,
-    /// Which spheres go through the pieces into which a contact cuts the frame.
+    /// Which spheres a contact winds back.
     pub wind_back: WindBack,
 }
 
@@ -267,14 +268,14 @@ impl Default for Bisect {
     }
 }
 
-/// Which spheres go through the pieces into which a contact cuts the frame.
+/// Which spheres a contact winds back.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum WindBack {
-    /// Those that take part in contacts of the same group.
+    /// Spheres of the same island.
     #[default]
     Touched,
-    /// All, as the tutorial does; slow for many spheres.
+    /// All spheres, as the tutorial does; slow for many.
     All,
 }
 
@@ -282,7 +283,7 @@ pub enum WindBack {
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Discrete {
-    /// How spheres move under forces.
+    /// Scheme that moves spheres under forces.
     pub integrator: Integrator,
 }
 
@@ -290,16 +291,16 @@ pub struct Discrete {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Contact {
-    /// Sub-steps of a frame, >= 1: overlaps fall with the square of their length.
+    /// Sub-steps of a frame, >= 1. Overlaps fall with the square of their length.
     #[schemars(range(min = 1))]
     pub sub_steps: u32,
     /// Sweeps over all contacts in a sub-step, >= 1.
     #[schemars(range(min = 1))]
     pub sweeps: u32,
-    /// Whether sweeps go on until the solution has converged: slow, to compare with.
+    /// Whether sweeps go on until the solution converges. Slow; for comparison.
     pub converged: bool,
-    /// Speed below which a ball that bears or is borne may fall asleep, as a part of `sqrt(a r)`, the speed after
-    /// falling through half its radius, >= 0; with 0 none sleeps.
+    /// Speed below which a supported ball may fall asleep, as a part of `sqrt(a r)`, >= 0. With 0 none sleeps. By
+    /// default 0.02.
     #[schemars(range(min = 0.0))]
     #[serde(skip_serializing_if = "is_default_sleep_speed")]
     pub sleep_speed: f64,

@@ -16,10 +16,10 @@ use super::values::{Color, Quaternion, Vector, is_default, is_unturned, one, unt
     "not" = { "required": ["mass", "density"] }
 ))]
 pub struct Sphere {
-    /// Centre, in m; in a generator or an emitter an offset from the place it gives.
+    /// Centre, in m. In a generator or an emitter: an offset from the place that it gives.
     #[serde(default)]
     pub position: Vector,
-    /// Velocity, in m/s; in an emitter in the emitter's frame.
+    /// Velocity, in m/s. In an emitter: in the emitter's coordinates.
     #[serde(default)]
     pub velocity: Vector,
     /// Radius, in m, > 0. Give this or `diameter`.
@@ -30,11 +30,11 @@ pub struct Sphere {
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub diameter: Option<f64>,
-    /// Mass, in kg, > 0; 1 unless this or `density` is given.
+    /// Mass, in kg, > 0; 1 if neither this nor `density` is given.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mass: Option<f64>,
-    /// Density, in kg/m³, > 0, instead of `mass`.
+    /// Density, in kg/m³, > 0. Give this or `mass`.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub density: Option<f64>,
@@ -42,41 +42,40 @@ pub struct Sphere {
     #[schemars(range(min = 0.0, max = 1.0))]
     #[serde(default = "one")]
     pub restitution: f64,
-    /// Coulomb's coefficient of friction, >= 0, under the rules `exact` and `contact`; that of what it touches
-    /// where it is missing.
+    /// Coulomb's coefficient of friction, >= 0, under the rules `exact` and `contact`. If missing, the other body's
+    /// value counts.
     #[schemars(range(min = 0.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction: Option<f64>,
-    /// Coefficient of rolling friction, >= 0; that of what it touches where it is missing.
+    /// Coefficient of rolling friction, >= 0. If missing, the other body's value counts.
     #[schemars(range(min = 0.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rolling_friction: Option<f64>,
-    /// Coefficient of spinning friction, >= 0; that of what it touches where it is missing.
+    /// Coefficient of spinning friction, >= 0. If missing, the other body's value counts.
     #[schemars(range(min = 0.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spinning_friction: Option<f64>,
-    /// Coefficient of tangential restitution in [0, 1]; that of what it touches where it is
-    /// missing.
+    /// Coefficient of tangential restitution in [0, 1]. If missing, the other body's value counts.
     #[schemars(range(min = 0.0, max = 1.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tangential_restitution: Option<f64>,
-    /// How it is turned at the start.
+    /// Orientation at the start.
     #[schemars(with = "rotation::Rotation")]
     #[serde(default = "unturned", deserialize_with = "rotation::read")]
     #[serde(skip_serializing_if = "is_unturned")]
     pub orientation: Quaternion,
-    /// How fast it turns, along the axis, in rad/s; in an emitter in the emitter's frame.
+    /// Angular velocity, in rad/s. In an emitter: in the emitter's coordinates.
     #[serde(default, skip_serializing_if = "is_default")]
     pub angular_velocity: Vector,
-    /// Moment of inertia divided by mass and square of the radius, > 0: 2/5 for a solid ball, 2/3
-    /// for a thin shell.
+    /// Moment of inertia divided by mass and square of the radius, > 0: 0.4 for a solid ball (default), 2/3 for a
+    /// thin shell.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     #[serde(default = "solid_ball", skip_serializing_if = "is_solid_ball")]
     pub inertia_factor: f64,
-    /// Colour; by density or the scene's own where it is missing.
+    /// Colour. If missing, that of its density, else that of the scene's spheres.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub color: Option<Color>,
-    /// How its surface takes light.
+    /// How its surface reflects light.
     #[serde(default, skip_serializing_if = "is_default")]
     pub finish: Finish,
 }

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use super::values::{Vector, is_default};
 
-/// A spring with a damper beside it, or a chain of such. Spheres are named by their numbers, from 0: the
-/// single ones of the scene first, then those of generators, each in the order of the file.
+/// A spring with a damper, or a chain of them. Numbers of spheres begin at 0: the single spheres of the scene first,
+/// then those of generators, each in the order of the file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("oneOf" = [
@@ -16,19 +16,19 @@ use super::values::{Vector, is_default};
     { "required": ["chain"] }
 ]))]
 pub struct Spring {
-    /// Numbers of the two spheres that it joins. Give this, `sphere` with `anchor`, or `chain`.
+    /// Numbers of the two joined spheres. Give this, `sphere` with `anchor`, or `chain`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spheres: Option<[u32; 2]>,
-    /// Number of the sphere that it joins to a fixed point.
+    /// Number of the sphere that is joined to a fixed point.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sphere: Option<u32>,
     /// The fixed point, in m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub anchor: Option<Vector>,
-    /// Numbers of the first and the last sphere of a chain: each is joined to the next one.
+    /// Numbers of the first and the last sphere of a chain. Each sphere is joined to the next one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub chain: Option<[u32; 2]>,
-    /// Length without force, in m, >= 0; the length at the start of the scene unless given.
+    /// Length without force, in m, >= 0. By default the length at the start.
     #[schemars(range(min = 0.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rest_length: Option<f64>,
@@ -39,7 +39,7 @@ pub struct Spring {
     #[schemars(range(min = 0.0))]
     #[serde(default, skip_serializing_if = "is_default")]
     pub damping: f64,
-    /// Whether it only pulls, as a thread does, which is slack up to its rest length.
+    /// Whether it only pulls, as a thread; it is slack up to its rest length.
     #[serde(default, skip_serializing_if = "is_default")]
     pub only_pulls: bool,
 }

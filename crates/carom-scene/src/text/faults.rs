@@ -1,4 +1,4 @@
-//! All faults of a scene at once.
+//! Finds all faults of a scene at once.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -15,19 +15,20 @@ use crate::scene::Scene;
 use crate::table::read;
 use crate::wording::SAYS_NOTHING;
 
-/// Faults of one scene in a list, at most: those after them are likely to follow from them.
+/// Most faults in a list: later ones probably follow from earlier ones.
 const MOST: usize = 20;
-/// Each takes as long as to read the scene. All together are to take as long as so many bytes.
+/// Each fault costs a reading of the scene; all readings together may take as long as one of a text
+/// of this length.
 const BYTES: usize = 4_000_000;
 
 impl Scene {
-    /// What is wrong with the text of a scene, within this budget: see [`SceneText::faults`].
+    /// Lists the faults in the text of a scene, within `budget`; see [`SceneText::faults`].
     pub fn faults(text: &str, source_name: &str, budget: Budget) -> Vec<Fault> {
         let (_, errors) = DeTable::parse_recoverable(text);
         if !errors.is_empty() {
             let of_syntax = |error: &toml::de::Error| of_syntax(source_name, text, error);
             let mut faults: Vec<Fault> = errors.iter().map(of_syntax).take(MOST).collect();
-            // The reader goes on after a slip, and meets it again.
+            // The parser continues after an error and may report it again.
             faults.dedup();
             return faults;
         }
@@ -38,14 +39,15 @@ impl Scene {
         }
     }
 
-    /// What is wrong with a scene file, within this budget, and those that it includes: see [`SceneText::faults`].
+    /// Lists the faults in a scene file and the files that it includes, within `budget`; see
+    /// [`SceneText::faults`].
     ///
     /// # Errors
-    /// If it cannot be read.
+    /// [`SceneError`] if the file cannot be read.
     pub fn faults_of_file(path: &Path, budget: Budget) -> Result<Vec<Fault>, SceneError> {
         match SceneText::from_file_within(path, budget) {
             Ok(text) => Ok(text.faults()),
-            // Of one file that is no TOML, all errors.
+            // If a single file is no TOML, list all errors of its syntax.
             Err(SceneError::Invalid(fault)) if fault.source_name == path.display().to_string() => {
                 let text = include::read_within(path, budget.bytes).unwrap_or_default();
                 let faults = Self::faults(&text, &fault.source_name, budget);
@@ -58,8 +60,9 @@ impl Scene {
 }
 
 impl SceneText {
-    /// What is wrong with it, in the order of its lines, up to twenty faults, fewer of a text of more than
-    /// 200 kB; nothing if [`Self::scene`] reads it. Of each sphere, collider and so on, it is the first fault.
+    /// Lists faults in the order of lines: at most twenty, fewer for a text of more than 200 kB;
+    /// none if [`Self::scene`] succeeds. Each sphere, collider and other element is listed with its
+    /// first fault.
     ///
     /// ```
     /// use carom_scene::SceneText;
@@ -76,7 +79,7 @@ impl SceneText {
         let (mut faults, mut taken): (Vec<Fault>, Vec<String>) = Default::default();
         let bytes: usize = self.sources.iter().map(|source| source.text.len()).sum();
         let most = (BYTES / bytes.max(1)).clamp(1, MOST);
-        // What follows from a fault that is known costs as much as another one.
+        // Faults that follow from known ones cost a reading, too.
         let mut tries = 10 * most;
         while faults.len() < most
             && tries > 0
@@ -86,7 +89,7 @@ impl SceneText {
             let field = as_written(&problem.field, &originals);
             let problem = Problem { field, ..problem };
             let found = self.fault(&problem);
-            // What was taken out is missing now.
+            // A field that this loop removed is no fault of the file.
             let is_our_doing = missing(&problem).is_some_and(|field| taken.contains(&field))
                 || is_emptied(&problem, &taken);
             let is_known = faults.contains(&found);
@@ -103,14 +106,14 @@ impl SceneText {
                 break;
             }
         }
-        // The file itself comes first.
+        // Faults of the file itself come first.
         let is_included = |fault: &Fault| fault.source_name != self.name();
         faults.sort_by_key(|fault| (is_included(fault), fault.source_name.clone(), fault.line));
         faults
     }
 }
 
-/// The path of the field or the parameter that is missing, where that is the problem.
+/// Path of the missing field or parameter, if that is the problem.
 fn missing(problem: &Problem) -> Option<String> {
     if let Some(rest) = problem.problem.strip_prefix("unknown name `") {
         return Some(format!("{}.{}", parameters::TABLE, rest.split('`').next()?));
@@ -123,13 +126,13 @@ fn missing(problem: &Problem) -> Option<String> {
     })
 }
 
-/// Whether a table has nothing left of what was taken out of it.
+/// Whether a table is empty only because this module removed its fields.
 fn is_emptied(problem: &Problem, taken: &[String]) -> bool {
     let is_in = |field: &String| field.strip_prefix(&problem.field)?.strip_prefix('.').map(drop);
     problem.problem.starts_with(SAYS_NOTHING) && taken.iter().any(|field| is_in(field).is_some())
 }
 
-/// For each list of the table, which elements of it are left, by their places in the file.
+/// Remaining elements of each list, by their indices in the file.
 type Originals = BTreeMap<String, Vec<usize>>;
 
 fn originals(table: &Table) -> Originals {
@@ -137,7 +140,7 @@ fn originals(table: &Table) -> Originals {
     lists.map(|(name, list)| (name.clone(), (0..list.len()).collect())).collect()
 }
 
-/// The path of a field in the file, from the one in what is left of it.
+/// Converts a path in the remaining table to the path in the file.
 fn as_written(field: &str, originals: &Originals) -> String {
     let Some((list, rest)) = field.split_once('[') else { return field.to_owned() };
     let Some((place, rest)) = rest.split_once(']') else { return field.to_owned() };
@@ -148,10 +151,10 @@ fn as_written(field: &str, originals: &Originals) -> String {
     }
 }
 
-/// Takes out what a problem is about: a whole element of a list, or else the field alone. Returns
-/// whether there was anything.
+/// Removes the cause of a problem: a whole element of a list, or the field alone. Returns whether
+/// it removed something.
 fn take_out(table: &mut Table, problem: &Problem, originals: &mut Originals) -> bool {
-    // Of what lacks a field, all goes.
+    // An element that lacks a field is removed as a whole.
     let path = place_of(problem);
     let Some(first) = path.first().cloned() else { return false };
     if let (Some(Value::Array(list)), Some(left)) =
@@ -167,7 +170,7 @@ fn take_out(table: &mut Table, problem: &Problem, originals: &mut Originals) -> 
     take_out_of(table, &path) || table.remove(&first).is_some()
 }
 
-/// Takes the field at the end of a path out of tables in tables, if it is there.
+/// Removes the field at the end of a path from nested tables; returns whether it existed.
 fn take_out_of(table: &mut Table, path: &[String]) -> bool {
     match path {
         [] => false,

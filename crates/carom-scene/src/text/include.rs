@@ -12,22 +12,22 @@ use crate::error::{SceneError, did_you_mean};
 use crate::plain_text::{NotText, text_of};
 use crate::table::INCLUDE;
 
-/// Files of one scene at most: a slip, or somebody's joke, would read files without end.
+/// Most files of one scene: a mistake, or an attack, could include files without end.
 const MOST_FILES: usize = 100;
 
-/// Fields by which a scene is known, which those that include it do not take over.
+/// Fields that describe a file itself; they are not taken from included files.
 const OWN: [&str; 4] = ["name", "title", "description", "origin"];
 
-/// Lists of a scene: what included files have in them comes before what the file has itself.
+/// Lists of a scene: elements of included files come before those of the file.
 const LISTS: [&str; 6] = ["forces", "spheres", "generators", "springs", "colliders", "emitters"];
 
-/// Whether a field is a list of things that files of one scene have together.
+/// Whether a field is a list to which all files of a scene add elements.
 pub(super) fn is_list(field: &str) -> bool {
     LISTS.contains(&field)
 }
 
-/// A text and, before it, those of the files that it includes, in their order, but for those that were
-/// `met` before. `way` leads to it: the files that include each other.
+/// Returns the text of a file, after those of the files that it includes, in order and without
+/// those in `met`. `way` is the path of inclusion that leads to the file.
 pub(super) fn with_included(
     mut own: SourceText,
     way: &[PathBuf],
@@ -76,7 +76,7 @@ pub(super) fn with_included(
     Ok(sources)
 }
 
-/// The files that a file names, and those that these do, as far as they can be read.
+/// Lists a file and all files that it includes, directly or indirectly, as far as they can be read.
 pub(crate) fn named_files(path: &Path) -> Vec<PathBuf> {
     let mut files: Vec<PathBuf> = Vec::new();
     let mut waiting = vec![path.to_owned()];
@@ -92,7 +92,7 @@ pub(crate) fn named_files(path: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// One path or several.
+/// Reads one path or a list of paths.
 fn names(included: &Value) -> Option<Vec<&str>> {
     match included {
         Value::String(name) => Some(vec![name]),
@@ -113,7 +113,8 @@ fn read(path: &Path, most: u64) -> io::Result<String> {
     read_within(path, most)
 }
 
-/// The text of a file, or a pipe, that has no more than so many bytes. Devices have no end.
+/// Reads a file or pipe of at most `most` bytes. The limit also stops the reading of endless
+/// devices.
 pub(super) fn read_within(path: &Path, most: u64) -> io::Result<String> {
     let mut bytes = Vec::new();
     File::open(path)?.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
@@ -129,11 +130,11 @@ fn no_scene(error: NotText) -> io::Error {
     io::Error::new(io::ErrorKind::InvalidData, format!("it is not a scene file: {error}"))
 }
 
-/// Fields of a table that say the same thing in two ways.
+/// Pairs of fields that state the same thing in two ways.
 const SAME: [(&str, &str); 2] = [("rotation", "look_at"), ("look_at", "rotation")];
 
-/// Lays a table over another: lists of things one behind the other, tables into each other; of
-/// other values, the upper ones count.
+/// Merges table `upper` into `lower`: lists of elements are appended, tables are merged, and other
+/// values are replaced.
 pub(super) fn lay_over(lower: &mut Table, upper: Table) {
     for (one, other) in SAME {
         if upper.contains_key(one) {

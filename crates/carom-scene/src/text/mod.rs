@@ -1,4 +1,4 @@
-//! The text of a scene, to scenes, and the place in it of every error.
+//! Texts of scenes: reads scenes from them, and finds the line of every error.
 
 mod faults;
 mod include;
@@ -19,7 +19,7 @@ use crate::scene::Scene;
 use crate::table::read;
 use crate::wording::{with_names, without_list};
 
-/// The text of a scene file, with those of the files that it includes.
+/// Text of a scene file, with those of the files that it includes.
 ///
 /// ```
 /// use carom_scene::SceneText;
@@ -32,37 +32,39 @@ use crate::wording::{with_names, without_list};
 /// ```
 #[derive(Debug, Clone)]
 pub struct SceneText {
-    /// Included ones first, each before the one that includes it; the file itself last.
+    /// Texts of all files; included ones come before the files that include them, the file itself
+    /// last.
     sources: Vec<SourceText>,
-    /// All that they say.
+    /// Merged content of all files.
     table: Table,
-    /// How much they may ask for.
+    /// Limits on the size of the scene.
     budget: Budget,
 }
 
 impl SceneText {
-    /// A text; `source_name` is what errors call it, and without its ending the name of a scene that has
-    /// none.
+    /// Parses a text. Errors call it `source_name`; a scene without a name gets that of the source,
+    /// without its ending.
     ///
     /// # Errors
-    /// [`SceneError::Invalid`] for text that is no TOML, or that includes a file.
+    /// [`SceneError::Invalid`] if the text is no TOML, or includes a file.
     pub fn new(text: &str, source_name: &str) -> Result<Self, SceneError> {
         Self::of(SourceText::new(source_name, text)?, &[], Budget::FILE)
     }
 
-    /// A file, and those that it includes.
+    /// Reads a file and the files that it includes.
     ///
     /// # Errors
-    /// [`SceneError::Unreadable`] if it cannot be read, [`SceneError::Invalid`] for what is no TOML, and
-    /// for a file it includes that cannot be read or includes it in turn.
+    /// [`SceneError::Unreadable`] if the file cannot be read. [`SceneError::Invalid`] if a file is
+    /// no TOML, or if an included file cannot be read or includes a file that includes it.
     pub fn from_file(path: &Path) -> Result<Self, SceneError> {
         Self::from_file_within(path, Budget::FILE)
     }
 
-    /// A file, and those that it includes, of a scene that may ask for this.
+    /// Reads a file and the files that it includes, within `budget`.
     ///
     /// # Errors
-    /// As [`Self::from_file`], and [`SceneError::Unreadable`] if a file has too many bytes.
+    /// The same as those of [`Self::from_file`], and [`SceneError::Unreadable`] if a file has too
+    /// many bytes.
     pub fn from_file_within(path: &Path, budget: Budget) -> Result<Self, SceneError> {
         let text = include::read_within(path, budget.bytes)
             .map_err(|source| SceneError::Unreadable { path: path.to_owned(), source })?;
@@ -70,7 +72,7 @@ impl SceneText {
         Self::of(own, &[path.to_owned()], budget)
     }
 
-    /// This text, of a scene that may ask for this; [`Budget::FILE`] unless given.
+    /// Sets the limits on the size of the scene; the default is [`Budget::FILE`].
     pub fn within(self, budget: Budget) -> Self {
         Self { budget, ..self }
     }
@@ -87,14 +89,14 @@ impl SceneText {
         Ok(Self { sources, table, budget })
     }
 
-    /// The scene, with some values changed.
+    /// Creates the scene, with overrides applied.
     ///
     /// # Errors
-    /// As [`Scene::from_toml_with`].
+    /// The same as those of [`Scene::from_toml_with`].
     pub fn scene(&self, overrides: &[Override]) -> Result<Scene, SceneError> {
         let table = self.changed(overrides)?;
         read(table, self.budget).map_err(|problem| {
-            // Without overrides, or if the file is wrong by itself, the file is to blame.
+            // The file is to blame if there are no overrides, or if it is invalid without them.
             let own = if overrides.is_empty() {
                 Some(problem.clone())
             } else {
@@ -109,7 +111,7 @@ impl SceneText {
                 cause = overrides.iter().collect();
             }
             let cause: Vec<_> = cause.iter().map(|it| it.to_string()).collect();
-            // What goes by its name alone may be meant for a parameter.
+            // An unknown name without a path may be meant as a parameter.
             let Problem { field, problem } = problem;
             let problem = with_names(problem, &field, self.parameter_names());
             let mut fault = Box::new(fault(self.name(), None, &field, &problem));
@@ -123,16 +125,16 @@ impl SceneText {
         })
     }
 
-    /// The numbers that the text gives names to (`[parameters]`), in its order, with some values
-    /// changed: `parameters.NAME=VALUE` as an override changes one.
+    /// Returns the parameters (`[parameters]`) in the order of the text, with overrides applied:
+    /// `parameters.NAME=VALUE` changes one.
     ///
     /// # Errors
-    /// As [`Self::scene`], for the parameters alone.
+    /// The same as those of [`Self::scene`], for the parameters only.
     pub fn parameters(&self, overrides: &[Override]) -> Result<Vec<Parameter>, SceneError> {
         Ok(parameters::list(&self.changed(overrides)?).map_err(|problem| self.fault(&problem))?)
     }
 
-    /// One text that says what all files say: that of the file itself, where it includes none.
+    /// Returns one text with the content of all files; a single file is returned unchanged.
     pub fn whole(&self) -> Cow<'_, str> {
         match &self.sources[..] {
             [own] => Cow::Borrowed(&own.text),
@@ -140,7 +142,7 @@ impl SceneText {
         }
     }
 
-    /// What errors call it: where it was read from.
+    /// Name of the text in errors: the path from which it was read.
     pub fn name(&self) -> &str {
         self.sources.last().map_or("", |own| &own.name)
     }
@@ -151,7 +153,7 @@ impl SceneText {
         Ok(table)
     }
 
-    /// The first path that leads to a field of this name in a list of the scene.
+    /// First path to a field of this name in a list of the scene.
     fn path_to(&self, name: &str) -> Option<String> {
         let lists = self.table.iter().filter(|(list, _)| include::is_list(list));
         lists.filter_map(|(list, value)| Some((list, value.as_array()?))).find_map(|(list, all)| {
@@ -165,11 +167,11 @@ impl SceneText {
         table.into_iter().flat_map(Table::keys).map(String::as_str)
     }
 
-    /// A problem with a field, in the file and the line where it is written.
+    /// Locates a problem in the file and line that state the field.
     fn fault(&self, problem: &Problem) -> Fault {
         let place = place_of(problem);
         if let Some((source, skipped)) = self.source_of_element(&place) {
-            // Files count their things from the first.
+            // Indices in errors count within one file.
             let place = renumbered(&place, skipped);
             let field = match problem.field.split_once(']') {
                 Some((_, rest)) => format!("{}[{}]{rest}", place[0], place[1]),
@@ -178,7 +180,8 @@ impl SceneText {
             let line = source.line_of(&place).map(|(line, _)| line);
             return fault(&source.name, line, &field, &problem.problem);
         }
-        // Of several files that say something of a table, the last that says most of it counts.
+        // If several files state the field, choose the last of those that contain the longest part
+        // of its path.
         let found = self.sources.iter().map(|source| (source, source.line_of(&place)));
         let found = found.max_by_key(|(_, found)| found.map_or(0, |(_, steps)| steps));
         let (name, line) = found.map_or((self.name(), None), |(source, found)| {
@@ -187,8 +190,8 @@ impl SceneText {
         fault(name, line, &problem.field, &problem.problem)
     }
 
-    /// The file that has the element of a list to which a path leads, and how many elements the
-    /// files before it have.
+    /// Returns the file that contains the element of a list at `place`, and the number of elements
+    /// in the files before it.
     fn source_of_element(&self, place: &[String]) -> Option<(&SourceText, usize)> {
         let [list, index, ..] = place else { return None };
         let index: usize = index.parse().ok()?;
@@ -204,7 +207,7 @@ impl SceneText {
     }
 }
 
-/// A path to an element of a list, without those `skipped` before it.
+/// Subtracts `skipped` from the index of an element in a path.
 fn renumbered(place: &[String], skipped: usize) -> Vec<String> {
     let renumber = |(i, name): (usize, &String)| match name.parse::<usize>() {
         Ok(index) if i == 1 => (index - skipped).to_string(),
@@ -213,10 +216,10 @@ fn renumbered(place: &[String], skipped: usize) -> Vec<String> {
     place.iter().enumerate().map(renumber).collect()
 }
 
-/// The place of what a problem is about, as names and indices.
+/// Path of the cause of a problem, as names and indices.
 fn place_of(problem: &Problem) -> Vec<String> {
     let mut place = segments(&problem.field);
-    // "unknown field `x`" is reported at the table that holds x; a field that is missing has no place.
+    // "unknown field `x`" is reported at the table that contains x; a missing field has no place.
     if !problem.problem.starts_with("missing field") {
         place.extend(problem.problem.split('`').nth(1).map(str::to_owned));
     }

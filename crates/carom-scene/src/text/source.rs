@@ -1,4 +1,4 @@
-//! The text of one file, and places in it.
+//! Text of one file, and the lines of its fields.
 
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table};
@@ -6,31 +6,31 @@ use toml::{Spanned, Table};
 use crate::error::Fault;
 use crate::wording::{slip_of_syntax, suggestion, without_list};
 
-/// The text of a scene file, or of a part of one.
+/// Text of a scene file, or of a part of one.
 #[derive(Debug, Clone)]
 pub(super) struct SourceText {
-    /// What errors call it.
+    /// Name of the text in errors.
     pub name: String,
     pub text: String,
-    /// What it says.
+    /// Parsed content.
     pub table: Table,
 }
 
 impl SourceText {
-    /// A text that is TOML.
+    /// Parses a text as TOML.
     pub fn new(name: &str, text: &str) -> Result<Self, Fault> {
         let table = toml::from_str(text).map_err(|error| of_syntax(name, text, &error))?;
         Ok(Self { name: name.to_owned(), text: text.to_owned(), table })
     }
 
-    /// Something wrong with a field of it.
+    /// Creates a fault at the line of a field.
     pub fn fault(&self, field: &str, problem: &str) -> Fault {
         let place: Vec<String> = crate::error::segments(field);
         fault(&self.name, self.line_of(&place).map(|(line, _)| line), field, problem)
     }
 
-    /// Line of what is at the end of a path of names and indices, or the nearest thing around it
-    /// that is written here; and how many steps of the path lead there.
+    /// Finds the line of the value at `path`, or of the nearest value around it in this text. Also
+    /// returns how many steps of the path exist.
     pub fn line_of(&self, path: &[String]) -> Option<(usize, usize)> {
         let document = DeTable::parse(&self.text).ok()?;
         let (first, rest) = path.split_first()?;
@@ -55,7 +55,7 @@ impl SourceText {
     }
 }
 
-/// What the reader of TOML says.
+/// Converts a syntax error of the TOML parser.
 pub(super) fn of_syntax(name: &str, text: &str, error: &toml::de::Error) -> Fault {
     let Some(span) = error.span() else {
         let place = DeTable::parse(text).ok().and_then(|it| too_large_in(it.get_ref()));
@@ -67,10 +67,10 @@ pub(super) fn of_syntax(name: &str, text: &str, error: &toml::de::Error) -> Faul
     fault(name, Some(line_at(text, span.start)), "", problem)
 }
 
-/// What is wrong with an integer that the reader of tables takes for none, without its place.
+/// Problem of an integer that the parser refuses without giving its place.
 const TOO_LARGE: &str = "the integer is too large: 9223372036854775807 is the largest";
 
-/// Where the first integer is that does not fit into 64 bits with a sign.
+/// Position of the first integer that does not fit into 64 bits with a sign.
 fn too_large_in(table: &DeTable) -> Option<usize> {
     table.iter().find_map(|(_, value)| too_large(value))
 }

@@ -1,4 +1,4 @@
-//! Links to addresses.
+//! Writes links as addresses.
 
 use std::fmt;
 
@@ -9,8 +9,8 @@ use super::rule::rule_of_override;
 use super::run::{Link, LinkSource};
 use super::written;
 
-/// What is written as `%..` in a value: all but what people read easily, and no mail or chat takes
-/// for the end of an address.
+/// Characters that are written as `%..` in a value: all except those that are readable and that no
+/// mail or chat program takes as the end of an address.
 const ENCODED: &AsciiSet = &NON_ALPHANUMERIC
     .remove(b'-')
     .remove(b'.')
@@ -22,7 +22,7 @@ const ENCODED: &AsciiSet = &NON_ALPHANUMERIC
     .remove(b'/');
 
 impl Link {
-    /// The part of an address after `#`.
+    /// Writes the link as the part of an address after `#`.
     pub fn to_fragment(&self) -> String {
         fragment(self)
     }
@@ -34,7 +34,7 @@ impl fmt::Display for Link {
     }
 }
 
-/// The part of an address after `#`.
+/// Writes the link as the part of an address after `#`.
 fn fragment(link: &Link) -> String {
     let mut parts = Vec::new();
     match &link.source {
@@ -71,7 +71,7 @@ fn encoded(text: &str) -> String {
     utf8_percent_encode(text, ENCODED).to_string()
 }
 
-/// A number in the fewest digits that give it back.
+/// Writes a number with the fewest digits that preserve it.
 fn number(value: f64) -> String {
     let text = format!("{value:?}");
     text.strip_suffix(".0").map_or_else(|| text.clone(), str::to_owned)

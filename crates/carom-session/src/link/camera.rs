@@ -1,29 +1,29 @@
-//! Where a link looks from.
+//! Camera of a link.
 
 use carom::DVec3;
 
 use super::error::{LinkError, quoted};
 
-/// A camera may be off by this part of its distance: a tenth of a pixel of a large picture.
+/// Largest error of a camera's position, relative to its distance: a tenth of a pixel of a large
+/// picture.
 const SEEN: f64 = 3e-5;
 
-/// The field of view of cameras that do not say \[°\].
+/// Default field of view \[°\].
 const USUAL_FOV_DEGREES: f64 = 35.0;
 
-/// Where a run is looked at from, and which point is in the middle of the picture.
+/// Position and target of a camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinkCamera {
-    /// \[m\]
+    /// Position of the camera \[m\].
     pub position: DVec3,
-    /// \[m\], elsewhere than the position.
+    /// Point in the middle of the picture \[m\]; differs from the position.
     pub target: DVec3,
     /// Vertical field of view \[°\], in (0, 180).
     pub vertical_fov_degrees: f64,
 }
 
 impl LinkCamera {
-    /// As it is written: position and target in so few digits that people can read them, then the
-    /// field of view where it is not the usual one.
+    /// Writes position and target with few digits, then the field of view if it is not the default.
     pub(super) fn written(&self) -> String {
         let slack = SEEN * self.position.distance(self.target);
         let places = self.position.to_array().into_iter().chain(self.target.to_array());
@@ -33,10 +33,11 @@ impl LinkCamera {
         numbers.collect::<Vec<_>>().join(",")
     }
 
-    /// Reads what is written so.
+    /// Reads a camera from this form.
     ///
     /// # Errors
-    /// [`LinkError::Camera`] unless these are six numbers, of two places apart, or seven with a field of view.
+    /// [`LinkError::Camera`] unless the text has six numbers, of two different points, or seven
+    /// with a field of view.
     pub(super) fn read(text: &str) -> Result<Self, LinkError> {
         let wrong = || LinkError::Camera { found: quoted(text) };
         let numbers: Result<Vec<f64>, _> = text.split(',').map(str::parse).collect();
@@ -51,7 +52,7 @@ impl LinkCamera {
         Self { position, target, vertical_fov_degrees }.checked().ok_or_else(wrong)
     }
 
-    /// This one, if it looks anywhere.
+    /// Returns the camera if its direction and field of view are valid.
     fn checked(self) -> Option<Self> {
         let distance = self.position.distance(self.target);
         let fov = self.vertical_fov_degrees;
@@ -59,7 +60,7 @@ impl LinkCamera {
     }
 }
 
-/// A number in the fewest decimals that are nearer to it than `slack`.
+/// Writes a number with the fewest decimals whose error is at most `slack`.
 fn short(value: f64, slack: f64) -> String {
     let rounded = (0..=15).map(|decimals| format!("{value:.decimals$}"));
     let is_near = |text: &String| text.parse().is_ok_and(|it: f64| (it - value).abs() <= slack);

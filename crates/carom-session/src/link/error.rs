@@ -1,4 +1,4 @@
-//! What can be wrong with a link.
+//! Errors of links.
 
 use carom_scene::scene::Rule;
 use carom_scene::{Fault, SceneError, legible};
@@ -9,9 +9,9 @@ use super::packed::PackedError;
 /// Names of the parts of a link.
 const PARTS: [&str; 8] = ["scene", "file", "name", "set", "rule", "edits", "t", "camera"];
 
-/// The beginning of what a link says, in one line.
+/// Quotes the beginning of a text in one line.
 pub fn quoted(text: &str) -> String {
-    /// In characters.
+    /// Most characters.
     const LONGEST: usize = 40;
     legible(text, LONGEST)
 }
@@ -20,54 +20,54 @@ pub fn quoted(text: &str) -> String {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum LinkError {
-    /// It says nothing.
+    /// The link is empty.
     #[error("the link says nothing: after # it needs scene=NAME or file=...")]
     Empty,
-    /// A part of it has no known name.
+    /// A part has an unknown name.
     #[error("the link has a part \"{part}\"; links know only {}", PARTS.join(", "))]
     Unknown {
-        /// As it is written, shortened.
+        /// The part as written, shortened.
         part: String,
     },
-    /// It says something twice that it can say once.
+    /// A part occurs twice.
     #[error("the link says {part} twice")]
     Repeated {
         /// Name of the part.
         part: &'static str,
     },
-    /// It names no scene.
+    /// The link names no scene.
     #[error("the link names no scene: it needs scene=NAME or file=...")]
     NoScene,
-    /// It names two scenes.
+    /// The link names two scenes.
     #[error("the link says both scene and file; it can lead to one of them only")]
     TwoScenes,
-    /// A part that belongs to a file, without one.
+    /// The link names a file but contains none.
     #[error("the link says name, which is for a file, but no file")]
     NameOfNoFile,
-    /// A part is no text.
+    /// A part is not valid text.
     #[error("{part} of the link is garbled: it is no text")]
     NoText {
         /// Name of the part.
         part: &'static str,
     },
-    /// It names no rule.
+    /// The rule is unknown.
     #[error("the link says rule={found}; the rules are {}", Rule::NAMES.join(", "))]
     Rule {
-        /// As it is written, shortened.
+        /// The rule as written, shortened.
         found: String,
     },
-    /// Its time is none.
+    /// The time is invalid.
     #[error("the link says t={found}; the time must be a number of seconds, zero or positive")]
     Time {
-        /// As it is written, shortened.
+        /// The time as written, shortened.
         found: String,
     },
-    /// It looks from nowhere.
+    /// The camera is invalid.
     #[error(
         "the link says camera={found}; it must be x,y,z to look from and x,y,z to look at, in m, and may have a field of view in degrees"
     )]
     Camera {
-        /// As it is written, shortened.
+        /// The camera as written, shortened.
         found: String,
     },
     /// A packed part cannot be unpacked.
@@ -75,16 +75,16 @@ pub enum LinkError {
     Packed {
         /// Name of the part.
         part: &'static str,
-        /// Why.
+        /// Error of unpacking.
         source: PackedError,
     },
-    /// The changes on the way cannot be read.
+    /// The edits cannot be read.
     #[error("edits of the link make no sense: {problem}")]
     Edits {
-        /// What is wrong with them.
+        /// What is wrong with the edits.
         problem: String,
     },
-    /// Something is wrong with its scene, or an override of it. What it quotes of the link is shortened.
+    /// The scene or an override is invalid. Quotations of the link are shortened.
     #[error(transparent)]
     Scene(SceneError),
 }
@@ -95,7 +95,7 @@ impl From<SceneError> for LinkError {
     }
 }
 
-/// The error of a scene with short quotations: all that it quotes was written by the author of the link.
+/// Shortens the quotations in an error of a scene, which the author of the link wrote.
 fn brief(error: SceneError) -> SceneError {
     match error {
         SceneError::Invalid(fault) => SceneError::Invalid(brief_fault(fault)),
@@ -123,9 +123,9 @@ fn brief_fault(fault: Fault) -> Fault {
     }
 }
 
-/// What is wrong, in at most some lines of a window.
+/// Shortens a problem to a few lines of a window.
 pub fn brief_problem(problem: &str) -> String {
-    /// In characters.
+    /// Most characters.
     const LONGEST: usize = 160;
     legible(problem, LONGEST)
 }

@@ -1,4 +1,4 @@
-//! Links: a run in the form of an address, to be had again elsewhere.
+//! Links: addresses that reproduce a run.
 
 mod address;
 mod camera;
@@ -17,5 +17,5 @@ pub use error::LinkError;
 pub use packed::{MAX_UNPACKED, PackedError};
 pub use run::{Link, LinkSource};
 
-/// Address of the page that opens links, where it is served on this machine.
+/// Address of the page that opens links if it is served on this machine.
 pub const LOCAL_PAGE: &str = "http://127.0.0.1:8042/";

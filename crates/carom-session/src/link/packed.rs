@@ -1,4 +1,4 @@
-//! Text in addresses: compressed by zlib, in base64 for addresses.
+//! Packed text in addresses: compressed by zlib, in URL-safe base64.
 
 use std::io::{Read, Write};
 
@@ -9,20 +9,20 @@ use flate2::read::ZlibDecoder;
 use flate2::write::ZlibEncoder;
 use thiserror::Error;
 
-/// Most that something packed may unpack to \[bytes\]: a scene of 50,000 single spheres, far more
-/// than an address can hold of any but the dullest; a reader of TOML takes fifty times as much memory.
+/// Largest unpacked text \[bytes\]: a scene of 50,000 single spheres, which is far more than fits
+/// into an address unless it is very repetitive. A TOML parser takes fifty times as much memory.
 pub const MAX_UNPACKED: usize = 8 << 20;
 
-/// Why something packed cannot be unpacked.
+/// Why a packed text cannot be unpacked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum PackedError {
-    /// Something in it was lost or changed.
+    /// Part of it is missing or changed.
     #[error("is cut short or garbled; was all of the link copied?")]
     Garbled,
-    /// It unpacks to more than is taken.
+    /// The text is too long.
     #[error("unpacks to more than {} MiB, which is more than is taken", MAX_UNPACKED >> 20)]
     TooLarge,
-    /// It unpacks to something else than text.
+    /// The content is not text.
     #[error("unpacks to something that is no text")]
     NoText,
 }
@@ -30,7 +30,7 @@ pub enum PackedError {
 /// Packs a text.
 pub fn pack(text: &str) -> String {
     let mut encoder = ZlibEncoder::new(Vec::new(), Compression::best());
-    // A vector takes whatever is written to it.
+    // Writing to a vector does not fail.
     let written = encoder.write_all(text.as_bytes()).and_then(|()| encoder.finish());
     URL_SAFE_NO_PAD.encode(written.unwrap_or_default())
 }
@@ -38,7 +38,7 @@ pub fn pack(text: &str) -> String {
 /// Unpacks a text.
 ///
 /// # Errors
-/// [`PackedError`]. Zlib ends with a check sum, so that a change of it is noticed.
+/// [`PackedError`]. Zlib data end with a checksum, so changes are detected.
 pub fn unpack(packed: &str) -> Result<String, PackedError> {
     let bytes = URL_SAFE_NO_PAD.decode(packed).map_err(|_| PackedError::Garbled)?;
     let mut decoder = ZlibDecoder::new(bytes.as_slice());

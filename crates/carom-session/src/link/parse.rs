@@ -1,4 +1,4 @@
-//! Addresses to links.
+//! Reads links from addresses.
 
 use std::str::FromStr;
 use std::sync::Arc;
@@ -15,7 +15,7 @@ use super::time::checked_time;
 use super::written;
 use crate::change::PastChange;
 
-/// The values of a link as they are written, of those that come once.
+/// Values of the parts that may occur once.
 #[derive(Default)]
 struct Once<'a> {
     scene: Option<&'a str>,
@@ -31,7 +31,7 @@ impl Link {
     /// Reads a link: a whole address, or the part of it after `#`.
     ///
     /// # Errors
-    /// [`LinkError`], but not for what is wrong in a scene; [`Self::open`] says that.
+    /// [`LinkError`], except for errors in the scene, which [`Self::open`] returns.
     pub fn parse(text: &str) -> Result<Self, LinkError> {
         link(text)
     }

@@ -1,4 +1,4 @@
-//! Links to what a session or an interface shows.
+//! Links to the present of a session or view.
 
 use std::sync::Arc;
 
@@ -11,12 +11,12 @@ use crate::session::Session;
 use crate::view::View;
 
 impl Link {
-    /// The same scene, come to where this view of it is, by the same changes.
+    /// Extends the link to the present frame of a view of the same scene, with its changes.
     pub fn at(&self, view: &View) -> Self {
         self.come_to((view.frame, view.time), &view.scene, &view.changes)
     }
 
-    /// The same `scene`, come to a frame at a time \[s\], by those of these changes that came before.
+    /// Extends the link to a frame and its time \[s\], with the changes up to the frame.
     fn come_to(&self, now: (u64, f64), scene: &Scene, changes: &Arc<Vec<PastChange>>) -> Self {
         let (frame, time) = now;
         let made = changes.partition_point(|it| it.frame <= frame);
@@ -28,22 +28,22 @@ impl Link {
 }
 
 impl View {
-    /// A link to what it shows. Where the scene was opened from a link, [`Link::at`] of that link
-    /// is shorter.
+    /// Link to the present of the view. If the scene was opened from a link, [`Link::at`] of that
+    /// link is shorter.
     pub fn link(&self) -> Link {
         Link::to_scene(&self.scene).at(self)
     }
 }
 
 impl Session {
-    /// A link to the present.
+    /// Link to the present.
     pub fn link(&self) -> Link {
         let now = (self.frame(), self.time());
         Link::to_scene(self.scene()).come_to(now, self.scene(), self.changes())
     }
 }
 
-/// The shortest frame \[s\] of a run.
+/// Length of the shortest frame of a run \[s\].
 fn shortest_frame(scene: &Scene, changes: &[PastChange]) -> f64 {
     let later = changes.iter().filter_map(|it| it.change.frame_time());
     later.fold(scene.simulation.frame_time, f64::min)

@@ -1,4 +1,4 @@
-//! What a link says: which run, and how far it has come.
+//! Content of a link: a scene, its changes, and the time reached.
 
 use std::sync::Arc;
 
@@ -9,24 +9,24 @@ use super::error::LinkError;
 use super::time::{checked_time, readable};
 use crate::change::PastChange;
 
-/// A run that can be had again elsewhere, to the bit: which scene, what is different in it, what
-/// was changed on the way, and the time it has come to.
+/// A run that can be reproduced elsewhere, bit for bit: scene, overrides, changes during the run,
+/// and the time reached.
 ///
-/// It is written as the fragment of an address, the part after `#`, which no browser sends to a
-/// server, in parts `name=value` with `&` between them:
+/// It is written as the fragment of an address, the part after `#`, which browsers do not send to
+/// servers. Its parts `name=value` are separated by `&`:
 ///
-/// | part | is |
+/// | part | content |
 /// |---|---|
 /// | `scene` | name of a built-in scene |
-/// | `file` | instead of it, a whole scene file, packed |
-/// | `name` | what errors call that file |
+/// | `file` | a whole scene file instead, packed |
+/// | `name` | name of that file in errors |
 /// | `set` | an [`Override`], may be repeated |
 /// | `rule` | short for an override of `simulation.rule` |
-/// | `edits` | what was changed on the way, as TOML, packed |
-/// | `t` | the time \[s\] it has come to |
-/// | `camera` | `x,y,z` of a place to look from and of one to look at \[m\], and the vertical field of view \[°\] where it is not 35 |
+/// | `edits` | changes during the run, as TOML, packed |
+/// | `t` | time reached \[s\] |
+/// | `camera` | `x,y,z` of the camera and of the point that it looks at \[m\], and the vertical field of view \[°\] if it is not 35 |
 ///
-/// Packed is text compressed by zlib in base64 with the alphabet for addresses, without padding.
+/// Packed text is compressed by zlib and written in URL-safe base64 without padding.
 ///
 /// ```
 /// use carom_session::{Link, Session};
@@ -42,9 +42,9 @@ use crate::change::PastChange;
 pub struct Link {
     pub(super) source: LinkSource,
     pub(super) overrides: Vec<Override>,
-    /// Ascending by frame.
+    /// Changes, ascending by frame.
     pub(super) changes: Arc<Vec<PastChange>>,
-    /// \[s\]
+    /// Time reached \[s\].
     pub(super) time: Option<f64>,
     pub(super) camera: Option<LinkCamera>,
 }
@@ -56,68 +56,68 @@ pub enum LinkSource {
     BuiltIn(String),
     /// A scene file.
     File {
-        /// What errors call it.
+        /// Name of the file in errors.
         name: String,
-        /// All of it.
+        /// Text of the file.
         text: String,
     },
 }
 
 impl Link {
-    /// To the beginning of a scene as it is.
+    /// Creates a link to the beginning of a scene.
     pub fn new(source: LinkSource) -> Self {
         Self { source, overrides: Vec::new(), changes: Arc::default(), time: None, camera: None }
     }
 
-    /// This run with these values different in the scene, after those that were.
+    /// Adds overrides after the present ones.
     pub fn with_overrides(mut self, overrides: impl IntoIterator<Item = Override>) -> Self {
         self.overrides.extend(overrides);
         self
     }
 
-    /// This run, come to another time \[s\].
+    /// Sets the time reached \[s\].
     ///
     /// # Errors
-    /// [`LinkError::Time`] for a time that is negative or not finite.
+    /// [`LinkError::Time`] if the time is negative or not finite.
     pub fn with_time(mut self, seconds: f64) -> Result<Self, LinkError> {
         self.time = Some(checked_time(seconds)?);
         Ok(self)
     }
 
-    /// This run, come to a frame, where each lasts for `frame_time` \[s\].
+    /// Sets the time reached to that of a frame, with frames of `frame_time` \[s\].
     ///
     /// # Errors
-    /// [`LinkError::Time`] if the time of that frame is none.
+    /// [`LinkError::Time`] if the time of that frame is not finite.
     pub fn with_frame(self, frame: u64, frame_time: f64) -> Result<Self, LinkError> {
         self.with_time(readable(frame as f64 * frame_time, frame_time))
     }
 
-    /// Has the run looked at from another place; from where its scene says without one.
+    /// Sets the camera; `None` for the camera of the scene.
     pub fn set_camera(&mut self, camera: Option<LinkCamera>) {
         self.camera = camera;
     }
 
-    /// Its scene.
+    /// Scene of the link.
     pub fn source(&self) -> &LinkSource {
         &self.source
     }
 
-    /// What is different in it.
+    /// Overrides of the scene.
     pub fn overrides(&self) -> &[Override] {
         &self.overrides
     }
 
-    /// What was changed on the way, ascending by frame.
+    /// Changes during the run, ascending by frame.
     pub fn changes(&self) -> &Arc<Vec<PastChange>> {
         &self.changes
     }
 
-    /// The time it has come to \[s\]; `None` where it leaves that open.
+    /// Time reached \[s\], if the link states it.
     pub fn time(&self) -> Option<f64> {
         self.time
     }
 
-    /// Where it is looked at from; `None` where it leaves that open.
+    /// Camera, if the link states one.
     pub fn camera(&self) -> Option<LinkCamera> {
         self.camera
     }

@@ -1,4 +1,4 @@
-//! The scene of a link.
+//! Scenes of links.
 
 use carom_scene::{BUILT_IN_FILES, Budget, Library, Override, Scene, SceneError, SceneText};
 
@@ -6,12 +6,12 @@ use super::error::LinkError;
 use super::rule::rule_override;
 use super::run::{Link, LinkSource};
 
-/// What errors call a scene file without a name.
+/// Name in errors of a scene file without a name.
 const NAMELESS: &str = "scene file";
 
 impl Link {
-    /// To the beginning of this scene: a built-in one goes by its name, with its rule where it has
-    /// another; any other is written out.
+    /// Creates a link to the beginning of a scene. A built-in scene is named, with its rule if that
+    /// was changed; any other is included as text.
     pub fn to_scene(scene: &Scene) -> Self {
         as_built_in(scene).unwrap_or_else(|| {
             let (name, text) = (scene.name.clone(), scene.to_toml());
@@ -19,18 +19,18 @@ impl Link {
         })
     }
 
-    /// The scene at its beginning.
+    /// Opens the scene at its beginning.
     ///
     /// # Errors
-    /// [`LinkError::Scene`] if there is no such scene, or with what is wrong in it.
+    /// [`LinkError::Scene`] if the scene does not exist or is invalid.
     pub fn open(&self) -> Result<Scene, LinkError> {
         self.open_within(Budget::LINK)
     }
 
-    /// The scene at its beginning, which may ask for this; [`Self::open`] allows [`Budget::LINK`].
+    /// Opens the scene at its beginning within `budget`; [`Self::open`] uses [`Budget::LINK`].
     ///
     /// # Errors
-    /// As [`Self::open`].
+    /// The same as those of [`Self::open`].
     pub fn open_within(&self, budget: Budget) -> Result<Scene, LinkError> {
         let scene = match &self.source {
             LinkSource::BuiltIn(name) => built_in(name, &self.overrides, budget),
@@ -43,7 +43,7 @@ impl Link {
     }
 }
 
-/// A scene by the name of a built-in one with the same values but for its rule, if there is one.
+/// Returns a link that names a built-in scene, if the scene equals it except for its rule.
 fn as_built_in(scene: &Scene) -> Option<Link> {
     let mut own = built_in(&scene.name, &[], Budget::FILE).ok()?;
     let link = Link::new(LinkSource::BuiltIn(own.name.clone()));
@@ -55,8 +55,8 @@ fn as_built_in(scene: &Scene) -> Option<Link> {
     (own == *scene).then(|| link.with_overrides([rule]))
 }
 
-/// A built-in scene by name or title. A link must not reach for files by their path, as
-/// [`Library::find`] does.
+/// Finds a built-in scene by name or title. Unlike [`Library::find`], it opens no files by their
+/// path, because links come from other people.
 fn built_in(name: &str, overrides: &[Override], budget: Budget) -> Result<Scene, SceneError> {
     let wanted = name.to_lowercase();
     let is_wanted = |file: &str| file.strip_suffix(".toml").is_some_and(|own| own == wanted);

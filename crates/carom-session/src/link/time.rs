@@ -1,22 +1,22 @@
-//! Times of links: checked, and easy to read.
+//! Times in links, with few digits.
 
 use super::error::LinkError;
 
-/// Decimals of a time that people read \[1\]: microseconds.
+/// Most decimals of a rounded time: microseconds.
 const READABLE_DECIMALS: usize = 6;
 
-/// A time \[s\], if it is one.
+/// Returns the time \[s\] if it is valid.
 pub fn checked_time(seconds: f64) -> Result<f64, LinkError> {
     if seconds >= 0.0 && seconds.is_finite() {
-        // Not -0, which is a time as well as 0 but reads like none.
+        // Turns -0 into 0.
         Ok(seconds.abs())
     } else {
         Err(LinkError::Time { found: format!("{seconds:?}") })
     }
 }
 
-/// A time \[s\] near this one that is easier to read, and as near to the same frame, where none is
-/// shorter than `shortest_frame` \[s\].
+/// Rounds a time \[s\] to the fewest decimals that keep it within a quarter of `shortest_frame`
+/// \[s\], so that it means the same frame.
 pub fn readable(time: f64, shortest_frame: f64) -> f64 {
     let is_same = |rounded: &f64| (rounded - time).abs() < 0.25 * shortest_frame;
     let rounded = (0..=READABLE_DECIMALS).filter_map(|decimals| {

@@ -1,4 +1,4 @@
-//! Changes on the way as TOML.
+//! Writes and reads changes as TOML.
 //!
 //! ```toml
 //! [[changes]]
@@ -6,7 +6,7 @@
 //! change = { collider-restitution = { collider = 0, restitution = 0.5 } }
 //! ```
 //!
-//! Things go by the numbers of their ids. TOML gives every number back to the bit.
+//! Ids are written as numbers. TOML preserves every number exactly.
 
 use carom::{
     ColliderId, DQuat, DVec3, EmitterId, ForceId, Friction, Mass, SOLID_BALL, SphereId, SpringEnd,
@@ -19,16 +19,16 @@ use serde::{Deserialize, Serialize};
 use crate::change::{Change, PastChange};
 use crate::edit::{Edit, SphereChange};
 
-/// Longest account of what is wrong \[characters\]: enough for all kinds of edits there are.
+/// Longest error \[characters\]: enough for a list of all kinds of edits.
 const LONGEST_PROBLEM: usize = 330;
 
-/// Changes as TOML.
+/// Writes changes as TOML.
 pub fn to_toml(changes: &[PastChange]) -> String {
     let changes = changes.iter().map(Dated::from).collect();
     toml::to_string(&Document { changes }).expect("ids count up from 0, so no number is too large")
 }
 
-/// Changes from TOML, or one line on what is wrong with them.
+/// Reads changes from TOML; the error is one line.
 pub fn from_toml(text: &str) -> Result<Vec<PastChange>, String> {
     let document: Document = toml::from_str(text).map_err(|error| problem_in(text, &error))?;
     if !document.changes.is_sorted_by_key(|it| it.frame) {
@@ -38,10 +38,11 @@ pub fn from_toml(text: &str) -> Result<Vec<PastChange>, String> {
 }
 
 impl Edit {
-    /// An edit from TOML, as links write one: `change = { all-collider-restitutions = 0.5 }`.
+    /// Reads an edit from TOML in the form of links: `change = { all-collider-restitutions = 0.5
+    /// }`.
     ///
     /// # Errors
-    /// One line on what is wrong with it.
+    /// A description of what is wrong, in one line.
     pub fn from_toml(text: &str) -> Result<Self, String> {
         let single: Single = toml::from_str(text).map_err(|error| problem_in(text, &error))?;
         match single.change.into() {
@@ -51,14 +52,14 @@ impl Edit {
     }
 }
 
-/// One line on what is wrong with a text.
+/// Describes an error of the TOML parser in one line.
 fn problem_in(text: &str, error: &toml::de::Error) -> String {
     let line = error.span().map_or(1, |span| text[..span.start].matches('\n').count() + 1);
     let problem = error.message().lines().next().unwrap_or_default();
     format!("in line {line}, {}", legible(problem, LONGEST_PROBLEM))
 }
 
-/// A change of no particular time.
+/// A change without a frame.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Single {
@@ -71,7 +72,7 @@ struct Document {
     changes: Vec<Dated>,
 }
 
-/// [`PastChange`], written.
+/// [`PastChange`] as written.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Dated {
@@ -79,7 +80,7 @@ struct Dated {
     change: Written,
 }
 
-/// [`Change`] and [`Edit`], written.
+/// [`Change`] and [`Edit`] as written.
 #[derive(Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 enum Written {
@@ -102,7 +103,7 @@ enum Written {
     RemoveSphere(u64),
 }
 
-/// [`carom::Spring`], written.
+/// [`carom::Spring`] as written.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Spring {
@@ -114,7 +115,7 @@ struct Spring {
     only_pulls: bool,
 }
 
-/// [`SpringEnd`], written.
+/// [`SpringEnd`] as written.
 #[derive(Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 enum WrittenEnd {
@@ -122,7 +123,7 @@ enum WrittenEnd {
     Point(Vector),
 }
 
-/// [`SphereChange`], written.
+/// [`SphereChange`] as written.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SphereFields {
@@ -135,7 +136,7 @@ struct SphereFields {
     angular_velocity: Option<Vector>,
 }
 
-/// [`Friction`], written.
+/// [`Friction`] as written.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SurfaceFriction {
@@ -145,7 +146,7 @@ struct SurfaceFriction {
     tangential_restitution: Option<f64>,
 }
 
-/// [`carom::Sphere`], written.
+/// [`carom::Sphere`] as written.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Sphere {
@@ -158,15 +159,15 @@ struct Sphere {
     rolling_friction: Option<f64>,
     spinning_friction: Option<f64>,
     tangential_restitution: Option<f64>,
-    /// Where it is turned.
+    /// `None` for the identity.
     orientation: Option<Quaternion>,
-    /// Where it turns.
+    /// `None` for zero.
     angular_velocity: Option<Vector>,
-    /// Where it is no solid ball.
+    /// `None` for a solid ball.
     inertia_factor: Option<f64>,
 }
 
-/// [`Mass`], written.
+/// [`Mass`] as written.
 #[derive(Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 enum WrittenMass {
@@ -174,7 +175,7 @@ enum WrittenMass {
     Density(f64),
 }
 
-/// [`carom::Emitter`], written.
+/// [`carom::Emitter`] as written.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Emitter {
@@ -382,7 +383,7 @@ impl From<&carom::Sphere> for Sphere {
     }
 }
 
-/// A value that has to be written, for it is not the usual one.
+/// Returns a value that differs from its default and so has to be written.
 fn unusual<T: PartialEq>(value: T, usual: T) -> Option<T> {
     (value != usual).then_some(value)
 }

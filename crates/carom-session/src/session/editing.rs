@@ -1,4 +1,4 @@
-//! Changes from outside: made, taken back, and made again.
+//! Edits of a session: making, undoing and repeating them.
 
 use std::sync::Arc;
 
@@ -12,10 +12,11 @@ use crate::revisions::Revision;
 use crate::subjects::Subjects;
 
 impl Session {
-    /// Makes a change, now; what came after the present is cut off. [`Self::undo`] takes it back.
+    /// Makes an edit at the present frame, and cuts off the frames after it. [`Self::undo`] takes
+    /// it back.
     ///
     /// # Errors
-    /// What is wrong with it; nothing changes then.
+    /// [`SessionError`] if the edit is invalid; then nothing changes.
     pub fn edit(&mut self, edit: Edit) -> Result<(), SessionError> {
         let before = self.revision();
         self.make(edit)?;
@@ -23,11 +24,11 @@ impl Session {
         Ok(())
     }
 
-    /// Makes a change as [`Self::edit`] does, one that goes on with the last: as a slider does that is
-    /// dragged. Both are taken back together.
+    /// Makes an edit that continues the last one, as dragging a slider does. Both are undone
+    /// together.
     ///
     /// # Errors
-    /// What is wrong with it; nothing changes then.
+    /// [`SessionError`] if the edit is invalid; then nothing changes.
     pub fn edit_further(&mut self, edit: Edit) -> Result<(), SessionError> {
         if self.revisions.undoable() == 0 {
             return self.edit(edit);
@@ -37,41 +38,41 @@ impl Session {
         Ok(())
     }
 
-    /// Takes back the last change by hand, and sets out for the frame at which it was made, where all
-    /// is as it was before; [`Self::advance_seek`] goes there. Returns whether there was one. Changes
-    /// of a link were not made by hand.
+    /// Undoes the last manual edit and starts to go to its frame, whose state is that before the
+    /// edit; [`Self::advance_seek`] goes there. Returns whether there was one. Changes of a link
+    /// are no manual edits.
     pub fn undo(&mut self) -> bool {
         let found = self.revisions.undo(self.history.changes());
         found.map(|revision| self.rewrite(revision)).is_some()
     }
 
-    /// Makes the change by hand again that was taken back last, and sets out for its frame;
-    /// [`Self::advance_seek`] goes there. Returns whether there was one.
+    /// Repeats the edit that was undone last and starts to go to its frame; [`Self::advance_seek`]
+    /// goes there. Returns whether there was one.
     pub fn redo(&mut self) -> bool {
         let found = self.revisions.redo(self.history.changes());
         found.map(|revision| self.rewrite(revision)).is_some()
     }
 
-    /// Goes back to the beginning with the values that were changed in the whole run: forces, rule,
-    /// materials, and what balls are like. Where balls were put, thrown or taken away on the way is
-    /// forgotten, but not what was changed at the beginning itself. [`Self::undo`] takes it back.
+    /// Goes back to the beginning with the values that were edited during the whole run: forces,
+    /// rule, materials, and properties of balls. Balls that were moved, thrown or removed during
+    /// the run are as before; edits at the beginning itself remain. [`Self::undo`] takes it back.
     pub fn restart_with_values(&mut self) {
         let before = self.revision();
         let values = values_of(&before.changes);
         self.rewrite(Revision { frame: 0, changes: Arc::default() });
         for edit in values {
-            // A ball that is not there at the beginning has nothing to be changed.
+            // An edit of a ball that does not exist at the beginning is dropped.
             let _ = self.make(edit);
         }
         self.revisions.open(before);
     }
 
-    /// The scene under another simulation, at the beginning. Everything that was changed comes again
-    /// at its time, but for changes of the simulation.
+    /// Opens the scene under another simulation, at the beginning. All changes are repeated at
+    /// their times, except those of the simulation.
     ///
     /// # Errors
-    /// [`SessionError::Scene`] if the scene makes no sense under it, [`SessionError::Repeat`] for a
-    /// change at the beginning that is refused.
+    /// [`SessionError::Scene`] if the scene is invalid under it, [`SessionError::Repeat`] if a
+    /// change at the beginning is refused.
     pub(crate) fn under(&self, simulation: &Simulation) -> Result<Self, SessionError> {
         let is_of_simulation = |change: &Change| match change {
             Change::Edit(edit) => matches!(edit, Edit::Simulation(_) | Edit::FrameTime(_)),
@@ -88,10 +89,10 @@ impl Session {
         Ok(session)
     }
 
-    /// Whether a change would be refused.
+    /// Checks whether an edit would be accepted.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// [`SessionError`] that the edit would return.
     pub fn check(&self, edit: &Edit) -> Result<(), SessionError> {
         let (mut world, mut setup) = (self.world.clone(), self.setup.clone());
         let mut looks = self.looks.clone();
@@ -113,19 +114,19 @@ impl Session {
         Ok(())
     }
 
-    /// Puts other changes in the place of all that there are, and sets out for a frame.
+    /// Replaces all changes and starts to go to a frame.
     fn rewrite(&mut self, revision: Revision) {
         self.history.rewrite(revision.changes);
         self.return_before(revision.frame);
         self.history.end(self.frame, self.world.time(), self.frame_time());
         self.readings.cut(self.frame, &self.world);
-        // None was refused when it was made.
+        // These changes were accepted when they were made.
         let _ = self.repeat_changes();
         self.target = Some(revision.frame).filter(|frame| *frame != self.frame);
     }
 
-    /// Makes the changes that come at this frame. One that is refused, which none is that was made
-    /// in this session before, is dropped with all that follow.
+    /// Makes the changes of the present frame. If one is refused, it is dropped with all later
+    /// ones; changes made in this session are never refused.
     pub(super) fn repeat_changes(&mut self) -> Result<(), SessionError> {
         let (frame, first) = (self.frame, self.changes);
         let mut refused = None;
@@ -154,7 +155,7 @@ impl Session {
     }
 }
 
-/// The changes with which a run begins that is to have the values of these from the start.
+/// Edits that give a run from its start the values of these changes.
 fn values_of(all: &[PastChange]) -> Vec<Edit> {
     let mut values: Vec<Edit> = Vec::new();
     for PastChange { frame, change } in all {

@@ -21,28 +21,28 @@ use crate::setup::Setup;
 use crate::subjects;
 use crate::view::{SphereArrays, View, replace};
 
-/// A scene being watched.
+/// An interactive simulation of a scene.
 ///
-/// Time goes in frames. Every frame reached so far can be had again, to the bit, with every change
-/// from outside repeated when its time comes; a new change cuts off what came after it.
+/// Time passes in frames. Every frame reached so far can be restored bit for bit, because all
+/// changes are repeated at their frames. A new edit cuts off the frames after it.
 #[derive(Debug)]
 pub struct Session {
-    /// As first opened.
+    /// The scene as opened.
     scene: Arc<Scene>,
     setup: Arc<Setup>,
     world: World,
     looks: Looks,
     /// Number of frames taken.
     frame: u64,
-    /// How many of all changes have been made.
+    /// Number of changes made so far.
     changes: usize,
     history: History,
     revisions: Revisions,
     readings: Readings,
     previous: Previous,
-    /// The frame to go to.
+    /// Frame to go to.
     target: Option<u64>,
-    /// Counts what may have changed anything of spheres but their motion.
+    /// Increases whenever properties of spheres other than their motion may have changed.
     stamp: u64,
 }
 
@@ -50,12 +50,12 @@ impl Session {
     /// Opens a scene.
     ///
     /// # Errors
-    /// [`SceneError`] if the scene makes no sense; only one put together in code can.
+    /// [`SceneError`] if the scene is invalid, which is only possible for one built in code.
     pub fn new(scene: Scene) -> Result<Self, SceneError> {
         Self::with_changes(scene, Arc::default())
     }
 
-    /// Opens a scene; `changes`, ascending by frame, are to come.
+    /// Opens a scene with `changes`, ascending by frame, that are still to be made.
     fn with_changes(scene: Scene, changes: Arc<Vec<PastChange>>) -> Result<Self, SceneError> {
         let world = scene.world()?;
         let setup = Arc::new(Setup::new(&scene, &world));
@@ -83,14 +83,14 @@ impl Session {
         })
     }
 
-    /// Opens a scene, the one of this link, on the way to the time of the link:
-    /// [`Self::advance_seek`] goes there, and makes every change of the link when its frame comes.
-    /// There it is the session, to the bit, that the link was made of. Changes after that time are
-    /// made if it goes on.
+    /// Opens the scene of a link and starts to go to the time of the link. [`Self::advance_seek`]
+    /// goes there and makes every change of the link at its frame. At that time, the session equals
+    /// the one from which the link was created, bit for bit. Changes after that time are made when
+    /// their frames are reached.
     ///
     /// # Errors
-    /// [`SessionError::Scene`] if the scene makes no sense, [`SessionError::Repeat`] for a change
-    /// at the beginning that is refused, and as [`Self::frame_at`].
+    /// [`SessionError::Scene`] if the scene is invalid, [`SessionError::Repeat`] if a change at the
+    /// beginning is refused, and those of [`Self::frame_at`].
     pub fn replay(scene: Scene, link: &Link) -> Result<Self, SessionError> {
         let mut session = Self::with_changes(scene, link.changes().clone())?;
         session.repeat_changes()?;
@@ -100,12 +100,11 @@ impl Session {
         Ok(session)
     }
 
-    /// Takes one frame. Gives up going elsewhere.
+    /// Takes one frame and stops any seek.
     ///
     /// # Errors
-    /// [`SessionError::World`] if the physics cannot take it; the session stays where it is.
-    /// [`SessionError::Repeat`] if the frame is taken, but a change of a link that comes there is
-    /// refused.
+    /// [`SessionError::World`] if the physics refuses the step; then nothing changes.
+    /// [`SessionError::Repeat`] if the frame was taken, but a change of a link there was refused.
     pub fn step(&mut self) -> Result<(), SessionError> {
         self.target = None;
         self.take_frame()
@@ -114,65 +113,65 @@ impl Session {
     /// Goes back by one frame, if there is one.
     ///
     /// # Errors
-    /// None that taking the same frames did not have.
+    /// Only those that these frames had when they were first taken.
     pub fn step_back(&mut self) -> Result<(), SessionError> {
         self.seek(self.frame.saturating_sub(1));
         self.advance_seek(u64::MAX).map(drop)
     }
 
-    /// Goes back to the beginning; what came after is not lost.
+    /// Goes back to the beginning; the frames after it are kept.
     ///
     /// # Errors
-    /// None that beginning did not have.
+    /// Only those that opening the session had.
     pub fn restart(&mut self) -> Result<(), SessionError> {
         self.seek(0);
         self.advance_seek(u64::MAX).map(drop)
     }
 
-    /// Goes to the frame nearest to a time \[s\], in one go; to one not reached yet, too.
+    /// Goes to the frame nearest to a time \[s\] in one call; the frame may be new.
     ///
     /// # Errors
-    /// [`SessionError::Time`] for a time that makes no sense; as [`Self::step`] on new ground.
+    /// [`SessionError::Time`] if the time is invalid; those of [`Self::step`] for new frames.
     pub fn jump(&mut self, time: f64) -> Result<(), SessionError> {
         self.seek(self.frame_at(time)?);
         self.advance_seek(u64::MAX).map(drop)
     }
 
-    /// The frame nearest to a time \[s\].
+    /// Frame nearest to a time \[s\].
     ///
     /// # Errors
-    /// [`SessionError::Time`] for a time that is negative or not finite, [`SessionError::TooFar`]
-    /// for one more than 100,000,000 frames after the start.
+    /// [`SessionError::Time`] if the time is negative or not finite, [`SessionError::TooFar`] if it
+    /// is more than 100,000,000 frames after the start.
     pub fn frame_at(&self, time: f64) -> Result<u64, SessionError> {
         self.history.frame_at(time)
     }
 
-    /// Sets out for a frame; [`Self::advance_seek`] goes there.
+    /// Starts to go to a frame; [`Self::advance_seek`] goes there.
     pub fn seek(&mut self, frame: u64) {
         let is_ahead = self.frame <= frame;
         if !(is_ahead && self.history.before(frame).frame <= self.frame) {
             self.return_before(frame);
-            // What was changed at a frame that was reached was not refused there.
+            // Changes at a frame reached before were accepted.
             let _ = self.repeat_changes();
         }
         self.target = Some(frame).filter(|frame| *frame != self.frame);
     }
 
-    /// The frame it is on the way to.
+    /// Frame to which the session is going.
     pub fn seeking(&self) -> Option<u64> {
         self.target
     }
 
-    /// Gives up going elsewhere: stays where it has come to.
+    /// Stops going to a frame; stays at the present one.
     pub fn stop_seeking(&mut self) {
         self.target = None;
     }
 
-    /// Takes up to `budget` frames of the way to where [`Self::seek`] set out for. Returns whether
-    /// it is there.
+    /// Takes up to `budget` frames towards the frame of [`Self::seek`]. Returns whether the session
+    /// has arrived.
     ///
     /// # Errors
-    /// As [`Self::step`]; it gives up then.
+    /// The same as those of [`Self::step`]; then the seek ends.
     pub fn advance_seek(&mut self, budget: u64) -> Result<bool, SessionError> {
         for _ in 0..budget {
             let Some(target) = self.target else { break };
@@ -185,40 +184,40 @@ impl Session {
         Ok(self.target.is_none())
     }
 
-    /// Follows another sphere, or none: from now on, and before as far as the past is kept.
+    /// Picks a sphere to follow, or none; its past is read as far as it is stored.
     pub fn pick(&mut self, sphere: Option<SphereId>) {
         let past = self.history.until(self.frame).map(|moment| (moment.frame, moment.state()));
         self.readings.pick(sphere, past);
         self.readings.measure(self.frame, &self.world);
     }
 
-    /// Bounds the memory that the past may take \[bytes\]: the session computes the rest again when
-    /// it goes back there, and always keeps the beginning.
+    /// Sets a limit on the memory for the past \[bytes\]. Frames that are not stored are computed
+    /// again when the session goes back; the beginning is always stored.
     pub fn set_memory(&mut self, bytes: usize) {
         self.history.set_memory(bytes, self.frame);
     }
 
-    /// Memory that the past takes, estimated \[bytes\].
+    /// Estimated memory of the past \[bytes\].
     pub fn memory(&self) -> usize {
         self.history.bytes()
     }
 
-    /// The scene as first opened.
+    /// The scene as opened.
     pub fn scene(&self) -> &Arc<Scene> {
         &self.scene
     }
 
-    /// The present as a scene: what was edited, and every sphere as a single one. Opened again it
-    /// is the same world, to the bit, but for its clock, which starts at 0, and its emitters,
-    /// which emit at once; flights begin anew, as after an edit.
+    /// Writes the present as a scene, with all edits, and with every sphere as a single one. When
+    /// it is opened, its world is the same bit for bit, except that its clock starts at 0, its
+    /// emitters emit at once, and all flights are computed again, as after an edit.
     pub fn scene_now(&self) -> Scene {
         let mut view = View::default();
         self.fill(&mut view);
         view.scene_now()
     }
 
-    /// Copies all that an interface shows of it, without allocating where there is place. How it
-    /// is played is left as it was.
+    /// Copies everything that an interface shows, in the existing memory of the view. The state of
+    /// playback is not changed.
     pub fn fill(&self, view: &mut View) {
         let is_same = Arc::ptr_eq(&view.scene, &self.scene);
         if !(is_same && view.spheres.stamp == self.stamp) {
@@ -237,22 +236,22 @@ impl Session {
         self.fill_readings(view);
     }
 
-    /// What is not spheres, as edited.
+    /// Everything except spheres, as edited.
     pub fn setup(&self) -> &Arc<Setup> {
         &self.setup
     }
 
-    /// What was changed from outside, ascending by frame, the future included.
+    /// All changes, ascending by frame, including those in the future.
     pub fn changes(&self) -> &Arc<Vec<PastChange>> {
         self.history.changes()
     }
 
-    /// Has steps end early once a request is made; see [`World::set_stop_request`].
+    /// Sets a request that ends steps early; see [`World::set_stop_request`].
     pub fn set_stop_request(&mut self, request: Option<StopRequest>) {
         self.world.set_stop_request(request);
     }
 
-    /// The world at present.
+    /// Present state of the world.
     pub fn world(&self) -> &World {
         &self.world
     }
@@ -267,7 +266,7 @@ impl Session {
         self.frame
     }
 
-    /// Time of the present \[s\].
+    /// Present time \[s\].
     pub fn time(&self) -> f64 {
         self.world.time()
     }
@@ -277,23 +276,23 @@ impl Session {
         self.setup.simulation.frame_time
     }
 
-    /// The largest time reached \[s\], that was not cut off.
+    /// Time of the furthest frame \[s\].
     pub fn furthest(&self) -> f64 {
         self.history.furthest().1
     }
 
-    /// The last frame reached that was not cut off.
+    /// Furthest frame reached that was not cut off.
     pub fn furthest_frame(&self) -> u64 {
         self.history.furthest().0
     }
 
-    /// Where the spheres were a frame ago \[m\], in the order of the world's; those that were not
-    /// there, where they are now.
+    /// Positions of the spheres one frame ago \[m\], in the order of the world; present positions
+    /// for new spheres.
     pub fn previous_positions(&self) -> &[DVec3] {
         self.previous.positions()
     }
 
-    /// Goes back to the last moment kept that is not after this frame.
+    /// Goes back to the last stored moment that is not after this frame.
     fn return_before(&mut self, frame: u64) {
         let moment = self.history.before(frame);
         moment.restore(&mut self.world);
@@ -330,8 +329,8 @@ impl Session {
         Ok(())
     }
 
-    /// After a step that failed flights begin anew. That is made part of the past, so that the
-    /// frames that follow it can be had again to the bit.
+    /// Records a failed step, after which all flights are computed again, as a change. The
+    /// following frames can then be restored bit for bit.
     fn note_failed_step(&mut self) {
         subjects::begin_flights_anew(&mut self.world);
         if self.frame == self.furthest_frame() && !self.history.ends_with_failed_step() {
@@ -364,7 +363,7 @@ impl Session {
         replace(&mut arrays.orientations, spheres.orientations().iter().copied());
         replace(&mut arrays.angular_velocities, spheres.angular_velocities().iter().copied());
         replace(&mut arrays.previous_positions, self.previous_positions().iter().copied());
-        // At the start there may be none yet, though the first frame will turn spheres.
+        // At the start there may be no orientations yet, even if the first frame rotates spheres.
         let before =
             self.previous.orientations().iter().copied().chain(iter::repeat(DQuat::IDENTITY));
         let count = if self.world.has_spin() { spheres.len() } else { 0 };

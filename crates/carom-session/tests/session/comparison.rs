@@ -1,4 +1,4 @@
-//! Two rules side by side.
+//! Comparison of two rules.
 
 use carom::{DVec3, Sphere};
 use carom_scene::scene::{Force, ImpactLaw, Rule, Zones};
@@ -41,7 +41,7 @@ fn the_distance_starts_at_zero_and_is_measured_over_common_spheres() {
     let last = both.distance();
     assert_eq!(distances[60], last);
     assert!(last.largest > 0.0 && last.root_mean_square <= last.largest);
-    // Directly from the worlds.
+    // Computed directly from the worlds.
     let (first, second) = (both.first().world(), both.second().world());
     let ways: Vec<f64> = first
         .spheres()
@@ -82,7 +82,7 @@ fn an_edit_is_made_to_both_or_to_none() {
     assert_eq!(both.first().setup().simulation.rule, Rule::Exact);
     assert_eq!(both.second().setup().simulation.rule, Rule::Discrete);
     assert!(!both.second().world().settings().spheres_collide);
-    // A box without end is known to one of the rules only.
+    // Only one of the rules supports a periodic box.
     simulation.boundary = carom_scene::scene::Boundary::Periodic { size: [9.0; 3] };
     let hashes = [both.first().state_hash(), both.second().state_hash()];
     assert!(both.edit(&Edit::Simulation(Box::new(simulation))).is_err());

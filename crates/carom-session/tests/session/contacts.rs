@@ -1,12 +1,12 @@
-//! Persistent contacts in views: there while they are wanted and known. The forces are those of the
-//! world, whose own tests check them.
+//! Persistent contacts in views: they exist while they are requested and the rule knows them. The
+//! tests of the world check their forces.
 
 use carom::DVec3;
 use carom_scene::Scene;
 use carom_scene::scene::Rule;
 use carom_session::{Command, Comparison, Driver, Edit, Session};
 
-/// A ball of 2 kg that lies on the floor.
+/// A ball of 2 kg at rest on the floor.
 const RESTING: &str = r#"
 name = "resting"
 forces = [{ gravity = { acceleration = [0.0, -10.0, 0.0] } }]
@@ -26,7 +26,7 @@ fn resting() -> Scene {
     Scene::from_toml(RESTING, "resting").unwrap()
 }
 
-/// How many contacts the view has after these commands.
+/// Number of contacts in the view after these commands.
 fn contacts_after(driver: &mut Driver, commands: impl IntoIterator<Item = Command>) -> usize {
     commands.into_iter().for_each(|command| driver.send(command).unwrap());
     driver.update(0.0, || false);

@@ -1,4 +1,4 @@
-//! Drivers, in place and on a thread.
+//! Drivers with and without a thread.
 
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
@@ -10,18 +10,18 @@ use carom_session::{Command, Comparison, Driver, Edit, FASTEST, Session, Session
 
 use crate::{built_in, busy, busy_scene, hashes};
 
-/// Longer than anything here takes on a machine that is shared \[s\].
+/// Longer than any step of these tests on a shared machine \[s\].
 const PATIENCE: Duration = Duration::from_secs(30);
 
-/// A driver with a thread, and what says that it has news.
+/// Creates a driver with a thread, and a receiver of its news.
 fn threaded(session: Session) -> (Driver, Receiver<()>) {
     let (sender, news) = channel();
-    // The test may be gone before the thread.
+    // The test may end before the thread.
     let on_news = Box::new(move || _ = sender.send(()));
     (Driver::threaded(session, on_news).unwrap(), news)
 }
 
-/// Waits until the view is as wanted.
+/// Waits until the view satisfies `is_it`.
 fn wait_for(driver: &mut Driver, news: &Receiver<()>, is_it: impl Fn(&View) -> bool) {
     let start = Instant::now();
     driver.update(0.0, || true);
@@ -36,7 +36,7 @@ fn send(driver: &mut Driver, commands: impl IntoIterator<Item = Command>) {
     commands.into_iter().for_each(|command| driver.send(command).unwrap());
 }
 
-/// A scene that fails when its ball reaches the floor, for that is one impact too many.
+/// A scene that fails when its ball reaches the floor, because it exceeds the limit on impacts.
 fn failing() -> Session {
     let mut scene = busy_scene();
     scene.simulation.exact.max_impacts = 1;
@@ -50,7 +50,7 @@ fn in_place_frames_follow_the_time_given() {
     driver.update(1.0, || false);
     assert_eq!(driver.view().frame, 0);
     send(&mut driver, [Command::Play]);
-    // Time that went by at a stop does not count.
+    // Time while stopped does not count.
     driver.update(1.0, || false);
     assert_eq!(driver.view().frame, 0);
     (0..10).for_each(|_| _ = driver.update(0.1, || false));
@@ -74,7 +74,7 @@ fn in_place_a_piece_of_work_is_done_even_without_time() {
         updates += 1;
         assert!(updates < 100);
     }
-    // The seek, a frame each, and the step.
+    // One update per frame of the seek, and one for the step.
     assert_eq!(updates, 32);
     let mut stepped = busy();
     let there = hashes(&mut stepped, 31);
@@ -143,7 +143,7 @@ fn the_thread_ends_when_the_driver_is_dropped() {
         if plays {
             send(&mut driver, [Command::Play]);
         } else {
-            // It sleeps for ever, then.
+            // The thread sleeps without a time limit.
             std::thread::sleep(Duration::from_millis(20));
         }
         drop(driver);
@@ -165,13 +165,13 @@ fn a_failing_step_pauses_and_says_why() {
     let error = view.playback.error.as_deref().unwrap();
     assert!(matches!(error, SessionError::World(carom::Error::TooManyImpacts { .. })));
     assert!(error.to_string().contains("max_impacts"), "{error}");
-    // Nothing is lost: the frame before is there, and the past.
+    // Nothing is lost: the previous frame and the past exist.
     let frame = view.frame;
     assert!(frame > 0);
     send(&mut driver, [Command::StepBack]);
     wait_for(&mut driver, &news, |view| view.frame == frame - 1);
     assert!(driver.view().playback.error.is_none());
-    // With more impacts allowed it goes on.
+    // With a higher limit on impacts it continues.
     let mut simulation = driver.view().setup.simulation.clone();
     simulation.exact.max_impacts = 1000;
     send(&mut driver, [Command::Edit(Edit::Simulation(Box::new(simulation)))]);
@@ -194,7 +194,7 @@ fn a_refused_edit_says_why_and_time_goes_on() {
 
 #[test]
 fn edits_of_a_dragged_slider_do_not_pile_up() {
-    // What cannot be merged is refused at some point, and says so.
+    // Commands that cannot be merged are eventually refused with an error.
     let mut driver = Driver::inline(busy());
     let refused = (0..100_000).find_map(|_| driver.send(Command::Step).err());
     assert!(matches!(refused, Some(SessionError::Busy)));
@@ -236,7 +236,7 @@ fn a_way_elsewhere_is_given_up_at_once_whatever_waits() {
     assert!(driver.view().seeking.is_some() && on_the_way > 0);
     send(&mut driver, [Command::ShowStateHash(false), Command::StopSeeking]);
     update(&mut driver);
-    // The step that waited is taken where it has come to.
+    // The waiting step is taken at the frame reached.
     assert_eq!((driver.view().frame, driver.view().seeking), (on_the_way + 1, None));
     assert_eq!(driver.view().playback.state_hash, None);
 }
@@ -269,7 +269,7 @@ fn another_scene_is_opened_or_the_old_one_stays() {
     assert_eq!((driver.view().scene.name.as_str(), driver.view().frame), ("tutorial1", 1));
 }
 
-/// Two simulations of the busy scene that differ by rule.
+/// Two simulations of the busy scene with different rules.
 fn simulations(rules: [Rule; 2]) -> Option<Box<[Simulation; 2]>> {
     let of = |rule| Simulation { rule, ..busy_scene().simulation };
     Some(Box::new(rules.map(of)))
@@ -285,7 +285,7 @@ fn two_rules_are_driven_like_one() {
     let other = view.other.as_deref().unwrap();
     assert_eq!((view.frame, other.frame, view.distances.len()), (29, 29, 30));
     assert_ne!(view.playback.state_hash, other.playback.state_hash);
-    // One alone again.
+    // Back to one session.
     send(&mut driver, [Command::Compare(None)]);
     driver.update(0.0, || false);
     assert!(driver.view().other.is_none() && driver.view().distances.is_empty());
@@ -307,7 +307,7 @@ fn a_comparison_begins_at_the_time_of_now_with_what_was_changed() {
     assert_eq!((view.frame, view.playback.state_hash), (30, alone));
     let other = view.other.as_deref().unwrap();
     assert_eq!(other.setup.colliders[0].1.restitution, 0.4);
-    // Settings of one rule, side by side; and from there another pair.
+    // Two settings of one rule, and from there another pair.
     let mut sequential = exact.clone();
     sequential.exact.impact_law = ImpactLaw::Sequential;
     send(&mut driver, [Command::Compare(Some(Box::new([exact, sequential])))]);

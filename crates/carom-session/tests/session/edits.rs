@@ -1,4 +1,4 @@
-//! Edits: each changes the world and what is said of it, or nothing.
+//! Edits: each changes the world and its description, or nothing.
 
 use carom::{Bisect, ConstantForce, DVec3, Exact, Friction, Sphere, Spring, SpringId};
 use carom_scene::scene::{self, Color, Force, ImpactLaw, Integrator};
@@ -84,7 +84,7 @@ fn springs_are_changed_added_and_removed_and_shown_and_saved() {
     assert_eq!(view(&session).springs, [(first, stiff)]);
     let saved = session.scene_now().springs;
     assert_eq!((saved[0].spheres, saved[0].damping), (Some([0, 1]), 0.25));
-    // What makes no sense changes nothing.
+    // Invalid edits change nothing.
     for wrong in [
         Edit::AddSpring(pair.with_damping(-1.0)),
         Edit::Spring(first, pair.with_stiffness(f64::NAN)),
@@ -146,7 +146,7 @@ fn friction_and_spin_of_a_sphere_are_changed_and_shown() {
     let (friction, spin) = (Friction::sliding(0.3).with_spinning(0.1), DVec3::new(1.0, 2.0, 3.0));
     let rough = SphereChange { friction: Some(friction), ..SphereChange::default() };
     let spun = SphereChange { angular_velocity: Some(spin), ..SphereChange::default() };
-    // In a session that a mouse edits, these may be one.
+    // In a session that is edited with a mouse, these may be merged.
     let both = Edit::Sphere(id, Box::new(rough)).merged(&Edit::Sphere(id, Box::new(spun))).unwrap();
     session.edit(both).unwrap();
     let changed = before.with_friction(friction).with_angular_velocity(spin);
@@ -203,7 +203,7 @@ fn spheres_keep_the_colour_they_came_with() {
         for _ in 0..100 {
             session.step().unwrap();
         }
-        // A step back and forth must not mix them up.
+        // A step back and forth must not confuse them.
         session.jump(0.9).unwrap();
         for _ in 0..30 {
             session.step().unwrap();
@@ -216,7 +216,7 @@ fn spheres_keep_the_colour_they_came_with() {
 
 #[test]
 fn the_colour_of_an_emitted_sphere_is_that_of_its_emitter() {
-    // Also where the green emitter leaves out half of its spheres, which keep their place too long.
+    // Also if the green emitter leaves out half of its spheres, which stay at its place too long.
     for (rule, needs_room) in
         [(scene::Rule::Exact, false), (scene::Rule::Exact, true), (scene::Rule::Discrete, true)]
     {
@@ -231,8 +231,8 @@ fn the_colour_of_an_emitted_sphere_is_that_of_its_emitter() {
         scene.spheres.clear();
         scene.generators.clear();
         let mut session = Session::new(scene).unwrap();
-        // Until the first ones reach anything: green ones move to the right, yellow ones to the
-        // left.
+        // Until the first spheres reach an obstacle: green ones move to the right, yellow ones to
+        // the left.
         for _ in 0..60 {
             session.step().unwrap();
             let view = view(&session);

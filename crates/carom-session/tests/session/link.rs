@@ -1,4 +1,4 @@
-//! Links: what is opened from one is what the link was made of, to the bit.
+//! Links: a session opened from a link equals the session of the link, bit for bit.
 
 use carom::{
     ColliderId, DQuat, DVec3, EmitterId, ForceId, Friction, Mass, Sphere, SphereId, Spring,
@@ -13,14 +13,14 @@ use carom_session::{
 
 use crate::{built_in, busy, busy_scene, hashes};
 
-/// Numbers that a sloppy way of writing would not give back.
+/// Numbers that inexact formatting would not preserve.
 const AWKWARD: [f64; 6] = [0.1, 1.0 / 3.0, 5e-324, f64::MAX, -0.0, 1.000_000_000_000_000_2];
 
 fn first_sphere(session: &Session) -> SphereId {
     session.world().spheres().ids()[0]
 }
 
-/// By way of the address.
+/// Writes a link as an address and reads it again.
 #[track_caller]
 fn copied(link: &Link) -> Link {
     let text = format!("https://example.org/carom/?a=b#{}", link.to_fragment());
@@ -47,7 +47,7 @@ fn run(link: &Link) -> StateHash {
     replay.world().state_hash()
 }
 
-/// Both ways to repeat a run give the present of this session.
+/// Checks that both ways of repeating a run reproduce the present of this session.
 #[track_caller]
 pub fn assert_repeats(session: &Session) -> Link {
     let link = session.link();
@@ -61,7 +61,7 @@ pub fn assert_repeats(session: &Session) -> Link {
 }
 
 mod built_in_scenes_go_by_their_names_and_as_files_to_the_same_bits {
-    // Side by side.
+    // Two tests that run in parallel.
     #[test]
     fn one_half() {
         super::to_the_same_bits(0);
@@ -73,19 +73,20 @@ mod built_in_scenes_go_by_their_names_and_as_files_to_the_same_bits {
     }
 }
 
-/// Of every second scene, from this one on.
+/// Tests every second scene, starting with number `first`.
 fn to_the_same_bits(first: usize) {
     for (file, text) in BUILT_IN_FILES.iter().skip(first).step_by(2) {
         let name = file.trim_end_matches(".toml");
         let mut session = built_in(name);
-        // Five runs of each: by then most have had impacts, and bits that differ do from the start.
+        // Half a second: by then most scenes have had impacts, and differing bits would differ from
+        // the start.
         session.jump(0.5).unwrap();
         let link = assert_repeats(&session);
         assert_eq!(link.to_fragment(), format!("scene={name}&t=0.5"));
         let source = LinkSource::File { name: (*file).to_owned(), text: (*text).to_owned() };
         let whole = Link::new(source).with_time(0.5).unwrap();
         assert_eq!(replayed(&whole).state_hash(), session.state_hash(), "{name} as a file");
-        // As it is written by an interface, which does not have the file.
+        // As an interface writes it, without the file.
         let mut renamed = Scene::clone(session.scene());
         renamed.name = "another".to_owned();
         let written = Link::to_scene(&renamed).with_time(0.5).unwrap();
@@ -112,7 +113,7 @@ fn links_are_readable() {
                     &set=title=%22a%20%26%20b%22&t=3.5";
     assert_eq!(link.to_fragment(), expected);
     assert_eq!(copied(&link).open().unwrap().title, "a & b");
-    // No digit more than it takes to tell the frame from others.
+    // Times have only as many digits as are needed to identify the frame.
     let mut scene = Scene::clone(built_in("simtest1").scene());
     for (frame_time, frame, time) in
         [(0.02, 17, "0.34"), (1.0 / 60.0, 20, "0.33"), (1e-4, 3333, "0.3333"), (1e-9, 20, "2e-8")]
@@ -143,7 +144,7 @@ fn of_several_rules_the_last_counts() {
     assert_eq!(copied(&link).open().unwrap().simulation.rule, Rule::Discrete);
 }
 
-/// One of every kind.
+/// One edit of every kind.
 fn edits() -> Vec<Edit> {
     let [a, b, c, d, e, f] = AWKWARD;
     let (vector, array) = (DVec3::new(a, b, c), [d, e, f]);
@@ -197,7 +198,7 @@ fn edits() -> Vec<Edit> {
     ]
 }
 
-/// A view of a run that never was.
+/// A view with these changes, without a run.
 fn view_with(changes: Vec<Change>) -> View {
     let dated = |(frame, change)| carom_session::PastChange { frame, change };
     let changes: Vec<_> = (0..).step_by(3).zip(changes).map(dated).collect();
@@ -212,7 +213,7 @@ fn every_edit_comes_back_to_the_bit() {
     let link = copied(&view_with(changes.clone()).link());
     let back: Vec<Change> = link.changes().iter().map(|it| it.change.clone()).collect();
     assert_eq!(back, changes);
-    // Equality takes -0 for 0; the text of each number does not.
+    // Equality does not distinguish -0 from 0; the text of a number does.
     assert_eq!(format!("{back:?}"), format!("{changes:?}"));
 }
 
@@ -273,7 +274,7 @@ fn edited() -> Session {
 fn a_session_with_edits_is_repeated_from_its_link() {
     let mut session = edited();
     assert_repeats(&session);
-    // From wherever it is gone to, only what was changed before is part of it.
+    // At any frame, the link contains only the changes up to it.
     let last = session.furthest_frame();
     for frame in [0, 12, 13, 14, 20, 21, 60, last - 30, last] {
         session.seek(frame);
@@ -334,7 +335,7 @@ fn a_repeated_session_fails_where_the_first_one_did_and_notes_it_in_order() {
     let mut session = Session::new(scene.clone()).unwrap();
     while session.step().is_ok() {}
     let failed = session.frame();
-    // An edit that is still to come when the step fails.
+    // An edit that is still to be made when the step fails.
     let mut later = Session::new(busy_scene()).unwrap();
     hashes(&mut later, failed + 5);
     later.edit(Edit::FrameTime(0.01)).unwrap();
@@ -346,7 +347,7 @@ fn a_repeated_session_fails_where_the_first_one_did_and_notes_it_in_order() {
     assert_eq!(again.frame(), failed);
     let frames: Vec<u64> = again.changes().iter().map(|it| it.frame).collect();
     assert_eq!(frames, [failed, failed + 5]);
-    // An edit now is before those to come, and so instead of them.
+    // An edit now comes before the future ones and replaces them.
     again.edit(Edit::FrameTime(1e-4)).unwrap();
     assert_eq!(again.changes().len(), 2);
     hashes(&mut again, 10);
@@ -374,7 +375,7 @@ fn a_driver_repeats_a_run_and_goes_on() {
     driver.update(0.0, || false);
     assert_eq!(driver.view().playback.state_hash, Some(session.state_hash()));
     assert_eq!(driver.view().link(), link);
-    // The address stays as short as the one it was opened with.
+    // The address stays as short as the one that was opened.
     let base = Link::parse("scene=simtest1&set=simulation.frame_time=0.01").unwrap();
     let scene = Box::new(base.open().unwrap());
     driver.send(Command::Replay(scene, Box::new(base.clone()))).unwrap();
@@ -400,14 +401,14 @@ fn a_link_looks_from_where_the_camera_was_to_less_than_a_pixel() {
     let wide = LinkCamera { vertical_fov_degrees: 60.0, ..camera };
     assert_eq!(written(Some(wide)), "scene=simtest1&t=1&camera=0.333,0,-20.5,0,2,0,60");
     assert_eq!(written(None), "scene=simtest1&t=1");
-    // Far from the origin and near to what is seen, and the other way round.
+    // Far from the origin with a near target, and the reverse.
     for (far, near) in [(1e6, 1e-3), (1e-3, 1e9)] {
         let target = DVec3::splat(far);
         let position = target + near * DVec3::new(0.6, -0.8, 0.0);
         let camera = LinkCamera { position, target, vertical_fov_degrees: 50.0 };
         let read = Link::parse(&written(Some(camera))).unwrap().camera().unwrap();
         assert_eq!(read.vertical_fov_degrees, 50.0);
-        // A picture of a thousand lines takes up six tenths of the distance: 6e-4 of it each.
+        // A picture of a thousand lines covers 0.6 of the distance, so a line is 6e-4 of it.
         for (read, place) in [(read.position, position), (read.target, target)] {
             assert!(read.distance(place) < 6e-5 * near, "{read} for {place}");
         }
@@ -427,7 +428,7 @@ fn changes_after_the_time_of_a_link_come_when_it_goes_on() {
     let link = session.link().with_time(0.0).unwrap();
     let mut again = replayed(&link);
     assert_eq!((again.frame(), again.changes().len()), (0, session.changes().len()));
-    // To where the session has to predict the lengths of frames to come.
+    // Goes to a time for which the session has to predict the lengths of future frames.
     again.jump(session.time()).unwrap();
     assert_eq!((again.frame(), again.state_hash()), (session.frame(), session.state_hash()));
 }
@@ -441,7 +442,7 @@ fn a_change_that_cannot_be_made_again_stops_there_and_says_so() {
     session.edit(Edit::AllColliderRestitutions(0.5)).unwrap();
     let mut view = View::default();
     session.fill(&mut view);
-    // The same changes of a scene with one sphere.
+    // The same changes in a scene with one sphere.
     let link = Link::parse("scene=simtest1").unwrap().at(&view);
     let scene = link.open().unwrap();
     let mut again = Session::replay(scene.clone(), &link).unwrap();

@@ -1,4 +1,4 @@
-//! Links of random sessions: whatever is done is repeated to the bit.
+//! Links of random sessions are repeated bit for bit.
 
 use carom::{ColliderId, DVec3, ForceId, Friction, Sphere, SphereId, Spring, SpringId};
 use carom_scene::scene::{Force, Rule, Zones};
@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use crate::busy_scene;
 use crate::link::assert_repeats;
 
-/// Something done to a session; some of it is refused.
+/// An operation on a session, which may be refused.
 #[derive(Debug, Clone)]
 enum Deed {
     Steps(u64),
@@ -58,7 +58,7 @@ fn edit() -> impl Strategy<Value = Edit> {
         (0..4_usize, 2..9_u32).prop_map(move |(rule, max_impacts)| {
             let mut simulation = busy_scene().simulation;
             simulation.rule = rules[rule];
-            // So few that steps fail now and then.
+            // So few that some steps fail.
             simulation.exact.max_impacts = max_impacts;
             simulation.exact.zones = Zones::Never;
             Edit::Simulation(Box::new(simulation))
@@ -81,7 +81,7 @@ proptest! {
     fn it_is_repeated_to_the_bit(deeds in prop::collection::vec(deed(), 1..25)) {
         let mut session = Session::new(busy_scene()).unwrap();
         for deed in deeds {
-            // What is refused or fails is part of what was done.
+            // Refused and failed operations belong to the session, too.
             let _ = match deed {
                 Deed::Steps(frames) => (0..frames).try_for_each(|_| session.step()),
                 Deed::Edit(edit) => session.edit(edit),

@@ -1,4 +1,4 @@
-//! A text that is no link yields an error in words, and no text makes the parser panic.
+//! A text that is no link returns an error in words, and no text makes the parser panic.
 
 use std::io::Write;
 
@@ -25,8 +25,8 @@ fn refusal(link: &str) -> String {
     error
 }
 
-/// Longest error of a link \[characters\]: three lines of a window. The parts of it that were written by somebody
-/// else are shortened.
+/// Longest error of a link \[characters\]: three lines of a window. Parts written by the author of
+/// the link are shortened.
 const LONGEST: usize = 300;
 
 #[test]
@@ -156,7 +156,7 @@ fn what_would_end_the_stack_is_refused() {
     ] {
         assert!(Link::parse(&refused).is_err(), "{}...", &refused[..40]);
     }
-    // These are found out when the scene is read.
+    // These errors are found when the scene is read.
     for broken in [
         format!("scene=simtest1&set=title={brackets}"),
         format!("file={}", text(&format!("[{dots}]"))),
@@ -201,7 +201,7 @@ proptest! {
     ) {
         let parts: Vec<String> = parts.iter().map(|(a, b, c)| format!("{a}{b}{c}")).collect();
         if let Ok(link) = Link::parse(&parts.join("&")) {
-            // What is a link is written as one.
+            // A text that is a link can be written as one.
             prop_assert_eq!(Link::parse(&link.to_fragment()).unwrap(), link);
         }
     }

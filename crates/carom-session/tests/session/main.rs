@@ -1,6 +1,6 @@
-//! What a session promises: any frame of the past can be had again to the bit, whatever was edited
-//! on the way; the pace follows a clock; what is shown is what is there; and a driver obeys in
-//! order, in place and on its thread.
+//! Guarantees of sessions: any past frame can be restored bit for bit after any edits; the pace
+//! follows a clock; views equal the state; and a driver executes commands in order, with and
+//! without a thread.
 
 mod comparison;
 mod contacts;
@@ -19,9 +19,8 @@ use carom::StateHash;
 use carom_scene::{Library, Scene};
 use carom_session::Session;
 
-/// Spheres that fall onto a floor and hit each other, and emitters that add some: everything that
-/// a past has to bring back. Colours are red where single, blue by density, green and yellow where
-/// emitted.
+/// Spheres that fall onto a floor and collide, and emitters: everything that the past has to
+/// restore. Single spheres are red, others blue by density, emitted ones green and yellow.
 const BUSY: &str = r#"
 name = "busy"
 forces = [{ gravity = { acceleration = [0.0, -9.81, 0.0] } },
@@ -76,7 +75,7 @@ fn built_in(name: &str) -> Session {
     Session::new(Library::new().find(name, &[]).unwrap().0).unwrap()
 }
 
-/// The state after each frame up to `frames`, from where the session is.
+/// State hashes from the present frame on, after each of `frames` frames.
 fn hashes(session: &mut Session, frames: u64) -> Vec<StateHash> {
     let mut hashes = vec![session.state_hash()];
     for _ in 0..frames {

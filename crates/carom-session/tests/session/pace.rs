@@ -1,4 +1,4 @@
-//! The pace of simulated time beside that of a clock.
+//! The pace of simulated time relative to a clock.
 
 use carom_session::{FASTEST, LONGEST_DELAY, Pace, SLOWEST};
 
@@ -29,7 +29,7 @@ fn frames_follow_the_clock_without_drift_whatever_the_pictures() {
             wall += dt;
             frames += pace.frames_due(dt, FRAME);
             let exact = (wall * speed / FRAME).floor();
-            // At a frame's very moment, rounding decides whether it is due already.
+            // At the exact time of a frame, rounding decides whether it is due.
             assert!((frames as f64 - exact).abs() <= 1.0, "{frames} of {exact} at {speed}");
         }
         assert!(pace.keeps_up());
@@ -61,10 +61,10 @@ fn after_a_stall_only_so_much_is_made_up_for() {
     let mut pace = playing(1.0);
     pace.frames_due(FRAME, FRAME);
     let frames = pace.frames_due(60.0, FRAME);
-    // What was under way before counts, too.
+    // The part of a frame before the stall counts, too.
     assert!(frames as f64 <= LONGEST_DELAY / FRAME + 1.0, "{frames} frames");
     assert!(!pace.keeps_up());
-    // A second later that is forgotten.
+    // A second later the stall no longer counts.
     (0..150).for_each(|_| _ = pace.frames_due(0.01, FRAME));
     assert!(pace.keeps_up());
 }
@@ -72,16 +72,16 @@ fn after_a_stall_only_so_much_is_made_up_for() {
 #[test]
 fn a_machine_that_is_too_slow_is_seen_and_does_not_fall_behind_for_ever() {
     let mut pace = playing(1.0);
-    // Every frame takes two frames' time: half of what is due can be taken.
+    // Every frame takes the time of two, so half of the due frames can be taken.
     for _ in 0..500 {
         let due = pace.frames_due(2.0 * FRAME, FRAME);
         pace.give_back(due.saturating_sub(1));
     }
     assert!(!pace.keeps_up());
-    // A window begins and ends anywhere in a frame.
+    // The window can start and end anywhere in a frame.
     let factor = pace.realtime_factor().unwrap();
     assert!((factor - 0.5).abs() < 0.05, "{factor}");
-    // Faster again: the longest delay is made up for, and no more.
+    // When the machine is fast again, only the longest delay is made up for.
     let frames: u64 = (0..100).map(|_| pace.frames_due(FRAME, FRAME)).sum();
     assert!(frames <= 100 + (LONGEST_DELAY / FRAME) as u64 + 1, "{frames}");
 }
@@ -92,7 +92,7 @@ fn where_it_keeps_up_the_factor_is_the_speed() {
         let mut pace = playing(speed);
         assert_eq!(pace.realtime_factor(), None);
         (0..300).for_each(|_| _ = pace.frames_due(0.007, FRAME));
-        // Within a frame of a second.
+        // The tolerance is a frame per second.
         let factor = pace.realtime_factor().unwrap();
         assert!((factor - speed).abs() < 1.2 * FRAME, "{factor} at {speed}");
     }
@@ -106,7 +106,7 @@ fn in_slow_motion_a_picture_moves_evenly_from_frame_to_frame() {
     for _ in 0..1000 {
         frames += pace.frames_due(FRAME, FRAME) as f64;
         let now = frames + pace.blend();
-        // A fiftieth of a frame each time; sums of a thousand roundings.
+        // A fiftieth of a frame each time, with a thousand rounding errors.
         assert!((now - shown - SLOWEST).abs() < 1e-12, "{}", now - shown);
         shown = now;
     }

@@ -1,4 +1,4 @@
-//! The past, bit for bit.
+//! The past is restored bit for bit.
 
 use carom::{DVec3, SphereId};
 use carom_scene::scene::{Rule, Zones};
@@ -43,7 +43,7 @@ fn there_is_nothing_before_the_beginning() {
 fn a_jump_gives_the_bits_of_stepping() {
     let mut stepped = busy();
     let there = hashes(&mut stepped, 120);
-    // Onto new ground, back, forth over known ground, and to a moment that is not kept.
+    // To new frames, back, forth over known frames, and to a moment that is not stored.
     let mut session = busy();
     for frame in [100_u64, 3, 77, 78, 120, 119, 0, 50] {
         session.jump(frame as f64 / 60.0).unwrap();
@@ -81,7 +81,7 @@ fn a_time_that_makes_no_sense_is_refused() {
 fn an_edit_is_repeated_when_its_time_comes_again() {
     let mut session = busy();
     let mut there = hashes(&mut session, 20);
-    // Two at one frame, and one of every other kind that lets flights begin anew or not.
+    // Two edits at one frame, and others with and without an effect on flights.
     push(&mut session, DVec3::new(3.0, 4.0, 0.0));
     session.edit(Edit::FrameTime(0.01)).unwrap();
     there[20] = session.state_hash();
@@ -112,7 +112,7 @@ fn times_lead_to_their_frames_where_frames_changed_their_length() {
     for (time, frame) in [(0.25, 15), (0.5, 30), (0.6, 31), (1.5, 40), (2.0, 45), (0.0, 0)] {
         session.jump(time).unwrap();
         assert_eq!(session.frame(), frame, "{time} s");
-        // The sum of frame times is that far from the product.
+        // The sum of frame times differs by this much from the product.
         assert!((session.time() - time).abs() < 1e-12, "{} s for {time} s", session.time());
     }
 }
@@ -127,7 +127,7 @@ fn a_new_edit_cuts_off_the_future() {
     assert_eq!((session.furthest_frame(), session.furthest()), (10, session.time()));
     let other = hashes(&mut session, 40);
     assert!(other.iter().skip(1).zip(&there[11..]).all(|(one, other)| one != other));
-    // The cut edit at frame 40 does not come back.
+    // The edit at frame 40, which was cut off, does not return.
     session.jump(0.0).unwrap();
     let again = hashes(&mut session, 50);
     assert_eq!(again[..10], there[..10]);
@@ -168,7 +168,8 @@ fn a_step_that_failed_leaves_the_past_as_it_was_and_is_part_of_it() {
     let frames = session.frame();
     assert!(matches!(error, SessionError::World(carom::Error::TooManyImpacts { .. })), "{error}");
     assert_eq!(session.state_hash(), there[frames as usize]);
-    // Shorter frames go on; flights began anew after the failure, and do so again in the replay.
+    // With shorter frames it continues. All flights were computed again after the failure, and are
+    // in the replay.
     session.edit(Edit::FrameTime(1e-4)).unwrap();
     there.extend(hashes(&mut session, 30).drain(1..));
     session.restart().unwrap();
@@ -185,7 +186,7 @@ fn the_past_stays_within_its_memory_and_is_not_lost() {
     for _ in 0..600 {
         session.step().unwrap();
         there.push(session.state_hash());
-        // The beginning is kept whatever it takes.
+        // The beginning is always stored.
         assert!(session.memory() <= MEMORY + start);
     }
     for frame in [599_u64, 598, 590, 300, 301, 17, 600] {
@@ -203,7 +204,7 @@ fn the_past_stays_within_its_memory_and_is_not_lost() {
 #[test]
 fn the_way_to_a_frame_grows_with_its_distance_from_the_present() {
     let mut session = built_in("simtest1");
-    // Place for some tens of moments.
+    // Memory for some tens of moments.
     session.set_memory(500_000);
     hashes(&mut session, 3000);
     let frames_again = |session: &mut Session, frame: u64| {
@@ -212,7 +213,8 @@ fn the_way_to_a_frame_grows_with_its_distance_from_the_present() {
         session.stop_seeking();
         frames_again
     };
-    // The last frames are kept all; of 1000 moments in 3000 frames, all would be near.
+    // All of the last frames are stored. With 1000 moments in 3000 frames, all frames would be near
+    // one.
     assert_eq!(frames_again(&mut session, 2999), 0);
     for back in [10, 100, 300, 1000, 2000, 2900] {
         let again = frames_again(&mut session, 3000 - back);

@@ -1,4 +1,4 @@
-//! What is measured.
+//! Measurements.
 
 use carom::{BodyPair, DQuat, DVec3, StageCounts};
 use carom_scene::scene::{Rule, Scene, Sphere};
@@ -12,7 +12,7 @@ fn view(session: &Session) -> View {
     view
 }
 
-/// Two spheres of 1 kg and 3 kg in a line, which meet with 2 m/s and restitution 0.5.
+/// Two spheres of 1 kg and 3 kg in a line, which approach at 2 m/s with restitution 0.5.
 fn two_that_meet(rule: Rule) -> Session {
     Session::new(scene_of_two(rule)).unwrap()
 }
@@ -44,7 +44,7 @@ fn an_impact_is_listed_with_its_time_impulse_and_energy() {
         let lost = 0.5 * 0.75 * (1.0 - 0.25) * 4.0;
         let change = impact.energy_change.unwrap();
         assert!((change + lost).abs() < 1e-12, "{rule:?}: {change}");
-        // The world lost just that.
+        // The world lost exactly this energy.
         let [first, .., last] = view.readings[..] else { panic!("too few readings") };
         assert!((last.total_energy() - first.total_energy() + lost).abs() < 1e-12);
         assert!((last.momentum - DVec3::new(2.0, 0.0, 0.0)).length() < 1e-12);
@@ -72,7 +72,7 @@ fn marks_fade() {
     assert_eq!(view(&session).marks().len(), 1);
     session.jump(0.5 + 1.5 * MARKED).unwrap();
     assert_eq!(view(&session).marks().len(), 0);
-    // Back before the impact, it has not happened.
+    // At an earlier frame, the impact has not occurred.
     session.jump(0.4).unwrap();
     assert!(view(&session).impacts.is_empty());
 }
@@ -102,7 +102,7 @@ fn each_reading_has_the_work_of_the_frame_that_led_to_it() {
     let measured: Vec<StageCounts> = view(&session).readings.iter().map(|it| it.work).collect();
     assert_eq!(measured, expected);
     assert!(expected.iter().any(|work| work.pair_tests > 0 && work.events > 0));
-    // The world that is put back has no report; the reading stays.
+    // A restored world has no report; the reading remains.
     session.jump(0.25).unwrap();
     let now = view(&session).now;
     assert_eq!(now.work, expected[15]);
@@ -136,13 +136,13 @@ fn a_long_run_is_shown_whole_in_bounded_memory() {
     assert_eq!(readings[readings.len() - 1].time, session.time());
     let times: Vec<f64> = readings.iter().map(|reading| reading.time).collect();
     assert!(times.is_sorted_by(|one, next| one < next));
-    // Evenly: no gap is longer than four frames.
+    // Evenly spaced: no gap is longer than four frames.
     assert!(times.windows(2).all(|pair| pair[1] - pair[0] < 4.5 / 60.0));
 }
 
 #[test]
 fn the_rate_of_impacts_is_their_number_per_second() {
-    // One sphere between two walls 1 m apart with 20 m/s: 20 impacts per second.
+    // A sphere between two walls with a gap of 1 m, at 20 m/s: 20 impacts per second.
     let mut scene = Scene::new("between walls");
     let mut sphere = Sphere::at([0.0; 3], 0.5);
     sphere.velocity = [20.0, 0.0, 0.0];
@@ -156,7 +156,7 @@ fn the_rate_of_impacts_is_their_number_per_second() {
     let mut session = Session::new(Scene::from_toml(&text, "walls").unwrap()).unwrap();
     hashes(&mut session, 120);
     let view = view(&session);
-    // At most one more or less in the window.
+    // The window may contain one impact more or less.
     assert!((view.now.impact_rate - 20.0).abs() <= 2.0, "{}", view.now.impact_rate);
     assert_eq!(view.now.impacts, view.impacts.len() as u64);
 }
@@ -174,7 +174,7 @@ fn the_picked_sphere_is_shown_from_the_beginning() {
         (there.picked_readings[0].time, there.picked_readings[0].velocity.length()),
         (0.0, 2.0)
     );
-    // Of 2 m/s, the centre of mass keeps 0.5 m/s; of the 1.5 m/s relative to it, half comes back.
+    // Of 2 m/s, the centre of mass keeps 0.5 m/s; of the relative 1.5 m/s, half is returned.
     let last = there.picked_readings[60];
     assert!((last.velocity.length() - 0.25).abs() < 1e-12, "{last:?}");
     session.step_back().unwrap();
@@ -194,7 +194,7 @@ fn a_sphere_picked_late_has_the_past_of_one_picked_at_once() {
     hashes(&mut late, 60);
     late.pick(Some(id));
     assert_eq!(view(&late).picked_readings, view(&early).picked_readings);
-    // What comes after the present is not shown.
+    // Measurements after the present are not shown.
     late.pick(None);
     late.jump(0.5).unwrap();
     late.pick(Some(id));
@@ -214,7 +214,7 @@ fn only_the_last_impacts_are_remembered() {
     assert!(impacts.is_sorted_by_key(|impact| impact.time));
 }
 
-/// Mass m, speed u, in a closed box with walls `4 r` apart: it hits both sides of an axis.
+/// A ball of 3 kg in a closed box whose walls are four radii apart; it hits both walls of an axis.
 fn one_in_a_box(speed: f64) -> Session {
     let text = format!(
         "name = \"box\"\nspheres = [{{ position = [0, 0, 0], radius = 0.5, mass = 3.0, velocity = [{speed}, 0, 0] }}]\n\
@@ -227,13 +227,14 @@ fn one_in_a_box(speed: f64) -> Session {
 fn pressure_in_a_container_is_the_force_on_its_walls_by_their_area() {
     let mut session = one_in_a_box(40.0);
     hashes(&mut session, 60);
-    // 40 impacts a second of 2 m u = 240 N s on 24 m²: 400 Pa; one impact more or less in the window.
+    // 40 impacts per second of 2 m u = 240 N s on 24 m² are 400 Pa; the window may contain one
+    // impact more or less.
     let pressure = view(&session).now.pressure.unwrap();
     assert!((pressure - 400.0).abs() <= 1.05 * 240.0 / 24.0 / 0.5, "{pressure}");
     assert_eq!(view(&busy()).now.pressure, None, "a floor alone shuts nothing in");
 }
 
-/// The box of [`one_in_a_box`], of half-spaces with these normals at a distance of 1 m.
+/// The ball of [`one_in_a_box`] between half-spaces with these normals at a distance of 1 m.
 fn one_in_half_spaces(normals: &[[f64; 3]]) -> Session {
     let wall = |[x, y, z]: &[f64; 3]| {
         let position = format!("[{}, {}, {}]", -x, -y, -z);
@@ -252,7 +253,7 @@ fn one_in_half_spaces(normals: &[[f64; 3]]) -> Session {
 
 #[test]
 fn pressure_in_a_box_of_half_spaces_is_the_force_on_its_walls_by_their_area() {
-    // Turned about z, so that the ball still goes straight from wall to wall.
+    // Turned about z, so that the ball still moves straight from wall to wall.
     let (turned, across) = ([0.6, 0.8, 0.0], [-0.8, 0.6, 0.0]);
     let opposite = |it: [f64; 3]| it.map(|along| -along);
     let z = [0.0, 0.0, 1.0];
@@ -262,7 +263,7 @@ fn pressure_in_a_box_of_half_spaces_is_the_force_on_its_walls_by_their_area() {
     // As in the container: 400 Pa.
     let pressure = view(&session).now.pressure.unwrap();
     assert!((pressure - 400.0).abs() <= 1.05 * 240.0 / 24.0 / 0.5, "{pressure}");
-    // What has no lid, more walls than a box, or slanting ones, has no known area.
+    // An open box, one with more than six walls, or one with slanting walls has no known area.
     let slanting = [[0.6, 0.0, 0.8], z, across, opposite(turned), opposite(z), opposite(across)];
     for walls in [&walls[..5], &[&walls[..], &[[0.0, 0.6, 0.8]]].concat(), &slanting] {
         assert_eq!(view(&one_in_half_spaces(walls)).now.pressure, None);
@@ -277,16 +278,16 @@ fn one_sphere_alone_has_no_temperature_and_two_opposite_ones_that_of_their_motio
          [[spheres]]\nposition = [-1, 0, 0]\nradius = 0.5\nmass = 2.0\nvelocity = [3, 5, 0]\n\
          [[spheres]]\nposition = [1, 0, 0]\nradius = 0.5\nmass = 2.0\nvelocity = [-3, 5, 0]\n";
     let mut session = Session::new(Scene::from_toml(text, "two").unwrap()).unwrap();
-    // m v² along the one direction in which they move relative to each other.
+    // m v² along the only direction of the relative motion.
     assert_eq!(view(&session).now.thermal_energy, 18.0);
-    // Between impacts they fly 2 m towards each other, at 6 m/s; each has J = 2 μ 6 m/s = 12 N s.
+    // Between impacts they approach over 2 m at 6 m/s; each impact has J = 2 μ 6 m/s = 12 N s.
     let (rate, distance, impulse) = (3.0, 1.0, 12.0);
     hashes(&mut session, 180);
-    // They move relative to each other along x alone, so along it they press.
+    // The relative motion, and so the pressure, is along x only.
     let of_impacts = distance * impulse * rate / 64.0;
     let expected = 2.0 * 18.0 / 64.0 + of_impacts;
     let pressure = view(&session).now.pressure.unwrap();
-    // One impact more or less than 1.5 in the window.
+    // The window may contain one impact more or less than 1.5.
     assert!((pressure - expected).abs() <= 0.7 * of_impacts, "{pressure} {expected}");
 }
 
@@ -323,7 +324,7 @@ fn a_view_filled_again_and_again_is_like_a_fresh_one() {
         session.fill(&mut reused);
         assert_eq!(reused.spheres, view(&session).spheres, "frame {frame}");
     }
-    // Another session of the same scene has the same stamps, and other spheres.
+    // Another session of the same scene has the same stamps but other spheres.
     let mut other = busy();
     other.step().unwrap();
     other.fill(&mut reused);
@@ -337,7 +338,7 @@ fn previous_orientations_are_those_a_frame_ago_for_the_spheres_that_were_there()
     let spheres = view(&session).spheres;
     assert!(spheres.orientations.is_empty() && spheres.previous_orientations.is_empty());
     assert_eq!(spheres.orientation(0, 0.5), None);
-    // Far from all others, so that it turns on and on.
+    // Far from all others, so that it keeps rotating.
     let speed = 3.0;
     let sphere = carom::Sphere::new(DVec3::splat(1e3), 0.1).with_angular_velocity(speed * DVec3::Z);
     session.edit(Edit::Throw { sphere: Box::new(sphere), color: None }).unwrap();
@@ -356,7 +357,7 @@ fn previous_orientations_are_those_a_frame_ago_for_the_spheres_that_were_there()
         }
         let halfway = now.orientation(now.index_of(thrown).unwrap(), 0.5).unwrap();
         let angle = speed * session.frame_time() * (f64::from(frame) + 0.5);
-        // Half way on the chord is half way on the arc; some sixty roundings.
+        // The middle of the chord is the middle of the arc; about sixty rounding errors.
         assert!(halfway.angle_between(DQuat::from_rotation_z(angle)) < 1e-6, "frame {frame}");
         before = now;
     }

@@ -1,4 +1,4 @@
-//! Changes by hand are taken back and made again, to the bit.
+//! Manual edits are undone and repeated bit for bit.
 
 use carom::{DVec3, Sphere};
 use carom_scene::scene::{Force, Rule};
@@ -19,7 +19,7 @@ fn take(session: &mut Session, frames: u64) {
     hashes(session, frames);
 }
 
-/// Goes where the session has set out for.
+/// Goes to the frame to which the session is going.
 fn arrive(session: &mut Session) {
     session.advance_seek(u64::MAX).unwrap();
 }

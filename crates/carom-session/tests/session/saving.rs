@@ -7,8 +7,8 @@ use carom_session::{Edit, Session, View};
 
 use crate::{built_in, busy, busy_scene, hashes};
 
-/// Everything of the spheres and colliders of two worlds, to the bit, but for the ids of spheres:
-/// `Debug` writes a number so that it can be read back, and tells -0 from 0.
+/// Compares spheres and colliders of two worlds bit for bit, without the ids of spheres. `Debug`
+/// formats numbers exactly, and distinguishes -0 from 0.
 fn assert_same(one: &World, other: &World) {
     let text = |world: &World| {
         let spheres: Vec<_> = (0..world.spheres().len()).map(|i| world.spheres().get(i)).collect();
@@ -46,7 +46,7 @@ fn what_was_edited_is_in_the_file() {
     assert_same(session.world(), &scene.world().unwrap());
     assert_eq!(scene.simulation.frame_time, 0.005);
     assert_eq!(scene.colliders[1].name, "paddle");
-    // Colours are those of the moment.
+    // The colours are the present ones.
     let again = Session::new(scene).unwrap();
     let colors = |session: &Session| {
         let mut view = View::default();
@@ -58,7 +58,7 @@ fn what_was_edited_is_in_the_file() {
 
 #[test]
 fn spheres_that_overlap_can_be_saved() {
-    // A rule that finds contacts late lets spheres sink in.
+    // Under a rule that finds contacts late, spheres overlap.
     let mut scene = busy_scene();
     scene.simulation.rule = Rule::Discrete;
     let mut session = Session::new(scene).unwrap();

@@ -1,4 +1,4 @@
-//! The bar above everything.
+//! The bar at the top of the window.
 
 use carom_maze::{BUILT_IN_DRAWINGS, Maze, MazeError};
 use egui::Ui;
@@ -7,11 +7,11 @@ use super::{App, Screen};
 use crate::action::Action;
 use crate::layout::{bar_has_one_line, is_for_fingers, scrolled_within};
 
-/// Between the buttons of the bar, in points: so all fit in 1280.
+/// Space between the buttons of the bar, in points; with it all buttons fit into 1280.
 const CLOSE: f32 = 4.0;
 
 impl App {
-    /// What there is to choose in the maze game. Returns another maze to play.
+    /// Shows the options of the maze game. Returns another maze if one was chosen.
     fn mazes(&mut self, ui: &mut Ui) -> Option<Result<Maze, MazeError>> {
         let Screen::Maze(screen) = &mut self.screen else { return None };
         let mut levels_back = screen.levels_back();
@@ -54,7 +54,7 @@ impl App {
         Maze::random(self.random_mazes, 8, 6)
     }
 
-    /// Plays the maze after the one being played: the course's, those drawn, then random ones.
+    /// Plays the next maze: the course, then the built-in drawings, then random mazes.
     pub(super) fn next_maze(&mut self) {
         let name = self.maze().map(|it| it.game().scene().name.clone()).unwrap_or_default();
         let place = BUILT_IN_DRAWINGS.iter().position(|(drawing, _)| *drawing == name);
@@ -104,7 +104,7 @@ impl App {
         actions
     }
 
-    /// Everything in the bar but the choice of a scene.
+    /// Shows everything in the bar except the choice of a scene.
     fn switches(&mut self, ui: &mut Ui) -> Vec<Action> {
         let mut actions = Vec::new();
         if let Screen::Watching(watching) = &self.screen {

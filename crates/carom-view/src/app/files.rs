@@ -1,4 +1,4 @@
-//! Files that the interface opens: dropped ones, and those that change on the disk.
+//! Opens dropped files, and reloads files that change on the disk.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use super::{App, Screen};
 use crate::host::ReadFile;
 use crate::written_scene::WrittenScene;
 
-/// What files can be opened.
+/// Kinds of files that can be opened.
 const OPENS: &str = "a scene (TOML) or a maze (text)";
 
 impl App {
@@ -34,7 +34,7 @@ impl App {
         self.notices.complain(format!("cannot read {}: {error}", path.display()));
     }
 
-    /// Shows where a file would go that is held over the window.
+    /// Shows the drop area while a file is held over the window.
     pub(super) fn drop_target(&self) {
         if self.context.input(|input| input.raw.hovered_files.is_empty()) {
             return;
@@ -60,7 +60,7 @@ impl App {
             }
             return;
         }
-        // A page has the text alone; a file of the disk may include others.
+        // A web page has the text alone; a file on the disk may include other files.
         let written = if path.is_file() {
             WrittenScene::from_file(path, Vec::new())
         } else {
@@ -77,7 +77,7 @@ impl App {
         }
     }
 
-    /// Reads a scene file anew that was changed on the disk.
+    /// Reloads the open scene file after a change on the disk.
     pub(super) fn reload_changed(&mut self) {
         let now = self.context.input(|input| input.time);
         let Screen::Watching(watching) = &mut self.screen else { return };

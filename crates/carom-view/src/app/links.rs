@@ -1,4 +1,4 @@
-//! Links to what is shown, and links that are followed.
+//! Makes links to the present view, and opens links.
 
 use carom_maze::Maze;
 use carom_session::{Command, Link};
@@ -7,8 +7,8 @@ use super::{App, Screen};
 use crate::watching::Watching;
 
 impl App {
-    /// Shows the run of a link: a maze without a past is played, anything else watched. Where it
-    /// cannot be, says so; the chooser opens if there is nothing else.
+    /// Opens the run of a link. A maze without past changes is played, anything else is watched. If
+    /// the link cannot be opened, an error is shown, in the chooser if nothing else is open.
     pub fn follow(&mut self, link: &Link) {
         let scene = match link.open_within(self.link_budget) {
             Ok(scene) => scene,
@@ -28,7 +28,7 @@ impl App {
         }
     }
 
-    /// Says why a link cannot be followed: in the chooser where that is open.
+    /// Shows why a link cannot be opened: in the chooser if it is open, else as a notice.
     pub fn refuse_link(&mut self, why: &str) {
         if matches!(self.screen, Screen::Empty) {
             self.welcome();
@@ -40,7 +40,7 @@ impl App {
         }
     }
 
-    /// Opens the dialog with a link to what is shown, which stands still meanwhile.
+    /// Opens or closes the dialog with a link to the present view. Opening it pauses the scene.
     pub(super) fn open_link(&mut self) {
         self.link.toggle();
         if let Screen::Watching(watching) = &mut self.screen
@@ -50,7 +50,7 @@ impl App {
         }
     }
 
-    /// Tells the host the link to what is shown, and shows it in its dialog.
+    /// Reports the link to the present view to the host, and shows it in its dialog.
     pub(super) fn links(&mut self) {
         let Self { address, link, host, context, screen, .. } = self;
         match screen {

@@ -1,4 +1,4 @@
-//! The interface as a whole.
+//! The whole interface.
 
 mod bar;
 mod files;
@@ -32,23 +32,23 @@ use crate::theme::make_readable;
 use crate::watching::{Manner, Watching};
 use crate::written_scene::WrittenScene;
 
-/// What the interface starts with.
+/// What the interface needs at the start.
 pub struct Setup {
-    /// All scenes that can be chosen.
+    /// The scenes to choose from.
     pub library: Library,
-    /// What is open at the start; the chooser without it.
+    /// What to open first; `None` opens the chooser.
     pub start: Option<Start>,
-    /// The program that it runs in.
+    /// The program that hosts the interface.
     pub host: Box<dyn Host>,
-    /// How much work goes into the pictures on the screen.
+    /// Quality of the pictures on the screen.
     pub quality: Quality,
-    /// Whether the physics has a thread of its own.
+    /// Whether the physics runs on its own thread.
     pub threaded: bool,
-    /// How much a link may ask for.
+    /// Limits on the work that a link may cause.
     pub link_budget: Budget,
 }
 
-/// What is open at the start.
+/// What to open first.
 #[derive(Debug, Clone)]
 pub enum Start {
     /// A scene to watch.
@@ -72,11 +72,11 @@ pub struct App {
     chooser: Chooser,
     notices: Notices,
     help: bool,
-    /// Time of the processor for the last picture of the interface \[s\].
+    /// Processor time for the last frame of the interface \[s\].
     cpu_seconds: Option<f32>,
-    /// What went wrong in the physics and stands in a notice.
+    /// The last error of the physics that has a notice.
     told: Option<Arc<SessionError>>,
-    /// Whether mazes are tilted by tilting the device.
+    /// Whether tilting the device tilts mazes.
     tilts_device: bool,
     /// Seed of the last random maze.
     random_mazes: u64,
@@ -86,7 +86,7 @@ pub struct App {
     kept: Kept,
 }
 
-/// What fills the window.
+/// The content of the window.
 enum Screen {
     Empty,
     Watching(Box<Watching>),
@@ -94,10 +94,10 @@ enum Screen {
 }
 
 impl App {
-    /// The interface, on the graphics device of its host.
+    /// Makes the interface on the graphics device of its host.
     ///
     /// # Errors
-    /// A message for people if the host draws without wgpu.
+    /// A message for the user if the host does not draw with wgpu.
     pub fn new(host: &CreationContext, setup: Setup) -> Result<Self, String> {
         let state = host.wgpu_render_state.clone();
         let state = state.ok_or("the interface needs a host that draws with wgpu")?;
@@ -139,7 +139,7 @@ impl App {
         Ok(app)
     }
 
-    /// Has a scene play behind the chooser, so that there is something to see whatever is chosen.
+    /// Plays a scene behind the chooser.
     fn welcome(&mut self) {
         let entries = self.library.entries().unwrap_or_default();
         if let Some((scene, source)) =
@@ -151,7 +151,7 @@ impl App {
         self.open_chooser();
     }
 
-    /// Opens a scene: a maze to be played, any other to be watched.
+    /// Opens a scene: plays a maze, watches any other scene.
     fn open(&mut self, scene: Scene, source: Source) {
         match Maze::from_scene(&scene) {
             Ok(maze) => self.play_linked(maze, Link::to_scene(&scene)),
@@ -159,12 +159,12 @@ impl App {
         }
     }
 
-    /// Watches a scene from now on; says so where it cannot be.
+    /// Watches a scene; shows an error if that is impossible.
     pub fn watch(&mut self, scene: Scene, source: Source) {
         match Watching::new(scene, source, self.threaded, &self.context) {
             Ok(mut watching) => {
                 self.host.watch(&watching.source);
-                // A page has no files to come back to.
+                // A web page cannot reopen files.
                 if let Source::File(path) = &watching.source
                     && cfg!(not(target_arch = "wasm32"))
                 {
@@ -180,7 +180,7 @@ impl App {
         }
     }
 
-    /// Plays a maze from now on.
+    /// Plays a maze.
     pub fn play(&mut self, maze: Maze) {
         let link = Link::to_scene(maze.scene());
         self.play_linked(maze, link);
@@ -200,14 +200,14 @@ impl App {
         }
     }
 
-    /// Keeps how far the game has got that is played.
+    /// Remembers the progress of the present game.
     fn keep_game(&mut self) {
         if let Screen::Maze(screen) = &self.screen {
             self.kept.game = Some(screen.kept());
         }
     }
 
-    /// Fills the window with something else; a film of what was there before is complete.
+    /// Replaces the content of the window; ends a film of the old content.
     fn show(&mut self, screen: Screen) {
         self.keep_game();
         self.notices.clear();
@@ -216,7 +216,7 @@ impl App {
         self.screen = screen;
     }
 
-    /// The scene being watched, if any is.
+    /// Returns the watched scene, if there is one.
     pub fn watching(&self) -> Option<&Watching> {
         match &self.screen {
             Screen::Watching(watching) => Some(watching),
@@ -224,19 +224,20 @@ impl App {
         }
     }
 
-    /// Tells the physics of the scene being watched what to do.
+    /// Sends a command to the physics of the watched scene.
     pub fn command(&mut self, command: Command) {
         if let Screen::Watching(watching) = &mut self.screen {
             watching.commands.push(command);
         }
     }
 
-    /// Where in a picture of this place on the screen the sphere at an index is shown.
+    /// Returns the position on the screen of the sphere at an index, for a picture that fills
+    /// `picture`.
     pub fn place_of(&self, index: usize, picture: Rect) -> Option<Pos2> {
         self.watching()?.place_of(index, picture)
     }
 
-    /// The maze being played, if any is.
+    /// Returns the game, if a maze is played.
     pub fn maze(&self) -> Option<&MazeScreen> {
         match &self.screen {
             Screen::Maze(screen) => Some(screen),
@@ -244,28 +245,28 @@ impl App {
         }
     }
 
-    /// All scenes that can be chosen.
+    /// Returns the scenes to choose from.
     pub fn library(&self) -> &Library {
         &self.library
     }
 
-    /// Whether a scene is being chosen.
+    /// Returns whether the chooser is open.
     pub fn is_choosing(&self) -> bool {
         self.chooser.is_open()
     }
 
-    /// Whether a film is being recorded.
+    /// Returns whether a film is being recorded.
     pub fn is_recording(&self) -> bool {
         self.exports.is_recording()
     }
 
-    /// Time of the processor for the last picture of the interface \[s\]; `None` before there was
-    /// one.
+    /// Returns the processor time for the last frame of the interface \[s\]; `None` before the
+    /// first.
     pub fn cpu_seconds(&self) -> Option<f32> {
         self.cpu_seconds
     }
 
-    /// What it tells the user.
+    /// Returns the messages for the user.
     pub fn notices(&self) -> &Notices {
         &self.notices
     }
@@ -276,7 +277,7 @@ impl App {
         }
     }
 
-    /// Does what a key or button means.
+    /// Performs the action of a key or button.
     pub fn act(&mut self, action: Action) {
         match action {
             Action::Choose => self.open_chooser(),
@@ -304,7 +305,7 @@ impl App {
         }
     }
 
-    /// Ends the way to another time where it has come to, unless the key is for a dialog.
+    /// Stops a seek at the time reached, unless a dialog is open that the key is for.
     fn stop_seeking(&mut self) {
         let has_dialog = self.help || self.link.is_open() || self.chooser.is_open();
         if !has_dialog && self.watching().is_some_and(|it| it.view().seeking.is_some()) {
@@ -312,13 +313,13 @@ impl App {
         }
     }
 
-    /// How the interface works now.
+    /// Returns the settings of the interface that pictures depend on.
     fn manner(&self) -> Manner {
         let recording = self.exports.is_recording();
         Manner { dark: self.context.theme() == Theme::Dark, recording }
     }
 
-    /// Name and time of what is shown \[s\].
+    /// Returns the name of the present scene and its time \[s\].
     fn shown(&self) -> Option<(String, f64)> {
         match &self.screen {
             Screen::Watching(watching) => {
@@ -331,14 +332,14 @@ impl App {
         }
     }
 
-    /// Says what went wrong in the physics.
+    /// Shows errors of the physics as notices.
     fn complain_of_session(&mut self) {
         let Screen::Watching(watching) = &mut self.screen else { return };
         if let Some(error) = watching.refused.take() {
             self.notices.complain(error);
         }
         let error = watching.view().playback.error.clone();
-        // Each gets one notice: it stays in the view until something goes well.
+        // Each error gets one notice; it stays in the view until a step succeeds.
         let is_told = match (&error, &self.told) {
             (Some(error), Some(told)) => Arc::ptr_eq(error, told),
             _ => false,
@@ -349,7 +350,7 @@ impl App {
         self.told = error;
     }
 
-    /// Says what went wrong on the graphics device. The scene goes on, and can be saved.
+    /// Shows errors of the graphics device as notices. The scene continues and can be saved.
     fn complain_of_studio(&mut self) {
         if let Some(text) = self.studio.failure() {
             let advice = "Save the scene with Ctrl + S, and start anew.";
@@ -405,7 +406,7 @@ impl App {
         match &mut self.screen {
             Screen::Empty => {}
             Screen::Watching(watching) => watching.advance(ui),
-            // A game waits behind the dialog.
+            // The game pauses behind the dialog.
             Screen::Maze(_) if self.chooser.is_open() => {}
             Screen::Maze(screen) => {
                 screen.stick = self.host.stick();
@@ -436,7 +437,7 @@ impl eframe::App for App {
     }
 
     fn auto_save_interval(&self) -> std::time::Duration {
-        // A page has no end at which it could be kept for sure.
+        // A web page may close without notice, so the state is saved every few seconds.
         std::time::Duration::from_secs(5)
     }
 
@@ -444,7 +445,7 @@ impl eframe::App for App {
         self.cpu_seconds = frame.info().cpu_usage;
         let context = ui.ctx().clone();
         self.studio.begin_frame();
-        // A dialog has the keys for itself; on the win screen Enter plays again.
+        // A dialog takes the keys; on the win screen Enter starts again.
         let is_won = self.maze().is_some_and(MazeScreen::is_won);
         if !self.chooser.is_open() {
             for action in action::pressed(&context, is_won) {

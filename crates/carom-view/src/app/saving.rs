@@ -1,4 +1,4 @@
-//! What the interface saves: pictures, films, scenes.
+//! Saves pictures, films and scenes.
 
 use super::{App, Screen};
 use crate::exports::Outlet;
@@ -6,7 +6,7 @@ use crate::naming::stamp_text;
 use crate::plots::{self, Wanted};
 use crate::snapshot::Snapshot;
 
-/// Smallest picture that is saved \[pixels\].
+/// Smallest size of a saved picture \[pixels\].
 const SMALLEST_PICTURE: [u32; 2] = [1280, 720];
 
 impl App {
@@ -20,7 +20,7 @@ impl App {
         drawn.map_err(|error| self.notices.complain(error)).ok()
     }
 
-    /// Saves a picture with the simulation time on it, of the size of the window at least.
+    /// Saves a picture with the simulation time written on it, at least as large as the window.
     pub(super) fn screenshot(&mut self) {
         let Some((name, time)) = self.shown() else { return };
         let window = self.context.content_rect().size() * self.context.pixels_per_point();
@@ -42,7 +42,7 @@ impl App {
         outlet.save_scene(&view.scene_now(), view.time);
     }
 
-    /// Saves numbers of the plots, or a picture of them.
+    /// Saves the numbers of a plot, or a picture of the plots.
     pub(super) fn save_plots(&mut self, wanted: Wanted) {
         let Some((scene, time)) = self.shown() else { return };
         match wanted {
@@ -58,7 +58,7 @@ impl App {
         }
     }
 
-    /// Begins to record a film, or ends it.
+    /// Starts a film, or ends the present one.
     pub(super) fn record(&mut self) {
         if self.exports.is_recording() {
             self.exports.end_film();
@@ -70,7 +70,7 @@ impl App {
         self.exports.begin_film(&name, time, &mut outlet);
     }
 
-    /// The time by which films go on \[s\].
+    /// Returns the time that films follow \[s\].
     fn film_clock(&self) -> f64 {
         match &self.screen {
             Screen::Watching(watching) => watching.view().time,
@@ -79,7 +79,7 @@ impl App {
         }
     }
 
-    /// Adds the frames of the film that are due, and saves what has been drawn.
+    /// Adds the due frames to the film, and saves pictures that are complete.
     pub(super) fn export(&mut self) {
         if let Some((size, frames)) = self.exports.film_due(self.film_clock())
             && let Some(snapshot) = self.snapshot(size)

@@ -1,4 +1,4 @@
-//! The picked ball, and those to be thrown.
+//! The picked ball, and the balls to be thrown.
 
 use carom::DVec3;
 use carom_session::{Command, Edit, SphereChange, View};
@@ -8,7 +8,7 @@ use super::friction;
 use super::value::{Field, number, vector};
 use crate::layout::press_word;
 
-/// A ball that is thrown into the scene with the mouse.
+/// Properties of a ball that the user throws into the scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Throw {
     /// \[m\]

@@ -1,4 +1,4 @@
-//! What balls bounce off.
+//! Restitution and friction of colliders.
 
 use carom::{CombineRule, SphereId};
 use carom_session::{Command, Edit, View};
@@ -8,7 +8,7 @@ use egui::{Slider, Ui};
 use super::friction;
 use super::value::name;
 
-/// Surfaces that get a slider of their own; more are changed together.
+/// Largest number of surfaces with a slider each; more share one slider.
 const LISTED: usize = 24;
 
 pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
@@ -52,7 +52,7 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     }
 }
 
-/// The picked ball, and the restitution of its contact with a surface of this restitution.
+/// Returns the picked ball and the restitution of its contact with a surface of this restitution.
 fn with_picked(view: &View, restitution: f64) -> Option<(SphereId, f64)> {
     let ball = view.picked?;
     let of_ball = view.spheres.restitutions[view.spheres.index_of(ball)?];
@@ -72,7 +72,7 @@ fn slider(ui: &mut Ui, title: &str, text: &str, restitution: &mut f64) -> bool {
         let is_handled = is_handled
             || [Action::SetValue, Action::Increment, Action::Decrement].into_iter().any(is_asked);
         response.widget_info(|| egui::WidgetInfo::slider(true, *restitution, text));
-        // A slider rounds what it shows; only a hand changes anything.
+        // A slider rounds its value; the change counts only if the user moves it.
         is_handled && *restitution != before
     })
     .inner

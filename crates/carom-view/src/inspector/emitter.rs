@@ -1,4 +1,4 @@
-//! Sources of balls.
+//! Emitters of balls.
 
 use carom::{DVec3, Mass};
 use carom_scene::scene::Rule;
@@ -14,10 +14,10 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
             if !described.name.is_empty() {
                 ui.strong(&described.name);
             }
-            // One that makes no sense is in no world.
+            // The world has no invalid emitters.
             let Ok(before) = described.emitter() else { return };
             let mut after = before;
-            // With another period it starts anew, and emits at once.
+            // A new period restarts the emitter, which emits at once.
             number_at_last(ui, Field::positive("period", "s"), &mut after.period);
             limit(ui, "at most", 25, &mut after.max_spheres);
             limit(ui, "in all", 60, &mut after.count);
@@ -41,8 +41,8 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     }
 }
 
-/// Whether it leaves out balls that would overlap others, which it does under the rule `contact` unless it
-/// says otherwise.
+/// Shows whether the emitter leaves out balls that would overlap others. The default is yes under
+/// the rule `contact`.
 fn room(ui: &mut Ui, needs_room: &mut Option<bool>, is_contact: bool) {
     ui.horizontal(|ui| {
         name(ui, "needs room");
@@ -54,7 +54,7 @@ fn room(ui: &mut Ui, needs_room: &mut Option<bool>, is_contact: bool) {
     });
 }
 
-/// How many of its balls live at a time, or there are in all; `usual` where a limit is begun with.
+/// Shows a limit on balls, at a time or in all; `usual` is the first value of a new limit.
 fn limit(ui: &mut Ui, what: &str, usual: u32, limit: &mut Option<u32>) {
     ui.horizontal(|ui| {
         name(ui, what);

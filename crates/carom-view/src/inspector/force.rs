@@ -1,4 +1,4 @@
-//! Forces on every ball.
+//! Forces on the balls.
 
 use carom_scene::scene::Force;
 use carom_session::{Command, Edit, View};
@@ -38,7 +38,7 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     });
 }
 
-/// Forces that are less often needed, as they are added.
+/// Returns less common forces with their initial values.
 fn others() -> [(&'static str, Force); 6] {
     let (position, axis) = ([0.0; 3], [0.0, 1.0, 0.0]);
     [
@@ -71,7 +71,7 @@ fn others() -> [(&'static str, Force); 6] {
     ]
 }
 
-/// The values of a force. Tells whether one was changed.
+/// Shows the values of a force. Returns whether one was changed.
 fn rows(ui: &mut Ui, force: &mut Force) -> bool {
     match force {
         Force::Constant { force } => vector(ui, Field::any("force", "N"), force),

@@ -1,4 +1,4 @@
-//! What balls and surfaces say of friction.
+//! Friction coefficients of balls and surfaces.
 
 use carom::Friction;
 use carom_session::View;
@@ -6,13 +6,13 @@ use egui::Ui;
 
 use super::value::{Field, optional};
 
-/// Whether friction acts under a rule that is shown.
+/// Returns whether friction acts under a rule that is shown.
 pub(super) fn acts(view: &View) -> bool {
     let acts = |view: &View| view.setup.simulation.rule.has_friction();
     acts(view) || view.other.as_deref().is_some_and(acts)
 }
 
-/// The coefficients, to be unfolded under this title. Returns whether any was changed.
+/// Shows the coefficients under a title that unfolds them. Returns whether any was changed.
 pub(super) fn show(ui: &mut Ui, title: &str, friction: &mut Friction) -> bool {
     ui.collapsing(title, |ui| rows(ui, friction)).body_returned.unwrap_or(false)
 }

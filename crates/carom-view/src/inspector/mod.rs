@@ -1,4 +1,4 @@
-//! Everything that can be read and changed while a scene runs.
+//! The inspector: values that can be read and changed while a scene runs.
 
 mod ball;
 mod collider;
@@ -16,7 +16,8 @@ use egui::{CollapsingHeader, ScrollArea, Ui};
 
 pub use ball::Throw;
 
-/// The panel beside the picture. Returns a parameter of the scene's file that was given another value.
+/// Shows the panel beside the picture. Returns a parameter of the scene file if its value was
+/// changed.
 pub fn show(
     ui: &mut Ui,
     view: &View,
@@ -51,7 +52,7 @@ fn section(ui: &mut Ui, title: &str, open: bool, contents: impl FnOnce(&mut Ui))
     CollapsingHeader::new(title).default_open(open).show(ui, contents);
 }
 
-/// What there is, and the state as a number to compare with another machine's.
+/// Shows numbers about the state, and its hash for comparison with other machines.
 fn state(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     ui.label(format!("{} balls, {} impacts", view.spheres.ids.len(), view.now.impacts));
     ui.label(format!("energy {:.9e} J", view.now.total_energy()));

@@ -5,7 +5,7 @@ use egui::Ui;
 
 use super::value::{Field, derived_number, number_at_last};
 
-/// Rows of parameters. Returns one that was given another value: that begins the scene anew.
+/// Shows the parameters. Returns one if its value was changed, which restarts the scene.
 pub(super) fn show(ui: &mut Ui, parameters: &[Parameter]) -> Option<Parameter> {
     let mut changed = None;
     for parameter in parameters {

@@ -1,4 +1,4 @@
-//! How a scene is stepped.
+//! Settings of the simulation.
 
 use carom_scene::scene::{CombineRule, ImpactLaw, Integrator, Rule, Simulation, Zones};
 use carom_session::{Command, Edit, View};
@@ -8,7 +8,7 @@ use super::value::{Field, count, name, number};
 
 pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     let mut simulation: Simulation = view.setup.simulation.clone();
-    // Of two, each has its own, which is chosen over its picture.
+    // In a comparison each side has its own rule, chosen over its picture.
     if view.other.is_none() {
         choice(ui, "rule", &RULES, &mut simulation.rule);
     }
@@ -25,7 +25,7 @@ const RULES: [(Rule, &str); 4] = [
     (Rule::Discrete, "discrete"),
 ];
 
-/// Everything but the rule.
+/// Shows all settings but the rule.
 pub fn edit(ui: &mut Ui, simulation: &mut Simulation) {
     const INTEGRATORS: [(Integrator, &str); 4] = [
         (Integrator::SemiImplicitEuler, "semi-implicit Euler"),

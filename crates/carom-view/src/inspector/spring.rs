@@ -1,4 +1,4 @@
-//! Springs and threads between balls, or from one to a fixed point.
+//! Springs and threads between balls, or from a ball to a fixed point.
 
 use carom::{DVec3, SphereId, Spring, SpringEnd, SpringId};
 use carom_session::{Command, Edit, View};
@@ -6,17 +6,18 @@ use egui::{CollapsingHeader, Ui};
 
 use super::value::{Field, number, tick, vector};
 
-/// Springs that are listed at once.
+/// Largest number of springs in the list.
 const LISTED: usize = 24;
 
-/// Stiffness of a new spring by the mass of its lighter ball \[N/(m kg)\]: it swings about once in a second.
+/// Stiffness of a new spring per mass of its lighter ball \[N/(m kg)\]; that ball swings about once a
+/// second.
 const NEW_STIFFNESS: f64 = 40.0;
 
 pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     let is_at_picked = |spring: &Spring| spring.spheres().any(|id| view.picked == Some(id));
     let (at_picked, others): (Vec<_>, Vec<_>) =
         view.springs.iter().partition(|(_, spring)| is_at_picked(spring));
-    // A picked ball chooses among many.
+    // A picked ball limits the list to its springs.
     let shown = if at_picked.is_empty() { &others } else { &at_picked };
     for (id, spring) in shown.iter().take(LISTED) {
         row(ui, *id, spring, commands);
@@ -28,7 +29,7 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     add(ui, view, commands);
 }
 
-/// A spring, to be unfolded.
+/// Shows a spring under a title that unfolds it.
 fn row(ui: &mut Ui, id: SpringId, before: &Spring, commands: &mut Vec<Command>) {
     let mut spring = *before;
     let header = CollapsingHeader::new(title(before)).id_salt(("spring", id));
@@ -52,7 +53,7 @@ fn row(ui: &mut Ui, id: SpringId, before: &Spring, commands: &mut Vec<Command>) 
     });
 }
 
-/// What a spring joins, in words.
+/// Returns what a spring connects, in words.
 fn title(spring: &Spring) -> String {
     match spring.to {
         SpringEnd::Sphere(other) => format!("ball {} to ball {other}", spring.sphere),
@@ -63,7 +64,8 @@ fn title(spring: &Spring) -> String {
     }
 }
 
-/// Buttons for springs of the picked ball: to the one picked before, and to the place where it is.
+/// Shows buttons for springs of the picked ball: to the ball picked before, and to its own
+/// position.
 fn add(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     let before = picked_before(ui, view);
     let Some(ball) = view.picked.and_then(|id| Ball::of(view, id)) else {
@@ -85,7 +87,7 @@ fn add(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     });
 }
 
-/// The ball that was picked before the one that is.
+/// Returns the ball that was picked before the present one.
 fn picked_before(ui: &Ui, view: &View) -> Option<SphereId> {
     // In another scene the same number is another ball.
     let id = ui.scope_id().with(("picked", &view.scene.name));
@@ -98,7 +100,7 @@ fn picked_before(ui: &Ui, view: &View) -> Option<SphereId> {
     })
 }
 
-/// A ball that is to be joined.
+/// A ball that can be connected.
 struct Ball {
     id: SphereId,
     position: DVec3,
@@ -106,14 +108,14 @@ struct Ball {
 }
 
 impl Ball {
-    /// A ball that is in the scene.
+    /// Returns the ball, if it is in the scene.
     fn of(view: &View, id: SphereId) -> Option<Self> {
         let index = view.spheres.index_of(id)?;
         let (position, mass) = (view.spheres.positions[index], view.spheres.masses[index]);
         Some(Self { id, position, mass })
     }
 
-    /// A spring to another ball that is at rest now.
+    /// Returns a spring to another ball, with the present distance as its rest length.
     fn joined_to(&self, other: &Self, view: &View) -> Spring {
         let boundary = carom::Boundary::from(view.setup.simulation.boundary);
         let length = boundary.nearest_image(other.position - self.position).length();

@@ -1,25 +1,25 @@
-//! Numbers that can be dragged and typed.
+//! Rows with numbers that can be dragged and typed.
 
 use std::cell::OnceCell;
 
 use egui::emath::format_with_decimals_in_range;
 use egui::{DragValue, Response, RichText, Ui};
 
-/// Smallest positive number that can be dragged to: lengths, masses and times below it are typed
-/// into scene files, not found with a mouse.
+/// Smallest positive number that can be dragged to. Smaller lengths, masses and times belong in
+/// scene files.
 const SMALLEST: f64 = 1e-9;
 
-/// Decimals of a number, at most.
+/// Largest number of decimals.
 const MOST_DECIMALS: usize = 9;
 
-/// What numbers may be, and what they are called.
+/// Name, unit and range of a number.
 #[derive(Clone, Copy)]
 pub(super) struct Field<'a> {
     pub name: &'a str,
     pub unit: &'a str,
     pub min: f64,
     pub max: f64,
-    /// Decimals that are shown, at most.
+    /// Largest number of decimals shown.
     pub decimals: usize,
 }
 
@@ -42,13 +42,13 @@ impl<'a> Field<'a> {
     }
 }
 
-/// A row with a number. Returns whether it was changed.
+/// Shows a row with a number. Returns whether it was changed.
 pub(super) fn number(ui: &mut Ui, field: Field, value: &mut f64) -> bool {
     row(ui, field, |ui| drag(ui, field, value))
 }
 
-/// A row with a number that may be missing: without a tick it is what the other body says. Returns
-/// whether it was changed.
+/// Shows a row with an optional number; without a tick, the other body decides. Returns whether it
+/// was changed.
 pub(super) fn optional(ui: &mut Ui, field: Field, value: &mut Option<f64>) -> bool {
     row(ui, field, |ui| {
         let mut is_given = value.is_some();
@@ -67,7 +67,7 @@ pub(super) fn optional(ui: &mut Ui, field: Field, value: &mut Option<f64>) -> bo
     })
 }
 
-/// A row with a choice of yes or no; `hint` says what yes means. Returns whether it was changed.
+/// Shows a row with a tick; `hint` explains it. Returns whether it was changed.
 pub(super) fn tick(ui: &mut Ui, name: &str, hint: &str, value: &mut bool) -> bool {
     row(ui, Field::any(name, ""), |ui| {
         let response = ui.checkbox(value, "").on_hover_text(hint);
@@ -77,10 +77,10 @@ pub(super) fn tick(ui: &mut Ui, name: &str, hint: &str, value: &mut bool) -> boo
     })
 }
 
-/// Most that a count can be dragged to: more sub-steps or sweeps than that are typed into scene files.
+/// Largest count that can be dragged to; larger numbers belong in scene files.
 const MOST: u32 = 1000;
 
-/// A row with a whole number, at least 1. Returns whether it was changed.
+/// Shows a row with a whole number, at least 1. Returns whether it was changed.
 pub(super) fn count(ui: &mut Ui, name: &str, value: &mut u32) -> bool {
     row(ui, Field::any(name, ""), |ui| {
         let before = *value;
@@ -94,13 +94,12 @@ pub(super) fn count(ui: &mut Ui, name: &str, value: &mut u32) -> bool {
     })
 }
 
-/// A row with three numbers. Returns whether any was changed.
+/// Shows a row with three numbers. Returns whether any was changed.
 pub(super) fn vector(ui: &mut Ui, field: Field, value: &mut [f64; 3]) -> bool {
     row(ui, field, |ui| value.iter_mut().fold(false, |changed, it| drag(ui, field, it) | changed))
 }
 
-/// A row with a number that counts when it is let go or typed to its end, not on the way: for what
-/// must not change many times in between.
+/// Shows a row with a number that changes only when the drag or the typing ends.
 pub(super) fn number_at_last(ui: &mut Ui, field: Field, value: &mut f64) -> bool {
     let id = ui.scope_id().with(field.name);
     row(ui, field, |ui| {
@@ -129,13 +128,13 @@ fn row<R>(ui: &mut Ui, field: Field, contents: impl FnOnce(&mut Ui) -> R) -> R {
     .inner
 }
 
-/// The name of a row, as wide as in all others.
+/// Shows the name of a row, with the same width in all rows.
 pub(super) fn name(ui: &mut Ui, name: &str) -> Response {
     let label = egui::Label::new(name).halign(egui::Align::LEFT);
     ui.add_sized([84.0, ui.spacing().interact_size.y], label)
 }
 
-/// A row with a number that only follows from others.
+/// Shows a row with a number that is computed from others.
 pub(super) fn derived_number(ui: &mut Ui, field: Field, value: f64) {
     row(ui, field, |ui| ui.weak(format!("{value}")));
 }
@@ -159,10 +158,10 @@ fn dragged(ui: &mut Ui, field: Field, value: &mut f64) -> Response {
             shown.get_or_init(|| text.clone());
             text
         })
-        // Half a number is none yet.
+        // An incomplete number is not a value.
         .update_while_editing(false);
     let response: Response = ui.add(drag);
-    // What is clicked on and left reads its own text again, which has fewer digits.
+    // A field that is clicked and left parses its own text, which has fewer digits.
     if shown.get().and_then(|text| text.parse().ok()) == Some(*value) {
         *value = before;
     }

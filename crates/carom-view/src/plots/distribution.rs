@@ -1,4 +1,4 @@
-//! How the speeds of all balls are distributed, beside what a gas would have.
+//! Distribution of the speeds of all balls, compared with that of an ideal gas.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -8,13 +8,13 @@ use carom_session::View;
 
 use super::figure::{BLUE, Curve, Figure, RED};
 
-/// Bars, at most.
+/// Largest number of bars.
 const MOST_BARS: usize = 40;
-/// Points of a line.
+/// Number of points of a line.
 const POINTS: usize = 120;
 
-/// How many balls have which speed now, and how many would have by Maxwell and Boltzmann at the
-/// temperature they have.
+/// Returns the distribution of the speeds, and the Maxwell-Boltzmann distribution at the same
+/// temperature.
 pub fn speeds(view: &View) -> Figure {
     let spheres = &view.spheres;
     let drift = drift(&spheres.velocities, &spheres.masses);
@@ -45,23 +45,23 @@ pub fn speeds(view: &View) -> Figure {
     Figure::over("Balls by speed", "", ("speed relative to the mean motion", "m/s"), curves)
 }
 
-/// Velocity of all balls together \[m/s\].
+/// Returns the mean velocity of all balls, weighted by mass \[m/s\].
 fn drift(velocities: &[DVec3], masses: &[f64]) -> DVec3 {
     let momentum: DVec3 = velocities.iter().zip(masses).map(|(v, m)| *m * *v).sum();
     let mass: f64 = masses.iter().sum();
     if mass > 0.0 { momentum / mass } else { DVec3::ZERO }
 }
 
-/// How often each number is there.
+/// Counts how often each number occurs.
 fn counted(numbers: &[f64]) -> Vec<(f64, usize)> {
     let mut counts = BTreeMap::new();
-    // Positive numbers are in the order of their bits.
+    // The bits of positive numbers are in the order of the numbers.
     numbers.iter().for_each(|it| *counts.entry(it.to_bits()).or_insert(0) += 1);
     counts.into_iter().map(|(bits, count)| (f64::from_bits(bits), count)).collect()
 }
 
-/// Probability density of a speed \[s/m\] by Maxwell and Boltzmann, of molecules of a mass \[kg\] that
-/// move in so many directions at a temperature of `heat` = k T \[J\].
+/// Returns the Maxwell-Boltzmann probability density of a speed \[s/m\], for molecules of a mass
+/// \[kg\] that move in this number of directions with `heat` = k T \[J\].
 fn density(speed: f64, mass: f64, heat: f64, directions: u8) -> f64 {
     let along = mass / heat;
     let weight = (-0.5 * along * speed * speed).exp();
@@ -87,7 +87,7 @@ mod tests {
                 };
                 (0..20_000).map(term).sum()
             };
-            // Sums at the midpoints have an error of the square of the step.
+            // The error of a midpoint sum is proportional to the square of the step.
             assert!((moment(0) - 1.0).abs() < 1e-6, "{directions}");
             let energy = 0.5 * mass * moment(2);
             assert!((energy - 0.5 * heat * f64::from(directions)).abs() < 1e-6, "{directions}");

@@ -1,4 +1,4 @@
-//! A figure: curves over one axis, with their names and units.
+//! Figures: curves over one axis, with names and units.
 
 use egui::text::{LayoutJob, TextFormat};
 use egui::{Color32, RichText, TextStyle, Ui};
@@ -12,7 +12,7 @@ pub const GREEN: Color32 = Color32::from_rgb(60, 160, 100);
 pub const RED: Color32 = Color32::from_rgb(214, 80, 70);
 pub const GREY: Color32 = Color32::from_rgb(140, 140, 150);
 
-/// One line of a figure, or its bars.
+/// A line or a set of bars in a figure.
 pub struct Curve {
     pub name: String,
     color: Color32,
@@ -23,26 +23,26 @@ pub struct Curve {
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Form {
     Line,
-    /// Bars so wide.
+    /// Bars of this width.
     Bars(f64),
 }
 
 /// Curves over one axis.
 pub struct Figure {
     pub title: String,
-    /// Of what goes up.
+    /// Unit of the vertical axis.
     pub unit: &'static str,
-    /// What goes to the right, and its unit.
+    /// Name and unit of the horizontal axis.
     pub across: (String, &'static str),
     pub curves: Vec<Curve>,
-    /// Where on the axis a mark stands: the present.
+    /// Marked position on the horizontal axis: the present time.
     pub mark: Option<f64>,
-    /// From where on along the axis values no longer set the scale.
+    /// Position on the horizontal axis after which values no longer set the scale.
     pub scale_until: Option<f64>,
 }
 
 impl Curve {
-    /// A line through a point for each of these.
+    /// Makes a line with one point for each item.
     pub fn line<T>(
         name: impl Into<String>,
         color: Color32,
@@ -53,7 +53,7 @@ impl Curve {
         Self { name: name.into(), color, points, form: Form::Line }
     }
 
-    /// Bars `width` wide, their centres at the points.
+    /// Makes bars of this width, centred at the points.
     pub fn bars(
         name: impl Into<String>,
         color: Color32,
@@ -66,7 +66,7 @@ impl Curve {
 }
 
 impl Figure {
-    /// Of quantities over time, with the present marked \[s\].
+    /// Makes a figure of quantities over time, with the present time marked \[s\].
     pub fn over_time(
         title: impl Into<String>,
         unit: &'static str,
@@ -77,7 +77,7 @@ impl Figure {
         Self { title: title.into(), unit, across, curves, mark: Some(now), scale_until: None }
     }
 
-    /// Of one quantity over another.
+    /// Makes a figure of one quantity over another.
     pub fn over(
         title: impl Into<String>,
         unit: &'static str,
@@ -88,7 +88,7 @@ impl Figure {
         Self { title: title.into(), unit, across, curves, mark: None, scale_until: None }
     }
 
-    /// Draws it, and its title above. Returns whether its numbers are to be saved.
+    /// Draws the figure and its title. Returns whether the user wants to save its numbers.
     pub fn show(&self, ui: &mut Ui) -> bool {
         let is_wanted = ui.horizontal_wrapped(|ui| {
             ui.strong(labelled(&self.title, self.unit));
@@ -105,7 +105,7 @@ impl Figure {
         is_wanted.inner
     }
 
-    /// Draws it without anything to press, so high in points below its title.
+    /// Draws the figure without controls, with this height in points below its title.
     pub fn print(&self, ui: &mut Ui, height: f32) {
         ui.horizontal_wrapped(|ui| {
             ui.strong(labelled(&self.title, self.unit));
@@ -114,7 +114,8 @@ impl Figure {
         self.plot(ui, height);
     }
 
-    /// Names the curves, where there are several: within the plot, a legend would cover them.
+    /// Shows the names of the curves if there are several. A legend inside the plot would cover
+    /// them.
     fn name_curves(&self, ui: &mut Ui) {
         if self.curves.len() > 1 {
             for Curve { name, color, .. } in &self.curves {
@@ -142,7 +143,7 @@ impl Figure {
             plot = plot.include_x(0.0);
         }
         if self.curves.iter().all(|curve| curve.points.len() < 2) {
-            // One value has no scale.
+            // A single value has no range.
             plot = plot.include_x(0.0).include_x(1.0);
         }
         plot.show(ui, |plot| {
@@ -164,8 +165,8 @@ impl Figure {
         });
     }
 
-    /// From where to where the values go that set the scale, with some room; `None` to leave it to
-    /// all of them.
+    /// Returns the range of the values that set the scale, with a margin; `None` if all values set
+    /// it.
     fn scale(&self) -> Option<(f64, f64)> {
         let until = self.scale_until?;
         let values = self.curves.iter().flat_map(|it| &it.points).filter(|it| it.x <= until);
@@ -176,8 +177,8 @@ impl Figure {
         (room > 0.0 && room.is_finite()).then_some((low - room, high + room))
     }
 
-    /// Its numbers as a table: a column for what goes to the right, and one for each curve. A curve
-    /// that has points of its own has two columns.
+    /// Returns the numbers as a table: a column for the horizontal axis and one for each curve. A
+    /// curve at other positions has two columns.
     pub fn to_csv(&self) -> String {
         let mut columns: Vec<(String, Vec<f64>)> = Vec::new();
         let mut along: &[PlotPoint] = &[];
@@ -206,28 +207,28 @@ impl Figure {
     }
 }
 
-/// A name and its unit, for people.
+/// Returns a name with its unit, for display.
 fn labelled(name: &str, unit: &str) -> String {
     if unit.is_empty() { name.to_owned() } else { format!("{name}, {unit}") }
 }
 
-/// A cell of a table, in quotation marks where it holds what separates cells (RFC 4180).
+/// Returns a cell of a table, in quotation marks if it contains a separator (RFC 4180).
 fn quoted(cell: &str) -> String {
     let is_plain = !cell.contains([',', '"', '\n']);
     if is_plain { cell.to_owned() } else { format!("\"{}\"", cell.replace('"', "\"\"")) }
 }
 
-/// Round numbers along an axis: two at least, and so few that there is room to write all of them.
+/// Returns the marks of an axis: round numbers, at least two, and few enough for their labels.
 fn marks(axis: GridInput) -> Vec<GridMark> {
     const PARTS: f64 = 4.0;
     let found = round_numbers(axis.bounds, PARTS);
-    // About zero, one round number may have the axis to itself.
+    // An axis around zero may contain only one round number.
     if found.len() == 1 { round_numbers(axis.bounds, 2.0 * PARTS) } else { found }
 }
 
-/// Round numbers in a range, at most so many parts apart.
+/// Returns the round numbers in a range, at steps of at least its length divided by `parts`.
 fn round_numbers((min, max): (f64, f64), parts: f64) -> Vec<GridMark> {
-    // More than this, or numbers that steps no longer tell apart, would not end.
+    // Guards against an endless loop, also if a step is below the rounding of the numbers.
     const MOST: f64 = 20.0;
     let least = (max - min) / parts;
     let power = 10f64.powf(least.log10().floor());
@@ -242,13 +243,13 @@ fn round_numbers((min, max): (f64, f64), parts: f64) -> Vec<GridMark> {
     (0..count).map(mark).collect()
 }
 
-/// A number of an axis, with as many digits as tell it from the next.
+/// Returns the text of a mark, with just enough digits to distinguish it from the next.
 fn text_of(mark: GridMark) -> String {
     let GridMark { value, step_size } = mark;
     if value == 0.0 {
         return "0".to_owned();
     }
-    // Beyond these, zeros would be counted.
+    // Outside this range, exponents are easier to read than zeros.
     if !(1e-4..1e6).contains(&step_size) {
         let digits = (value.abs().log10().floor() - step_size.log10().floor()).max(0.0);
         return format!("{value:.*e}", digits as usize);
@@ -257,7 +258,8 @@ fn text_of(mark: GridMark) -> String {
     format!("{value:.*}", decimals as usize)
 }
 
-/// The name of a curve beside its colour, which alone would be too faint for a text.
+/// Returns the name of a curve beside a patch of its colour. A name in that colour would be too
+/// faint.
 fn legend(ui: &Ui, name: &str, color: Color32) -> LayoutJob {
     let font = TextStyle::Small.resolve(ui.style());
     let mut job = LayoutJob::default();

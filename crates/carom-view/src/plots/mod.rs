@@ -1,4 +1,4 @@
-//! Plots of what is measured.
+//! Plots of measured quantities.
 
 mod distribution;
 mod figure;
@@ -15,23 +15,23 @@ use figure::{BLUE, Curve, GREEN, GREY, RED};
 use crate::layout::press_word;
 use crate::studio::Studio;
 
-/// Which plots are shown.
+/// The plots that are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Shown {
     /// Kinetic, potential and total energy.
     pub energy: bool,
-    /// Parts and size of the momentum.
+    /// Components and magnitude of the momentum.
     pub momentum: bool,
     /// Impacts per second.
     pub impacts: bool,
-    /// Height and speed of the picked ball, and its way through phase space.
+    /// Height and speed of the picked ball, and its path in phase space.
     pub picked: bool,
     /// Speeds of all balls, their temperature and pressure.
     pub gas: bool,
     /// Work of each frame, by stage.
     pub work: bool,
-    /// The direction of the plot in phase space: 0, 1, 2 for x, y, z.
+    /// Axis of the plot in phase space: 0, 1, 2 for x, y, z.
     pub direction: usize,
 }
 
@@ -49,16 +49,16 @@ impl Default for Shown {
     }
 }
 
-/// What is to be saved of the plots.
+/// What the user wants to save of the plots.
 pub enum Wanted {
-    /// A table in a file whose name ends with this.
+    /// A table; `name` is the end of its file name.
     Table { name: String, csv: String },
-    /// A picture of these.
+    /// A picture of these figures.
     Picture(Vec<Figure>),
 }
 
-/// All plots that are switched on, below each other. From `left` on \[s\] some balls have left: what
-/// they do then sets no scale. Returns what is to be saved.
+/// Shows the selected plots below each other. From time `left` on \[s\] some balls have left; later
+/// values set no scale. Returns what the user wants to save.
 pub fn show(ui: &mut Ui, view: &View, left: Option<f64>, shown: &mut Shown) -> Option<Wanted> {
     let mut wanted = None;
     ui.horizontal_wrapped(|ui| {
@@ -108,7 +108,7 @@ pub fn show(ui: &mut Ui, view: &View, left: Option<f64>, shown: &mut Shown) -> O
     wanted
 }
 
-/// All figures that are switched on, in their order.
+/// Returns the selected figures in order.
 fn all(view: &View, left: Option<f64>, shown: &Shown) -> Vec<Figure> {
     let mut figures = over_time(view, shown);
     if shown.gas {
@@ -125,20 +125,20 @@ fn all(view: &View, left: Option<f64>, shown: &Shown) -> Vec<Figure> {
     figures
 }
 
-/// Has the time after some balls have left set no scale.
+/// Excludes the time after some balls have left from the scale.
 fn scale(figures: &mut [Figure], left: Option<f64>) {
     for figure in figures.iter_mut().filter(|figure| figure.mark.is_some()) {
         figure.scale_until = left;
     }
 }
 
-/// Size of a figure that is saved, with its title and its margins, in points.
+/// Size of a saved figure with title and margins, in points.
 const PRINTED: Vec2 = Vec2::new(480.0, 250.0);
 
-/// Room for the heading above figures that are saved, in points.
+/// Height of the heading above saved figures, in points.
 const HEADING: f32 = 40.0;
 
-/// Begins to draw figures below a heading, in two columns where there are several.
+/// Starts to draw figures below a heading, in two columns if there are several.
 pub fn print(figures: &[Figure], heading: &str, context: &Context, studio: &Studio) -> Readback {
     let columns = figures.len().clamp(1, 2);
     let rows = figures.len().div_ceil(columns).max(1);
@@ -162,7 +162,7 @@ pub fn print(figures: &[Figure], heading: &str, context: &Context, studio: &Stud
 
 const DIRECTIONS: [&str; 3] = ["x", "y", "z"];
 
-/// What all balls have together.
+/// Returns the figures of all balls together.
 fn over_time(view: &View, shown: &Shown) -> Vec<Figure> {
     let mut figures = Vec::new();
     if view.other.is_some() {
@@ -209,7 +209,7 @@ fn momenta(view: &View) -> Figure {
     Figure::over_time("Momentum", "kg m/s", view.time, curves)
 }
 
-/// Speeds of all balls now; temperature, and pressure where there is one, until now.
+/// Returns the figures of the gas: speeds now, and temperature and, if known, pressure until now.
 fn gas(view: &View) -> Vec<Figure> {
     let readings = &view.readings;
     let heat = Curve::line("k T", RED, readings, |it| (it.time, it.thermal_energy));
@@ -236,9 +236,9 @@ fn picked(view: &View) -> Vec<Figure> {
     ]
 }
 
-/// The way of the picked ball through phase space along one direction.
+/// Returns the path of the picked ball in phase space along one direction.
 fn phase_space(view: &View, direction: usize) -> Figure {
-    // What was kept from another start may be anything.
+    // A stored value may be out of range.
     let direction = direction.min(DIRECTIONS.len() - 1);
     let point = |it: &carom_session::PickedReading| {
         (it.position.to_array()[direction], it.velocity.to_array()[direction])
@@ -248,7 +248,8 @@ fn phase_space(view: &View, direction: usize) -> Figure {
     Figure::over(format!("Velocity along {name}"), "m/s", (format!("position {name}"), "m"), path)
 }
 
-/// Work of each frame by stage, a figure for each: the numbers differ by orders of magnitude.
+/// Returns the work of each frame, with a figure for each stage, because the numbers differ by
+/// orders of magnitude.
 fn work(view: &View) -> Vec<Figure> {
     let figure = |title, color, count: fn(&StageCounts) -> u64| {
         let curve =

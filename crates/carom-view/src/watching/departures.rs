@@ -1,4 +1,4 @@
-//! Since when balls have left the scene.
+//! Detects when balls leave the scene.
 
 use std::sync::Arc;
 
@@ -6,10 +6,10 @@ use carom_render::{Bounds, Framing};
 use carom_scene::Scene;
 use carom_session::View;
 
-/// How far outside what a camera is fitted to a ball has left, in radii of that.
+/// Distance from the framing of a scene beyond which a ball has left, in radii of that framing.
 const FAR: f64 = 3.0;
 
-/// Since when balls have left a scene.
+/// The time at which balls first left a scene.
 #[derive(Debug, Default)]
 pub(super) struct Departures {
     scene: Option<Arc<Scene>>,
@@ -17,12 +17,12 @@ pub(super) struct Departures {
 }
 
 impl Departures {
-    /// The earliest time at which a ball was seen to have left \[s\]; `None` while none has.
+    /// Returns the earliest time at which a ball was seen outside \[s\]; `None` if none was.
     pub fn since(&self) -> Option<f64> {
         self.since
     }
 
-    /// Looks at the balls of a view of a scene that is framed so.
+    /// Checks the balls of a view against the framing of its scene.
     pub fn note(&mut self, view: &View, framing: Option<Framing>) {
         let is_same = self.scene.as_ref().is_some_and(|scene| Arc::ptr_eq(scene, &view.scene));
         if !is_same || self.since.is_some_and(|since| view.furthest < since) {

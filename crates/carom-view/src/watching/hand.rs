@@ -1,4 +1,4 @@
-//! What is done by hand in the picture of a scene.
+//! Mouse and fingers in the picture of a scene.
 
 use carom::Sphere;
 use carom_session::{Command, Edit};
@@ -11,7 +11,7 @@ use crate::look;
 use crate::orbit::zoom_asked;
 
 impl Watching {
-    /// What the mouse or a finger does.
+    /// Handles mouse and fingers in the picture.
     pub(super) fn hand(&mut self, ui: &Ui, response: &Response, side: usize) {
         let Some(mut orbit) = self.viewpoint.orbit() else { return };
         let height = f64::from(response.rect.height().max(1.0));
@@ -47,7 +47,7 @@ impl Watching {
         let origin = orbit.camera.position;
         if modifiers.command {
             let Throw { radius, mass, speed, restitution } = self.throw;
-            // Before the eye, so that it is seen as it flies away.
+            // In front of the camera, so that the user sees it fly away.
             let position = origin + direction * (orbit.camera.near + 3.0 * radius);
             let sphere = Sphere::new(position, radius)
                 .with_velocity(direction * speed)
@@ -70,8 +70,8 @@ impl Watching {
         self.commands.push(Command::Pick(picked));
     }
 
-    /// Where in a picture of this place on the screen the sphere at an index is shown; `None` where
-    /// it is behind the eye.
+    /// Returns the position on the screen of the sphere at an index, for a picture that fills
+    /// `picture`; `None` behind the camera.
     pub fn place_of(&self, index: usize, picture: Rect) -> Option<Pos2> {
         let aspect = f64::from(picture.width() / picture.height());
         let camera = self.viewpoint.orbit()?.camera.in_picture(aspect);

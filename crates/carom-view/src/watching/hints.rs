@@ -1,4 +1,4 @@
-//! What is said over the picture of a scene: how to begin, how far the way is, where the balls are.
+//! Hints over the picture of a scene: how to begin, the progress of a seek, where the balls are.
 
 use carom_render::Camera;
 use carom_session::{Command, View};
@@ -8,10 +8,10 @@ use web_time::Instant;
 use crate::action::Action;
 use crate::layout::is_for_fingers;
 
-/// Width of the text about a way, in points.
+/// Width of the text about a seek, in points.
 const WAY_WIDTH: f32 = 270.0;
 
-/// The way to another time, since it was set out for.
+/// Progress of a seek to another time.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Way {
     target: u64,
@@ -19,42 +19,42 @@ pub(super) struct Way {
     since: Instant,
 }
 
-/// What became of the edits when the scene was put back to its beginning.
+/// A restart, and what it did with the edits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Restarted {
-    /// Whether it begins with their values; else they come again at their times.
+    /// Whether the scene starts with the edited values; else the edits happen again at their times.
     pub with_values: bool,
-    /// When, by the clock of the interface \[s\].
+    /// Time of the restart, by the clock of the interface \[s\].
     pub at: f64,
 }
 
-/// What may be worth saying.
+/// What the hints depend on.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Told<'a> {
     pub way: Option<&'a Way>,
     pub restarted: Option<Restarted>,
-    /// For how long a thread has been at work without a word \[s\].
+    /// How long the physics thread has been computing without a result \[s\].
     pub seconds_at_work: f64,
 }
 
-/// A frame shorter than this is not spoken of \[s\].
+/// A frame shorter than this has no hint \[s\].
 const LONG: f64 = 0.7;
 
-/// How long the card says so \[s\].
+/// How long the hint about a restart is shown \[s\].
 const TOLD: f64 = 7.0;
 
-/// A way shorter than this is not spoken of \[s\].
+/// A seek shorter than this has no hint \[s\].
 const SHORT: f64 = 0.5;
 
 impl Way {
-    /// The way that a view is on, `before` being that of the last one.
+    /// Returns the seek of a view; `before` is that of the last frame.
     pub fn of(view: &View, before: Option<Self>) -> Option<Self> {
         let target = view.seeking?;
         let same = before.filter(|it| it.target == target && it.from <= view.frame);
         Some(same.unwrap_or_else(|| Self { target, from: view.frame, since: Instant::now() }))
     }
 
-    /// How far it is, for people; `None` while there is nothing worth saying.
+    /// Returns the text about the seek; `None` while it is short.
     fn text(&self, view: &View) -> Option<String> {
         let seconds = self.since.elapsed().as_secs_f64();
         let (done, all) = (view.frame - self.from, self.target.saturating_sub(self.from));
@@ -70,7 +70,7 @@ impl Way {
     }
 }
 
-/// A duration \[s\], rounded as people do.
+/// Returns the text of a duration \[s\], rounded as people do.
 fn duration(seconds: f64) -> String {
     match seconds {
         s if s < 90.0 => format!("about {:.0} s", s.max(1.0)),
@@ -80,9 +80,9 @@ fn duration(seconds: f64) -> String {
     }
 }
 
-/// Whether there are balls, and the camera sees none of them.
+/// Returns whether there are balls but none is visible.
 fn all_have_left(view: &View, camera: &Camera, aspect: f64) -> bool {
-    // Where the picture ends: a ball at its edge is not gone.
+    // Edge of the picture, with a margin for balls that lie on it.
     const EDGE: f32 = 1.15;
     let is_seen = |(center, radius): (&carom::DVec3, &f64)| {
         let place = camera.place(*center, aspect);
@@ -93,7 +93,8 @@ fn all_have_left(view: &View, camera: &Camera, aspect: f64) -> bool {
     !spheres.ids.is_empty() && !spheres.positions.iter().zip(&spheres.radii).any(is_seen)
 }
 
-/// Says what helps now, at the lower edge of the picture. Returns the actions of its buttons.
+/// Shows the hint that helps now, at the lower edge of the picture. Returns the actions of its
+/// buttons.
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -123,7 +124,7 @@ pub(super) fn show(
     } else if view.seeking.is_some() {
         let Some(text) = way.and_then(|way| way.text(view)) else { return actions };
         card(ui, rect, |ui| {
-            // The button stays in its place, however long the text is.
+            // A fixed width, so that the button does not move with the text.
             ui.add_sized([WAY_WIDTH, ui.spacing().interact_size.y], Label::new(text).truncate());
             if ui.button("Stop here").clicked() {
                 commands.push(Command::StopSeeking);
@@ -158,7 +159,7 @@ pub(super) fn show(
     actions
 }
 
-/// The button that a newcomer looks for.
+/// Shows the large button that plays the scene.
 fn large_play_button(ui: &Ui, rect: Rect) -> Option<Action> {
     let shown = area(rect).show(ui.ctx(), |ui| {
         let text = RichText::new("▶  Play").size(22.0).strong();

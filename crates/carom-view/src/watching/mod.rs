@@ -1,4 +1,4 @@
-//! A scene being watched: its picture, and what is done with it by hand.
+//! The screen of a watched scene: its picture and panels.
 
 mod departures;
 mod hand;
@@ -33,44 +33,44 @@ use hints::{Restarted, Way};
 use sides::side_of;
 use viewpoint::Viewpoint;
 
-/// A scene being watched.
+/// The screen of a watched scene.
 pub struct Watching {
     driver: Driver,
-    /// Where the scene comes from.
+    /// Origin of the scene.
     pub source: Source,
-    /// A link to the beginning of the scene, and the scene that it was made of.
+    /// A link to the beginning of the scene, and the scene that it was made from.
     link: (Arc<Scene>, Link),
-    /// The text that the scene was read from, where there is one.
+    /// The text that the scene was read from, if there is one.
     written: Option<WrittenScene>,
-    /// Whether what is shown is what that text comes to.
+    /// Whether the view shows the scene in `written`.
     shows_text: bool,
-    /// Commands of this picture, sent at its end.
+    /// Commands of this frame, sent at its end.
     pub commands: Vec<Command>,
     viewpoint: Viewpoint,
-    /// The way to another time, while it is on it.
+    /// The seek in progress.
     way: Option<Way>,
     restarted: Option<Restarted>,
     departures: Departures,
-    /// Of the interface, at the last picture \[s\].
+    /// Time at the last frame, by the clock of the interface \[s\].
     clock: f64,
     layout: Layout,
-    /// Whether the window had little room at the last picture.
+    /// Whether the window was narrow in the last frame.
     is_narrow: bool,
-    /// What is open over the picture where it has little room.
+    /// The open sheet of a narrow window.
     sheet: Panels,
     throw: Throw,
-    /// The picture, and beside it that of the other rule.
+    /// The pictures of both rules; one rule uses the first.
     canvases: [Canvas; 2],
     drawing: Drawing,
     drawn: [Option<Drawn>; 2],
     news: u64,
-    /// What is to be saved of the plots, until it is.
+    /// What the user wants to save of the plots.
     pub wanted: Option<plots::Wanted>,
-    /// Why a command was not taken, until a notice says so.
+    /// Error of a refused command, until a notice shows it.
     pub refused: Option<SessionError>,
 }
 
-/// All that a picture depends on: another one is drawn when this changes.
+/// Everything that a picture depends on; a change redraws it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Drawn {
     news: u64,
@@ -79,10 +79,10 @@ struct Drawn {
     size: Vec2,
 }
 
-/// How the interface works, whatever scene is watched.
+/// Settings of the interface that do not depend on the scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Manner {
-    /// Dark surroundings.
+    /// Whether the theme is dark.
     pub dark: bool,
     /// Whether a film is being recorded.
     pub recording: bool,
@@ -92,14 +92,14 @@ const INSPECTOR: Beside =
     Beside { title: "Inspector", is_right: true, widths: [240.0, 290.0, 460.0] };
 const PLOTS: Beside = Beside { title: "Plots", is_right: false, widths: [200.0, 330.0, 700.0] };
 
-/// Longest time for frames before a picture, where both share a thread \[s\].
+/// Longest time for physics in a frame if both share a thread \[s\].
 const INLINE_BUDGET: f64 = 0.02;
 
 impl Watching {
-    /// Begins to watch a scene.
+    /// Starts to watch a scene.
     ///
     /// # Errors
-    /// If the scene makes no sense, or no thread can be had.
+    /// If the scene is invalid, or no thread can be started.
     pub fn new(
         scene: Scene,
         source: Source,
@@ -110,10 +110,10 @@ impl Watching {
         Self::at(Session::new(scene)?, link, source, threaded, context)
     }
 
-    /// Begins to watch the run of a link: on the way to where it has come to.
+    /// Starts to watch the run of a link, and seeks to its time.
     ///
     /// # Errors
-    /// If the link makes no sense, or no thread can be had.
+    /// If the link is invalid, or no thread can be started.
     pub fn replay(
         link: &Link,
         scene: Scene,
@@ -170,23 +170,23 @@ impl Watching {
         })
     }
 
-    /// What there is to see.
+    /// Returns the view.
     pub fn view(&self) -> &View {
         self.driver.view()
     }
 
-    /// What is shown of it, and around it.
+    /// Returns the layout.
     pub fn layout(&self) -> Layout {
         self.layout
     }
 
-    /// Shows it so from now on.
+    /// Sets the layout.
     pub fn set_layout(&mut self, layout: Layout) {
         self.layout = layout;
         self.commands.push(Command::ShowContacts(layout.marks.forces));
     }
 
-    /// What there is to see, and a link to the beginning of its scene, seen from where it is now.
+    /// Returns the view, and a link to the beginning of its scene with the present camera.
     pub fn linked(&mut self) -> (&View, &Link) {
         let view = self.driver.view();
         if !Arc::ptr_eq(&self.link.0, &view.scene) {
@@ -202,7 +202,7 @@ impl Watching {
         (view, &self.link.1)
     }
 
-    /// Lets the physics go on by the time since the last picture.
+    /// Advances the physics by the time since the last frame.
     pub fn advance(&mut self, ui: &Ui) {
         let wall_seconds = ui.input(|input| f64::from(input.unstable_dt));
         self.clock = ui.input(|input| input.time);
@@ -219,7 +219,7 @@ impl Watching {
         }
     }
 
-    /// Does what a key or button means, if it is about this scene.
+    /// Performs an action, if it concerns this scene.
     pub fn act(&mut self, action: Action) {
         let view = self.driver.view();
         let speed = view.playback.speed;
@@ -256,7 +256,7 @@ impl Watching {
         }
     }
 
-    /// Back to the beginning, and says what becomes of edits.
+    /// Restarts the scene, and remembers it for the hint about edits.
     fn restart(&mut self, with_values: bool) {
         self.commands.push(if with_values { Command::RestartWithValues } else { Command::Restart });
         let is_edited = self.view().edits.last().is_some_and(|time| *time > 0.0);
@@ -264,7 +264,7 @@ impl Watching {
     }
 
     fn toggle_panel(&mut self, action: Action) {
-        // In a narrow window there is room for one; what is kept for wide ones stays as it is.
+        // A narrow window has space for one panel; the layout of wide windows is kept.
         let before = if self.is_narrow { self.sheet } else { self.layout.panels };
         let is_one = |of: Action, is_open: bool| {
             if of == action { !is_open } else { is_open && !self.is_narrow }
@@ -277,7 +277,7 @@ impl Watching {
         *(if self.is_narrow { &mut self.sheet } else { &mut self.layout.panels }) = after;
     }
 
-    /// Shows the scene under two rules, or under one alone where there are two.
+    /// Shows the scene under two rules, or under one if there are two.
     fn compare(&mut self) {
         let view = self.driver.view();
         let own = view.setup.simulation.clone();
@@ -294,7 +294,7 @@ impl Watching {
         Some(look::place(view, index, self.driver.blend()))
     }
 
-    /// The panels around the picture. Returns the actions of their buttons.
+    /// Shows the panels around the picture. Returns the actions of their buttons.
     pub fn panels(&mut self, ui: &mut Ui, manner: Manner) -> Vec<Action> {
         self.is_narrow = is_narrow(ui);
         let parameters = self.parameters();
@@ -330,7 +330,7 @@ impl Watching {
         transport.inner
     }
 
-    /// Buttons for what is shown, for the bar at the upper edge.
+    /// Shows buttons for panels and marks in the top bar. Returns their actions.
     pub fn switches(&self, ui: &mut Ui) -> Vec<Action> {
         let mut actions = Vec::new();
         let panels = if self.is_narrow { self.sheet } else { self.layout.panels };
@@ -365,7 +365,8 @@ impl Watching {
         actions
     }
 
-    /// The camera for the next picture of this width to height, so many seconds after the last one.
+    /// Returns the camera for the next picture with this ratio of width to height, `seconds` after
+    /// the last one.
     fn camera(&mut self, aspect: f64, seconds: f64) -> Camera {
         let (picked, blend) = (self.picked_place(), self.driver.blend());
         let view = self.driver.view();
@@ -373,7 +374,7 @@ impl Watching {
         orbit.camera.in_picture(aspect)
     }
 
-    /// The picture, or two side by side. Returns the actions of the buttons over it.
+    /// Shows the picture, or two side by side. Returns the actions of the buttons over it.
     pub fn picture(&mut self, ui: &mut Ui, studio: &mut Studio, manner: Manner) -> Vec<Action> {
         let whole = ui.available_rect_before_wrap();
         let count = if self.view().other.is_some() { 2 } else { 1 };
@@ -392,7 +393,7 @@ impl Watching {
         actions
     }
 
-    /// What is said over the picture. Returns the actions of its buttons.
+    /// Shows the hints over the picture. Returns the actions of their buttons.
     fn hints(&mut self, ui: &mut Ui, picture: Rect) -> Vec<Action> {
         let Some(orbit) = self.viewpoint.orbit() else { return Vec::new() };
         let camera = orbit.camera.in_picture(f64::from(picture.width() / picture.height()));
@@ -410,7 +411,7 @@ impl Watching {
         Look { marks: self.layout.marks, dark: manner.dark, blend: self.driver.blend() }
     }
 
-    /// Draws the picture of one of the rules, where anything in it has changed.
+    /// Draws the picture of one rule, if anything in it has changed.
     fn draw(&mut self, ui: &mut Ui, studio: &mut Studio, manner: Manner, side: usize, rect: Rect) {
         let size = rect.size() * ui.ctx().pixels_per_point();
         if size.x < 1.0 || size.y < 1.0 {
@@ -423,7 +424,7 @@ impl Watching {
         let drawn = Drawn { news: self.news, camera, look, size };
         if self.drawn[side] != Some(drawn) {
             if self.viewpoint.fits() {
-                // It may still be on its way.
+                // The camera may still be moving.
                 ui.ctx().request_repaint();
             }
             let view = self.driver.view();
@@ -440,7 +441,7 @@ impl Watching {
         }
     }
 
-    /// Sends the commands since the last picture.
+    /// Sends the commands of this frame.
     fn send(&mut self) {
         for command in self.commands.drain(..) {
             if let Err(error) = self.driver.send(command) {
@@ -449,7 +450,7 @@ impl Watching {
         }
     }
 
-    /// A picture of what is shown now, of this size in pixels.
+    /// Starts to draw the present picture in this size in pixels.
     ///
     /// # Errors
     /// [`GpuError`]

@@ -1,4 +1,4 @@
-//! What is said over the halves of a comparison, and chosen there.
+//! Settings over the two halves of a comparison.
 
 use carom_scene::scene::{Rule, Simulation};
 use carom_session::{Command, View};
@@ -8,19 +8,19 @@ use crate::inspector;
 
 const RULES: [Rule; 4] = [Rule::Exact, Rule::Contact, Rule::Bisect, Rule::Discrete];
 
-/// The view of one of two rules, or of the only one.
+/// Returns the view of one of two rules, or the only view.
 pub(super) fn side_of(view: &View, side: usize) -> &View {
     if side == 0 { view } else { view.other.as_deref().unwrap_or(view) }
 }
 
-/// The rule of one half, which lies here, and its settings; each can be changed.
+/// Shows the rule of one half, which fills `rect`, and its settings.
 pub(super) fn show(ui: &mut Ui, rect: Rect, view: &View, side: usize, commands: &mut Vec<Command>) {
     if side == 1 {
         let painter = ui.painter_at(rect);
         painter.vline(rect.left(), rect.y_range(), Stroke::new(2.0, egui::Color32::GRAY));
     }
     let present = &side_of(view, side).setup.simulation;
-    // What is being dragged is taken when it is let go: each change computes the run anew.
+    // A dragged value is applied when the drag ends, because each change restarts the run.
     let ids = [Id::unique(("settings", side)), Id::unique(("draft", side))];
     let (mut is_open, draft) = ui.data_mut(|data| {
         (data.get_temp(ids[0]).unwrap_or(false), data.get_temp::<Simulation>(ids[1]))
@@ -66,7 +66,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, view: &View, side: usize, commands: 
     }
 }
 
-/// Both simulations, where that of one side is another one.
+/// Returns both simulations after that of one side became `own`.
 fn pair(view: &View, side: usize, own: Simulation) -> [Simulation; 2] {
     let mut pair = [0, 1].map(|side| side_of(view, side).setup.simulation.clone());
     pair[1 - side].frame_time = own.frame_time;

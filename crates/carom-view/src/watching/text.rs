@@ -1,4 +1,4 @@
-//! The text that a scene was read from: read anew, or with other parameters.
+//! Reloads the text of a scene, also with other parameters.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use super::sides::side_of;
 use crate::written_scene::WrittenScene;
 
 impl Watching {
-    /// The scene was read from this text, unless that comes to another one.
+    /// Sets the text that the scene was read from, if it describes the same scene.
     pub fn set_written(&mut self, written: WrittenScene) {
         if *written.scene() == *self.view().scene {
             self.link.1 = written.link();
@@ -20,13 +20,13 @@ impl Watching {
         }
     }
 
-    /// The parameters of the text that the scene was read from; none where it is another scene by now.
+    /// Returns the parameters of the scene's text; none if the view shows another scene.
     pub(super) fn parameters(&self) -> Vec<Parameter> {
         let written = self.written.as_ref().filter(|_| self.shows_text);
         written.map_or_else(Vec::new, |it| it.parameters().to_vec())
     }
 
-    /// Begins the scene anew with another value of a parameter of its file.
+    /// Restarts the scene with a new value of a parameter of its file.
     pub(super) fn set_parameter(&mut self, parameter: &Parameter) {
         let Some(written) = &self.written else { return };
         match written.with(parameter) {
@@ -35,17 +35,17 @@ impl Watching {
         }
     }
 
-    /// Reads the file of the scene anew, without losing camera, panels and values that differ from it.
+    /// Reloads the scene file; keeps camera, panels and changed parameters.
     pub fn read_anew(&mut self, path: &Path) -> Result<(), SceneError> {
         let overrides = self.written.as_ref().map_or_else(Vec::new, |it| it.overrides().to_vec());
-        // What was changed may be gone from the file.
+        // The file may no longer have a changed parameter.
         let written = WrittenScene::from_file(path, overrides)
             .or_else(|_| WrittenScene::from_file(path, Vec::new()))?;
         self.restart_from(written);
         Ok(())
     }
 
-    /// Begins the scene anew as a text has it; two rules stay side by side.
+    /// Restarts with the scene of a text; a comparison keeps its two rules.
     fn restart_from(&mut self, written: WrittenScene) {
         self.commands.push(Command::Open(Box::new(written.scene().clone())));
         let view = self.view();

@@ -1,4 +1,4 @@
-//! Where a scene is watched from.
+//! The camera of a watched scene.
 
 use std::sync::Arc;
 
@@ -10,83 +10,83 @@ use carom_session::{LinkCamera, View};
 use crate::look::{self, Look, Marks};
 use crate::orbit::{Orbit, Preset};
 
-/// The camera on a scene, and what moves it.
+/// The camera of a scene, and what moves it.
 #[derive(Debug, Default)]
 pub(super) struct Viewpoint {
     /// `None` until there is a picture to fit the scene into.
     orbit: Option<Orbit>,
-    /// The shape of that picture, width to height.
+    /// Ratio of width to height of that picture.
     aspect: f64,
-    /// The preset it was put to, until a hand moves it: it suits pictures of any shape.
+    /// The preset in use until the user moves the camera; it adapts to the shape of the picture.
     preset: Option<Preset>,
-    /// Whether it goes on fitting what there is to see.
+    /// Whether the camera keeps the scene in the picture.
     fits: bool,
-    /// Where the followed ball was in the last picture \[m\].
+    /// Position of the followed ball in the last picture \[m\].
     followed: Option<DVec3>,
-    /// A scene, and what its first seconds sweep.
+    /// A scene, and the space swept in its first seconds.
     framed: Option<(Arc<Scene>, Option<Framing>)>,
 }
 
-/// Time in which a camera that fits comes nearer by e to where it should be \[s\].
+/// Time in which the distance of a fitting camera from its goal falls by a factor e \[s\].
 const FITTING_TIME: f64 = 0.25;
 
 impl Viewpoint {
-    /// At the scene's camera.
+    /// Returns the scene's own camera.
     pub fn new() -> Self {
         Self { preset: Some(Preset::Scene), ..Self::default() }
     }
 
-    /// Where a link looks from.
+    /// Returns the camera of a link.
     pub fn at(place: LinkCamera) -> Self {
         Self { orbit: Some(Orbit::of_link(place)), ..Self::default() }
     }
 
-    /// The camera for a link; `None` where it is the scene's own.
+    /// Returns the camera for a link; `None` for the scene's own.
     pub fn for_link(&self) -> Option<LinkCamera> {
         let is_own = self.preset == Some(Preset::Scene);
         self.orbit.filter(|_| !is_own).map(|orbit| orbit.for_link())
     }
 
-    /// The camera as it was in the last picture.
+    /// Returns the camera of the last picture.
     pub fn orbit(&self) -> Option<Orbit> {
         self.orbit
     }
 
-    /// Whether it goes on fitting what there is to see.
+    /// Returns whether the camera keeps the scene in the picture.
     pub fn fits(&self) -> bool {
         self.fits
     }
 
-    /// Whether it moves along with a ball.
+    /// Returns whether the camera follows a ball.
     pub fn follows(&self) -> bool {
         self.followed.is_some()
     }
 
-    /// Puts it to a preset.
+    /// Moves the camera to a preset.
     pub fn look_from(&mut self, preset: Preset) {
         *self = Self { preset: Some(preset), framed: self.framed.take(), ..Self::default() };
     }
 
-    /// Goes on fitting what there is to see, or no longer.
+    /// Starts or stops keeping the scene in the picture.
     pub fn toggle_fit(&mut self) {
         self.fits ^= true;
         self.preset = None;
         self.followed = None;
     }
 
-    /// Moves along with a ball at this place \[m\], or no longer.
+    /// Starts to follow a ball at this position \[m\], or stops following.
     pub fn toggle_follow(&mut self, place: Option<DVec3>) {
         self.followed = if self.follows() { None } else { place };
         self.fits &= !self.follows();
         self.preset = if self.follows() { None } else { self.preset };
     }
 
-    /// Moves along with no ball any more.
+    /// Stops following.
     pub fn unfollow(&mut self) {
         self.followed = None;
     }
 
-    /// Takes a camera that a hand has moved. One that fits goes on, if it was turned only.
+    /// Takes a camera that the user has moved. Fitting continues if it was only turned.
     pub fn take(&mut self, orbit: Orbit) {
         let Some(before) = self.orbit.replace(orbit) else { return };
         if before != orbit {
@@ -97,7 +97,7 @@ impl Viewpoint {
         }
     }
 
-    /// What the first seconds of a scene sweep.
+    /// Returns the space swept in the first seconds of a scene.
     pub fn framing(&mut self, scene: &Arc<Scene>) -> Option<Framing> {
         if !self.framed.as_ref().is_some_and(|(framed, _)| Arc::ptr_eq(framed, scene)) {
             self.framed = Some((scene.clone(), Framing::of_scene(scene)));
@@ -108,8 +108,8 @@ impl Viewpoint {
         self.framed.as_ref().and_then(|it| it.1)
     }
 
-    /// The camera for the next picture of this width to height, so many seconds after the last one.
-    /// `followed`: where the ball is that it may move along with \[m\].
+    /// Returns the camera for the next picture with this ratio of width to height, `seconds` after
+    /// the last one. `followed` is the present position of the followed ball \[m\].
     pub fn next(
         &mut self,
         view: &View,

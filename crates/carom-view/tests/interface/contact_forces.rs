@@ -1,4 +1,4 @@
-//! Forces of persistent contacts: switched on and off by key and button, and seen in the picture.
+//! Forces of persistent contacts are switched on and off by key and button, and drawn.
 
 use carom_scene::{Scene, Source};
 use carom_view::{Setup, Start};
@@ -7,7 +7,7 @@ use egui_kittest::kittest::Queryable;
 
 use crate::desk::{Desk, desk, go_to, press, scene, setup_for_pixels};
 
-/// A column of three balls at rest on the floor, and beside it a ball that pushes two others apart.
+/// A column of three balls at rest on the floor, and a ball that pushes two others apart.
 const PRESSING: &str = r#"
 name = "pressing"
 forces = [{ gravity = { acceleration = [0.0, -9.81, 0.0] } }]
@@ -39,7 +39,7 @@ fn watching_balls_that_press() -> Desk {
     desk
 }
 
-/// Pixels of the colour of the arrows, purple: much red and blue, little green.
+/// Counts pixels in the colour of the arrows, purple: much red and blue, little green.
 fn purple_pixels(desk: &mut Desk) -> usize {
     desk.remove_cursor();
     let picture = desk.render().expect("a picture");

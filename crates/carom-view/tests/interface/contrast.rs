@@ -1,4 +1,4 @@
-//! Every text of the interface against what is behind it, measured in rendered pictures.
+//! Every text of the interface has enough contrast to its background, measured in pictures.
 
 use std::collections::HashMap;
 
@@ -13,13 +13,13 @@ use crate::desk::{Desk, desk, desk_of, go_to, press, setup_for_pixels, watching_
 use crate::maze::{SHORT, win};
 use crate::pictures::{in_light_and_dark, set_theme};
 
-/// Web Content Accessibility Guidelines 2.2, 1.4.3 and 1.4.11: of text, and of large text, which is
-/// that of 24 pixels and more, and of graphics.
+/// Least contrast of text, of large text (24 pixels and more) and of graphics: Web Content
+/// Accessibility Guidelines 2.2, 1.4.3 and 1.4.11.
 const TEXT: f64 = 4.5;
 const LARGE_TEXT: f64 = 3.0;
 const LARGE: f32 = 24.0;
 
-/// Relative luminance of a colour, as the guidelines define it.
+/// Returns the relative luminance of a colour, as the guidelines define it.
 fn luminance(color: [u8; 3]) -> f64 {
     let [red, green, blue] = color.map(|part| {
         let part = f64::from(part) / 255.0;
@@ -33,7 +33,7 @@ fn contrast(one: [u8; 3], other: [u8; 3]) -> f64 {
     (one / other).max(other / one)
 }
 
-/// The colour that most pixels of a part of a picture have.
+/// Returns the most frequent colour in a part of a picture.
 fn background(picture: &Picture, part: Rect, pixels_per_point: f32) -> Option<[u8; 3]> {
     let [width, height] = [picture.width, picture.height].map(|edge| edge as f32);
     let part = part * pixels_per_point;
@@ -46,13 +46,13 @@ fn background(picture: &Picture, part: Rect, pixels_per_point: f32) -> Option<[u
             *counts.entry(color).or_default() += 1;
         }
     }
-    // Where nothing is even, a picture is behind, and no colour is that of it.
+    // A part without a dominant colour shows a picture, which has no single background.
     let all: usize = counts.values().sum();
     let (color, count) = counts.into_iter().max_by_key(|(color, count)| (*count, *color))?;
     (5 * count > 2 * all).then_some(color)
 }
 
-/// A colour laid over another, as the interface blends them.
+/// Blends a colour over another as the interface does.
 fn over(color: Color32, below: [u8; 3]) -> [u8; 3] {
     let [red, green, blue, alpha] = color.to_array();
     let rest = 255 - u32::from(alpha);
@@ -68,7 +68,7 @@ fn texts(shape: &Shape, found: &mut Vec<TextShape>) {
     }
 }
 
-/// Texts whose contrast is too low, and how many texts were measured.
+/// Returns the texts with too little contrast, and the number of texts measured.
 fn measured(desk: &mut Desk, screen: &str) -> (Vec<String>, usize) {
     desk.remove_cursor();
     desk.run_steps(3);
@@ -82,7 +82,7 @@ fn measured(desk: &mut Desk, screen: &str) -> (Vec<String>, usize) {
     let mut faint = Vec::new();
     let mut count = 0;
     let shapes = &desk.output().shapes;
-    // What a dialog dims has no effect while that is open.
+    // Texts behind the shade of a dialog are inactive.
     let window = desk.ctx.content_rect();
     let dims = |shape: &Shape| match shape {
         Shape::Rect(rect) => rect.rect.contains_rect(window) && (1..255).contains(&rect.fill.a()),
@@ -94,12 +94,12 @@ fn measured(desk: &mut Desk, screen: &str) -> (Vec<String>, usize) {
         texts(&clipped.shape, &mut found);
         for text in found {
             let part = text.visual_bounding_rect().intersect(clipped.clip_rect);
-            // What has no effect may be faint.
+            // Inactive texts may be faint.
             let is_disabled = disabled.iter().any(|rect| rect.contains(part.center()));
             if is_disabled || !part.is_positive() || text.galley.text().trim().is_empty() {
                 continue;
             }
-            // Of a letter like I there is more than of what is behind it.
+            // A letter like I covers more of its own rectangle than the background does.
             let around = part.expand2(Vec2::new(2.0, 0.0)).intersect(clipped.clip_rect);
             let Some(below) = background(&picture, around, pixels_per_point) else { continue };
             for section in &text.galley.job.sections {
@@ -130,7 +130,7 @@ in_light_and_dark!(
     every_text_has_a_contrast_of_four_and_a_half_in_mazes
 );
 
-/// In points: of a maze the texts count, not the picture, which takes time.
+/// In points; small, because drawing the maze takes time and only its texts matter.
 const MAZE: [f32; 2] = [640.0, 420.0];
 
 fn assert_readable(screens: Vec<(Desk, &str)>, theme: Theme, least: usize) {

@@ -1,4 +1,4 @@
-//! A window without a screen, and what is done with it.
+//! A window without a screen, for tests.
 
 use carom_render::Quality;
 use carom_scene::{Budget, Library, Source};
@@ -8,24 +8,24 @@ use egui_kittest::Harness;
 
 pub type Desk = Harness<'static, App>;
 
-/// In points; small, so that pictures kept in the repository are.
+/// In points; small, so that the pictures in the repository are small.
 const SIZE: [f32; 2] = [1000.0, 620.0];
 
-/// The cheapest there can be: drivers in software take most of the time of these tests for shadows and smooth edges. Such
-/// a desk has half a pixel per point, which leaves the layout as it is.
+/// The cheapest quality: software drivers spend most of the time of these tests on shadows and
+/// smooth edges. Such a desk has half a pixel per point, with the same layout.
 const PLAIN: Quality = Quality { samples: 1, shadow_texels: 64, soft_shadows: false };
 
-/// For what does not depend on how fine pictures are.
+/// Setup of tests that do not depend on picture quality.
 pub fn setup() -> Setup {
     Setup { quality: PLAIN, ..setup_for_pictures() }
 }
 
-/// For pictures whose pixels are counted, without smooth edges.
+/// Setup of tests that count pixels, without smooth edges.
 pub fn setup_for_pixels() -> Setup {
     Setup { quality: Quality::DRAFT, ..setup_for_pictures() }
 }
 
-/// For pictures that are compared with those that were looked at.
+/// Setup of tests that compare pictures with approved ones.
 pub fn setup_for_pictures() -> Setup {
     Setup {
         library: Library::new(),
@@ -41,14 +41,14 @@ pub fn desk(setup: Setup) -> Desk {
     desk_of(SIZE, setup)
 }
 
-/// A window of this size in points.
+/// Opens a window of this size in points.
 pub fn desk_of(size: [f32; 2], setup: Setup) -> Desk {
     let mut desk = just_opened(size, setup);
     desk.run_steps(4);
     desk
 }
 
-/// A window of this size in points that has shown one picture.
+/// Opens a window of this size in points and draws one frame.
 pub fn just_opened(size: [f32; 2], setup: Setup) -> Desk {
     let pixels_per_point = if setup.quality == PLAIN { 0.5 } else { 1.0 };
     let builder = Harness::builder().with_size(size).with_pixels_per_point(pixels_per_point);
@@ -56,33 +56,33 @@ pub fn just_opened(size: [f32; 2], setup: Setup) -> Desk {
     builder.build_eframe(|host| App::new(host, setup).expect("wgpu is there"))
 }
 
-/// A desk on which a built-in scene is watched.
+/// Opens a built-in scene.
 pub fn watching(name: &str) -> Desk {
     watching_at(SIZE, name)
 }
 
-/// A desk of this size in points on which a built-in scene is watched.
+/// Opens a built-in scene in a window of this size in points.
 pub fn watching_at(size: [f32; 2], name: &str) -> Desk {
     desk_of(size, Setup { start: start(name), ..setup() })
 }
 
-/// A desk of this kind on which a built-in scene is watched.
+/// Opens a built-in scene with this setup.
 pub fn watching_on(setup: Setup, name: &str) -> Desk {
     desk(Setup { start: start(name), ..setup })
 }
 
-/// Has a built-in scene watched at the start.
+/// Returns the start with a built-in scene.
 pub fn start(name: &str) -> Option<Start> {
     let (scene, _) = Library::new().find(name, &[]).expect("a built-in scene");
     Some(Start::Scene(Box::new(scene), Source::BuiltIn))
 }
 
-/// The scene that is watched.
+/// Returns the watched scene.
 pub fn scene(desk: &Desk) -> &Watching {
     desk.state().watching().expect("a scene is watched")
 }
 
-/// Goes to a time \[s\] and waits until it is there.
+/// Seeks to a time \[s\] and waits for it.
 pub fn go_to(desk: &mut Desk, time: f64) {
     desk.state_mut().command(Command::Seek(time));
     desk.run_steps(2);

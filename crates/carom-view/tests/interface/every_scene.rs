@@ -1,5 +1,5 @@
-//! Every built-in scene as it opens: something moves that is in view, in light and dark, against
-//! pictures that were looked at.
+//! Every built-in scene shows something that moves soon after it opens, in light and dark, and
+//! matches approved pictures.
 
 use carom_scene::Library;
 use carom_view::Setup;
@@ -9,21 +9,21 @@ use egui_kittest::SnapshotResults;
 use crate::desk::{desk_of, go_to, setup_for_pictures, start};
 use crate::pictures::{compare, set_theme};
 
-/// In points: as small as a scene can be judged by.
+/// In points: the smallest size in which a scene can be judged.
 const SIZE: [f32; 2] = [440.0, 330.0];
 
-/// By then everybody has seen what a scene is about \[s\].
+/// Time by which a scene must show movement \[s\].
 const SOON: f64 = 1.0;
 
-/// Part of the pixels that change, at least, where something that moves is in view: a ball of a
-/// fiftieth of the width, that leaves one place for another.
+/// Least part of the pixels that change if something moves in view: a ball with a width of a
+/// fiftieth of the picture changes places.
 const MOVING: f64 = 5e-4;
 
-/// Height of the transport below the picture, where the time counts \[px\].
+/// Height of the transport, which shows the time, below the picture \[px\].
 const BELOW: u32 = 90;
 
 mod something_moves_in_view_within_seconds_in_light_and_dark {
-    /// Number of tests that share the scenes: each draws every sixth one, and they run side by side.
+    /// Number of tests that share the scenes and run in parallel.
     const PARTS: usize = 6;
 
     #[test]
@@ -63,7 +63,7 @@ fn moves_in_view(first: usize, step: usize) {
     for entry in entries.iter().skip(first).step_by(step) {
         let mut desk = desk_of(SIZE, Setup { start: start(&entry.name), ..setup_for_pictures() });
         set_theme(&mut desk, Theme::Light);
-        // Not at the start, over which a button to play lies.
+        // After the start, when the play button no longer covers the picture.
         go_to(&mut desk, 0.2);
         desk.remove_cursor();
         desk.run_steps(3);

@@ -1,4 +1,4 @@
-//! Pictures and scenes saved, files dropped, changed and broken.
+//! Pictures and scenes are saved; dropped, changed and broken files are handled.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -45,7 +45,7 @@ fn only_file(folder: &Path, ending: &str) -> PathBuf {
     file.expect("a file was saved")
 }
 
-/// How many pixels of the part differ much from the one to their left: text has such edges, an
+/// Counts pixels of the part that differ much from the pixel to their left: text has such edges, an
 /// empty sky has none.
 fn edges(picture: &Picture, columns: std::ops::Range<u32>, rows: std::ops::Range<u32>) -> usize {
     let at = |x: u32, y: u32| {
@@ -164,7 +164,7 @@ fn a_scene_changed_on_the_disk_is_read_anew() {
     assert_eq!(scene(&desk).view().spheres.radii, [0.75], "what was there stays");
 }
 
-/// A file of which two numbers have names.
+/// A file with two named numbers.
 const NAMED: &str = "[parameters]\ncount = 3\nr = 0.25\nd = \"=2*r\"\n
     [[generators]]\n[generators.row]\ncount = \"=count\"\nstart = [0, 0, 0]\n\
     step = [\"=d\", 0, 0]\nsphere = { radius = \"=r\" }\n";
@@ -189,7 +189,7 @@ fn parameters_of_a_file_are_changed_in_the_inspector_and_stay_in_links() {
         assert_eq!(scene(&first).view().spheres.radii, radii);
     }
     assert_eq!(scene(&first).view().spheres.positions[1].x, 1.0, "formulas follow");
-    // The link has the text of the file, not the path to it, and what was changed.
+    // The link holds the text of the file, not its path, and the changed values.
     press(&mut first, Key::U);
     first.get_by_label("Copy the link").click();
     first.run_steps(1);
@@ -199,7 +199,7 @@ fn parameters_of_a_file_are_changed_in_the_inspector_and_stay_in_links() {
     assert_eq!((name.as_str(), text.as_str()), ("row.toml", NAMED));
     let changed: Vec<_> = link.overrides().iter().map(ToString::to_string).collect();
     assert_eq!(changed, ["parameters.r=0.5", "parameters.count=5"]);
-    // A click that changes nothing begins nothing anew.
+    // A click without a change restarts nothing.
     press(&mut first, Key::Escape);
     go_to(&mut first, 0.5);
     first.get_by_role_and_label(Role::SpinButton, "r").click();
@@ -207,12 +207,12 @@ fn parameters_of_a_file_are_changed_in_the_inspector_and_stay_in_links() {
     press(&mut first, Key::Enter);
     first.run_steps(3);
     assert!(scene(&first).view().time > 0.4);
-    // Where it is opened, they can be changed on.
+    // Where the link is opened, the values can be changed further.
     let mut again = desk(Setup { start: Some(Start::Link(Box::new(link))), ..setup() });
     again.run_steps(4);
     again.get_by_label("Parameters");
     assert_eq!(scene(&again).view().spheres.radii, [0.5; 5]);
-    // What makes no sense changes nothing, and a notice says why.
+    // An invalid value changes nothing and causes a notice.
     again.get_by_role_and_label(Role::SpinButton, "r").click();
     again.run_steps(3);
     again.event(egui::Event::Text("-1".to_owned()));
@@ -235,7 +235,7 @@ fn a_path_that_is_typed_in_the_chooser_opens_and_is_found_under_recent() {
     assert_eq!(scene(&desk).view().scene.name, "one");
     press(&mut desk, Key::Enter);
     desk.get_by_label("Recent");
-    // It is the first of all.
+    // The recent file comes first.
     press(&mut desk, Key::Enter);
     assert_eq!(scene(&desk).view().scene.name, "one");
     // A file that is gone is no longer offered.

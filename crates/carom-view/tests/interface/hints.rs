@@ -1,4 +1,4 @@
-//! What is said over the picture: how to begin, how far the way is, where the balls are.
+//! Hints over the picture: how to begin, the progress of a seek, where the balls are.
 
 use carom_scene::Source;
 use carom_scene::scene::{Scene, Sphere};
@@ -11,7 +11,7 @@ use crate::desk::{Desk, desk, go_to, press, scene, setup, watching};
 
 const LEFT: &str = "All balls have left the picture.";
 
-/// A single ball that flies to the right without end, sixty radii in a second.
+/// Opens a scene with one ball that flies to the right, sixty radii a second.
 fn flying() -> Desk {
     let mut flying = Scene::new("flying");
     let velocity = [30.0, 0.0, 0.0];
@@ -53,7 +53,7 @@ fn the_way_says_how_far_it_is_and_stops_on_a_click() {
             break;
         }
     }
-    // It finds its place.
+    // The card needs two frames to find its place.
     desk.run_steps(2);
     desk.get_by_label_contains("0 % of the way to 100000.0 s, ");
     desk.get_by_label("Stop here").click();
@@ -66,14 +66,14 @@ fn the_way_says_how_far_it_is_and_stops_on_a_click() {
 fn balls_that_have_all_left_can_be_brought_back_into_the_picture() {
     let mut desk = flying();
     assert!(desk.query_by_label(LEFT).is_none());
-    // Its way is a thousand radii long then.
+    // The ball is then a thousand radii away.
     go_to(&mut desk, 20.0);
     desk.get_by_label(LEFT);
     // "Fit" is a button of the bar as well.
     press(&mut desk, Key::Num0);
     desk.run_steps(60);
     assert!(desk.query_by_label(LEFT).is_none());
-    // It goes on fitting while the ball flies on.
+    // The camera continues to fit while the ball flies on.
     go_to(&mut desk, 40.0);
     desk.run_steps(60);
     assert!(desk.query_by_label(LEFT).is_none());

@@ -1,4 +1,4 @@
-//! Links from the interface, and into it; what its host gets and gives.
+//! Links from the interface and into it, and its calls of the host.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -12,18 +12,18 @@ use egui_kittest::kittest::Queryable;
 
 use crate::desk::{Desk, desk, go_to, press, scene, setup, watching};
 
-/// What a host got.
+/// Calls that a host received.
 #[derive(Default)]
 struct Told {
     links: Vec<String>,
     /// Numbers of the frames of films, and the pictures' bytes.
     frames: Vec<(u32, usize)>,
     films: Vec<String>,
-    /// The frame for which a film has no room.
+    /// The frame at which a film is full.
     full_at: Option<u32>,
 }
 
-/// A host that listens.
+/// A host that records its calls.
 struct Listener(Rc<RefCell<Told>>);
 
 impl Host for Listener {
@@ -86,7 +86,7 @@ fn link(text: &str) -> Start {
     Start::Link(Box::new(Link::parse(text).expect("a link")))
 }
 
-/// The state that a link leads to, as a number.
+/// Returns the state hash at the end of a link.
 fn state_of(text: &str) -> String {
     let link = Link::parse(text).expect("a link");
     let mut replay = Replay::of(&link, link.open().expect("a scene")).expect("it begins");
@@ -164,7 +164,7 @@ fn a_link_to_nowhere_is_told_and_a_scene_can_be_chosen() {
     assert!(desk.state().is_choosing());
     desk.get_by_label_contains("simtest7");
     assert!(!desk.state().notices().any_error(), "one of them says it, not both");
-    // What is chosen then has nothing to do with it.
+    // A later choice does not follow the link.
     press(&mut desk, Key::Enter);
     press(&mut desk, Key::Enter);
     assert!(desk.state().is_choosing());
@@ -178,7 +178,7 @@ fn a_link_holds_where_a_hand_has_put_the_camera() {
     desk.run_steps(4);
     let last = || told.borrow().links.last().cloned().expect("a link");
     assert_eq!(last(), format!("scene=simtest1&t=1&{camera}"));
-    // Turned by hand, it is another; put back to the scene's camera, none.
+    // A camera turned by hand changes the link; the scene's own camera leaves none in it.
     let picture = desk.ctx.content_rect().center();
     desk.drag_at(picture);
     desk.hover_at(picture + egui::vec2(60.0, 10.0));
@@ -198,7 +198,7 @@ fn a_link_holds_where_a_hand_has_put_the_camera() {
     press(&mut desk, Key::Num1);
     desk.run_steps(12);
     assert_eq!(last(), "scene=simtest1&t=1");
-    // From above is a choice, too, with a field of view of its own.
+    // The view from above is a camera as well, with its own field of view.
     press(&mut desk, Key::Num3);
     desk.run_steps(12);
     let place = Link::parse(&last()).expect("a link").camera().expect("a camera");
@@ -222,7 +222,7 @@ fn a_film_has_every_frame_once_and_its_last_before_it_is_complete() {
     press(&mut desk, Key::R);
     assert!(desk.state().is_recording());
     press(&mut desk, Key::P);
-    // Until then, and on each of these, a quarter of a second goes by.
+    // A quarter of a second passes before and after each of these presses.
     desk.run_steps(4);
     press(&mut desk, Key::R);
     assert!(!desk.state().is_recording());

@@ -1,6 +1,5 @@
-//! The interface as a user meets it: keys and buttons pressed, files dropped and changed, and
-//! what becomes of it. Drawn by the software driver; physics in place, so that nothing depends on a
-//! thread's timing.
+//! The interface as a user meets it: keys, buttons, dropped and changed files, and their effects.
+//! The software driver draws; the physics runs in the same thread, so that no timing matters.
 
 mod contact_forces;
 mod contrast;

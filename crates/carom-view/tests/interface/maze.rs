@@ -1,4 +1,4 @@
-//! The maze by keys.
+//! The maze game by keys.
 
 use carom_maze::{GameState, Maze};
 use carom_view::{Setup, Start};
@@ -93,7 +93,7 @@ fn a_maze_that_is_opened_again_goes_on_when_the_player_does() {
         desk.state_mut().play(Maze::course().expect("the course's maze"));
         desk.run_steps(3);
     };
-    // Nothing was played.
+    // Nothing was played, so there is no game to continue.
     open_again(&mut desk);
     assert!(desk.query_by_label("Here you were").is_none());
     desk.key_down(Key::ArrowRight);

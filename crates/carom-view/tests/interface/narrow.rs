@@ -1,4 +1,4 @@
-//! Windows as narrow as telephones.
+//! Windows as narrow as those of telephones.
 
 use carom_scene::{Library, Source};
 use carom_view::{FilmMaker, Host, Inbox, Setup, Start};
@@ -27,7 +27,7 @@ fn nothing_to_press_lies_outside_and_the_picture_has_most_of_the_room() {
     assert!(picture.area() > 0.8 * TELEPHONE[0] * TELEPHONE[1], "{picture}");
 }
 
-/// A telephone, as its browser tells of it.
+/// A telephone as its browser reports it.
 struct Telephone;
 
 impl Host for Telephone {
@@ -61,7 +61,7 @@ fn what_fingers_press_is_large_enough_for_them_and_the_picture_keeps_half() {
         let rects: Vec<Rect> = all.map(|it| it.rect()).collect();
         assert!(rects.len() >= least, "{rects:?}");
         for rect in rects {
-            // Places are rounded to pixels.
+            // Positions are rounded to pixels.
             let is_large = rect.width() >= 43.5 && rect.height() >= 43.5;
             assert!(is_large && rect.right() <= TELEPHONE[0], "{rect}");
         }
@@ -75,7 +75,7 @@ fn what_fingers_press_is_large_enough_for_them_and_the_picture_keeps_half() {
     press(&mut desk, Key::Escape);
     press(&mut desk, Key::Enter);
     desk.run_steps(24);
-    // The list scrolls: what is below is cut off, but nothing is beside the window.
+    // The list scrolls: cards may be cut off below, but none lies beside the window.
     for card in desk.query_all_by_role(Role::Button) {
         let rect = card.rect();
         assert!(rect.left() >= 0.0 && rect.right() <= TELEPHONE[0], "{rect}");
@@ -123,7 +123,7 @@ fn in_small_windows_the_picture_keeps_half_of_the_room_beside_two_panels() {
         let start = Some(Start::Scene(Box::new(simtest), Source::BuiltIn));
         let mut desk = desk_of(size, Setup { start, ..setup() });
         press(&mut desk, Key::G);
-        // Both are there, over the picture where there is no room beside it.
+        // Both panels are open, over the picture if there is no space beside it.
         desk.get_by_label("rule");
         assert!(desk.query_by_label_contains("Energy, J").is_some(), "{size:?}");
         let picture = desk.get_by_role_and_label(Role::Image, "Scene").rect();

@@ -1,6 +1,6 @@
-//! What the interface looks like, against pictures that were looked at.
+//! The interface looks like its approved pictures.
 //!
-//! `UPDATE_SNAPSHOTS=1 cargo test -p carom-view --test interface` draws them anew.
+//! `UPDATE_SNAPSHOTS=1 cargo test -p carom-view --test interface` redraws them.
 
 use carom_maze::Maze;
 use carom_session::Command;
@@ -10,9 +10,9 @@ use egui_kittest::{SnapshotOptions, SnapshotResults};
 use crate::desk::{Desk, desk, go_to, press, setup_for_pictures, watching_on};
 use crate::maze::{SHORT, playing_on, win};
 
-/// Versions of the software driver round differently at edges of shapes, text and shadows: a part
-/// in a thousand of the pixels may differ. What a user would notice - another colour, a panel that
-/// moved, a ball elsewhere - changes several times as many.
+/// Versions of the software driver round differently at edges of shapes, text and shadows: a
+/// thousandth of the pixels may differ. A visible change - another colour, a panel that moved, a
+/// ball elsewhere - changes several times as many.
 const PIXELS_THAT_MAY_DIFFER: usize = 620;
 
 pub fn compare(desk: &mut Desk, name: &str, results: &mut SnapshotResults) {
@@ -48,7 +48,7 @@ pub(crate) use in_light_and_dark;
 
 in_light_and_dark!(the_chooser, the_window_with_plots, two_rules, the_maze, the_win_screen);
 
-/// Compares it with the picture of this name and theme.
+/// Compares the window with the picture of this name and theme.
 fn compare_in(theme: Theme, desk: &mut Desk, name: &str) {
     let mut results = SnapshotResults::new();
     let suffix = if theme == Theme::Dark { "dark" } else { "light" };
@@ -58,11 +58,11 @@ fn compare_in(theme: Theme, desk: &mut Desk, name: &str) {
 
 fn the_chooser(theme: Theme) {
     let mut desk = desk(setup_for_pictures());
-    // The scene behind it stands still, whatever the clock says.
+    // The scene behind it is paused at its start.
     desk.state_mut().command(Command::Pause);
     go_to(&mut desk, 0.0);
     set_theme(&mut desk, theme);
-    // Thumbnails come one by one.
+    // One thumbnail appears per frame.
     desk.run_steps(24);
     compare_in(theme, &mut desk, "chooser");
 }

@@ -1,4 +1,4 @@
-//! Plots: what they show, and what is saved of them.
+//! Plots show and save the right numbers.
 
 use carom_render::Picture;
 use carom_scene::{Library, Source};
@@ -9,7 +9,7 @@ use egui_kittest::kittest::Queryable;
 
 use crate::desk::{Desk, desk, go_to, press, scene, setup};
 
-/// A built-in scene with its plots open, whose files go to a folder.
+/// Opens a built-in scene with its plots; files go to a folder.
 fn plotting(name: &str, folder: &std::path::Path) -> Desk {
     let (scene, _) = Library::new().find(name, &[]).expect("a built-in scene");
     let start = Some(Start::Scene(Box::new(scene), Source::BuiltIn));
@@ -54,7 +54,7 @@ fn a_picture_of_the_plots_is_saved() {
     desk.get_by_label("PNG").click();
     desk.run_steps(8);
     let picture = Picture::from_png(&saved(folder.path(), "-plots.png")).expect("a picture");
-    // Three plots in two columns, twice as fine as the window.
+    // Three plots in two columns, at twice the resolution of the window.
     assert!(picture.width >= 1600 && picture.height >= 900, "{} {}", picture.width, picture.height);
     let colors: std::collections::BTreeSet<_> = picture.pixels.chunks(4).collect();
     assert!(colors.len() > 20, "text and curves have many colours");

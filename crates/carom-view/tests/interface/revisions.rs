@@ -1,4 +1,4 @@
-//! Edits are seen on the time line, taken back, made again, and kept on a restart.
+//! Edits appear on the time line, can be undone and redone, and are kept on a restart.
 
 use carom_session::{Command, Edit};
 use egui::{Key, Modifiers};

@@ -1,4 +1,4 @@
-//! Choosing scenes, and changing them while they run.
+//! Scenes are chosen, and changed while they run.
 
 use carom_scene::scene::{Collider, Rule, Scene, Shape};
 use carom_scene::{Library, Source};
@@ -22,12 +22,12 @@ fn the_chooser_is_there_at_the_start_and_comes_back_on_enter() {
     assert!(desk.query_by_label("Choose a scene").is_none());
 }
 
-/// A click meets what was seen a moment before, also where a picture takes a second.
+/// Otherwise a click could miss what the user saw, above all where a frame takes a second.
 #[test]
 fn dialogs_stand_still_from_their_first_picture_on() {
     let mut desk = just_opened([1280.0, 800.0], setup());
     let stands_still = |desk: &mut Desk, label: &str| {
-        // The first one is not shown: it measures.
+        // The first frame is not shown: it measures.
         desk.run_steps(2);
         let first = desk.get_by_label(label).rect();
         desk.run_steps(20);
@@ -50,7 +50,7 @@ fn what_is_typed_filters_by_name_and_description() {
 }
 
 mod every_scene_opens_from_the_chooser {
-    // Side by side.
+    // The halves run in parallel.
     #[test]
     fn one_half() {
         super::open_from_the_chooser(0);
@@ -62,7 +62,7 @@ mod every_scene_opens_from_the_chooser {
     }
 }
 
-/// Opens every second scene, from this one on.
+/// Opens every second scene, starting at `first`.
 fn open_from_the_chooser(first: usize) {
     let mut desk = desk(setup());
     for entry in Library::new().entries().expect("built-in scenes").iter().skip(first).step_by(2) {
@@ -92,7 +92,7 @@ fn restitution_changes_while_the_scene_runs() {
     assert!(view.playback.playing && view.time > 0.3, "it went on");
 }
 
-/// Types a number into the last field of this name; the name of its row has the same text.
+/// Types a number into the last field with this label; the name of its row has the same label.
 fn type_into(desk: &mut Desk, label: &str, number: &str) {
     desk.get_all_by_label(label).last().unwrap().click();
     desk.run_steps(2);
@@ -101,7 +101,7 @@ fn type_into(desk: &mut Desk, label: &str, number: &str) {
     press(desk, Key::Enter);
 }
 
-/// A scene under the rule `contact`, running.
+/// Opens a running scene under the rule `contact`.
 fn watching_contacts() -> Desk {
     let mut desk = watching("simtest1");
     let mut simulation = scene(&desk).view().setup.simulation.clone();
@@ -124,7 +124,7 @@ fn friction_of_a_surface_changes_while_the_scene_runs() {
     let plane = view.setup.colliders[0].1.clone();
     assert_eq!((plane.friction, plane.rolling_friction), (Some(0.35), None));
     assert!(view.playback.playing && view.time > 0.3, "it went on");
-    // Without a tick it says nothing again.
+    // Without a tick the value is absent again.
     desk.get_by_label("sliding friction is given").click();
     desk.run_steps(4);
     assert_eq!(scene(&desk).view().setup.colliders[0].1.friction, None);
@@ -133,7 +133,7 @@ fn friction_of_a_surface_changes_while_the_scene_runs() {
 #[test]
 fn friction_and_spin_of_the_picked_ball_change() {
     let mut desk = watching_contacts();
-    // Balls leave the scene, and a step of the desk is longer than a frame.
+    // Paused: balls leave the scene, and a step of the desk is longer than a frame.
     press(&mut desk, Key::P);
     let id = *scene(&desk).view().spheres.ids.last().unwrap();
     desk.state_mut().command(Command::Pick(Some(id)));
@@ -304,7 +304,7 @@ fn a_picked_ball_shows_the_restitution_of_its_contacts() {
     let change = carom_session::SphereChange { restitution: Some(0.5), ..Default::default() };
     desk.state_mut().command(Command::Edit(Edit::Sphere(ball, Box::new(change))));
     desk.run_steps(3);
-    // 0.8 on 0.5, and 0.2 on 0.5, multiplied.
+    // 0.8 times 0.5, and 0.2 times 0.5.
     desk.get_by_label(&format!("with ball {ball}: 0.40"));
     desk.get_by_label(&format!("with ball {ball}: 0.10"));
 }

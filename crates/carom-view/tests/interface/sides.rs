@@ -48,7 +48,7 @@ fn curves_of_two_rules_say_whose_they_are() {
 #[test]
 fn settings_of_one_half_are_chosen_there_and_the_other_half_keeps_its_own() {
     let mut desk = watching("tutorial1");
-    // Under `exact` alone, both halves of a pair have its settings.
+    // With two exact simulations, both halves show the settings of that rule.
     let mut simulation = scene(&desk).view().setup.simulation.clone();
     simulation.rule = Rule::Exact;
     let pair = Box::new([simulation.clone(), simulation]);

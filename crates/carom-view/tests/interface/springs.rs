@@ -1,4 +1,4 @@
-//! Springs in the inspector: listed, changed, removed and added, each as an edit that can be taken back.
+//! Springs in the inspector: listed, changed, removed and added; each change can be undone.
 
 use carom::{SphereId, Spring, SpringEnd};
 use carom_session::Command;
@@ -13,7 +13,7 @@ fn springs(desk: &Desk) -> Vec<Spring> {
     scene(desk).view().springs.iter().map(|(_, spring)| *spring).collect()
 }
 
-/// Clicks what is called so, which may be below the end of the panel.
+/// Scrolls to a control with this label and clicks it.
 fn click(desk: &mut Desk, label: &str) {
     let node = desk.get_by_label(label);
     node.scroll_to_me();
@@ -22,7 +22,7 @@ fn click(desk: &mut Desk, label: &str) {
     desk.run_steps(30);
 }
 
-/// Types a number into the field of this name.
+/// Types a number into the field with this label.
 fn type_into(desk: &mut Desk, label: &str, number: &str) {
     let node = desk.get_by_role_and_label(Role::SpinButton, label);
     node.scroll_to_me();
@@ -103,7 +103,7 @@ fn a_ball_is_joined_to_the_one_picked_before_and_to_a_place() {
     click(&mut desk, "+ spring to this place");
     let added = springs(&desk);
     assert_eq!((added[0].sphere, added[0].to), (other, SpringEnd::Sphere(one)));
-    // At rest as it comes.
+    // A new spring is at rest.
     assert_eq!(added[0].rest_length, apart);
     assert_eq!((added[1].sphere, added[1].to), (other, SpringEnd::Point(place)));
     assert!(added[0].stiffness > 0.0 && added[1].stiffness > 0.0);

@@ -1,4 +1,4 @@
-//! Fingers on the picture.
+//! Touch gestures in the picture.
 
 use carom_maze::Maze;
 use egui::{Event, PointerButton, Pos2, TouchDeviceId, TouchId, TouchPhase, Vec2};
@@ -9,7 +9,7 @@ use crate::maze::playing;
 /// In the middle of the picture.
 const PLACE: Pos2 = Pos2::new(300.0, 330.0);
 
-/// What a browser sends of a finger: the touch, and for the first finger the pointer that it is.
+/// Sends the events of a finger: the touch, and for the first finger also a pointer event.
 fn finger(desk: &mut Desk, id: u64, phase: TouchPhase, pos: Pos2) {
     let events = &mut desk.input_mut().events;
     let button = |pressed| Event::PointerButton {
@@ -36,7 +36,7 @@ fn finger(desk: &mut Desk, id: u64, phase: TouchPhase, pos: Pos2) {
     desk.run_steps(1);
 }
 
-/// Where the first ball is on the screen.
+/// Returns the position of the first ball on the screen.
 fn shown_at(desk: &Desk) -> Pos2 {
     let picture = egui::Rect::from_min_size(Pos2::ZERO, Vec2::new(700.0, 560.0));
     desk.state().place_of(0, picture).expect("a ball is before the eye")
@@ -74,7 +74,7 @@ fn one_finger_tilts_a_maze_the_way_it_goes() {
     for i in 1..=20 {
         finger(&mut desk, 0, TouchPhase::Move, PLACE + Vec2::new(6.0 * i as f32, 0.0));
     }
-    // To the right: a turn about -z.
+    // A drag to the right turns the maze about -z.
     let held = tilt(&desk);
     assert!(held.z < -0.01 && held.x.abs() < 1e-9, "{held}");
     finger(&mut desk, 0, TouchPhase::End, PLACE);

@@ -1,4 +1,4 @@
-//! Playing, stepping, going back.
+//! Play, step, and go back in time.
 
 use carom_session::Command;
 use egui::Key;

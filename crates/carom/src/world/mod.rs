@@ -16,7 +16,7 @@ use crate::id::{ColliderId, EmitterId, SphereId};
 use crate::persistent_contact::PersistentContact;
 use crate::report::StepReport;
 use crate::settings::Settings;
-use crate::sphere::Sphere;
+use crate::sphere::{Sphere, SphereMotion};
 use crate::state::State;
 use crate::step::{self, Scratch, Until};
 use crate::validate;
@@ -220,21 +220,48 @@ impl World {
         Ok(())
     }
 
-    /// Puts spheres elsewhere, with other velocities: each id with a centre \[m\] and a velocity
-    /// \[m/s\]. Where forces are applied to single spheres ([`Self::set_applied_forces`]), the flights
-    /// of the others go on, which makes this cheap.
+    /// Gives a sphere another velocity \[m/s\]; its place and spin stay.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] if it is not in the world, [`Error::Invalid`] for a velocity that is not finite.
+    pub fn set_velocity(&mut self, id: SphereId, velocity: DVec3) -> Result<(), Error> {
+        let position = self.sphere(id)?.position;
+        self.set_motions(&[SphereMotion { id, position, velocity }])
+    }
+
+    /// Applies an impulse \[N s\] to a sphere at its centre: its velocity changes by the impulse over its mass.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] if it is not in the world, [`Error::Invalid`] where the new velocity is not finite.
+    ///
+    /// ```
+    /// use carom::{DVec3, Settings, Sphere, World};
+    ///
+    /// let mut world = World::new(Settings::default())?;
+    /// let ball = world.add_sphere(Sphere::new(DVec3::ZERO, 0.5).with_mass(2.0))?;
+    /// world.apply_impulse(ball, DVec3::new(3.0, 0.0, 0.0))?;
+    /// assert_eq!(world.sphere(ball)?.velocity, DVec3::new(1.5, 0.0, 0.0));
+    /// # Ok::<(), carom::Error>(())
+    /// ```
+    pub fn apply_impulse(&mut self, id: SphereId, impulse: DVec3) -> Result<(), Error> {
+        let sphere = self.sphere(id)?;
+        self.set_velocity(id, sphere.velocity + impulse / sphere.kilograms())
+    }
+
+    /// Puts spheres elsewhere, with other velocities; their spins stay. Where forces are applied to single
+    /// spheres ([`Self::set_applied_forces`]), the flights of the others go on, which makes this cheap.
     ///
     /// # Errors
     /// [`Error::Unknown`] if one is not in the world, [`Error::Invalid`] for a number that makes no
     /// sense. Then none is moved.
-    pub fn set_motions(&mut self, motions: &[(SphereId, DVec3, DVec3)]) -> Result<(), Error> {
-        for &(id, position, velocity) in motions {
+    pub fn set_motions(&mut self, motions: &[SphereMotion]) -> Result<(), Error> {
+        for &SphereMotion { id, position, velocity } in motions {
             self.index_of(id)?;
             validate::finite("position", position)
                 .and_then(|()| validate::finite("velocity", velocity))
                 .map_err(|invalid| invalid.about(Subject::Sphere(id)))?;
         }
-        for &(id, position, velocity) in motions {
+        for &SphereMotion { id, position, velocity } in motions {
             let index = self.index_of(id)?;
             self.state.place(index, position, velocity);
         }

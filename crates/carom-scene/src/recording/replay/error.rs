@@ -1,4 +1,4 @@
-//! Why a recording cannot be played.
+//! Errors of playing recordings.
 
 use std::io;
 use std::path::PathBuf;
@@ -16,42 +16,42 @@ pub enum ReplayError {
     /// The file cannot be read.
     #[error("cannot read {path}: {source}")]
     Unreadable {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// Why.
+        /// Error of the operating system.
         source: io::Error,
     },
-    /// The first line does not name a column.
+    /// The first line lacks a column.
     #[error("{path}: there is no column \"{column}\"; is it a table of `carom run --out`?")]
     MissingColumn {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// Its name.
+        /// Name of the column.
         column: &'static str,
     },
-    /// There is no frame in it.
+    /// The file contains no frame.
     #[error("{path}: the table has no rows, so there is nothing to play")]
     Empty {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
     },
-    /// Its last line has no end.
+    /// The last line is incomplete.
     #[error("{path}: the last line is cut short; was the run stopped while it was written?")]
     CutShort {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
     },
-    /// A line makes no sense.
+    /// A line is invalid.
     #[error("{path}:{line}: {problem}")]
     Line {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// From 1; the names of the columns are a line, too.
+        /// Number of the line, from 1; the header is line 1.
         line: u64,
         /// What is wrong.
         problem: LineProblem,
     },
-    /// The scene makes no sense.
+    /// The scene is invalid.
     #[error(transparent)]
     Scene(#[from] SceneError),
 }
@@ -60,32 +60,32 @@ pub enum ReplayError {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum LineProblem {
-    /// A field is no number, or not a finite one.
+    /// A field is not a finite number.
     #[error("{column} must be a number, not \"{}\"", legible(.text, 60))]
     NotANumber {
-        /// Its column.
+        /// Name of the column.
         column: &'static str,
-        /// The field.
+        /// Text of the field.
         text: String,
     },
-    /// The four numbers of an orientation are those of no rotation.
+    /// The four numbers of an orientation are no rotation.
     #[error("qx, qy, qz, qw must be a rotation, not {0:?}")]
     NotARotation([f64; 4]),
-    /// A line has more or fewer fields than the first one.
+    /// The line has more or fewer fields than the first one.
     #[error("{fields} fields where the first line has {expected}")]
     Fields {
-        /// How many it has.
+        /// Number of fields in the line.
         fields: u64,
-        /// How many it should have.
+        /// Number of fields in the first line.
         expected: u64,
     },
-    /// A line is longer than any of a recording.
+    /// The line is longer than any line of a recording.
     #[error("longer than {LONGEST_LINE} bytes, as no line of a recording is")]
     TooLong,
-    /// What is there is not text.
+    /// The line is not text.
     #[error("not text in UTF-8")]
     NotText,
-    /// Times go back.
+    /// The time is earlier than in the line before.
     #[error("the time {time} s comes after {last} s")]
     TimeGoesBack {
         /// Time of the line \[s\].
@@ -93,7 +93,7 @@ pub enum LineProblem {
         /// Time of the line before \[s\].
         last: f64,
     },
-    /// Within a frame, balls do not come in order of their numbers.
+    /// The balls of a frame are not in the order of their numbers.
     #[error("ball {ball} comes after ball {last} of the same time")]
     Order {
         /// Ball of the line.
@@ -101,28 +101,28 @@ pub enum LineProblem {
         /// Ball of the line before.
         last: u64,
     },
-    /// The scene has no such ball at that time.
+    /// The scene has no such ball at this time.
     #[error("the scene has no ball {ball} at {time} s; is it another scene, or changed?")]
     UnknownBall {
-        /// Its number.
+        /// Number of the ball.
         ball: u64,
         /// Time of the line \[s\].
         time: f64,
     },
-    /// In the first frame, most balls are where they cannot have come from their start in the scene; this is the
-    /// first one.
+    /// In the first frame, most balls are too far from their start in the scene; the error
+    /// describes the first of them.
     #[error(
         "ball {ball} is {distance:.3} m from its start after {time} s, at the speed of {speed:.3} m/s; is it \
          another scene, or changed?"
     )]
     Elsewhere {
-        /// Its number.
+        /// Number of the ball.
         ball: u64,
-        /// From where it is in the scene at its start \[m\].
+        /// Distance from the ball's position at the start of the scene \[m\].
         distance: f64,
         /// Time of the line \[s\].
         time: f64,
-        /// The larger one of its speeds at both \[m/s\].
+        /// The larger of its speeds at the start and in the frame \[m/s\].
         speed: f64,
     },
 }

@@ -4,16 +4,16 @@ use carom::{DQuat, DVec3};
 
 use crate::scene::Color;
 
-/// The spheres at one time.
+/// State of all spheres at one time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReplayFrame {
-    /// In s.
+    /// Time \[s\].
     pub time: f64,
-    /// In order of their numbers.
+    /// Spheres by ascending number.
     pub balls: Vec<ReplayBall>,
 }
 
-/// A sphere at one time.
+/// State of a sphere at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReplayBall {
     /// Place in the order of appearance, from 0.
@@ -22,12 +22,14 @@ pub struct ReplayBall {
     pub position: DVec3,
     /// Velocity \[m/s\].
     pub velocity: DVec3,
-    /// From its own coordinate system to the world's; `None` where the recording does not say.
+    /// Rotation from the sphere's own coordinate system to the world's; `None` if the recording has
+    /// no orientations.
     pub orientation: Option<DQuat>,
-    /// In m.
+    /// Radius \[m\].
     pub radius: f64,
-    /// In kg.
+    /// Mass \[kg\].
     pub mass: f64,
-    /// Its own colour, or that of its generator or emitter; see [`crate::Palette`] for others.
+    /// Its own colour, or that of its generator or emitter; [`crate::Palette`] has the default
+    /// colours.
     pub color: Option<Color>,
 }

@@ -1,4 +1,4 @@
-//! Trajectories in CSV files, read again frame by frame.
+//! Reads trajectories in CSV files frame by frame.
 
 mod error;
 mod frame;
@@ -23,35 +23,35 @@ use crate::origin::{Origin, Origins};
 use crate::palette;
 use crate::scene::{Color, Scene};
 
-/// Reads a trajectory that [`Trajectory`](super::Trajectory) wrote as CSV, one frame after the other: the file
-/// may be longer than the memory.
+/// Reads a trajectory that [`Trajectory`](super::Trajectory) wrote as CSV, frame by frame. The file
+/// may be larger than the memory.
 ///
-/// The file says where balls are; how large and heavy they are says the scene, by their numbers:
-/// it must be the scene of the run, overrides included. Emitters are followed as in the run, frame
-/// by frame. Times without any ball leave no trace in a table, so they are no frames.
+/// The file contains the positions of balls; the scene provides their radii and masses, by number.
+/// It must be the scene of the run, with the same overrides. Emitters are followed as in the run,
+/// frame by frame. A time without balls has no row in a table, so it is no frame.
 #[derive(Debug)]
 pub struct Replay {
     path: PathBuf,
     reader: csv::Reader<ShortLines<File>>,
     columns: Columns,
     balls: Balls,
-    /// The first row of the next frame.
+    /// First row of the next frame.
     next: Option<Row>,
     has_begun: bool,
-    /// The scene at its start, which is not in the file.
+    /// State of the scene at its start, which the file does not contain.
     start: Start,
 }
 
-/// Where the columns of a table are.
+/// Indices of the columns of a table.
 #[derive(Debug, Clone, Copy)]
 struct Columns {
-    /// Those of [`HEADER`].
+    /// Columns of [`HEADER`].
     motion: [usize; 8],
-    /// Those of [`ORIENTATION`], where there are any.
+    /// Columns of [`ORIENTATION`], if the table has them.
     orientation: Option<[usize; 4]>,
 }
 
-/// A row of the table, and its line.
+/// A row of the table, with its line number.
 #[derive(Debug, Clone, Copy)]
 struct Row {
     line: u64,
@@ -63,7 +63,7 @@ struct Row {
 }
 
 impl Columns {
-    /// The columns of a table with this first line; the error is the name of one that is missing.
+    /// Finds the columns in a header; the error is the name of a missing one.
     fn of(header: &csv::StringRecord) -> Result<Self, &'static str> {
         let has_rotation = ORIENTATION.iter().any(|column| place(header, column).is_ok());
         let orientation = has_rotation.then(|| places(header, ORIENTATION)).transpose()?;
@@ -71,7 +71,7 @@ impl Columns {
     }
 }
 
-/// Where the columns of these names are.
+/// Indices of the columns with these names.
 fn places<const N: usize>(
     header: &csv::StringRecord,
     names: [&'static str; N],
@@ -83,18 +83,18 @@ fn places<const N: usize>(
     Ok(places)
 }
 
-/// Where the column of this name is.
+/// Index of the column with this name.
 fn place(header: &csv::StringRecord, column: &'static str) -> Result<usize, &'static str> {
     header.iter().position(|name| name.trim() == column).ok_or(column)
 }
 
 impl Replay {
-    /// Opens a recording of this scene.
+    /// Opens a recording of `scene`.
     ///
     /// # Errors
-    /// [`ReplayError::Unreadable`] and [`ReplayError::MissingColumn`] for what is no recording,
-    /// [`ReplayError::CutShort`] for one whose last line has no end,
-    /// [`ReplayError::Scene`] for a scene that makes no sense.
+    /// [`ReplayError::Unreadable`] and [`ReplayError::MissingColumn`] if the file is no recording,
+    /// [`ReplayError::CutShort`] if its last line is incomplete, [`ReplayError::Scene`] if the
+    /// scene is invalid.
     pub fn open(path: &Path, scene: &Scene) -> Result<Self, ReplayError> {
         let unreadable = |source| ReplayError::Unreadable { path: path.to_owned(), source };
         let mut file = File::open(path).map_err(unreadable)?;
@@ -114,23 +114,22 @@ impl Replay {
         Ok(Self { path, reader, columns, balls, next: None, has_begun: false, start })
     }
 
-    /// The scene at its start, at time 0: before the first recorded frame.
+    /// State of the scene at its start, which is before the first recorded frame.
     pub fn start(&self) -> &ReplayFrame {
         &self.start.frame
     }
 
-    /// What is around the balls.
+    /// Boundary of the scene.
     pub(super) fn boundary(&self) -> Boundary {
         self.start.boundary
     }
 
-    /// The next frame; `None` after the last one.
+    /// Reads the next frame; `None` after the last one.
     ///
     /// # Errors
-    /// [`ReplayError::Line`] for a line that makes no sense, a ball that is not in the scene, or where
-    /// most cannot have come from where they start there to the first frame;
-    /// [`ReplayError::Empty`] where there is none at all;
-    /// [`ReplayError::Unreadable`] if the disk is gone.
+    /// [`ReplayError::Line`] if a line is invalid, if the scene does not have a ball, or if most
+    /// balls of the first frame are too far from their start; [`ReplayError::Empty`] if the
+    /// recording has no frame; [`ReplayError::Unreadable`] if the disk is gone.
     pub fn next_frame(&mut self) -> Result<Option<ReplayFrame>, ReplayError> {
         let is_first = !self.has_begun;
         if is_first {
@@ -192,8 +191,8 @@ impl Replay {
     }
 }
 
-/// Whether a file that has anything ends with the end of a line: a number that is cut short is one
-/// all the same. Leaves it at its beginning. A pipe has no end to look at.
+/// Returns whether the file ends with a complete line, and seeks its start. An incomplete number
+/// could pass as a complete one. Empty files and pipes count as complete.
 fn ends_with_a_line(file: &mut File) -> io::Result<bool> {
     let metadata = file.metadata()?;
     if !metadata.is_file() || metadata.len() == 0 {
@@ -206,7 +205,7 @@ fn ends_with_a_line(file: &mut File) -> io::Result<bool> {
     Ok(last == *b"\n")
 }
 
-/// The row that a record stands for; its line is not known here.
+/// Parses a row; the line number remains 0.
 fn parse(record: &csv::StringRecord, columns: &Columns) -> Result<Row, LineProblem> {
     let values = numbers(record, HEADER, columns.motion)?;
     let [time, _, x, y, z, vx, vy, vz] = values;
@@ -218,7 +217,7 @@ fn parse(record: &csv::StringRecord, columns: &Columns) -> Result<Row, LineProbl
     Ok(Row { line: 0, time, number, position, velocity, orientation })
 }
 
-/// The numbers in columns of these names.
+/// Parses the numbers in columns of these names.
 fn numbers<const N: usize>(
     record: &csv::StringRecord,
     names: [&'static str; N],
@@ -241,7 +240,7 @@ fn not_a_number(column: &'static str, text: &str) -> LineProblem {
     LineProblem::NotANumber { column, text: text.to_owned() }
 }
 
-/// The rotation of four numbers: as written, if it is one to rounding.
+/// Converts four numbers to a rotation; normalizes them unless they are normalized to rounding.
 fn orientation(numbers: [f64; 4]) -> Result<DQuat, LineProblem> {
     let written = DQuat::from_array(numbers);
     let shortening = written.length_recip();
@@ -251,7 +250,7 @@ fn orientation(numbers: [f64; 4]) -> Result<DQuat, LineProblem> {
     Ok(if written.is_normalized() { written } else { written.normalize() })
 }
 
-/// What went wrong with reading a table.
+/// Converts an error of the CSV reader.
 fn broken(path: &Path, error: csv::Error) -> ReplayError {
     let path = path.to_owned();
     let line = error.position().map_or(0, csv::Position::line);
@@ -270,7 +269,7 @@ fn broken(path: &Path, error: csv::Error) -> ReplayError {
     ReplayError::Line { path, line, problem }
 }
 
-/// What a ball is, whatever its place.
+/// The constant properties of a ball.
 #[derive(Debug, Clone, Copy)]
 struct Kind {
     radius: f64,
@@ -278,17 +277,17 @@ struct Kind {
     color: Option<Color>,
 }
 
-/// What the balls of a scene are, by number.
+/// Constant properties of the balls of a scene, by number.
 #[derive(Debug)]
 struct Balls {
     origins: Origins,
     initial: Vec<Kind>,
-    /// One for each emitter.
+    /// Properties of the balls of each emitter.
     emitted: Vec<Kind>,
 }
 
 impl Balls {
-    /// Those of a scene, and of its world at the start.
+    /// Reads the properties from a scene and its world at the start.
     fn new(scene: &Scene, world: &World) -> Result<Self, SceneError> {
         let origins = palette::origins(scene)?;
         let color = |number| match origins.of(number)? {
@@ -312,7 +311,7 @@ impl Balls {
         Ok(Self { origins, initial, emitted })
     }
 
-    /// The balls of the world at its start, turned where the recording has rotations.
+    /// Balls of the world at its start, with orientations if the recording has them.
     fn at_start(&self, world: &World, has_rotation: bool) -> Vec<ReplayBall> {
         let spheres = world.spheres();
         let states = spheres.positions().iter().zip(spheres.velocities());
@@ -326,7 +325,8 @@ impl Balls {
         balls.map(ball).collect()
     }
 
-    /// What the ball of this number is, if it is in the scene at this time \[s\].
+    /// Properties of the ball of this number; `None` if the scene does not have it at this time
+    /// \[s\].
     fn kind(&mut self, number: u64, time: f64) -> Option<Kind> {
         let index = usize::try_from(number).ok()?;
         if let Some(kind) = self.initial.get(index) {

@@ -1,4 +1,4 @@
-//! How a recording starts, by the scene that it is said to be of.
+//! Checks that a recording starts as its scene does.
 
 use carom::Boundary;
 
@@ -6,10 +6,11 @@ use super::error::LineProblem;
 use super::frame::{ReplayBall, ReplayFrame};
 use crate::scene::Scene;
 
-/// Within a frame hardly any ball comes farther than at its larger speed at both ends by this factor, and by so
-/// many radii: one that was struck twice, or came to rest. Of another scene hardly any is so near.
+/// Largest distance that a ball moves within a frame: the larger of its two speeds times the first
+/// factor and the time, plus the second factor times its radius. Balls that were struck twice or
+/// came to rest stay below it; few balls of another scene do.
 const WAY: [f64; 2] = [10.0, 2.0];
-/// In longer frames anything may happen \[s\].
+/// Longest time for which this check is meaningful \[s\].
 const LONGEST_FRAME: f64 = 0.05;
 
 /// The scene of a recording at its start.
@@ -17,19 +18,20 @@ const LONGEST_FRAME: f64 = 0.05;
 pub(super) struct Start {
     pub frame: ReplayFrame,
     pub boundary: Boundary,
-    /// Until when speeds tell how far balls have come \[s\].
+    /// Latest time at which the speeds limit the distance that balls have moved \[s\].
     until: f64,
 }
 
 impl Start {
     pub fn new(scene: &Scene, frame: ReplayFrame, boundary: Boundary) -> Self {
-        // A stiff spring may turn a ball round within a frame, and rounding counts for little.
+        // A stiff spring can turn a ball back within a frame, so 0 leaves out the check.
         let frames = if scene.springs.is_empty() { 1.5 } else { 0.0 };
         let until = (frames * scene.simulation.frame_time).min(LONGEST_FRAME);
         Self { frame, boundary, until }
     }
 
-    /// If most balls of the first recorded frame cannot have come there: the first one, by its place.
+    /// Returns the first ball that is too far from its start, with its row, if most balls of the
+    /// first recorded frame are.
     pub fn first_stray(&self, first: &ReplayFrame) -> Option<(u64, LineProblem)> {
         if first.time > self.until {
             return None;

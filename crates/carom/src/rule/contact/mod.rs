@@ -35,6 +35,7 @@ mod listing;
 mod materials;
 mod neighbours;
 mod order;
+mod rest;
 mod row;
 mod search;
 mod slab;

@@ -7,6 +7,7 @@
 use glam::DVec3;
 
 use super::dormant::{self, Dormant, Partner};
+use super::rest::note_moving;
 use super::row::Row;
 use super::slots::Slots;
 use super::solver::Solver;
@@ -18,8 +19,9 @@ use crate::report::StepReport;
 const STEADY: f64 = 1e-3;
 /// A sphere is borne that accelerates by less than this part of what forces alone would do.
 const UNBORNE: f64 = 0.1;
-/// Time that a sphere, and all those so many contacts around it, are calm before it sleeps \[s\].
-pub(super) const PATIENCE: f64 = 0.5;
+/// How long a sphere, and all those so many contacts around it, are calm before it sleeps, in units of the time
+/// sqrt(r / a), a being what forces accelerate it by.
+pub(super) const PATIENCE: f64 = 5.0;
 /// Spheres that overlap by more than this part of the sum of their radii stay awake, for the overlap to be
 /// corrected.
 const DEEP: f64 = 4.0 * SLOP;
@@ -96,8 +98,8 @@ fn turns_calmly(slots: &Slots, sleep_speed: f64, slot: usize, h: f64) -> bool {
     spin.vector().length_squared() < slow || change < steady
 }
 
-/// Counts for how long each sphere has been calm \[s\], in sub-steps of `h` \[s\]. Gives the longest time of
-/// one that is awake.
+/// Counts for how long each sphere has been calm, in units of sqrt(r / a), over a frame in sub-steps of `h` \[s\].
+/// Returns the longest time of one that is awake.
 fn note_calm(slots: &mut Slots, sleep_speed: f64, frame: f64, h: f64) -> f64 {
     let mut longest = 0.0_f64;
     for slot in 0..slots.len() {
@@ -108,14 +110,16 @@ fn note_calm(slots: &mut Slots, sleep_speed: f64, frame: f64, h: f64) -> f64 {
             && is_slow(slots, sleep_speed, slot)
             && is_borne(slots, slot, h)
             && turns_calmly(slots, sleep_speed, slot, h);
-        slots.calm[slot] = if is_calm { slots.calm[slot] + frame } else { 0.0 };
+        let unit =
+            (slots.position[slot].number() / slots.acceleration[slot].vector().length()).sqrt();
+        slots.calm[slot] = if is_calm { slots.calm[slot] + frame / unit } else { 0.0 };
         longest = longest.max(slots.calm[slot]);
     }
     longest
 }
 
-/// By slot, whether a sphere has not been calm for long enough, overlaps another one, or is [`NEAR`] one that is
-/// so.
+/// By slot, whether a sphere has not been calm for long enough, overlaps another one, moves on with
+/// all that it touches, or is [`NEAR`] one that is so.
 fn near_restless(solver: &Solver) -> Vec<bool> {
     let Slots { sleeps, calm, position, .. } = &solver.slots;
     let is_restless = |(&sleeps, &calm): (&bool, &f64)| !sleeps && calm < PATIENCE;
@@ -138,6 +142,7 @@ fn near_restless(solver: &Solver) -> Vec<bool> {
             }
         }
     }
+    note_moving(&solver.slots, &bearing, solver.h, &mut is_near);
     spread(&mut is_near, &bearing, Some(NEAR));
     is_near
 }

@@ -33,7 +33,7 @@ pub(super) struct Slots {
     pub reference: Vec<Row>,
     /// Which spheres sleep.
     pub sleeps: Vec<bool>,
-    /// For how long each sphere has been calm \[s\].
+    /// For how long each sphere has been calm, in units of sqrt(r / a).
     pub calm: Vec<f64>,
     /// Whether a contact that is no bounce had an impulse in the sub-step before.
     pub bears: Vec<bool>,

@@ -21,8 +21,8 @@ const LOAD_CHANGE: f64 = 0.3;
 const FRAMES: u32 = 8;
 /// A sphere bears another one that bears this part of its weight.
 const BORNE: f64 = 0.1;
-/// For how long those that a load has woken are awake at least, if they stay calm \[s\].
-const REST: f64 = 0.1;
+/// For how long those that a load has woken are awake at least, if they stay calm, in units of sqrt(r / a).
+const REST: f64 = 1.0;
 
 /// Wakes spheres that something is about to hit in a sub-step of `h` \[s\], and those around them.
 pub(super) fn touched(system: &System, solver: &mut Solver, h: f64) {
@@ -137,7 +137,7 @@ pub(super) fn all(solver: &mut Solver) {
 }
 
 /// Wakes spheres, and those so many contacts around them, or however far. They count as calm for so long
-/// already \[s\].
+/// already, in units of sqrt(r / a).
 fn wake(solver: &mut Solver, from: Vec<usize>, contacts: Option<u32>, calm_for: f64) {
     if from.is_empty() {
         return;
