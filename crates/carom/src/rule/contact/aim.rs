@@ -35,7 +35,7 @@ fn prepare_all<S: Simd, const FRICTION: bool>(
     let Batches { pairs, approaches, restitutions, hits, frictions, rollings, .. } = batches;
     hits.clear();
     for (number, (batch, approach)) in pairs.iter_mut().zip(approaches).enumerate() {
-        let aimed = aim(simd, run, (batch, approach), sub_step);
+        let aimed = aim(simd, run, (batch, approach), &restitutions[number], sub_step);
         let mut speed = [0.0; LANES];
         if aimed.is_any() {
             let traits = (&*approach, &restitutions[number]);
@@ -76,6 +76,7 @@ fn aim<S: Simd>(
     simd: S,
     run: &Run,
     (batch, approach): (&mut PairBatch, &mut ApproachBatch),
+    restitution: &Quad,
     sub_step: &SubStep,
 ) -> Aimed<S> {
     let all = |number| Lanes::all(simd, number);
@@ -110,7 +111,10 @@ fn aim<S: Simd>(
     let is_free = bear.is_equal(zero);
     let mut fall = zero;
     // One of two that fall side by side does not come nearer to the other; it does to one that is borne.
-    let is_one_borne = bear.abs().is_equal(all(f64::INFINITY)) & carried.is_equal(zero);
+    // What does not bounce may wait until the end of the sub-step.
+    let is_one_borne = bear.abs().is_equal(all(f64::INFINITY))
+        & carried.is_equal(zero)
+        & zero.is_less(Lanes::each(simd, *restitution));
     if is_one_borne.any_true() {
         let pressing = pressing(simd, run, (batch, normal), (bear, sub_step));
         fall = (pressing * (0.5 * sub_step.h)).select(is_one_borne, zero);
