@@ -66,7 +66,8 @@ pub(super) fn follow(
     sub_step: &SubStep,
     report: &mut StepReport,
 ) {
-    (solver.landings.spheres.clear(), solver.landings.contacts.clear());
+    solver.landings.spheres.clear();
+    solver.landings.contacts.clear();
     if seeds.is_empty() || solver.has_moving_surfaces || solver.has_other_forces {
         return;
     }
