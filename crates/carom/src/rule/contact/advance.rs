@@ -4,7 +4,7 @@ use fearless_simd::{Level, Simd, SimdMask, dispatch};
 use glam::DVec3;
 
 use super::accelerate;
-use super::cascade::Landed;
+use super::landings::Landed;
 use super::row::{self, BOUNDLESS};
 use super::slots::Run;
 use super::solver::{Bounce, Solver};

@@ -3,10 +3,11 @@
 use glam::DVec3;
 
 use super::batch::ContactKinds;
-use super::cascade::{Incidence, Landings};
 use super::dormant::Dormant;
 use super::drift::Drift;
+use super::incidence::Incidence;
 use super::kept::Kept;
+use super::landings::Landings;
 use super::materials::Materials;
 use super::search::Search;
 use super::slab::Slabs;

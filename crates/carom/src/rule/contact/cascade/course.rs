@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::island::{Body, Island};
 use super::link::{Link, Role};
-use super::{Contact, Met, Partners};
+use super::met::{Contact, Met, Partners};
 use crate::contact_time;
 use crate::flight::Flight;
 use crate::rule::contact::sub_step::SubStep;

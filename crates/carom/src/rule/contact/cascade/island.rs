@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::incidence::Origin;
 use super::link::Link;
+use crate::rule::contact::incidence::Origin;
 use crate::rule::contact::row::Row;
 use crate::rule::contact::slots::{self, Slots};
 use crate::rule::contact::solver::Solver;

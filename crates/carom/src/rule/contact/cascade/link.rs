@@ -2,11 +2,11 @@
 
 use glam::DVec3;
 
-use super::incidence::Origin;
 use super::island::{Body, Island};
 use crate::detect::sphere_surface;
 use crate::friction::ContactFriction;
 use crate::rule::contact::batch::{Impulses, get};
+use crate::rule::contact::incidence::Origin;
 use crate::rule::contact::slots::Slots;
 use crate::rule::contact::solver::Solver;
 use crate::rule::contact::sub_step::SubStep;

@@ -6,56 +6,19 @@
 //! would lose or gain by it, and impacts that follow each other would be mixed.
 
 mod course;
-mod incidence;
 mod island;
 mod link;
-
-pub(super) use incidence::Incidence;
-use incidence::Origin;
-
-use glam::DVec3;
+mod met;
 
 use super::batch::Impulses;
-use super::slots::Slots;
+use super::landings::Landed;
 use super::solver::Solver;
 use super::sub_step::SubStep;
 use super::swept::FREE;
-use crate::report::{BodyPair, Impact, StepReport};
+use crate::report::StepReport;
 use crate::system::System;
 use course::Course;
 use island::{Body, Gathering, Island};
-
-/// Where a cascade takes a sphere.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Landed {
-    pub slot: u32,
-    /// Centre at the end of the sub-step \[m\].
-    pub position: DVec3,
-    velocity: DVec3,
-    /// r w \[m/s\]
-    spin: DVec3,
-    /// Whether contacts bear it in the end.
-    pub bears: bool,
-    /// Whether it has met a surface.
-    pub met_surface: bool,
-}
-
-/// What cascades came to in a sub-step.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Landings {
-    /// The spheres that they took through it, by slot.
-    pub spheres: Vec<Landed>,
-    /// What their contacts begin the next sub-step with.
-    contacts: Vec<(Origin, Impulses)>,
-}
-
-impl Landings {
-    /// Whether the sphere in a slot is among them.
-    pub fn has(&self, slot: usize) -> bool {
-        let place = |it: &Landed| it.slot as usize;
-        !self.spheres.is_empty() && self.spheres.binary_search_by_key(&slot, place).is_ok()
-    }
-}
 
 /// Follows the cascades about the spheres in these slots. Until they [`land`], their spheres move as if nothing
 /// touched them.
@@ -115,72 +78,5 @@ pub(super) fn land(solver: &mut Solver) {
     }
     for &(origin, kept) in &landings.contacts {
         origin.set(slabs, kept, 0.0);
-    }
-}
-
-/// An impact of a cascade.
-#[derive(Debug, Clone, Copy)]
-struct Met {
-    /// The slots of the spheres; of one only, and the number of the surface that it met.
-    bodies: Partners,
-    /// Between them, as seen from the first or the surface.
-    impact: Contact,
-}
-
-/// Who meets.
-#[derive(Debug, Clone, Copy)]
-enum Partners {
-    Spheres([u32; 2]),
-    Surface(u32, u32),
-}
-
-/// What happens in an impact.
-#[derive(Debug, Clone, Copy)]
-struct Contact {
-    point: DVec3,
-    normal: DVec3,
-    approach_speed: f64,
-    separation_speed: f64,
-    impulse: f64,
-    tangential_impulse: DVec3,
-}
-
-impl Met {
-    fn report(&self, system: &System, slots: &Slots, sub_step: &SubStep) -> Impact {
-        let Contact {
-            point,
-            mut normal,
-            approach_speed,
-            separation_speed,
-            impulse,
-            mut tangential_impulse,
-        } = self.impact;
-        let between = match self.bodies {
-            Partners::Spheres(both) => {
-                let [first, second] = both.map(|slot| slots.id[slot as usize]);
-                if first < second {
-                    BodyPair::Spheres(first, second)
-                } else {
-                    normal = -normal;
-                    // From zero, for it not to become -0.
-                    tangential_impulse = DVec3::ZERO - tangential_impulse;
-                    BodyPair::Spheres(second, first)
-                }
-            }
-            Partners::Surface(surface, slot) => {
-                let collider = system.surfaces[surface as usize].collider;
-                BodyPair::Collider { collider, sphere: slots.id[slot as usize] }
-            }
-        };
-        Impact {
-            time: sub_step.time,
-            between,
-            point,
-            normal,
-            approach_speed,
-            separation_speed,
-            impulse,
-            tangential_impulse,
-        }
     }
 }
