@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use super::island::{Body, Island};
+use super::body::Body;
+use super::island::Island;
 use super::link::{Link, Role};
 use super::met::{Contact, Met, Partners};
 use crate::contact_time;

@@ -1,11 +1,9 @@
 //! Islands: the spheres that may take part in a cascade, and all contacts that they may come to in it.
 
-use glam::DVec3;
-
+use super::body::Body;
 use super::link::Link;
 use crate::rule::contact::incidence::Origin;
-use crate::rule::contact::row::Row;
-use crate::rule::contact::slots::{self, Slots};
+use crate::rule::contact::slots::Slots;
 use crate::rule::contact::solver::Solver;
 use crate::rule::contact::sub_step::SubStep;
 
@@ -16,64 +14,6 @@ const MOST_LINKS: usize = 512;
 /// A sphere may come so many times as far in a cascade as it would by itself: what a heavy one hits
 /// flies off at twice its speed.
 const REACH: f64 = 2.0;
-
-/// A sphere of an island.
-#[derive(Debug, Clone, Copy)]
-pub struct Body {
-    pub slot: u32,
-    pub position: DVec3,
-    pub radius: f64,
-    pub velocity: DVec3,
-    /// 1/m \[1/kg\], 0 for one that sleeps.
-    pub inverse_mass: f64,
-    /// Velocity of its surface by spin, r w \[m/s\].
-    pub spin: DVec3,
-    /// 1/(k m) \[1/kg\], 0 without friction.
-    pub inverse_inertia: f64,
-    pub acceleration: DVec3,
-    pub drag_rate: f64,
-    /// Velocity and spin at the start of the flight.
-    pub start: [DVec3; 2],
-    /// Whether contacts bore it in the flight before.
-    pub bears: bool,
-    pub met_surface: bool,
-}
-
-impl Body {
-    fn of(slots: &Slots, slot: usize) -> Self {
-        let [position, before] = [slots.position[slot], slots.before[slot]];
-        let zero = Row::default();
-        let spin = slots.spin.get(slot).copied().unwrap_or(zero);
-        let spin_before = slots.spin_before.get(slot).copied().unwrap_or(zero);
-        let acceleration = if slots.sleeps[slot] { zero } else { slots.acceleration[slot] };
-        let start = [before.vector(), spin_before.vector()];
-        Self {
-            slot: slot as u32,
-            position: position.vector(),
-            radius: position.number(),
-            velocity: start[0],
-            inverse_mass: slots.velocity[slot].number(),
-            spin: start[1],
-            inverse_inertia: spin.number(),
-            acceleration: acceleration.vector(),
-            drag_rate: acceleration.number(),
-            start,
-            bears: slots.bears[slot],
-            met_surface: false,
-        }
-    }
-
-    /// Its velocity after a flight of `h` \[s\] without contacts.
-    pub fn accelerated(&self, h: f64) -> DVec3 {
-        let force = Row::new(self.acceleration, self.drag_rate);
-        slots::accelerated(Row::new(self.start[0], 0.0), force, h)
-    }
-
-    /// What forces alone do to it: nothing where contacts bear it.
-    pub fn free_acceleration(&self) -> DVec3 {
-        if self.bears { DVec3::ZERO } else { self.acceleration }
-    }
-}
 
 /// Spheres and their contacts.
 #[derive(Debug, Clone, Default)]

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::island::{Body, Island};
+use super::body::Body;
 use crate::detect::sphere_surface;
 use crate::friction::ContactFriction;
 use crate::rule::contact::batch::{Impulses, get};
@@ -300,12 +300,12 @@ impl Link {
 
     /// What it begins the next sub-step with, after a last flight of this duration \[s\]: what it would have
     /// borne in a whole one.
-    pub fn kept(&self, island: &Island, last: f64, sub_step: &SubStep) -> Impulses {
+    pub fn kept(&self, bodies: &[Body], last: f64, sub_step: &SubStep) -> Impulses {
         if self.role != Role::Bears || self.impulses.normal == 0.0 || last <= 0.0 {
             return Impulses::default();
         }
         let masses = [self.first, Some(self.second)].into_iter().flatten();
-        let inverse_mass: f64 = masses.map(|it| island.bodies[it].inverse_mass).sum();
+        let inverse_mass: f64 = masses.map(|it| bodies[it].inverse_mass).sum();
         let most = self.carried.max(sub_step.growth / inverse_mass);
         let part = (sub_step.h / last).min(most / self.impulses.normal);
         let of = |vector: [f64; 3]| vector.map(|it| part * it);

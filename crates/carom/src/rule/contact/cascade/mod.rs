@@ -5,6 +5,7 @@
 //! them leave for solved. In a heap that is good enough, for much is lost there anyway. Elastic bounces
 //! would lose or gain by it, and impacts that follow each other would be mixed.
 
+mod body;
 mod course;
 mod island;
 mod link;
@@ -17,8 +18,9 @@ use super::sub_step::SubStep;
 use super::swept::FREE;
 use crate::report::StepReport;
 use crate::system::System;
+use body::Body;
 use course::Course;
-use island::{Body, Gathering, Island};
+use island::{Gathering, Island};
 
 /// Follows the cascades about the spheres in these slots. Until they [`land`], their spheres move as if nothing
 /// touched them.
@@ -61,7 +63,7 @@ fn withdraw(solver: &mut Solver, island: &Island, last: f64, sub_step: &SubStep)
         landings.spheres.push(Landed { slot, position, velocity, spin, bears, met_surface });
     }
     for link in &island.links {
-        landings.contacts.push((link.origin, link.kept(island, last, sub_step)));
+        landings.contacts.push((link.origin, link.kept(&island.bodies, last, sub_step)));
         link.origin.set(slabs, Impulses::default(), FREE);
     }
 }
