@@ -4,6 +4,7 @@ use fearless_simd::{Level, Simd, SimdMask, dispatch};
 use glam::DVec3;
 
 use super::accelerate;
+use super::landings::Landed;
 use super::row::{self, BOUNDLESS};
 use super::slots::Run;
 use super::solver::{Bounce, Solver};
@@ -25,7 +26,7 @@ const FASTER: f64 = 1.01;
 /// that all have in common: that would take it through walls.
 pub(super) fn advance(solver: &mut Solver, sub_step: &SubStep) {
     solver.drift = solver.drift.after(sub_step.h);
-    let Solver { slots, slabs, bounces, drift, .. } = solver;
+    let Solver { slots, slabs, bounces, landings, drift, .. } = solver;
     let common = drift.way;
     let flies = !solver.has_other_forces;
     slabs.each(slots, |mut run, slab| {
@@ -35,10 +36,18 @@ pub(super) fn advance(solver: &mut Solver, sub_step: &SubStep) {
         dispatch!(Level::new(), simd => advance_run(simd, run, sub_step.h, flies));
         let bounces = &bounces[from..to];
         shift_bounced(run, slab.start, bounces);
+        let landed = &landings.spheres;
+        let from = landed.partition_point(|it| (it.slot as usize) < slab.start);
+        let to = landed.partition_point(|it| (it.slot as usize) < slab.end);
+        let landed = &landed[from..to];
+        place_landed(run, slab.start, landed);
         let is_free = |slot: usize| {
             let slot = (slab.start + slot) as u32;
             let found = bounces.binary_search_by_key(&slot, |bounce| bounce.slot);
             found.is_ok_and(|place| bounces[place].is_at_surface)
+                || landed
+                    .binary_search_by_key(&slot, |it| it.slot)
+                    .is_ok_and(|place| landed[place].met_surface)
         };
         slab.found.leaves =
             dispatch!(Level::new(), simd => stay_within_margin(simd, run, common, is_free));
@@ -78,6 +87,15 @@ fn shift_bounced(run: &mut Run, start: usize, bounces: &[Bounce]) {
         *position = position.with_vector(position.vector() + bounce.shift);
         run.velocity[slot] = run.velocity[slot].with_vector(bounce.velocity);
         run.bears[slot] &= !bounce.is_alone;
+    }
+}
+
+/// Puts spheres where cascades took them.
+fn place_landed(run: &mut Run, start: usize, landed: &[Landed]) {
+    for it in landed {
+        let slot = it.slot as usize - start;
+        run.position[slot] = run.position[slot].with_vector(it.position);
+        run.bears[slot] = it.bears;
     }
 }
 

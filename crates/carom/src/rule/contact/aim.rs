@@ -35,7 +35,7 @@ fn prepare_all<S: Simd, const FRICTION: bool>(
     let Batches { pairs, approaches, restitutions, hits, frictions, rollings, .. } = batches;
     hits.clear();
     for (number, (batch, approach)) in pairs.iter_mut().zip(approaches).enumerate() {
-        let aimed = aim(simd, run, (batch, approach), sub_step);
+        let aimed = aim(simd, run, (batch, approach), &restitutions[number], sub_step);
         let mut speed = [0.0; LANES];
         if aimed.is_any() {
             let traits = (&*approach, &restitutions[number]);
@@ -76,6 +76,7 @@ fn aim<S: Simd>(
     simd: S,
     run: &Run,
     (batch, approach): (&mut PairBatch, &mut ApproachBatch),
+    restitution: &Quad,
     sub_step: &SubStep,
 ) -> Aimed<S> {
     let all = |number| Lanes::all(simd, number);
@@ -108,12 +109,26 @@ fn aim<S: Simd>(
 
     let rests = zero.is_less(carried);
     let is_free = bear.is_equal(zero);
+    let mut fall = zero;
+    // One of two that fall side by side does not come nearer to the other; it does to one that is borne.
+    // What does not bounce may wait until the end of the sub-step.
+    let is_one_borne = bear.abs().is_equal(all(f64::INFINITY))
+        & carried.is_equal(zero)
+        & zero.is_less(Lanes::each(simd, *restitution));
+    if is_one_borne.any_true() {
+        let pressing = pressing(simd, run, (batch, normal), (bear, sub_step));
+        fall = (pressing * (0.5 * sub_step.h)).select(is_one_borne, zero);
+        // On its parabola it does not come so far as its last velocity says.
+        let stays = ((zero - speed + fall) * sub_step.h).is_less(gap);
+        let later = fall.max(zero).select(stays, zero);
+        batch.bias = (Lanes::each(simd, batch.bias) + later).to_array();
+    }
     let least = all(sub_step.impact_speed);
     let shaken = shaken_speed(simd, run, (batch, normal), sub_step);
     let threshold = all(sub_step.resting_speed).select(rests, least);
     let threshold = threshold.select(is_free, threshold.max(shaken));
     let closing = zero - speed;
-    let meets = gap.is_less(closing * sub_step.h) & threshold.is_less(closing);
+    let meets = gap.is_less((closing + fall) * sub_step.h) & threshold.is_less(closing);
     let way = velocity.length_squared() * (sub_step.h * sub_step.h);
     let reach = radius_sum * swept::FAR;
     Aimed {
@@ -179,6 +194,27 @@ fn shaken_speed<S: Simd>(
     };
     let [by_weight, least] = sub_step.shaken();
     along * by_weight + Lanes::all(simd, least)
+}
+
+/// How forces have the spheres of a batch close \[m/s²\], of which one is borne and the other is not, as
+/// the sign of `bear` tells: it is positive where that is the second.
+#[inline(always)]
+fn pressing<S: Simd>(
+    simd: S,
+    run: &Run,
+    (batch, normal): (&PairBatch, Vector<Lanes<S>>),
+    (bear, sub_step): (Lanes<S>, &SubStep),
+) -> Lanes<S> {
+    let zero = Lanes::all(simd, 0.0);
+    let is_second_borne = zero.is_less(bear);
+    let [of_first, of_second] = if let Some(acceleration) = sub_step.common_acceleration {
+        [Vector::all(simd, acceleration).dot(normal); 2]
+    } else {
+        let first = xyz(Lanes::transposed(gathered(simd, run.acceleration, &batch.first)));
+        let second = xyz(Lanes::transposed(gathered(simd, run.acceleration, &batch.second)));
+        [first.dot(normal), second.dot(normal)]
+    };
+    of_first.select(is_second_borne, zero - of_second)
 }
 
 impl FrictionBatch {

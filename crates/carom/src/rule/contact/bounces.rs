@@ -20,7 +20,7 @@ const ROUNDING: f64 = 1e-9;
 
 /// A bounce of a sphere off one body, or off the walls of a corner at once.
 #[derive(Clone, Copy)]
-struct OneBounce {
+pub(super) struct OneBounce {
     slot: usize,
     /// The other sphere, if it is one.
     other: Option<usize>,
@@ -45,34 +45,73 @@ impl OneBounce {
     /// What the work of its impulse is more \[J\] at its own time than in the middle of the sub-step: forces
     /// change the velocity in between.
     fn work_at_its_time(&self, slots: &Slots, sub_step: &SubStep) -> f64 {
+        if slots.sleeps[self.slot] {
+            return 0.0;
+        }
         let acceleration = slots.acceleration[self.slot].vector();
         (self.time - 0.5 * sub_step.h) * self.impulse.dot(acceleration)
     }
 }
 
-/// Notes where spheres that bounce come to.
+/// Finds the bounces of the sub-step, by slot.
+pub(super) fn find(solver: &Solver, sub_step: &SubStep) -> Vec<OneBounce> {
+    let Solver { slots, slabs, .. } = solver;
+    let mut all = Vec::new();
+    for slab in slabs.iter() {
+        of_pairs(slots, slab, sub_step, &mut all);
+        of_surfaces(slots, slab, &mut all);
+    }
+    all.sort_by_key(|bounce| bounce.slot);
+    all
+}
+
+/// The slots of the spheres that bounce and are not done with that: they, or what they bounce off, touch
+/// something else, or come to it.
+pub(super) fn entangled(solver: &Solver, bounces: &[OneBounce], sub_step: &SubStep) -> Vec<usize> {
+    let Solver { slots, slabs, places, .. } = solver;
+    let is_done = |of_sphere: &[OneBounce]| match of_sphere {
+        [bounce] => alone(slots, bounce, sub_step)
+            .is_some_and(|own| own.leg.first_of_free(slots, slabs, places).is_none()),
+        _ => false,
+    };
+    let spheres = bounces.chunk_by(|first, second| first.slot == second.slot);
+    let awake = spheres.filter(|it| !slots.sleeps[it[0].slot]);
+    awake.filter(|it| !is_done(it)).map(|it| it[0].slot).collect()
+}
+
+/// Notes where spheres that bounce come to, but for those that cascades took there.
 ///
 /// One that nothing else touches in the sub-step moves until its bounce as if nothing were there. Any other
 /// moves by its last velocity. Contacts know nothing of surfaces that a sphere comes to after a bounce, or
 /// because of what hit it: one that goes far stops at the first of them, and bounces off it in the next
 /// sub-step.
-pub(super) fn note(solver: &mut Solver, sub_step: &SubStep, report: &mut StepReport) {
-    let Solver { slots, slabs, bounces, places, has_other_forces, .. } = solver;
-    let mut all = Vec::new();
-    for slab in slabs.iter() {
-        of_pairs(slots, slab, &mut all);
-        of_surfaces(slots, slab, &mut all);
-    }
-    all.sort_by_key(|bounce| bounce.slot);
+pub(super) fn note(
+    solver: &mut Solver,
+    mut all: Vec<OneBounce>,
+    sub_step: &SubStep,
+    report: &mut StepReport,
+) {
+    let Solver { slots, slabs, bounces, places, has_other_forces, landings, .. } = solver;
+    let has_landed = |slot: usize| landings.has(slot);
+    all.retain(|bounce| !has_landed(bounce.slot) && !bounce.other.is_some_and(has_landed));
     let work = all.iter().map(|bounce| bounce.work_at_its_time(slots, sub_step));
     report.energy_account.contacts += work.sum::<f64>();
     bounces.clear();
     for of_sphere in all.chunk_by(|first, second| first.slot == second.slot) {
-        let one = OneBounce::of_all(of_sphere).filter(|_| !*has_other_forces);
+        if *has_other_forces {
+            continue;
+        }
+        let one = OneBounce::of_all(of_sphere);
         if let Some(own) = one.and_then(|bounce| alone(slots, &bounce, sub_step)) {
-            let stop = own.leg.first_met(slots, slabs, places);
-            let stopped = stop.map(|stop| own.leg.stopped(slots, stop, sub_step, true));
-            bounces.push(stopped.unwrap_or(own.bounce));
+            let Way { bounce, leg } = own;
+            let stop = leg.first_met(slots, slabs, places);
+            let stopped = stop.map(|stop| leg.stopped(slots, stop, sub_step, true));
+            bounces.push(stopped.unwrap_or(bounce));
+        } else if let Some(Way { bounce, leg }) = among_others(slots, of_sphere, sub_step) {
+            let passed = || leg.first_passed(slots, slabs, places);
+            let stop = leg.goes_far(slots, slabs, places).then(passed).flatten();
+            let stopped = stop.map(|stop| leg.stopped(slots, stop, sub_step, false));
+            bounces.push(stopped.unwrap_or(bounce));
         }
     }
     let is_alone = |slot: usize| bounces.binary_search_by_key(&slot, |it| it.slot as usize).is_ok();
@@ -81,7 +120,7 @@ pub(super) fn note(solver: &mut Solver, sub_step: &SubStep, report: &mut StepRep
         of_spheres.map(|own| slab.start + own[0].slot as usize)
     });
     let stopped: Vec<_> = near_surfaces
-        .filter(|&slot| !is_alone(slot))
+        .filter(|&slot| !is_alone(slot) && !has_landed(slot))
         .filter_map(|slot| {
             let leg = Leg::straight(slots, slot, sub_step);
             let is_pushed = || slots.velocity[slot].vector() != slots.accelerated(slot, sub_step.h);
@@ -94,14 +133,17 @@ pub(super) fn note(solver: &mut Solver, sub_step: &SubStep, report: &mut StepRep
     bounces.sort_by_key(|bounce| bounce.slot);
 }
 
-fn of_pairs(slots: &Slots, slab: &Slab, bounces: &mut Vec<OneBounce>) {
+fn of_pairs(slots: &Slots, slab: &Slab, sub_step: &SubStep, bounces: &mut Vec<OneBounce>) {
     for (number, lane, approach) in slab.batches.impacts() {
         let Some(impulse) = slab.batches.bounce(number, lane, approach) else { continue };
         let [first, second] = slab.slots_of(number, lane);
         let radius_sum = slab.batches.approaches[number].radius_sum[lane];
         let offset = slots.position[second].vector() - slots.position[first].vector();
         let normal = DVec3::from_array(batch::get(&slab.batches.pairs[number].normal, lane));
-        let time = (offset.dot(normal) - radius_sum).max(0.0) / approach;
+        let velocity = slots.before[second].vector() - slots.before[first].vector();
+        // The speed of approach may have changed until then.
+        let mean = 0.5 * (approach - velocity.dot(normal));
+        let time = ((offset.dot(normal) - radius_sum).max(0.0) / mean).min(sub_step.h);
         bounces.push(OneBounce { slot: first, other: Some(second), impulse: -impulse, time });
         bounces.push(OneBounce { slot: second, other: Some(first), impulse, time });
     }
@@ -116,8 +158,8 @@ fn of_surfaces(slots: &Slots, slab: &Slab, bounces: &mut Vec<OneBounce>) {
     }
 }
 
-/// A bounce of a sphere that nothing else touches in the sub-step, nor the other sphere.
-struct Alone {
+/// The way of a sphere that bounces.
+struct Way {
     bounce: Bounce,
     /// Its way from the bounce on.
     leg: Leg,
@@ -125,7 +167,7 @@ struct Alone {
 
 /// How a sphere bounces; `None` if something else changed its velocity, or the other sphere's. If it does after
 /// a time t, with the impulse P, it is `t P / m` short of where its last velocity takes it in the whole sub-step.
-fn alone(slots: &Slots, bounce: &OneBounce, sub_step: &SubStep) -> Option<Alone> {
+fn alone(slots: &Slots, bounce: &OneBounce, sub_step: &SubStep) -> Option<Way> {
     let &OneBounce { slot, other, impulse, time } = bounce;
     let own = own_change(slots, slot, impulse, sub_step)?;
     if let Some(other) = other {
@@ -147,7 +189,33 @@ fn alone(slots: &Slots, bounce: &OneBounce, sub_step: &SubStep) -> Option<Alone>
     let (slot, is_at_surface) = (slot as u32, other.is_none());
     let turn = Some(Turn { time, place: position });
     let bounce = Bounce { slot, shift, velocity, is_alone: true, is_at_surface, turn };
-    Some(Alone { bounce, leg })
+    Some(Way { bounce, leg })
+}
+
+/// How a sphere bounces off what touches something else, or off several bodies at once; `None` if it bore
+/// something before: that moves by its last velocity, and all that it presses.
+///
+/// It flies until its first bounce and goes on from there, with all that impulses changed.
+fn among_others(slots: &Slots, bounces: &[OneBounce], sub_step: &SubStep) -> Option<Way> {
+    let slot = bounces[0].slot;
+    if slots.bears[slot] || slots.sleeps[slot] {
+        return None;
+    }
+    let time = bounces.iter().map(|bounce| bounce.time).min_by(f64::total_cmp)?;
+    let [velocity, before] = [slots.velocity[slot], slots.before[slot]].map(Row::vector);
+    let acceleration = (slots.accelerated(slot, sub_step.h) - before) / sub_step.h;
+    let left = sub_step.h - time;
+    let start = slots.position[slot].vector();
+    let struck = start + time * before + 0.5 * time * time * acceleration;
+    let leaving = velocity - left * acceleration;
+    let flight = Flight { position: struck, velocity: leaving, acceleration, drag_rate: 0.0 };
+    let shift = flight.after(left).0 - start - sub_step.h * velocity;
+    let is_alone =
+        matches!(bounces, [one] if own_change(slots, slot, one.impulse, sub_step).is_some());
+    let is_at_surface = bounces.iter().any(|bounce| bounce.other.is_none());
+    let turn = is_alone.then_some(Turn { time, place: struck });
+    let bounce = Bounce { slot: slot as u32, shift, velocity, is_alone, is_at_surface, turn };
+    Some(Way { bounce, leg: Leg { slot, start: time, flight, duration: left } })
 }
 
 /// The change of velocity by an impulse \[m/s\]; `None` if something else changed the sphere's, too.
@@ -207,9 +275,12 @@ impl Leg {
 
     /// Where the sphere comes to a surface that bears nothing of it.
     fn first_met(&self, slots: &Slots, slabs: &Slabs, places: &Places) -> Option<Stop> {
-        if !self.goes_far(slots, slabs, places) {
-            return None;
-        }
+        let is_far = self.goes_far(slots, slabs, places);
+        is_far.then(|| self.first_of_free(slots, slabs, places))?
+    }
+
+    /// Where the sphere comes to a surface that bears nothing of it, also near where it is.
+    fn first_of_free(&self, slots: &Slots, slabs: &Slabs, places: &Places) -> Option<Stop> {
         // One that turns may catch up with what has just bounced off it.
         let stops = slabs.surfaces_of(self.slot).filter_map(|contact| {
             let place = places.at_start(contact.surface);

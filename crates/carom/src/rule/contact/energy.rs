@@ -20,14 +20,14 @@ const ROUNDING: f64 = 1e-14;
 const ROUNDS: u32 = 12;
 const SOFTENING: u32 = 3;
 
-/// Has impulses add no kinetic energy, and accounts for what they took.
+/// Has impulses add no kinetic energy, and accounts for what they took. Tells whether it changed them.
 ///
 /// Impulses to start from may be too large, and a few sweeps do not take all of that back; more sweeps do.
 /// Restitution in a group of contacts may add energy whatever the sweeps: there, less is given back. As a
 /// last resort less of all impulses is taken.
 ///
 /// Moving surfaces do work: where there are any, it is accounted for, and nothing is taken back.
-pub(super) fn keep(solver: &mut Solver, sub_step: &SubStep, report: &mut StepReport) {
+pub(super) fn keep(solver: &mut Solver, sub_step: &SubStep, report: &mut StepReport) -> bool {
     let before = solver.energy_before;
     let mut change = change(solver, sub_step.h);
     let mut round = 0;
@@ -52,6 +52,7 @@ pub(super) fn keep(solver: &mut Solver, sub_step: &SubStep, report: &mut StepRep
         report.energy_account.colliders += work;
         report.energy_account.contacts -= work;
     }
+    round > 0
 }
 
 /// What impulses did to the kinetic energy of a sub-step.

@@ -7,6 +7,7 @@
 use glam::DVec3;
 
 use super::found::Found;
+use super::landings::Landings;
 use super::places::Places;
 use super::slab::Slab;
 use super::slots::Run;
@@ -35,9 +36,10 @@ pub(super) fn hold(
     sub_step: &SubStep,
     report: &mut StepReport,
 ) {
-    let Solver { slots, slabs, places, bounces, drift, .. } = solver;
+    let Solver { slots, slabs, places, bounces, landings, drift, .. } = solver;
     let go_astray = slabs.iter().any(|it| it.found.leaves || it.found.overlap > FAR_APART);
-    let guard = Guard { system, places, bounces, common: drift.way, h: sub_step.h, go_astray };
+    let (common, h) = (drift.way, sub_step.h);
+    let guard = Guard { system, places, bounces, landings, common, h, go_astray };
     slabs.each(slots, |mut run, slab| {
         let Found { energy, squeezed, .. } = guard.hold_all(&mut run, slab);
         (slab.found.energy, slab.found.squeezed) = (energy, squeezed);
@@ -52,6 +54,8 @@ struct Guard<'a> {
     system: &'a System<'a>,
     places: &'a Places,
     bounces: &'a [Bounce],
+    /// Spheres whose way is no straight one, and meets every surface at its time.
+    landings: &'a Landings,
     /// The common motion since the last search \[m\].
     common: DVec3,
     /// Length of the sub-step \[s\].
@@ -72,7 +76,7 @@ impl Guard<'_> {
         };
         for contacts in slab.surfaces.chunk_by(|first, second| first.slot == second.slot) {
             let slot = contacts[0].slot as usize;
-            if !self.is_astray(run, slot) {
+            if !self.is_astray(run, slot) && !self.landings.has(slab.start + slot) {
                 let end = self.held_by_contacts(run, slab.start, contacts);
                 go_to(run, slot, end);
             }

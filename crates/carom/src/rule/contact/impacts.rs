@@ -9,14 +9,15 @@ use super::sub_step::SubStep;
 use crate::report::{BodyPair, Impact, StepReport};
 use crate::system::System;
 
-/// Reports the contacts that began with an impact, in order of their bodies.
+/// Reports the contacts that began with an impact, in order of their bodies, with those reported already from
+/// the `first` on.
 pub(super) fn report(
     system: &System,
     solver: &Solver,
     sub_step: &SubStep,
+    first: usize,
     report: &mut StepReport,
 ) {
-    let first = report.impacts.len();
     for slab in solver.slabs.iter() {
         of_pairs(solver, slab, sub_step.time, &mut report.impacts);
         of_surfaces(system, solver, slab, sub_step.time, &mut report.impacts);
@@ -30,6 +31,9 @@ fn of_pairs(solver: &Solver, slab: &Slab, time: f64, impacts: &mut Vec<Impact>) 
         let mut tangential_impulse = slab.batches.tangential_impulse(number, lane);
         let mut normal = DVec3::from_array(batch::get(&pair.normal, lane));
         let [mut first, mut second] = slab.slots_of(number, lane);
+        if solver.landings.has(first) || solver.landings.has(second) {
+            continue;
+        }
         if solver.slots.id[first] > solver.slots.id[second] {
             (first, second, normal) = (second, first, -normal);
             // From zero, for it not to become -0.
@@ -63,6 +67,9 @@ fn of_surfaces(
             continue;
         }
         let slot = slab.start + contact.slot as usize;
+        if solver.landings.has(slot) {
+            continue;
+        }
         let center = solver.slots.position[slot];
         let relative = solver.slots.velocity[slot].vector() - contact.velocity;
         impacts.push(Impact {

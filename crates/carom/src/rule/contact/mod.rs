@@ -9,10 +9,11 @@
 //! 3. **Search.** Where a sphere may leave the margin of the last search, neighbours are found anew.
 //! 4. **Prepare.** Normals, gaps and impacts; contacts begin with the impulses of the sub-step before.
 //! 5. **Sweep.** Each contact in turn gets the impulse that it needs, by Gauss and Seidel.
-//! 6. **Keep energy.** Where impulses would add kinetic energy, less of them is taken.
-//! 7. **Advance.** Positions follow the velocities.
-//! 8. **Correct.** Overlaps are reduced, without a change of velocities.
-//! 9. **Hold.** Where a centre would still pass a surface, it is held back.
+//! 6. **Follow cascades.** Small islands go from impact to impact.
+//! 7. **Keep energy.** Where impulses would add kinetic energy elsewhere, less of them is taken.
+//! 8. **Advance.** Positions follow the velocities.
+//! 9. **Correct.** Overlaps are reduced, without a change of velocities.
+//! 10. **Hold.** Where a centre would still pass a surface, it is held back.
 
 mod accelerate;
 mod advance;
@@ -20,6 +21,7 @@ mod aim;
 mod apart;
 mod batch;
 mod bounces;
+mod cascade;
 mod conjugate;
 mod descent;
 mod dormant;
@@ -30,8 +32,10 @@ mod frame;
 mod gather;
 mod guard;
 mod impacts;
+mod incidence;
 mod kept;
 mod kernel;
+mod landings;
 mod listing;
 mod materials;
 mod neighbours;
@@ -136,9 +140,16 @@ fn sub_step(
     }
     solve::prepare(solver, &sub_step);
     solve::sweep(solver, &sub_step, parameters, report);
-    energy::keep(solver, &sub_step, report);
-    impacts::report(system, solver, &sub_step, report);
-    bounces::note(solver, &sub_step, report);
+    let first = report.impacts.len();
+    let mut bounces = bounces::find(solver, &sub_step);
+    let seeds = bounces::entangled(solver, &bounces, &sub_step);
+    cascade::follow(system, solver, &seeds, &sub_step, report);
+    if energy::keep(solver, &sub_step, report) {
+        bounces = bounces::find(solver, &sub_step);
+    }
+    cascade::land(solver);
+    impacts::report(system, solver, &sub_step, first, report);
+    bounces::note(solver, bounces, &sub_step, report);
     advance::advance(solver, &sub_step);
     solve::correct(solver, report);
     guard::hold(system, solver, &sub_step, report);

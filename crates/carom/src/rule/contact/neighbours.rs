@@ -39,6 +39,7 @@ pub(super) fn search(
     }
     let Solver { slots, slabs, watched, dormant, places, .. } = solver;
     solver.is_stale = false;
+    solver.incidence.clear();
     let surfaces = (!system.surfaces.is_empty()).then_some(&*places);
     solver.drift = search.arrange(slots, [frame.h, sub_step.h], surfaces);
     divide(slots, slabs, search);

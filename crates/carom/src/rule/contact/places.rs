@@ -56,6 +56,11 @@ impl Places {
         &self.moving
     }
 
+    /// All surfaces at the start of the sub-step.
+    pub fn starts(&self) -> &[Place] {
+        &self.starts
+    }
+
     /// A surface at the start of the sub-step.
     pub fn at_start(&self, surface: u32) -> &Place {
         &self.starts[surface as usize]

@@ -5,7 +5,9 @@ use glam::DVec3;
 use super::batch::ContactKinds;
 use super::dormant::Dormant;
 use super::drift::Drift;
+use super::incidence::Incidence;
 use super::kept::Kept;
+use super::landings::Landings;
 use super::materials::Materials;
 use super::places::Places;
 use super::search::Search;
@@ -23,6 +25,10 @@ pub(crate) struct Solver {
     pub(super) kept: Option<Kept>,
     /// The spheres that go elsewhere than their last velocity takes them, for they bounce, by slot.
     pub(super) bounces: Vec<Bounce>,
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub(super) landings: Landings,
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub(super) incidence: Incidence,
     /// Where surfaces are in the sub-step, and how they move.
     pub(super) places: Places,
     /// The motion that spheres have in common since the last search.

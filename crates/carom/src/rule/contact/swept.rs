@@ -30,19 +30,58 @@ pub(super) fn aim_pair(
     if first == second || offset.length_squared() <= radius_sum * radius_sum {
         return None;
     }
-    let time = contact_time::sphere_sphere_linear(offset, velocity, radius_sum);
-    let Some(time) = time.filter(|&time| time <= sub_step.h) else {
+    let meeting = contact_time::sphere_sphere_linear(offset, velocity, radius_sum);
+    let meeting = meeting.map(|time| {
+        let normal = (offset + time * velocity) / radius_sum;
+        let pressing = pressing(run, [first, second]).dot(normal);
+        (normal, Fall::over(time, -velocity.dot(normal), pressing))
+    });
+    let Some((normal, fall)) = meeting.filter(|(_, fall)| fall.time <= sub_step.h) else {
         let passage = Passage::of(offset, velocity, radius_sum, sub_step.h);
         set(&mut batch.normal, lane, passage.normal.to_array());
         batch.bias[lane] = passage.bias;
         return Some(0.0);
     };
-    let normal = (offset + time * velocity) / radius_sum;
-    let speed = -velocity.dot(normal);
-    let rebound = restitution * speed;
+    let Fall { gap, time, speed, pressing } = fall;
+    let rebound = restitution * speed - pressing * (sub_step.h - time);
     set(&mut batch.normal, lane, normal.to_array());
-    batch.bias[lane] = if rebound > 0.0 { -rebound } else { speed * time / sub_step.h };
+    batch.bias[lane] = if rebound > 0.0 { -rebound } else { gap / sub_step.h };
     Some(speed)
+}
+
+/// How a gap closes.
+struct Fall {
+    /// \[m\]
+    gap: f64,
+    /// When it is closed \[s\].
+    time: f64,
+    /// How fast it closes then \[m/s\].
+    speed: f64,
+    /// How that grows \[m/s²\].
+    pressing: f64,
+}
+
+impl Fall {
+    /// Of a gap that would be closed after a time \[s\] at this speed \[m/s\], without the acceleration
+    /// \[m/s²\]: `gap = s t + a t²/2`.
+    fn over(time: f64, speed: f64, pressing: f64) -> Self {
+        let gap = speed * time;
+        if pressing == 0.0 {
+            return Self { gap, time, speed, pressing };
+        }
+        let speed_there = (speed * speed + 2.0 * pressing * gap).max(0.0).sqrt();
+        Self { gap, time: 2.0 * gap / (speed + speed_there), speed: speed_there, pressing }
+    }
+}
+
+/// How forces have the second of two spheres accelerate towards the first \[m/s²\], of which one is borne and the
+/// other is not; zero where neither is, or both are.
+fn pressing(run: &Run, [first, second]: [usize; 2]) -> DVec3 {
+    match [run.bears[first], run.bears[second]] {
+        [true, false] => -run.acceleration[second].vector(),
+        [false, true] => run.acceleration[first].vector(),
+        _ => DVec3::ZERO,
+    }
 }
 
 /// How two spheres pass each other that do not meet within a sub-step.

@@ -14,6 +14,10 @@ const TOUCH: f64 = 1e-3;
 /// An impact wakes what it hits, and what is near that, whose impulse would give that a speed above that of
 /// spheres that are calm. This many times that speed, and it wakes all that contacts connect with it.
 const HARD: f64 = 50.0;
+/// What is struck passes that on, at up to twice the speed, to those that it comes to within the sub-step; so many
+/// are looked for.
+const PASSED_ON: f64 = 2.0;
+const MOST_IN_REACH: usize = 48;
 /// A sphere wakes where the force on it by those that are awake has changed by this part of that force and of its
 /// weight.
 const LOAD_CHANGE: f64 = 0.3;
@@ -28,6 +32,7 @@ const REST: f64 = 1.0;
 pub(super) fn touched(system: &System, solver: &mut Solver, h: f64) {
     let Slots { position, velocity, index, acceleration, .. } = &solver.slots;
     let (mut felt, mut hard) = (Vec::new(), Vec::new());
+    let mut farthest = 0.0_f64;
     for &[sleeper, other] in &solver.watched {
         let [sleeper, other] = [sleeper, other].map(|slot| slot as usize);
         let radius_sum = position[sleeper].number() + position[other].number();
@@ -50,6 +55,7 @@ pub(super) fn touched(system: &System, solver: &mut Solver, h: f64) {
         let calm = sleep::calm_speed_squared(&solver.slots, solver.sleep_speed, sleeper);
         if gain * gain > HARD * HARD * calm {
             hard.push(sleeper);
+            farthest = farthest.max(way.length());
         } else if gain * gain > calm {
             felt.push(sleeper);
         }
@@ -58,8 +64,31 @@ pub(super) fn touched(system: &System, solver: &mut Solver, h: f64) {
         return;
     }
     wake(solver, felt, Some(sleep::NEAR), 0.0);
+    let others = in_reach(&solver.slots, &hard, PASSED_ON * farthest);
     wake(solver, hard, None, 0.0);
+    wake(solver, others, Some(0), 0.0);
     solver.slots.read_masses(system);
+}
+
+/// The spheres that sleep and are within a distance \[m\] of these, or of others that are: a cascade may come to
+/// them within the sub-step.
+fn in_reach(slots: &Slots, struck: &[usize], distance: f64) -> Vec<usize> {
+    let Slots { position, sleeps, .. } = slots;
+    let mut found = struck.to_vec();
+    let mut next = 0;
+    while next < found.len() && found.len() < MOST_IN_REACH {
+        let from = position[found[next]];
+        for slot in (0..sleeps.len()).filter(|&slot| sleeps[slot]) {
+            let to = position[slot];
+            let reach = from.number() + to.number() + distance;
+            let is_near = (to.vector() - from.vector()).length_squared() < reach * reach;
+            if is_near && !found.contains(&slot) {
+                found.push(slot);
+            }
+        }
+        next += 1;
+    }
+    found
 }
 
 /// Wakes spheres whose support has gone away, and, once in some frames, those on which what is awake presses

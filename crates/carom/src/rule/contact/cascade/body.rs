@@ -1,0 +1,65 @@
+//! Spheres of an island.
+
+use glam::DVec3;
+
+use crate::rule::contact::row::Row;
+use crate::rule::contact::slots::{self, Slots};
+
+/// A sphere of an island.
+#[derive(Debug, Clone, Copy)]
+pub struct Body {
+    pub slot: u32,
+    pub position: DVec3,
+    pub radius: f64,
+    pub velocity: DVec3,
+    /// 1/m \[1/kg\], 0 for one that sleeps.
+    pub inverse_mass: f64,
+    /// Velocity of its surface by spin, r w \[m/s\].
+    pub spin: DVec3,
+    /// 1/(k m) \[1/kg\], 0 without friction.
+    pub inverse_inertia: f64,
+    pub acceleration: DVec3,
+    pub drag_rate: f64,
+    /// Velocity and spin at the start of the flight.
+    pub start: [DVec3; 2],
+    /// Whether contacts bore it in the flight before.
+    pub bears: bool,
+    pub met_surface: bool,
+}
+
+impl Body {
+    /// The sphere in a slot, as the sub-step begins.
+    pub fn of(slots: &Slots, slot: usize) -> Self {
+        let [position, before] = [slots.position[slot], slots.before[slot]];
+        let zero = Row::default();
+        let spin = slots.spin.get(slot).copied().unwrap_or(zero);
+        let spin_before = slots.spin_before.get(slot).copied().unwrap_or(zero);
+        let acceleration = if slots.sleeps[slot] { zero } else { slots.acceleration[slot] };
+        let start = [before.vector(), spin_before.vector()];
+        Self {
+            slot: slot as u32,
+            position: position.vector(),
+            radius: position.number(),
+            velocity: start[0],
+            inverse_mass: slots.velocity[slot].number(),
+            spin: start[1],
+            inverse_inertia: spin.number(),
+            acceleration: acceleration.vector(),
+            drag_rate: acceleration.number(),
+            start,
+            bears: slots.bears[slot],
+            met_surface: false,
+        }
+    }
+
+    /// Its velocity after a flight of `h` \[s\] without contacts.
+    pub fn accelerated(&self, h: f64) -> DVec3 {
+        let force = Row::new(self.acceleration, self.drag_rate);
+        slots::accelerated(Row::new(self.start[0], 0.0), force, h)
+    }
+
+    /// What forces alone do to it: nothing where contacts bear it.
+    pub fn free_acceleration(&self) -> DVec3 {
+        if self.bears { DVec3::ZERO } else { self.acceleration }
+    }
+}

@@ -1,0 +1,307 @@
+//! The course of a cascade: flights, and impacts between them.
+
+use glam::DVec3;
+
+use super::body::Body;
+use super::island::Island;
+use super::link::{Link, Role};
+use super::met::{Contact, Met, Partners};
+use crate::contact_time;
+use crate::flight::Flight;
+use crate::rule::contact::places::Place;
+use crate::rule::contact::sub_step::SubStep;
+use crate::rule::contact::swept::FAR;
+
+/// Impacts for each sphere of an island at most; what comes after them is answered together.
+const MOST_IMPACTS: usize = 64;
+/// Links that are solved in a flight or an impact, one after the other, at most, and in a cascade.
+const MOST_VISITS: u32 = 50_000;
+const MOST_VISITS_IN_ALL: u32 = 200_000;
+/// Impulses are known that sweeps change by less than this part of the largest.
+const CONVERGED: f64 = 1e-12;
+/// Bodies touch whose gap is below this part of the sum of radii.
+const TOUCH: f64 = 1e-6;
+/// Gains up to this part of the kinetic energy are rounding.
+const ROUNDING: f64 = 1e-14;
+
+/// What happened.
+pub struct Course {
+    /// Work of all impulses \[J\].
+    pub work: f64,
+    pub impacts: Vec<Met>,
+    /// How long the last flight took \[s\].
+    pub last: f64,
+    visits: u32,
+}
+
+impl Course {
+    /// Takes an island through a sub-step.
+    pub fn run(island: &mut Island, places: &[Place], sub_step: &SubStep) -> Self {
+        let mut course = Self { work: 0.0, impacts: Vec::new(), last: 0.0, visits: 0 };
+        let most = MOST_IMPACTS * island.bodies.len();
+        let mut left = sub_step.h;
+        island.links.iter_mut().for_each(Link::begin);
+        for number in 0.. {
+            let is_last = number >= most || course.visits >= MOST_VISITS_IN_ALL;
+            expect(island, places, (left, sub_step), is_last);
+            course.fly(island, left);
+            let meeting = first_meeting(island, places, left);
+            let Some(time) = meeting.filter(|_| !is_last) else { break };
+            if time > 0.0 {
+                course.fly(island, time);
+                course.arrive(island, time);
+                left -= time;
+            } else {
+                restart(island);
+            }
+            course.meet(island, places, time);
+            if left <= 0.0 {
+                break;
+            }
+        }
+        course.arrive(island, left.max(0.0));
+        course.last = left;
+        course
+    }
+
+    /// Finds the velocities after a flight of a time \[s\], in which links bear what they have to.
+    fn fly(&mut self, island: &mut Island, time: f64) {
+        for body in &mut island.bodies {
+            (body.velocity, body.spin) = (body.accelerated(time), body.start[1]);
+        }
+        for link in &mut island.links {
+            link.impulses = Default::default();
+        }
+        self.solve(island);
+    }
+
+    /// Sweeps over the links until their impulses are known.
+    fn solve(&mut self, island: &mut Island) {
+        let Island { bodies, links } = island;
+        let from = self.visits;
+        while self.visits - from < MOST_VISITS {
+            let (mut change, mut largest) = (0.0_f64, 0.0_f64);
+            for link in &mut *links {
+                change = change.max(link.solve(bodies));
+                largest = largest.max(link.impulses.normal);
+            }
+            self.visits += links.len() as u32;
+            if change <= CONVERGED * largest {
+                return;
+            }
+        }
+    }
+
+    /// Moves the bodies to the end of a flight of a time \[s\].
+    fn arrive(&mut self, island: &mut Island, time: f64) {
+        let touched = touched(island);
+        for (body, touched) in island.bodies.iter_mut().zip(touched) {
+            self.work += work(body, body.accelerated(time));
+            let path = path(body, touched, time);
+            body.position = path.after(time).0;
+            body.start = [body.velocity, body.spin];
+            body.bears = touched;
+        }
+        for link in &mut island.links {
+            link.bears = link.role == Role::Bears && link.impulses.normal > 0.0;
+            if link.bears && link.first.is_none() {
+                island.bodies[link.second].met_surface = true;
+            }
+        }
+    }
+
+    /// Answers the impacts of the bodies that meet now, after a time of their flight \[s\], and of what touches
+    /// them.
+    fn meet(&mut self, island: &mut Island, places: &[Place], time: f64) {
+        let Island { bodies, links } = island;
+        for link in &mut *links {
+            let (was_awaited, bore) = (link.role == Role::Awaited, link.bears);
+            if !link.measure(bodies, places) {
+                link.set(Role::Off, 0.0);
+                continue;
+            }
+            let touches = link.gap <= TOUCH * link.size();
+            let closing = link.closing(bodies);
+            if was_awaited && closing > 0.0 && (link.time == time || touches) {
+                link.strike(bodies, closing);
+            } else if bore || touches {
+                link.set(Role::Bears, 0.0);
+            } else {
+                link.set(Role::Off, 0.0);
+            }
+        }
+        let before = kinetic_energy(bodies);
+        self.solve(island);
+        take_gain(island, before);
+        let Island { bodies, links } = island;
+        self.work += bodies.iter().map(|body| work(body, body.start[0])).sum::<f64>();
+        for link in &mut *links {
+            if link.approach > 0.0 && link.impulses.normal > 0.0 {
+                self.impacts.push(met(link, bodies));
+            }
+            // What bounces is awaited again; what does not goes on together.
+            link.bears = link.bias >= 0.0 && (link.bears || link.impulses.normal > 0.0);
+            if link.first.is_none() && link.impulses.normal > 0.0 {
+                bodies[link.second].met_surface = true;
+            }
+        }
+        bodies.iter_mut().for_each(|body| body.start = [body.velocity, body.spin]);
+    }
+}
+
+/// Decides what each link does in a flight of this time at most \[s\]; in the last one, none is awaited.
+fn expect(island: &mut Island, places: &[Place], (left, sub_step): (f64, &SubStep), is_last: bool) {
+    let Island { bodies, links } = island;
+    for link in links {
+        let is_there = link.measure(bodies, places);
+        let goes_far = left * link.velocity(bodies).length() > FAR * link.size();
+        let room = link.gap.max(0.0) / left;
+        if !is_there {
+            link.set(if goes_far && !is_last { Role::Awaited } else { Role::Off }, 0.0);
+            continue;
+        }
+        let closing = link.closing(bodies);
+        let fall = 0.5 * link.pressing(bodies) * left;
+        if link.bears || is_last {
+            link.set(Role::Bears, room);
+        } else if closing > link.threshold(bodies, sub_step) || (goes_far && link.gap > 0.0) {
+            link.set(Role::Awaited, 0.0);
+        } else if room > closing + fall {
+            // On its parabola it does not come so far as its last velocity says.
+            link.set(Role::Bears, room + fall.max(0.0));
+        } else {
+            link.set(Role::Bears, room);
+        }
+    }
+}
+
+/// When the first bodies meet that are awaited to in a flight of a time \[s\].
+fn first_meeting(island: &mut Island, places: &[Place], time: f64) -> Option<f64> {
+    let touched = touched(island);
+    let bodies = &island.bodies;
+    let path = |place: usize| path(&bodies[place], touched[place], time);
+    let mut first = f64::INFINITY;
+    for link in island.links.iter_mut().filter(|link| link.role == Role::Awaited) {
+        let own = path(link.second);
+        let found = match link.first {
+            Some(other) => contact_time::sphere_sphere(&path(other), &own, link.size(), time),
+            None => {
+                let (form, motion) = &places[link.surface as usize];
+                contact_time::sphere_surface(&own, link.size(), form, motion, time)
+            }
+        };
+        link.time = found.unwrap_or(f64::INFINITY);
+        first = first.min(link.time);
+    }
+    (first <= time).then_some(first)
+}
+
+/// Has all bodies be as at the start of the flight.
+fn restart(island: &mut Island) {
+    for body in &mut island.bodies {
+        [body.velocity, body.spin] = body.start;
+    }
+}
+
+/// Which bodies links have given impulses.
+fn touched(island: &Island) -> Vec<bool> {
+    let mut touched = vec![false; island.bodies.len()];
+    for link in island.links.iter().filter(|link| link.impulses.normal > 0.0) {
+        touched[link.second] = true;
+        if let Some(first) = link.first {
+            touched[first] = true;
+        }
+    }
+    touched
+}
+
+/// The path of a body in a flight of a time \[s\]: a parabola, or straight at its last velocity where links
+/// touch it.
+fn path(body: &Body, is_touched: bool, time: f64) -> Flight {
+    let flight = Flight {
+        position: body.position,
+        velocity: body.start[0],
+        acceleration: body.acceleration,
+        drag_rate: 0.0,
+    };
+    if body.inverse_mass == 0.0 {
+        Flight { velocity: DVec3::ZERO, acceleration: DVec3::ZERO, ..flight }
+    } else if is_touched {
+        Flight { velocity: body.velocity, acceleration: DVec3::ZERO, ..flight }
+    } else if body.drag_rate > 0.0 && time > 0.0 {
+        Flight { acceleration: (body.velocity - body.start[0]) / time, ..flight }
+    } else {
+        flight
+    }
+}
+
+/// Work \[J\] of what impulses have done to a body that had this velocity without them \[m/s\], with the mean of its
+/// velocities at both ends.
+fn work(body: &Body, without: DVec3) -> f64 {
+    if body.inverse_mass == 0.0 {
+        return 0.0;
+    }
+    let Body { velocity, spin, start, .. } = *body;
+    let mut twice = (velocity - without).dot(velocity + start[0]) / body.inverse_mass;
+    if body.inverse_inertia > 0.0 {
+        twice += (spin - start[1]).dot(spin + start[1]) / body.inverse_inertia;
+    }
+    0.5 * twice
+}
+
+/// \[J\]
+fn kinetic_energy(bodies: &[Body]) -> f64 {
+    let of = |body: &Body| {
+        if body.inverse_mass == 0.0 {
+            return 0.0;
+        }
+        let linear = body.velocity.length_squared() / body.inverse_mass;
+        let inertia = body.inverse_inertia;
+        linear + if inertia > 0.0 { body.spin.length_squared() / inertia } else { 0.0 }
+    };
+    0.5 * bodies.iter().map(of).sum::<f64>()
+}
+
+/// Takes less of the impulses of an impact where they would add to the kinetic energy of before \[J\]: restitution
+/// in a group may.
+///
+/// With the velocities v before and v + d after, the energy of `v + s d` is a parabola in s that begins
+/// with a descent; s is the largest part that adds nothing.
+fn take_gain(island: &mut Island, before: f64) {
+    let gain = kinetic_energy(&island.bodies) - before;
+    if gain <= ROUNDING * before {
+        return;
+    }
+    let change = |body: &Body| Body {
+        velocity: body.velocity - body.start[0],
+        spin: body.spin - body.start[1],
+        ..*body
+    };
+    let changes: Vec<Body> = island.bodies.iter().map(change).collect();
+    let of_change = kinetic_energy(&changes);
+    let part = if of_change > 0.0 { (1.0 - gain / of_change).clamp(0.0, 1.0) } else { 0.0 };
+    for (body, change) in island.bodies.iter_mut().zip(&changes) {
+        body.velocity = body.start[0] + part * change.velocity;
+        body.spin = body.start[1] + part * change.spin;
+    }
+}
+
+/// What a link tells of an impact.
+fn met(link: &Link, bodies: &[Body]) -> Met {
+    let second = bodies[link.second].slot;
+    let partners = match link.first {
+        Some(first) => Partners::Spheres([bodies[first].slot, second]),
+        None => Partners::Surface(link.surface, second),
+    };
+    Met {
+        bodies: partners,
+        impact: Contact {
+            point: link.point,
+            normal: link.normal,
+            approach_speed: link.approach,
+            separation_speed: -link.closing(bodies),
+            impulse: link.impulses.normal,
+            tangential_impulse: DVec3::from_array(link.impulses.tangential),
+        },
+    }
+}

@@ -1,0 +1,141 @@
+//! Islands: the spheres that may take part in a cascade, and all contacts that they may come to in it.
+
+use super::body::Body;
+use super::link::Link;
+use crate::rule::contact::incidence::Origin;
+use crate::rule::contact::slots::Slots;
+use crate::rule::contact::solver::Solver;
+use crate::rule::contact::sub_step::SubStep;
+
+/// Spheres of an island at most: those of larger ones are left to the sweeps.
+const MOST_BODIES: usize = 48;
+/// Contacts of an island at most.
+const MOST_LINKS: usize = 512;
+/// A sphere may come so many times as far in a cascade as it would by itself: what a heavy one hits
+/// flies off at twice its speed.
+const REACH: f64 = 2.0;
+
+/// Spheres and their contacts.
+#[derive(Debug, Clone, Default)]
+pub struct Island {
+    pub bodies: Vec<Body>,
+    pub links: Vec<Link>,
+}
+
+/// Gathers the islands of a sub-step.
+pub struct Gathering {
+    /// By slot.
+    seen: Vec<Seen>,
+}
+
+/// What is known of a sphere.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Seen {
+    Never,
+    /// It is in an island.
+    Taken,
+    /// Its island is too large.
+    TooLarge,
+}
+
+impl Gathering {
+    /// Among so many spheres.
+    pub fn among(spheres: usize) -> Self {
+        Self { seen: vec![Seen::Never; spheres] }
+    }
+
+    /// The island about the sphere in a slot; `None` if it has been gathered or is too large.
+    pub fn gather(&mut self, solver: &Solver, seed: usize, sub_step: &SubStep) -> Option<Island> {
+        if self.seen[seed] != Seen::Never {
+            return None;
+        }
+        let island = self.grow(solver, seed, sub_step);
+        let seen = if island.is_whole { Seen::Taken } else { Seen::TooLarge };
+        let awake = island.island.bodies.iter().filter(|body| body.inverse_mass > 0.0);
+        awake.for_each(|body| self.seen[body.slot as usize] = seen);
+        island.is_whole.then_some(island.island)
+    }
+
+    /// Follows contacts from a sphere on, until there are no more or they are too many.
+    fn grow(&self, solver: &Solver, seed: usize, sub_step: &SubStep) -> Growing {
+        let slots = &solver.slots;
+        let mut growing = Growing::default();
+        growing.add(slots, seed);
+        let mut next = 0;
+        while next < growing.island.bodies.len() {
+            let body = growing.island.bodies[next];
+            if body.inverse_mass > 0.0 {
+                for &origin in solver.incidence.of(body.slot as usize) {
+                    growing.follow(solver, next, origin, sub_step);
+                }
+            }
+            next += 1;
+            let Island { bodies, links } = &growing.island;
+            let is_taken = |body: &Body| {
+                body.inverse_mass > 0.0 && self.seen[body.slot as usize] != Seen::Never
+            };
+            if bodies.len() > MOST_BODIES || links.len() > MOST_LINKS || bodies.iter().any(is_taken)
+            {
+                growing.is_whole = false;
+                return growing;
+            }
+        }
+        growing.is_whole = true;
+        growing
+    }
+}
+
+/// An island that grows.
+#[derive(Debug, Default)]
+struct Growing {
+    island: Island,
+    /// The largest speed in it \[m/s\].
+    speed: f64,
+    is_whole: bool,
+}
+
+impl Growing {
+    /// The place of the sphere in a slot.
+    fn add(&mut self, slots: &Slots, slot: usize) -> usize {
+        let known = self.island.bodies.iter().position(|body| body.slot as usize == slot);
+        known.unwrap_or_else(|| {
+            let body = Body::of(slots, slot);
+            self.speed = self.speed.max(body.velocity.length());
+            self.island.bodies.push(body);
+            self.island.bodies.len() - 1
+        })
+    }
+
+    /// Adds a contact of a body that something may come of in the sub-step, and the other sphere.
+    fn follow(&mut self, solver: &Solver, own: usize, origin: Origin, sub_step: &SubStep) {
+        let slots = &solver.slots;
+        let mut link = Link::of(solver, origin);
+        let body = &self.island.bodies[own];
+        match origin {
+            Origin::Surface { .. } => {
+                link.second = own;
+                self.island.links.push(link);
+            }
+            Origin::Pair { .. } => {
+                let other = link.slots.into_iter().find(|&it| it != body.slot).unwrap_or(body.slot)
+                    as usize;
+                let own_slot = body.slot as usize;
+                let place = self.island.bodies.iter().position(|it| it.slot as usize == other);
+                let is_known = place.is_some_and(|place| {
+                    place < own && self.island.bodies[place].inverse_mass > 0.0
+                });
+                let reach =
+                    REACH * sub_step.h * self.speed.max(slots.before[other].vector().length());
+                let is_near = link.bears || link.gap_between(slots) <= reach;
+                if is_known || other == own_slot || !is_near {
+                    return;
+                }
+                let other = self.add(slots, other);
+                let is_first = link.slots[0] as usize == own_slot;
+                let [first, second] = if is_first { [own, other] } else { [other, own] };
+                (link.first, link.second) = (Some(first), second);
+                self.island.links.push(link);
+            }
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! Cascades: where a sphere strikes what touches something else, or comes to a second body after its first
+//! impact, a small island of spheres goes through the sub-step anew, from impact to impact in order of time.
+//!
+//! The sweeps answer all impacts of a sub-step together, as if they came at one time, and take what a few of
+//! them leave for solved. In a heap that is good enough, for much is lost there anyway. Elastic bounces
+//! would lose or gain by it, and impacts that follow each other would be mixed.
+
+mod body;
+mod course;
+mod island;
+mod link;
+mod met;
+
+use super::batch::Impulses;
+use super::landings::Landed;
+use super::solver::Solver;
+use super::sub_step::SubStep;
+use super::swept::FREE;
+use crate::report::StepReport;
+use crate::system::System;
+use body::Body;
+use course::Course;
+use island::{Gathering, Island};
+
+/// Follows the cascades about the spheres in these slots. Until they [`land`], their spheres move as if nothing
+/// touched them.
+pub(super) fn follow(
+    system: &System,
+    solver: &mut Solver,
+    seeds: &[usize],
+    sub_step: &SubStep,
+    report: &mut StepReport,
+) {
+    solver.landings.spheres.clear();
+    solver.landings.contacts.clear();
+    if seeds.is_empty() || solver.has_moving_surfaces || solver.has_other_forces {
+        return;
+    }
+    solver.incidence.renew(&solver.slabs, solver.slots.len());
+    let mut gathering = Gathering::among(solver.slots.len());
+    for &seed in seeds {
+        let Some(mut island) = gathering.gather(solver, seed, sub_step) else { continue };
+        let course = Course::run(&mut island, solver.places.starts(), sub_step);
+        report.energy_account.contacts += course.work;
+        let impacts = course.impacts.iter().map(|it| it.report(system, &solver.slots, sub_step));
+        report.impacts.extend(impacts);
+        withdraw(solver, &island, course.last, sub_step);
+    }
+    solver.landings.spheres.sort_unstable_by_key(|landed| landed.slot);
+}
+
+/// Takes an island, whose last flight took so long \[s\], out of what the sweeps work on.
+fn withdraw(solver: &mut Solver, island: &Island, last: f64, sub_step: &SubStep) {
+    let Solver { slots, slabs, landings, .. } = solver;
+    for body in island.bodies.iter().filter(|body| body.inverse_mass > 0.0) {
+        let slot = body.slot as usize;
+        let free = slots.accelerated(slot, sub_step.h);
+        slots.velocity[slot] = slots.velocity[slot].with_vector(free);
+        if let Some(spin) = slots.spin.get_mut(slot) {
+            *spin = slots.spin_before[slot];
+        }
+        let Body { slot, position, velocity, spin, bears, met_surface, .. } = *body;
+        landings.spheres.push(Landed { slot, position, velocity, spin, bears, met_surface });
+    }
+    for link in &island.links {
+        landings.contacts.push((link.origin, link.kept(&island.bodies, last, sub_step)));
+        link.origin.set(slabs, Impulses::default(), FREE);
+    }
+}
+
+/// Gives the spheres of cascades their last velocities, and their contacts what they begin the next sub-step with.
+pub(super) fn land(solver: &mut Solver) {
+    let Solver { slots, slabs, landings, .. } = solver;
+    for landed in &landings.spheres {
+        let slot = landed.slot as usize;
+        slots.velocity[slot] = slots.velocity[slot].with_vector(landed.velocity);
+        if let Some(spin) = slots.spin.get_mut(slot) {
+            *spin = spin.with_vector(landed.spin);
+        }
+    }
+    for &(origin, kept) in &landings.contacts {
+        origin.set(slabs, kept, 0.0);
+    }
+}

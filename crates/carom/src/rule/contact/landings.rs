@@ -1,0 +1,38 @@
+//! What cascades come to in a sub-step.
+
+use glam::DVec3;
+
+use super::batch::Impulses;
+use super::incidence::Origin;
+
+/// Where a cascade takes a sphere.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Landed {
+    pub slot: u32,
+    /// Centre at the end of the sub-step \[m\].
+    pub position: DVec3,
+    pub velocity: DVec3,
+    /// r w \[m/s\]
+    pub spin: DVec3,
+    /// Whether contacts bear it in the end.
+    pub bears: bool,
+    /// Whether it has met a surface.
+    pub met_surface: bool,
+}
+
+/// What cascades came to in a sub-step.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Landings {
+    /// The spheres that they took through it, by slot.
+    pub spheres: Vec<Landed>,
+    /// What their contacts begin the next sub-step with.
+    pub contacts: Vec<(Origin, Impulses)>,
+}
+
+impl Landings {
+    /// Whether the sphere in a slot is among them.
+    pub fn has(&self, slot: usize) -> bool {
+        let place = |it: &Landed| it.slot as usize;
+        !self.spheres.is_empty() && self.spheres.binary_search_by_key(&slot, place).is_ok()
+    }
+}
