@@ -129,7 +129,7 @@ fn every_mistake_is_told_with_its_line_and_field() {
         ("mass = 2", "spinning_friction = -2", "28: emitters[0].sphere.spinning_friction: must be"),
         ("size_x = 10", "size_x = 0", "22: colliders[0].shape.rectangle.size_x: must be positive"),
         ("size_x = 10", "size_x = [1, 2]", "22: colliders[0].shape.rectangle.size_x: invalid"),
-        ("period = 0.5", "period = 0", "26: emitters[0].period: must be finite and longer"),
+        ("period = 0.5", "period = 0", "26: emitters[0].period: must be positive and finite"),
         ("[0, 20, 0]", "[0, 0, 0]", "27: emitters[0].position: puts spheres into a collider"),
         ("mass = 2", "mass = -2", "28: emitters[0].sphere.mass: must be positive"),
         ("[camera]", "[camera]\nvertical_fov_degrees = 180", "31: camera.vertical_fov_degrees"),
