@@ -26,9 +26,9 @@ fn every_ball_of_the_hourglass_runs_through_its_neck() {
     let scene = scene("hourglass");
     let start = scene.world().unwrap();
     assert_eq!(count(&start, |center| center.y > 0.66), 480);
-    let half = after(&scene, 3.0);
+    let half = after(&scene, 2.0);
     let above = count(&half, |center| center.y > 0.0);
-    assert!((100..380).contains(&above), "{above} after 3 s");
+    assert!((100..380).contains(&above), "{above} after 2 s");
     let end = after(&scene, scene.simulation.duration);
     assert_eq!(count(&end, |center| center.y < 0.0), 480);
     // None has left the box, which is 1.16 m wide and 0.34 m deep.

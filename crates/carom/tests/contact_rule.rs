@@ -533,7 +533,7 @@ fn bits_depend_on_no_thread() {
             .unwrap();
     }
     run(&mut world, 60);
-    assert_eq!(world.state_hash().to_string(), "51b97ea0064058e5");
+    assert_eq!(world.state_hash().to_string(), "f631f8ca2c7980c2");
 }
 
 #[test]

@@ -14,15 +14,25 @@ use crate::rule::contact::swept::FAR;
 
 /// Impacts for each sphere of an island at most; what comes after them is answered together.
 const MOST_IMPACTS: usize = 64;
-/// Links that are solved in a flight or an impact, one after the other, at most, and in a cascade.
-const MOST_VISITS: u32 = 50_000;
-const MOST_VISITS_IN_ALL: u32 = 200_000;
-/// Impulses are known that sweeps change by less than this part of the largest.
-const CONVERGED: f64 = 1e-12;
+/// Links that are solved in a cascade, one after the other, at most.
+const MOST_VISITS: u32 = 100_000;
+/// Of impacts: what they leave is lost or gained.
+const OF_IMPACTS: Accuracy = Accuracy { part: 1e-12, visits: 20_000 };
+/// Of what bears something in a flight: a sub-step of the rule has a larger error.
+const OF_FLIGHTS: Accuracy = Accuracy { part: 1e-7, visits: 2_000 };
 /// Bodies touch whose gap is below this part of the sum of radii.
 const TOUCH: f64 = 1e-6;
 /// Gains up to this part of the kinetic energy are rounding.
 const ROUNDING: f64 = 1e-14;
+
+/// How well impulses are known.
+#[derive(Clone, Copy)]
+struct Accuracy {
+    /// The last sweep changes none by more than this part of the largest.
+    part: f64,
+    /// Links that are solved for it, one after the other, at most: with friction, sweeps may never end.
+    visits: u32,
+}
 
 /// What happened.
 pub struct Course {
@@ -42,7 +52,7 @@ impl Course {
         let mut left = sub_step.h;
         island.links.iter_mut().for_each(Link::begin);
         for number in 0.. {
-            let is_last = number >= most || course.visits >= MOST_VISITS_IN_ALL;
+            let is_last = number >= most || course.visits >= MOST_VISITS;
             expect(island, places, (left, sub_step), is_last);
             course.fly(island, left);
             let meeting = first_meeting(island, places, left);
@@ -72,21 +82,23 @@ impl Course {
         for link in &mut island.links {
             link.impulses = Default::default();
         }
-        self.solve(island);
+        self.solve(island, OF_FLIGHTS);
     }
 
     /// Sweeps over the links until their impulses are known.
-    fn solve(&mut self, island: &mut Island) {
+    fn solve(&mut self, island: &mut Island, accuracy: Accuracy) {
         let Island { bodies, links } = island;
+        let mut bearing: Vec<&mut Link> =
+            links.iter_mut().filter(|link| link.role == Role::Bears).collect();
         let from = self.visits;
-        while self.visits - from < MOST_VISITS {
+        while self.visits - from < accuracy.visits {
             let (mut change, mut largest) = (0.0_f64, 0.0_f64);
-            for link in &mut *links {
+            for link in &mut bearing {
                 change = change.max(link.solve(bodies));
                 largest = largest.max(link.impulses.normal);
             }
-            self.visits += links.len() as u32;
-            if change <= CONVERGED * largest {
+            self.visits += bearing.len() as u32;
+            if bearing.is_empty() || change <= accuracy.part * largest {
                 return;
             }
         }
@@ -131,7 +143,7 @@ impl Course {
             }
         }
         let before = kinetic_energy(bodies);
-        self.solve(island);
+        self.solve(island, OF_IMPACTS);
         take_gain(island, before);
         let Island { bodies, links } = island;
         self.work += bodies.iter().map(|body| work(body, body.start[0])).sum::<f64>();

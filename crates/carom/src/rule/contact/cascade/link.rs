@@ -228,12 +228,9 @@ impl Link {
         velocity - self.normal * velocity.dot(self.normal) - spin.cross(self.normal)
     }
 
-    /// Gives both bodies the impulses that they need with the others as they are. Gives the largest change
-    /// of one \[N s\].
+    /// Gives both bodies the impulses that they need with the others as they are, if the link bears. Returns the
+    /// largest change of one \[N s\].
     pub fn solve(&mut self, bodies: &mut [Body]) -> f64 {
-        if self.role != Role::Bears {
-            return 0.0;
-        }
         let [mut inverse_mass, mut inverse_inertia] =
             [bodies[self.second].inverse_mass, bodies[self.second].inverse_inertia];
         if let Some(first) = self.first {
