@@ -54,7 +54,7 @@ struct Guard<'a> {
     system: &'a System<'a>,
     places: &'a Places,
     bounces: &'a [Bounce],
-    /// Spheres whose way is no straight one, and meets every surface at its time.
+    /// Spheres that met bodies on the way, each at its time: what counts is the flight after the last.
     landings: &'a Landings,
     /// The common motion since the last search \[m\].
     common: DVec3,
@@ -76,7 +76,7 @@ impl Guard<'_> {
         };
         for contacts in slab.surfaces.chunk_by(|first, second| first.slot == second.slot) {
             let slot = contacts[0].slot as usize;
-            if !self.is_astray(run, slot) && !self.landings.has(slab.start + slot) {
+            if !self.is_astray(run, slot) {
                 let end = self.held_by_contacts(run, slab.start, contacts);
                 go_to(run, slot, end);
             }
@@ -88,6 +88,7 @@ impl Guard<'_> {
                     let own = slab.surfaces.get(first).filter(|it| it.slot as usize == slot);
                     // Where it was found, it was in front of what it has no contact with.
                     let start = own.map_or(run.reference[slot].vector(), |it| it.start);
+                    let start = self.start_of(slab.start + slot, start);
                     let way = (start, self.turn_of(slab.start + slot));
                     let end = self.held(run, slot, way, &self.all_surfaces());
                     go_to(run, slot, end);
@@ -107,17 +108,18 @@ impl Guard<'_> {
         let slot = contacts[0].slot as usize;
         let (end, radius) = (run.position[slot].vector(), run.position[slot].number());
         let turn = self.turn_of(first + slot);
+        let start = self.start_of(first + slot, contacts[0].start);
         let passes = |contact: &SurfaceContact| {
             let forms =
                 [&self.places.at_start(contact.surface).0, &self.places.at_end(contact.surface).0];
-            let way = Way { forms, centers: [contact.start, end] };
+            let way = Way { forms, centers: [start, end] };
             way.pushed(LEAST_IN_FRONT * radius, BESIDE * radius).is_some()
         };
         if turn.is_none() && !contacts.iter().any(passes) {
             return None;
         }
         let surfaces: Vec<u32> = contacts.iter().map(|contact| contact.surface).collect();
-        self.held(run, slot, (contacts[0].start, turn), &surfaces)
+        self.held(run, slot, (start, turn), &surfaces)
     }
 
     /// Where a sphere is held that goes straight to where it turned round, and from there to its end.
@@ -167,6 +169,11 @@ impl Guard<'_> {
     fn turn_of(&self, slot: usize) -> Option<Turn> {
         let found = self.bounces.binary_search_by_key(&slot, |it| it.slot as usize);
         found.ok().and_then(|place| self.bounces[place].turn)
+    }
+
+    /// Where the last straight way of a sphere began, by its slot, which began the sub-step at `start` \[m\].
+    fn start_of(&self, slot: usize, start: DVec3) -> DVec3 {
+        self.landings.of(slot).map_or(start, |landed| landed.from)
     }
 
     /// Whether a sphere has left the margin within which its surfaces are known.

@@ -14,6 +14,8 @@ pub(super) struct Landed {
     pub velocity: DVec3,
     /// r w \[m/s\]
     pub spin: DVec3,
+    /// Centre at the start of the last flight \[m\].
+    pub from: DVec3,
     /// Whether contacts bear it in the end.
     pub bears: bool,
     /// Whether it has met a surface.
@@ -32,7 +34,13 @@ pub(super) struct Landings {
 impl Landings {
     /// Whether the sphere in a slot is among them.
     pub fn has(&self, slot: usize) -> bool {
+        self.of(slot).is_some()
+    }
+
+    /// Where the sphere in a slot came to, if it is among them.
+    pub fn of(&self, slot: usize) -> Option<&Landed> {
         let place = |it: &Landed| it.slot as usize;
-        !self.spheres.is_empty() && self.spheres.binary_search_by_key(&slot, place).is_ok()
+        let found = self.spheres.binary_search_by_key(&slot, place).ok()?;
+        Some(&self.spheres[found])
     }
 }

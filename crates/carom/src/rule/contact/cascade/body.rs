@@ -22,6 +22,8 @@ pub struct Body {
     pub drag_rate: f64,
     /// Velocity and spin at the start of the flight.
     pub start: [DVec3; 2],
+    /// Centre at the start of the flight before \[m\].
+    pub from: DVec3,
     /// Whether contacts bore it in the flight before.
     pub bears: bool,
     pub met_surface: bool,
@@ -47,6 +49,7 @@ impl Body {
             acceleration: acceleration.vector(),
             drag_rate: acceleration.number(),
             start,
+            from: position.vector(),
             bears: slots.bears[slot],
             met_surface: false,
         }

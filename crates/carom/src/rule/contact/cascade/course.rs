@@ -13,7 +13,9 @@ use crate::rule::contact::sub_step::SubStep;
 use crate::rule::contact::swept::FAR;
 
 /// Impacts for each sphere of an island at most; what comes after them is answered together.
-const MOST_IMPACTS: usize = 64;
+const MOST_IMPACTS: usize = 8;
+/// And so many times it is looked for the next meeting of a link: each impact looks at all.
+const MOST_LOOKS: usize = 20_000;
 /// Links that are solved in a cascade, one after the other, at most.
 const MOST_VISITS: u32 = 100_000;
 /// Of impacts: what they leave is lost or gained.
@@ -48,7 +50,8 @@ impl Course {
     /// Takes an island through a sub-step.
     pub fn run(island: &mut Island, places: &[Place], sub_step: &SubStep) -> Self {
         let mut course = Self { work: 0.0, impacts: Vec::new(), last: 0.0, visits: 0 };
-        let most = MOST_IMPACTS * island.bodies.len();
+        let most_by_looks = MOST_LOOKS / island.links.len().max(1);
+        let most = (MOST_IMPACTS * island.bodies.len()).min(most_by_looks);
         let mut left = sub_step.h;
         island.links.iter_mut().for_each(Link::begin);
         for number in 0.. {
@@ -110,7 +113,7 @@ impl Course {
         for (body, touched) in island.bodies.iter_mut().zip(touched) {
             self.work += work(body, body.accelerated(time));
             let path = path(body, touched, time);
-            body.position = path.after(time).0;
+            body.from = std::mem::replace(&mut body.position, path.after(time).0);
             body.start = [body.velocity, body.spin];
             body.bears = touched;
         }

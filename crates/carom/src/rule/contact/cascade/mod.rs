@@ -59,8 +59,8 @@ fn withdraw(solver: &mut Solver, island: &Island, last: f64, sub_step: &SubStep)
         if let Some(spin) = slots.spin.get_mut(slot) {
             *spin = slots.spin_before[slot];
         }
-        let Body { slot, position, velocity, spin, bears, met_surface, .. } = *body;
-        landings.spheres.push(Landed { slot, position, velocity, spin, bears, met_surface });
+        let Body { slot, position, velocity, spin, from, bears, met_surface, .. } = *body;
+        landings.spheres.push(Landed { slot, position, velocity, spin, from, bears, met_surface });
     }
     for link in &island.links {
         landings.contacts.push((link.origin, link.kept(&island.bodies, last, sub_step)));
