@@ -95,7 +95,7 @@ mod tests {
     }
 
     fn part(reads: Reads) -> Part {
-        Part::new("a", &[], reads, || Ok(()))
+        Part { name: "a", after: &[], reads, run: || Ok(()) }
     }
 
     #[test]

@@ -16,57 +16,70 @@ pub const PACKAGES: &str = "CAROM_TEST_PACKAGES";
 
 /// The parts.
 pub const PARTS: [Part; 15] = [
-    Part::new("set-up", &[], Reads::Everything, set_up),
+    Part { name: "set-up", after: &[], reads: Reads::Everything, run: set_up },
     // What is built meanwhile needs nothing of it, or waits for it.
-    Part::new("lint", &[], Reads::Everything, lint),
-    Part::new(
-        "modules",
-        &["lint"],
-        Reads::Some { packages: &["carom-js", "carom-web"], paths: &["web/"] },
-        modules,
-    ),
-    Part::new("clippy", &["lint"], RUST, clippy),
-    Part::new("builds", &["clippy"], RUST, builds),
-    // The longest of all begin first.
-    Part::new("tests", &["builds"], RUST, tests),
-    Part::new(
-        "Python",
-        &["modules", "builds"],
-        Reads::Some {
+    Part { name: "lint", after: &[], reads: Reads::Everything, run: lint },
+    Part {
+        name: "modules",
+        after: &["lint"],
+        reads: Reads::Some { packages: &["carom-js", "carom-web"], paths: &["web/"] },
+        run: modules,
+    },
+    Part { name: "clippy", after: &["lint"], reads: RUST, run: clippy },
+    Part { name: "builds", after: &["clippy"], reads: RUST, run: builds },
+    Part { name: "tests", after: &["builds"], reads: RUST, run: tests },
+    Part {
+        name: "debug",
+        after: &["builds"],
+        reads: Reads::Some { packages: PHYSICS, paths: &[] },
+        run: debug,
+    },
+    Part { name: "examples", after: &["builds"], reads: RUST, run: examples },
+    Part {
+        name: "C",
+        after: &["builds"],
+        reads: Reads::Some { packages: &["carom-c"], paths: &[] },
+        run: c_interface::test_built,
+    },
+    Part {
+        name: "claims",
+        after: &["builds"],
+        reads: Reads::Some { packages: PHYSICS, paths: &[] },
+        run: claims,
+    },
+    Part {
+        name: "documents",
+        after: &["builds"],
+        reads: Reads::Some { packages: &["carom-cli"], paths: &["docs/", "README.md"] },
+        run: commands_of_documents,
+    },
+    Part {
+        name: "threads",
+        after: &["builds"],
+        reads: Reads::Some { packages: PHYSICS, paths: &[] },
+        run: threads,
+    },
+    Part {
+        name: "JavaScript",
+        after: &["modules"],
+        reads: Reads::Some { packages: &["carom-js"], paths: &["web/"] },
+        run: js_package::test,
+    },
+    Part {
+        name: "Python",
+        after: &["modules", "builds"],
+        reads: Reads::Some {
             packages: &["carom-py", "carom-web"],
             paths: &["python/", "pyproject.toml", "web/", "docs/"],
         },
-        python::test,
-    ),
-    Part::new("debug", &["builds"], Reads::Some { packages: PHYSICS, paths: &[] }, debug),
-    Part::new("examples", &["builds"], RUST, examples),
-    Part::new(
-        "C",
-        &["builds"],
-        Reads::Some { packages: &["carom-c"], paths: &[] },
-        c_interface::test_built,
-    ),
-    Part::new("claims", &["builds"], Reads::Some { packages: PHYSICS, paths: &[] }, claims),
-    Part::new(
-        "documents",
-        &["builds"],
-        Reads::Some { packages: &["carom-cli"], paths: &["docs/", "README.md"] },
-        commands_of_documents,
-    ),
-    Part::new("threads", &["builds"], Reads::Some { packages: PHYSICS, paths: &[] }, threads),
-    Part::new(
-        "JavaScript",
-        &["modules"],
-        Reads::Some { packages: &["carom-js"], paths: &["web/"] },
-        js_package::test,
-    ),
-    Part::new(
-        "page",
-        &["modules", "builds"],
-        Reads::Some { packages: &["carom-web", "carom-cli"], paths: &["web/"] },
-        web::test,
-    )
-    .mostly_waiting(),
+        run: python::test,
+    },
+    Part {
+        name: "page",
+        after: &["modules", "builds"],
+        reads: Reads::Some { packages: &["carom-web", "carom-cli"], paths: &["web/"] },
+        run: web::test,
+    },
 ];
 
 /// Any package.

@@ -12,11 +12,9 @@ use super::times::{self, Times};
 use crate::files::{made, said};
 use crate::shell::Outcome;
 
-/// How many parts that compute run at a time. Builds use every processor anyway; a second part fills the
-/// gaps in which a first one waits for a single compiler or a test.
-const COMPUTING: usize = 2;
-/// How many parts that mostly wait run beside them.
-const WAITING: usize = 1;
+/// How many parts run at a time. Builds use every processor anyway; a second part fills the gaps in
+/// which a first one waits for a single compiler, a browser or a test.
+const AT_A_TIME: usize = 2;
 /// How often parts are looked at.
 const LOOK: Duration = Duration::from_millis(100);
 
@@ -46,9 +44,15 @@ pub fn run(parts: &[&'static Part], variables: &[(&str, String)]) -> Outcome<Don
     let mut failed: Vec<&str> = Vec::new();
     made(times::folder())?;
     loop {
-        while failed.is_empty() {
-            let at_work: Vec<&Part> = running.iter().map(|it| it.part).collect();
-            let Some(next) = next(&waiting, &at_work) else { break };
+        while failed.is_empty() && running.len() < AT_A_TIME {
+            let unfinished: Vec<&str> = waiting
+                .iter()
+                .copied()
+                .chain(running.iter().map(|it| it.part))
+                .map(|it| it.name)
+                .collect();
+            let is_ready = |part: &&Part| !part.after.iter().any(|it| unfinished.contains(it));
+            let Some(next) = waiting.iter().position(is_ready) else { break };
             let next = waiting.remove(next);
             match start(next, variables) {
                 Ok(part) => running.push(part),
@@ -81,17 +85,6 @@ pub fn run(parts: &[&'static Part], variables: &[(&str, String)]) -> Outcome<Don
     if failed.is_empty() { Ok(done) } else { Err(format!("failed: {}", failed.join(", "))) }
 }
 
-/// Returns the index of the first part of `waiting` that may begin beside those at work.
-fn next(waiting: &[&Part], at_work: &[&Part]) -> Option<usize> {
-    let unfinished: Vec<&str> = waiting.iter().chain(at_work).map(|it| it.name).collect();
-    let is_free = |part: &Part| {
-        let most = if part.mostly_waits { WAITING } else { COMPUTING };
-        at_work.iter().filter(|it| it.mostly_waits == part.mostly_waits).count() < most
-    };
-    let is_ready = |part: &Part| !part.after.iter().any(|it| unfinished.contains(it));
-    waiting.iter().position(|part| is_free(part) && is_ready(part))
-}
-
 fn start<'a>(part: &'a Part, variables: &[(&str, String)]) -> Outcome<Running<'a>> {
     let log = times::folder().join(format!("{}.log", part.name));
     let file = File::create(&log).map_err(|error| said(&log, &error))?;
@@ -103,29 +96,4 @@ fn start<'a>(part: &'a Part, variables: &[(&str, String)]) -> Outcome<Running<'a
     command.stdin(Stdio::null()).stdout(file).stderr(errors);
     let child = command.spawn().map_err(|error| format!("{}: {error}", part.name))?;
     Ok(Running { part, child, log })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::next;
-    use crate::checks::part::{Part, Reads};
-
-    const fn part(name: &'static str, after: &'static [&'static str]) -> Part {
-        Part::new(name, after, Reads::Everything, || Ok(()))
-    }
-
-    #[test]
-    fn a_part_begins_once_what_it_needs_has_ended_and_there_is_room_for_it() {
-        let build = part("build", &[]);
-        let [one, two, three] = ["one", "two", "three"].map(|it| part(it, &["build"]));
-        let [page, other_page] =
-            ["page", "other page"].map(|it| part(it, &["build"]).mostly_waiting());
-        let tests = [&one, &two, &three, &page, &other_page];
-        assert_eq!(next(&[&build, &one], &[]), Some(0));
-        assert_eq!(next(&tests, &[&build]), None);
-        assert_eq!(next(&tests[1..], &[&one]), Some(0));
-        assert_eq!(next(&tests[2..], &[&one, &two]), Some(1));
-        assert_eq!(next(&tests[4..], &[&one, &two, &page]), None);
-        assert_eq!(next(&tests[4..], &[&one, &two]), Some(0));
-    }
 }
