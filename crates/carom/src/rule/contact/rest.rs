@@ -4,6 +4,7 @@
 use glam::DVec3;
 
 use super::slots::Slots;
+use crate::rule::connected::Connected;
 
 /// A group is at rest that is slower than this part of sqrt(a r): in the time sqrt(r / a) it moves by this part of
 /// the radius.
@@ -52,26 +53,16 @@ impl Group {
 /// `bearing` holds the slots of the spheres that press on each other.
 pub(super) fn note_moving(slots: &Slots, bearing: &[[usize; 2]], h: f64, moves: &mut [bool]) {
     let is_awake = |slot: usize| !slots.sleeps[slot] && slots.velocity[slot].number() > 0.0;
-    let mut parent: Vec<usize> = (0..slots.len()).collect();
+    let mut connected = Connected::new(slots.len());
     for &[first, second] in bearing.iter().filter(|pair| pair.iter().all(|&slot| is_awake(slot))) {
-        let (a, b) = (root_of(&mut parent, first), root_of(&mut parent, second));
-        parent[a.max(b)] = a.min(b);
+        connected.join(first, second);
     }
     let mut groups = vec![Group::default(); slots.len()];
     for slot in (0..slots.len()).filter(|&slot| is_awake(slot)) {
-        groups[root_of(&mut parent, slot)].add(slots, slot, h);
+        groups[connected.root_of(slot)].add(slots, slot, h);
     }
     for slot in (0..slots.len()).filter(|&slot| is_awake(slot)) {
         let radius = slots.position[slot].number();
-        moves[slot] |= groups[root_of(&mut parent, slot)].moves(radius, h);
+        moves[slot] |= groups[connected.root_of(slot)].moves(radius, h);
     }
-}
-
-/// Returns the smallest slot that is connected with this one, and shortens the way to it.
-fn root_of(parent: &mut [usize], mut slot: usize) -> usize {
-    while parent[slot] != slot {
-        parent[slot] = parent[parent[slot]];
-        slot = parent[slot];
-    }
-    slot
 }

@@ -14,6 +14,7 @@ use super::sliding::sliding_time;
 use super::{NoClosedForm, with_friction};
 use crate::norm::Norm;
 use crate::respond::{friction_of, restitution_of};
+use crate::rule::connected::Connected;
 use crate::rule::exact::contact_scale::ContactScale;
 use crate::rule::exact::contacts::{Group, Member, Touch};
 use crate::rule::exact::context::StepContext;
@@ -177,22 +178,21 @@ fn connected(
     accelerations: &Accelerations,
     renewal: f64,
 ) -> Vec<Support> {
-    let mut root: Vec<usize> = (0..group.members.len()).collect();
-    let mut is_carried = vec![false; root.len()];
+    let mut connected = Connected::new(group.members.len());
+    let mut is_carried = vec![false; group.members.len()];
     for touch in touches {
         is_carried[touch.second] = true;
         if let Some(first) = touch.first {
             is_carried[first] = true;
-            let (a, b) = (root_of(&root, first), root_of(&root, touch.second));
-            root[a.max(b)] = a.min(b);
+            connected.join(first, touch.second);
         }
     }
     let does_work = touches.iter().any(Touch::does_work);
     let contact_work = if does_work { ContactWork::Colliders } else { ContactWork::None };
     let mut supports: BTreeMap<usize, Support> = BTreeMap::new();
-    let of = |supports: &mut BTreeMap<usize, Support>, place: usize| {
+    let mut of = |supports: &mut BTreeMap<usize, Support>, place: usize| {
         let empty = || Support { members: Vec::new(), contacts: Vec::new(), renewal };
-        let root = root_of(&root, place);
+        let root = connected.root_of(place);
         supports.entry(root).or_insert_with(empty);
         root
     };
@@ -212,12 +212,4 @@ fn connected(
         }
     }
     supports.into_values().collect()
-}
-
-/// The smallest place that is connected with this one.
-fn root_of(root: &[usize], mut place: usize) -> usize {
-    while root[place] != place {
-        place = root[place];
-    }
-    place
 }
