@@ -225,7 +225,7 @@ pub(crate) fn ground_height(collider: &Collider, place: DVec3) -> Option<f64> {
     reaches.then_some(height)
 }
 
-/// Gives default colours to parts without a colour.
+/// Sets default colours of parts without a colour.
 fn color(scene: &mut Scene, roles: &[Role]) {
     let walls = scene.colors.as_ref().and_then(|colors| colors.colliders).unwrap_or(WALL_COLOR);
     for (collider, role) in scene.colliders.iter_mut().zip(roles) {

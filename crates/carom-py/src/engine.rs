@@ -79,7 +79,7 @@ impl Inner {
         self.frame_start = snapshot.time;
     }
 
-    /// Lets Python's signals stop the frames that this thread takes next.
+    /// Makes Python's signals stop the next frames of this thread.
     pub fn heed_signals(&mut self) -> Watch {
         let watch = Watch::begin();
         self.world.set_stop_request(Some(watch.request()));

@@ -72,7 +72,7 @@ fn gaps_of_stack(rule: Rule, gap: f64, e: f64) -> Outcome {
     Ok(Measured::in_world(&world, errors.fold(0.0, f64::max)))
 }
 
-/// Lets a ball slide down a fixed sphere, from rest near the top. Measures the cosine of the angle
+/// Slides a ball down a fixed sphere, from rest near the top. Measures the cosine of the angle
 /// at which it leaves, relative to that at the start, and the largest error of the energy, relative
 /// to the energy of the fall.
 fn leaving(rule: Rule) -> Result<(Measured, Measured), Fault> {

@@ -207,7 +207,7 @@ fn pairs(rule: Rule, kind: Kind, error: fn(&Pair) -> f64) -> Outcome {
     Ok(Measured::largest(measured?))
 }
 
-/// Lets two spheres collide after a second, and measures the error.
+/// Measures the error of two spheres that collide after a second.
 fn collide(rule: Rule, pair: Pair, error: fn(&Pair) -> f64) -> Result<Measured, Error> {
     let mut world = world(rule)?;
     let radii = [0.3, 0.2];

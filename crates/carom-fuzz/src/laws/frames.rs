@@ -27,7 +27,7 @@ fn pair(scene: &Scene, _: &Trace) -> Option<Pair> {
     other.simulation.frame_time /= f64::from(count);
     let frames = count as usize;
     Some(if is_driven(scene) {
-        // Surfaces are placed anew at each frame.
+        // Each frame computes the places of surfaces again.
         let pair = Pair::new(other, Agreement::Rounding, |_| ());
         Pair { frames, ends: |frame| frame.in_zone || frame.in_contact, ..pair }
     } else {

@@ -60,7 +60,7 @@ impl Rescue {
         }])?)
     }
 
-    /// Lets each parked ball take its frame and puts it back.
+    /// Steps each parked ball by its frame and puts it back.
     pub fn release(
         &mut self,
         world: &mut World,
