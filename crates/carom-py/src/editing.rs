@@ -316,7 +316,7 @@ fn spheres_of(part: &Scene) -> Result<Vec<Sphere>, Failure> {
 fn collider_of(part: &Scene) -> Result<Collider, Failure> {
     let world = part.world()?;
     let colliders: Vec<Collider> = world.colliders().map(|(_, collider)| *collider).collect();
-    only(&colliders).copied()
+    only(&colliders).cloned()
 }
 
 fn emitter_of(part: &Scene) -> Result<Emitter, Failure> {
