@@ -50,7 +50,9 @@ mod mesh;
 mod norm;
 mod numbered;
 mod parallel;
+mod path;
 mod persistent_contact;
+mod query;
 mod real;
 mod rectangle;
 mod report;
@@ -84,7 +86,9 @@ pub use friction::Friction;
 pub use hash::StateHash;
 pub use id::{ColliderId, EmitterId, ForceId, SphereId, SpringId};
 pub use mesh::{Mesh, MeshError, MeshFaults};
+pub use path::{PathEnd, PathLeg, PredictedPath};
 pub use persistent_contact::PersistentContact;
+pub use query::{Body, Hit, NearBody, Queries, QueryFilter};
 pub use report::{
     BodyPair, ContactAccount, EnergyAccount, Impact, ImpactGroup, LedgerEntry, Overlap,
     StageCounts, StepReport, TriggerContact, ZoneAccount,

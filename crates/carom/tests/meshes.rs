@@ -121,7 +121,9 @@ fn balls_bounce_off_a_box_of_triangles_as_off_a_box() {
             let (most, impacts) = apart(worlds, sphere, 100);
             // An edge of a box is one of each of its faces.
             assert!(impacts[0] <= impacts[1], "{number} {rule:?} {impacts:?}");
-            assert!(most <= 1e-11, "{number} {rule:?} {most}");
+            // Sub-steps may answer what those say one after the other.
+            let tolerance = if matches!(rule, Rule::Exact(_)) { 1e-11 } else { 1e-2 };
+            assert!(most <= tolerance, "{number} {rule:?} {most}");
         }
     }
 }
