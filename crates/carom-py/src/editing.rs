@@ -315,7 +315,8 @@ fn spheres_of(part: &Scene) -> Result<Vec<Sphere>, Failure> {
 
 fn collider_of(part: &Scene) -> Result<Collider, Failure> {
     let world = part.world()?;
-    let colliders: Vec<Collider> = world.colliders().map(|(_, collider)| *collider.clone()).collect();
+    let colliders: Vec<Collider> =
+        world.colliders().map(|(_, collider)| collider.clone()).collect();
     only(&colliders).cloned()
 }
 
