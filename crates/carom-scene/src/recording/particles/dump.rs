@@ -9,7 +9,7 @@ use super::error::Problem;
 use super::frame::{FrameBox, Header};
 use super::lines::Lines;
 use super::reader::Fault;
-use super::table::write_numbers;
+use crate::recording::table_file::digits;
 
 pub(super) fn write_header(
     out: &mut impl Write,
@@ -23,8 +23,7 @@ pub(super) fn write_header(
     let kinds = cell.is_periodic.map(|it| if it { "pp" } else { "ff" });
     writeln!(out, "ITEM: BOX BOUNDS {}", kinds.join(" "))?;
     for axis in 0..3 {
-        write_numbers(out, &[cell.low[axis], cell.high[axis]])?;
-        writeln!(out)?;
+        writeln!(out, "{} {}", digits(cell.low[axis]), digits(cell.high[axis]))?;
     }
     write!(out, "ITEM: ATOMS id type x y z radius mass vx vy vz")?;
     if world.has_spin() {

@@ -9,7 +9,7 @@ use super::error::Problem;
 use super::frame::{FrameBox, Header};
 use super::lines::Lines;
 use super::reader::Fault;
-use super::table::write_numbers;
+use crate::recording::table_file::digits;
 
 /// The symbol of a particle that is no atom.
 pub(super) const SPECIES: &str = "X";
@@ -17,14 +17,10 @@ pub(super) const SPECIES: &str = "X";
 pub(super) fn write_header(out: &mut impl Write, world: &World, cell: &FrameBox) -> io::Result<()> {
     writeln!(out, "{}", world.spheres().len())?;
     if cell.repeats() {
-        let [x, y, z] = (cell.high - cell.low).to_array();
-        let low = cell.low.to_array();
-        out.write_all(b"Lattice=\"")?;
-        write_numbers(out, &[x, 0.0, 0.0, 0.0, y, 0.0, 0.0, 0.0, z])?;
-        out.write_all(b"\" Origin=\"")?;
-        write_numbers(out, &low)?;
-        let letters = cell.is_periodic.map(|it| if it { "T" } else { "F" });
-        write!(out, "\" pbc=\"{}\" ", letters.join(" "))?;
+        let [x, y, z] = (cell.high - cell.low).to_array().map(digits);
+        let origin = cell.low.to_array().map(digits).join(" ");
+        let letters = cell.is_periodic.map(|it| if it { "T" } else { "F" }).join(" ");
+        write!(out, "Lattice=\"{x} 0 0 0 {y} 0 0 0 {z}\" Origin=\"{origin}\" pbc=\"{letters}\" ")?;
     }
     out.write_all(b"Properties=species:S:1:id:I:1:pos:R:3:radius:R:1:mass:R:1:velo:R:3")?;
     if world.has_spin() {
