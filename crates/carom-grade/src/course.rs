@@ -214,7 +214,7 @@ fn forms(collider: &scene::Collider) -> Option<Vec<Form>> {
     let rotation = DQuat::from_array(collider.rotation).normalize();
     let axes = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| rotation * axis);
     let center = DVec3::from_array(collider.position);
-    let forms = match carom::Shape::from(&collider.shape) {
+    let forms = match collider.shape.physical().ok()? {
         Shape::Sphere { radius } => vec![Form::Sphere { center, radius, axes }],
         Shape::Rectangle { size_x, size_z } => {
             vec![Form::Rectangle { center, axes, half: [0.5 * size_x, 0.5 * size_z] }]

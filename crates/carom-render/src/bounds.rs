@@ -27,17 +27,24 @@ impl Bounds {
 
     /// Returns the box around a shape at `pose`; `None` for a shape without end.
     pub fn of_shape(shape: Shape, pose: Pose) -> Option<Self> {
+        let mut middle = DVec3::ZERO;
         let half = match shape {
             Shape::Sphere { radius } => return Some(Self::of_sphere(pose.position, radius)),
             Shape::Rectangle { size_x, size_z } => 0.5 * DVec3::new(size_x, 0.0, size_z),
             Shape::Box { size } | Shape::Container { size, .. } => 0.5 * size,
+            Shape::Mesh(mesh) => {
+                let [min, max] = mesh.bounds();
+                middle = 0.5 * (min + max);
+                0.5 * (max - min)
+            }
             _ => return None,
         };
         let rotation = pose.rotation.normalize();
         let reach = (rotation * (DVec3::X * half.x)).abs()
             + (rotation * (DVec3::Y * half.y)).abs()
             + (rotation * (DVec3::Z * half.z)).abs();
-        Some(Self { min: pose.position - reach, max: pose.position + reach })
+        let middle = pose.position + rotation * middle;
+        Some(Self { min: middle - reach, max: middle + reach })
     }
 
     /// Returns the box around all of these boxes; `None` if there are none.

@@ -1,7 +1,7 @@
 //! Instances of what is drawn many times, packed for the device. Positions are relative to the eye,
 //! so that 32 bits suffice however far the eye is from the origin.
 
-use carom::{DVec3, Shape};
+use carom::{DVec3, Mesh, Shape};
 use carom_scene::scene::Finish;
 
 use crate::container::{self, Seen};
@@ -28,6 +28,7 @@ const BOX: f64 = 1.0;
 const GROUND: f64 = 2.0;
 const WALL: f64 = 3.0;
 const INCLINE: f64 = 4.0;
+const TRIANGLE: f64 = 6.0;
 
 /// Value of the opacity for faces of which only the rims are drawn.
 const RIM: f64 = -1.0;
@@ -141,10 +142,28 @@ fn add_panel(
         Shape::Rectangle { size_x, size_z } => {
             faces.push(packed_rectangle(panel, [size_x, size_z], eye));
         }
+        Shape::Mesh(ref mesh) => add_triangles(panel, mesh, eye, faces),
         // Spheres are balls; half-spaces and walls of containers cast no shadows and are added
         // later.
         _ => {}
     }
+}
+
+/// Adds the triangles of a mesh.
+fn add_triangles(panel: &Panel, mesh: &Mesh, eye: DVec3, faces: &mut Vec<PackedPanel>) {
+    let rotation = panel.pose.rotation.normalize();
+    let place = |vertex: &DVec3| panel.pose.position + rotation * *vertex - eye;
+    let places: Vec<DVec3> = mesh.vertices().iter().map(place).collect();
+    let packed = |corners: &[u32; 3]| {
+        let [a, b, c] = corners.map(|vertex| places[vertex as usize]);
+        joined(&[
+            four(a, TRIANGLE + finish(panel.finish)),
+            four(b - a, 0.0),
+            four(c - a, 0.0),
+            color(panel.color, panel.opacity),
+        ])
+    };
+    faces.extend(mesh.triangles().iter().map(packed));
 }
 
 /// Returns whether a container is drawn as a volume without walls, as a trigger is.

@@ -112,20 +112,25 @@ impl Emitter {
     }
 }
 
-impl From<&Shape> for carom::Shape {
-    /// Converts the shape without checking its numbers.
-    fn from(shape: &Shape) -> Self {
-        match shape {
-            Shape::Sphere { radius } => Self::Sphere { radius: *radius },
-            Shape::Rectangle { size_x, size_z } => {
-                Self::Rectangle { size_x: *size_x, size_z: *size_z }
+impl Shape {
+    /// Converts the shape without checking its numbers; meshes are read from their files.
+    ///
+    /// # Errors
+    /// What is wrong with a mesh or a height field, in words.
+    pub fn physical(&self) -> Result<carom::Shape, String> {
+        Ok(match self {
+            Self::Sphere { radius } => carom::Shape::Sphere { radius: *radius },
+            Self::Rectangle { size_x, size_z } => {
+                carom::Shape::Rectangle { size_x: *size_x, size_z: *size_z }
             }
-            Shape::HalfSpace => Self::HalfSpace,
-            Shape::Box { size } => Self::Box { size: vector(*size) },
-            Shape::Container { size, open } => {
-                Self::Container { size: vector(*size), open: sides(open) }
+            Self::HalfSpace => carom::Shape::HalfSpace,
+            Self::Box { size } => carom::Shape::Box { size: vector(*size) },
+            Self::Container { size, open } => {
+                carom::Shape::Container { size: vector(*size), open: sides(open) }
             }
-        }
+            Self::Mesh(mesh) => carom::Shape::Mesh(mesh.mesh()?),
+            Self::HeightField(heights) => carom::Shape::Mesh(heights.mesh()?),
+        })
     }
 }
 
@@ -140,15 +145,15 @@ fn sides(sides: &[Side]) -> Sides {
     }
 }
 
-/// Converts a collider; its numbers are not yet checked.
-pub(crate) fn collider(collider: &Collider) -> carom::Collider {
-    let shape = (&collider.shape).into();
+/// Converts a collider; its numbers are not yet checked. The error says what is wrong with a mesh.
+pub(crate) fn collider(collider: &Collider) -> Result<carom::Collider, String> {
+    let shape = collider.shape.physical()?;
     let pose = Pose::at(vector(collider.position)).rotated(quaternion(collider.rotation));
     let solid = carom::Collider::new(shape, pose)
         .moving(vector(collider.velocity), vector(collider.angular_velocity))
         .with_restitution(collider.restitution)
         .with_friction(collider.surface_friction());
-    if collider.trigger { solid.as_trigger() } else { solid }
+    Ok(if collider.trigger { solid.as_trigger() } else { solid })
 }
 
 /// Converts the emitter that stands at `path`; only its sphere is checked.

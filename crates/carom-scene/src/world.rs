@@ -7,6 +7,7 @@ use crate::budget::Budget;
 use crate::check::{check_numbers, check_texts};
 use crate::error::Problem;
 use crate::generate;
+use crate::meshes;
 use crate::overlap;
 use crate::requirement::check;
 use crate::scene::{Collider, Emitter, Force, Scene, Shape, Simulation};
@@ -32,6 +33,7 @@ pub(crate) fn build(scene: &Scene, budget: Budget) -> Result<World, Problem> {
     check_texts(scene)?;
     check_numbers(scene)?;
     budget.check(scene)?;
+    meshes::check_files(scene, budget)?;
     let mut world =
         World::new(scene.settings()).map_err(|error| settings_problem(&scene.simulation, error))?;
     add_forces(&mut world, &scene.forces)?;
@@ -94,7 +96,10 @@ fn add_forces(world: &mut World, forces: &[Force]) -> Result<(), Problem> {
 
 /// Adds the collider that stands at `path`.
 fn add_collider(world: &mut World, collider: &Collider, path: &str) -> Result<(), Problem> {
-    let physical = self::collider(collider);
+    let physical = self::collider(collider).map_err(|problem| {
+        let kind = kind_of(&collider.shape);
+        Problem::new(format!("{path}.shape.{kind}"), problem)
+    })?;
     if let carom::Shape::Container { open, .. } = physical.shape {
         check(open != Sides::ALL, &format!("{path}.shape.container.open"), || {
             "must leave one wall at least".into()
@@ -120,15 +125,22 @@ fn add_emitter(
     })
 }
 
-/// Converts an error about a collider; lengths are fields of its shape.
-fn collider_problem(path: &str, shape: &Shape, error: carom::Error) -> Problem {
-    let shape = match shape {
+/// Name of a kind of shape, as scenes have it.
+fn kind_of(shape: &Shape) -> &'static str {
+    match shape {
         Shape::Sphere { .. } => "sphere",
         Shape::Rectangle { .. } => "rectangle",
         Shape::HalfSpace => "half-space",
         Shape::Box { .. } => "box",
         Shape::Container { .. } => "container",
-    };
+        Shape::Mesh(_) => "mesh",
+        Shape::HeightField(_) => "height-field",
+    }
+}
+
+/// Converts an error about a collider; lengths are fields of its shape.
+fn collider_problem(path: &str, shape: &Shape, error: carom::Error) -> Problem {
+    let shape = kind_of(shape);
     let is_length = |field: &str| field == "radius" || field.starts_with("size");
     match error {
         carom::Error::Invalid { ref source, .. } if is_length(source.field) => {

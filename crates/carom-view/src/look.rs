@@ -87,7 +87,9 @@ fn add_colliders(view: &View, drawing: &mut Drawing) {
             continue;
         }
         let coat = Coat { color: collider_color(collider, colors), finish: collider.finish };
-        drawing.add_collider((&collider.shape).into(), *pose, coat, collider.trigger);
+        // A mesh that cannot be made is in no world.
+        let Ok(shape) = collider.shape.physical() else { continue };
+        drawing.add_collider(shape, *pose, coat, collider.trigger);
     }
 }
 

@@ -22,6 +22,16 @@ const GLOSSY: f32 = 2.0;
 const METAL: f32 = 3.0;
 const GLASS: f32 = 4.0;
 
+const TRIANGLE: f32 = 6.0;
+
+// The way from the first corner of a triangle to that of a vertex, of six of which three are one.
+fn of_triangle(index: u32, second: vec3<f32>, third: vec3<f32>) -> vec3<f32> {
+    if index == 1u {
+        return second;
+    }
+    return select(vec3<f32>(), third, index == 2u);
+}
+
 struct Corner {
     place: vec3<f32>,
     normal: vec3<f32>,

@@ -50,6 +50,11 @@ fn surface_vertex(
     @location(1) rotation: vec4<f32>,
     @location(2) extent: vec4<f32>,
 ) -> @builtin(position) vec4<f32> {
-    let local = corner_of(index, kind_of(center.w)).place * extent.xyz;
+    let kind = kind_of(center.w);
+    if kind == TRIANGLE {
+        let point = center.xyz + of_triangle(index, rotation.xyz, extent.xyz);
+        return light.map_from_eye * vec4<f32>(point, 1.0);
+    }
+    let local = corner_of(index, kind).place * extent.xyz;
     return light.map_from_eye * vec4<f32>(center.xyz + rotate(rotation, local), 1.0);
 }

@@ -1,7 +1,8 @@
-// Rectangles, boxes and half-spaces.
+// Rectangles, boxes, half-spaces and triangles.
 
 struct Instance {
-    // Relative to the eye; w: kind and finish.
+    // Relative to the eye; w: kind and finish. Of a triangle a corner, with the ways to the others in place of the
+    // rotation and the extent.
     @location(0) center: vec4<f32>,
     @location(1) rotation: vec4<f32>,
     // Half of the lengths along the local axes; w: distance of the grid lines.
@@ -33,13 +34,19 @@ const INCLINE: f32 = 4.0;
 fn vertex(@builtin(vertex_index) index: u32, instance: Instance) -> Varying {
     let kind = kind_of(instance.center.w);
     let corner = corner_of(index, kind);
-    let local = corner.place * instance.extent.xyz;
-    let point = instance.center.xyz + rotate(instance.rotation, local);
+    var local = corner.place * instance.extent.xyz;
+    var point = instance.center.xyz + rotate(instance.rotation, local);
+    var normal = rotate(instance.rotation, corner.normal);
+    if kind == TRIANGLE {
+        local = vec3<f32>();
+        point = instance.center.xyz + of_triangle(index, instance.rotation.xyz, instance.extent.xyz);
+        normal = cross(instance.rotation.xyz, instance.extent.xyz);
+    }
     var out: Varying;
     out.clip = globals.clip_from_eye * vec4<f32>(point, 1.0);
     out.point = point;
     out.local = local;
-    out.normal = rotate(instance.rotation, corner.normal);
+    out.normal = normal;
     out.face = corner.normal;
     out.extent = instance.extent;
     out.color = instance.color;
@@ -70,16 +77,17 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
     let pixel = max(fwidth(place), vec2<f32>(1e-7 * distance));
 
     var color = in.color.rgb;
+    let is_triangle = in.kind == TRIANGLE;
     if is_front {
-        if in.kind != BOX {
+        if in.kind != BOX && !is_triangle {
             color *= 1.0 - 0.10 * grid(place, in.extent.w, pixel);
         }
-    } else {
+    } else if !is_triangle {
         color = mix(color * 0.45, vec3<f32>(0.10, 0.11, 0.14), 0.5);
         color *= 1.0 + 0.5 * stripes(place.x + place.y, in.extent.w * 0.5, pixel.x + pixel.y);
     }
     var opacity = in.color.w;
-    let is_half_space = in.kind >= GROUND;
+    let is_half_space = in.kind >= GROUND && !is_triangle;
     let inside = inside_room(in.point, in.kind);
     let inside_width = max(fwidth(inside), 1e-6 * distance);
     if is_half_space {
@@ -94,7 +102,7 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
             discard;
         }
         color = in.color.rgb * 0.55;
-    } else {
+    } else if !is_triangle {
         let to_edge = (reach - abs(place)) / pixel;
         let edge = 1.0 - smoothstep(0.4, 1.6, min(to_edge.x, to_edge.y));
         color *= 1.0 - 0.35 * edge;

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::finish::Finish;
+use super::mesh::{self, HeightField, Mesh};
 use super::rotation;
 use super::values::{Color, Quaternion, Vector, is_default, one, unturned};
 
@@ -122,6 +123,14 @@ pub enum Shape {
         #[serde(default, skip_serializing_if = "Vec::is_empty", with = "one_or_more")]
         open: Vec<Side>,
     },
+    /// A surface of triangles: the path of a file, or a table.
+    Mesh(
+        #[schemars(with = "mesh::PathOrMesh")]
+        #[serde(deserialize_with = "mesh::read")]
+        Mesh,
+    ),
+    /// Ground over a rectangle in the local xz plane about the origin, given by heights.
+    HeightField(HeightField),
 }
 
 /// A side of a box in its own coordinates.

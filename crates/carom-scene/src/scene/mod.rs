@@ -8,6 +8,7 @@ mod finish;
 mod force;
 mod generator;
 mod look;
+mod mesh;
 mod rotation;
 mod simulation;
 mod sphere;
@@ -23,6 +24,7 @@ pub use finish::Finish;
 pub use force::Force;
 pub use generator::{Generator, Lattice, Ring, Row, Stacking, StaggeredRows};
 pub use look::{Camera, Colors, DensityColor, Sun};
+pub use mesh::{HeightField, Mesh};
 pub use simulation::{
     Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, Rule,
     Simulation, WindBack, Zones,

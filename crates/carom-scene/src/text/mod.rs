@@ -2,6 +2,7 @@
 
 mod faults;
 mod include;
+mod mesh_paths;
 mod source;
 
 use std::borrow::Cow;
@@ -82,7 +83,13 @@ impl SceneText {
         let name = name.to_string_lossy().into_owned();
         let sources = include::with_included(own, way, budget, &mut Vec::new())?;
         let mut table = Table::new();
-        sources.iter().for_each(|source| include::lay_over(&mut table, source.table.clone()));
+        for source in &sources {
+            let mut own = source.table.clone();
+            if !way.is_empty() {
+                mesh_paths::resolve(&mut own, Path::new(&source.name));
+            }
+            include::lay_over(&mut table, own);
+        }
         if !(table.contains_key("name") || name.is_empty()) {
             table.insert("name".to_owned(), name.into());
         }
