@@ -75,7 +75,7 @@ pub fn check(library: &Library, files: &[PathBuf], budget: Budget) -> Result<(),
         match scene {
             Ok(scene) => {
                 writeln!(out, "{}: ok, \"{}\"", legible(&name), scene.name)?;
-                for advice in advice_for(&scene) {
+                for advice in mesh_remarks_of(&scene).into_iter().chain(advice_for(&scene)) {
                     writeln!(out, "{}: {advice}", legible(&name))?;
                 }
             }
@@ -99,6 +99,20 @@ pub fn check(library: &Library, files: &[PathBuf], budget: Budget) -> Result<(),
         0 => Ok(()),
         _ => Err(Failure::Fault(format!("{broken} of {} scenes are broken", files.len()))),
     }
+}
+
+/// What of the meshes of a valid scene may not be as meant.
+fn mesh_remarks_of(scene: &Scene) -> Vec<String> {
+    let Ok(world) = scene.world() else { return Vec::new() };
+    let of_collider =
+        |(number, (_, collider)): (usize, (_, &carom::Collider))| match &collider.shape {
+            carom::Shape::Mesh(mesh) => carom_scene::mesh_remarks(mesh)
+                .into_iter()
+                .map(|remark| format!("the mesh of collider {number}: {remark}"))
+                .collect(),
+            _ => Vec::new(),
+        };
+    world.colliders().enumerate().flat_map(of_collider).collect()
 }
 
 /// Advice for a valid scene, and the fields that its rule ignores.

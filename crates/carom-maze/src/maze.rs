@@ -145,7 +145,7 @@ impl Maze {
             Shape::Box { size } | Shape::Container { size, .. } => {
                 0.5 * DVec3::from_array(size).min_element()
             }
-            Shape::Rectangle { .. } | Shape::HalfSpace => 0.0,
+            _ => 0.0,
         };
         self.with_role(|role| matches!(role, Role::Collectible(_)))
             .map(move |it| (DVec3::from_array(it.position), inner(&it.shape)))
@@ -160,6 +160,7 @@ impl Maze {
             }
             Shape::Rectangle { size_x, size_z } => 0.5 * (size_x * size_x + size_z * size_z).sqrt(),
             Shape::HalfSpace => 0.0,
+            ref other => mesh_reach(other),
         };
         self.with_role(|role| matches!(role, Role::Collectible(_)))
             .map(move |it| (DVec3::from_array(it.position), outer(&it.shape)))
@@ -220,7 +221,7 @@ pub(crate) fn ground_height(collider: &Collider, place: DVec3) -> Option<f64> {
             local.x.abs() <= 0.5 * size_x && local.z.abs() <= 0.5 * size_z
         }
         Shape::HalfSpace => true,
-        Shape::Sphere { .. } | Shape::Box { .. } | Shape::Container { .. } => false,
+        _ => false,
     };
     reaches.then_some(height)
 }
@@ -239,4 +240,15 @@ fn color(scene: &mut Scene, roles: &[Role]) {
     }
     let spheres = scene.colors.as_ref().and_then(|colors: &Colors| colors.spheres);
     scene.spheres[0].color.get_or_insert(spheres.unwrap_or(BALL_COLOR));
+}
+
+/// Returns the radius of a sphere about the origin of a mesh or height field that holds it \[m\]; 0 for other shapes.
+pub(crate) fn mesh_reach(shape: &Shape) -> f64 {
+    match shape.physical() {
+        Ok(carom::Shape::Mesh(mesh)) => {
+            let [min, max] = mesh.bounds();
+            min.abs().max(max.abs()).length()
+        }
+        _ => 0.0,
+    }
 }

@@ -39,18 +39,33 @@ impl Default for Budget {
 
 impl Budget {
     /// Limits for scene files: gases of a million spheres are allowed, in about 1 GB of memory.
-    pub const FILE: Self =
-        Self { spheres: 2_000_000, colliders: 1_000_000, springs: 4_000_000, bytes: 256 << 20, opens_files: true };
+    pub const FILE: Self = Self {
+        spheres: 2_000_000,
+        colliders: 1_000_000,
+        springs: 4_000_000,
+        bytes: 256 << 20,
+        opens_files: true,
+    };
 
     /// Limits for links, which anyone can send: a text of the longest length takes at most about
     /// 0.5 GB.
-    pub const LINK: Self =
-        Self { spheres: 200_000, colliders: 100_000, springs: 400_000, bytes: 8 << 20, opens_files: false };
+    pub const LINK: Self = Self {
+        spheres: 200_000,
+        colliders: 100_000,
+        springs: 400_000,
+        bytes: 8 << 20,
+        opens_files: false,
+    };
 
     /// Limits for scenes that were checked already or built in code: a larger number is a typing
     /// error.
-    pub const MOST: Self =
-        Self { spheres: 10_000_000, colliders: 1_000_000, springs: 20_000_000, bytes: u64::MAX, opens_files: true };
+    pub const MOST: Self = Self {
+        spheres: 10_000_000,
+        colliders: 1_000_000,
+        springs: 20_000_000,
+        bytes: u64::MAX,
+        opens_files: true,
+    };
 
     /// Checks the numbers of spheres, colliders and springs of a scene, including those of all
     /// generators, before any is created.

@@ -26,7 +26,11 @@ pub(crate) fn read(path: &Path) -> Result<Triangles, String> {
         "stl" => of_stl(&bytes)?,
         _ => of_gltf(&bytes, path.parent().unwrap_or(Path::new("")))?,
     };
-    if triangles.is_empty() { Err("it has no triangles".to_owned()) } else { Ok((vertices, triangles)) }
+    if triangles.is_empty() {
+        Err("it has no triangles".to_owned())
+    } else {
+        Ok((vertices, triangles))
+    }
 }
 
 /// All models of a Wavefront file; polygons are cut into triangles.
@@ -75,11 +79,8 @@ fn of_gltf(bytes: &[u8], folder: &Path) -> Result<Triangles, String> {
     }
     let scene = document.default_scene().or_else(|| document.scenes().next());
     let mut all = (Vec::new(), Vec::new());
-    let mut left: Vec<(gltf::Node, [[f64; 4]; 4])> = scene
-        .into_iter()
-        .flat_map(|scene| scene.nodes())
-        .map(|node| (node, UNMOVED))
-        .collect();
+    let mut left: Vec<(gltf::Node, [[f64; 4]; 4])> =
+        scene.into_iter().flat_map(|scene| scene.nodes()).map(|node| (node, UNMOVED)).collect();
     while let Some((node, parent)) = left.pop() {
         let placed = product(&parent, &node.transform().matrix().map(|it| it.map(f64::from)));
         for primitive in node.mesh().into_iter().flat_map(|mesh| mesh.primitives()) {
@@ -88,8 +89,7 @@ fn of_gltf(bytes: &[u8], folder: &Path) -> Result<Triangles, String> {
             }
             let reader = primitive.reader(|buffer| buffers.get(buffer.index()).map(|it| &it[..]));
             let places = reader.read_positions().ok_or("a mesh of it has no vertices")?;
-            let places: Vec<DVec3> =
-                places.map(|it| moved(&placed, it.map(f64::from))).collect();
+            let places: Vec<DVec3> = places.map(|it| moved(&placed, it.map(f64::from))).collect();
             let indices = match reader.read_indices() {
                 Some(indices) => indices.into_u32().collect(),
                 None => (0..places.len() as u32).collect::<Vec<u32>>(),
@@ -120,8 +120,7 @@ fn product(first: &[[f64; 4]; 4], second: &[[f64; 4]; 4]) -> [[f64; 4]; 4] {
 }
 
 fn moved(matrix: &[[f64; 4]; 4], [x, y, z]: [f64; 3]) -> DVec3 {
-    let part = |row: usize| {
-        matrix[0][row] * x + matrix[1][row] * y + matrix[2][row] * z + matrix[3][row]
-    };
+    let part =
+        |row: usize| matrix[0][row] * x + matrix[1][row] * y + matrix[2][row] * z + matrix[3][row];
     DVec3::new(part(0), part(1), part(2))
 }

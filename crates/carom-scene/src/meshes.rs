@@ -61,9 +61,8 @@ pub(crate) fn made(mesh: &scene::Mesh) -> Result<Mesh, String> {
 pub fn remarks(mesh: &Mesh) -> Vec<String> {
     let MeshFaults { degenerate, repeated, flipped, open_edges, crowded_edges, .. } = mesh.faults();
     let numbers = |numbers: &[usize]| listed(numbers.len(), numbers.iter().map(usize::to_string));
-    let edges = |edges: &[[usize; 2]]| {
-        listed(edges.len(), edges.iter().map(|[a, b]| format!("{a}-{b}")))
-    };
+    let edges =
+        |edges: &[[usize; 2]]| listed(edges.len(), edges.iter().map(|[a, b]| format!("{a}-{b}")));
     let is_open = !open_edges.is_empty() && !mesh.is_one_sided();
     let kinds = [
         (degenerate.is_empty(), "without an area, left out: triangles", numbers(&degenerate)),

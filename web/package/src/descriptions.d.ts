@@ -147,7 +147,20 @@ export type Shape =
   | "half-space"
   | { box: { size: [number, number, number] } }
   /** Hollow: walls without thickness, with spheres bouncing off on both sides. */
-  | { container: { size: [number, number, number]; open?: Side | Side[] } };
+  | { container: { size: [number, number, number]; open?: Side | Side[] } }
+  /** Triangles: numbers of three vertices [m] each, against the clock as seen from the front. */
+  | {
+      mesh: {
+        vertices: [number, number, number][];
+        triangles: [number, number, number][];
+        /** Factor of all coordinates; default: 1. */
+        scale?: number;
+        /** Whether an open mesh is met from its front only; default: false. */
+        oneSided?: boolean;
+      };
+    }
+  /** Rows of heights along x [m], over a rectangle about the origin; met from above. */
+  | { "height-field": { sizeX: number; sizeZ: number; heights: number[][] } };
 
 /** A side of a box in its own frame: towards -x, +x, -y, +y, -z, +z. */
 export type Side = "left" | "right" | "bottom" | "top" | "back" | "front";

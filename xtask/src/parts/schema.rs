@@ -43,6 +43,9 @@ impl Schema {
         let variant = variants.iter().find(is_it).ok_or_else(missing)?;
         let body = variant["properties"].get(tag).unwrap_or(variant);
         let body = reference(body).map_or(body, |name| self.named(name));
+        // What may be written shorter is described by its fields.
+        let whole = body["anyOf"].as_array().and_then(|it| it.iter().find_map(reference));
+        let body = whole.map_or(body, |name| self.named(name));
         Ok(Object { doc: doc(variant), body })
     }
 

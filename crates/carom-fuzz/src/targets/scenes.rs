@@ -17,13 +17,8 @@ pub const TARGET: Target = Target {
 };
 
 /// What a case may ask for: enough for every built-in scene.
-const BUDGET: Budget = Budget {
-    spheres: 5_000,
-    colliders: 1_000,
-    springs: 5_000,
-    bytes: 1 << 20,
-    opens_files: false,
-};
+const BUDGET: Budget =
+    Budget { spheres: 5_000, colliders: 1_000, springs: 5_000, bytes: 1 << 20, opens_files: false };
 
 /// Frames that a world of so few spheres takes.
 const FRAMES: usize = 5;

@@ -145,7 +145,9 @@ pub(super) fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Mesh, D
         type Value = Mesh;
 
         fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-            formatter.write_str("the path of a file, or a table with `file`, or `vertices` and `triangles`")
+            formatter.write_str(
+                "the path of a file, or a table with `file`, or `vertices` and `triangles`",
+            )
         }
 
         fn visit_str<E: serde::de::Error>(self, path: &str) -> Result<Mesh, E> {

@@ -36,6 +36,12 @@ Numeric: TypeAlias = Sequence[float] | NDArray[Any]
 """Numbers in a row."""
 Vector: TypeAlias = Annotated[Numeric, _THREE, _FINITE]
 """Three numbers x, y, z."""
+Vertices: TypeAlias = Sequence[Vector] | NDArray[Any]
+"""Places x, y, z [m], one a row."""
+Triangles: TypeAlias = Sequence[Sequence[int]] | NDArray[Any]
+"""Three numbers of vertices each, one triangle a row."""
+Heights: TypeAlias = Sequence[Numeric] | NDArray[Any]
+"""Rows of heights [m]."""
 Lengths: TypeAlias = Annotated[Numeric, _THREE, _ALL_POSITIVE]
 """Lengths along x, y, z [m], each > 0."""
 Period: TypeAlias = Annotated[
