@@ -48,6 +48,7 @@ mod norm;
 mod numbered;
 mod parallel;
 mod persistent_contact;
+mod polynomial_flight;
 mod real;
 mod report;
 pub mod respond;

@@ -17,6 +17,7 @@
 mod bisection;
 #[cfg(test)]
 mod claims;
+mod course;
 mod half_space;
 mod obstacle;
 #[cfg(test)]
@@ -30,6 +31,7 @@ mod sphere_surface;
 mod turning;
 
 pub use bisection::{Bisection, Probe, bisect};
+pub(crate) use course::{Course, PolynomialCourse, course_surface, courses};
 pub(crate) use reach::Reach;
 pub(crate) use sphere_sphere::Approach;
 pub use sphere_sphere::{sphere_sphere, sphere_sphere_linear};
