@@ -17,7 +17,6 @@
 mod bisection;
 #[cfg(test)]
 mod claims;
-mod course;
 mod half_space;
 mod obstacle;
 #[cfg(test)]
@@ -28,11 +27,12 @@ mod roundoff;
 mod search;
 mod sphere_sphere;
 mod sphere_surface;
+mod track;
 mod turning;
 
 pub use bisection::{Bisection, Probe, bisect};
-pub(crate) use course::{Course, PolynomialCourse, course_surface, courses};
 pub(crate) use reach::Reach;
 pub(crate) use sphere_sphere::Approach;
 pub use sphere_sphere::{sphere_sphere, sphere_sphere_linear};
 pub(crate) use sphere_surface::sphere_surface;
+pub(crate) use track::{PolynomialTrack, Track, track_surface, tracks};

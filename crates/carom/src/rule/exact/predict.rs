@@ -271,9 +271,9 @@ fn meet_surfaces(
         if until < start {
             continue;
         }
-        let course = timeline.flights.course_from(slot, start).shifted(-shift);
+        let track = timeline.flights.track_from(slot, start).shifted(-shift);
         let delay =
-            contact_time::course_surface(&course, species.radius, &form, &motion, until - start);
+            contact_time::track_surface(&track, species.radius, &form, &motion, until - start);
         if let Some(delay) = delay {
             let target = PackedTarget::surface(number);
             events.add(Event::at(start + delay, target));

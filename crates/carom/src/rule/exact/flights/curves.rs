@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::body::Body;
 use super::species::Species;
 use super::state::Flights;
-use crate::contact_time::{Course, PolynomialCourse};
+use crate::contact_time::{PolynomialTrack, Track};
 use crate::forces::{self, Force, SphereState};
 use crate::integrate::gauss_radau::{self, Field, Pace, Start, Values};
 use crate::norm::Norm;
@@ -94,13 +94,13 @@ impl Flights {
     }
 
     /// How a sphere moves from `time` \[s\] on.
-    pub fn course_from(&self, slot: u32, time: f64) -> Course {
+    pub fn track_from(&self, slot: u32, time: f64) -> Track {
         let body = &self.bodies[slot as usize];
         match self.curve_of(slot) {
             Some((flight, _)) => {
-                Course::Polynomial(Box::new(PolynomialCourse::new(flight, time - body.time)))
+                Track::Polynomial(Box::new(PolynomialTrack::new(flight, time - body.time)))
             }
-            None => Course::Flight(body.flight_from(self.species_of(slot), time)),
+            None => Track::Flight(body.flight_from(self.species_of(slot), time)),
         }
     }
 

@@ -246,13 +246,13 @@ fn time_of_meeting(timeline: &Timeline, slot: u32, neighbour: Neighbour) -> f64 
 fn time_of_contact_on_curves(timeline: &Timeline, slots: [u32; 2], shift: DVec3) -> f64 {
     let flights = &timeline.flights;
     let start = flights.bodies[slots[0] as usize].time.max(flights.bodies[slots[1] as usize].time);
-    let [first, second] = slots.map(|slot| flights.course_from(slot, start));
+    let [first, second] = slots.map(|slot| flights.track_from(slot, start));
     let end = flights.step_end(slots[0]).min(flights.step_end(slots[1]));
     if end < start {
         return f64::INFINITY;
     }
     let radius_sum: f64 = slots.iter().map(|&slot| flights.species_of(slot).radius).sum();
-    let delay = contact_time::courses(&first, &second.shifted(shift), radius_sum, end - start);
+    let delay = contact_time::tracks(&first, &second.shifted(shift), radius_sum, end - start);
     delay.map_or(f64::INFINITY, |delay| start + delay)
 }
 

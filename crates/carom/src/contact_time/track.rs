@@ -15,31 +15,31 @@ use crate::surface::{Form, Rectangle, SurfaceMotion};
 
 /// How a sphere moves from some time on.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Course {
+pub(crate) enum Track {
     /// In closed form, for ever.
     Flight(Flight),
     /// As a polynomial, to its end.
-    Polynomial(Box<PolynomialCourse>),
+    Polynomial(Box<PolynomialTrack>),
 }
 
 /// A polynomial flight, some time after its beginning.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct PolynomialCourse {
+pub(crate) struct PolynomialTrack {
     flight: PolynomialFlight,
-    /// Time since the flight began \[s\], where the time of the course is 0.
+    /// Time since the flight began \[s\], where the time of the track is 0.
     age: f64,
     /// Of the coefficients of its acceleration \[m/s²\].
     norms: [f64; TERMS],
 }
 
-impl PolynomialCourse {
+impl PolynomialTrack {
     /// The rest of a flight that began `age` \[s\] ago.
     pub fn new(flight: PolynomialFlight, age: f64) -> Self {
         let norms = flight.acceleration.coefficients.map(Norm::norm);
         Self { flight, age, norms }
     }
 
-    /// A time of the course \[s\] as a part of the flight's length.
+    /// A time of the track \[s\] as a part of the flight's length.
     fn part(&self, t: f64) -> f64 {
         ((self.age + t) / self.flight.acceleration.length).clamp(0.0, 1.0)
     }
@@ -50,37 +50,37 @@ impl PolynomialCourse {
     }
 }
 
-impl Course {
+impl Track {
     /// In a coordinate system whose origin starts at `origin` \[m\] and moves with a constant velocity
     /// \[m/s\].
     fn seen_from(&self, origin: DVec3, velocity: DVec3) -> Self {
         match self {
             Self::Flight(flight) => Self::Flight(flight.seen_from(origin, velocity)),
-            Self::Polynomial(course) => {
-                let mut course = course.clone();
-                course.flight.position -= origin - course.age * velocity;
-                course.flight.velocity -= velocity;
-                Self::Polynomial(course)
+            Self::Polynomial(track) => {
+                let mut track = track.clone();
+                track.flight.position -= origin - track.age * velocity;
+                track.flight.velocity -= velocity;
+                Self::Polynomial(track)
             }
         }
     }
 
-    /// Where its flight began \[m\], and the same course from the origin.
+    /// Where its flight began \[m\], and the same track from the origin.
     fn at_origin(&self) -> (DVec3, Self) {
-        let mut course = self.clone();
-        let position = match &mut course {
+        let mut track = self.clone();
+        let position = match &mut track {
             Self::Flight(flight) => &mut flight.position,
-            Self::Polynomial(course) => &mut course.flight.position,
+            Self::Polynomial(track) => &mut track.flight.position,
         };
         let start = std::mem::replace(position, DVec3::ZERO);
-        (start, course)
+        (start, track)
     }
 
     /// Moves all of it \[m\].
     pub fn shifted(mut self, by: DVec3) -> Self {
         match &mut self {
             Self::Flight(flight) => flight.position += by,
-            Self::Polynomial(course) => course.flight.position += by,
+            Self::Polynomial(track) => track.flight.position += by,
         }
         self
     }
@@ -89,16 +89,16 @@ impl Course {
     fn size(&self) -> Magnitudes {
         match self {
             Self::Flight(flight) => Magnitudes::of(flight),
-            Self::Polynomial(course) => Magnitudes {
-                length: course.flight.position.norm(),
-                speed: course.flight.velocity.norm(),
-                acceleration: course.norms[0],
+            Self::Polynomial(track) => Magnitudes {
+                length: track.flight.position.norm(),
+                speed: track.flight.velocity.norm(),
+                acceleration: track.norms[0],
             },
         }
     }
 }
 
-impl Path for PolynomialCourse {
+impl Path for PolynomialTrack {
     fn state_at(&self, t: f64) -> State {
         let time = self.age + t;
         let (position, velocity) = self.flight.after(time);
@@ -133,53 +133,53 @@ impl Path for PolynomialCourse {
     }
 }
 
-impl Path for Course {
+impl Path for Track {
     fn state_at(&self, t: f64) -> State {
         match self {
             Self::Flight(flight) => flight.state_at(t),
-            Self::Polynomial(course) => course.state_at(t),
+            Self::Polynomial(track) => track.state_at(t),
         }
     }
 
     fn max_acceleration(&self, direction: DVec3, from: f64, to: f64) -> f64 {
         match self {
             Self::Flight(flight) => flight.max_acceleration(direction, from, to),
-            Self::Polynomial(course) => course.max_acceleration(direction, from, to),
+            Self::Polynomial(track) => track.max_acceleration(direction, from, to),
         }
     }
 
     fn max_acceleration_anywhere(&self, from: f64, to: f64) -> f64 {
         match self {
             Self::Flight(flight) => flight.max_acceleration_anywhere(from, to),
-            Self::Polynomial(course) => course.max_acceleration_anywhere(from, to),
+            Self::Polynomial(track) => track.max_acceleration_anywhere(from, to),
         }
     }
 
     fn growth(&self, to: f64) -> f64 {
         match self {
             Self::Flight(flight) => flight.growth(to),
-            Self::Polynomial(course) => course.growth(to),
+            Self::Polynomial(track) => track.growth(to),
         }
     }
 
     fn decay_rate(&self) -> f64 {
         match self {
             Self::Flight(flight) => flight.decay_rate(),
-            Self::Polynomial(course) => course.decay_rate(),
+            Self::Polynomial(track) => track.decay_rate(),
         }
     }
 }
 
-/// The second of two courses as seen from the first.
-struct CoursePair {
+/// The second of two tracks as seen from the first.
+struct TrackPair {
     /// From where the first began to where the second did \[m\].
     offset: DVec3,
     /// Both from the origin.
-    first: Course,
-    second: Course,
+    first: Track,
+    second: Track,
 }
 
-impl Path for CoursePair {
+impl Path for TrackPair {
     fn state_at(&self, t: f64) -> State {
         // Ways before places: the difference of the starting points is rounded once.
         let (first, second) = (self.first.state_at(t), self.second.state_at(t));
@@ -204,38 +204,33 @@ impl Path for CoursePair {
 
 /// Time \[s\] at which two spheres come into contact.
 ///
-/// - `radius_sum` \[m\], > 0; `horizon` \[s\], not after the end of either course
+/// - `radius_sum` \[m\], > 0; `horizon` \[s\], not after the end of either track
 /// - returns \[s\] in `[0, horizon]`; `None` if there is no contact
-pub(crate) fn courses(
-    first: &Course,
-    second: &Course,
-    radius_sum: f64,
-    horizon: f64,
-) -> Option<f64> {
+pub(crate) fn tracks(first: &Track, second: &Track, radius_sum: f64, horizon: f64) -> Option<f64> {
     let size = first.size() + second.size() + Magnitudes::of_length(radius_sum);
     let ((start, first), (other_start, second)) = (first.at_origin(), second.at_origin());
-    let path = CoursePair { offset: other_start - start, first, second };
+    let path = TrackPair { offset: other_start - start, first, second };
     search::first_contact(&path, &Obstacle::Point { radius: radius_sum }, size, horizon)
 }
 
-/// Time \[s\] at which a sphere comes into contact with a surface: [`sphere_surface`] for any course.
+/// Time \[s\] at which a sphere comes into contact with a surface: [`sphere_surface`] for any track.
 ///
-/// - `radius` of the sphere \[m\], > 0; `horizon` \[s\], not after the end of the course
+/// - `radius` of the sphere \[m\], > 0; `horizon` \[s\], not after the end of the track
 /// - returns \[s\] in `[0, horizon]`; `None` if there is no contact
-pub(crate) fn course_surface(
-    course: &Course,
+pub(crate) fn track_surface(
+    track: &Track,
     radius: f64,
     form: &Form,
     motion: &SurfaceMotion,
     horizon: f64,
 ) -> Option<f64> {
-    if let Course::Flight(flight) = course {
+    if let Track::Flight(flight) = track {
         return sphere_surface(flight, radius, form, motion, horizon);
     }
     let SurfaceMotion { origin, velocity, angular_velocity } = *motion;
     let drift = Magnitudes { speed: velocity.norm(), ..size_of(form, radius) };
-    let size = course.size() + drift;
-    let seen_from = |origin| course.seen_from(origin, velocity);
+    let size = track.size() + drift;
+    let seen_from = |origin| track.seen_from(origin, velocity);
     if angular_velocity == DVec3::ZERO {
         let (origin, obstacle) = obstacle(form, radius, DVec3::ZERO)?;
         return search::first_contact(&seen_from(origin), &obstacle, size, horizon);
