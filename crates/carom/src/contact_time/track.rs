@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::feature::{is_nearest, segment, sphere_turning_feature};
 use super::obstacle::Obstacle;
 use super::path::{Path, State};
 use super::roundoff::Magnitudes;
@@ -233,21 +234,31 @@ pub(crate) fn track_surface(
     let seen_from = |origin| track.seen_from(origin, velocity);
     if angular_velocity == DVec3::ZERO {
         let (origin, obstacle) = obstacle(form, radius, DVec3::ZERO)?;
-        return search::first_contact(&seen_from(origin), &obstacle, size, horizon);
+        let time = search::first_contact(&seen_from(origin), &obstacle, size, horizon);
+        let place = |time| motion.carried_back(track.state_at(time).position, time);
+        return time.filter(|&time| is_nearest(form, place(time)));
     }
     let size = size + Magnitudes::of_length(origin.norm());
     let (flight, turns) = (seen_from(origin), Turns::new(angular_velocity));
-    if let Form::Sphere { center, radius: own } = *form {
-        let path = Orbit { flight, turns, arm: center - origin };
-        let obstacle = Obstacle::Point { radius: own + radius };
-        return search::first_contact(&path, &obstacle, size, horizon);
+    match form {
+        Form::Sphere { center, radius: own } => {
+            let path = Orbit { flight, turns, arm: *center - origin };
+            let obstacle = Obstacle::Point { radius: own + radius };
+            search::first_contact(&path, &obstacle, size, horizon)
+        }
+        Form::Facet(_) | Form::Edge(_) | Form::Corner(_) => {
+            let path = Turning { flight, turns };
+            sphere_turning_feature(&path, radius, (form, motion), size, horizon)
+        }
+        Form::HalfSpace { .. } | Form::Rectangle(_) | Form::Box(_) => {
+            let (_, obstacle) = obstacle(form, radius, origin)?;
+            search::first_contact(&Turning { flight, turns }, &obstacle, size, horizon)
+        }
     }
-    let (_, obstacle) = obstacle(form, radius, origin)?;
-    search::first_contact(&Turning { flight, turns }, &obstacle, size, horizon)
 }
 
 /// A surface as an obstacle in a coordinate system about an `origin` \[m\], for a sphere of this radius \[m\];
-/// a sphere is one about its own centre, which is given \[m\].
+/// a sphere or a corner is one about its own centre, which is given \[m\].
 fn obstacle(form: &Form, radius: f64, origin: DVec3) -> Option<(DVec3, Obstacle)> {
     match *form {
         Form::Sphere { center, radius: own } => {
@@ -261,6 +272,12 @@ fn obstacle(form: &Form, radius: f64, origin: DVec3) -> Option<(DVec3, Obstacle)
             let rectangle = Rectangle { center, ..rectangle };
             Some((DVec3::ZERO, Obstacle::Rectangle { rectangle, radius }))
         }
+        Form::Facet(ref facet) => {
+            let (point, normal) = (facet.frame.center - origin, facet.frame.normal);
+            Some((DVec3::ZERO, Obstacle::Plane { point, normal, radius }))
+        }
+        Form::Edge(ref edge) => Some((DVec3::ZERO, segment(edge, origin, radius))),
+        Form::Corner(ref corner) => Some((corner.point, Obstacle::Point { radius })),
         Form::Box(_) => None,
     }
 }
