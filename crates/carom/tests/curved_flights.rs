@@ -293,7 +293,8 @@ fn moving_and_turning_surfaces_are_met_on_curves() {
     // So weak that the path is a parabola to 1e-9.
     world.add_force(QuadraticDrag::new(1e-12)).unwrap();
     let shape = Shape::Rectangle { size_x: 50.0, size_z: 50.0 };
-    let lift = Collider::new(shape, Pose::at(DVec3::ZERO)).moving(vec(0.0, 1.0, 0.0), DVec3::ZERO);
+    let lift =
+        Collider::new(shape.clone(), Pose::at(DVec3::ZERO)).moving(vec(0.0, 1.0, 0.0), DVec3::ZERO);
     world.add_collider(lift).unwrap();
     let turned = Collider::new(shape, Pose::at(vec(200.0, 0.0, 0.0)))
         .moving(DVec3::ZERO, vec(0.0, 2.0, 0.0));
