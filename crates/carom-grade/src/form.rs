@@ -126,10 +126,10 @@ impl Form {
                 _ => format!("x, y and z in another order (--columns {columns})"),
             });
         }
-        for axis in 0..3 {
-            if self.signs[axis] < 0.0 {
-                let option = if axis == 2 { " (--unity)" } else { "" };
-                words.push(format!("{} mirrored{option}", names[axis]));
+        for (name, sign) in names.iter().zip(self.signs.to_array()) {
+            if sign < 0.0 {
+                let option = if *name == "z" { " (--unity)" } else { "" };
+                words.push(format!("{name} mirrored{option}"));
             }
         }
         if let Some((_, name)) = LENGTHS[1..].iter().find(|it| it.0 == self.length) {

@@ -2,6 +2,7 @@
 //! numbers.
 
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
 use crate::assign;
 use crate::course::Course;
@@ -9,11 +10,11 @@ use crate::course_rule::{Clock, run};
 use crate::estimate::{Bench, Candidate};
 use crate::fit::{Fit, Rows};
 use crate::form::{self, Form, Near};
-use crate::mistake::Mistakes;
+use crate::mistake::{Mistake, Mistakes};
 use crate::program::Program;
 use crate::recorded::Recorded;
 use crate::scatter::{self, Scatter};
-use crate::search::{self, Search};
+use crate::search::Search;
 use crate::spread::Spread;
 use crate::tracks::{Key, Touch, Tracks};
 use crate::verdict::{self, Explanation, Parts, Verdict};
@@ -32,6 +33,9 @@ const FAR_SPREAD: f64 = 0.02;
 
 /// Offsets of the table's clock that are tried first \[frames\].
 const SHIFTS: [i32; 4] = [1, -1, 2, -2];
+
+/// Rates of common displays \[Hz\]. Frames of another fixed length are a number that a program has.
+const DISPLAYS: [f64; 6] = [30.0, 60.0, 75.0, 90.0, 120.0, 144.0];
 
 /// Most frames of a display before the first time of a table: some minutes.
 const MOST_FRAMES_BEFORE: f64 = 20_000.0;
@@ -65,6 +69,8 @@ struct Rule {
     end: f64,
     tracks: Tracks,
     spread: Spread,
+    /// Runs of as many programs with a known mistake each.
+    wrong: OnceLock<Vec<Tracks>>,
 }
 
 /// Result of grading, with the runs from which it was derived.
@@ -201,7 +207,7 @@ impl Grader {
             let rule = Program::default();
             let tracks = rule.run(course, &clock);
             let spread = Spread::of(&rule, course, &tracks, &clock);
-            Rule { end, tracks, spread }
+            Rule { end, tracks, spread, wrong: OnceLock::new() }
         });
     }
 
@@ -326,7 +332,7 @@ impl Grader {
         let display = display_times(&self.course, &found.case.recorded);
         let bench =
             Bench { course: &self.course, rows: &rows, end: rule.end, display: display.clone() };
-        let singles = search::singles(&bench);
+        let singles = self.singles(&bench, rule);
         let all = Search { bench: &bench, right, singles }.explanations();
         let Some(best) = verdict::best(&all) else { return (Vec::new(), None) };
         // Another program rounds in another way.
@@ -340,6 +346,21 @@ impl Grader {
         let all = verdict::listed(all);
         let run = all.first().map(|it| bench.run(&it.program, rule.end));
         (all, run)
+    }
+
+    /// Compares a table with all programs that have a known mistake.
+    fn singles(&self, bench: &Bench, rule: &Rule) -> Vec<Candidate> {
+        let clock = Clock::Fixed(rule.end);
+        let run = |mistake: Mistake| Program::from(mistake).run(&self.course, &clock);
+        let known = rule.wrong.get_or_init(|| Mistake::all().map(run).collect());
+        let compare = |(mistake, tracks): (Mistake, &Tracks)| {
+            // Frames of the display are those of the table.
+            if mistake == Mistake::DisplayFrames {
+                return bench.candidate(mistake.into());
+            }
+            Candidate { program: mistake.into(), fit: bench.rows.follow(tracks, 0.0) }
+        };
+        Mistake::all().zip(known).map(compare).collect()
     }
 
     /// Spreads by rounding of each row under a program \[m\].
@@ -410,6 +431,11 @@ fn display_times(course: &Course, recorded: &Recorded) -> Option<Vec<f64>> {
         return None;
     }
     let (first, usual) = (times[0], times[1] - times[0]);
+    let is_even = times.windows(2).all(|it| (it[1] - it[0] - usual).abs() < 1e-6 * usual);
+    let is_of_display = |rate: &f64| (usual * rate - 1.0).abs() < 0.01;
+    if is_even && !DISPLAYS.iter().any(is_of_display) {
+        return None;
+    }
     let before = (first / usual).round().max(1.0);
     if before > MOST_FRAMES_BEFORE {
         return None;

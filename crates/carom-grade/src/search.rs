@@ -2,7 +2,7 @@
 
 use crate::estimate::{Bench, Candidate, best_of};
 use crate::fit::Fit;
-use crate::mistake::{Mistake, Mistakes};
+use crate::mistake::Mistakes;
 use crate::program::Program;
 use crate::quantity::{Number, Quantity};
 
@@ -11,9 +11,6 @@ const MOST_ROWS_OF_PAIRS: usize = 100_000;
 
 /// Fraction of all rows by which two causes must agree longer than a single one to be named.
 const WORTH_A_PAIR: f64 = 0.02;
-
-/// Residual \[m\] below which a known mistake explains a run so well that no number is sought.
-const EXACT: f64 = 1e-5;
 
 /// Times of rows after the departures of its parts up to which a pair must agree.
 const NEXT: usize = 10;
@@ -32,8 +29,7 @@ impl Search<'_> {
     /// pairs if no single cause explains all.
     pub fn explanations(&self) -> Vec<Candidate> {
         let mut found = self.singles.clone();
-        let exact = EXACT + 2.0 * self.bench.rows.recorded.resolution;
-        if found.iter().any(|it| it.fit.is_complete() && it.fit.residual < exact) {
+        if found.iter().any(|it| it.fit.is_complete()) {
             found.retain(|it| it.fit.is_complete());
             return found;
         }
@@ -121,9 +117,4 @@ impl Search<'_> {
         }
         found
     }
-}
-
-/// Runs of all single mistakes.
-pub(crate) fn singles(bench: &Bench) -> Vec<Candidate> {
-    Mistake::all().map(|mistake| bench.candidate(mistake.into())).collect()
 }

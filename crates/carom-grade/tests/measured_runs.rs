@@ -132,7 +132,9 @@ fn a_mistake_is_named_in_spite_of_scatter() {
     let plan = Plan { slips: vec!["one-forgotten"], ..Plan::default() };
     let verdict = verdict("simtest3", &plan, 8.0, style);
     names(&verdict, "mistake: one-forgotten");
-    assert!(said(&verdict).contains("scatter: 2.0 mm"), "{}", said(&verdict));
+    // The estimate from some thousand numbers.
+    let scatter = verdict.scatter.unwrap();
+    assert!((scatter.deviation - 2e-3).abs() < 2e-4, "{}", said(&verdict));
 }
 
 #[test]
