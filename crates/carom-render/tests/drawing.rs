@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use carom::{DQuat, DVec3, Pose, Shape, Sides};
+use carom::{DQuat, DVec3, Mesh, Pose, Shape, Sides};
 use carom_render::{
     Ball, Bounds, Camera, Drawing, Framing, GpuError, Light, Offscreen, Pattern, Picture, Quality,
 };
@@ -174,6 +174,29 @@ fn a_wall_between_the_eye_and_the_balls_is_glass() {
         drawing.add_collider(shape.clone(), back, [0.9, 0.9, 0.9], false);
         let picture = drawn(&drawing, &camera_in_front(9.0), Quality::DRAFT);
         assert_ne!(pixel(&picture, 240, 150), [0; 3], "{shape:?}");
+    }
+}
+
+#[test]
+fn a_mesh_covers_what_its_triangles_cover_from_either_side() {
+    let corners = [DVec3::ZERO, DVec3::X * 2.0, DVec3::Y * 2.0];
+    let mesh = Mesh::new(corners.to_vec(), vec![[0, 1, 2]]).unwrap();
+    for distance in [6.0, -6.0] {
+        let camera = Camera::looking_at(DVec3::Z * distance, DVec3::ZERO, 0.8);
+        let empty = drawn(&Drawing::default(), &camera, Quality::FINE);
+        let mut drawing = Drawing::default();
+        let shape = Shape::Mesh(mesh.clone());
+        drawing.add_collider(shape, Pose::at(DVec3::ZERO), [0.9, 0.1, 0.1], false);
+        let picture = drawn(&drawing, &camera, Quality::FINE);
+        // A metre is 59 pixels there: 150 / tan 0.4 / 6.
+        let at = |picture: &Picture, [x, y]: [f64; 2]| {
+            let across = 59.0 * x * distance.signum();
+            pixel(picture, (200.0 + across) as u32, (150.0 - 59.0 * y) as u32)
+        };
+        assert_ne!(at(&picture, [0.5, 0.5]), at(&empty, [0.5, 0.5]), "{distance}");
+        for outside in [[-0.2, 0.5], [0.5, -0.2], [1.2, 1.2]] {
+            assert_eq!(at(&picture, outside), at(&empty, outside), "{distance} {outside:?}");
+        }
     }
 }
 

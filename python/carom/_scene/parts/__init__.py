@@ -9,7 +9,17 @@ world.
 """
 
 from carom._scene.parts.choices import CombineRule, Finish, ImpactLaw, Integrator, Rule, Side
-from carom._scene.parts.colliders import Ball, Box, Collider, Container, HalfSpace, Rectangle, Shape
+from carom._scene.parts.colliders import (
+    Ball,
+    Box,
+    Collider,
+    Container,
+    HalfSpace,
+    HeightField,
+    Mesh,
+    Rectangle,
+    Shape,
+)
 from carom._scene.parts.forces import (
     FORCES,
     Buoyancy,
@@ -92,10 +102,12 @@ __all__ = [
     "Generator",
     "Gravity",
     "HalfSpace",
+    "HeightField",
     "ImpactLaw",
     "Integrator",
     "Lattice",
     "Lengths",
+    "Mesh",
     "MutualGravity",
     "NonNegative",
     "Number",

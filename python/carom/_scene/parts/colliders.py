@@ -6,7 +6,7 @@ Made by `cargo xtask parts` of the schema of scene files, which says what is to 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import ClassVar, TypeAlias
 
 from carom._scene.parts.choices import Finish, Side
@@ -14,12 +14,15 @@ from carom._scene.parts.kinds import (
     ORIGIN,
     UNTURNED,
     Color,
+    Heights,
     Lengths,
     NonNegative,
     Positive,
     Quaternion,
     Restitution,
+    Triangles,
     Vector,
+    Vertices,
 )
 from carom._scene.parts.part import Part
 from carom._scene.parts.together import simplify_open
@@ -92,7 +95,45 @@ class Container(Part):
         simplify_open(self)
 
 
-Shape: TypeAlias = Ball | Rectangle | HalfSpace | Box | Container
+@dataclass(frozen=True)
+class Mesh(Part):
+    """A surface of triangles: the path of a file, or a table.
+
+    Attributes:
+        file: Path of a file that ends in .glb, .gltf, .obj or .stl, relative to the scene file.
+        vertices: Vertices [m].
+        triangles: Triangles: the numbers of three vertices each, from 0, against the clock as seen
+            from the front.
+        scale: Factor of all coordinates, > 0; 1 by default.
+        one_sided: Whether an open mesh is met from its front only; false by default. A closed one
+            always is.
+    """
+
+    tag: ClassVar[str] = "mesh"
+    file: str | None = None
+    vertices: Vertices = field(default_factory=Vertices)
+    triangles: Triangles = field(default_factory=Triangles)
+    scale: Positive = field(default_factory=Positive)
+    one_sided: bool = False
+
+
+@dataclass(frozen=True)
+class HeightField(Part):
+    """Ground over a rectangle in the local xz plane about the origin, given by heights.
+
+    Attributes:
+        size_x: Full length along local x [m], > 0.
+        size_z: Full length along local z [m], > 0.
+        heights: Rows of heights along x [m], from the lowest z on: two or more of the same length.
+    """
+
+    tag: ClassVar[str] = "height-field"
+    size_x: Positive
+    size_z: Positive
+    heights: Heights
+
+
+Shape: TypeAlias = Ball | Rectangle | HalfSpace | Box | Container | Mesh | HeightField
 """Form of a collider in its own frame."""
 
 
