@@ -115,6 +115,12 @@ fn scale_collider(collider: &mut Collider, scale: Scale) {
             *size_z *= length;
         }
         Shape::HalfSpace => {}
+        Shape::Mesh(mesh) => mesh.scale *= length,
+        Shape::HeightField(field) => {
+            field.size_x *= length;
+            field.size_z *= length;
+            field.heights.iter_mut().flatten().for_each(|height| *height *= length);
+        }
         Shape::Box { size } | Shape::Container { size, .. } => scale_vector(size, length),
     }
 }
