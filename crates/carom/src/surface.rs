@@ -162,6 +162,16 @@ pub(crate) enum Form {
 }
 
 impl Form {
+    /// The same form elsewhere by this way \[m\].
+    pub fn shifted(&self, way: DVec3) -> Self {
+        match *self {
+            Self::Sphere { center, radius } => Self::Sphere { center: center + way, radius },
+            Self::HalfSpace { point, normal } => Self::HalfSpace { point: point + way, normal },
+            Self::Rectangle(it) => Self::Rectangle(Rectangle { center: it.center + way, ..it }),
+            Self::Box(it) => Self::Box(SolidBox { center: it.center + way, ..it }),
+        }
+    }
+
     /// Size of the coordinates that it is given by \[m\].
     pub fn coordinates(&self) -> f64 {
         match *self {

@@ -21,11 +21,11 @@ pub(super) const FREE: f64 = f64::MAX;
 pub(super) fn aim_pair(
     run: &Run,
     batch: &mut PairBatch,
-    (lane, [radius_sum, restitution]): (usize, [f64; 2]),
+    (lane, ([radius_sum, restitution], shift)): (usize, ([f64; 2], DVec3)),
     sub_step: &SubStep,
 ) -> Option<f64> {
     let [first, second] = [batch.first[lane] as usize, batch.second[lane] as usize];
-    let offset = run.position[second].vector() - run.position[first].vector();
+    let offset = run.position[second].vector() - run.position[first].vector() + shift;
     let velocity = run.before[second].vector() - run.before[first].vector();
     if first == second || offset.length_squared() <= radius_sum * radius_sum {
         return None;

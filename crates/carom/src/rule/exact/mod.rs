@@ -26,7 +26,6 @@ mod frame_work;
 mod impact;
 mod neighbours;
 mod pair_times;
-mod periodic;
 mod persistent;
 mod predict;
 mod prefetch;
