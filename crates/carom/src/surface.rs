@@ -33,7 +33,6 @@ pub(crate) struct SurfaceMotion {
 
 impl SurfaceMotion {
     /// Of a surface at rest.
-    #[cfg(test)]
     pub const REST: Self =
         Self { origin: DVec3::ZERO, velocity: DVec3::ZERO, angular_velocity: DVec3::ZERO };
 
@@ -289,7 +288,7 @@ impl SolidBox {
     }
 
     /// The six faces, outward.
-    fn faces(&self) -> [Rectangle; 6] {
+    pub fn faces(&self) -> [Rectangle; 6] {
         std::array::from_fn(|number| {
             let axis = number / 2;
             let (first, second) = [(1, 2), (0, 2), (0, 1)][axis];
