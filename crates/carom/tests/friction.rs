@@ -8,8 +8,8 @@ mod common;
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
 
 use carom::{
-    Boundary, Collider, Contact, DQuat, DVec3, Emitter, Error, Exact, Friction, Gravity, Pose,
-    Rule, Settings, Shape, Sphere, SphereId, World, Zones,
+    Boundary, Collider, DQuat, DVec3, Emitter, Error, Exact, Friction, Gravity, Pose, Settings,
+    Shape, Sphere, SphereId, World, Zones,
 };
 use common::{G, Numbers, vec, world};
 

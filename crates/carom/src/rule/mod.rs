@@ -6,4 +6,4 @@ pub(crate) mod contact;
 pub(crate) mod discrete;
 pub(crate) mod exact;
 mod islands;
-mod periodic;
+pub(crate) mod periodic;

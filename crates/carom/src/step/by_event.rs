@@ -185,7 +185,7 @@ pub(super) fn check(state: &State, parameters: Exact, length: f64) -> Result<(),
 /// Refuses spheres for which there is no room.
 pub(super) fn check_room(state: &State) -> Result<(), Error> {
     check_count(state)?;
-    super::check_box(state)
+    state.check_box()
 }
 
 /// Refuses more spheres than the rule `exact` can tell apart.

@@ -30,18 +30,9 @@ pub(crate) fn check(state: &State, dt: f64) -> Result<(), Error> {
     state.check_emitters(state.clock.after(dt).seconds())?;
     match state.settings.rule {
         Rule::Exact(parameters) => by_event::check(state, parameters, dt),
-        Rule::Contact(_) => check_box(state),
+        Rule::Contact(_) => state.check_box(),
         Rule::Discrete(_) | Rule::Bisect(_) => Ok(()),
     }
-}
-
-/// Refuses a periodic box in which a sphere could touch two images of another one.
-fn check_box(state: &State) -> Result<(), Error> {
-    let smallest = state.settings.boundary.period().min_element();
-    let largest = state.spheres.radii().iter().copied().fold(0.0, f64::max);
-    let requirement = "at least four times the radius of every sphere along every axis";
-    validate::require(smallest >= 4.0 * largest, "size", requirement, smallest)
-        .map_err(|invalid| invalid.about(Subject::Settings))
 }
 
 /// Refuses lengths \[s\] that no step has.
@@ -109,7 +100,7 @@ pub(crate) fn step(
             Ok(())
         }
         Rule::Contact(parameters) => {
-            check_box(attempt.state)?;
+            attempt.state.check_box()?;
             by_frame::step(&mut attempt, |state, frame, scratch, report| {
                 let (system, motion, solver) = state.split_with_solver();
                 let memory = (solver, &mut scratch.contact);

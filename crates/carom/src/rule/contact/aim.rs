@@ -13,7 +13,7 @@ use super::gather::{
 };
 use super::slots::Run;
 use super::sub_step::{GROWTH, SubStep};
-use super::swept;
+use super::swept::{self, Traits};
 use crate::lanes::{LANES, Lanes};
 use crate::real::{Real, Vector};
 
@@ -39,12 +39,11 @@ fn prepare_all<S: Simd, const FRICTION: bool>(
         batches;
     hits.clear();
     for (number, (batch, approach)) in pairs.iter_mut().zip(approaches).enumerate() {
-        let shift = shifts.get(number);
-        let aimed = aim(simd, run, (batch, approach, shift), &restitutions[number], sub_step);
+        let given = Given { restitution: &restitutions[number], shift: shifts.get(number) };
+        let aimed = aim(simd, run, (batch, approach), given, sub_step);
         let mut speed = [0.0; LANES];
         if aimed.is_any() {
-            let traits = (&*approach, &restitutions[number], shift);
-            speed = aimed.meet(simd, run, batch, traits, sub_step);
+            speed = aimed.meet(simd, run, batch, (approach, given), sub_step);
             if speed != [0.0; LANES] {
                 hits.push(Hit { batch: number as u32, speed });
             }
@@ -60,6 +59,15 @@ fn prepare_all<S: Simd, const FRICTION: bool>(
             }
         }
     }
+}
+
+/// What no sub-step changes of the pairs of a batch.
+#[derive(Clone, Copy)]
+struct Given<'a> {
+    /// Coefficients of restitution.
+    restitution: &'a Quad,
+    /// From where spheres 2 are to their images \[m\], where space is periodic.
+    shift: Option<&'a [Quad; 3]>,
 }
 
 /// How the pairs of a batch come near each other in a sub-step.
@@ -80,8 +88,8 @@ struct Aimed<S: Simd> {
 fn aim<S: Simd>(
     simd: S,
     run: &Run,
-    (batch, approach, shift): (&mut PairBatch, &mut ApproachBatch, Option<&[Quad; 3]>),
-    restitution: &Quad,
+    (batch, approach): (&mut PairBatch, &mut ApproachBatch),
+    Given { restitution, shift }: Given,
     sub_step: &SubStep,
 ) -> Aimed<S> {
     let all = |number| Lanes::all(simd, number);
@@ -159,7 +167,7 @@ impl<S: Simd> Aimed<S> {
         simd: S,
         run: &Run,
         batch: &mut PairBatch,
-        (approach, restitution, shift): (&ApproachBatch, &Quad, Option<&[Quad; 3]>),
+        (approach, Given { restitution, shift }): (&ApproachBatch, Given),
         sub_step: &SubStep,
     ) -> Quad {
         let zero = Lanes::all(simd, 0.0);
@@ -174,7 +182,11 @@ impl<S: Simd> Aimed<S> {
         let is_swept = Lanes::all(simd, 1.0).select(is_swept, zero).to_array();
         for lane in (0..LANES).filter(|&lane| is_swept[lane] > 0.0) {
             let shift = shift.map_or(DVec3::ZERO, |it| DVec3::from_array(get(it, lane)));
-            let traits = ([approach.radius_sum[lane], restitution[lane]], shift);
+            let traits = Traits {
+                radius_sum: approach.radius_sum[lane],
+                restitution: restitution[lane],
+                shift,
+            };
             if let Some(found) = swept::aim_pair(run, batch, (lane, traits), sub_step) {
                 speed[lane] = found;
             }

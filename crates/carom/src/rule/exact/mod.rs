@@ -41,7 +41,6 @@ pub(crate) use frame::{
     Arrivals, Unheld, adopt, begin, end, persistent_contacts, start, tick_for_springs,
 };
 pub(crate) use neighbours::MAX_SPHERES;
-pub(crate) use periodic::wrapped;
 pub(crate) use span::Span;
 pub(crate) use timeline::Timeline;
 pub(crate) use zone::Zone;
