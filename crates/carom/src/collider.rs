@@ -4,11 +4,12 @@ use glam::{DQuat, DVec3};
 
 use crate::error::InvalidValue;
 use crate::friction::Friction;
+use crate::mesh::Mesh;
 use crate::rotation;
 use crate::validate;
 
 /// Form of a collider in its own frame.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Shape {
@@ -40,6 +41,8 @@ pub enum Shape {
         /// Where there is no wall.
         open: Sides,
     },
+    /// A surface of triangles, or a height field.
+    Mesh(Mesh),
 }
 
 /// Some of the six sides of a box, in its own frame.
@@ -137,7 +140,7 @@ impl Pose {
 /// assert!((world.sphere(sphere)?.velocity.x + 1.5).abs() < 1e-12);
 /// # Ok::<(), carom::Error>(())
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Collider {
@@ -209,7 +212,7 @@ impl Collider {
                 validate::positive("size_x", size_x)?;
                 validate::positive("size_z", size_z)?;
             }
-            Shape::HalfSpace => {}
+            Shape::HalfSpace | Shape::Mesh(_) => {}
             Shape::Box { size } | Shape::Container { size, .. } => {
                 validate::positive("size.x", size.x)?;
                 validate::positive("size.y", size.y)?;

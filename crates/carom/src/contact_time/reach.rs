@@ -49,6 +49,17 @@ impl Reach {
             }
             Form::Rectangle(ref rectangle) => self.misses_rectangle(position, rectangle),
             Form::Box(_) => true,
+            Form::Facet(ref facet) => self.misses_rectangle(position, &facet.frame),
+            Form::Edge(ref edge) => {
+                let size = edge.center.abs().element_sum() + edge.half + self.radius;
+                let margin = MARGIN * (position.abs().element_sum() + size);
+                edge.distance_of(position) > self.radius + self.way + margin
+            }
+            Form::Corner(ref corner) => {
+                let offset = position - corner.point;
+                let margin = MARGIN * (offset.abs().element_sum() + self.radius);
+                offset.norm() > self.radius + self.way + margin
+            }
         }
     }
 

@@ -11,6 +11,7 @@ pub(crate) mod instant;
 mod separation;
 mod sphere_box;
 mod sphere_half_space;
+mod sphere_mesh;
 mod sphere_rectangle;
 mod sphere_sphere;
 pub(crate) mod surface_tree;
@@ -21,6 +22,10 @@ pub use classify::{ContactState, classify};
 pub use separation::Separation;
 pub(crate) use sphere_box::sphere_box;
 pub use sphere_half_space::sphere_half_space;
+pub(crate) use sphere_mesh::{
+    sphere_corner, sphere_corner_point, sphere_edge, sphere_edge_line, sphere_facet,
+    sphere_facet_plane,
+};
 pub(crate) use sphere_rectangle::{sphere_rectangle, sphere_rectangle_known_in_front};
 pub use sphere_sphere::sphere_sphere;
 
@@ -38,13 +43,17 @@ pub(crate) fn sphere_surface(form: &Form, center: DVec3, radius: f64) -> Option<
             Some(sphere_half_space((*point, *normal), center, radius))
         }
         Form::Box(solid) => Some(sphere_box(solid, center, radius)),
+        Form::Facet(facet) => sphere_facet(facet, center, radius),
+        Form::Edge(edge) => sphere_edge(edge, center, radius),
+        Form::Corner(corner) => sphere_corner(corner, center, radius),
     }
 }
 
-/// [`sphere_surface`] of a sphere that has been in front: it may have come behind a rectangle.
+/// [`sphere_surface`] of a sphere that has been in front: it may have come behind a rectangle or a face of a mesh.
 pub(crate) fn known_in_front(form: &Form, center: DVec3, radius: f64) -> Option<Separation> {
     match form {
         Form::Rectangle(it) => Some(sphere_rectangle_known_in_front(it, center, radius)),
+        Form::Facet(it) if it.is_under(center) => Some(sphere_facet_plane(it, center, radius)),
         _ => sphere_surface(form, center, radius),
     }
 }

@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use crate::mesh::Facet;
+use crate::rectangle::Rectangle;
 use crate::surface::{Form, SolidBox, Surface};
 
 /// Axis-aligned bounds \[m\].
@@ -44,10 +46,28 @@ pub(crate) fn bounds(form: &Form) -> Option<Bounds> {
         Form::Box(SolidBox { center, axes: [x, y, z], half }) => {
             (center, half.x * x.abs() + half.y * y.abs() + half.z * z.abs())
         }
+        Form::Facet(ref facet) => around(facet),
+        Form::Edge(ref edge) => (edge.center, edge.half * edge.axis.abs()),
+        Form::Corner(ref corner) => (corner.point, DVec3::ZERO),
     };
     // Wider by far more than rounding, so that a surface at the very edge is never passed over.
     let slack = 1e-12 * (center.abs() + half).max_element();
     Some(Bounds::around(center, half + slack))
+}
+
+/// Of larger outlines the rectangle about them has to do.
+const MANY_SIDES: usize = 8;
+
+/// Centre and half the size \[m\] of the bounds of a flat face.
+fn around(facet: &Facet) -> (DVec3, DVec3) {
+    if facet.outline.sides().len() > MANY_SIDES {
+        let Rectangle { center, axis_x, axis_z, half_x, half_z, .. } = facet.frame;
+        return (center, half_x * axis_x.abs() + half_z * axis_z.abs());
+    }
+    let first = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let (min, max) =
+        facet.vertices().fold(first, |(min, max), vertex| (min.min(vertex), max.max(vertex)));
+    (0.5 * (min + max), 0.5 * (max - min))
 }
 
 /// Finds the surfaces near a place: a bounding volume hierarchy, split at the median centre.

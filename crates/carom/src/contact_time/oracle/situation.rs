@@ -8,7 +8,7 @@ use crate::flight::{Flight, Propagator};
 use crate::surface::SurfaceMotion;
 use crate::surface::{Form, Rectangle};
 
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub enum Bodies {
     /// With the sum of the radii.
     Spheres {
@@ -24,7 +24,7 @@ pub enum Bodies {
     },
 }
 
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Situation {
     pub bodies: Bodies,
     pub horizon: f64,
@@ -73,7 +73,7 @@ impl Situation {
                         let offset = place.minus(&from_origin(&rectangle.center));
                         from_rectangle(rectangle, &offset, *radius)
                     }
-                    Form::Box(_) => unreachable!("not generated"),
+                    _ => unreachable!("not generated"),
                 }
             }
         }
@@ -109,7 +109,7 @@ impl Situation {
                     Form::Sphere { center, radius } => (center.length(), *radius),
                     Form::HalfSpace { point, .. } => (point.length(), 0.0),
                     Form::Rectangle(r) => (r.center.length() + r.half_x + r.half_z, 0.0),
-                    Form::Box(_) => unreachable!("not generated"),
+                    _ => unreachable!("not generated"),
                 };
                 let omega = motion.angular_velocity.length();
                 let drift = motion.velocity.length();

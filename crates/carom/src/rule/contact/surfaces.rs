@@ -389,7 +389,8 @@ fn is_flat(form: &Form, normal: DVec3) -> bool {
     match form {
         Form::HalfSpace { .. } => true,
         Form::Rectangle(rectangle) => rectangle.normal == normal,
-        Form::Sphere { .. } | Form::Box(_) => false,
+        Form::Facet(_) => true,
+        Form::Sphere { .. } | Form::Box(_) | Form::Edge(_) | Form::Corner(_) => false,
     }
 }
 

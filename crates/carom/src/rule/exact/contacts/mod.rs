@@ -12,5 +12,7 @@ pub(super) use gather::{gather, gather_cluster};
 pub(super) use group::Group;
 pub(super) use member::Member;
 pub(super) use planes::{Corner, MOST_PLANES, Plane};
-pub(super) use separation::{are_within, beyond, separation, slack_of, touches_surface};
+pub(super) use separation::{
+    HoldingMesh, are_within, beyond, holding_mesh, separation, slack_of, touches_surface,
+};
 pub(super) use touch::Touch;

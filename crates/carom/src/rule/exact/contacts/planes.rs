@@ -32,7 +32,8 @@ impl<'a> Plane<'a> {
             Form::Rectangle(rectangle) => {
                 (are_within(rectangle, state) == [true; 2]).then_some(rectangle.normal)?
             }
-            Form::Sphere { .. } | Form::Box(_) => return None,
+            Form::Facet(facet) => facet.holds(state).then_some(facet.frame.normal)?,
+            Form::Sphere { .. } | Form::Box(_) | Form::Edge(_) | Form::Corner(_) => return None,
         };
         Some(Self { surface, normal, form, image: DVec3::ZERO })
     }

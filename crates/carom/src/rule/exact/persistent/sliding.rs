@@ -3,13 +3,13 @@
 use glam::DVec3;
 
 use super::accelerations::Accelerations;
+use crate::axis_motion::AxisMotion;
 use crate::detect::contact::Bodies;
 use crate::rule::exact::contacts::{Group, Touch, are_within, slack_of};
 use crate::rule::exact::context::StepContext;
-use crate::rule::exact::flights::AxisMotion;
 use crate::surface::{Form, Rectangle};
 
-/// Time \[s\] until a sphere may slide off the part of a rectangle that it is in contact with.
+/// Time \[s\] until a sphere may slide off the part of a surface that it is in contact with.
 pub(super) fn sliding_time(
     context: &StepContext,
     group: &Group,
@@ -20,7 +20,6 @@ pub(super) fn sliding_time(
     for touch in touches {
         let Bodies::Surface { surface, .. } = touch.bodies else { continue };
         let (form, _) = context.surface_at(surface, group.time);
-        let Form::Rectangle(rectangle) = form else { continue };
         let member = &group.members[touch.second];
         let center = member.position + touch.shift;
         let velocity = member.velocity - touch.surface_velocity;
@@ -29,14 +28,30 @@ pub(super) fn sliding_time(
             acceleration: accelerations.each[touch.second].dot(axis),
             drag_rate: member.species.drag_rate,
         };
-        time = time.min(time_on_face(&rectangle, [center, velocity], motion));
+        time = time.min(time_on(&form, [center, velocity], motion));
     }
     time
 }
 
+/// Time \[s\] until a sphere with this centre \[m\] and velocity relative to a surface \[m/s\] may slide off the part of
+/// it that it is in contact with; infinite where the surface has no parts.
+pub(super) fn time_on(
+    form: &Form,
+    [center, velocity]: [DVec3; 2],
+    motion: impl Fn(DVec3) -> AxisMotion,
+) -> f64 {
+    match form {
+        Form::Rectangle(rectangle) => time_on_face(rectangle, [center, velocity], motion),
+        Form::Facet(facet) => facet.time_on(center, motion),
+        Form::Edge(edge) => edge.time_on(center, motion),
+        Form::Corner(corner) => corner.time_on(center, motion),
+        Form::Sphere { .. } | Form::HalfSpace { .. } | Form::Box(_) => f64::INFINITY,
+    }
+}
+
 /// Time \[s\] until a sphere with this centre \[m\] and velocity relative to a rectangle \[m/s\] may slide off
 /// the part of it that it is in contact with, by its motion along the axes of the rectangle.
-pub(super) fn time_on_face(
+fn time_on_face(
     rectangle: &Rectangle,
     state: [DVec3; 2],
     motion: impl Fn(DVec3) -> AxisMotion,
