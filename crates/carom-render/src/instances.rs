@@ -8,6 +8,7 @@ use crate::container::{self, Seen};
 use crate::cutaway;
 use crate::drawing::{Arrow, Ball, Drawing, Panel, Pattern, linear};
 use crate::framing::Framing;
+use crate::round::{self, Facet};
 
 /// A ball: centre and radius, colour with pattern and finish, rotation.
 pub(crate) type PackedBall = [f32; 12];
@@ -28,6 +29,7 @@ const BOX: f64 = 1.0;
 const GROUND: f64 = 2.0;
 const WALL: f64 = 3.0;
 const INCLINE: f64 = 4.0;
+const FACET: f64 = 5.0;
 
 /// Value of the opacity for faces of which only the rims are drawn.
 const RIM: f64 = -1.0;
@@ -94,6 +96,7 @@ impl Instances {
         clear.chain(rims).for_each(|panel| add_panel(&panel, eye, faces, boxes));
         for panel in &drawing.panels {
             add_walls(panel, eye, faces);
+            add_round_walls(panel, eye, faces);
             add_half_space(panel, eye, framing, faces);
         }
         arrows.extend(drawing.arrows.iter().map(|arrow| packed_arrow(arrow, eye)));
@@ -141,10 +144,29 @@ fn add_panel(
         Shape::Rectangle { size_x, size_z } => {
             faces.push(packed_rectangle(panel, [size_x, size_z], eye));
         }
+        shape if round::is_round(&shape) && !is_cut_open(panel) => {
+            faces.extend(round::facets(panel).map(|facet| packed_facet(&facet, panel, eye)));
+        }
         // Spheres are balls; half-spaces and walls of containers cast no shadows and are added
         // later.
         _ => {}
     }
+}
+
+/// Returns whether a shape is drawn as the inner side of a wall, open towards the eye.
+fn is_cut_open(panel: &Panel) -> bool {
+    round::is_hollow(&panel.shape) && !is_volume(panel)
+}
+
+/// Adds the wall of a hollow shape of revolution: the inner side where it is behind what the wall holds, elsewhere
+/// only the rims. It casts no shadow, because the shadow would move with the eye.
+fn add_round_walls(panel: &Panel, eye: DVec3, faces: &mut Vec<PackedPanel>) {
+    if !is_cut_open(panel) {
+        return;
+    }
+    let pack = |facet: Facet| packed_facet(&facet, panel, eye);
+    faces.extend(round::facets(panel).filter(|it| !it.faces(eye)).map(|it| pack(it.turned())));
+    faces.extend(round::rims(panel).map(pack));
 }
 
 /// Returns whether a container is drawn as a volume without walls, as a trigger is.
@@ -244,6 +266,12 @@ fn packed_panel(
         four(half, grid),
         color(panel.color, panel.opacity),
     ])
+}
+
+fn packed_facet(facet: &Facet, panel: &Panel, eye: DVec3) -> PackedPanel {
+    let Facet { pose, half, curvatures: [along, around] } = *facet;
+    let size = (DVec3::new(half[0], around, half[1]), along);
+    packed_panel(&Panel { pose, ..*panel }, pose.position - eye, FACET, size)
 }
 
 fn packed_rectangle(panel: &Panel, [size_x, size_z]: [f64; 2], eye: DVec3) -> PackedPanel {

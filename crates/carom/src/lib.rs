@@ -27,6 +27,7 @@
 
 #![warn(clippy::unwrap_used)]
 
+mod band;
 mod bodies;
 mod clock;
 mod collider;
@@ -52,6 +53,7 @@ mod real;
 mod report;
 pub mod respond;
 mod rotation;
+mod round_solid;
 mod rule;
 mod settings;
 mod sphere;
@@ -67,7 +69,7 @@ mod world;
 pub use glam::{DQuat, DVec3};
 
 pub use bodies::Spheres;
-pub use collider::{Collider, Pose, Shape, Sides};
+pub use collider::{Collider, Ends, Pose, Shape, Sides};
 pub use emitter::Emitter;
 pub use error::{Error, InvalidValue, Subject};
 pub use flight::Flight;

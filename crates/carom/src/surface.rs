@@ -1,11 +1,13 @@
 //! Colliders as the world sees them: surfaces in their places.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
+use crate::band::{Band, Profile};
 use crate::collider::{Collider, Pose, Shape, Sides};
 use crate::friction::Friction;
 use crate::id::ColliderId;
 use crate::norm::Norm;
+use crate::round_solid::{Outline, RoundSolid};
 
 /// One surface of a collider in world coordinates, with what a contact needs to know of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,7 +35,6 @@ pub(crate) struct SurfaceMotion {
 
 impl SurfaceMotion {
     /// Of a surface at rest.
-    #[cfg(test)]
     pub const REST: Self =
         Self { origin: DVec3::ZERO, velocity: DVec3::ZERO, angular_velocity: DVec3::ZERO };
 
@@ -57,6 +58,21 @@ impl SurfaceMotion {
     /// Whether directions change with it.
     pub fn turns(&self) -> bool {
         self.angular_velocity != DVec3::ZERO
+    }
+
+    /// Whether the place of a surface of this form changes by its turning.
+    pub fn turns_form(&self, form: &Form) -> bool {
+        self.turns() && !form.is_turned_in_place_by(self)
+    }
+
+    /// Velocity \[m/s\] at a point, if turning leaves a surface of this form as it is, less the velocity of its
+    /// origin; else 0.
+    pub fn turning_in_place(&self, form: &Form, point: DVec3) -> DVec3 {
+        if self.turns() && !self.turns_form(form) {
+            self.angular_velocity.cross(point - self.origin)
+        } else {
+            DVec3::ZERO
+        }
     }
 
     /// Acceleration \[m/s²\], as seen from the surface, of what flies at a point without forces, with this velocity \[m/s\].
@@ -116,7 +132,8 @@ impl SurfaceMotion {
             return (*form, *self);
         }
         let Self { origin, velocity, angular_velocity } = *self;
-        let pose = Pose::at(origin).moved(velocity, angular_velocity, h);
+        let turning = if self.turns_form(form) { angular_velocity } else { DVec3::ZERO };
+        let pose = Pose::at(origin).moved(velocity, turning, h);
         let place = |point: DVec3| pose.position + pose.rotation * (point - origin);
         let turn = |direction: DVec3| pose.rotation * direction;
         let form = match *form {
@@ -133,6 +150,10 @@ impl SurfaceMotion {
             }),
             Form::Box(b) => {
                 Form::Box(SolidBox { center: place(b.center), axes: b.axes.map(turn), ..b })
+            }
+            Form::Band(b) => Form::Band(Band { center: place(b.center), axis: turn(b.axis), ..b }),
+            Form::Round(s) => {
+                Form::Round(RoundSolid { center: place(s.center), axis: turn(s.axis), ..s })
             }
         };
         (form, Self { origin: pose.position, ..*self })
@@ -159,9 +180,21 @@ pub(crate) enum Form {
     Rectangle(Rectangle),
     HalfSpace { point: DVec3, normal: DVec3 },
     Box(SolidBox),
+    Band(Band),
+    Round(RoundSolid),
 }
 
 impl Form {
+    /// Whether the turning of a motion leaves it as it is.
+    fn is_turned_in_place_by(&self, motion: &SurfaceMotion) -> bool {
+        match self {
+            Self::Band(band) => {
+                band.is_turned_in_place_by(motion.origin, motion.angular_velocity)
+            }
+            _ => false,
+        }
+    }
+
     /// Size of the coordinates that it is given by \[m\].
     pub fn coordinates(&self) -> f64 {
         match *self {
@@ -171,6 +204,8 @@ impl Form {
                 center.norm() + half_x + half_z
             }
             Self::Box(SolidBox { center, half, .. }) => center.norm() + half.element_sum(),
+            Self::Band(band) => band.coordinates(),
+            Self::Round(solid) => solid.coordinates(),
         }
     }
 
@@ -189,6 +224,8 @@ impl Form {
                 let rises = axes.map(|axis| axis.dot(normal).abs());
                 height(center) + half.dot(DVec3::from_array(rises))
             }
+            Self::Band(band) => height(band.center) + band.extent(normal)[1],
+            Self::Round(solid) => height(solid.center) + solid.extent(normal)[1],
         }
     }
 }
@@ -223,7 +260,8 @@ pub(crate) struct Rectangle {
 
 /// Appends the surfaces of a collider. Those of a solid box are its volume and then its faces, in
 /// the order -x, +x, -y, +y, -z, +z; those of a container its walls in the same order, each facing
-/// outward and then inward. A box or a container that only reports is its volume.
+/// outward and then inward. A box or a container that only reports is its volume. A solid of revolution has its volume,
+/// then its side and discs; a hollow one has its walls, each facing outward and then inward.
 pub(crate) fn place(id: ColliderId, collider: &Collider, surfaces: &mut Vec<Surface>) {
     let Collider { shape, pose, restitution, friction, trigger, .. } = *collider;
     let (center, motion) = (pose.position, SurfaceMotion::of(collider));
@@ -260,6 +298,27 @@ pub(crate) fn place(id: ColliderId, collider: &Collider, surfaces: &mut Vec<Surf
                 add(Form::Rectangle(face), Role::Deflects);
                 add(Form::Rectangle(face.turned()), Role::Deflects);
             }
+        }
+        Shape::Disc { radius } => {
+            let profile = Profile::line(DVec2::ZERO, DVec2::new(radius, 0.0));
+            add(Form::Band(Band { center, axis: y, profile }), Role::Deflects);
+        }
+        Shape::Cylinder { .. } | Shape::Cone { .. } | Shape::Capsule { .. } | Shape::Torus { .. } => {
+            let Some(outline) = Outline::of(&shape) else { return };
+            let solid = RoundSolid { center, axis: y, outline };
+            add(Form::Round(solid), Role::Encloses);
+            if !trigger {
+                solid.bands().for_each(|band| add(Form::Band(band), Role::Deflects));
+            }
+        }
+        Shape::Pipe { .. } | Shape::Bowl { .. } | Shape::Funnel { .. } => {
+            let Some(outline) = Outline::of(&shape) else { return };
+            let inside = RoundSolid { center, axis: y, outline };
+            if trigger {
+                add(Form::Round(inside), Role::Reports);
+                return;
+            }
+            inside.walls(&shape).for_each(|wall| add(Form::Band(wall), Role::Deflects));
         }
     }
 }

@@ -93,7 +93,11 @@ fn overlap(system: &System, motion: &Motion, sphere: u32, surface: u32) -> Optio
     let separation = sphere_surface(form, motion.position[i], system.spheres.radius[i])?;
     let meets = match form {
         Form::Sphere { .. } => separation.distance < 0.0,
-        Form::Rectangle(_) | Form::HalfSpace { .. } | Form::Box(_) => separation.distance <= 0.0,
+        Form::Rectangle(_)
+        | Form::HalfSpace { .. }
+        | Form::Box(_)
+        | Form::Band(_)
+        | Form::Round(_) => separation.distance <= 0.0,
     };
     let bodies = Bodies::Surface { sphere, surface };
     meets.then_some(Contact { bodies, separation, state: ContactState::Intersecting })

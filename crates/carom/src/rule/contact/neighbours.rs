@@ -231,6 +231,7 @@ impl Known<'_> {
             (None, Form::Rectangle(rectangle)) => {
                 (center - rectangle.center).dot(rectangle.normal) >= -margin
             }
+            (None, Form::Band(band)) => band.seen_from(center).front >= -margin,
             (None, _) => true,
         }
     }

@@ -2,7 +2,9 @@
 
 use glam::DVec3;
 
+use crate::band::Band;
 use crate::detect::sphere_surface;
+use crate::round_solid::RoundSolid;
 use crate::surface::{Form, Role, Surface, SurfaceMotion};
 
 /// Where a surface is, and how it moves.
@@ -105,5 +107,8 @@ pub(crate) fn turning_rate(form: &Form, motion: &SurfaceMotion) -> f64 {
         Form::Sphere { .. } => 0.0,
         Form::HalfSpace { normal, .. } => motion.angular_velocity.cross(*normal).length(),
         Form::Rectangle(_) | Form::Box(_) => motion.angular_velocity.length(),
+        Form::Band(Band { axis, .. }) | Form::Round(RoundSolid { axis, .. }) => {
+            motion.angular_velocity.cross(*axis).length()
+        }
     }
 }

@@ -8,9 +8,12 @@ mod planes;
 mod separation;
 mod touch;
 
+pub(super) use curvature::NormalCurvature;
 pub(super) use gather::{gather, gather_cluster};
 pub(super) use group::Group;
 pub(super) use member::Member;
 pub(super) use planes::{Corner, MOST_PLANES, Plane};
-pub(super) use separation::{are_within, beyond, separation, slack_of, touches_surface};
+pub(super) use separation::{
+    are_within, beyond, is_over_face, separation, slack_of, touches_surface,
+};
 pub(super) use touch::Touch;

@@ -3,7 +3,8 @@
 use glam::DVec3;
 
 use super::member::Member;
-use crate::detect::{Separation, sphere_rectangle_known_in_front, sphere_surface};
+use crate::band::Band;
+use crate::detect::{Separation, known_in_front, sphere_surface};
 use crate::norm::Norm;
 use crate::respond;
 use crate::rule::exact::contact_scale::{CLOCK_ROUNDING, TOUCHING};
@@ -17,11 +18,10 @@ pub(crate) fn separation(
     radius: f64,
     is_predicted: bool,
 ) -> Option<Separation> {
-    match form {
-        Form::Rectangle(rectangle) if is_predicted => {
-            Some(sphere_rectangle_known_in_front(rectangle, center, radius))
-        }
-        form => sphere_surface(form, center, radius),
+    if is_predicted {
+        known_in_front(form, center, radius)
+    } else {
+        sphere_surface(form, center, radius)
     }
 }
 
@@ -51,6 +51,18 @@ pub(crate) fn are_within(rectangle: &Rectangle, [center, velocity]: [DVec3; 2]) 
         };
         beyond < 0.0 || (beyond <= 2.0 * slack && moves_in())
     })
+}
+
+/// Whether a sphere with this centre \[m\] and velocity relative to a band \[m/s\] is over its face. At the very
+/// rim it is if it moves away from that.
+pub(crate) fn is_over_face(band: &Band, [center, velocity]: [DVec3; 2]) -> bool {
+    let slack = TOUCHING * band.coordinates();
+    let view = band.face_seen_from(center);
+    if view.room.abs() > slack {
+        return view.room > 0.0;
+    }
+    let step = slack / velocity.norm().max(f64::MIN_POSITIVE);
+    band.face_seen_from(center + step * velocity).room > view.room
 }
 
 /// Rounding of a place beside a rectangle, at an `offset` from its centre \[m\].
@@ -96,6 +108,6 @@ fn is_above(form: &Form, point: DVec3, height: f64) -> bool {
     match form {
         Form::HalfSpace { point: origin, normal } => (point - *origin).dot(*normal) > height,
         Form::Rectangle(face) => (point - face.center).dot(face.normal).abs() > height,
-        Form::Sphere { .. } | Form::Box(_) => false,
+        Form::Sphere { .. } | Form::Box(_) | Form::Band(_) | Form::Round(_) => false,
     }
 }

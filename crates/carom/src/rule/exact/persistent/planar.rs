@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::NoClosedForm;
 use super::accelerations::{IDLE, free_acceleration, is_back_within};
 use super::rolling::{PressedSphere, Rolling, on_plane};
-use super::sliding::time_on_face;
+use super::sliding::{time_on, time_on_face};
 use crate::detect::contact::Bodies;
 use crate::flight::Flight;
 use crate::norm::Norm;
@@ -187,6 +187,11 @@ impl PlanarSupport {
             {
                 self.valid_for =
                     self.valid_for.min(time_on_face(face, [position, velocity], motion));
+            }
+            if let Form::Band(_) = plane.form
+                && persists
+            {
+                self.valid_for = self.valid_for.min(time_on(plane.form, &flight));
             }
         }
     }
