@@ -147,10 +147,10 @@ def test_a_page_opened_anew_goes_on_where_it_was(lab: Laboratory) -> None:
     until(lambda: lab.python("viewer.scene.colliders[0].restitution == 0.75"), "the edit")
     time.sleep(1.5)
     lab.page.evaluate("jupyterapp.commands.execute('docmanager:save')")
-    lab.run("viewer._ready = False; viewer._scene_now = None")
+    lab.run("viewer._ready = False; viewer._scene_text = None")
     lab.page.reload()
     until(lambda: lab.python("viewer._ready"), "the viewer again")
-    until(lambda: lab.python("viewer._scene_now is not None"), "its scene")
+    until(lambda: lab.python("viewer._scene_text is not None"), "its scene")
     assert time_of(lab) == 1.5
     assert lab.python("viewer.scene.colliders[0].restitution") == 0.75
 

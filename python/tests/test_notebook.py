@@ -120,14 +120,32 @@ def test_edits_wait_for_the_interface_and_arrive_in_their_order(
     viewer.set_restitution(0.5)
     assert sent == []
     viewer._ready = True
-    texts = [message["text"] for message, _ in sent]
+    texts = [message["content"] for message, _ in sent if message["kind"] == "edit"]
     velocity = "changes = { velocity = [0.0, 5.0, 0.0], mass = 2.0 }"
     assert texts == [
         f"change = {{ sphere = {{ sphere = 3, {velocity} }} }}",
         "change = { all-collider-restitutions = 0.5 }",
     ]
     viewer.remove_sphere(1)
-    assert sent[-1][0] == {"kind": "edit", "text": "change = { remove-sphere = 1 }"}
+    last = {"kind": "edit", "content": "change = { remove-sphere = 1 }", "number": 4}
+    assert sent[-1][0] == last
+
+
+def test_a_report_that_was_on_its_way_does_not_undo_a_command(
+    viewer: Viewer, sent: list[tuple[Any, Any]]
+) -> None:
+    viewer._ready = True
+    [(caught_up, _)] = sent
+    assert caught_up["content"] == {"time": 0.0, "playing": False, "picked": None}
+    viewer.play()
+    before = {"time": 0.5, "playing": False, "picked": None, "number": caught_up["number"]}
+    viewer.set_state({"_shown": before, "_scene_shown": {"text": "", "number": 1}})
+    assert viewer.playing and viewer.time == 0.0 and viewer.scene.name == "simtest1"
+    after = {"time": 0.5, "playing": True, "picked": 1, "number": sent[-1][0]["number"]}
+    viewer.set_state({"_shown": after})
+    assert (viewer.time, viewer.playing, viewer.picked) == (0.5, True, 1)
+    # What the browser reported is no command.
+    assert [message["content"] for message, _ in sent[1:]] == [{"playing": True}]
 
 
 def test_a_viewer_hands_the_interface_to_a_document_that_has_none(
@@ -142,20 +160,24 @@ def test_a_viewer_hands_the_interface_to_a_document_that_has_none(
 
 def test_what_was_edited_in_the_browser_is_the_scene(viewer: Viewer) -> None:
     changed = carom.load("simtest1").with_changes({"colliders.0.restitution": 0.25})
-    viewer.set_state({"_scene_now": changed.to_toml(), "time": 1.5, "picked": 2})
+    told = {"time": 1.5, "playing": False, "picked": 2, "number": 0}
+    viewer.set_state({"_scene_shown": {"text": changed.to_toml(), "number": 0}, "_shown": told})
     assert viewer.scene == changed
     assert (viewer.time, viewer.picked) == (1.5, 2)
-    viewer.set_state({"_scene_now": ""})
+    viewer.set_state({"_scene_shown": {"text": "", "number": 0}})
     with pytest.raises(carom.CaromError, match="too large to come back"):
         _ = viewer.scene
 
 
 def test_another_scene_takes_the_place_of_one(viewer: Viewer, sent: list[tuple[Any, Any]]) -> None:
     viewer._ready = True
-    viewer.set_state({"_scene_now": "name = 'old'\n", "time": 1.5})
+    told = {"time": 1.5, "playing": False, "picked": None, "number": 1}
+    viewer.set_state({"_scene_shown": {"text": "name = 'old'\n", "number": 1}, "_shown": told})
+    assert viewer.time == 1.5
     viewer.scene = carom.load("cradle")
     assert viewer.scene == carom.load("cradle") and viewer.time == 0.0
-    assert sent == [({"kind": "open", "text": viewer.link}, None)]
+    contents = [(message["kind"], message["content"]) for message, _ in sent[1:]]
+    assert contents == [("open", viewer.link), ("set", {"time": 0.0})]
 
 
 def test_a_scene_that_makes_no_sense_is_refused() -> None:

@@ -2,6 +2,7 @@
 
 import dataclasses
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -254,4 +255,34 @@ def test_ctrl_c_leaves_what_was_recorded_in_the_arrays() -> None:
         world.run(frames=100_000, dt=1e-3, out={"positions": positions})
     run = stop.value.trajectory  # type: ignore[attr-defined]
     assert 1 < len(run) < 100_000 and run.time[-1] == world.time
+    assert not np.isnan(positions[: len(run)]).any() and np.isnan(positions[len(run) :]).all()
+
+
+@pytest.mark.parametrize("number", [1, 2, 5])
+@pytest.mark.parametrize("comes_after", [False, True])
+def test_ctrl_c_between_two_pieces_of_a_run_leaves_whole_ones(
+    monkeypatch: pytest.MonkeyPatch, number: int, comes_after: bool
+) -> None:
+    monkeypatch.setattr("carom._run.recording._BLOCK_BYTES", 1)
+    world, take = carom.load("gas").world(), carom.World._run
+    pieces: list[carom.Trajectory] = []
+
+    def interrupted(*arguments: Any) -> carom.Trajectory:
+        # The first call records the beginning.
+        is_last = len(pieces) == number
+        if is_last and not comes_after:
+            raise KeyboardInterrupt
+        pieces.append(take(*arguments))
+        if is_last:
+            raise KeyboardInterrupt
+        return pieces[-1]
+
+    monkeypatch.setattr(carom.World, "_run", interrupted)
+    positions = np.full((11, len(world), 3), np.nan)
+    with pytest.raises(KeyboardInterrupt) as stop:
+        world.run(frames=20, every=2, dt=1e-3, out={"positions": positions})
+    run = stop.value.trajectory  # type: ignore[attr-defined]
+    # The piece that was lost is taken back.
+    assert len(run) == number and run.time[-1] == world.time
+    assert run.positions[-1].tolist() == world.positions.tolist()
     assert not np.isnan(positions[: len(run)]).any() and np.isnan(positions[len(run) :]).all()

@@ -5,12 +5,16 @@ use std::time::SystemTime;
 
 use crate::text::named_files;
 
-/// A scene file with the files that it includes, and the time at which each was last modified.
+/// A scene file with the files that it includes, and the state in which each was seen last.
 #[derive(Debug, Clone)]
 pub struct ChangedFile {
     path: PathBuf,
-    files: Vec<(PathBuf, Option<SystemTime>)>,
+    files: Vec<(PathBuf, Option<Seen>)>,
 }
+
+/// When a file was last modified, and its length [bytes]: a file that is emptied and written within
+/// one step of its time differs in length alone.
+type Seen = (SystemTime, u64);
 
 impl ChangedFile {
     /// Starts to watch the file at `path`.
@@ -29,8 +33,8 @@ impl ChangedFile {
     /// missing file counts as unmodified, because editors remove a file for a moment while they
     /// write it.
     pub fn look(&mut self) -> bool {
-        let is_changed = |(path, before): &(PathBuf, Option<SystemTime>)| {
-            let now = changed(path);
+        let is_changed = |(path, before): &(PathBuf, Option<Seen>)| {
+            let now = seen(path);
             now.is_some() && now != *before
         };
         let is_any = self.files.iter().any(is_changed);
@@ -50,14 +54,15 @@ impl ChangedFile {
                 paths.push(path);
             }
         });
-        let dated = |path: PathBuf| {
-            let changed = changed(&path);
-            (path, changed)
+        let with_state = |path: PathBuf| {
+            let state = seen(&path);
+            (path, state)
         };
-        self.files = paths.into_iter().map(dated).collect();
+        self.files = paths.into_iter().map(with_state).collect();
     }
 }
 
-fn changed(path: &Path) -> Option<SystemTime> {
-    std::fs::metadata(path).and_then(|about| about.modified()).ok()
+fn seen(path: &Path) -> Option<Seen> {
+    let about = std::fs::metadata(path).ok()?;
+    Some((about.modified().ok()?, about.len()))
 }

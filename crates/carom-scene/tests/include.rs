@@ -214,6 +214,17 @@ fn an_included_file_that_is_missing_or_broken_is_watched_until_it_is_mended() {
 }
 
 #[test]
+fn a_file_that_is_emptied_and_written_within_one_step_of_its_time_has_changed() {
+    let folder = folder(&[("scene.toml", "")]);
+    let path = folder.path().join("scene.toml");
+    let time = fs::metadata(&path).unwrap().modified().unwrap();
+    let mut file = ChangedFile::new(&path);
+    fs::write(&path, "name = 'x'").unwrap();
+    fs::File::options().append(true).open(&path).unwrap().set_modified(time).unwrap();
+    assert_eq!([file.look(), file.look()], [true, false]);
+}
+
+#[test]
 fn no_files_at_all_may_be_included() {
     let scene = Scene::from_toml("include = []\nname = 'x'", "text").unwrap();
     assert_eq!(scene.name, "x");

@@ -44,6 +44,12 @@ pub fn suit_fingers(context: &Context) {
     });
 }
 
+/// Takes every press as a click that does not move, however long it lasts: a machine that draws
+/// slowly sees the end of a short one late. No control has a menu that a long press opens.
+pub fn accept_slow_clicks(context: &Context) {
+    context.options_mut(|options| options.input_options.max_click_duration = f64::INFINITY);
+}
+
 /// Returns whether controls are sized for fingers; then there is no keyboard.
 pub fn is_for_fingers(context: &Context) -> bool {
     context.global_style().spacing.interact_size.y >= FINGER

@@ -138,6 +138,8 @@ pub enum Subject {
     Settings,
     /// The call of `World::step`.
     Step,
+    /// A query of the world.
+    Query,
 }
 
 impl Display for Subject {
@@ -150,6 +152,7 @@ impl Display for Subject {
             Self::Spring(id) => write!(f, "spring {id}"),
             Self::Settings => f.write_str("settings"),
             Self::Step => f.write_str("step"),
+            Self::Query => f.write_str("query"),
         }
     }
 }

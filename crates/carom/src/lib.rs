@@ -48,7 +48,9 @@ mod lanes;
 mod norm;
 mod numbered;
 mod parallel;
+mod path;
 mod persistent_contact;
+mod query;
 mod real;
 mod report;
 pub mod respond;
@@ -81,7 +83,9 @@ pub use forces::{
 pub use friction::Friction;
 pub use hash::StateHash;
 pub use id::{ColliderId, EmitterId, ForceId, SphereId, SpringId};
+pub use path::{PathEnd, PathLeg, PredictedPath};
 pub use persistent_contact::PersistentContact;
+pub use query::{Body, Hit, NearBody, Queries, QueryFilter};
 pub use report::{
     BodyPair, ContactAccount, EnergyAccount, Impact, ImpactGroup, LedgerEntry, Overlap,
     StageCounts, StepReport, TriggerContact, ZoneAccount,

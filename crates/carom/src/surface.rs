@@ -338,7 +338,7 @@ impl SolidBox {
     }
 
     /// The six faces, outward.
-    fn faces(&self) -> [Rectangle; 6] {
+    pub fn faces(&self) -> [Rectangle; 6] {
         std::array::from_fn(|number| {
             let axis = number / 2;
             let (first, second) = [(1, 2), (0, 2), (0, 1)][axis];

@@ -9,8 +9,8 @@ import tempfile
 from carom import _carom as engine
 from carom.errors import GraphicsError
 
-_START = 1.0
-"""By then, a window that cannot be opened has failed [s]."""
+START = 1.0
+"""By then, a window that cannot be opened has failed, on a machine that is not busy [s]."""
 
 
 def open_text(text: str) -> subprocess.Popen[bytes]:
@@ -31,7 +31,7 @@ def open_text(text: str) -> subprocess.Popen[bytes]:
         with process.stdin as pipe:
             pipe.write(text.encode())
         try:
-            process.wait(_START)
+            process.wait(START)
         except subprocess.TimeoutExpired:
             return process
         if process.returncode:

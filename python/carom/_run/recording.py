@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from carom._carom import Engine
+from carom._carom import Engine, Snapshot
 from carom._run.functions import count
 from carom._run.tables import IMPACT
 from carom._run.trajectory import Recorded, Selection, Trajectory
@@ -78,50 +78,84 @@ def run_into(
     _check(out, rows, len(world))
     size = sum(array[0].nbytes for array in out.values())
     block = every * max(1, _BLOCK_BYTES // max(size, 1))
-    before, ids = world.snapshot(), world.ids.copy()
+    before = world.snapshot()
+    record = _Record(out, rows, world.ids.copy(), has_impacts)
     selection = Selection(list(out), False, has_impacts)
-    time = np.empty(rows)
-    impacts = [np.empty(0, IMPACT)]
-    row, stopped = 0, None
-    for begin in range(0, max(frames, 1), block):
-        length = min(block, frames - begin)
-        try:
-            piece = take(length, selection)
-        except KeyboardInterrupt as error:
-            stopped = error
-            piece = error.trajectory  # type: ignore[attr-defined]
-        except BaseException:
-            world.restore(before)
-            raise
-        if not np.array_equal(piece.ids, ids):
-            world.restore(before)
-            problem = "spheres came or went, and the arrays have no place for that"
-            raise CaromError(f"out: {problem}", "out")
-        # It begins with the state that the one before ended with.
-        first = 1 if begin else 0
-        end = row + len(piece) - first
-        time[row:end] = piece.time[first:]
-        for name, array in out.items():
-            array[row:end] = getattr(piece, name)[first:]
-        if has_impacts:
-            impacts.append(piece.impacts)
-        row = end
-        if stopped is not None:
-            break
-    recorded: dict[str, Any] = {name: array[:row] for name, array in out.items()}
-    if has_impacts:
-        recorded["impacts"] = np.concatenate(impacts)
-    trajectory = Trajectory(
-        time=time[:row],
-        ids=ids,
-        radii=world.radii.copy(),
-        masses=world.masses.copy(),
-        **recorded,
-    )
+    stopped = None
+    # One assignment each: Ctrl-C may come between any two instructions.
+    first = take(0, selection)
+    piece = _Piece(0, before, first)
+    try:
+        record.keep(0, first)
+        for begin in range(0, frames, block):
+            piece = _Piece(begin, world.snapshot(), None)
+            taken = take(min(block, frames - begin), selection)
+            piece = piece._replace(taken=taken)
+            record.keep(begin // every, taken)
+    except KeyboardInterrupt as error:
+        stopped = error
+        last = getattr(error, "trajectory", piece.taken)
+        if last is None:
+            # What was recorded since is lost, if anything was.
+            world.restore(piece.start)
+        else:
+            record.keep(piece.begin // every, last)
+    except BaseException:
+        world.restore(before)
+        raise
+    trajectory = record.trajectory(world)
     if stopped is not None:
         stopped.trajectory = trajectory  # type: ignore[attr-defined]
         raise stopped
     return trajectory
+
+
+class _Piece(NamedTuple):
+    """A part of a run: the frame it begins with, the world then, and what was recorded of it."""
+
+    begin: int
+    start: Snapshot
+    taken: Trajectory | None
+
+
+class _Record:
+    """What the pieces of a run have put into its arrays. To keep a piece again changes nothing."""
+
+    def __init__(self, out: Out, rows: int, ids: NDArray[np.uint64], has_impacts: bool) -> None:
+        self._out, self._ids, self._has_impacts = out, ids, has_impacts
+        self._time = np.empty(rows)
+        self._rows = 0
+        self._impacts: dict[int, NDArray[np.void]] = {}
+
+    def keep(self, row: int, piece: Trajectory) -> None:
+        """Writes a piece that begins with the state of a row.
+
+        Raises:
+            CaromError: If spheres came or went.
+        """
+        if not np.array_equal(piece.ids, self._ids):
+            problem = "spheres came or went, and the arrays have no place for that"
+            raise CaromError(f"out: {problem}", "out")
+        end = row + len(piece)
+        self._time[row:end] = piece.time
+        for name, array in self._out.items():
+            array[row:end] = getattr(piece, name)
+        if self._has_impacts:
+            self._impacts[row] = piece.impacts
+        self._rows = end
+
+    def trajectory(self, world: Engine) -> Trajectory:
+        """Returns what was kept."""
+        recorded: dict[str, Any] = {name: array[: self._rows] for name, array in self._out.items()}
+        if self._has_impacts:
+            recorded["impacts"] = np.concatenate([np.empty(0, IMPACT), *self._impacts.values()])
+        return Trajectory(
+            time=self._time[: self._rows],
+            ids=self._ids,
+            radii=world.radii.copy(),
+            masses=world.masses.copy(),
+            **recorded,
+        )
 
 
 def _check(out: Out, rows: int, spheres: int) -> None:

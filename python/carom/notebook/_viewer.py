@@ -64,8 +64,11 @@ class Viewer(Shown):
     _version = traitlets.Unicode("").tag(sync=True)
     # Whether the interface is there, and takes messages.
     _ready = traitlets.Bool(False).tag(sync=True)
-    # The scene as it was when it stood still last, or was edited last, as a scene file.
-    _scene_now = traitlets.Unicode(None, allow_none=True).tag(sync=True)
+    # What the browser shows, and the scene file of it when it last stood still or was edited. Each
+    # has the number of the last command that it follows: what was on its way when Python set
+    # something else does not undo that.
+    _shown = traitlets.Dict().tag(sync=True)
+    _scene_shown = traitlets.Dict().tag(sync=True)
 
     def __init__(self, scene: Scene | World, *, height: int = 480) -> None:
         """A viewer of a scene, or of a world as it is now.
@@ -78,7 +81,11 @@ class Viewer(Shown):
         self._interface = built_interface()
         self._given = scene_of(scene)
         # In the order in which they were made, until there is an interface that takes them.
-        self._waiting: list[dict[str, str]] = []
+        self._waiting: list[dict[str, Any]] = []
+        self._last_command = 0
+        self._is_reporting = False
+        # None while the scene is the one that was given.
+        self._scene_text: str | None = None
         super().__init__(
             link=_link(self._given),
             height=checked_height(height),
@@ -100,19 +107,20 @@ class Viewer(Shown):
         Raises:
             CaromError: If it is too large to come back from the browser.
         """
-        if self._scene_now is None:
+        if self._scene_text is None:
             return self._given
-        if not self._scene_now:
+        if not self._scene_text:
             raise CaromError("scene: it is too large to come back from the browser", "scene")
-        return Scene.from_toml(self._scene_now)
+        return Scene.from_toml(self._scene_text)
 
     @scene.setter
     def scene(self, scene: Scene | World) -> None:
         self._given = scene_of(scene)
         link = _link(self._given)
-        self._scene_now, self.picked, self.link = None, None, link
-        self.time = 0.0
+        self._scene_text, self.link = None, link
+        # Opened first: its time and what is picked are set in the scene that is shown then.
         self._tell("open", link)
+        self.picked, self.time = None, 0.0
 
     def world(self) -> World:
         """The world of `scene`: what is shown goes on in Python from here."""
@@ -175,8 +183,16 @@ class Viewer(Shown):
     def _edit(self, change: dict[str, Any]) -> None:
         self._tell("edit", f"change = {toml_value(change, 'change')}")
 
-    def _tell(self, kind: str, text: str) -> None:
-        message = {"kind": kind, "text": text}
+    @traitlets.observe("time", "playing", "picked")
+    def _command(self, change: dict[str, Any]) -> None:
+        """Has the browser show what Python set; what the browser reported it shows already."""
+        # Where there is no interface yet, it begins with the traits as they are then.
+        if self._ready and not self._is_reporting:
+            self._tell("set", {change["name"]: change["new"]})
+
+    def _tell(self, kind: str, content: Any) -> None:
+        self._last_command += 1
+        message = {"kind": kind, "content": content, "number": self._last_command}
         if self._ready:
             self.send(message)
         else:
@@ -188,6 +204,25 @@ class Viewer(Shown):
             waiting, self._waiting = self._waiting, []
             for message in waiting:
                 self.send(message)
+            names = ("time", "playing", "picked")
+            self._tell("set", {name: getattr(self, name) for name in names})
+
+    @traitlets.observe("_shown")
+    def _follow_report(self, change: dict[str, Any]) -> None:
+        report = dict(change["new"])
+        if report.pop("number", None) != self._last_command:
+            return
+        self._is_reporting = True
+        try:
+            for name, value in report.items():
+                setattr(self, name, value)
+        finally:
+            self._is_reporting = False
+
+    @traitlets.observe("_scene_shown")
+    def _follow_scene(self, change: dict[str, Any]) -> None:
+        if change["new"].get("number") == self._last_command:
+            self._scene_text = change["new"]["text"]
 
     def _hear(self, _: Any, message: dict[str, Any], buffers: list[bytes]) -> None:
         """Hands the interface to a document that has none yet."""

@@ -112,19 +112,14 @@ class Viewer {
     this.element.append(this.canvas, this.picture, this.message);
     this.page = /** @type {any} */ (null);
     this.timer = /** @type {any} */ (0);
-    /** What Python knows, as far as this has told it or has obeyed. */
-    this.told = {
-      time: model.get("time"),
-      playing: false,
-      picked: null,
-      version: -1,
-      at: -1,
-    };
+    /** The scene that Python knows: its version, and the time at which it was told [s]. */
+    this.told = { version: -1, at: -1 };
+    /** Number of the last command that Python sent; reports begin with the first one. */
+    this.command = 0;
     /** From this picture on, the interface shows what Python told it to. */
     this.obeyed = 0;
     this.hasBegun = false;
     this.gone = new AbortController();
-    this.obey = () => this.followTraits();
     this.listen = (/** @type {any} */ message) => this.follow(message);
   }
 
@@ -165,10 +160,8 @@ class Viewer {
       this.page.end();
       return;
     }
-    model.on("change:time change:playing change:picked", this.obey);
     model.on("msg:custom", this.listen);
     this.say("");
-    this.followTraits();
     this.timer = setInterval(() => this.report(), PAUSE);
     this.tell("_ready", true);
   }
@@ -177,7 +170,6 @@ class Viewer {
   end() {
     this.gone.abort();
     clearInterval(this.timer);
-    this.model.off("change:time change:playing change:picked", this.obey);
     this.model.off("msg:custom", this.listen);
     this.page?.end();
     this.page = null;
@@ -216,64 +208,52 @@ class Viewer {
     this.model.save_changes();
   }
 
-  /** Does what Python has set. */
-  followTraits() {
-    const { model, page, told } = this;
-    const [time, playing, picked] = ["time", "playing", "picked"].map((it) => model.get(it));
-    let isNew = false;
-    if (playing !== told.playing) {
-      isNew = true;
-      if (playing) page.play();
-      else page.pause();
-    }
-    if (picked !== told.picked) {
-      isNew = true;
-      page.pick(picked ?? undefined);
-    }
-    if (time !== told.time) {
-      isNew = true;
-      page.seek(time);
-    }
-    Object.assign(told, { time, playing, picked });
-    // A command goes with the next picture, and the one after that shows what became of it.
-    if (isNew) this.obeyed = (page.status()?.pictures ?? this.obeyed) + 2;
-  }
-
   /**
    * Does what Python has sent.
    *
-   * @param {{ kind: string, text: string }} message
+   * @param {{ kind: string, content: any, number: number }} message
    */
-  follow({ kind, text }) {
+  follow({ kind, content, number }) {
+    if (number === undefined) return;
+    const { page } = this;
     try {
-      if (kind === "edit") this.page.edit(text);
-      if (kind === "open") {
-        this.page.openFragment(text);
-        this.told.time = this.model.get("time");
-        this.obeyed = (this.page.status()?.pictures ?? 0) + 2;
-      }
+      if (kind === "edit") page.edit(content);
+      if (kind === "open") page.openFragment(content);
+      if (kind === "set") this.set(content);
     } catch (error) {
       console.error(error);
     }
+    this.command = number;
+    // A command goes with the next picture, and the one after that shows what became of it.
+    this.obeyed = (page.status()?.pictures ?? this.obeyed) + 2;
+  }
+
+  /**
+   * Shows what Python set.
+   *
+   * @param {{ time?: number, playing?: boolean, picked?: number | null }} traits
+   */
+  set({ time, playing, picked }) {
+    const { page } = this;
+    if (playing === true) page.play();
+    if (playing === false) page.pause();
+    if (picked !== undefined) page.pick(picked ?? undefined);
+    if (time !== undefined && time !== page.status()?.watching?.time) page.seek(time);
   }
 
   /** Tells Python what the interface shows now. */
   report() {
-    if (!this.element.isConnected) return;
-    const { model, page, told } = this;
+    if (!this.element.isConnected || this.command === 0) return;
+    const { model, page, told, command: number } = this;
     const status = page.status();
     const now = status?.watching;
     if (!now || now.seeking || status.pictures < this.obeyed) return;
     const { time, playing, picked } = now;
-    const isOther = status.version !== told.version || (!playing && time !== told.at);
-    // Before the traits: those that are as told are not followed.
-    Object.assign(told, { time, playing, picked });
-    for (const [name, value] of Object.entries({ time, playing, picked })) {
-      if (model.get(name) !== value) model.set(name, value);
-    }
-    if (isOther) {
+    model.set("_shown", { time, playing, picked: picked ?? null, number });
+    if (status.version !== told.version || (!playing && time !== told.at)) {
       const scene = page.scene();
-      model.set("_scene_now", scene === undefined || scene.length > LARGEST_SCENE ? "" : scene);
+      const isTold = scene !== undefined && scene.length <= LARGEST_SCENE;
+      model.set("_scene_shown", { text: isTold ? scene : "", number });
       Object.assign(told, { version: status.version, at: time });
     }
     model.save_changes();

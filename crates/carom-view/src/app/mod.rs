@@ -22,7 +22,7 @@ use crate::exports::Exports;
 use crate::help;
 use crate::host::{Host, Inbox, ReadFile};
 use crate::kept::{Kept, Panels};
-use crate::layout::suit_fingers;
+use crate::layout::{accept_slow_clicks, suit_fingers};
 use crate::link_dialog::LinkDialog;
 use crate::maze_screen::{MazeScreen, Wish};
 use crate::notices::Notices;
@@ -127,6 +127,7 @@ impl App {
             kept,
         };
         make_readable(&app.context);
+        accept_slow_clicks(&app.context);
         if app.host.has_coarse_pointer() {
             suit_fingers(&app.context);
         }

@@ -1,7 +1,7 @@
 //! Play, step, and go back in time.
 
 use carom_session::Command;
-use egui::Key;
+use egui::{Event, Key, Modifiers, PointerButton};
 use egui_kittest::kittest::Queryable;
 
 use crate::desk::{go_to, press, scene, watching};
@@ -19,6 +19,20 @@ fn it_plays_until_it_is_paused() {
     let paused = scene(&desk).view().frame;
     desk.run_steps(20);
     assert_eq!(scene(&desk).view().frame, paused);
+}
+
+#[test]
+fn a_press_that_lasts_and_does_not_move_is_a_click() {
+    let mut desk = watching("simtest1");
+    let pos = desk.get_by_label("Play").rect().center();
+    desk.event(Event::PointerMoved(pos));
+    for pressed in [true, false] {
+        let (button, modifiers) = (PointerButton::Primary, Modifiers::NONE);
+        desk.event(Event::PointerButton { pos, button, pressed, modifiers });
+        // Steps of a quarter of a second.
+        desk.run_steps(8);
+    }
+    assert!(scene(&desk).view().frame > 0);
 }
 
 #[test]

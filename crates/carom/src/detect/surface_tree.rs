@@ -30,7 +30,7 @@ impl Bounds {
         along(0) & along(1) & along(2)
     }
 
-    fn union(self, other: Self) -> Self {
+    pub fn union(self, other: Self) -> Self {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 }

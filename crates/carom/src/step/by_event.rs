@@ -11,6 +11,7 @@ use crate::rule::exact::{self, Arrivals, Span, Timeline, Unfinished, Unheld, Unt
 use crate::settings::Exact;
 use crate::state::State;
 use crate::sum::Sum;
+use crate::system::System;
 use crate::validate;
 
 /// Takes a step from event to event. If that fails, no sphere was moved.
@@ -19,7 +20,8 @@ pub(super) fn step(mut attempt: Attempt, parameters: Exact, until: Until) -> Res
     attempt.state.check_emitters(end)?;
     attempt.take(|attempt| {
         if until == Until::NextImpact {
-            check_closed_form(attempt)?;
+            let (system, _) = attempt.state.split();
+            check_closed_form(&system, "next event").map_err(|it| it.about(Subject::Step))?;
         }
         let mut timeline = begin(attempt, parameters, end)?;
         let end = advance(attempt, &mut timeline, end, until)?;
@@ -74,17 +76,15 @@ fn begin(attempt: &mut Attempt, parameters: Exact, end: f64) -> Result<Timeline,
     Ok(timeline)
 }
 
-/// Refuses to find the next event under forces that would be held from now until then.
+/// Refuses forces that have no closed form, for `what` needs one.
 ///
 /// # Errors
-/// [`Error::Invalid`]
-fn check_closed_form(attempt: &mut Attempt) -> Result<(), Error> {
-    let (system, _) = attempt.state.split();
+/// The field that it is.
+pub(super) fn check_closed_form(system: &System, what: &'static str) -> Result<(), InvalidValue> {
     let varies = system.has_interactions() || !forces::are_linear(system.forces);
     let requirement = "such that motion under all forces is known in closed form until then";
     let forces = "one of springs, or of forces that depend on places";
-    validate::require(!varies, "next event", requirement, forces)
-        .map_err(|invalid| invalid.about(Subject::Step))
+    validate::require(!varies, what, requirement, forces)
 }
 
 /// Takes flights and emissions to `end` \[s\], or to the next impact; gives the time that they come to
@@ -187,7 +187,7 @@ pub(super) fn check(state: &State, parameters: Exact, length: f64) -> Result<(),
 }
 
 /// Refuses spheres for which there is no room.
-fn check_room(state: &State) -> Result<(), Error> {
+pub(super) fn check_room(state: &State) -> Result<(), Error> {
     check_count(state)?;
     check_box(state)
 }
@@ -201,7 +201,7 @@ fn check_count(state: &State) -> Result<(), Error> {
 }
 
 /// Why forces cannot be held in a step that starts at `time` \[s\].
-fn refused_forces(unheld: Unheld, time: f64) -> Error {
+pub(super) fn refused_forces(unheld: Unheld, time: f64) -> Error {
     match unheld {
         Unheld::NotFinite(sphere) => no_longer_finite(sphere, "velocity", time),
         Unheld::TooStiff(rate) => InvalidValue {

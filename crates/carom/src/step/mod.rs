@@ -4,8 +4,10 @@
 mod attempt;
 mod by_event;
 mod by_frame;
+mod lookahead;
 
 pub(crate) use attempt::Scratch;
+pub(crate) use lookahead::predict;
 
 use attempt::Attempt;
 

@@ -2,6 +2,7 @@
 
 mod forces;
 mod measures;
+mod queries;
 pub(crate) mod snapshot;
 #[cfg(feature = "serde")]
 mod written;

@@ -19,6 +19,7 @@ mod clearance;
 mod contact_scale;
 mod contacts;
 mod context;
+mod course;
 mod events;
 mod flights;
 mod frame;
@@ -36,10 +37,12 @@ mod ticks;
 mod timeline;
 mod zone;
 
+pub(crate) use course::{Course, follow};
 pub(crate) use frame::{
     Arrivals, Unheld, adopt, begin, end, persistent_contacts, start, tick_for_springs,
 };
 pub(crate) use neighbours::MAX_SPHERES;
+pub(crate) use periodic::wrapped;
 pub(crate) use span::Span;
 pub(crate) use timeline::Timeline;
 pub(crate) use zone::Zone;

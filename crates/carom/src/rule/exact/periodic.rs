@@ -6,7 +6,7 @@ use glam::DVec3;
 
 /// The image of a position in the box about the origin \[m\]. `period` has the edges of the box,
 /// infinite along an open axis.
-pub(super) fn wrapped(position: DVec3, period: DVec3) -> DVec3 {
+pub(crate) fn wrapped(position: DVec3, period: DVec3) -> DVec3 {
     if is_in_box(position, period) {
         return position;
     }

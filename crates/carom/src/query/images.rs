@@ -1,0 +1,111 @@
+//! Bodies and their images in a periodic box, as queries see them.
+
+use glam::DVec3;
+
+use super::tree::{Item, Leaf};
+use crate::detect::instant::Instant;
+use crate::detect::surface_tree::{self, Bounds};
+use crate::settings::nearest_image;
+
+/// Images are looked at up to this many boxes away. A body counts where its middle is in the box, so that of
+/// one that is larger another image is nearer than those beyond.
+const FARTHEST_IMAGE: f64 = 2.0;
+
+/// All bodies of an instant, those with bounds and those without, in a box with these edges \[m\].
+pub(super) fn bodies(now: &Instant, period: DVec3) -> (Vec<Leaf>, Vec<Leaf>) {
+    let (mut bounded, mut unbounded) = (Vec::new(), Vec::new());
+    let radii = &now.system.spheres.radius;
+    for (sphere, (&center, &radius)) in (0..).zip(now.motion.position.iter().zip(radii)) {
+        let slack = 1e-12 * (center.abs().max_element() + radius);
+        let bounds = Bounds::around(center, DVec3::splat(radius + slack));
+        bounded.push(in_box(Item::Sphere(sphere), bounds, period));
+    }
+    for (number, surface) in (0..).zip(now.system.surfaces) {
+        let item = Item::Surface(number);
+        match surface_tree::bounds(&surface.form) {
+            Some(bounds) if surface.motion.is_at_rest() => {
+                bounded.push(in_box(item, bounds, period));
+            }
+            // As in a step, a periodic box does not repeat what moves.
+            Some(bounds) => {
+                bounded.push(Leaf { bounds, item, shift: DVec3::ZERO, has_images: false });
+            }
+            None => {
+                let bounds = Bounds::around(DVec3::ZERO, DVec3::INFINITY);
+                unbounded.push(Leaf { bounds, item, shift: DVec3::ZERO, has_images: false });
+            }
+        }
+    }
+    (bounded, unbounded)
+}
+
+/// A body whose middle is brought into the box.
+fn in_box(item: Item, bounds: Bounds, period: DVec3) -> Leaf {
+    let middle = 0.5 * (bounds.min + bounds.max);
+    let shift = wrapped(middle, period) - middle;
+    let bounds = Bounds { min: bounds.min + shift, max: bounds.max + shift };
+    Leaf { bounds, item, shift, has_images: true }
+}
+
+/// The image of a place in the box about the origin \[m\].
+pub(super) fn wrapped(place: DVec3, period: DVec3) -> DVec3 {
+    if period == DVec3::INFINITY { place } else { nearest_image(place, period) }
+}
+
+/// A piece of a way, not longer than the box along any axis.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Piece {
+    /// Where it starts, in the box \[m\].
+    pub start: DVec3,
+    /// \[m\]
+    pub way: DVec3,
+    /// From there to where it is on the whole way \[m\].
+    pub unwrapped: DVec3,
+    number: u32,
+    count: u32,
+}
+
+impl Piece {
+    /// Part of the whole way at a part of this piece, both from 0 to 1.
+    pub fn fraction_at(&self, part: f64) -> f64 {
+        (f64::from(self.number) + part) / f64::from(self.count)
+    }
+}
+
+/// The pieces of a way that starts at a place, all \[m\].
+pub(super) fn pieces(start: DVec3, way: DVec3, period: DVec3) -> impl Iterator<Item = Piece> {
+    let count = (way.abs() / period).max_element().ceil().max(1.0) as u32;
+    (0..count).map(move |number| {
+        let place = start + way * (f64::from(number) / f64::from(count));
+        let start = wrapped(place, period);
+        Piece { start, way: way / f64::from(count), unwrapped: place - start, number, count }
+    })
+}
+
+/// Shifts \[m\] by which images of what is within `bodies` may come into a region.
+pub(super) fn shifts(
+    region: &Bounds,
+    bodies: Option<&Bounds>,
+    period: DVec3,
+) -> impl Iterator<Item = DVec3> {
+    // Bodies without bounds are looked at once.
+    let own = Bounds { min: region.min, max: region.max };
+    let bodies = bodies.copied().unwrap_or(own);
+    let numbers = |axis: usize| {
+        if period[axis].is_finite() {
+            let low = ((region.min[axis] - bodies.max[axis]) / period[axis]).ceil();
+            let high = ((region.max[axis] - bodies.min[axis]) / period[axis]).floor();
+            // The box itself is always one of them.
+            low.clamp(-FARTHEST_IMAGE, 0.0) as i32..=high.clamp(0.0, FARTHEST_IMAGE) as i32
+        } else {
+            0..=0
+        }
+    };
+    let [xs, ys, zs] = [0, 1, 2].map(numbers);
+    let period = DVec3::select(period.is_finite_mask(), period, DVec3::ZERO);
+    xs.flat_map(move |x| {
+        let zs = zs.clone();
+        ys.clone().flat_map(move |y| zs.clone().map(move |z| [x, y, z]))
+    })
+    .map(move |boxes| DVec3::from_array(boxes.map(f64::from)) * period)
+}
