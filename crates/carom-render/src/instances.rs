@@ -2,6 +2,7 @@
 //! so that 32 bits suffice however far the eye is from the origin.
 
 use carom::{DVec3, Shape};
+use carom_scene::outline::{is_hollow, is_round};
 use carom_scene::scene::Finish;
 
 use crate::container::{self, Seen};
@@ -144,7 +145,7 @@ fn add_panel(
         Shape::Rectangle { size_x, size_z } => {
             faces.push(packed_rectangle(panel, [size_x, size_z], eye));
         }
-        shape if round::is_round(&shape) && !is_cut_open(panel) => {
+        shape if is_round(&shape) && !is_cut_open(panel) => {
             faces.extend(round::facets(panel).map(|facet| packed_facet(&facet, panel, eye)));
         }
         // Spheres are balls; half-spaces and walls of containers cast no shadows and are added
@@ -155,7 +156,7 @@ fn add_panel(
 
 /// Returns whether a shape is drawn as the inner side of a wall, open towards the eye.
 fn is_cut_open(panel: &Panel) -> bool {
-    round::is_hollow(&panel.shape) && !is_volume(panel)
+    is_hollow(&panel.shape) && !is_volume(panel)
 }
 
 /// Adds the wall of a hollow shape of revolution: the inner side where it is behind what the wall holds, elsewhere

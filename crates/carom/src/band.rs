@@ -209,11 +209,17 @@ impl Band {
         self.center.norm() + self.profile.size()
     }
 
+    /// Distance from its centre of all of it \[m\], or more than that.
+    pub fn reach(&self) -> f64 {
+        self.profile.size()
+    }
+
     /// Smallest and largest of `(x - center)·direction` over the band \[m\]; more than that for arcs.
     pub fn extent(&self, direction: DVec3) -> [f64; 2] {
         let along = self.axis.dot(direction).clamp(-1.0, 1.0);
         let across = (1.0 - along * along).max(0.0).sqrt();
-        let of = |point: DVec2| [point.y * along - point.x * across, point.y * along + point.x * across];
+        let of =
+            |point: DVec2| [point.y * along - point.x * across, point.y * along + point.x * across];
         let ([a, b], margin) = match self.profile {
             Profile::Line { from, direction, length, thickness } => {
                 ([of(from), of(from + length * direction)], thickness)
@@ -284,7 +290,8 @@ impl Profile {
                 let end = from.x + length * direction.x;
                 let after =
                     if direction.x < 0.0 && is_inner(end) { f64::INFINITY } else { length - along };
-                let about = if normal.x == 0.0 { 0.0 } else { normal.x / point.x.max(f64::MIN_POSITIVE) };
+                let about =
+                    if normal.x == 0.0 { 0.0 } else { normal.x / point.x.max(f64::MIN_POSITIVE) };
                 Foot {
                     distance: front - thickness,
                     normal,
@@ -303,7 +310,8 @@ impl Profile {
                 let front = sign * (from_center - radius);
                 let along = sign / from_center.max(f64::MIN_POSITIVE);
                 // About a centre on the axis, it is a sphere.
-                let about = if center.x == 0.0 { along } else { normal.x / point.x.max(f64::MIN_POSITIVE) };
+                let about =
+                    if center.x == 0.0 { along } else { normal.x / point.x.max(f64::MIN_POSITIVE) };
                 let curvatures = [along, about];
                 let room = room_on_arc(ends, offset);
                 let (distance, front_normal) = (front, normal);
@@ -322,7 +330,8 @@ impl Profile {
         let thickness = if let Self::Line { thickness, .. } = *self { thickness } else { 0.0 };
         let along = from_rim.max(f64::MIN_POSITIVE).recip();
         // A rim on the axis is a point.
-        let about = if offset.x == point.x { along } else { normal.x / point.x.max(f64::MIN_POSITIVE) };
+        let about =
+            if offset.x == point.x { along } else { normal.x / point.x.max(f64::MIN_POSITIVE) };
         Foot {
             distance: from_rim - thickness,
             normal,
@@ -378,6 +387,11 @@ pub(crate) struct Concavity {
 }
 
 impl Concavity {
+    /// Whether the distance is convex wherever the point may go.
+    pub fn is_none(&self) -> bool {
+        self.near[0] == 0.0 && (self.room == f64::INFINITY || self.clear == f64::INFINITY)
+    }
+
     /// An upper bound of the curvature \[1/m\] with which the distance falls within this way \[m\].
     pub fn most(&self, way: f64) -> f64 {
         let about = |part: f64, length: f64| {
@@ -389,7 +403,7 @@ impl Concavity {
                 f64::INFINITY
             }
         };
-        if way < self.room {
+        if way < self.room || self.room == f64::INFINITY {
             about(self.near[0], self.near[1])
         } else {
             about(if way <= self.clear { 0.0 } else { 1.0 }, self.elsewhere)

@@ -80,9 +80,7 @@ impl Outline {
                 let (sin, cos) = libm::sincos(opening);
                 let rim = DVec2::new(sin, cos);
                 let (center, ends) = (DVec2::ZERO, [DVec2::NEG_Y, rim]);
-                let lid = || {
-                    Profile::line(DVec2::new(0.0, radius * rim.y), radius * rim)
-                };
+                let lid = || Profile::line(DVec2::new(0.0, radius * rim.y), radius * rim);
                 let side = Profile::Arc { center, radius, ends, is_hollow: false };
                 [Some(side), (rim.x > 0.0).then(lid), None]
             }
@@ -119,8 +117,8 @@ impl RoundSolid {
 
     /// Smallest and largest of `(x - center)·direction` over the solid \[m\], or more than that.
     pub fn extent(&self, direction: DVec3) -> [f64; 2] {
-        self.bands().map(|band| band.extent(direction)).fold([0.0; 2], |all, own| {
-            [all[0].min(own[0]), all[1].max(own[1])]
-        })
+        self.bands()
+            .map(|band| band.extent(direction))
+            .fold([0.0; 2], |all, own| [all[0].min(own[0]), all[1].max(own[1])])
     }
 }

@@ -188,9 +188,7 @@ impl Form {
     /// Whether the turning of a motion leaves it as it is.
     fn is_turned_in_place_by(&self, motion: &SurfaceMotion) -> bool {
         match self {
-            Self::Band(band) => {
-                band.is_turned_in_place_by(motion.origin, motion.angular_velocity)
-            }
+            Self::Band(band) => band.is_turned_in_place_by(motion.origin, motion.angular_velocity),
             _ => false,
         }
     }
@@ -303,7 +301,10 @@ pub(crate) fn place(id: ColliderId, collider: &Collider, surfaces: &mut Vec<Surf
             let profile = Profile::line(DVec2::ZERO, DVec2::new(radius, 0.0));
             add(Form::Band(Band { center, axis: y, profile }), Role::Deflects);
         }
-        Shape::Cylinder { .. } | Shape::Cone { .. } | Shape::Capsule { .. } | Shape::Torus { .. } => {
+        Shape::Cylinder { .. }
+        | Shape::Cone { .. }
+        | Shape::Capsule { .. }
+        | Shape::Torus { .. } => {
             let Some(outline) = Outline::of(&shape) else { return };
             let solid = RoundSolid { center, axis: y, outline };
             add(Form::Round(solid), Role::Encloses);

@@ -45,7 +45,8 @@ fn fill(rule: Rule, shape: Shape, speed: f64, friction: f64) -> (World, Pose) {
     for i in 0..27_i32 {
         let cell = |part: i32| f64::from(part % 3 - 1);
         let place = 0.4 * DVec3::new(cell(i), cell(i / 3), cell(i / 9));
-        let way = DVec3::new(f64::from(i % 5) - 2.0, f64::from(i % 7) - 3.0, f64::from(i % 11) - 5.0);
+        let way =
+            DVec3::new(f64::from(i % 5) - 2.0, f64::from(i % 7) - 3.0, f64::from(i % 11) - 5.0);
         let sphere = Sphere::new(pose.position + turned * place, 0.1).with_friction(friction);
         world.add_sphere(sphere.with_velocity(speed * way)).unwrap();
     }
@@ -53,35 +54,107 @@ fn fill(rule: Rule, shape: Shape, speed: f64, friction: f64) -> (World, Pose) {
 }
 
 #[test]
-fn elastic_balls_stay_in_closed_hollows_and_keep_their_energy() {
+fn elastic_balls_stay_in_closed_hollows() {
     let hollows = [closed(1.0, 2.0), Shape::Bowl { radius: 1.2, opening: 0.0 }];
+    // The rules of the courses miss what passes a wall within a frame; `contact` loses energy where balls meet many
+    // others in a sub-step, and gains none.
     let rules: [(Rule, f64, f64); 6] = [
         (Exact::default().into(), 1.0, 1e-12),
-        (Exact::default().into(), 100.0, 1e-12),
-        (Contact::default().into(), 10.0, 0.5),
-        (Contact::default().into(), 1e3, 0.5),
+        (Exact::default().into(), 1e4, 1e-12),
+        (Contact::default().into(), 3.0, 1e-2),
+        (Contact::default().into(), 1e4, 0.5),
         (Bisect::default().into(), 0.3, 1e-9),
         (Discrete::default().into(), 0.3, 1e-9),
     ];
-    for (shape, (rule, speed, tolerance)) in
+    for (shape, (rule, speed, loss)) in
         hollows.iter().flat_map(|shape| rules.map(|rule| (*shape, rule)))
     {
         let (mut world, pose) = fill(rule, shape, speed, 0.0);
         let energy = world.kinetic_energy();
-        let start = std::time::Instant::now();
-        for _ in 0..60 {
-            world.step(if speed > 100.0 { 1e-3 } else { 1.0 / 60.0 }).unwrap();
+        let frame = if speed > 1e3 { 1e-5 } else { 1.0 / 60.0 };
+        for _ in 0..30 {
+            world.step(frame).unwrap();
             for center in world.spheres().positions() {
                 let local = pose.rotation.inverse() * (*center - pose.position);
-                // `discrete` lets spheres into walls for a frame, `contact` by its corrections.
                 let depth = depth_inside(shape, local);
                 assert!(depth > 0.0, "{rule:?} {shape:?} {speed}: {depth}");
             }
         }
-        println!("took {:?}", start.elapsed());
         let gain = world.kinetic_energy() / energy - 1.0;
-        println!("{rule:?} {shape:?} {speed}: {gain:e}");
-        assert!(gain.abs() < tolerance, "{rule:?} {shape:?} {speed}: {gain}");
+        // Rounding of some hundred impacts.
+        assert!(-loss < gain && gain < 1e-12, "{rule:?} {shape:?} {speed}: {gain}");
+    }
+}
+
+#[test]
+fn nothing_flies_through_a_solid() {
+    let solids = [
+        Shape::Cylinder { radius: 0.5, height: 1.0 },
+        Shape::Cone { bottom_radius: 0.6, top_radius: 0.2, height: 1.0 },
+        Shape::Cone { bottom_radius: 0.6, top_radius: 0.0, height: 1.0 },
+        Shape::Capsule { radius: 0.4, length: 0.5 },
+        Shape::Torus { ring_radius: 1.0, tube_radius: 0.3 },
+    ];
+    let turned = DQuat::from_xyzw(0.1, 0.2, 0.3, 0.9).normalize();
+    let rules: [(Rule, f64); 4] = [
+        (Exact::default().into(), 1.0),
+        (Exact::default().into(), 1e6),
+        (Contact::default().into(), 1.0),
+        (Contact::default().into(), 1e6),
+    ];
+    for (shape, (rule, speed)) in solids.iter().flat_map(|it| rules.map(|rule| (*it, rule))) {
+        let mut world = world(rule);
+        world.add_collider(Collider::new(shape, Pose::at(DVec3::X).rotated(turned))).unwrap();
+        // A place inside, from all sides.
+        let inside =
+            if let Shape::Torus { .. } = shape { DVec3::X } else { DVec3::new(0.0, -0.1, 0.05) };
+        let target = DVec3::X + turned * inside;
+        let mut ways = Vec::new();
+        for i in 0..27_i32 {
+            let part = |it: i32| f64::from(it % 3 - 1) + 0.1 * f64::from(i % 4);
+            let out = DVec3::new(part(i), part(i / 3), part(i / 9)).normalize();
+            let sphere = Sphere::new(target + 4.0 * out, 0.05).with_velocity(-speed * out);
+            world.add_sphere(sphere).unwrap();
+            ways.push(out);
+        }
+        world.step(3.9 / speed).unwrap();
+        for (velocity, out) in world.spheres().velocities().iter().zip(ways) {
+            assert!((*velocity / speed + out).length() > 1e-3, "{rule:?} {shape:?} {speed}: {out}");
+        }
+    }
+}
+
+#[test]
+fn a_ball_that_slides_off_a_disc_falls_at_its_rim() {
+    let mut world = with_gravity(world(Exact::default()));
+    let disc = Collider::new(Shape::Disc { radius: 1.0 }, Pose::at(DVec3::ZERO));
+    world.add_collider(disc.with_restitution(0.0)).unwrap();
+    let ball = Sphere::new(DVec3::new(0.0, 0.1, 0.6), 0.1);
+    world.add_sphere(ball.with_velocity(DVec3::X * 2.0)).unwrap();
+    // At 2 m/s it leaves the rim at once, as it would fly: v² > g r.
+    let time = 0.8 / 2.0;
+    world.step(time + 0.2).unwrap();
+    let expected = DVec3::new(1.2, 0.1 - 0.5 * G * 0.04, 0.6);
+    let off = (world.spheres().positions()[0] - expected).length();
+    // Rounding, and that of the place of the rim.
+    assert!(off < 1e-11, "{off}");
+}
+
+#[test]
+fn sizes_that_make_no_shape_are_refused() {
+    let mut world = world(Exact::default());
+    let wrong = [
+        (Shape::Cylinder { radius: 0.0, height: 1.0 }, "radius"),
+        (Shape::Cone { bottom_radius: 0.0, top_radius: 0.0, height: 1.0 }, "top_radius"),
+        (Shape::Cone { bottom_radius: -1.0, top_radius: 1.0, height: 1.0 }, "bottom_radius"),
+        (Shape::Torus { ring_radius: 1.0, tube_radius: 1.0 }, "ring_radius"),
+        (Shape::Bowl { radius: 1.0, opening: PI }, "opening"),
+        (Shape::Bowl { radius: f64::NAN, opening: 0.0 }, "radius"),
+        (Shape::Funnel { bottom_radius: 1.0, top_radius: 2.0, height: f64::INFINITY }, "height"),
+    ];
+    for (shape, field) in wrong {
+        let error = world.add_collider(Collider::new(shape, Pose::at(DVec3::ZERO))).unwrap_err();
+        assert!(error.to_string().contains(field), "{shape:?}: {error}");
     }
 }
 
@@ -92,15 +165,13 @@ fn billiard_in_a_sphere_keeps_its_angular_momentum() {
     world.add_collider(Collider::new(bowl, Pose::at(DVec3::ZERO))).unwrap();
     let ball = Sphere::new(DVec3::new(0.2, 0.3, -0.1), 0.1).with_mass(1.0);
     world.add_sphere(ball.with_velocity(DVec3::new(3.0, 1.0, 2.0))).unwrap();
-    let momentum = |world: &World| {
-        world.spheres().positions()[0].cross(world.spheres().velocities()[0])
-    };
+    let momentum =
+        |world: &World| world.spheres().positions()[0].cross(world.spheres().velocities()[0]);
     let before = momentum(&world);
     for _ in 0..600 {
         world.step(1.0 / 60.0).unwrap();
     }
     let change = (momentum(&world) - before).length() / before.length();
-    println!("billiard: {change:e}");
     // Some 30 impacts, each within a few roundings of central.
     assert!(change < 1e-13, "{change}");
 }
@@ -143,9 +214,11 @@ fn bowls_and_pipes_swing_with_the_period_of_a_pendulum() {
         for (shape, rotation) in [bowl, pipe] {
             let expected = 2.0 * PI * (factor * 0.9 / G).sqrt() * stretch;
             let found = period(shape, rotation, friction, amplitude);
-            println!("{shape:?} {friction}: {:e}", found / expected - 1.0);
-            // Pieces of path of the third order in a thousandth of a turn.
-            assert!((found / expected - 1.0).abs() < 1e-5, "{shape:?} {friction}: {found} {expected}");
+            // A ball goes in pieces of 2e-4 rad, whose errors add up.
+            assert!(
+                (found / expected - 1.0).abs() < 1e-5,
+                "{shape:?} {friction}: {found} {expected}"
+            );
         }
     }
 }
@@ -171,6 +244,6 @@ fn a_ball_that_rolls_in_an_upright_pipe_swings_up_and_down() {
         let expected = -drop * (1.0 - (omega * world.time()).cos());
         worst = worst.max((world.spheres().positions()[0].y - expected).abs());
     }
-    println!("upright pipe: {worst:e} of {drop}");
-    assert!(worst < 1e-5 * drop, "{worst}");
+    // The same pieces.
+    assert!(worst < 1e-6 * drop, "{worst}");
 }

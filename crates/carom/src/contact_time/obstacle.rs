@@ -42,6 +42,8 @@ pub(super) struct Sight {
     pub is_behind: bool,
     /// How fast the distance may fall by the curvature of the core; `None` of a convex one.
     pub concavity: Option<Concavity>,
+    /// A half-space that holds every place of contact, whatever the way goes past before.
+    pub hull: Option<Barrier>,
 }
 
 /// A half-space that holds every place of contact.
@@ -82,6 +84,7 @@ impl Sight {
             barrier: None,
             is_behind: false,
             concavity: None,
+            hull: None,
         }
     }
 
@@ -105,6 +108,7 @@ impl Sight {
             barrier: None,
             is_behind: false,
             concavity: None,
+            hull: None,
         }
     }
 }
@@ -121,7 +125,12 @@ fn see_band(band: &Band, radius: f64, position: DVec3, velocity: DVec3) -> Sight
     // What the normal turns about.
     let sharpest = view.curvatures[0].abs().max(view.curvatures[1].abs());
     let from_core = if sharpest > 0.0 { sharpest.recip() } else { f64::INFINITY };
+    let (offset, reach) = (position - band.center, band.reach() + radius);
+    let from_center = offset.norm();
+    let hull = (from_center > reach)
+        .then(|| Barrier { distance: from_center - reach, normal: offset / from_center });
     let seen = Sight {
+        hull,
         from_core,
         distance: view.distance - radius,
         normal: view.normal,

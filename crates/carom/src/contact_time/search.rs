@@ -134,12 +134,16 @@ fn longest_step(
     window: &mut f64,
     horizon: f64,
 ) -> f64 {
+    let far = now.time_to_hull(path, aim, t, horizon - t);
+    if far > horizon - t {
+        return far;
+    }
     let ahead = window.min(now.window(path, aim, t)).min(horizon - t);
     let step = now.safe_step(path, aim, t, ahead);
     if step >= ahead {
         *window *= 2.0;
         // Past the horizon, or on to the next window.
-        return if t + ahead >= horizon { step } else { ahead };
+        return if t + ahead >= horizon { step } else { ahead.max(far) };
     }
     // The bound is closer over a nearer window, and allows a longer step.
     let mut nearer = 4.0 * step;
@@ -153,7 +157,7 @@ fn longest_step(
         }
         nearer *= 4.0;
     }
-    longest
+    longest.max(far)
 }
 
 /// What there is to see at one instant.
@@ -273,10 +277,19 @@ impl Look {
         if speed > 0.0 { distance / speed } else { f64::INFINITY }
     }
 
+    /// A step \[s\] before which the sphere does not come to the half-space that holds every place of contact.
+    fn time_to_hull(&self, path: &impl Path, aim: f64, t: f64, window: f64) -> f64 {
+        self.sight.hull.map_or(0.0, |Barrier { distance, normal }| {
+            let pull = self.pull(path, normal, t, window);
+            time_to_fall(distance + aim, normal.dot(self.state.velocity), pull)
+        })
+    }
+
     /// How far ahead \[s\] to look from here: over a core that is not convex, bounds of the curvature hold for a
     /// part of its radius.
     fn window(&self, path: &impl Path, aim: f64, t: f64) -> f64 {
-        let Some(concavity) = self.sight.concavity else { return f64::INFINITY };
+        let concavity = self.sight.concavity.filter(|it| !it.is_none());
+        let Some(concavity) = concavity else { return f64::INFINITY };
         let span = concavity.span.max(self.gap.distance).max(self.zero.distance + aim);
         let speed = self.state.velocity.norm();
         let pull = path.max_acceleration_anywhere(t, t + path.window());

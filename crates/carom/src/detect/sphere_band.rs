@@ -24,9 +24,8 @@ pub(crate) fn sphere_band_known_in_front(band: &Band, center: DVec3, radius: f64
 /// - `center`, `radius` \[m\] of the sphere
 pub(crate) fn sphere_round_solid(solid: &RoundSolid, center: DVec3, radius: f64) -> Separation {
     let views = || solid.bands().map(|band| band.seen_from(center));
-    let outside = views()
-        .filter(|view| view.front >= 0.0)
-        .min_by(|a, b| a.distance.total_cmp(&b.distance));
+    let outside =
+        views().filter(|view| view.front >= 0.0).min_by(|a, b| a.distance.total_cmp(&b.distance));
     let inside = || views().max_by(|a, b| a.front.total_cmp(&b.front));
     match outside {
         Some(view) => separation_of(&view, center, radius),

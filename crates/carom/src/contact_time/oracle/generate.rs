@@ -192,7 +192,9 @@ fn widest_inside(form: &Form) -> f64 {
     let ends = profile.ends().map(|end| end.x).into_iter().filter(|&x| x > 0.0);
     let rim = ends.fold(f64::INFINITY, f64::min);
     match *profile {
-        Profile::Line { direction, .. } if direction.y <= 0.0 && direction.x == 0.0 => f64::INFINITY,
+        Profile::Line { direction, .. } if direction.y <= 0.0 && direction.x == 0.0 => {
+            f64::INFINITY
+        }
         Profile::Line { direction, .. } if direction.y == 0.0 => f64::INFINITY,
         Profile::Arc { center, radius, .. } if center.x > 0.0 => 0.5 * (center.x - radius),
         Profile::Arc { radius, .. } => 0.5 * radius.min(rim),

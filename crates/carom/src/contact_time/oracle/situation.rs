@@ -3,8 +3,8 @@
 use glam::{DVec2, DVec3};
 
 use super::number::{Big, Number, Vector};
-use crate::contact_time::{sphere_sphere, sphere_surface};
 use crate::band::{Band, Profile};
+use crate::contact_time::{sphere_sphere, sphere_surface};
 use crate::flight::{Flight, Propagator};
 use crate::surface::SurfaceMotion;
 use crate::surface::{Form, Rectangle};
@@ -188,7 +188,8 @@ fn from_band<N: Number>(band: &Band, place: &Vector<N>, origin: DVec3, radius: f
     };
     let point = || [x.clone(), y.clone()];
     let to_ends = || {
-        let [first, second] = band.profile.ends().map(|end| between(point(), [of(end.x), of(end.y)]));
+        let [first, second] =
+            band.profile.ends().map(|end| between(point(), [of(end.x), of(end.y)]));
         if first < second { first } else { second }
     };
     let (front, distance, thickness) = match band.profile {

@@ -263,23 +263,14 @@ impl Way<'_> {
 
 /// Where a centre ends at the `least` distance \[m\] in front of a surface of revolution, if its straight way would
 /// come nearer, to the face or `beside` it by less than this \[m\].
-fn pushed_by_band(
-    band: &Band,
-    [start, end]: [DVec3; 2],
-    least: f64,
-    beside: f64,
-) -> Option<DVec3> {
+fn pushed_by_band(band: &Band, [start, end]: [DVec3; 2], least: f64, beside: f64) -> Option<DVec3> {
     let way = end - start;
     let before = band.seen_from(start);
     if before.front < 0.0 || before.distance > least + way.length() {
         return None;
     }
-    let flight = Flight {
-        position: start,
-        velocity: way,
-        acceleration: DVec3::ZERO,
-        drag_rate: 0.0,
-    };
+    let flight =
+        Flight { position: start, velocity: way, acceleration: DVec3::ZERO, drag_rate: 0.0 };
     let form = Form::Band(*band);
     let part = contact_time::sphere_surface(&flight, least, &form, &SurfaceMotion::REST, 1.0)?;
     let there = start + part * way;

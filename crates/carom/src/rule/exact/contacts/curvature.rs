@@ -19,10 +19,7 @@ pub(crate) enum NormalCurvature {
     Edge(DVec3, f64),
     /// By these second derivatives of the gap along two unit vectors across the normal \[1/m\]: negative where the
     /// surface is hollow.
-    Principal {
-        directions: [DVec3; 2],
-        curvatures: [f64; 2],
-    },
+    Principal { directions: [DVec3; 2], curvatures: [f64; 2] },
 }
 
 impl NormalCurvature {
@@ -72,9 +69,9 @@ impl NormalCurvature {
                 };
                 along(0) + along(1)
             }
-            _ => self.turning(tangential).map_or(0.0, |(part, distance)| {
-                part.length_squared() / distance
-            }),
+            _ => self
+                .turning(tangential)
+                .map_or(0.0, |(part, distance)| part.length_squared() / distance),
         }
     }
 }

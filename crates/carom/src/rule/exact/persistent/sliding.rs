@@ -3,9 +3,9 @@
 use glam::DVec3;
 
 use super::accelerations::Accelerations;
-use crate::detect::contact::Bodies;
 use crate::band::Band;
 use crate::contact_time;
+use crate::detect::contact::Bodies;
 use crate::flight::Flight;
 use crate::rule::exact::contact_scale::TOUCHING;
 use crate::rule::exact::contacts::{Group, Touch, are_within, is_over_face, slack_of};
