@@ -246,7 +246,7 @@ pub unsafe extern "C" fn carom_world_add_collider(
         // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
         let collider = unsafe { read(collider, "collider") }?.physical(None)?;
         let number = world.with(|inner| {
-            let id = inner.world.add_collider(collider)?;
+            let id = inner.world.add_collider(collider.clone())?;
             let mut described = scene::Collider::new(scene::Shape::HalfSpace);
             describe(&collider, &mut described);
             inner.described.change_colliders(|all| all.push(described));
@@ -288,7 +288,7 @@ pub unsafe extern "C" fn carom_world_set_collider(
         world.with(|inner| {
             let own = ColliderId::from_number(id);
             let collider = collider.physical(Some(inner.world.collider(own)?.shape))?;
-            inner.world.set_collider(own, collider)?;
+            inner.world.set_collider(own, collider.clone())?;
             let place = inner.world.colliders().position(|(other, _)| other == own);
             inner.described.change_colliders(|all| {
                 let described = place.and_then(|place| all.get_mut(place));

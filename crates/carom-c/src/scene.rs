@@ -142,7 +142,7 @@ fn add(inner: &mut Inner, mut part: Scene) -> Result<CaromAdded, Failure> {
     }
     described.scene_mut().forces.extend(part.forces.iter().cloned());
     for (_, collider) in source.colliders() {
-        let id = world.add_collider(*collider)?.number();
+        let id = world.add_collider(collider.clone())?.number();
         CaromAdded::count(&mut added.first_collider, &mut added.colliders, id);
     }
     let colliders = part.all_colliders().into_owned();

@@ -231,7 +231,8 @@ fn a_snapshot_of_an_edited_world_describes_what_is_in_it() {
     native.restore(&checkpoint.snapshot);
     // The world of the description has the colliders, forces and emitters of the world.
     let described = checkpoint.scene.world().unwrap();
-    let all = |world: &World| world.colliders().map(|(_, it)| *it).collect::<Vec<Collider>>();
+    let all =
+        |world: &World| world.colliders().map(|(_, it)| it.clone()).collect::<Vec<Collider>>();
     assert_eq!(all(&described), all(&native));
     let all = |world: &World| {
         let forces: Vec<String> = world.forces().map(|(_, it)| format!("{it:?}")).collect();

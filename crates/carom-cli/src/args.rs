@@ -107,7 +107,8 @@ pub enum Command {
     },
     /// Write a scene file to start from: balls fall into a box, with a comment on every part.
     New(New),
-    /// Make a scene file from a scene of Unity or a glTF file; list the parts without a counterpart.
+    /// Make a scene file from a scene of Unity, a glTF file, or the last frame of a particle file (extended XYZ,
+    /// dump of LAMMPS); list the parts without a counterpart.
     Import(Import),
     /// Check scenes; print each error with its line.
     Check {
@@ -121,7 +122,7 @@ pub enum Command {
     Run(Box<Run>),
     /// Complete the file that a killed run left unfinished: an .npz file from
     /// NAME.npz.0.unfinished, a film from NAME.mp4.0.unfinished. In a .csv table, remove a last
-    /// line that is cut short.
+    /// line that is cut short; in a particle file, a last frame.
     Recover(Recover),
     /// Print a link that opens a run of a scene in a browser; `carom run --link` runs it here.
     Link(Link),
@@ -173,12 +174,15 @@ pub struct New {
     pub replacing: Replacing,
 }
 
-/// Make scene files of scenes of Unity, or of a glTF file.
+/// Make scene files of scenes of Unity, of a glTF file, or of a particle file.
 #[derive(Debug, clap::Args)]
 pub struct Import {
-    /// A scene of Unity (.unity, saved as text), a folder such as Assets: every scene of Unity in it, or a
-    /// glTF file (.gltf, .glb).
+    /// A scene of Unity (.unity, saved as text), a folder such as Assets: every scene of Unity in it, a
+    /// glTF file (.gltf, .glb), or a particle file (.xyz, .extxyz, .lammpstrj, .dump).
     pub path: PathBuf,
+    /// Radius of every particle in m, for a particle file without radii.
+    #[arg(long, value_name = "M", value_parser = positive)]
+    pub radius: Option<f64>,
     /// The scene file to write, without it the standard output; for a folder the folder to write into, without
     /// it the current one.
     #[arg(long, short, value_name = "PATH")]
@@ -241,8 +245,8 @@ pub struct Run {
     #[command(flatten)]
     pub length: Length,
     /// Write the trajectory; the ending selects the format: .csv, .npz (NumPy), .pvd (a series
-    /// of .vtp files for ParaView, in a folder beside it), or .glb (an animation in glTF, for Blender, three.js
-    /// and Unity). `-` writes CSV to the standard output, and
+    /// of .vtp files for ParaView, in a folder beside it), .xyz (extended XYZ, for OVITO and ASE), .lammpstrj (a
+    /// dump of LAMMPS), or .glb (an animation in glTF, for Blender, three.js and Unity). `-` writes CSV to the standard output, and
     /// the summary to the standard error stream.
     #[arg(long, short, value_name = "PATH")]
     pub out: Option<PathBuf>,

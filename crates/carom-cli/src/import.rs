@@ -1,4 +1,4 @@
-//! The command `import`: converts scenes of Unity and glTF to scene files.
+//! The command `import`: converts scenes of Unity and glTF, and particle files, to scene files.
 
 use std::collections::BTreeSet;
 use std::io::{self, Write};
@@ -7,6 +7,9 @@ use std::path::Path;
 use carom_gltf::Imported;
 use carom_scene::Scene;
 use carom_scene::import::Omission;
+use carom_scene::recording::{
+    ParticleError, ParticleFormat, ParticleImport, ParticleOptions, import_particles,
+};
 use carom_scene::scene::Rule;
 use carom_scene::unfinished::create_folders_of;
 use carom_unity::{ImportError, Mapping, Options, Project};
@@ -17,6 +20,13 @@ use crate::replacing::Replacing;
 
 /// Imports a scene, or every scene of Unity in a folder.
 pub fn import(import: &Import) -> Result<(), Failure> {
+    if let Some(format) = ParticleFormat::of(&import.path).filter(|_| import.path.is_file()) {
+        return of_particles(import, format);
+    }
+    if import.radius.is_some() {
+        let message = "--radius is for particle files: .xyz, .extxyz, .lammpstrj, .dump";
+        return Err(Failure::Usage(message.to_owned()));
+    }
     if is_gltf(&import.path) {
         let Imported { scene, omissions } = of_gltf(import)?;
         list(&import.path, &omissions);
@@ -72,11 +82,36 @@ fn is_gltf(path: &Path) -> bool {
     is("gltf") || is("glb")
 }
 
-fn of_gltf(import: &Import) -> Result<Imported, Failure> {
-    if import.map.is_some() {
-        let message = "--map says what scripts of Unity mean; glTF has none";
-        return Err(Failure::Usage(message.to_owned()));
+/// Refuses a mapping of scripts for a file that has none.
+fn refuse_map(import: &Import, format: &str) -> Result<(), Failure> {
+    match import.map {
+        Some(_) => {
+            let message = format!("--map says what scripts of Unity mean; {format} has none");
+            Err(Failure::Usage(message))
+        }
+        None => Ok(()),
     }
+}
+
+/// Imports the last frame of a particle file.
+fn of_particles(import: &Import, format: ParticleFormat) -> Result<(), Failure> {
+    refuse_map(import, "a particle file")?;
+    let (frame_time, duration) = (import.frame_time, import.seconds);
+    let options =
+        ParticleOptions { radius: import.radius, rule: rule(import), frame_time, duration };
+    let imported = import_particles(&import.path, format, &options);
+    let ParticleImport { scene, omissions, .. } = imported.map_err(|error| match error {
+        ParticleError::Unreadable { .. } | ParticleError::Radius { .. } => {
+            Failure::Usage(error.to_string())
+        }
+        _ => Failure::Fault(error.to_string()),
+    })?;
+    list(&import.path, &omissions);
+    one(import, &scene)
+}
+
+fn of_gltf(import: &Import) -> Result<Imported, Failure> {
+    refuse_map(import, "glTF")?;
     let (frame_time, duration) = (import.frame_time, import.seconds);
     let options = carom_gltf::Options { rule: rule(import), frame_time, duration };
     carom_gltf::import(&import.path, &options).map_err(|error| match error {

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use carom_gltf::recover_animation;
-use carom_scene::recording::{self, Recovered, RecoveryError};
+use carom_scene::recording::{self, ParticleFormat, Recovered, RecoveryError};
 use carom_scene::unfinished;
 
 use crate::args::Recover;
@@ -15,6 +15,11 @@ pub fn recover(args: &Recover) -> Result<(), Failure> {
     let is_table = args.file.extension().is_some_and(|it| it.eq_ignore_ascii_case("csv"));
     if is_table && args.out.is_none() && args.file.is_file() {
         return table(&args.file);
+    }
+    let particles = ParticleFormat::of(&args.file);
+    if let Some(format) = particles.filter(|_| args.out.is_none() && args.file.is_file()) {
+        let cut = recording::recover_particles(&args.file, format).map_err(refused)?;
+        return tell_cut(&args.file, "frame", cut);
     }
     let (unfinished, target) = places(args)?;
     args.replacing.check([target.as_path()])?;
@@ -81,11 +86,18 @@ fn named(args: &Recover) -> Result<(PathBuf, PathBuf), Failure> {
 /// Removes the last line of a table if it is incomplete.
 fn table(path: &Path) -> Result<(), Failure> {
     let cut = recording::recover_table(path).map_err(refused)?;
+    tell_cut(path, "line", cut)
+}
+
+/// Says how many bytes of an incomplete last part of a file were removed.
+fn tell_cut(path: &Path, part: &str, cut: u64) -> Result<(), Failure> {
     let name = path.display();
     let mut out = io::stdout().lock();
     match cut {
-        0 => writeln!(out, "{name}: all lines are whole")?,
-        cut => writeln!(out, "{name}: the last line was cut short; its {cut} bytes are taken out")?,
+        0 => writeln!(out, "{name}: all {part}s are whole")?,
+        cut => {
+            writeln!(out, "{name}: the last {part} was cut short; its {cut} bytes are taken out")?;
+        }
     }
     Ok(())
 }

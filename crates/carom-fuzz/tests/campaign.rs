@@ -37,6 +37,11 @@ fn recordings_with_mistakes_are_played_or_refused() {
 }
 
 #[test]
+fn particle_files_with_mistakes_are_imported_or_refused() {
+    holds("particles", 300);
+}
+
+#[test]
 fn unfinished_files_with_mistakes_are_recovered_or_refused() {
     holds("unfinished", 500);
 }

@@ -57,7 +57,7 @@ impl World {
         added: &mut Added,
     ) -> Result<(), Failure> {
         for ((_, collider), described) in world.colliders().zip(described) {
-            added.colliders.push(self.world.add_collider(*collider)?.number());
+            added.colliders.push(self.world.add_collider(collider.clone())?.number());
             self.described_mut().colliders.push(described.clone());
         }
         Ok(())
@@ -127,8 +127,9 @@ impl World {
         let (id, place) = find::collider(&self.world, id)?;
         let part = part::read(text)?;
         let world = part.world()?;
-        let colliders: Vec<Collider> = world.colliders().map(|(_, collider)| *collider).collect();
-        self.world.set_collider(id, *only(&colliders)?)?;
+        let colliders: Vec<Collider> =
+            world.colliders().map(|(_, collider)| collider.clone()).collect();
+        self.world.set_collider(id, only(&colliders)?.clone())?;
         self.described_mut().colliders[place].clone_from(only(&part.colliders)?);
         Ok(())
     }

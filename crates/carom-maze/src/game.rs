@@ -107,7 +107,8 @@ impl Game {
         let mut world = maze.scene().world()?;
         play_with(&mut world, &options)?;
         let both = world.colliders().zip(maze.roles());
-        let parts = both.map(|((id, level), &role)| Part { id, role, level: *level }).collect();
+        let parts =
+            both.map(|((id, level), &role)| Part { id, role, level: level.clone() }).collect();
         Ok(Self {
             start: world.snapshot(),
             ball: world.spheres().ids()[0],
@@ -224,7 +225,7 @@ impl Game {
             let pose = posed(&part.level, before);
             let way = posed(&part.level, after).position - pose.position;
             let velocity = way / self.options.frame_time;
-            (part.id, part.level.moving(velocity, turn).with_pose(pose))
+            (part.id, part.level.clone().moving(velocity, turn).with_pose(pose))
         };
         let changes: Vec<_> = self.parts.iter().map(moved).collect();
         Ok(self.world.set_colliders(&changes)?)
@@ -233,7 +234,9 @@ impl Game {
     /// Returns whether the colliders are at rest in the poses of a rotation of the maze.
     fn is_posed(&self, rotation: DQuat) -> bool {
         let mut both = self.world.colliders().zip(&self.parts);
-        both.all(|((_, now), part)| *now == part.level.with_pose(posed(&part.level, rotation)))
+        both.all(|((_, now), part)| {
+            *now == part.level.clone().with_pose(posed(&part.level, rotation))
+        })
     }
 
     /// Takes the collectibles that the ball touches.
@@ -304,7 +307,8 @@ impl Game {
     pub fn play_again(&mut self) {
         self.world.restore(&self.start);
         let both = self.world.colliders().zip(self.maze.roles());
-        self.parts = both.map(|((id, level), &role)| Part { id, role, level: *level }).collect();
+        self.parts =
+            both.map(|((id, level), &role)| Part { id, role, level: level.clone() }).collect();
         self.scene.clone_from(self.maze.scene());
         self.tilt = Tilt::LEVEL;
         self.state = GameState::Rolling;

@@ -315,8 +315,9 @@ fn spheres_of(part: &Scene) -> Result<Vec<Sphere>, Failure> {
 
 fn collider_of(part: &Scene) -> Result<Collider, Failure> {
     let world = part.world()?;
-    let colliders: Vec<Collider> = world.colliders().map(|(_, collider)| *collider).collect();
-    only(&colliders).copied()
+    let colliders: Vec<Collider> =
+        world.colliders().map(|(_, collider)| collider.clone()).collect();
+    only(&colliders).cloned()
 }
 
 fn emitter_of(part: &Scene) -> Result<Emitter, Failure> {

@@ -22,7 +22,7 @@ pub(crate) fn walls(
 ) -> impl Iterator<Item = (Panel, Seen)> {
     const OUTWARD: [DVec3; 6] =
         [DVec3::NEG_X, DVec3::X, DVec3::NEG_Y, DVec3::Y, DVec3::NEG_Z, DVec3::Z];
-    let (Panel { pose, .. }, half) = (*container, 0.5 * size);
+    let (Panel { pose, .. }, half) = (container.clone(), 0.5 * size);
     let rotation = pose.rotation.normalize();
     let closed = OUTWARD.into_iter().zip(open.to_array()).filter(|(_, is_open)| !is_open);
     closed.map(move |(outward, _)| {

@@ -90,12 +90,12 @@ mod tests {
     fn a_wall_before_the_balls_hides_them_and_one_behind_or_below_does_not() {
         let eye = DVec3::new(0.5, 1.0, 9.0);
         let wall = Shape::Box { size: DVec3::new(3.0, 3.0, 0.2) };
-        let at = |position| hides(&panel(wall, position, DQuat::IDENTITY), eye, &BALLS);
+        let at = |position| hides(&panel(wall.clone(), position, DQuat::IDENTITY), eye, &BALLS);
         assert!(at(DVec3::Z * 1.2));
         assert!(!at(DVec3::Z * -1.2));
         assert!(!at(DVec3::new(4.0, 0.0, 1.2)));
         let floor = Shape::Rectangle { size_x: 9.0, size_z: 9.0 };
-        assert!(!hides(&panel(floor, DVec3::Y * -1.0, DQuat::IDENTITY), eye, &BALLS));
+        assert!(!hides(&panel(floor.clone(), DVec3::Y * -1.0, DQuat::IDENTITY), eye, &BALLS));
         let below = DVec3::new(0.5, -9.0, 0.2);
         assert!(hides(&panel(floor, DVec3::Y * -1.0, DQuat::IDENTITY), below, &BALLS));
     }
@@ -106,7 +106,11 @@ mod tests {
         assert!(!hides(&panel(pin, DVec3::Z * 1.5, DQuat::IDENTITY), DVec3::Z * 9.0, &BALLS));
         // Neither a box around the balls nor a box around the eye hides them.
         let around = Shape::Box { size: DVec3::splat(4.0) };
-        assert!(!hides(&panel(around, DVec3::ZERO, DQuat::IDENTITY), DVec3::Z * 9.0, &BALLS));
+        assert!(!hides(
+            &panel(around.clone(), DVec3::ZERO, DQuat::IDENTITY),
+            DVec3::Z * 9.0,
+            &BALLS
+        ));
         assert!(!hides(&panel(around, DVec3::ZERO, DQuat::IDENTITY), DVec3::Z * 1.5, &BALLS));
     }
 }

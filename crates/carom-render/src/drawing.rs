@@ -80,7 +80,7 @@ impl Ball {
 }
 
 /// A surface of a collider.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Panel {
     /// Any but a sphere.
     pub shape: Shape,
@@ -190,7 +190,7 @@ impl Panel {
 
     /// Returns the box around the panel; `None` for a half-space.
     pub fn bounds(&self) -> Option<Bounds> {
-        Bounds::of_shape(self.shape, self.pose)
+        Bounds::of_shape(self.shape.clone(), self.pose)
     }
 }
 

@@ -51,7 +51,7 @@ impl Framing {
         let visible: Vec<_> = scene.all_colliders().iter().map(|it| it.visible).collect();
         let colliders =
             || world.colliders().zip(&visible).filter(|it| *it.1).map(|((_, it), _)| it);
-        let surfaces = colliders().filter_map(|it| Bounds::of_shape(it.shape, it.pose));
+        let surfaces = colliders().filter_map(|it| Bounds::of_shape(it.shape.clone(), it.pose));
         let surfaces = Bounds::around(surfaces.chain(fixed_ends(&world)));
         let balls = Bounds::around(spheres(&world).map(|it| it.1).chain(emitters(scene)));
         let balls = balls.or(surfaces)?;

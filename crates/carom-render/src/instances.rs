@@ -91,9 +91,9 @@ impl Instances {
         let solid = drawing.panels.iter().filter(is_solid);
         solid.for_each(|panel| add_panel(panel, eye, faces, boxes));
         casting[1..].copy_from_slice(&[faces.len(), boxes.len()]);
-        let clear = drawing.panels.iter().filter(|it| it.opacity < 1.0).copied();
+        let clear = drawing.panels.iter().filter(|it| it.opacity < 1.0).cloned();
         let hiding = drawing.panels.iter().filter(is_hiding);
-        let rims = hiding.map(|panel| Panel { opacity: RIM, ..*panel });
+        let rims = hiding.map(|panel| Panel { opacity: RIM, ..panel.clone() });
         clear.chain(rims).for_each(|panel| add_panel(&panel, eye, faces, boxes));
         for panel in &drawing.panels {
             add_walls(panel, eye, faces);

@@ -22,7 +22,7 @@ pub fn draw_world(
     let all = scene.all_colliders();
     for (i, (collider, (_, now))) in all.iter().zip(world.colliders()).enumerate() {
         if collider.visible {
-            drawing.add_collider(now.shape, now.pose, palette.collider(i), now.trigger);
+            drawing.add_collider(now.shape.clone(), now.pose, palette.collider(i), now.trigger);
         }
     }
     let (spheres, has_spin) = (world.spheres(), world.has_spin());

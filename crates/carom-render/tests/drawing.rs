@@ -161,7 +161,7 @@ fn a_wall_between_the_eye_and_the_balls_is_glass() {
         let mut drawing = room(&[]);
         let front = DQuat::from_rotation_arc(DVec3::Y, DVec3::Z);
         let pose = Pose { position: DVec3::Z * 2.2, rotation: front };
-        drawing.add_collider(shape, pose, [0.9, 0.9, 0.9], false);
+        drawing.add_collider(shape.clone(), pose, [0.9, 0.9, 0.9], false);
         for quality in [Quality::DRAFT, Quality::FINE] {
             let picture = drawn(&drawing, &camera_in_front(9.0), quality);
             assert_eq!(pixel(&picture, 200, 150), [255, 0, 0], "{shape:?}");
@@ -171,7 +171,7 @@ fn a_wall_between_the_eye_and_the_balls_is_glass() {
         // Behind the balls it is a wall.
         let back = Pose { position: DVec3::Z * -2.2, rotation: front };
         let mut drawing = room(&[]);
-        drawing.add_collider(shape, back, [0.9, 0.9, 0.9], false);
+        drawing.add_collider(shape.clone(), back, [0.9, 0.9, 0.9], false);
         let picture = drawn(&drawing, &camera_in_front(9.0), Quality::DRAFT);
         assert_ne!(pixel(&picture, 240, 150), [0; 3], "{shape:?}");
     }

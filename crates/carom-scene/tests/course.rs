@@ -84,12 +84,12 @@ fn scene_files_hold_the_figures_of_the_course() {
         for ((_, collider), theirs) in world.colliders().zip(colliders) {
             assert_eq!(collider.pose.position.to_array().to_vec(), vector(&theirs["position"]));
             assert_eq!(Some(collider.restitution), theirs["restitution"].as_f64());
-            let size = match collider.shape {
-                carom::Shape::Sphere { radius } => vec![radius],
+            let size = match &collider.shape {
+                carom::Shape::Sphere { radius } => vec![*radius],
                 carom::Shape::Rectangle { size_x, size_z } => {
                     let rotation = collider.pose.rotation.to_array().to_vec();
                     assert_eq!(rotation, vector(&theirs["rotation_xyzw"]));
-                    vec![size_x, size_z]
+                    vec![*size_x, *size_z]
                 }
                 other => panic!("{other:?}"),
             };

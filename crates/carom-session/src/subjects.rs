@@ -164,7 +164,7 @@ fn set_collider(
     change: impl Fn(Collider) -> Collider,
 ) -> Result<(), SessionError> {
     let collider = change(world.collider(id)?);
-    world.set_collider(id, collider)?;
+    world.set_collider(id, collider.clone())?;
     let colliders = &mut Arc::make_mut(setup).colliders;
     for (_, described) in colliders.iter_mut().filter(|it| it.0 == id) {
         described.restitution = collider.restitution;

@@ -4,11 +4,12 @@ use glam::{DQuat, DVec3};
 
 use crate::error::InvalidValue;
 use crate::friction::Friction;
+use crate::mesh::Mesh;
 use crate::rotation;
 use crate::validate;
 
 /// Form of a collider in its own frame.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Shape {
@@ -105,6 +106,8 @@ pub enum Shape {
         /// Full length along local y \[m\], > 0.
         height: f64,
     },
+    /// A surface of triangles, or a height field.
+    Mesh(Mesh),
 }
 
 /// Some of the two ends of a pipe.
@@ -219,7 +222,7 @@ impl Pose {
 /// assert!((world.sphere(sphere)?.velocity.x + 1.5).abs() < 1e-12);
 /// # Ok::<(), carom::Error>(())
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Collider {
@@ -302,7 +305,7 @@ impl Shape {
                 validate::positive("size_x", size_x)?;
                 validate::positive("size_z", size_z)
             }
-            Self::HalfSpace => Ok(()),
+            Self::HalfSpace | Self::Mesh(_) => Ok(()),
             Self::Box { size } | Self::Container { size, .. } => {
                 validate::positive("size.x", size.x)?;
                 validate::positive("size.y", size.y)?;

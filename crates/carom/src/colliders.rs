@@ -53,9 +53,9 @@ impl Colliders {
 
     /// Puts colliders in the places of some that are there.
     pub fn set(&mut self, changes: &[(ColliderId, Collider)]) {
-        for &(id, collider) in changes {
+        for (id, collider) in changes {
             if let Some(place) = self.list.get_mut(id.0) {
-                *place = collider;
+                place.clone_from(collider);
             }
         }
         self.place_all();

@@ -27,11 +27,13 @@
 
 #![warn(clippy::unwrap_used)]
 
+mod axis_motion;
 mod band;
 mod bodies;
 mod clock;
 mod collider;
 mod colliders;
+mod connected;
 pub mod contact_time;
 pub mod detect;
 mod emitter;
@@ -45,6 +47,7 @@ mod integrate;
 mod interval;
 mod invariants;
 mod lanes;
+mod mesh;
 mod norm;
 mod numbered;
 mod parallel;
@@ -52,6 +55,7 @@ mod path;
 mod persistent_contact;
 mod query;
 mod real;
+mod rectangle;
 mod report;
 pub mod respond;
 mod rotation;
@@ -83,6 +87,7 @@ pub use forces::{
 pub use friction::Friction;
 pub use hash::StateHash;
 pub use id::{ColliderId, EmitterId, ForceId, SphereId, SpringId};
+pub use mesh::{Mesh, MeshError, MeshFaults};
 pub use path::{PathEnd, PathLeg, PredictedPath};
 pub use persistent_contact::PersistentContact;
 pub use query::{Body, Hit, NearBody, Queries, QueryFilter};

@@ -6,11 +6,13 @@ use crate::band::{Band, Profile};
 use crate::collider::{Collider, Pose, Shape, Sides};
 use crate::friction::Friction;
 use crate::id::ColliderId;
+use crate::mesh::{Corner, Edge, Facet, Features, Placement};
 use crate::norm::Norm;
+pub(crate) use crate::rectangle::Rectangle;
 use crate::round_solid::{Outline, RoundSolid};
 
 /// One surface of a collider in world coordinates, with what a contact needs to know of it.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Surface {
     pub form: Form,
@@ -129,25 +131,23 @@ impl SurfaceMotion {
     /// Geometry and motion after `h` \[s\] of a surface of this form that moves so.
     pub fn carry(&self, form: &Form, h: f64) -> (Form, Self) {
         if self.is_at_rest() {
-            return (*form, *self);
+            return (form.clone(), *self);
         }
         let Self { origin, velocity, angular_velocity } = *self;
         let turning = if self.turns_form(form) { angular_velocity } else { DVec3::ZERO };
         let pose = Pose::at(origin).moved(velocity, turning, h);
-        let place = |point: DVec3| pose.position + pose.rotation * (point - origin);
-        let turn = |direction: DVec3| pose.rotation * direction;
+        let placement = Placement { rotation: pose.rotation, from: origin, to: pose.position };
+        let place = |point: DVec3| placement.point(point);
+        let turn = |direction: DVec3| placement.direction(direction);
         let form = match *form {
             Form::Sphere { center, radius } => Form::Sphere { center: place(center), radius },
             Form::HalfSpace { point, normal } => {
                 Form::HalfSpace { point: place(point), normal: turn(normal) }
             }
-            Form::Rectangle(r) => Form::Rectangle(Rectangle {
-                center: place(r.center),
-                axis_x: turn(r.axis_x),
-                axis_z: turn(r.axis_z),
-                normal: turn(r.normal),
-                ..r
-            }),
+            Form::Rectangle(ref it) => Form::Rectangle(placement.rectangle(it)),
+            Form::Facet(ref it) => Form::Facet(placement.facet(it)),
+            Form::Edge(ref it) => Form::Edge(placement.edge(it)),
+            Form::Corner(ref it) => Form::Corner(placement.corner(it)),
             Form::Box(b) => {
                 Form::Box(SolidBox { center: place(b.center), axes: b.axes.map(turn), ..b })
             }
@@ -173,15 +173,25 @@ pub(crate) enum Role {
 }
 
 /// Geometry of a surface, in the world.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) enum Form {
-    Sphere { center: DVec3, radius: f64 },
+    Sphere {
+        center: DVec3,
+        radius: f64,
+    },
     Rectangle(Rectangle),
-    HalfSpace { point: DVec3, normal: DVec3 },
+    HalfSpace {
+        point: DVec3,
+        normal: DVec3,
+    },
     Box(SolidBox),
     Band(Band),
     Round(RoundSolid),
+    /// Of a mesh, as the next two.
+    Facet(Facet),
+    Edge(Edge),
+    Corner(Corner),
 }
 
 impl Form {
@@ -204,6 +214,11 @@ impl Form {
             Self::Box(SolidBox { center, half, .. }) => center.norm() + half.element_sum(),
             Self::Band(band) => band.coordinates(),
             Self::Round(solid) => solid.coordinates(),
+            Self::Facet(Facet { frame: Rectangle { center, half_x, half_z, .. }, .. }) => {
+                center.norm() + half_x + half_z
+            }
+            Self::Edge(Edge { center, half, .. }) => center.norm() + half,
+            Self::Corner(Corner { point, .. }) => point.norm(),
         }
     }
 
@@ -224,6 +239,9 @@ impl Form {
             }
             Self::Band(band) => height(band.center) + band.extent(normal)[1],
             Self::Round(solid) => height(solid.center) + solid.extent(normal)[1],
+            Self::Facet(ref facet) => facet.height_above([point, normal]),
+            Self::Edge(ref edge) => edge.height_above([point, normal]),
+            Self::Corner(Corner { point, .. }) => height(point),
         }
     }
 }
@@ -239,29 +257,12 @@ pub(crate) struct SolidBox {
     pub half: DVec3,
 }
 
-/// A one-sided rectangle in the world. The three axes are orthonormal.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(crate) struct Rectangle {
-    pub center: DVec3,
-    /// Direction of the first pair of edges.
-    pub axis_x: DVec3,
-    /// Direction of the second pair of edges.
-    pub axis_z: DVec3,
-    /// Direction the front faces.
-    pub normal: DVec3,
-    /// Half the length along `axis_x` \[m\].
-    pub half_x: f64,
-    /// Half the length along `axis_z` \[m\].
-    pub half_z: f64,
-}
-
 /// Appends the surfaces of a collider. Those of a solid box are its volume and then its faces, in
 /// the order -x, +x, -y, +y, -z, +z; those of a container its walls in the same order, each facing
 /// outward and then inward. A box or a container that only reports is its volume. A solid of revolution has its volume,
 /// then its side and discs; a hollow one has its walls, each facing outward and then inward.
 pub(crate) fn place(id: ColliderId, collider: &Collider, surfaces: &mut Vec<Surface>) {
-    let Collider { shape, pose, restitution, friction, trigger, .. } = *collider;
+    let Collider { ref shape, pose, restitution, friction, trigger, .. } = *collider;
     let (center, motion) = (pose.position, SurfaceMotion::of(collider));
     let rotation = pose.rotation.normalize();
     let axes @ [x, y, z] = [rotation * DVec3::X, rotation * DVec3::Y, rotation * DVec3::Z];
@@ -269,7 +270,7 @@ pub(crate) fn place(id: ColliderId, collider: &Collider, surfaces: &mut Vec<Surf
         let role = if trigger { Role::Reports } else { role };
         surfaces.push(Surface { form, collider: id, restitution, friction, role, motion });
     };
-    match shape {
+    match *shape {
         Shape::Sphere { radius } => add(Form::Sphere { center, radius }, Role::Deflects),
         Shape::HalfSpace => add(Form::HalfSpace { point: center, normal: y }, Role::Deflects),
         Shape::Rectangle { size_x, size_z } => {
@@ -305,7 +306,7 @@ pub(crate) fn place(id: ColliderId, collider: &Collider, surfaces: &mut Vec<Surf
         | Shape::Cone { .. }
         | Shape::Capsule { .. }
         | Shape::Torus { .. } => {
-            let Some(outline) = Outline::of(&shape) else { return };
+            let Some(outline) = Outline::of(shape) else { return };
             let solid = RoundSolid { center, axis: y, outline };
             add(Form::Round(solid), Role::Encloses);
             if !trigger {
@@ -313,22 +314,31 @@ pub(crate) fn place(id: ColliderId, collider: &Collider, surfaces: &mut Vec<Surf
             }
         }
         Shape::Pipe { .. } | Shape::Bowl { .. } | Shape::Funnel { .. } => {
-            let Some(outline) = Outline::of(&shape) else { return };
+            let Some(outline) = Outline::of(shape) else { return };
             let inside = RoundSolid { center, axis: y, outline };
             if trigger {
                 add(Form::Round(inside), Role::Reports);
                 return;
             }
-            inside.walls(&shape).for_each(|wall| add(Form::Band(wall), Role::Deflects));
+            inside.walls(shape).for_each(|wall| add(Form::Band(wall), Role::Deflects));
+        }
+        Shape::Mesh(ref mesh) => {
+            let placement = Placement { rotation, from: DVec3::ZERO, to: center };
+            place_mesh(mesh.features(), &placement, |form| add(form, Role::Deflects));
         }
     }
 }
 
-impl Rectangle {
-    /// A rectangle in its place that faces the other way.
-    fn turned(self) -> Self {
-        Self { normal: -self.normal, ..self }
+/// Places the faces of a mesh, those that are met from both sides twice, then its edges and its corners.
+fn place_mesh(features: &Features, placement: &Placement, mut add: impl FnMut(Form)) {
+    for facet in &features.facets {
+        let facet = placement.facet(facet);
+        let behind = features.is_two_sided.then(|| facet.turned());
+        add(Form::Facet(facet));
+        behind.map(Form::Facet).into_iter().for_each(&mut add);
     }
+    features.edges.iter().for_each(|edge| add(Form::Edge(placement.edge(edge))));
+    features.corners.iter().for_each(|corner| add(Form::Corner(placement.corner(corner))));
 }
 
 impl SolidBox {

@@ -343,7 +343,8 @@ fn a_sphere_bounces_on_every_kind_of_collider_inside_the_frame() {
             _ => 0.0,
         };
         let mut world = world(bisect());
-        let collider = Collider::new(shape, Pose::at(vec(0.0, top, 0.0))).with_restitution(0.5);
+        let collider =
+            Collider::new(shape.clone(), Pose::at(vec(0.0, top, 0.0))).with_restitution(0.5);
         world.add_collider(collider).unwrap();
         let ball = Sphere::new(vec(0.0, 1.0, 0.0), 0.5).with_velocity(vec(0.0, -0.5 / 0.75, 0.0));
         let ball = world.add_sphere(ball).unwrap();

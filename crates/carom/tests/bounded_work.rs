@@ -92,7 +92,7 @@ fn every_shape_beside_every_other_lets_balls_bounce_and_roll_across_the_seam() {
                 for (restitution, friction) in [(0.0, 0.3), (0.5, 0.3), (0.9, 0.0), (0.5, 0.0)] {
                     let mut world = world(rule);
                     world.add_force(Gravity::new(vec(0.0, -G, 0.0))).unwrap();
-                    for collider in [left, right] {
+                    for collider in [left.clone(), right.clone()] {
                         let collider = collider.with_restitution(restitution);
                         world.add_collider(collider.with_friction(friction)).unwrap();
                     }
@@ -104,7 +104,7 @@ fn every_shape_beside_every_other_lets_balls_bounce_and_roll_across_the_seam() {
                     let work = work_of(&mut world, 90);
                     // In each frame eight sub-steps with up to 17 sweeps, or some events of each ball.
                     let most = 90 * 3 * 60;
-                    let shapes = (left.shape, right.shape);
+                    let shapes = (&left.shape, &right.shape);
                     assert!(work < most, "{shapes:?}, {restitution}, {friction}: {work}");
                     let heights = world.spheres().positions().iter().map(|it| it.y);
                     let lowest = heights.fold(f64::INFINITY, f64::min);

@@ -237,7 +237,7 @@ fn a_ball_turns_by_its_angular_velocity_under_every_rule() {
 #[test]
 fn a_conveyor_belt_takes_a_ball_along() {
     let mut world = on_plane(0.0, 0.3);
-    let (id, belt) = world.colliders().map(|(id, it)| (id, *it)).next().unwrap();
+    let (id, belt) = world.colliders().map(|(id, it)| (id, it.clone())).next().unwrap();
     // A floor that moves in its own plane.
     world.set_collider(id, belt.moving(2.0 * DVec3::X, DVec3::ZERO)).unwrap();
     let ball = world.add_sphere(Sphere::new(DVec3::new(0.0, 0.1, 0.0), 0.1)).unwrap();

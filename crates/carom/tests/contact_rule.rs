@@ -230,10 +230,10 @@ fn fast_balls_do_not_tunnel() {
         Shape::Container { size: DVec3::new(2.0, 0.5, 2.0), open: Sides::NONE },
     ];
     for speed in [10.0, 100.0, 1000.0, 10_000.0] {
-        for shape in thin {
+        for shape in thin.clone() {
             for (offset, radius) in [(0.0, 0.005), (0.0, 0.05), (0.13, 0.05), (0.29, 0.05)] {
                 let mut world = world();
-                world.add_collider(Collider::new(shape, Pose::at(DVec3::ZERO))).unwrap();
+                world.add_collider(Collider::new(shape.clone(), Pose::at(DVec3::ZERO))).unwrap();
                 let ball = Sphere::new(DVec3::new(offset, 3.0, 0.5 * offset), radius)
                     .with_velocity(-speed * DVec3::Y);
                 let id = world.add_sphere(ball).unwrap();
@@ -595,7 +595,8 @@ fn a_turning_drum_takes_balls_along() {
                 let place = 1.2 * it.pose.position.with_z(0.0).normalize();
                 (
                     id,
-                    it.with_pose(Pose { position: place, ..it.pose })
+                    it.clone()
+                        .with_pose(Pose { position: place, ..it.pose })
                         .moving(DVec3::Z.cross(place), DVec3::Z),
                 )
             })

@@ -26,8 +26,8 @@ fn closed(radius: f64, length: f64) -> Shape {
 }
 
 /// How far a centre is from the walls of a closed hollow, from inside \[m\].
-fn depth_inside(shape: Shape, local: DVec3) -> f64 {
-    match shape {
+fn depth_inside(shape: &Shape, local: DVec3) -> f64 {
+    match *shape {
         Shape::Pipe { radius, length, .. } => {
             (radius - local.with_y(0.0).length()).min(0.5 * length - local.y.abs())
         }
@@ -67,9 +67,9 @@ fn elastic_balls_stay_in_closed_hollows() {
         (Discrete::default().into(), 0.3, 1e-9),
     ];
     for (shape, (rule, speed, loss)) in
-        hollows.iter().flat_map(|shape| rules.map(|rule| (*shape, rule)))
+        hollows.iter().flat_map(|shape| rules.map(|rule| (shape, rule)))
     {
-        let (mut world, pose) = fill(rule, shape, speed, 0.0);
+        let (mut world, pose) = fill(rule, shape.clone(), speed, 0.0);
         let energy = world.kinetic_energy();
         let frame = if speed > 1e3 { 1e-5 } else { 1.0 / 60.0 };
         for _ in 0..30 {
@@ -102,9 +102,10 @@ fn nothing_flies_through_a_solid() {
         (Contact::default().into(), 1.0),
         (Contact::default().into(), 1e6),
     ];
-    for (shape, (rule, speed)) in solids.iter().flat_map(|it| rules.map(|rule| (*it, rule))) {
+    for (shape, (rule, speed)) in solids.iter().flat_map(|it| rules.map(|rule| (it, rule))) {
         let mut world = world(rule);
-        world.add_collider(Collider::new(shape, Pose::at(DVec3::X).rotated(turned))).unwrap();
+        let pose = Pose::at(DVec3::X).rotated(turned);
+        world.add_collider(Collider::new(shape.clone(), pose)).unwrap();
         // A place inside, from all sides.
         let inside =
             if let Shape::Torus { .. } = shape { DVec3::X } else { DVec3::new(0.0, -0.1, 0.05) };
@@ -153,7 +154,8 @@ fn sizes_that_make_no_shape_are_refused() {
         (Shape::Funnel { bottom_radius: 1.0, top_radius: 2.0, height: f64::INFINITY }, "height"),
     ];
     for (shape, field) in wrong {
-        let error = world.add_collider(Collider::new(shape, Pose::at(DVec3::ZERO))).unwrap_err();
+        let error =
+            world.add_collider(Collider::new(shape.clone(), Pose::at(DVec3::ZERO))).unwrap_err();
         assert!(error.to_string().contains(field), "{shape:?}: {error}");
     }
 }
@@ -211,9 +213,9 @@ fn bowls_and_pipes_swing_with_the_period_of_a_pendulum() {
     // 1 + θ²/16 + 11 θ⁴/3072 of small swings.
     let stretch = 1.0 + amplitude.powi(2) / 16.0 + 11.0 * amplitude.powi(4) / 3072.0;
     for (friction, factor) in [(0.0, 1.0), (1.0, 1.4)] {
-        for (shape, rotation) in [bowl, pipe] {
+        for (shape, rotation) in [&bowl, &pipe] {
             let expected = 2.0 * PI * (factor * 0.9 / G).sqrt() * stretch;
-            let found = period(shape, rotation, friction, amplitude);
+            let found = period(shape.clone(), *rotation, friction, amplitude);
             // A ball goes in pieces of 2e-4 rad, whose errors add up.
             assert!(
                 (found / expected - 1.0).abs() < 1e-5,

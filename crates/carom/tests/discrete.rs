@@ -154,7 +154,7 @@ fn a_trigger_box_reports_a_sphere_once_at_its_edge_and_inside() {
     for (position, inside) in
         [(vec(2.3, 2.3, 0.0), true), (vec(0.1, 0.3, 0.2), true), (vec(2.4, 2.4, 0.0), false)]
     {
-        let mut world = world_around(trigger);
+        let mut world = world_around(trigger.clone());
         throw(&mut world, position, DVec3::ZERO);
         assert_eq!(world.report().triggers.len(), usize::from(inside), "{position}");
     }

@@ -376,7 +376,7 @@ fn overlaps_are_seen_across_the_faces_of_a_periodic_box() {
     assert_depths(overlaps(&[vec(2.0, 0.0, 0.0), vec(2.75, 0.0, 0.0)], None), &[0.25]);
     // Images of colliders that are at rest, but not of half-spaces.
     let sphere = Shape::Sphere { radius: 0.4 };
-    assert_depths(overlaps(&[vec(-2.8, 0.0, 0.0)], Some(sphere)), &[0.5]);
+    assert_depths(overlaps(&[vec(-2.8, 0.0, 0.0)], Some(sphere.clone())), &[0.5]);
     assert_depths(overlaps(&[vec(8.8, 0.0, 0.0)], Some(sphere)), &[0.9]);
     let large = Shape::Sphere { radius: 2.0 };
     assert_depths(overlaps(&[vec(-1.0, 0.0, 0.0)], Some(large)), &[0.3]);

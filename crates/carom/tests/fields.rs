@@ -234,8 +234,8 @@ fn borne(add: Add, colliders: &[Collider], restitution: f64, size: f64) -> World
     let mut world = world(Rule::default());
     world.add_force(Gravity::new(vec(0.0, -G * size, 0.0))).unwrap();
     add(&mut world, size);
-    for &collider in colliders {
-        world.add_collider(collider.with_restitution(restitution)).unwrap();
+    for collider in colliders {
+        world.add_collider(collider.clone().with_restitution(restitution)).unwrap();
     }
     world
 }
@@ -250,11 +250,11 @@ fn balls_under_varying_forces_stay_on_the_plane_that_bears_them() {
         let face = Shape::Rectangle { size_x: 80.0 * size, size_z: 80.0 * size };
         let block = Shape::Box { size: vec(80.0, 2.0, 80.0) * size };
         for (shape, y) in [(Shape::HalfSpace, 0.0), (face, 0.0), (block, -1.0)] {
-            let floor = Collider::new(shape, Pose::at(vec(0.0, y, 0.0) * size));
+            let floor = Collider::new(shape.clone(), Pose::at(vec(0.0, y, 0.0) * size));
             for (add, restitution) in
                 VARYING.iter().flat_map(|&add| [0.0, 0.5, 0.9].map(|e| (add, e)))
             {
-                let mut world = borne(add, &[floor], restitution, size);
+                let mut world = borne(add, &[floor.clone()], restitution, size);
                 let ball = |x: f64| light_ball(vec(x, 0.1, 0.0), size).with_friction(friction);
                 world.add_sphere(ball(-1.0).with_restitution(restitution)).unwrap();
                 let moving = ball(1.0).with_velocity(vec(0.0, 0.0, 0.5) * size);
@@ -278,7 +278,7 @@ fn balls_under_varying_forces_stay_in_corners_grooves_and_piles() {
     };
     let lean = 0.5f64.sqrt();
     let floor = plane(DVec3::Y);
-    let corner = [floor, plane(DVec3::X)];
+    let corner = [floor.clone(), plane(DVec3::X)];
     let groove = [plane(vec(lean, lean, 0.0)), plane(vec(-lean, lean, 0.0))];
     let round = [Collider::new(Shape::Sphere { radius: 1.0 }, Pose::at(vec(0.0, -1.0, 0.0)))];
     let at = |places: &[[f64; 3]]| places.iter().map(|&it| it.into()).collect::<Vec<DVec3>>();

@@ -572,10 +572,11 @@ fn floors(size: f64, turn: DQuat) -> [Vec<Collider>; 4] {
     };
     let steps = -8..8;
     let block = Shape::Box { size: vec(0.25, 1.0, 4.0) * size };
-    let blocks = steps.clone().map(|i| place(block, 0.25 * f64::from(i), -0.5, 0.0));
+    let blocks = steps.clone().map(|i| place(block.clone(), 0.25 * f64::from(i), -0.5, 0.0));
     let pairs = steps.clone().flat_map(|i| steps.clone().map(move |j| (i, j)));
     let tile = rectangle(0.3, 0.3);
-    let tiles = pairs.map(|(i, j)| place(tile, 0.3 * f64::from(i), 0.0, 0.3 * f64::from(j)));
+    let tiles =
+        pairs.map(|(i, j)| place(tile.clone(), 0.3 * f64::from(i), 0.0, 0.3 * f64::from(j)));
     let two = [
         place(rectangle(1.0, 4.0), -0.5, 0.0, 0.0),
         place(rectangle(1000.0, 1000.0), 500.0, 0.0, 0.0),
@@ -607,8 +608,8 @@ fn a_ball_rolls_over_the_seams_of_a_floor_as_if_there_were_none() {
             for (speed, direction, friction, restitution) in WAYS {
                 let mut world = world(Exact::default());
                 world.add_force(Gravity::new(turn * vec(0.0, -G * size, 0.0))).unwrap();
-                for &collider in &floor {
-                    world.add_collider(collider.with_restitution(restitution)).unwrap();
+                for collider in &floor {
+                    world.add_collider(collider.clone().with_restitution(restitution)).unwrap();
                 }
                 let direction = DVec3::from(direction);
                 // It begins between seams, but for tiles on one or before a corner.

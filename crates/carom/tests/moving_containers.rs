@@ -39,7 +39,7 @@ fn container(size: DVec3) -> Collider {
 
 /// The balls whose centres are not in the only collider, a container.
 fn outside(world: &World) -> Vec<usize> {
-    let container = *world.colliders().next().unwrap().1;
+    let container = world.colliders().next().unwrap().1.clone();
     let Shape::Container { size, .. } = container.shape else { panic!("{container:?}") };
     let back = container.pose.rotation.normalize().inverse();
     let is_out = |center: &DVec3| {
@@ -236,7 +236,7 @@ fn adversarial(rule: Rule, seed: u64) -> World {
     let rotation = DQuat::from_axis_angle(numbers.unit_vector(), numbers.between(0.0, 6.0));
     let walls = container(size).moving(velocity, turning).with_restitution(restitution);
     let walls = walls.with_pose(Pose { position: numbers.vector(), rotation });
-    world.add_collider(walls.with_friction(numbers.next())).unwrap();
+    world.add_collider(walls.clone().with_friction(numbers.next())).unwrap();
     let count = 1 + (12.0 * numbers.next()) as usize;
     for _ in 0..50 * count {
         if world.spheres().len() == count {

@@ -109,7 +109,7 @@ fn a_ball_at_rest_and_one_that_slides_keep_to_their_paths() {
     world.add_force(Gravity::new(vec(0.0, -9.81, 0.0))).unwrap();
     let slope = DQuat::from_rotation_z(0.3);
     let slope = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO).rotated(slope));
-    world.add_collider(slope.with_restitution(0.0)).unwrap();
+    world.add_collider(slope.clone().with_restitution(0.0)).unwrap();
     let up = slope.pose.rotation * DVec3::Y;
     let ball = world.add_sphere(Sphere::new(0.5 * up, 0.5)).unwrap();
     world.step(0.1).unwrap();

@@ -202,11 +202,11 @@ proptest! {
             ("density", sphere.with_density(number)),
             ("restitution", sphere.with_restitution(number)),
         ];
-        let of_shape = |shape| collider.with_shape(shape);
+        let of_shape = |shape| collider.clone().with_shape(shape);
         let colliders = [
-            ("position", collider.with_pose(Pose { position: place, ..collider.pose })),
-            ("rotation", collider.with_pose(collider.pose.rotated(turned))),
-            ("restitution", collider.with_restitution(number)),
+            ("position", collider.clone().with_pose(Pose { position: place, ..collider.pose })),
+            ("rotation", collider.clone().with_pose(collider.pose.rotated(turned))),
+            ("restitution", collider.clone().with_restitution(number)),
             ("radius", of_shape(Shape::Sphere { radius: number })),
             ("size_x", of_shape(Shape::Rectangle { size_x: number, size_z: 1.0 })),
             ("size_z", of_shape(Shape::Rectangle { size_x: 1.0, size_z: number })),

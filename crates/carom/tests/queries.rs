@@ -128,7 +128,7 @@ fn no_ray_at_the_face_of_a_rectangle_or_a_box_is_lost() {
     let mut numbers = Numbers(6);
     for collider in &colliders()[2..4] {
         let mut world = World::default();
-        world.add_collider(*collider).unwrap();
+        world.add_collider(collider.clone()).unwrap();
         let rotation = collider.pose.rotation;
         // Of the box the side towards +y has the same size along x.
         let lift = if matches!(collider.shape, Shape::Box { .. }) { 1.0 } else { 0.0 };

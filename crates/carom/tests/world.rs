@@ -211,8 +211,8 @@ fn every_field_of_colliders_forces_emitters_and_settings_is_checked_and_named() 
         ("size_x", rectangle(-1.0, 1.0)),
         ("size_z", rectangle(1.0, f64::NAN)),
         ("size.y", collider(Shape::Box { size: vec(1.0, 0.0, 1.0) })),
-        ("position", plane.with_pose(Pose::at(vec(0.0, 0.0, f64::NAN)))),
-        ("rotation", plane.with_pose(zero_rotation)),
+        ("position", plane.clone().with_pose(Pose::at(vec(0.0, 0.0, f64::NAN)))),
+        ("rotation", plane.clone().with_pose(zero_rotation)),
         ("restitution", plane.with_restitution(2.0)),
     ];
     for (field, collider) in colliders {
@@ -269,7 +269,7 @@ fn unknown_ids_are_errors_that_name_them() {
     let mut world = busy_world(discrete());
     let texts = [
         world.set_force(force, Gravity::new(DVec3::ZERO)).unwrap_err().to_string(),
-        world.set_collider(collider, plane).unwrap_err().to_string(),
+        world.set_collider(collider, plane.clone()).unwrap_err().to_string(),
         world.set_pose(collider, plane.pose).unwrap_err().to_string(),
     ];
     for (text, name) in texts.iter().zip(["force 2", "collider 2", "collider 2"]) {
@@ -359,12 +359,12 @@ fn a_sphere_inside_a_solid_box_overlaps_it_once() {
 fn several_colliders_change_at_once_or_not_at_all() {
     let mut world = World::new(Settings::default()).unwrap();
     let plate = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO));
-    let first = world.add_collider(plate).unwrap();
-    let second = world.add_collider(plate).unwrap();
-    let (soft, bad) = (plate.with_restitution(0.5), plate.with_restitution(2.0));
-    assert!(world.set_colliders(&[(first, soft), (second, bad)]).is_err());
+    let first = world.add_collider(plate.clone()).unwrap();
+    let second = world.add_collider(plate.clone()).unwrap();
+    let (soft, bad) = (plate.clone().with_restitution(0.5), plate.clone().with_restitution(2.0));
+    assert!(world.set_colliders(&[(first, soft.clone()), (second, bad)]).is_err());
     assert_eq!(world.collider(first).unwrap(), plate);
-    world.set_colliders(&[(first, soft), (second, soft)]).unwrap();
+    world.set_colliders(&[(first, soft.clone()), (second, soft.clone())]).unwrap();
     assert!(world.colliders().all(|(_, collider)| *collider == soft));
 }
 

@@ -23,7 +23,7 @@ pub fn draw(
     let colliders = all.iter().zip(running.world().colliders());
     for (i, ((written, (_, now)), pose)) in colliders.zip(running.poses(time)).enumerate() {
         if written.visible {
-            drawing.add_collider(now.shape, pose, palette.collider(i), now.trigger);
+            drawing.add_collider(now.shape.clone(), pose, palette.collider(i), now.trigger);
         }
     }
     let place = |id: SphereId| {

@@ -5,6 +5,7 @@ mod links;
 mod mazes;
 mod options;
 mod overrides;
+mod particles;
 mod recordings;
 mod scenes;
 mod submissions;
@@ -15,11 +16,12 @@ mod worlds;
 use crate::target::Target;
 
 /// All targets.
-pub const TARGETS: [Target; 11] = [
+pub const TARGETS: [Target; 12] = [
     scenes::TARGET,
     overrides::TARGET,
     links::TARGET,
     recordings::TARGET,
+    particles::TARGET,
     unfinished::TARGET,
     mazes::TARGET,
     unity::TARGET,

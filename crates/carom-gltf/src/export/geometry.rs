@@ -7,7 +7,7 @@ use super::arrays::Arrays;
 use crate::document::{Attributes, Primitive};
 
 /// Shape of a mesh.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) enum Form {
     /// A sphere of radius 1.
     Sphere,
@@ -51,8 +51,8 @@ pub(super) struct Geometry {
 impl Geometry {
     /// Returns the triangles of a form: those in the colour of the body, then those in the second
     /// tone of a banded sphere.
-    pub fn triangles(&mut self, form: Form, arrays: &mut Arrays) -> Vec<Primitive> {
-        match form {
+    pub fn triangles(&mut self, form: &Form, arrays: &mut Arrays) -> Vec<Primitive> {
+        match *form {
             Form::Sphere => {
                 let vertices = self.sphere(arrays);
                 let all = || arrays.push_indices(&sphere_indices(|_| true));
@@ -82,8 +82,8 @@ impl Geometry {
                 let [vertices, normals, indices] = cube(arrays, open, -1.0);
                 vec![primitive(vertices, normals, indices)]
             }
-            Form::Round { shape } => {
-                let [vertices, normals, indices] = round(&shape, arrays);
+            Form::Round { ref shape } => {
+                let [vertices, normals, indices] = round(shape, arrays);
                 vec![primitive(vertices, normals, indices)]
             }
         }

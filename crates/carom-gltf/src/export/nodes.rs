@@ -13,7 +13,7 @@ use super::tracks::Placement;
 use crate::document::{Camera, Document, LightReference, Lights, Mesh, Node, NodeExtensions};
 
 /// Properties by which meshes are shared.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 struct MeshKey {
     form: Form,
     coat: Coat,
@@ -66,11 +66,11 @@ impl Nodes {
         arrays: &mut Arrays,
     ) -> usize {
         let place = self.collider_place(collider);
-        let form = match collider.shape {
+        let form = match &collider.shape {
             Shape::Sphere { .. } => Form::Sphere,
             Shape::Box { .. } => Form::Cube,
-            Shape::Container { open, .. } => Form::Walls { open },
-            shape if is_round(&shape) => Form::Round { shape },
+            Shape::Container { open, .. } => Form::Walls { open: *open },
+            shape if is_round(shape) => Form::Round { shape: shape.clone() },
             _ => Form::Square,
         };
         let body = self.bodies.collider(collider);
@@ -162,7 +162,7 @@ impl Nodes {
             return Some(known);
         }
         let double_sided = matches!(key.form, Form::Square | Form::Round { .. });
-        let mut primitives = self.geometry.triangles(key.form, arrays);
+        let mut primitives = self.geometry.triangles(&key.form, arrays);
         for (i, primitive) in primitives.iter_mut().enumerate() {
             let material = look::material(key.coat, double_sided, i == 1);
             primitive.material = Some(place_of(&mut self.document.materials, material));

@@ -25,7 +25,8 @@ pub enum RecordingError {
     },
 }
 
-const ENDINGS: &str = ".csv, .npz, or .pvd (a series of .vtp files for ParaView)";
+const ENDINGS: &str =
+    ".csv, .npz, .pvd (a series of .vtp files for ParaView), .xyz (extended), or .lammpstrj";
 
 /// Converts an error of writing to `path`.
 pub(super) fn unwritable(path: &Path, source: io::Error) -> RecordingError {

@@ -1,5 +1,6 @@
-//! Recordings on disk: trajectories as CSV, NPZ or VTK, impacts as CSV. Trajectories in CSV can be
-//! played back. If spheres rotate at the first frame, or friction can make them rotate,
+//! Recordings on disk: trajectories as CSV, NPZ, VTK, extended XYZ or dumps of LAMMPS, impacts as
+//! CSV. Trajectories in CSV can be played back; a scene can begin with the last frame of a particle
+//! file. If spheres rotate at the first frame, or friction can make them rotate,
 //! trajectories also contain orientations and angular velocities.
 
 mod csv_table;
@@ -12,6 +13,7 @@ mod impacts;
 mod ledger;
 mod npz;
 mod npz_journal;
+mod particles;
 mod playback;
 pub mod records;
 mod recovered;
@@ -31,12 +33,17 @@ pub use error::RecordingError;
 pub use format::Format;
 pub use impacts::ImpactTable;
 pub use ledger::LedgerTable;
+pub use particles::{
+    ParticleError, ParticleFormat, ParticleImport, ParticleOptions, import_particles,
+    recover_particles,
+};
 pub use playback::Playback;
 pub use recovered::{Recovered, RecoveryError, complete, recover_by};
 pub use recovery::{recover, recover_table};
 pub use replay::{LineProblem, Replay, ReplayBall, ReplayError, ReplayFrame};
 
 use error::unwritable;
+use particles::ParticleTable;
 
 /// Writes the states of a world, frame by frame.
 ///
@@ -71,16 +78,19 @@ impl std::fmt::Debug for Trajectory {
 
 impl Trajectory {
     /// Creates the file, and missing folders above it. The ending selects the format: `.csv`,
-    /// `.npz`, or `.pvd` / `.vtp`. A pipe or device with another ending gets CSV.
+    /// `.npz`, `.pvd` / `.vtp`, `.xyz` / `.extxyz`, or `.lammpstrj` / `.dump`. A pipe or device with
+    /// another ending gets CSV.
     ///
     /// # Errors
     /// [`RecordingError`] for another ending, or if the file cannot be written.
     pub fn create(path: &Path) -> Result<Self, RecordingError> {
         let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-        let format: io::Result<Box<dyn Format>> = match ending.as_str() {
-            "csv" => csv_table::CsvTable::create(path).map(|format| Box::new(format) as _),
-            "npz" => npz::Npz::create(path).map(|format| Box::new(format) as _),
-            "pvd" | "vtp" => vtk::Series::create(path).map(|format| Box::new(format) as _),
+        let particles = ParticleFormat::of(path);
+        let format: io::Result<Box<dyn Format>> = match (ending.as_str(), particles) {
+            (_, Some(format)) => ParticleTable::create(path, format).map(|it| Box::new(it) as _),
+            ("csv", _) => csv_table::CsvTable::create(path).map(|format| Box::new(format) as _),
+            ("npz", _) => npz::Npz::create(path).map(|format| Box::new(format) as _),
+            ("pvd" | "vtp", _) => vtk::Series::create(path).map(|format| Box::new(format) as _),
             // The system often names pipes and devices, without an ending.
             _ if is_stream(path) => csv_table::CsvTable::create(path).map(|it| Box::new(it) as _),
             _ => return Err(RecordingError::UnknownFormat { path: path.to_owned() }),

@@ -12,7 +12,7 @@ use crate::{built_in, busy, busy_scene, hashes};
 fn assert_same(one: &World, other: &World) {
     let text = |world: &World| {
         let spheres: Vec<_> = (0..world.spheres().len()).map(|i| world.spheres().get(i)).collect();
-        let colliders: Vec<_> = world.colliders().map(|(_, collider)| *collider).collect();
+        let colliders: Vec<_> = world.colliders().map(|(_, collider)| collider.clone()).collect();
         let forces: Vec<_> = world.forces().map(|it| format!("{:?}", it.1)).collect();
         let emitters: Vec<_> = world.emitters().map(|(_, emitter)| *emitter).collect();
         format!("{:?} {spheres:?} {colliders:?} {forces:?} {emitters:?}", world.settings())

@@ -17,6 +17,7 @@
 mod bisection;
 #[cfg(test)]
 mod claims;
+mod feature;
 mod half_space;
 mod obstacle;
 #[cfg(test)]

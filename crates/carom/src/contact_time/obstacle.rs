@@ -19,6 +19,12 @@ pub(super) enum Obstacle {
     Rectangle { rectangle: Rectangle, radius: f64 },
     /// A surface of revolution, which meets only centres in front of it.
     Band { band: Band, radius: f64 },
+    /// The points of a line between two ends.
+    Segment { ends: [DVec3; 2], radius: f64 },
+    /// A plane through `point`, which meets only centres in front of it.
+    Plane { point: DVec3, normal: DVec3, radius: f64 },
+    /// A triangle, which meets only centres in front of its plane.
+    Triangle { corners: [DVec3; 3], normal: DVec3, radius: f64 },
 }
 
 /// An obstacle as seen from one point.
@@ -68,6 +74,16 @@ impl Obstacle {
                 see_rectangle(rectangle, radius, position, velocity)
             }
             Self::Band { ref band, radius } => see_band(band, radius, position, velocity),
+            Self::Segment { ends, radius } => see_segment(ends, radius, position, velocity),
+            Self::Plane { point, normal, radius } => {
+                let height = (position - point).dot(normal);
+                let (above, away) =
+                    if height < 0.0 { (-height, -normal) } else { (height, normal) };
+                Sight::of_face(above, away, radius, f64::INFINITY).one_sided(height, normal, radius)
+            }
+            Self::Triangle { ref corners, normal, radius } => {
+                see_triangle(corners, normal, radius, [position, velocity])
+            }
         }
     }
 }
@@ -148,6 +164,19 @@ fn see_band(band: &Band, radius: f64, position: DVec3, velocity: DVec3) -> Sight
     Sight { distance, normal, barrier: Some(Barrier { distance, normal }), ..seen }
 }
 
+impl Sight {
+    /// Of what meets only centres in front of its plane, from a height above that.
+    fn one_sided(self, height: f64, normal: DVec3, radius: f64) -> Self {
+        let is_behind = height < 0.0;
+        let barrier = if is_behind {
+            Some(Barrier { distance: -height, normal: -normal })
+        } else {
+            (height > radius).then_some(Barrier { distance: height - radius, normal })
+        };
+        Self { is_behind, barrier, ..self }
+    }
+}
+
 /// As in `detect/sphere_rectangle.rs`.
 fn see_rectangle(rectangle: &Rectangle, radius: f64, position: DVec3, velocity: DVec3) -> Sight {
     let offset = position - rectangle.center;
@@ -157,7 +186,7 @@ fn see_rectangle(rectangle: &Rectangle, radius: f64, position: DVec3, velocity: 
     let nearest_x = x.clamp(-rectangle.half_x, rectangle.half_x);
     let nearest_z = z.clamp(-rectangle.half_z, rectangle.half_z);
     let (over_x, over_z) = (nearest_x == x, nearest_z == z);
-    let mut sight = if over_x && over_z {
+    let sight = if over_x && over_z {
         let (height, normal) =
             if height < 0.0 { (-height, -rectangle.normal) } else { (height, rectangle.normal) };
         let to_edge = (rectangle.half_x - x.abs()).min(rectangle.half_z - z.abs());
@@ -174,11 +203,47 @@ fn see_rectangle(rectangle: &Rectangle, radius: f64, position: DVec3, velocity: 
         }
         Sight::of_offset(from_nearest, across, radius, rectangle.normal)
     };
-    sight.is_behind = height < 0.0;
-    sight.barrier = if sight.is_behind {
-        Some(Barrier { distance: -height, normal: -rectangle.normal })
+    sight.one_sided(height, rectangle.normal, radius)
+}
+
+/// A line between two ends, seen from a centre with a velocity.
+fn see_segment(ends: [DVec3; 2], radius: f64, position: DVec3, velocity: DVec3) -> Sight {
+    let way = ends[1] - ends[0];
+    let length = way.norm();
+    let axis = if length > 0.0 { way / length } else { DVec3::ZERO };
+    let along = (position - ends[0]).dot(axis);
+    let (nearest, across) = if along <= 0.0 {
+        (ends[0], velocity)
+    } else if along >= length {
+        (ends[1], velocity)
     } else {
-        (height > radius).then_some(Barrier { distance: height - radius, normal: rectangle.normal })
+        (ends[0] + along * axis, velocity - velocity.dot(axis) * axis)
     };
-    sight
+    Sight::of_offset(position - nearest, across, radius, DVec3::Y)
+}
+
+/// A triangle that goes round against the clock as seen from its front.
+fn see_triangle(
+    corners: &[DVec3; 3],
+    normal: DVec3,
+    radius: f64,
+    [position, velocity]: [DVec3; 2],
+) -> Sight {
+    let height = (position - corners[0]).dot(normal);
+    let sides = [0, 1, 2].map(|side| [corners[side], corners[(side + 1) % 3]]);
+    let inside = sides.map(|[from, to]| {
+        let way = to - from;
+        (position - from).dot(normal.cross(way)) / way.norm()
+    });
+    let to_edge = inside.into_iter().fold(f64::INFINITY, f64::min);
+    let sight = if to_edge >= 0.0 {
+        let (above, away) = if height < 0.0 { (-height, -normal) } else { (height, normal) };
+        Sight::of_face(above, away, radius, to_edge)
+    } else {
+        let seen = sides.map(|ends| see_segment(ends, radius, position, velocity));
+        let [first, second, third] = seen;
+        let nearer = |a: Sight, b: Sight| if b.distance < a.distance { b } else { a };
+        nearer(nearer(first, second), third)
+    };
+    sight.one_sided(height, normal, radius)
 }

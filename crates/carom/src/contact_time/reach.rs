@@ -55,6 +55,17 @@ impl Reach {
                 near > self.way + margin
             }
             Form::Box(_) | Form::Round(_) => true,
+            Form::Facet(ref facet) => self.misses_rectangle(position, &facet.frame),
+            Form::Edge(ref edge) => {
+                let size = edge.center.abs().element_sum() + edge.half + self.radius;
+                let margin = MARGIN * (position.abs().element_sum() + size);
+                edge.distance_of(position) > self.radius + self.way + margin
+            }
+            Form::Corner(ref corner) => {
+                let offset = position - corner.point;
+                let margin = MARGIN * (offset.abs().element_sum() + self.radius);
+                offset.norm() > self.radius + self.way + margin
+            }
         }
     }
 

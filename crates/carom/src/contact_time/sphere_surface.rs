@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::feature::{sphere_feature, sphere_turning_feature};
 use super::half_space::sphere_half_space;
 use super::obstacle::Obstacle;
 use super::roundoff::Magnitudes;
@@ -17,7 +18,7 @@ use crate::surface::{Form, Rectangle, SurfaceMotion};
 ///
 /// `form` is the place of the surface at time 0. Drag is that of air at rest, whatever the
 /// surface does. A rectangle is met from its front only, edges and corners included. A box is
-/// not met: its faces deflect.
+/// not met: its faces deflect. A face, an edge or a corner of a mesh is met where it is nearest.
 ///
 /// - `radius` of the sphere \[m\], > 0
 /// - `horizon` \[s\], >= 0; finite if the surface turns
@@ -55,6 +56,9 @@ pub(crate) fn sphere_surface(
             search::first_contact(&relative, &obstacle, size, horizon)
         }
         Form::Box(_) | Form::Round(_) => None,
+        Form::Facet(_) | Form::Edge(_) | Form::Corner(_) => {
+            sphere_feature(flight, radius, (form, motion), size, horizon)
+        }
     }
 }
 
@@ -93,6 +97,9 @@ fn sphere_turning_surface(
             search::first_contact(&path, &obstacle, size, horizon)
         }
         Form::Box(_) | Form::Round(_) => None,
+        Form::Facet(_) | Form::Edge(_) | Form::Corner(_) => {
+            sphere_turning_feature(&path, radius, (form, motion), size, horizon)
+        }
     }
 }
 

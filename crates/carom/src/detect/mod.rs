@@ -12,6 +12,7 @@ mod separation;
 mod sphere_band;
 mod sphere_box;
 mod sphere_half_space;
+mod sphere_mesh;
 mod sphere_rectangle;
 mod sphere_sphere;
 pub(crate) mod surface_tree;
@@ -23,6 +24,10 @@ pub use separation::Separation;
 pub(crate) use sphere_band::{sphere_band, sphere_band_known_in_front, sphere_round_solid};
 pub(crate) use sphere_box::sphere_box;
 pub use sphere_half_space::sphere_half_space;
+pub(crate) use sphere_mesh::{
+    sphere_corner, sphere_corner_point, sphere_edge, sphere_edge_line, sphere_facet,
+    sphere_facet_plane,
+};
 pub(crate) use sphere_rectangle::{sphere_rectangle, sphere_rectangle_known_in_front};
 pub use sphere_sphere::sphere_sphere;
 
@@ -42,6 +47,9 @@ pub(crate) fn sphere_surface(form: &Form, center: DVec3, radius: f64) -> Option<
         Form::Box(solid) => Some(sphere_box(solid, center, radius)),
         Form::Band(band) => sphere_band(band, center, radius),
         Form::Round(solid) => Some(sphere_round_solid(solid, center, radius)),
+        Form::Facet(facet) => sphere_facet(facet, center, radius),
+        Form::Edge(edge) => sphere_edge(edge, center, radius),
+        Form::Corner(corner) => sphere_corner(corner, center, radius),
     }
 }
 
@@ -50,6 +58,7 @@ pub(crate) fn known_in_front(form: &Form, center: DVec3, radius: f64) -> Option<
     match form {
         Form::Rectangle(it) => Some(sphere_rectangle_known_in_front(it, center, radius)),
         Form::Band(it) => Some(sphere_band_known_in_front(it, center, radius)),
+        Form::Facet(it) if it.is_under(center) => Some(sphere_facet_plane(it, center, radius)),
         _ => sphere_surface(form, center, radius),
     }
 }

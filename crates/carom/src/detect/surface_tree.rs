@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use crate::mesh::Facet;
+use crate::rectangle::Rectangle;
 use crate::surface::{Form, SolidBox, Surface};
 
 /// Axis-aligned bounds \[m\].
@@ -46,6 +48,9 @@ pub(crate) fn bounds(form: &Form) -> Option<Bounds> {
         }
         Form::Band(ref band) => within(band.center, |axis| band.extent(axis)),
         Form::Round(ref solid) => within(solid.center, |axis| solid.extent(axis)),
+        Form::Facet(ref facet) => around(facet),
+        Form::Edge(ref edge) => (edge.center, edge.half * edge.axis.abs()),
+        Form::Corner(ref corner) => (corner.point, DVec3::ZERO),
     };
     // Wider by far more than rounding, so that a surface at the very edge is never passed over.
     let slack = 1e-12 * (center.abs() + half).max_element();
@@ -58,6 +63,21 @@ fn within(point: DVec3, extent: impl Fn(DVec3) -> [f64; 2]) -> (DVec3, DVec3) {
     let least = DVec3::from_array(extents.map(|it| it[0]));
     let most = DVec3::from_array(extents.map(|it| it[1]));
     (point + 0.5 * (least + most), 0.5 * (most - least))
+}
+
+/// Of larger outlines the rectangle about them has to do.
+const MANY_SIDES: usize = 8;
+
+/// Centre and half the size \[m\] of the bounds of a flat face.
+fn around(facet: &Facet) -> (DVec3, DVec3) {
+    if facet.outline.sides().len() > MANY_SIDES {
+        let Rectangle { center, axis_x, axis_z, half_x, half_z, .. } = facet.frame;
+        return (center, half_x * axis_x.abs() + half_z * axis_z.abs());
+    }
+    let first = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let (min, max) =
+        facet.vertices().fold(first, |(min, max), vertex| (min.min(vertex), max.max(vertex)));
+    (0.5 * (min + max), 0.5 * (max - min))
 }
 
 /// Finds the surfaces near a place: a bounding volume hierarchy, split at the median centre.

@@ -346,7 +346,7 @@ impl<'a> Queries<'a> {
                 let radius = self.now.system.spheres.radius[index];
                 Form::Sphere { center: self.now.motion.position[index], radius }
             }
-            Item::Surface(surface) => self.now.system.surfaces[surface as usize].form,
+            Item::Surface(surface) => self.now.system.surfaces[surface as usize].form.clone(),
         }
     }
 

@@ -148,7 +148,8 @@ pub(crate) fn put_on_surface(
     time: f64,
 ) -> Option<f64> {
     let Bodies::Surface { sphere, surface } = contact.bodies else { return None };
-    if matches!(system.surfaces[surface as usize].form, Form::Sphere { .. }) {
+    let form = &system.surfaces[surface as usize].form;
+    if matches!(form, Form::Sphere { .. } | Form::Edge(_) | Form::Corner(_)) {
         return None;
     }
     let Separation { point, normal, .. } = contact.separation;

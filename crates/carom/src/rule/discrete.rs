@@ -92,12 +92,8 @@ fn overlap(system: &System, motion: &Motion, sphere: u32, surface: u32) -> Optio
     let form = &system.surfaces[surface as usize].form;
     let separation = sphere_surface(form, motion.position[i], system.spheres.radius[i])?;
     let meets = match form {
-        Form::Sphere { .. } => separation.distance < 0.0,
-        Form::Rectangle(_)
-        | Form::HalfSpace { .. }
-        | Form::Box(_)
-        | Form::Band(_)
-        | Form::Round(_) => separation.distance <= 0.0,
+        Form::Sphere { .. } | Form::Edge(_) | Form::Corner(_) => separation.distance < 0.0,
+        _ => separation.distance <= 0.0,
     };
     let bodies = Bodies::Surface { sphere, surface };
     meets.then_some(Contact { bodies, separation, state: ContactState::Intersecting })

@@ -1,7 +1,6 @@
 //! Step rules: how the stages are put together to advance all spheres. One module per rule.
 
 pub(crate) mod bisect;
-mod connected;
 pub(crate) mod contact;
 pub(crate) mod discrete;
 pub(crate) mod exact;

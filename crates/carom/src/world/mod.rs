@@ -366,7 +366,7 @@ impl World {
     /// # Errors
     /// [`Error::Unknown`] if there is no such collider.
     pub fn collider(&self, id: ColliderId) -> Result<Collider, Error> {
-        let collider = self.state.colliders.list().get(id.0).copied();
+        let collider = self.state.colliders.list().get(id.0).cloned();
         collider.ok_or(Error::Unknown(Subject::Collider(id)))
     }
 

@@ -9,7 +9,7 @@ use crate::flight::{Flight, Propagator};
 use crate::surface::SurfaceMotion;
 use crate::surface::{Form, Rectangle};
 
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub enum Bodies {
     /// With the sum of the radii.
     Spheres {
@@ -25,7 +25,7 @@ pub enum Bodies {
     },
 }
 
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Situation {
     pub bodies: Bodies,
     pub horizon: f64,
@@ -75,7 +75,7 @@ impl Situation {
                         from_rectangle(rectangle, &offset, *radius)
                     }
                     Form::Band(band) => from_band(band, &place, motion.origin, *radius),
-                    Form::Box(_) | Form::Round(_) => unreachable!("not generated"),
+                    _ => unreachable!("not generated"),
                 }
             }
         }
@@ -112,7 +112,7 @@ impl Situation {
                     Form::HalfSpace { point, .. } => (point.length(), 0.0),
                     Form::Rectangle(r) => (r.center.length() + r.half_x + r.half_z, 0.0),
                     Form::Band(band) => (band.coordinates(), 0.0),
-                    Form::Box(_) | Form::Round(_) => unreachable!("not generated"),
+                    _ => unreachable!("not generated"),
                 };
                 let omega = motion.angular_velocity.length();
                 let drift = motion.velocity.length();

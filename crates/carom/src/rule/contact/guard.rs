@@ -17,6 +17,7 @@ use super::surfaces::{self, SurfaceContact};
 use crate::band::Band;
 use crate::contact_time;
 use crate::flight::Flight;
+use crate::mesh::Facet;
 use crate::report::StepReport;
 use crate::surface::{Form, Rectangle, Role, SurfaceMotion};
 use crate::system::System;
@@ -155,8 +156,11 @@ impl Guard<'_> {
             let (before, motion) = place.1.carry(&place.0, from);
             let carried = motion.carried(start, to - from);
             let is_whole = to == self.h;
-            let after =
-                if is_whole { self.places.at_end(number).0 } else { place.1.carry(&place.0, to).0 };
+            let after = if is_whole {
+                self.places.at_end(number).0.clone()
+            } else {
+                place.1.carry(&place.0, to).0
+            };
             Passage { before, after, carried }
         };
         surfaces.iter().map(passage).collect()
@@ -248,6 +252,13 @@ impl Way<'_> {
                 let is_held = missing > 0.0 && comes_through(after, seen(), least, beside);
                 is_held.then(|| end + missing * after.normal)
             }
+            [Form::Facet(before), Form::Facet(after)] => {
+                let missing = least - after.height_of(end);
+                let is_held = missing > 0.0
+                    && before.height_of(start) >= 0.0
+                    && comes_through_face([before, after], [start, end], least, beside);
+                is_held.then(|| end + missing * after.frame.normal)
+            }
             [Form::Sphere { center: before, .. }, Form::Sphere { center: after, radius }] => {
                 let out = way_out([start - *before, end - *after], radius + least)?;
                 Some(*after + out)
@@ -307,6 +318,21 @@ fn comes_through(
     let part = if start.y > height { (start.y - height) / (start.y - end.y) } else { 0.0 };
     let there = start + part * (end - start);
     there.x.abs() <= rectangle.half_x + beside && there.z.abs() <= rectangle.half_z + beside
+}
+
+/// Whether a point that was in front of a face, where it was before, comes down to a height \[m\] over it, or `beside`
+/// it \[m\].
+fn comes_through_face(
+    [before, after]: [&Facet; 2],
+    [start, end]: [DVec3; 2],
+    height: f64,
+    beside: f64,
+) -> bool {
+    let (from, to) = (before.height_of(start), after.height_of(end));
+    let part = if from > height { (from - height) / (from - to) } else { 0.0 };
+    let seen = |facet: &Facet, place: DVec3| place - facet.frame.center;
+    let there = seen(before, start) + part * (seen(after, end) - seen(before, start));
+    after.is_beside(after.frame.center + there, beside)
 }
 
 /// The place at a distance from the origin \[m\], on the side of the start, of a point that would come nearer on

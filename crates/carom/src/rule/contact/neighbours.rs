@@ -15,7 +15,7 @@ use super::sub_step::SubStep;
 use super::surfaces::SurfaceContact;
 use crate::detect::contact::Bodies;
 use crate::detect::sphere_surface;
-use crate::detect::surface_tree::Bounds;
+use crate::detect::surface_tree::{self, Bounds};
 use crate::interval::Interval;
 use crate::parallel;
 use crate::report::StepReport;
@@ -232,6 +232,11 @@ impl Known<'_> {
                 (center - rectangle.center).dot(rectangle.normal) >= -margin
             }
             (None, Form::Band(band)) => band.seen_from(center).front >= -margin,
+            (None, Form::Facet(_) | Form::Edge(_) | Form::Corner(_)) => {
+                let bounds = surface_tree::bounds(form);
+                let reach = Bounds::around(center, DVec3::splat(radius + margin));
+                bounds.is_none_or(|bounds| bounds.overlap(&reach))
+            }
             (None, _) => true,
         }
     }

@@ -106,9 +106,9 @@ pub(crate) fn turning_rate(form: &Form, motion: &SurfaceMotion) -> f64 {
         // Of a collider of its own, about its centre.
         Form::Sphere { .. } => 0.0,
         Form::HalfSpace { normal, .. } => motion.angular_velocity.cross(*normal).length(),
-        Form::Rectangle(_) | Form::Box(_) => motion.angular_velocity.length(),
         Form::Band(Band { axis, .. }) | Form::Round(RoundSolid { axis, .. }) => {
             motion.angular_velocity.cross(*axis).length()
         }
+        _ => motion.angular_velocity.length(),
     }
 }

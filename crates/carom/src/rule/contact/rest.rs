@@ -4,7 +4,7 @@
 use glam::DVec3;
 
 use super::slots::Slots;
-use crate::rule::connected::Connected;
+use crate::connected::Connected;
 
 /// A group is at rest that is slower than this part of sqrt(a r): in the time sqrt(r / a) it moves by this part of
 /// the radius.

@@ -390,8 +390,9 @@ fn is_flat(form: &Form, normal: DVec3) -> bool {
     match form {
         Form::HalfSpace { .. } => true,
         Form::Rectangle(rectangle) => rectangle.normal == normal,
+        Form::Facet(_) => true,
         Form::Band(band) => band.flat_normal() == Some(normal),
-        Form::Sphere { .. } | Form::Box(_) | Form::Round(_) => false,
+        _ => false,
     }
 }
 

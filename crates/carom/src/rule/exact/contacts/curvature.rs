@@ -88,8 +88,12 @@ pub(super) fn curvature_of(
         Form::Sphere { center: fixed, .. } => {
             NormalCurvature::RoundFeature((center - *fixed).norm())
         }
-        Form::HalfSpace { .. } | Form::Box(_) | Form::Round(_) => NormalCurvature::Flat,
+        Form::HalfSpace { .. } | Form::Box(_) | Form::Round(_) | Form::Facet(_) => {
+            NormalCurvature::Flat
+        }
         Form::Band(band) => curvature_of_band(band, [center, velocity]),
+        Form::Edge(edge) => NormalCurvature::Edge(edge.axis, distance),
+        Form::Corner(_) => NormalCurvature::RoundFeature(distance),
         Form::Rectangle(rectangle) => match are_within(rectangle, [center, velocity]) {
             [true, true] => NormalCurvature::Flat,
             [false, true] => NormalCurvature::Edge(rectangle.axis_z, distance),

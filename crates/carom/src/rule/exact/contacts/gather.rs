@@ -6,12 +6,12 @@ use glam::DVec3;
 
 use super::group::Group;
 use super::member::Member;
-use super::separation::{touches_surface, touching_gap};
+use super::separation::{has_at, holding_mesh, touches_surface, touching_gap};
 use super::touch::{Found, Touch};
 use crate::detect::contact::Bodies;
 use crate::detect::sphere_surface;
 use crate::norm::Norm;
-use crate::rule::exact::contact_scale::TOUCHING;
+use crate::rule::exact::contact_scale::{MOST_MISSED, TOUCHING};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::flights::Cluster;
 use crate::rule::exact::neighbours::NeighbourBuffer;
@@ -35,7 +35,7 @@ pub(crate) fn gather(
         gathering.connect_nearest(first, second);
     }
     if let (Some(surface), [slot]) = (surface, seeds) {
-        gathering.connect_surface(*slot, surface, true);
+        gathering.connect_predicted(*slot, surface);
     }
     for &bodies in joined {
         gathering.connect_bodies(bodies);
@@ -101,7 +101,11 @@ impl<'a> Gathering<'a> {
         let is_predicted = false;
         let indices = slots.map(|slot| self.timeline.flights.index_of[slot as usize]);
         let shift = if indices[0] < indices[1] { shift } else { -shift };
-        self.touches.entry(Bodies::pair(indices)).or_insert(Found { shift, is_predicted });
+        self.touches.entry(Bodies::pair(indices)).or_insert(Found {
+            shift,
+            is_predicted,
+            is_handed_over: false,
+        });
     }
 
     /// Two spheres touch, whatever rounding says: those that were predicted to meet now, or stay in
@@ -119,11 +123,18 @@ impl<'a> Gathering<'a> {
 
     /// Notes that a sphere and a surface touch, whatever rounding says: in a periodic box, the nearest
     /// image of the surface.
-    fn connect_surface(&mut self, slot: u32, surface: u32, is_predicted: bool) {
+    fn connect_surface(
+        &mut self,
+        slot: u32,
+        surface: u32,
+        [is_predicted, is_handed_over]: [bool; 2],
+    ) {
         let sphere = self.timeline.flights.index_of[slot as usize];
         let bodies = Bodies::Surface { sphere, surface };
         if !self.has_images() {
-            self.touches.entry(bodies).or_insert(Found { shift: DVec3::ZERO, is_predicted });
+            let shift = DVec3::ZERO;
+            let found = Found { shift, is_predicted, is_handed_over };
+            self.touches.entry(bodies).or_insert(found);
             return;
         }
         let place = self.timeline.flights.state_of(slot, self.time).0;
@@ -135,7 +146,8 @@ impl<'a> Gathering<'a> {
         let images = self.timeline.surfaces_near(slot).filter(|near| near.0 == surface);
         let nearest = images.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)));
         if let Some((_, shift)) = nearest {
-            self.touches.entry(bodies).or_insert(Found { shift: -shift, is_predicted });
+            let found = Found { shift: -shift, is_predicted, is_handed_over };
+            self.touches.entry(bodies).or_insert(found);
         }
     }
 
@@ -174,10 +186,15 @@ impl<'a> Gathering<'a> {
         let timeline = self.timeline;
         let sphere = timeline.flights.index_of[slot as usize];
         let member = self.members[&sphere];
-        for (surface, shift) in timeline.surfaces_near(slot) {
-            if touches_surface(self.context, &member, surface, shift, self.time) {
+        let mesh = holding_mesh(timeline, self.context, slot, self.time);
+        for near @ (surface, shift) in timeline.surfaces_near(slot) {
+            let collider = self.context.system.surfaces[surface as usize].collider;
+            let mesh = mesh.filter(|mesh| mesh.collider == collider);
+            let (is_handed_over, is_left) = (mesh.is_some(), mesh.is_some_and(|it| it.is_left));
+            let missed = if is_left { MOST_MISSED * member.species.radius } else { 0.0 };
+            if touches_surface(self.context, &member, near, missed, self.time) {
                 let bodies = Bodies::Surface { sphere, surface };
-                let found = Found { shift: -shift, is_predicted: false };
+                let found = Found { shift: -shift, is_predicted: false, is_handed_over };
                 self.touches.entry(bodies).or_insert(found);
             }
         }
@@ -201,8 +218,23 @@ impl<'a> Gathering<'a> {
         match bodies {
             Bodies::Pair(first, second) => self.connect_nearest(slot_of(first), slot_of(second)),
             Bodies::Surface { sphere, surface } => {
-                self.connect_surface(slot_of(sphere), surface, false);
+                let slot = slot_of(sphere);
+                // Else it goes on over another part of a mesh.
+                if has_at(self.timeline, self.context, slot, surface, self.time) {
+                    self.connect_surface(slot, surface, [false; 2]);
+                }
             }
+        }
+    }
+
+    /// Notes that a sphere meets a surface as predicted; unless that is a part of the mesh that holds it, to which
+    /// it is only about to come.
+    fn connect_predicted(&mut self, slot: u32, surface: u32) {
+        let mesh = holding_mesh(self.timeline, self.context, slot, self.time);
+        let collider = self.context.system.surfaces[surface as usize].collider;
+        let is_held = mesh.is_some_and(|mesh| mesh.collider == collider);
+        if !is_held || has_at(self.timeline, self.context, slot, surface, self.time) {
+            self.connect_surface(slot, surface, [true, is_held]);
         }
     }
 
@@ -218,7 +250,8 @@ impl<'a> Gathering<'a> {
             };
             let has_persisted = self.timeline.flights.are_held_together(bodies);
             let touch = Touch { has_persisted, ..Touch::between(bodies, first, second, found) };
-            touch.measured_at(context, &members, time)
+            let touch = touch.measured_at(context, &members, time)?;
+            Some(if found.is_handed_over { touch.handed_over(&members) } else { touch })
         });
         let mut touches: Vec<Touch> = touches.collect();
         leave_out_seams(context, &members, &mut touches);

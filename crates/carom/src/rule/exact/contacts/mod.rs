@@ -14,6 +14,7 @@ pub(super) use group::Group;
 pub(super) use member::Member;
 pub(super) use planes::{Corner, MOST_PLANES, Plane};
 pub(super) use separation::{
-    are_within, beyond, is_over_face, separation, slack_of, touches_surface,
+    HoldingMesh, are_within, beyond, holding_mesh, is_over_face, separation, slack_of,
+    touches_surface,
 };
 pub(super) use touch::Touch;

@@ -36,7 +36,8 @@ impl<'a> Plane<'a> {
                 let normal = band.flat_normal()?;
                 is_over_face(band, state).then_some(normal)?
             }
-            Form::Sphere { .. } | Form::Box(_) | Form::Round(_) => return None,
+            Form::Facet(facet) => facet.holds(state).then_some(facet.frame.normal)?,
+            _ => return None,
         };
         Some(Self { surface, normal, form, image: DVec3::ZERO })
     }

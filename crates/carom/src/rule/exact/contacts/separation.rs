@@ -4,24 +4,32 @@ use glam::DVec3;
 
 use super::member::Member;
 use crate::band::Band;
-use crate::detect::{Separation, known_in_front, sphere_surface};
+use crate::detect::{
+    Separation, known_in_front, sphere_corner_point, sphere_edge_line, sphere_facet_plane,
+    sphere_surface,
+};
+use crate::id::ColliderId;
 use crate::norm::Norm;
 use crate::respond;
 use crate::rule::exact::contact_scale::{CLOCK_ROUNDING, TOUCHING};
 use crate::rule::exact::context::StepContext;
+use crate::rule::exact::timeline::Timeline;
 use crate::surface::{Form, Rectangle, Surface};
 
-/// How a sphere stands to a surface; to be in front may be given, whatever rounding says.
+/// How a sphere stands to a surface; to be in front may be given, whatever rounding says. A feature of a mesh is taken
+/// to be the nearest one.
 pub(crate) fn separation(
     form: &Form,
     center: DVec3,
     radius: f64,
     is_predicted: bool,
 ) -> Option<Separation> {
-    if is_predicted {
-        known_in_front(form, center, radius)
-    } else {
-        sphere_surface(form, center, radius)
+    match form {
+        Form::Rectangle(_) | Form::Band(_) if is_predicted => known_in_front(form, center, radius),
+        Form::Facet(facet) => Some(sphere_facet_plane(facet, center, radius)),
+        Form::Edge(edge) => Some(sphere_edge_line(edge, center, radius)),
+        Form::Corner(corner) => Some(sphere_corner_point(corner, center, radius)),
+        form => sphere_surface(form, center, radius),
     }
 }
 
@@ -76,13 +84,73 @@ pub(super) fn touching_gap(coordinates: f64, speed: f64, time: f64) -> f64 {
     TOUCHING * coordinates + CLOCK_ROUNDING * time.abs() * speed
 }
 
+/// Whether a sphere with this centre \[m\] and velocity relative to a surface \[m/s\] is where it meets that part of a
+/// mesh, if it is one. At a border between two of them, one has the sphere.
+fn has(form: &Form, state: [DVec3; 2]) -> bool {
+    match form {
+        Form::Facet(facet) => facet.holds(state),
+        Form::Edge(edge) => edge.holds(state),
+        Form::Corner(corner) => corner.holds(state),
+        _ => true,
+    }
+}
+
+/// The mesh that holds a sphere.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct HoldingMesh {
+    pub collider: ColliderId,
+    /// Whether the sphere has come to where another part of it is nearer than the one that it was held by.
+    pub is_left: bool,
+}
+
+/// The mesh of which a part holds the sphere at `slot` in persistent contact, at `time` \[s\].
+pub(crate) fn holding_mesh(
+    timeline: &Timeline,
+    context: &StepContext,
+    slot: u32,
+    time: f64,
+) -> Option<HoldingMesh> {
+    let flights = &timeline.flights;
+    let cluster = flights.clusters.get(flights.species_of(slot).cluster?);
+    let surfaces = &context.system.surfaces;
+    let mut parts = cluster
+        .surfaces_of(flights.index_of[slot as usize])
+        .filter(|&surface| is_part(&surfaces[surface as usize].form))
+        .peekable();
+    let first = *parts.peek()?;
+    let left = parts.find(|&surface| !has_at(timeline, context, slot, surface, time));
+    let collider = surfaces[left.unwrap_or(first) as usize].collider;
+    Some(HoldingMesh { collider, is_left: left.is_some() })
+}
+
+/// Whether the sphere at `slot` is at `time` \[s\] where it meets that part of a mesh, if the surface is one.
+pub(crate) fn has_at(
+    timeline: &Timeline,
+    context: &StepContext,
+    slot: u32,
+    surface: u32,
+    time: f64,
+) -> bool {
+    if !is_part(&context.system.surfaces[surface as usize].form) {
+        return true;
+    }
+    let (form, motion) = context.surface_at(surface, time);
+    let (place, velocity) = timeline.flights.state_of(slot, time);
+    has(&form, [place, velocity - motion.velocity_at(place)])
+}
+
+/// Whether a surface is a part of a mesh.
+fn is_part(form: &Form) -> bool {
+    matches!(form, Form::Facet(_) | Form::Edge(_) | Form::Corner(_))
+}
+
 /// Whether a sphere touches a surface, or the image of it where a `shift` \[m\] brings it, at `time`
-/// \[s\].
+/// \[s\], or has a gap to it that a path along a curve may have `missed` \[m\].
 pub(crate) fn touches_surface(
     context: &StepContext,
     member: &Member,
-    surface: u32,
-    shift: DVec3,
+    (surface, shift): (u32, DVec3),
+    missed: f64,
     time: f64,
 ) -> bool {
     let Member { position: center, velocity, species, .. } = *member;
@@ -91,16 +159,20 @@ pub(crate) fn touches_surface(
     if motion.is_at_rest() {
         // Where they touch, the point of the surface is no farther from the origin than that.
         let coordinates = 2.0 * (center.norm() + shift.norm() + radius);
-        let gap = 2.0 * touching_gap(coordinates, velocity.norm(), time);
+        let gap = 2.0 * touching_gap(coordinates, velocity.norm(), time) + missed;
         if is_above(form, center - shift, radius + gap) {
             return false;
         }
     }
     let (form, motion) = context.surface_at(surface, time);
+    let state = [center - shift, velocity - motion.velocity_at(center - shift)];
+    if !has(&form, state) {
+        return false;
+    }
     let Some(separation) = sphere_surface(&form, center - shift, radius) else { return false };
     let speed = (velocity - motion.velocity_at(separation.point)).norm();
     let coordinates = center.norm() + separation.point.norm() + radius;
-    separation.distance <= touching_gap(coordinates, speed, time)
+    separation.distance <= touching_gap(coordinates, speed, time) + missed
 }
 
 /// Whether a point is higher than that above the plane of a surface, or far behind it \[m\].
@@ -108,6 +180,9 @@ fn is_above(form: &Form, point: DVec3, height: f64) -> bool {
     match form {
         Form::HalfSpace { point: origin, normal } => (point - *origin).dot(*normal) > height,
         Form::Rectangle(face) => (point - face.center).dot(face.normal).abs() > height,
-        Form::Sphere { .. } | Form::Box(_) | Form::Band(_) | Form::Round(_) => false,
+        Form::Facet(facet) => facet.height_of(point).abs() > height,
+        Form::Edge(edge) => edge.distance_of(point) > height,
+        Form::Corner(corner) => (point - corner.point).norm() > height,
+        _ => false,
     }
 }

@@ -43,7 +43,13 @@ pub(crate) struct Touch {
     pub is_predicted: bool,
     /// The contact has lasted up to now.
     pub has_persisted: bool,
+    /// It goes on from another part of the same mesh, over a border at which nothing is felt.
+    pub is_handed_over: bool,
 }
+
+/// A sphere that comes to the next part of a mesh feels nothing where that meets it at less than this part of its
+/// speed: more than a piece of path along a curve misses.
+const UNFELT: f64 = 1e-6;
 
 impl Touch {
     /// Places of its spheres among the members.
@@ -137,7 +143,7 @@ impl Touch {
                 let turning_in_place = motion.turning_in_place(&form, center);
                 let velocity = second.velocity - (motion.velocity_at(center) - turning_in_place);
                 let curvature = curvature_of(&form, [center, velocity], &separation);
-                if let (Form::Rectangle(face), NormalCurvature::Flat) = (form, curvature) {
+                if let (Form::Rectangle(face), NormalCurvature::Flat) = (&form, curvature) {
                     // At its very edge, too.
                     let height = (center - face.center).dot(face.normal);
                     separation.distance = height - second.species.radius;
@@ -147,6 +153,14 @@ impl Touch {
                 Some(Self { curvature, turning_in_place, ..touch })
             }
         }
+    }
+
+    /// The same contact, if it goes on from the part of a mesh beside it; unless that bends there.
+    pub(super) fn handed_over(self, members: &[Member]) -> Self {
+        let speed = self.relative_velocity(members).norm();
+        let is_unfelt = self.normal_velocity(members).abs() <= UNFELT * speed;
+        let has_persisted = self.has_persisted || is_unfelt;
+        Self { has_persisted, is_handed_over: is_unfelt, ..self }
     }
 
     fn with(self, separation: Separation) -> Self {
@@ -168,11 +182,12 @@ impl Touch {
         bodies: Bodies,
         first: Option<usize>,
         second: usize,
-        Found { shift, is_predicted }: Found,
+        Found { shift, is_predicted, .. }: Found,
     ) -> Self {
         Self {
             is_predicted,
             has_persisted: false,
+            is_handed_over: false,
             bodies,
             first,
             second,
@@ -196,4 +211,6 @@ pub(super) struct Found {
     pub shift: DVec3,
     /// Predicted, so not in doubt.
     pub is_predicted: bool,
+    /// Held by the part of a mesh beside it up to now.
+    pub is_handed_over: bool,
 }

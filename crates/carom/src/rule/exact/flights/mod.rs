@@ -1,7 +1,6 @@
 //! Flights: where every sphere flies since its last event, and what equal spheres share.
 
 mod at_time;
-mod axis_motion;
 mod body;
 mod clusters;
 mod contact_work;
@@ -11,7 +10,6 @@ mod species;
 mod state;
 
 pub(super) use at_time::{first_lost, write_motion};
-pub(super) use axis_motion::AxisMotion;
 pub(super) use body::Body;
 pub(super) use clusters::{Cluster, Support, Supported};
 pub(super) use contact_work::ContactWork;

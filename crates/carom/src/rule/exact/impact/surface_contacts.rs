@@ -9,11 +9,12 @@ use crate::detect::contact::Bodies;
 use crate::norm::Norm;
 use crate::respond;
 use crate::rule::exact::contact_scale::ContactScale;
-use crate::rule::exact::contacts::{self, Corner, MOST_PLANES, Member, Plane};
+use crate::rule::exact::contacts::{self, Corner, HoldingMesh, MOST_PLANES, Member, Plane};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::pair_times::Nearness;
 use crate::rule::exact::persistent::{free_acceleration, is_back_within};
 use crate::rule::exact::timeline::Timeline;
+use crate::surface::Form;
 
 /// Normals are at right angles if their product is smaller, and the same if they differ by less: far
 /// more than the rounding of coordinates of some hundred radii.
@@ -62,6 +63,9 @@ impl<'a> SurfaceContacts<'a> {
             return self.corner.add(plane);
         }
         let it = &surfaces[surface as usize];
+        if matches!(it.form, Form::Facet(_)) {
+            return None;
+        }
         let separation =
             contacts::separation(&it.form, member.position, member.species.radius, true)?;
         let Separation { normal, point, .. } = separation;
@@ -128,11 +132,16 @@ pub(super) fn single_sphere<'a>(
     if is_held_with_others || context.period != DVec3::INFINITY {
         return None;
     }
+    let collider = |surface: u32| context.system.surfaces[surface as usize].collider;
+    let goes_on = |mesh: HoldingMesh| mesh.is_left || surface.map(collider) == Some(mesh.collider);
+    if contacts::holding_mesh(timeline, context, slot, time).is_some_and(goes_on) {
+        return None;
+    }
     let member = Member::at(&timeline.flights, slot, time);
     let mut touched = SurfaceContacts::default();
-    for (near, shift) in timeline.surfaces_near(slot) {
+    for found @ (near, _) in timeline.surfaces_near(slot) {
         let is_known = surface == Some(near) || timeline.flights.is_held_by(slot, near);
-        if is_known || contacts::touches_surface(context, &member, near, shift, time) {
+        if is_known || contacts::touches_surface(context, &member, found, 0.0, time) {
             touched.add(context, &member, near)?;
         }
     }

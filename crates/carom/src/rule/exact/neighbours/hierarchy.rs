@@ -13,10 +13,11 @@ use super::level::{Level, Levels};
 use super::neighbour::Neighbour;
 use super::neighbour_lists::{Crowd, NeighbourLists};
 use super::region::{CROSSING, LEAD, Region};
+use crate::axis_motion::AxisMotion;
 use crate::lanes::{LANES, Lanes};
 use crate::norm::Norm;
 use crate::real::Vector;
-use crate::rule::exact::flights::{AxisMotion, Body, Species};
+use crate::rule::exact::flights::{Body, Species};
 use crate::rule::exact::periodic;
 
 /// The regions of all spheres, and which spheres and surfaces are near them.

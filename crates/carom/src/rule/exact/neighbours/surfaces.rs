@@ -98,9 +98,13 @@ impl NearSurfaces {
     }
 }
 
-/// Whether all centres within some bounds are behind a rectangle, which is met from its front.
+/// Whether all centres within some bounds are behind a rectangle or a face, which is met from its front.
 fn is_behind(form: &Form, centers: &Bounds) -> bool {
-    let Form::Rectangle(rectangle) = form else { return false };
+    let rectangle = match form {
+        Form::Rectangle(rectangle) => rectangle,
+        Form::Facet(facet) => &facet.frame,
+        _ => return false,
+    };
     let part = |axis: usize| match rectangle.normal[axis] {
         0.0 => 0.0,
         n if n > 0.0 => n * (centers.max[axis] - rectangle.center[axis]),

@@ -29,7 +29,7 @@ const SAME_DIRECTION: f64 = 1e-6;
 pub(crate) fn settle(timeline: &Timeline, context: &StepContext, group: &mut Group) {
     let has_persisted = |touch: &&Touch| touch.has_persisted;
     let mut persisted: Vec<Touch> = group.touches.iter().filter(has_persisted).copied().collect();
-    if !persisted.iter().any(Touch::is_curved) {
+    if !persisted.iter().any(|touch| touch.is_curved() || touch.is_handed_over) {
         return;
     }
     correct(context, group, &mut persisted);
@@ -45,7 +45,7 @@ pub(crate) fn settle(timeline: &Timeline, context: &StepContext, group: &mut Gro
     for touch in touches.iter().filter(|touch| touch.has_persisted) {
         let number = timeline.flights.species_of(members[touch.second].slot).cluster;
         if let Some(cluster) = number.and_then(|number| clusters.get_mut(&number)) {
-            cluster.is_curved |= touch.is_curved();
+            cluster.is_curved |= touch.is_curved() || touch.is_handed_over;
             if touch.first.is_none() {
                 cluster.hold_along(touch.normal);
                 // On the piece of path its normal was in the plane of the sliding.

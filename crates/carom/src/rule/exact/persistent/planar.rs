@@ -5,13 +5,14 @@ use glam::DVec3;
 use super::NoClosedForm;
 use super::accelerations::{IDLE, free_acceleration, is_back_within};
 use super::rolling::{PressedSphere, Rolling, on_plane};
-use super::sliding::{time_on, time_on_face};
+use super::sliding::{time_on, time_on_disc};
+use crate::axis_motion::AxisMotion;
 use crate::detect::contact::Bodies;
 use crate::flight::Flight;
 use crate::norm::Norm;
 use crate::respond::{self, friction_of};
 use crate::rule::exact::contacts::{Corner, MOST_PLANES, Member, Plane, beyond};
-use crate::rule::exact::flights::{AxisMotion, ContactWork, Supported};
+use crate::rule::exact::flights::{ContactWork, Supported};
 use crate::surface::Form;
 use crate::system::System;
 
@@ -181,17 +182,19 @@ impl PlanarSupport {
         for (plane, persists) in corner.planes().zip(self.persists) {
             // Nothing may be known of how far that is in endless time.
             let is_within = |beyond: f64| beyond + way < 0.0;
-            if let Form::Rectangle(face) = plane.form
-                && persists
-                && !beyond(face, position).into_iter().all(is_within)
-            {
-                self.valid_for =
-                    self.valid_for.min(time_on_face(face, [position, velocity], motion));
+            let may_end = match plane.form {
+                Form::Rectangle(face) => !beyond(face, position).into_iter().all(is_within),
+                Form::Facet(_) => true,
+                _ => false,
+            };
+            if persists && may_end {
+                let time = time_on(plane.form, [position, velocity], motion);
+                self.valid_for = self.valid_for.min(time);
             }
-            if let Form::Band(_) = plane.form
+            if let Form::Band(disc) = plane.form
                 && persists
             {
-                self.valid_for = self.valid_for.min(time_on(plane.form, &flight));
+                self.valid_for = self.valid_for.min(time_on_disc(disc, &flight));
             }
         }
     }

@@ -7,9 +7,13 @@ use super::NoClosedForm;
 use super::accelerations::{Accelerations, bias};
 use super::piece::turning_time;
 use super::rolling::{PressedSphere, Rolling, on_plane};
+use super::sliding::time_on;
+use crate::axis_motion::AxisMotion;
+use crate::detect::contact::Bodies;
 use crate::friction::ContactFriction;
 use crate::rule::exact::contacts::{Member, Touch};
 use crate::rule::exact::context::StepContext;
+use crate::surface::Form;
 
 /// How a sphere goes on over a piece of path.
 pub(super) struct RollingOver {
@@ -62,10 +66,11 @@ pub(super) fn roll_over(
     let [acceleration, _] = contact.rates(&member, &contact.touch, motion);
     let start = Accelerations { each: vec![acceleration], largest: pressed.pressing };
     let turning = turning_time(&[member], &[contact.touch], &start, f64::INFINITY);
-    let valid_for = state.valid_for.min(turning);
+    let on_feature = contact.time_on(&member, acceleration).max(duration);
+    let valid_for = state.valid_for.min(turning).min(on_feature);
     if valid_for == f64::INFINITY || state.is_at_rest() {
         // It rests, or spins on the spot, or rolls along an edge.
-        let Rolling { acceleration, angular_acceleration, valid_for, .. } = state;
+        let Rolling { acceleration, angular_acceleration, .. } = state;
         return Ok(RollingOver { member, acceleration, angular_acceleration, valid_for });
     }
     let valid_for = valid_for.max(duration);
@@ -118,6 +123,22 @@ impl CurvedContact<'_> {
             pull: touch.across(species.acceleration) - spin * normal.cross(turning),
             friction: self.friction,
         }
+    }
+
+    /// Time \[s\] until the sphere, with this acceleration \[m/s²\], may come to what is beside the feature.
+    fn time_on(&self, member: &Member, acceleration: DVec3) -> f64 {
+        let Bodies::Surface { surface, .. } = self.touch.bodies else { return f64::INFINITY };
+        let form = &self.context.system.surfaces[surface as usize].form;
+        if let Form::Rectangle(_) = form {
+            // Of its edges and corners it is said where they turn.
+            return f64::INFINITY;
+        }
+        let motion = |axis: DVec3| AxisMotion {
+            velocity: member.velocity.dot(axis),
+            acceleration: acceleration.dot(axis),
+            drag_rate: 0.0,
+        };
+        time_on(form, [member.position + self.touch.shift, member.velocity], motion)
     }
 
     /// Acceleration \[m/s²\] and angular acceleration \[rad/s²\].

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::accelerations::Accelerations;
+use crate::axis_motion::AxisMotion;
 use crate::band::Band;
 use crate::contact_time;
 use crate::detect::contact::Bodies;
@@ -10,7 +11,6 @@ use crate::flight::Flight;
 use crate::rule::exact::contact_scale::TOUCHING;
 use crate::rule::exact::contacts::{Group, Touch, are_within, is_over_face, slack_of};
 use crate::rule::exact::context::StepContext;
-use crate::rule::exact::flights::AxisMotion;
 use crate::surface::{Form, Rectangle, SurfaceMotion};
 
 /// Time \[s\] until a sphere may slide off the part of a surface that it is in contact with.
@@ -27,57 +27,65 @@ pub(super) fn sliding_time(
         let member = &group.members[touch.second];
         let center = member.position + touch.shift;
         let velocity = member.velocity - touch.form_velocity();
-        let acceleration = accelerations.each[touch.second];
-        let flight = Flight {
-            position: center,
-            velocity,
-            acceleration,
-            drag_rate: member.species.drag_rate,
+        let (acceleration, drag_rate) =
+            (accelerations.each[touch.second], member.species.drag_rate);
+        let motion = |axis: DVec3| AxisMotion {
+            velocity: velocity.dot(axis),
+            acceleration: acceleration.dot(axis),
+            drag_rate,
         };
-        time = time.min(time_on(&form, &flight));
+        if let Form::Band(band) = &form {
+            let flight = Flight { position: center, velocity, acceleration, drag_rate };
+            time = time.min(time_on_disc(band, &flight));
+        }
+        time = time.min(time_on(&form, [center, velocity], motion));
     }
     time
 }
 
-/// Time \[s\] until a sphere with this flight relative to a surface may slide off the part of it that it is in
-/// contact with.
-pub(super) fn time_on(form: &Form, flight: &Flight) -> f64 {
-    let Flight { position, velocity, acceleration, drag_rate } = *flight;
-    let motion = |axis: DVec3| AxisMotion {
-        velocity: velocity.dot(axis),
-        acceleration: acceleration.dot(axis),
-        drag_rate,
-    };
+/// Time \[s\] until a sphere with this centre \[m\] and velocity relative to a surface \[m/s\] may slide off the part of
+/// it that it is in contact with; infinite where the surface has no parts.
+pub(super) fn time_on(
+    form: &Form,
+    [center, velocity]: [DVec3; 2],
+    motion: impl Fn(DVec3) -> AxisMotion,
+) -> f64 {
     match form {
-        Form::Rectangle(face) => time_on_face(face, [position, velocity], motion),
-        Form::Band(band) => time_on_band(band, flight, motion),
+        Form::Rectangle(rectangle) => time_on_face(rectangle, [center, velocity], motion),
+        Form::Facet(facet) => facet.time_on(center, motion),
+        Form::Edge(edge) => edge.time_on(center, motion),
+        Form::Corner(corner) => corner.time_on(center, motion),
+        Form::Band(band) => time_on_band(band, [center, velocity], motion),
         _ => f64::INFINITY,
     }
 }
 
-/// Time \[s\] until a sphere with this flight relative to a band may slide off its face.
-fn time_on_band(band: &Band, flight: &Flight, motion: impl Fn(DVec3) -> AxisMotion) -> f64 {
-    let Flight { position, velocity, .. } = *flight;
-    if !is_over_face(band, [position, velocity]) {
+/// Time \[s\] until a sphere with this centre \[m\] and velocity relative to a band \[m/s\] may slide off its face, along
+/// the profile.
+fn time_on_band(band: &Band, state: [DVec3; 2], motion: impl Fn(DVec3) -> AxisMotion) -> f64 {
+    if band.disc_radius().is_some() || !is_over_face(band, state) {
         return f64::INFINITY;
     }
     // As far as the rim is certain to be behind it.
     let slack = TOUCHING * band.coordinates();
-    if let Some(wall) = band.beyond_disc(slack) {
-        let form = Form::Band(wall);
-        let time = contact_time::sphere_surface(flight, 0.0, &form, &SurfaceMotion::REST, FOREVER);
-        return time.unwrap_or(f64::INFINITY);
-    }
-    let view = band.face_seen_from(position);
-    let [before, after] = band.rooms(position);
+    let view = band.face_seen_from(state[0]);
+    let [before, after] = band.rooms(state[0]);
     motion(view.directions[0]).leaves(-before - slack, after + slack)
 }
 
-const FOREVER: f64 = f64::INFINITY;
+/// Time \[s\] until a sphere with this flight relative to a disc may slide off it; infinite for other bands.
+pub(super) fn time_on_disc(disc: &Band, flight: &Flight) -> f64 {
+    let slack = TOUCHING * disc.coordinates();
+    let is_over = || is_over_face(disc, [flight.position, flight.velocity]);
+    let Some(wall) = disc.beyond_disc(slack).filter(|_| is_over()) else { return f64::INFINITY };
+    let (form, rest, endless) = (Form::Band(wall), SurfaceMotion::REST, f64::INFINITY);
+    let time = contact_time::sphere_surface(flight, 0.0, &form, &rest, endless);
+    time.unwrap_or(f64::INFINITY)
+}
 
 /// Time \[s\] until a sphere with this centre \[m\] and velocity relative to a rectangle \[m/s\] may slide off
 /// the part of it that it is in contact with, by its motion along the axes of the rectangle.
-pub(super) fn time_on_face(
+fn time_on_face(
     rectangle: &Rectangle,
     state: [DVec3; 2],
     motion: impl Fn(DVec3) -> AxisMotion,

@@ -20,6 +20,11 @@ impl AxisMotion {
         self.reaches(high, 1.0).min(self.reaches(-low, -1.0))
     }
 
+    /// How far it goes in a time \[m\], if there is no drag.
+    pub fn way(&self, time: f64) -> f64 {
+        time * (self.velocity + 0.5 * self.acceleration * time)
+    }
+
     /// A time \[s\] before which the motion does not reach one side, `distance` \[m\] away in the
     /// direction of `sign`.
     #[inline(never)]

@@ -1,0 +1,142 @@
+//! Dumps of LAMMPS in text, as `dump custom` writes them.
+
+use std::io::{self, Read, Write};
+
+use carom::{DVec3, World};
+
+use super::columns::{Columns, Quantity};
+use super::error::Problem;
+use super::frame::{FrameBox, Header};
+use super::lines::Lines;
+use super::reader::Fault;
+use crate::recording::table_file::digits;
+
+pub(super) fn write_header(
+    out: &mut impl Write,
+    world: &World,
+    cell: &FrameBox,
+    frame: u64,
+) -> io::Result<()> {
+    writeln!(out, "ITEM: UNITS\nsi\nITEM: TIME\n{:?}", world.time())?;
+    writeln!(out, "ITEM: TIMESTEP\n{frame}")?;
+    writeln!(out, "ITEM: NUMBER OF ATOMS\n{}", world.spheres().len())?;
+    let kinds = cell.is_periodic.map(|it| if it { "pp" } else { "ff" });
+    writeln!(out, "ITEM: BOX BOUNDS {}", kinds.join(" "))?;
+    for axis in 0..3 {
+        writeln!(out, "{} {}", digits(cell.low[axis]), digits(cell.high[axis]))?;
+    }
+    write!(out, "ITEM: ATOMS id type x y z radius mass vx vy vz")?;
+    if world.has_spin() {
+        write!(out, " omegax omegay omegaz quatw quati quatj quatk")?;
+    }
+    writeln!(out)
+}
+
+/// Reads the items before the particles; `None` at the end of the file.
+pub(super) fn read_header<R: Read>(lines: &mut Lines<R>) -> Result<Option<Header>, Fault> {
+    let mut has_begun = false;
+    let (mut count, mut time, mut cell) = (None, None, None);
+    loop {
+        let Some(line) = lines.next()? else {
+            return if has_begun { Err(Fault::CutShort) } else { Ok(None) };
+        };
+        if line.trim().is_empty() && !has_begun {
+            continue;
+        }
+        let Some(item) = line.strip_prefix("ITEM: ") else {
+            return Err(Problem::from(format!(
+                "expected a line that begins with ITEM:, not {line:?}"
+            ))
+            .into());
+        };
+        has_begun = true;
+        if let Some(names) = item.strip_prefix("ATOMS") {
+            let count =
+                count.ok_or(Problem::from("ITEM: NUMBER OF ATOMS is missing before this line"))?;
+            let columns = columns(names)?;
+            if columns.is_scaled && cell.is_none() {
+                return Err(Problem::from("scaled positions need ITEM: BOX BOUNDS").into());
+            }
+            return Ok(Some(Header { count, time, cell, columns }));
+        }
+        if let Some(kinds) = item.strip_prefix("BOX BOUNDS") {
+            cell = Some(bounds(kinds, lines)?);
+            continue;
+        }
+        let Some(value) = lines.next()? else { return Err(Fault::CutShort) };
+        match item.trim() {
+            "NUMBER OF ATOMS" => count = Some(parsed(item, &value)?),
+            "TIME" => time = Some(parsed::<f64>(item, &value)?),
+            // Steps and names of units, which need no conversion.
+            _ => {}
+        }
+    }
+}
+
+fn parsed<T: std::str::FromStr>(item: &str, value: &str) -> Result<T, Problem> {
+    value.trim().parse().map_err(|_| format!("{item}: expected a number, not {value:?}").into())
+}
+
+fn bounds<R: Read>(kinds: &str, lines: &mut Lines<R>) -> Result<FrameBox, Fault> {
+    let kinds: Vec<&str> = kinds.split_whitespace().collect();
+    let is_periodic = match kinds.len() {
+        // Old versions name no kinds.
+        0 => [true; 3],
+        3 => [0, 1, 2].map(|axis| kinds[axis] == "pp"),
+        _ => return Err(Problem::from("a box with skewed edges is not read").into()),
+    };
+    let (mut low, mut high) = (DVec3::ZERO, DVec3::ZERO);
+    for axis in 0..3 {
+        let Some(line) = lines.next()? else { return Err(Fault::CutShort) };
+        let numbers: Vec<f64> = line.split_whitespace().filter_map(|it| it.parse().ok()).collect();
+        let [from, to] = numbers[..] else {
+            return Err(
+                Problem::from(format!("expected two bounds of the box, not {line:?}")).into()
+            );
+        };
+        (low[axis], high[axis]) = (from, to);
+    }
+    let cell = FrameBox { low, high, is_periodic };
+    cell.check()?;
+    Ok(cell)
+}
+
+fn columns(names: &str) -> Result<Columns, Problem> {
+    let mut columns = Columns::default();
+    for (column, name) in names.split_whitespace().enumerate() {
+        if let Some((quantity, component)) = component(name) {
+            columns.is_scaled |= name.starts_with(['x', 'y', 'z']) && name[1..].starts_with('s');
+            columns.put(quantity, component, column);
+        }
+        columns.width = column + 1;
+    }
+    if !columns.has(Quantity::Position) {
+        return Err("ITEM: ATOMS names no positions: x y z, xu yu zu or xs ys zs".into());
+    }
+    Ok(columns)
+}
+
+/// The quantity in a column, and which component of it.
+fn component(name: &str) -> Option<(Quantity, usize)> {
+    let component = match name {
+        "x" | "xu" | "xs" | "xsu" => (Quantity::Position, 0),
+        "y" | "yu" | "ys" | "ysu" => (Quantity::Position, 1),
+        "z" | "zu" | "zs" | "zsu" => (Quantity::Position, 2),
+        "vx" => (Quantity::Velocity, 0),
+        "vy" => (Quantity::Velocity, 1),
+        "vz" => (Quantity::Velocity, 2),
+        "omegax" => (Quantity::AngularVelocity, 0),
+        "omegay" => (Quantity::AngularVelocity, 1),
+        "omegaz" => (Quantity::AngularVelocity, 2),
+        "quati" => (Quantity::Orientation, 0),
+        "quatj" => (Quantity::Orientation, 1),
+        "quatk" => (Quantity::Orientation, 2),
+        "quatw" => (Quantity::Orientation, 3),
+        "radius" => (Quantity::Radius, 0),
+        "diameter" => (Quantity::Diameter, 0),
+        "mass" => (Quantity::Mass, 0),
+        "id" => (Quantity::Id, 0),
+        _ => return None,
+    };
+    Some(component)
+}

@@ -1,0 +1,70 @@
+//! Errors of particle files.
+
+use std::io;
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+use crate::error::SceneError;
+
+/// What is wrong at a place of a file.
+#[derive(Debug)]
+pub(super) struct Problem(pub String);
+
+impl From<String> for Problem {
+    fn from(text: String) -> Self {
+        Self(text)
+    }
+}
+
+impl From<&str> for Problem {
+    fn from(text: &str) -> Self {
+        Self(text.to_owned())
+    }
+}
+
+/// Why a particle file cannot be read.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ParticleError {
+    /// The file cannot be read.
+    #[error("cannot read {path}: {source}")]
+    Unreadable {
+        /// Path of the file.
+        path: PathBuf,
+        /// Error of the operating system.
+        source: io::Error,
+    },
+    /// A line is wrong.
+    #[error("{path}:{line}: {problem}")]
+    Line {
+        /// Path of the file.
+        path: PathBuf,
+        /// Number of the line, from 1.
+        line: u64,
+        /// What is wrong.
+        problem: String,
+    },
+    /// The file has no complete frame.
+    #[error("{path} has no whole frame")]
+    Empty {
+        /// Path of the file.
+        path: PathBuf,
+    },
+    /// The particles have no radius, or two.
+    #[error("{path}: {problem}")]
+    Radius {
+        /// Path of the file.
+        path: PathBuf,
+        /// What is wrong.
+        problem: &'static str,
+    },
+    /// The scene cannot be simulated.
+    #[error("{path}: {source}")]
+    Scene {
+        /// Path of the file.
+        path: PathBuf,
+        /// What is wrong with the scene.
+        source: Box<SceneError>,
+    },
+}

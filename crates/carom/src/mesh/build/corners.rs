@@ -1,0 +1,95 @@
+//! Corners of a mesh.
+
+use glam::{DQuat, DVec3};
+
+use super::borders::Borders;
+use super::faces::Faces;
+use crate::mesh::Corner;
+use crate::mesh::topology::Topology;
+use crate::norm::Norm;
+
+/// What is ahead of a unit vector by less than this is beside it.
+const BESIDE: f64 = 1e-9;
+/// Of more rays it is not asked whether something is nearest to their corner: it may be.
+const MANY_RAYS: usize = 16;
+
+/// The corners that spheres meet: vertices where borders end, if something is nearer to them than to those.
+pub(super) fn corners(
+    topology: &Topology,
+    faces: &Faces,
+    borders: &Borders,
+    is_two_sided: bool,
+) -> Vec<Corner> {
+    let normals = if is_two_sided { Vec::new() } else { normals(topology, faces) };
+    let mut ways: Vec<[u32; 2]> = Vec::new();
+    for edge in topology.edges() {
+        let [first, second] = edge.ends;
+        ways.extend([[first, second], [second, first]]);
+    }
+    ways.sort_unstable();
+    let place = |vertex: u32| topology.vertices[vertex as usize];
+    let around = ways.chunk_by(|first, second| first[0] == second[0]);
+    let corner = |around: &[[u32; 2]]| {
+        let vertex = around[0][0];
+        if !borders.is_end[vertex as usize] {
+            return None;
+        }
+        let point = place(vertex);
+        let ray = |way: &[u32; 2]| {
+            let ray = place(way[1]) - point;
+            ray / ray.norm()
+        };
+        let mut rays: Vec<DVec3> = around.iter().map(ray).collect();
+        let normal = normals.get(vertex as usize).copied();
+        if rays.len() <= MANY_RAYS && !is_met(&rays, normal) {
+            return None;
+        }
+        // Behind faces that are met from one side, nothing is nearest to it.
+        rays.extend(normal.map(|normal| -normal));
+        Some(Corner { point, rotation: DQuat::IDENTITY, rays: rays.into() })
+    };
+    around.filter_map(corner).collect()
+}
+
+/// Whether something is behind all rays, and in front of what has this normal.
+fn is_met(rays: &[DVec3], normal: Option<DVec3>) -> bool {
+    let (mut sum, mut count) = (DVec3::ZERO, 0);
+    let is_behind = |way: DVec3| rays.iter().all(|ray| way.dot(*ray) <= BESIDE);
+    for (number, first) in rays.iter().enumerate() {
+        for second in &rays[number + 1..] {
+            let across = first.cross(*second);
+            let length = across.norm();
+            if length <= BESIDE {
+                continue;
+            }
+            for way in [across / length, -across / length] {
+                if is_behind(way) {
+                    sum += way;
+                    count += 1;
+                }
+            }
+        }
+    }
+    let is_in_front = |normal: DVec3| sum.dot(normal) >= -BESIDE * sum.norm();
+    count > 0 && normal.is_none_or(is_in_front)
+}
+
+/// Unit normal of each vertex: those of its faces, weighted by their angles there. It tells what is in front of
+/// what is behind of all that is nearest to the vertex (Baerentzen and Aanaes, IEEE TVCG 11, 243 (2005)).
+fn normals(topology: &Topology, faces: &Faces) -> Vec<DVec3> {
+    let mut normals = vec![DVec3::ZERO; topology.vertices.len()];
+    for (corners, &face) in topology.triangles.iter().zip(&faces.of) {
+        let places = corners.map(|it| topology.vertices[it as usize]);
+        for corner in 0..3 {
+            let to_next = places[(corner + 1) % 3] - places[corner];
+            let to_last = places[(corner + 2) % 3] - places[corner];
+            let angle = libm::atan2(to_next.cross(to_last).norm(), to_next.dot(to_last));
+            normals[corners[corner] as usize] += angle * faces.normals[face as usize];
+        }
+    }
+    let unit = |normal: DVec3| {
+        let length = normal.norm();
+        if length > 0.0 { normal / length } else { normal }
+    };
+    normals.into_iter().map(unit).collect()
+}

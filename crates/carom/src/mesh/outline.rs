@@ -1,0 +1,113 @@
+//! The outline of a flat face, in coordinates of its plane.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+
+/// What a flat face covers of its plane. Copies share their memory.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct Outline(Arc<Parts>);
+
+#[derive(Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+struct Parts {
+    sides: Vec<Side>,
+    triangles: Vec<[DVec2; 3]>,
+}
+
+/// A straight side of an outline.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct Side {
+    pub ends: [DVec2; 2],
+    /// Unit vector from the first end to the second.
+    pub along: DVec2,
+    /// Unit vector out of the face.
+    pub outward: DVec2,
+    /// \[m\]
+    pub length: f64,
+}
+
+impl Side {
+    /// Between two ends \[m\], out of the face that way.
+    pub fn new(ends: [DVec2; 2], outward: DVec2) -> Self {
+        let way = ends[1] - ends[0];
+        let length = way.dot(way).sqrt();
+        Self { ends, along: way / length, outward, length }
+    }
+
+    /// The point of it nearest to another \[m\].
+    fn nearest(&self, point: DVec2) -> DVec2 {
+        let along = (point - self.ends[0]).dot(self.along);
+        if along >= self.length { self.ends[1] } else { self.ends[0] + along.max(0.0) * self.along }
+    }
+
+    fn distance_squared(&self, point: DVec2) -> f64 {
+        (point - self.nearest(point)).length_squared()
+    }
+}
+
+impl Outline {
+    /// Of these sides, which make closed loops, and the triangles between them \[m\].
+    pub fn new(sides: Vec<Side>, triangles: Vec<[DVec2; 3]>) -> Self {
+        Self(Arc::new(Parts { sides, triangles }))
+    }
+
+    pub fn sides(&self) -> &[Side] {
+        &self.0.sides
+    }
+
+    /// Triangles that cover the face \[m\].
+    pub fn triangles(&self) -> &[[DVec2; 3]] {
+        &self.0.triangles
+    }
+
+    /// Whether a point \[m\] is inside: a line from it to infinity passes an odd number of sides.
+    pub fn contains(&self, point: DVec2) -> bool {
+        let mut is_inside = false;
+        for Side { ends: [a, b], .. } in self.sides() {
+            if (a.y > point.y) != (b.y > point.y) {
+                // The same ends in the same order give the same place, whichever face asks.
+                let [low, high] = if a.y < b.y { [a, b] } else { [b, a] };
+                let x = low.x + (point.y - low.y) / (high.y - low.y) * (high.x - low.x);
+                is_inside ^= x > point.x;
+            }
+        }
+        is_inside
+    }
+
+    /// Whether a point \[m\] is inside, or no farther than `slack` \[m\] outside.
+    pub fn is_within(&self, point: DVec2, slack: f64) -> bool {
+        let is_near = |side: &Side| side.distance_squared(point) <= slack * slack;
+        self.contains(point) || self.sides().iter().any(is_near)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A square with a square hole.
+    fn frame() -> Outline {
+        let square = |half: f64| {
+            let corners = [[-half, -half], [half, -half], [half, half], [-half, half]];
+            (0..4).map(move |number| {
+                let ends = [corners[number], corners[(number + 1) % 4]].map(DVec2::from_array);
+                let way = ends[1] - ends[0];
+                Side::new(ends, DVec2::new(way.y, -way.x).normalize())
+            })
+        };
+        Outline::new(square(2.0).chain(square(1.0)).collect(), Vec::new())
+    }
+
+    #[test]
+    fn a_hole_is_outside() {
+        let outline = frame();
+        assert!(outline.contains(DVec2::new(1.5, 0.3)));
+        assert!(!outline.contains(DVec2::new(0.5, 0.3)));
+        assert!(!outline.contains(DVec2::new(2.5, 0.3)));
+        assert!(outline.is_within(DVec2::new(2.0 + 1e-13, 0.3), 2e-13));
+        assert!(!outline.is_within(DVec2::new(2.0 + 1e-12, 0.3), 2e-13));
+    }
+}

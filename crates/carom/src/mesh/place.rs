@@ -1,0 +1,58 @@
+//! Features in other places.
+
+use glam::{DQuat, DVec3};
+
+use super::{Corner, Edge, Facet};
+use crate::rectangle::Rectangle;
+
+/// A rotation about a point, which then lies elsewhere: `x' = to + R (x - from)`.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Placement {
+    /// Of unit length.
+    pub rotation: DQuat,
+    /// \[m\]
+    pub from: DVec3,
+    /// \[m\]
+    pub to: DVec3,
+}
+
+impl Placement {
+    pub fn point(&self, point: DVec3) -> DVec3 {
+        self.to + self.rotation * (point - self.from)
+    }
+
+    pub fn direction(&self, direction: DVec3) -> DVec3 {
+        self.rotation * direction
+    }
+
+    pub fn rectangle(&self, it: &Rectangle) -> Rectangle {
+        Rectangle {
+            center: self.point(it.center),
+            axis_x: self.direction(it.axis_x),
+            axis_z: self.direction(it.axis_z),
+            normal: self.direction(it.normal),
+            ..*it
+        }
+    }
+
+    pub fn facet(&self, it: &Facet) -> Facet {
+        Facet { frame: self.rectangle(&it.frame), outline: it.outline.clone() }
+    }
+
+    pub fn edge(&self, it: &Edge) -> Edge {
+        Edge {
+            center: self.point(it.center),
+            axis: self.direction(it.axis),
+            half: it.half,
+            outward: it.outward.map(|direction| self.direction(direction)),
+        }
+    }
+
+    pub fn corner(&self, it: &Corner) -> Corner {
+        Corner {
+            point: self.point(it.point),
+            rotation: self.rotation * it.rotation,
+            rays: it.rays.clone(),
+        }
+    }
+}
