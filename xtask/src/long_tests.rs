@@ -16,6 +16,8 @@ pub fn run() -> Outcome {
         let heaps = [package, "--test", "heaps", "--", "--ignored"];
         cargo(&[&OPTIMISED[..], &heaps].concat())?;
     }
+    let grading = ["carom-grade", "--", "--ignored"];
+    cargo(&[&OPTIMISED[..], &grading].concat())?;
     hashes_of_releases()?;
     // The package of the physics must be complete for publishing: it is built from its content
     // alone.

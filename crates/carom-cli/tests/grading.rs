@@ -110,7 +110,9 @@ fn columns_units_and_handedness_are_read_as_given() {
     let columns = ["--columns", "t=when,ball=who,x=a,y=b,z=c", "--scene", "simtest6"];
     let units = ["--length-unit", "cm", "--time-unit", "ms", "--unity"];
     good(&[&["grade", &own][..], &columns, &units].concat());
-    assert_eq!(bad(&[&["grade", &own][..], &columns, &units[..4]].concat(), 1), "");
+    // What is not said is recognised.
+    let text = good(&[&["grade", &own][..], &columns, &units[..4]].concat());
+    assert!(text.contains("in another form: z mirrored (--unity)"), "{text}");
     let error = bad_line(&["grade", &own, "--scene", "simtest6"], 2);
     assert!(error.contains("there is no column \"t\""), "{error}");
 }

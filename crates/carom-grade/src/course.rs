@@ -15,6 +15,10 @@ pub struct Course {
     pub frame_time: f64,
     /// Duration of the scene \[s\].
     pub duration: f64,
+    /// Time by which a frame moves the balls \[s\]: the length of a frame.
+    pub(crate) step: f64,
+    /// Fraction of the tangential velocity that a bounce leaves: 1.
+    pub(crate) tangential: f64,
     pub(crate) combine_rule: CombineRule,
     /// Forces, in the order in which they are summed.
     pub(crate) forces: Vec<Acting>,
@@ -68,8 +72,12 @@ pub(crate) struct Source {
 pub(crate) struct Fixed {
     /// Name of the collider.
     pub name: String,
+    /// Index of the collider in the scene; the faces of a box share one.
+    pub collider: usize,
     pub restitution: f64,
     pub form: Form,
+    /// The surface of a program that takes the degrees of the rotation for radians.
+    pub in_degrees: Form,
 }
 
 /// Geometry of a surface in the world.
@@ -121,21 +129,40 @@ impl Course {
                 "" => format!("collider {number}"),
                 name => name.to_owned(),
             };
-            for form in forms(collider).ok_or_else(|| refuse("a collider of another shape"))? {
+            let rotation = DQuat::from_array(collider.rotation).normalize();
+            let shaped = |rotation| {
+                forms(collider, rotation).ok_or_else(|| refuse("a collider of another shape"))
+            };
+            for (form, in_degrees) in
+                shaped(rotation)?.into_iter().zip(shaped(in_degrees(rotation))?)
+            {
                 let (name, restitution) = (name.clone(), collider.restitution);
-                colliders.push(Fixed { name, restitution, form });
+                colliders.push(Fixed { name, collider: number, restitution, form, in_degrees });
             }
         }
         Ok(Self {
             name: scene.name.clone(),
             frame_time: scene.simulation.frame_time,
             duration: scene.simulation.duration,
+            step: scene.simulation.frame_time,
+            tangential: 1.0,
             combine_rule: scene.settings().combine_rule,
             forces: scene.forces.iter().filter_map(acting).collect(),
             balls,
             emitters,
             colliders,
         })
+    }
+
+    /// Sum of the coefficients of viscous drag \[kg/s\].
+    pub(crate) fn drag(&self) -> f64 {
+        let own = |force: &Acting| if let Acting::Drag(own) = force { *own } else { 0.0 };
+        self.forces.iter().map(own).sum()
+    }
+
+    /// Properties of all balls at their start.
+    pub(crate) fn starts_mut(&mut self) -> impl Iterator<Item = &mut Kind> {
+        self.emitters.iter_mut().map(|it| &mut it.ball).chain(&mut self.balls)
     }
 
     /// Most balls at one time; `None` without a limit.
@@ -210,8 +237,7 @@ fn source(emitter: &carom::Emitter) -> Source {
 }
 
 /// Surfaces of a collider, none for a trigger; `None` if the course does not have the shape.
-fn forms(collider: &scene::Collider) -> Option<Vec<Form>> {
-    let rotation = DQuat::from_array(collider.rotation).normalize();
+fn forms(collider: &scene::Collider, rotation: DQuat) -> Option<Vec<Form>> {
     let axes = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| rotation * axis);
     let center = DVec3::from_array(collider.position);
     let forms = match carom::Shape::from(&collider.shape) {
@@ -223,6 +249,12 @@ fn forms(collider: &scene::Collider) -> Option<Vec<Form>> {
         _ => return None,
     };
     Some(if collider.trigger { Vec::new() } else { forms })
+}
+
+/// The rotation whose angle in radians is the number of degrees of this one.
+fn in_degrees(rotation: DQuat) -> DQuat {
+    let (axis, angle) = rotation.to_axis_angle();
+    DQuat::from_axis_angle(axis, angle.to_degrees())
 }
 
 /// Faces of a box with outward normals, in the order -x, +x, -y, +y, -z, +z.

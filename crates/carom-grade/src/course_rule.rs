@@ -45,36 +45,45 @@ struct Frame {
 /// Runs a course in the number type `N`.
 pub(crate) fn run<N: Real>(course: &Course, mistakes: Mistakes, clock: &Clock) -> Tracks {
     let mut run = Run::<N>::new(course, mistakes);
-    run.take(&frames(course.frame_time, mistakes, clock));
+    run.take(&frames(course, mistakes, clock));
     run.tracks
 }
 
-/// Runs a course without mistakes, with an error in each number of each step. `jitter` returns the
+/// Runs a course with an error in each number of each step. `jitter` returns the
 /// relative error.
 pub(crate) fn run_jittered(
     course: &Course,
+    mistakes: Mistakes,
     clock: &Clock,
     jitter: &mut dyn FnMut() -> f64,
 ) -> Tracks {
-    let mut run = Run::<f64>::new(course, Mistakes::NONE);
+    let mut run = Run::<f64>::new(course, mistakes);
     run.jitter = Some(jitter);
-    run.take(&frames(course.frame_time, Mistakes::NONE, clock));
+    run.take(&frames(course, mistakes, clock));
     run.tracks
 }
 
 /// Frames of a program with these mistakes.
-fn frames(h: f64, mistakes: Mistakes, clock: &Clock) -> Vec<Frame> {
+fn frames(course: &Course, mistakes: Mistakes, clock: &Clock) -> Vec<Frame> {
     let end = match clock {
         Clock::Fixed(end) => *end,
         Clock::At(times) if mistakes.has(Mistake::DisplayFrames) => {
             let starts = std::iter::once(0.0).chain(times.iter().copied());
             let frames = starts.zip(times);
-            return frames.map(|(start, &end)| Frame { start, end, h: end - start }).collect();
+            let rate = course.step / course.frame_time;
+            let frame = |(start, &end)| Frame { start, end, h: rate * (end - start) };
+            return frames.map(frame).collect();
         }
         Clock::At(times) => times.last().copied().unwrap_or(0.0),
     };
-    let length = if mistakes.has(Mistake::DisplayFrames) { DISPLAY } else { h };
-    let h = if mistakes.has(Mistake::DisplayStep) { DISPLAY } else { length };
+    let length = if mistakes.has(Mistake::DisplayFrames) { DISPLAY } else { course.frame_time };
+    let h = if mistakes.has(Mistake::DisplayStep) {
+        DISPLAY
+    } else if mistakes.has(Mistake::DisplayFrames) {
+        DISPLAY * (course.step / course.frame_time)
+    } else {
+        course.step
+    };
     // 1e-6 of a frame is a rounding error. The count is limited, because without balls nothing else
     // would end the run.
     let count = ((end / length - 1e-6).ceil().max(1.0) as usize).min(MOST_STATES);
@@ -155,6 +164,7 @@ struct Run<'a, N> {
     forces: &'a [Acting],
     combine_rule: CombineRule,
     surfaces: Vec<(Surface<N>, f64)>,
+    tangential: f64,
     rings: Vec<Ring<'a>>,
     /// Ball of each slot.
     balls: Vec<Ball<N>>,
@@ -167,13 +177,16 @@ struct Run<'a, N> {
 
 impl<'a, N: Real> Run<'a, N> {
     fn new(course: &'a Course, mistakes: Mistakes) -> Self {
-        let surface = |it: &Fixed| (Surface::of(&it.form, mistakes), it.restitution);
+        let is_in_degrees = mistakes.has(Mistake::DegreesForRadians);
+        let form = |it: &Fixed| if is_in_degrees { it.in_degrees } else { it.form };
+        let surface = |it: &Fixed| (Surface::of(&form(it), mistakes), it.restitution);
         let ring = |source| Ring { source, slots: Vec::new(), due: 0 };
         let mut run = Self {
             mistakes,
             forces: &course.forces,
             combine_rule: course.combine_rule,
             surfaces: course.colliders.iter().map(surface).collect(),
+            tangential: course.tangential,
             rings: course.emitters.iter().map(ring).collect(),
             balls: Vec::new(),
             tracks: Tracks { times: vec![0.0], ..Tracks::default() },
@@ -310,6 +323,8 @@ impl<'a, N: Real> Run<'a, N> {
             ball.emitted * -coefficient
         } else if self.mistakes.has(Mistake::DragLate) {
             ball.before * -coefficient
+        } else if self.mistakes.has(Mistake::DragQuadratic) {
+            ball.velocity * (-coefficient * ball.velocity.length())
         } else {
             ball.velocity * -coefficient
         }
@@ -333,6 +348,10 @@ impl<'a, N: Real> Run<'a, N> {
             let Some(velocity) = surface.response(&contact, ball.velocity, e, self.mistakes) else {
                 continue;
             };
+            let velocity = match self.tangential {
+                1.0 => velocity,
+                left => slowed(velocity, contact.normal, N::of(left)),
+            };
             ball.velocity = velocity;
             ball.position = contact.place.unwrap_or(ball.position);
             let (kind, surface) = (contact.kind, index);
@@ -342,4 +361,10 @@ impl<'a, N: Real> Run<'a, N> {
             }
         }
     }
+}
+
+/// Multiplies the part of a velocity that is at right angles to a unit vector by a factor.
+fn slowed<N: Real>(velocity: Vec3<N>, normal: Vec3<N>, left: N) -> Vec3<N> {
+    let along = normal * velocity.dot(normal);
+    along + (velocity - along) * left
 }

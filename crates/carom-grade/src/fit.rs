@@ -106,7 +106,7 @@ impl Rows<'_> {
                 continue;
             }
             let there = tracks.sample(key, time);
-            let distance = there.map(|there| there.position.distance(row.position));
+            let distance = there.map(|there| self.recorded.distance(row, there.position));
             if let (Some(there), Some(distance)) = (there, distance)
                 && distance <= self.tolerances[number]
             {
@@ -132,28 +132,53 @@ impl Rows<'_> {
     }
 }
 
-/// Time after a departure over which runs that no longer agree are compared \[s\].
-const AFTERWARDS: f64 = 0.5;
-
 impl Rows<'_> {
-    /// Root mean square of the distances \[m\] of the departing ball directly after its departure,
-    /// each limited to 1 m.
-    pub fn distance_after(&self, departed: &Departed, tracks: &Tracks) -> f64 {
-        let rows = &self.recorded.rows;
-        let (label, ball) = (rows[departed.row].label, self.balls[departed.row]);
-        let (mut sum, mut count) = (0.0, 0.0);
-        let until = departed.time + AFTERWARDS;
-        let shown =
-            rows.iter().enumerate().skip(departed.row).take_while(|(_, row)| row.time <= until);
-        for (number, row) in shown {
-            if row.label != label || self.balls[number] != ball {
-                continue;
-            }
-            let there = tracks.sample(self.keys[label], row.time);
-            let distance = there.map_or(1.0, |it| it.position.distance(row.position).min(1.0));
-            (sum, count) = (sum + distance * distance, count + 1.0);
+    /// Allows errors of a number of these spreads by rounding \[m\], too.
+    pub fn widen(&mut self, spreads: &[f64], number: f64) {
+        for (tolerance, spread) in self.tolerances.iter_mut().zip(spreads) {
+            *tolerance += number * spread;
         }
-        (sum / f64::max(count, 1.0)).sqrt()
+    }
+
+    /// Whether all rows up to a time \[s\] agree with `tracks`.
+    pub fn agree_until(&self, tracks: &Tracks, until: f64) -> bool {
+        let rows = self.recorded.rows.iter().enumerate().take_while(|(_, row)| row.time <= until);
+        rows.filter(|(_, row)| row.time >= 0.0).all(|(number, row)| {
+            let there = tracks.sample(self.keys[row.label], row.time);
+            there.is_some_and(|it| {
+                self.recorded.distance(row, it.position) <= self.tolerances[number]
+            })
+        })
+    }
+
+    /// Time of the `count`-th row time after `time`, or of the last row \[s\].
+    pub fn later(&self, time: f64, count: usize) -> f64 {
+        let rows = &self.recorded.rows;
+        let first = rows.partition_point(|row| row.time <= time);
+        let mut last = time;
+        let mut left = count;
+        for row in &rows[first..] {
+            if row.time > last {
+                if left == 0 {
+                    break;
+                }
+                (last, left) = (row.time, left - 1);
+            }
+        }
+        last
+    }
+
+    /// Numbers of at most `most` rows up to a time \[s\]: most of them the last, the others spread
+    /// over the rest.
+    pub fn chosen(&self, until: f64, most: usize) -> Vec<usize> {
+        let end = self.recorded.rows.partition_point(|row| row.time <= until);
+        if end <= most {
+            return (0..end).collect();
+        }
+        let late = most * 2 / 3;
+        let early = end - late;
+        let every = early.div_ceil(most - late);
+        (0..early).step_by(every).chain(early..end).collect()
     }
 }
 

@@ -1,16 +1,23 @@
-//! Grades a recorded run by comparison with the course's rule and with each known mistake.
+//! Grades a recorded run by comparison with the course's rule, with known mistakes and with wrong
+//! numbers.
 
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
 use crate::assign;
 use crate::course::Course;
 use crate::course_rule::{Clock, run};
+use crate::estimate::{Bench, Candidate};
 use crate::fit::{Fit, Rows};
+use crate::form::{self, Form, Near};
 use crate::mistake::{Mistake, Mistakes};
+use crate::program::Program;
 use crate::recorded::Recorded;
+use crate::scatter::{self, Scatter};
+use crate::search::Search;
 use crate::spread::Spread;
 use crate::tracks::{Key, Touch, Tracks};
-use crate::verdict::{Explanation, Parts, Verdict};
+use crate::verdict::{self, Explanation, Parts, Verdict};
 
 /// Default tolerance of positions \[m\]: a few times the error of single precision in the scenes of
 /// the course before a ball leaves the picture, and half of the smallest effect of a mistake that
@@ -24,28 +31,46 @@ const SPREADS: f64 = 4.0;
 /// Spread \[m\] above which the verdict contains a note.
 const FAR_SPREAD: f64 = 0.02;
 
-/// Offsets of the table's clock that are recognized \[frames\].
+/// Offsets of the table's clock that are tried first \[frames\].
 const SHIFTS: [i32; 4] = [1, -1, 2, -2];
+
+/// Rates of common displays \[Hz\]. Frames of another fixed length are a number that a program has.
+const DISPLAYS: [f64; 6] = [30.0, 60.0, 75.0, 90.0, 120.0, 144.0];
 
 /// Most frames of a display before the first time of a table: some minutes.
 const MOST_FRAMES_BEFORE: f64 = 20_000.0;
 
-/// Most rows of a table that is compared with pairs of mistakes, which would take minutes for more.
-const MOST_ROWS_OF_PAIRS: usize = 100_000;
+/// Longest run for which another unit of time is tried \[s\].
+const LONGEST: f64 = 1_000.0;
 
-/// Fraction of all rows by which a pair of mistakes must agree longer than a single one to be
-/// named.
-const WORTH_A_PAIR: f64 = 0.02;
+/// Fraction of all rows by which another form must agree longer to be taken.
+const WORTH_A_FORM: f64 = 0.02;
+
+/// A form is taken for a wrong program, too, if its first rows are this much nearer to the rule.
+const MUCH_NEARER: f64 = 0.1;
+
+/// Mean distance of the first rows \[m\] above which another form is plausible.
+const FAR: f64 = 0.3;
+
+/// Largest part of the estimated scatter that a right run leaves.
+const OF_SCATTER: f64 = 1.5;
 
 /// Grades runs of one scene.
 pub struct Grader {
     course: Course,
     tolerance: f64,
-    /// Time up to which runs have been computed \[s\].
+    /// Runs of the course's rule and their spreads, by length in units of 5 s.
+    rules: BTreeMap<u64, Rule>,
+}
+
+/// A run of the course's rule.
+struct Rule {
+    /// Length \[s\].
     end: f64,
-    /// Runs without mistakes and with each single mistake.
-    runs: BTreeMap<Mistakes, Tracks>,
-    spread: Option<Spread>,
+    tracks: Tracks,
+    spread: Spread,
+    /// Runs of as many programs with a known mistake each.
+    wrong: OnceLock<Vec<Tracks>>,
 }
 
 /// Result of grading, with the runs from which it was derived.
@@ -56,14 +81,24 @@ pub struct Graded {
     pub reference: Tracks,
     /// The run of the best explanation, if the recorded run is not right.
     pub explanation: Option<Tracks>,
+    /// The recorded run in the form of the course.
+    pub(crate) recorded: Recorded,
     /// Meaning of each label of the table.
     pub(crate) keys: Vec<Key>,
+}
+
+/// A recorded run in one form, with the meaning of its labels.
+#[derive(Clone)]
+struct Case {
+    form: Form,
+    recorded: Recorded,
+    keys: Vec<Key>,
 }
 
 impl Grader {
     /// Creates a grader for runs of this course with a `tolerance` \[m\].
     pub fn new(course: Course, tolerance: f64) -> Self {
-        Self { course, tolerance, end: 0.0, runs: BTreeMap::new(), spread: None }
+        Self { course, tolerance, rules: BTreeMap::new() }
     }
 
     /// The course.
@@ -83,55 +118,107 @@ impl Grader {
 
     /// Grades a recorded run.
     pub fn grade(&mut self, recorded: &Recorded) -> Graded {
-        // The table's clock may be ahead.
-        let end = recorded.end() + 3.0 * self.course.frame_time;
-        self.make_ready(end);
-        let reference = &self.runs[&Mistakes::NONE];
-        let keys = assign::keys(recorded, reference, self.course.capacity());
-        let rows = self.rows(recorded, &keys);
-        let right = rows.follow(reference, 0.0);
-        // A run that is too long to be compared to its end may be right.
-        let departs = right.departure.is_some();
-        let shift = departs.then(|| self.shift(&rows)).flatten();
-        let (mut explanations, mut explaining, mut is_mirrored) = (Vec::new(), None, false);
-        if departs && shift.is_none() {
-            explanations = self.explanations(&rows, &right);
-            explaining = explanations.first().map(|it| self.tracks(it.mistakes, recorded));
-            is_mirrored = self.is_mirrored(&rows, &right);
+        let base = self.base_tolerance(recorded);
+        let plain = self.case(Form::SAME, recorded);
+        let (plain_fit, _) = self.compare(&plain, base);
+        if plain_fit.departure.is_none() {
+            return self.graded(Found::of(plain, base));
         }
-        let fit = shift.as_ref().map_or(&right, |(_, fit)| fit).clone();
-        let parts = Parts {
-            course: &self.course,
-            recorded,
-            keys: &keys,
-            reference,
-            fit,
-            shift: shift.map(|(frames, _)| frames),
-            is_mirrored,
-            rounding: rows.rounding,
-            explanations,
-            explaining: explaining.as_ref(),
-            tolerance: self.base_tolerance(recorded),
-            asked: self.tolerance,
+        let deviation = scatter::deviation(recorded);
+        let measured = deviation.map_or(base, |it| base.max(scatter::tolerance(it)));
+        let (case, fit) = self.in_best_form(recorded, plain, measured);
+        let base = self.base_tolerance(&case.recorded);
+        let strict = self.compare(&case, base).0;
+        let deviation = deviation.filter(|_| measured > base).map(|it| it * case.form.length());
+        let Some(deviation) = deviation.filter(|_| strict.departure.is_some()) else {
+            return self.explained(Found::of(case, base), &strict);
         };
-        let verdict = Verdict::of(parts);
-        Graded { verdict, reference: reference.clone(), explanation: explaining, keys }
+        let tolerance = scatter::tolerance(deviation).max(base);
+        let scatter = Some(Scatter { deviation, tolerance });
+        let wide = self.explained(Found { scatter, ..Found::of(case.clone(), tolerance) }, &fit);
+        // What is left must be the scatter: motion that the estimate did not remove is none.
+        let left = wide.deviation(tolerance);
+        if left.is_some_and(|left| left < OF_SCATTER * deviation && OF_SCATTER * left > deviation) {
+            return wide.with_deviation(left);
+        }
+        self.explained(Found::of(case, base), &strict)
     }
 
-    /// Computes all runs up to a time \[s\], rounded up to a multiple of 5 s.
+    /// Searches for the causes of a departure, if there is one.
+    fn explained(&self, mut found: Found, fit: &Fit) -> Graded {
+        if fit.departure.is_some() {
+            (found.candidates, found.explaining) = self.explanations(&found, fit);
+        }
+        self.graded(found)
+    }
+
+    /// Makes the verdict.
+    fn graded(&self, found: Found) -> Graded {
+        let (fit, rounding) = self.compare(&found.case, found.tolerance);
+        let course = &self.course;
+        let explain = |it: Candidate| Explanation::new(it, &fit, course);
+        let explanations = found.candidates.iter().cloned().map(explain).collect();
+        let base = self.base_tolerance(&found.case.recorded);
+        let rule = self.rule(&found.case.recorded);
+        let Case { form, recorded, keys } = found.case;
+        let parts = Parts {
+            course: &self.course,
+            recorded: &recorded,
+            keys: &keys,
+            reference: &rule.tracks,
+            form: form.words(self.course.frame_time),
+            scatter: found.scatter,
+            rounding,
+            explanations,
+            explaining: found.explaining.as_ref(),
+            tolerance: base,
+            asked: self.tolerance,
+            fit,
+        };
+        let verdict = Verdict::of(parts);
+        let reference = rule.tracks.clone();
+        Graded { verdict, reference, explanation: found.explaining, recorded, keys }
+    }
+
+    fn case(&mut self, form: Form, recorded: &Recorded) -> Case {
+        let recorded = form.apply(recorded);
+        let capacity = self.course.capacity();
+        self.make_ready(recorded.end());
+        let keys = assign::keys(&recorded, &self.rule(&recorded).tracks, capacity);
+        Case { form, recorded, keys }
+    }
+
+    /// Compares a case with the course's rule; returns where rounding moves balls far, too.
+    fn compare(&self, case: &Case, tolerance: f64) -> (Fit, Option<[f64; 2]>) {
+        let rows = self.rows(case, tolerance);
+        (rows.follow(&self.rule(&case.recorded).tracks, 0.0), rows.rounding)
+    }
+
+    /// Computes the run of the rule for tables that end at a time \[s\].
     fn make_ready(&mut self, end: f64) {
         // The runs of a folder have similar lengths, so computed runs are reused for the same
         // rounded length. Longer ones would do as well, but have a larger spread by rounding, and a
         // verdict must not depend on what was graded before.
-        let end = (end / 5.0).ceil() * 5.0;
-        if end == self.end && !self.runs.is_empty() {
-            return;
-        }
-        self.end = end;
-        let clock = Clock::Fixed(self.end);
-        let known = std::iter::once(Mistakes::NONE).chain(Mistake::all().map(Mistakes::from));
-        self.runs = known.map(|it| (it, run::<f64>(&self.course, it, &clock))).collect();
-        self.spread = Some(Spread::of(&self.course, &self.runs[&Mistakes::NONE], &clock));
+        let length = self.length(end);
+        let course = &self.course;
+        self.rules.entry(length).or_insert_with(|| {
+            let end = 5.0 * length as f64;
+            let clock = Clock::Fixed(end);
+            let rule = Program::default();
+            let tracks = rule.run(course, &clock);
+            let spread = Spread::of(&rule, course, &tracks, &clock);
+            Rule { end, tracks, spread, wrong: OnceLock::new() }
+        });
+    }
+
+    /// Length of the run for a table that ends at a time, in units of 5 s.
+    fn length(&self, end: f64) -> u64 {
+        // The table's clock may be ahead.
+        ((end.max(0.0) + 3.0 * self.course.frame_time) / 5.0).ceil() as u64
+    }
+
+    fn rule(&self, recorded: &Recorded) -> &Rule {
+        &self.rules[&self.length(recorded.end())]
     }
 
     fn base_tolerance(&self, recorded: &Recorded) -> f64 {
@@ -139,27 +226,24 @@ impl Grader {
         self.tolerance.max(2.0 * recorded.resolution)
     }
 
-    fn rows<'a>(&self, recorded: &'a Recorded, keys: &'a [Key]) -> Rows<'a> {
-        let reference = &self.runs[&Mistakes::NONE];
-        let base = self.base_tolerance(recorded);
+    fn rows<'a>(&self, case: &'a Case, base: f64) -> Rows<'a> {
+        let Rule { tracks: reference, spread, .. } = self.rule(&case.recorded);
         let mut rows = Rows {
-            recorded,
-            keys,
+            recorded: &case.recorded,
+            keys: &case.keys,
             balls: Vec::new(),
             tolerances: Vec::new(),
             rounding: None,
             frame_time: self.course.frame_time,
         };
-        for row in &recorded.rows {
+        for row in &case.recorded.rows {
             let frame = reference.frame_at(row.time).map(|(frame, part)| (frame, part > 0.0));
             let frame = frame.map(|(frame, is_between)| frame + usize::from(is_between));
-            let ball = frame.and_then(|frame| reference.ball(keys[row.label], frame));
-            let spread = match (ball, frame, &self.spread) {
-                (Some(ball), Some(frame), Some(spread)) => {
-                    spread.at(ball, frame - reference.balls[ball].birth)
-                }
+            let ball = frame.and_then(|frame| reference.ball(case.keys[row.label], frame));
+            let spread = match (ball, frame) {
+                (Some(ball), Some(frame)) => spread.at(ball, frame - reference.balls[ball].birth),
                 // A ball that exists only in the wrong run.
-                (None, _, Some(spread)) => spread.largest(),
+                (None, _) => spread.largest(),
                 _ => 0.0,
             };
             if spread > FAR_SPREAD {
@@ -172,96 +256,166 @@ impl Grader {
         rows
     }
 
-    /// Offset of the table's clock \[frames\], if it explains the whole difference.
-    fn shift(&self, rows: &Rows) -> Option<(i32, Fit)> {
-        let reference = &self.runs[&Mistakes::NONE];
-        // Before the first bounce, explicit Euler would look the same.
-        let bounced = |it: &Touch| {
-            reference.times[it.frame] + 3.0 * self.course.frame_time < rows.recorded.end()
-        };
-        if !reference.touches.iter().any(bounced) {
-            return None;
+    /// Finds the form in which a run agrees with the rule longest; that of the course, unless
+    /// another one agrees much longer or starts much nearer.
+    fn in_best_form(&mut self, recorded: &Recorded, plain: Case, tolerance: f64) -> (Case, Fit) {
+        let plain_fit = self.compare(&plain, tolerance).0;
+        if plain_fit.departure.is_none() {
+            return (plain, plain_fit);
         }
-        let fits = SHIFTS.iter().map(|&frames| {
-            let later = f64::from(frames) * self.course.frame_time;
-            (frames, rows.follow(reference, later))
-        });
-        fits.into_iter().find(|(_, fit)| {
-            let moved = fit.max_velocity.unwrap_or(0.0) * self.course.frame_time;
-            fit.is_complete() && fit.rms.is_finite() && moved < 10.0 * self.tolerance
-        })
-    }
-
-    /// Whether the run agrees with the course's rule much longer if z is mirrored.
-    fn is_mirrored(&self, rows: &Rows, right: &Fit) -> bool {
-        let mirrored = rows.recorded.mirrored();
-        let fit = self.rows(&mirrored, rows.keys).follow(&self.runs[&Mistakes::NONE], 0.0);
-        fit.followed as f64 > right.followed as f64 + WORTH_A_PAIR * fit.rows as f64
-    }
-
-    /// Finds the mistakes that explain a run better than the course's rule does, the best first.
-    fn explanations(&self, rows: &Rows, right: &Fit) -> Vec<Explanation> {
-        let mut found: Vec<Explanation> =
-            Mistake::all().map(|mistake| self.explanation(mistake.into(), rows, right)).collect();
-        found.sort_by(Explanation::compare);
-        let best = &found[0].fit;
-        let much_longer = best.followed as f64 + WORTH_A_PAIR * best.rows as f64;
-        if !best.is_complete()
-            && best.rows <= MOST_ROWS_OF_PAIRS
-            && let Some(pair) = self.pair(rows, right)
-            && pair.fit.followed as f64 > much_longer
-        {
-            found.insert(0, pair);
+        if let Some(shifted) = self.shifted(recorded, tolerance) {
+            return shifted;
         }
-        let reference = &self.runs[&Mistakes::NONE];
-        let of_rule = right.departure.map_or(0.0, |it| rows.distance_after(&it, reference));
-        // A difference of a tenth of a percent is chance.
-        found.retain(|it| it.share > 0.0 || it.distance_after < 0.999 * of_rule);
-        found
-    }
-
-    /// Finds the pair of mistakes that explains a run best.
-    fn pair(&self, rows: &Rows, right: &Fit) -> Option<Explanation> {
-        let mut best: Option<Explanation> = None;
-        for first in Mistake::all() {
-            for second in Mistake::all().filter(|second| *second > first) {
-                let pair = Mistakes::from(first).with(second);
-                let found = self.explanation(pair, rows, right);
-                if best.as_ref().is_none_or(|best| found.fit.is_better_than(&best.fit)) {
-                    best = Some(found);
-                }
+        let mut nearest: Vec<Near> = Vec::new();
+        for time in form::times(self.course.frame_time) {
+            if time != 1.0 && time * recorded.end() > LONGEST {
+                continue;
+            }
+            let of_time = self.case(Form::of_time(time), recorded);
+            let rule = &self.rule(&of_time.recorded).tracks;
+            let found = form::nearest(recorded, &of_time.keys, rule, time);
+            let unturned = Form::of_time(time);
+            for form in [unturned, found[0].form] {
+                nearest.extend(form::zeros(recorded, &of_time.keys, rule, &form));
+            }
+            nearest.extend(found);
+        }
+        let of_plain = form::near(&plain.recorded, &plain.keys, &self.rule(recorded).tracks);
+        let mut best = (plain, plain_fit.clone());
+        let much = WORTH_A_FORM * plain_fit.rows as f64;
+        let half = 0.5 * (plain_fit.rows - plain_fit.followed) as f64;
+        let mut nearest_start = of_plain.early;
+        for near in form::sorted(nearest) {
+            let case = self.case(near.form, recorded);
+            let base = self.base_tolerance(&case.recorded);
+            let fit = self.compare(&case, base.max(tolerance * near.form.length())).0;
+            // Another zero is as good as a wrong first step, unless it explains more than that.
+            let least = if near.form.has_zeros() { much } else { much.max(half) };
+            let is_longer = fit.followed as f64 > best.1.followed as f64 + least;
+            let is_nearer = best.1.followed as f64 <= much
+                && of_plain.early > FAR
+                && near.early < MUCH_NEARER * nearest_start
+                && near.form.has_zeros();
+            if is_longer || is_nearer {
+                nearest_start = near.early;
+                best = (case, fit);
             }
         }
         best
     }
 
-    fn explanation(&self, mistakes: Mistakes, rows: &Rows, right: &Fit) -> Explanation {
-        let own;
-        let tracks = match self.runs.get(&mistakes) {
-            Some(known) if !self.needs_own_run(mistakes, rows.recorded) => known,
-            _ => {
-                own = self.tracks(mistakes, rows.recorded);
-                &own
-            }
-        };
-        let after = right.departure.map_or(0.0, |it| rows.distance_after(&it, tracks));
-        Explanation::new(mistakes, rows.follow(tracks, 0.0), right, after)
-    }
-
-    /// Whether the run with these mistakes depends on the times of the table.
-    fn needs_own_run(&self, mistakes: Mistakes, recorded: &Recorded) -> bool {
-        mistakes.has(Mistake::DisplayFrames) && display_times(&self.course, recorded).is_some()
-    }
-
-    /// Returns the run with these mistakes with which a table is compared.
-    fn tracks(&self, mistakes: Mistakes, recorded: &Recorded) -> Tracks {
-        if self.needs_own_run(mistakes, recorded)
-            && let Some(times) = display_times(&self.course, recorded)
-        {
-            return run::<f64>(&self.course, mistakes, &Clock::At(times));
+    /// A clock that is off by a frame or two, if that explains the whole difference.
+    fn shifted(&mut self, recorded: &Recorded, tolerance: f64) -> Option<(Case, Fit)> {
+        let h = self.course.frame_time;
+        let reference = &self.rule(recorded).tracks;
+        // Before the first bounce, explicit Euler would look the same.
+        let bounced = |it: &Touch| reference.times[it.frame] + 3.0 * h < recorded.end();
+        if !reference.touches.iter().any(bounced) {
+            return None;
         }
-        let known = self.runs.get(&mistakes).cloned();
-        known.unwrap_or_else(|| run::<f64>(&self.course, mistakes, &Clock::Fixed(self.end)))
+        let most_moved = 10.0 * self.tolerance;
+        SHIFTS.iter().find_map(|&frames| {
+            let later = f64::from(frames) * h;
+            let case = self.case(Form::shifted(later), recorded);
+            let fit = self.compare(&case, tolerance).0;
+            let moved = fit.max_velocity.unwrap_or(0.0) * h;
+            let is_it = fit.is_complete() && fit.rms.is_finite() && moved < most_moved;
+            is_it.then_some((case, fit))
+        })
+    }
+
+    /// Finds what explains a run better than the course's rule does, the best first, and the run of
+    /// the best.
+    fn explanations(&self, found: &Found, right: &Fit) -> (Vec<Candidate>, Option<Tracks>) {
+        let mut rows = self.rows(&found.case, found.tolerance);
+        let rule = self.rule(&found.case.recorded);
+        let display = display_times(&self.course, &found.case.recorded);
+        let bench =
+            Bench { course: &self.course, rows: &rows, end: rule.end, display: display.clone() };
+        let singles = self.singles(&bench, rule);
+        let all = Search { bench: &bench, right, singles }.explanations();
+        let Some(best) = verdict::best(&all) else { return (Vec::new(), None) };
+        // Another program rounds in another way.
+        let own = self.widened(&bench, &best.program);
+        rows.widen(&own, SPREADS);
+        let bench = Bench { course: &self.course, rows: &rows, end: rule.end, display };
+        let mut all: Vec<Candidate> = verdict::listed(all);
+        for candidate in &mut all {
+            *candidate = bench.rounded(bench.candidate(candidate.program.clone()));
+        }
+        let all = verdict::listed(all);
+        let run = all.first().map(|it| bench.run(&it.program, rule.end));
+        (all, run)
+    }
+
+    /// Compares a table with all programs that have a known mistake.
+    fn singles(&self, bench: &Bench, rule: &Rule) -> Vec<Candidate> {
+        let clock = Clock::Fixed(rule.end);
+        let run = |mistake: Mistake| Program::from(mistake).run(&self.course, &clock);
+        let known = rule.wrong.get_or_init(|| Mistake::all().map(run).collect());
+        let compare = |(mistake, tracks): (Mistake, &Tracks)| {
+            // Frames of the display are those of the table.
+            if mistake == Mistake::DisplayFrames {
+                return bench.candidate(mistake.into());
+            }
+            Candidate { program: mistake.into(), fit: bench.rows.follow(tracks, 0.0) }
+        };
+        Mistake::all().zip(known).map(compare).collect()
+    }
+
+    /// Spreads by rounding of each row under a program \[m\].
+    fn widened(&self, bench: &Bench, program: &Program) -> Vec<f64> {
+        let tracks = bench.run(program, bench.end);
+        let clock = Clock::Fixed(bench.end);
+        let spread = Spread::of(program, &self.course, &tracks, &clock);
+        let of_row = |row: &crate::recorded::Row| {
+            let (frame, part) = tracks.frame_at(row.time)?;
+            let frame = frame + usize::from(part > 0.0);
+            let ball = tracks.ball(bench.rows.keys[row.label], frame)?;
+            Some(spread.at(ball, frame - tracks.balls[ball].birth))
+        };
+        bench.rows.recorded.rows.iter().map(|row| of_row(row).unwrap_or(0.0)).collect()
+    }
+}
+
+impl Graded {
+    /// Replaces the estimated scatter by what the best explanation leaves of each coordinate \[m\].
+    fn with_deviation(mut self, left: Option<f64>) -> Self {
+        let best = self.verdict.explanations.first().map_or(&self.verdict.fit, |it| &it.fit);
+        if let Some(deviation) = left.filter(|_| best.is_complete()) {
+            let tolerance = scatter::tolerance(deviation).max(self.verdict.tolerance);
+            self.verdict.scatter = Some(Scatter { deviation, tolerance });
+        }
+        self
+    }
+
+    /// Standard deviation of what the best explanation leaves of each coordinate in the rows within
+    /// a distance \[m\].
+    fn deviation(&self, within: f64) -> Option<f64> {
+        let tracks = self.explanation.as_ref().unwrap_or(&self.reference);
+        let apart = self.recorded.rows.iter().filter_map(|row| {
+            let there = tracks.sample(self.keys[row.label], row.time)?.position;
+            (self.recorded.distance(row, there) <= within).then(|| row.position - there)
+        });
+        scatter::of_differences(apart, self.recorded.seen)
+    }
+}
+
+/// What was found about a run.
+struct Found {
+    case: Case,
+    /// Allowed error \[m\], without that by rounding.
+    tolerance: f64,
+    scatter: Option<Scatter>,
+    /// Explanations, the best first.
+    candidates: Vec<Candidate>,
+    /// Run of the best explanation.
+    explaining: Option<Tracks>,
+}
+
+impl Found {
+    fn of(case: Case, tolerance: f64) -> Self {
+        Self { case, tolerance, scatter: None, candidates: Vec::new(), explaining: None }
     }
 }
 
@@ -277,6 +431,11 @@ fn display_times(course: &Course, recorded: &Recorded) -> Option<Vec<f64>> {
         return None;
     }
     let (first, usual) = (times[0], times[1] - times[0]);
+    let is_even = times.windows(2).all(|it| (it[1] - it[0] - usual).abs() < 1e-6 * usual);
+    let is_of_display = |rate: &f64| (usual * rate - 1.0).abs() < 0.01;
+    if is_even && !DISPLAYS.iter().any(is_of_display) {
+        return None;
+    }
     let before = (first / usual).round().max(1.0);
     if before > MOST_FRAMES_BEFORE {
         return None;

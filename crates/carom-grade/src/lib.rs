@@ -20,7 +20,7 @@
 //! grader.planted(Mistake::ExplicitEuler.into(), 5.0, true).write(&mut table)?;
 //! let recorded = Recorded::parse("run.csv".as_ref(), &table, &Reading::default())?;
 //! let verdict = grader.grade(&recorded).verdict;
-//! assert_eq!(verdict.explanations[0].mistakes, Mistake::ExplicitEuler.into());
+//! assert_eq!(verdict.explanations[0].cause.mistakes, Mistake::ExplicitEuler.into());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -31,13 +31,19 @@ mod contact;
 mod course;
 mod course_rule;
 mod error;
+mod estimate;
 mod fit;
+mod form;
 mod grader;
 mod mistake;
 mod number;
+mod program;
+mod quantity;
 mod real;
 mod recorded;
 mod report;
+mod scatter;
+mod search;
 mod spread;
 mod svg;
 mod tracks;
@@ -50,7 +56,9 @@ pub use error::GradeError;
 pub use fit::{Departed, Fit};
 pub use grader::{Graded, Grader, TOLERANCE};
 pub use mistake::{Mistake, Mistakes};
+pub use quantity::WrongNumber;
 pub use recorded::{Columns, Reading, Recorded};
 pub use report::page;
+pub use scatter::Scatter;
 pub use tracks::{State, Touch, Tracks};
-pub use verdict::{Departure, DepartureContact, Explanation, Verdict};
+pub use verdict::{Cause, Departure, DepartureContact, Explanation, Then, Verdict};

@@ -24,6 +24,8 @@ pub enum Mistake {
     DragNotUpdated,
     /// Drag uses the velocity of the previous frame.
     DragLate,
+    /// Drag grows with the square of the velocity.
+    DragQuadratic,
     /// Forces of all frames add up.
     ForcesNotCleared,
     /// The whole reflected velocity is multiplied by the restitution.
@@ -66,6 +68,8 @@ pub enum Mistake {
     NormalNotTransformed,
     /// The new velocity is not transformed from the collider's coordinate system.
     VelocityNotTransformed,
+    /// Degrees of a collider's rotation are taken for radians.
+    DegreesForRadians,
     /// Collisions are answered before the movement of the frame.
     CollisionsBefore,
     /// Only the first collider that a ball touches in a frame is answered.
@@ -107,7 +111,7 @@ const fn entry(
 }
 
 /// All mistakes, in the order of their declaration.
-const ENTRIES: [Entry; 36] = [
+const ENTRIES: [Entry; 38] = [
     entry(
         ExplicitEuler,
         "explicit-euler",
@@ -150,6 +154,12 @@ const ENTRIES: [Entry; 36] = [
         "drag-late",
         "Drag is one frame late: it is computed from the velocity of the frame before.",
         ["F = F_const - k v_before", "F = F_const - k v"],
+    ),
+    entry(
+        DragQuadratic,
+        "drag-quadratic",
+        "Drag grows with the square of the velocity, not with the velocity.",
+        ["F = F_const - k |v| v", "F = F_const - k v"],
     ),
     entry(
         ForcesNotCleared,
@@ -276,6 +286,12 @@ const ENTRIES: [Entry; 36] = [
         "velocity-not-transformed",
         "The new velocity is not transformed to the world: it stays in the local frame.",
         ["v' = v'_local", "v' = R v'_local (TransformDirection)"],
+    ),
+    entry(
+        DegreesForRadians,
+        "degrees-for-radians",
+        "The angles of the colliders are in degrees, but are used as radians.",
+        ["R = rotation by the number of degrees, in radians", "R = rotation by the angle"],
     ),
     entry(
         CollisionsBefore,

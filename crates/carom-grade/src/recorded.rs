@@ -110,6 +110,8 @@ pub struct Recorded {
     pub(crate) labels: Vec<String>,
     /// Half of the last decimal of positions \[m\].
     pub(crate) resolution: f64,
+    /// 1 for each coordinate that the table has, 0 for the others.
+    pub(crate) seen: DVec3,
 }
 
 impl Recorded {
@@ -164,14 +166,12 @@ impl Recorded {
             let problem = format!("ball {ball} at this time is in line {} already", first.line);
             return Err(malformed(path, second.line, problem));
         }
-        Ok(Self { path: path.to_owned(), rows, labels, resolution })
+        Ok(Self { path: path.to_owned(), rows, labels, resolution, seen: DVec3::ONE })
     }
 
-    /// Returns the run with z mirrored.
-    pub(crate) fn mirrored(&self) -> Self {
-        let mut mirrored = self.clone();
-        mirrored.rows.iter_mut().for_each(|row| row.position.z = -row.position.z);
-        mirrored
+    /// Distance of a row from a position in the coordinates that the table has \[m\].
+    pub(crate) fn distance(&self, row: &Row, position: DVec3) -> f64 {
+        ((row.position - position) * self.seen).length()
     }
 
     /// Last time \[s\].

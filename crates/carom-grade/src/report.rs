@@ -33,7 +33,8 @@ struct Page<'a> {
 }
 
 /// Writes the page of a graded run.
-pub fn page(course: &Course, recorded: &Recorded, graded: &Graded) -> String {
+pub fn page(course: &Course, graded: &Graded) -> String {
+    let recorded = &graded.recorded;
     let verdict = &graded.verdict;
     let departed = verdict.departure.as_ref();
     let label = departed.and_then(|it| recorded.labels.iter().position(|own| *own == it.ball));
@@ -87,16 +88,17 @@ fn said(verdict: &Verdict) -> String {
 
 fn row(explanation: &Explanation) -> String {
     let formulas = |formula: fn(Mistake) -> &'static str| {
-        let all: Vec<String> = explanation.mistakes.iter().map(|it| escaped(formula(it))).collect();
+        let all: Vec<String> =
+            explanation.cause.mistakes.iter().map(|it| escaped(formula(it))).collect();
         all.join("<br>")
     };
-    let same: Vec<&str> = explanation.same_as.iter().map(|it| it.name()).collect();
+    let same: Vec<String> = explanation.same_as.iter().map(|it| escaped(&it.to_string())).collect();
     let same = if same.is_empty() { String::new() } else { format!(", or {}", same.join(", ")) };
     let fit = &explanation.fit;
     format!(
         "<tr><td>{}{same}</td><td>{}</td><td><code>{}</code></td><td><code>{}</code></td>\
          <td>{} of {}</td><td>{:.1e}</td></tr>",
-        explanation.mistakes,
+        escaped(&explanation.named()),
         escaped(&explanation.sentence()),
         formulas(Mistake::wrong),
         formulas(Mistake::right),

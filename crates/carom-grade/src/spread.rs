@@ -5,8 +5,8 @@ use rand_core::Rng;
 use rand_pcg::Pcg32;
 
 use crate::course::Course;
-use crate::course_rule::{Clock, run, run_jittered};
-use crate::mistake::Mistakes;
+use crate::course_rule::Clock;
+use crate::program::Program;
 use crate::tracks::{State, Track, Tracks};
 
 /// Number of jittered runs.
@@ -26,14 +26,14 @@ pub(crate) struct Spread {
 }
 
 impl Spread {
-    /// Compares runs that round differently with the reference.
-    pub fn of(course: &Course, reference: &Tracks, clock: &Clock) -> Self {
-        let mut runs = vec![run::<f32>(course, Mistakes::NONE, clock)];
+    /// Compares runs of a program that round differently with `reference`, its exact run.
+    pub fn of(program: &Program, course: &Course, reference: &Tracks, clock: &Clock) -> Self {
+        let mut runs = vec![program.run_single(course, clock)];
         for seed in 0..RUNS {
             let mut random = Pcg32::new(seed, 0);
             // A number in [-1, 1).
             let mut jitter = || f64::from(random.next_u32() as i32) / f64::from(1_u32 << 31);
-            runs.push(run_jittered(course, clock, &mut || JITTER * jitter()));
+            runs.push(program.run_jittered(course, clock, &mut || JITTER * jitter()));
         }
         // Balls with equal starts follow equal paths, each with its own rounding errors.
         let mut of_start: Vec<(State, Vec<f64>)> = Vec::new();

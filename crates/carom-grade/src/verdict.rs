@@ -1,19 +1,28 @@
 //! Verdicts.
 
-use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
 use serde::{Serialize, Serializer};
 
 use crate::contact::ContactKind;
 use crate::course::Course;
+use crate::estimate::Candidate;
 use crate::fit::{Departed, Fit};
 use crate::mistake::{Mistake, Mistakes};
+use crate::program::Program;
+use crate::quantity::WrongNumber;
 use crate::recorded::Recorded;
+use crate::scatter::Scatter;
 use crate::tracks::{Key, Touch, Tracks};
 
-/// Fraction of the rows after the departure that a mistake must explain to be named as the cause.
-const CONVINCING: f64 = 0.25;
+/// Fraction of the rows after the departure that a cause must explain to be named.
+const CONVINCING: f64 = 0.5;
+
+/// Relative difference of residuals that is chance.
+const CHANCE: f64 = 0.01;
+
+/// Most candidates that are looked at more closely.
+const LOOKED_AT: usize = 8;
 
 /// Fraction of the scene's duration; if a table ends earlier, the verdict contains a note.
 const WHOLE: f64 = 0.9;
@@ -26,8 +35,12 @@ const LISTED: usize = 3;
 pub struct Verdict {
     /// Name of the scene.
     pub scene: String,
-    /// Whether the run agrees with the course's rule.
+    /// Whether the run agrees with the course's rule, in whatever form.
     pub same: bool,
+    /// Differences of the table's form from that of the course, such as mirrored axes.
+    pub form: Vec<String>,
+    /// Scatter of the positions, as that of measured ones.
+    pub scatter: Option<Scatter>,
     /// Allowed error of positions \[m\], in addition to rounding in single precision.
     pub tolerance: f64,
     /// Number of balls in the table.
@@ -44,7 +57,7 @@ pub struct Verdict {
     pub departure: Option<Departure>,
     /// Whether the first explanation explains the departure.
     pub explained: bool,
-    /// Known mistakes, the best fit first.
+    /// Known mistakes and wrong numbers, the best fit first.
     pub explanations: Vec<Explanation>,
     /// Additional notes.
     pub notes: Vec<String>,
@@ -67,6 +80,8 @@ pub struct Departure {
     pub distance: Option<f64>,
     /// Contact of the ball at that point.
     pub contact: Option<DepartureContact>,
+    /// Number of contacts of the ball before that are right.
+    pub contacts_right: usize,
 }
 
 /// Contact at which a run departs.
@@ -82,54 +97,93 @@ pub struct DepartureContact {
     pub only_by_mistake: bool,
 }
 
-/// A known mistake that may explain a run.
+/// Known mistakes and wrong numbers of a program.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Explanation {
-    /// One mistake, or two.
+pub struct Cause {
+    /// One mistake, or two, or none.
     #[serde(serialize_with = "one_by_one")]
     pub mistakes: Mistakes,
-    /// Mistakes whose runs are identical in all rows.
-    pub same_as: Vec<Mistake>,
-    /// Comparison with the run of the mistake.
+    /// Wrong numbers.
+    pub numbers: Vec<WrongNumber>,
+}
+
+impl Cause {
+    fn of(program: &Program, course: &Course) -> Self {
+        let numbers = program.numbers.iter().map(|it| WrongNumber::of(it, course)).collect();
+        Self { mistakes: program.mistakes, numbers }
+    }
+}
+
+/// What may explain a run.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Explanation {
+    /// Mistakes and wrong numbers.
+    #[serde(flatten)]
+    pub cause: Cause,
+    /// Other causes whose runs this table does not distinguish.
+    pub same_as: Vec<Cause>,
+    /// Comparison with the run of the cause.
     pub fit: Fit,
-    /// Fraction of the rows that the mistake explains and the course's rule does not.
+    /// Fraction of the rows that the cause explains and the course's rule does not.
     pub share: f64,
-    /// Distance of the departing ball directly after the departure \[m\].
-    pub distance_after: f64,
+    /// Where the run departs from the cause, too.
+    pub then: Option<Then>,
+}
+
+/// Point where a run departs from a program that explains it so far.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Then {
+    /// Time \[s\].
+    pub time: f64,
+    /// Label of the ball.
+    pub ball: String,
+    /// Contact of the ball at that point.
+    pub contact: Option<DepartureContact>,
+    /// Number of that contact, or of the last before, from 1; 0 if there was none.
+    pub number: usize,
 }
 
 impl Explanation {
-    pub(crate) fn new(mistakes: Mistakes, fit: Fit, right: &Fit, distance_after: f64) -> Self {
+    pub(crate) fn new(candidate: Candidate, right: &Fit, course: &Course) -> Self {
+        let Candidate { program, fit } = candidate;
         let gained = fit.followed as f64 - right.followed as f64;
-        let share = gained / (right.rows - right.followed).max(1) as f64;
-        Self { mistakes, same_as: Vec::new(), fit, share: share.max(0.0), distance_after }
-    }
-
-    /// Orders the better explanation first: the one that agrees longer; among equal ones, the
-    /// nearer one. Nearness is measured over all rows if they agree longer than the course's rule,
-    /// else directly after the departure.
-    pub(crate) fn compare(&self, other: &Self) -> Ordering {
-        let nearer = match self.share > 0.0 {
-            true => self.fit.residual.total_cmp(&other.fit.residual),
-            false => self.distance_after.total_cmp(&other.distance_after),
-        };
-        other.fit.followed.cmp(&self.fit.followed).then(nearer)
-    }
-
-    /// Whether this run does not distinguish the two.
-    fn is_same_as(&self, other: &Self) -> bool {
-        let (a, b) = (self.fit.residual, other.fit.residual);
-        let (near_a, near_b) = (self.distance_after, other.distance_after);
-        self.fit.followed == other.fit.followed
-            && (a - b).abs() <= 1e-9 * a.max(1e-6)
-            && (near_a - near_b).abs() <= 1e-9
+        let share = (gained / (right.rows - right.followed).max(1) as f64).max(0.0);
+        let cause = Cause::of(&program, course);
+        Self { cause, same_as: Vec::new(), fit, share, then: None }
     }
 
     /// Describes what the program does, in sentences.
     pub fn sentence(&self) -> String {
-        let sentences: Vec<&str> = self.mistakes.iter().map(Mistake::sentence).collect();
+        let sentences: Vec<&str> = self.cause.mistakes.iter().map(Mistake::sentence).collect();
         sentences.join(" ")
     }
+}
+
+/// Whether a table does not distinguish two programs.
+fn is_same(a: &Fit, b: &Fit) -> bool {
+    let (own, other) = (a.residual, b.residual);
+    a.followed == b.followed && (own - other).abs() <= CHANCE * own.max(other) + 1e-9
+}
+
+/// The best of some candidates: among those that the table does not distinguish, the simplest.
+pub(crate) fn best(all: &[Candidate]) -> Option<&Candidate> {
+    let best = all.iter().reduce(|a, b| if b.fit.is_better_than(&a.fit) { b } else { a })?;
+    let simplest = |it: &&Candidate| (it.program.causes(), it.program.numbers.len());
+    all.iter().filter(|it| is_same(&it.fit, &best.fit)).min_by_key(simplest)
+}
+
+/// Orders candidates, the best first, and keeps some.
+pub(crate) fn listed(mut all: Vec<Candidate>) -> Vec<Candidate> {
+    let mut listed = Vec::new();
+    while let Some(best) = best(&all) {
+        if listed.len() == LOOKED_AT {
+            break;
+        }
+        let program = best.program.clone();
+        let place = all.iter().position(|it| it.program == program).unwrap_or(0);
+        listed.push(all.remove(place));
+    }
+    listed
 }
 
 fn one_by_one<S: Serializer>(mistakes: &Mistakes, serializer: S) -> Result<S::Ok, S::Error> {
@@ -143,10 +197,9 @@ pub(crate) struct Parts<'a> {
     pub keys: &'a [Key],
     pub reference: &'a Tracks,
     pub fit: Fit,
-    /// Offset of the table's clock \[frames\].
-    pub shift: Option<i32>,
-    /// Whether the run agrees better with z mirrored.
-    pub is_mirrored: bool,
+    /// Differences of the table's form from that of the course.
+    pub form: Vec<String>,
+    pub scatter: Option<Scatter>,
     /// Time \[s\] from which rounding moves a ball far, and the distance \[m\].
     pub rounding: Option<[f64; 2]>,
     /// Explanations that are better than the course's rule, the best first.
@@ -162,15 +215,20 @@ pub(crate) struct Parts<'a> {
 impl Verdict {
     pub(crate) fn of(parts: Parts) -> Self {
         let Parts { course, recorded, fit, tolerance, .. } = &parts;
-        let same = fit.is_complete();
+        let same = fit.is_complete() && parts.scatter.is_none();
         let times = [recorded.rows.first(), recorded.rows.last()];
-        let explanations = if same { Vec::new() } else { grouped(parts.explanations.clone()) };
-        let explained = explanations.first().is_some_and(|it| it.share >= CONVINCING);
+        let mut explanations = grouped(parts.explanations.clone());
+        if let (Some(best), Some(tracks)) = (explanations.first_mut(), parts.explaining) {
+            best.then = best.fit.departure.as_ref().map(|it| then(&parts, tracks, it));
+        }
+        let explained = !explanations.is_empty();
         let departure = fit.departure.as_ref().map(|it| departure(&parts, it));
         let found = fit.max.is_finite() && fit.followed > 0;
         Self {
             scene: course.name.clone(),
             same,
+            form: parts.form.clone(),
+            scatter: parts.scatter,
             tolerance: *tolerance,
             balls: recorded.labels.len(),
             time: times.map(|row| row.map_or(0.0, |row| row.time)),
@@ -190,13 +248,13 @@ fn digits(difference: f64) -> i32 {
     (0..=15).take_while(|digits| difference <= 0.5 * 10_f64.powi(-digits)).last().unwrap_or(0)
 }
 
-/// Returns the best explanations; merges those that this run does not distinguish.
-fn grouped(found: Vec<Explanation>) -> Vec<Explanation> {
+/// Returns the best explanations that convince; merges those that this run does not distinguish.
+fn grouped(mut found: Vec<Explanation>) -> Vec<Explanation> {
+    found.retain(|it| it.share >= CONVINCING);
     let mut listed: Vec<Explanation> = Vec::new();
     for explanation in found {
-        let is_same = |it: &Explanation| it.mistakes.len() == 1 && it.is_same_as(&explanation);
-        match listed.iter().position(is_same) {
-            Some(place) => listed[place].same_as.extend(explanation.mistakes.iter()),
+        match listed.iter().position(|it| is_same(&it.fit, &explanation.fit)) {
+            Some(place) => listed[place].same_as.push(explanation.cause),
             None if listed.len() == LISTED => break,
             None => listed.push(explanation),
         }
@@ -209,13 +267,13 @@ fn departure(parts: &Parts, departed: &Departed) -> Departure {
     let label = &parts.recorded.labels[row.label];
     let since = departed.before.map_or(0.0, |row| parts.recorded.rows[row].time);
     let key = parts.keys[row.label];
-    let contact = |tracks: &Tracks, only_by_mistake: bool| {
-        let touch = last_touch(tracks, key, [since, row.time], parts.course.frame_time)?;
-        let collider = parts.course.colliders[touch.surface].name.clone();
-        let time = tracks.times[touch.frame];
-        Some(DepartureContact { time, kind: touch.kind, collider, only_by_mistake })
+    let span = [since, row.time];
+    let contact = contact_at(parts, parts.reference, key, span);
+    let by_mistake = || {
+        let contact = contact_at(parts, parts.explaining?, key, span)?;
+        Some(DepartureContact { only_by_mistake: true, ..contact })
     };
-    let by_mistake = || parts.explaining.and_then(|tracks| contact(tracks, true));
+    let before = contact.as_ref().map_or(row.time, |it| it.time - 0.5 * parts.course.frame_time);
     Departure {
         time: departed.time,
         ball: label.clone(),
@@ -223,8 +281,48 @@ fn departure(parts: &Parts, departed: &Departed) -> Departure {
         position: row.position.to_array(),
         expected: departed.expected,
         distance: departed.distance,
-        contact: contact(parts.reference, false).or_else(by_mistake),
+        contacts_right: contacts_until(parts.reference, key, row.time, before),
+        contact: contact.or_else(by_mistake),
     }
+}
+
+/// Point where a run departs from `tracks`, the best explanation.
+fn then(parts: &Parts, tracks: &Tracks, departed: &Departed) -> Then {
+    let row = &parts.recorded.rows[departed.row];
+    let since = departed.before.map_or(0.0, |row| parts.recorded.rows[row].time);
+    let key = parts.keys[row.label];
+    let contact = contact_at(parts, tracks, key, [since, row.time]);
+    let until = contact.as_ref().map_or(row.time, |it| it.time);
+    Then {
+        time: departed.time,
+        ball: parts.recorded.labels[row.label].clone(),
+        contact,
+        number: contacts_until(tracks, key, row.time, until),
+    }
+}
+
+/// Contact of a ball that can affect the last of two successive times of it.
+fn contact_at(
+    parts: &Parts,
+    tracks: &Tracks,
+    key: Key,
+    span: [f64; 2],
+) -> Option<DepartureContact> {
+    let touch = last_touch(tracks, key, span, parts.course.frame_time)?;
+    let collider = parts.course.colliders[touch.surface].name.clone();
+    let time = tracks.times[touch.frame];
+    Some(DepartureContact { time, kind: touch.kind, collider, only_by_mistake: false })
+}
+
+/// Number of contacts up to a time \[s\] of the ball that has a key at another time. Contacts in
+/// successive frames are one.
+fn contacts_until(tracks: &Tracks, key: Key, there: f64, until: f64) -> usize {
+    let ball = ball_at(tracks, key, there);
+    let own = tracks.touches.iter().filter(|it| Some(it.ball) == ball);
+    let frames: Vec<usize> =
+        own.map(|it| it.frame).filter(|frame| tracks.times[*frame] <= until + 1e-9).collect();
+    let follows = frames.windows(2).filter(|it| it[1] <= it[0] + 1).count();
+    frames.len() - follows
 }
 
 /// Finds the last contact of a ball that can affect a row: after the previous row, or one frame
@@ -241,18 +339,6 @@ fn last_touch(tracks: &Tracks, key: Key, [since, until]: [f64; 2], h: f64) -> Op
 fn notes(parts: &Parts) -> Vec<String> {
     let Parts { course, recorded, reference, keys, .. } = parts;
     let mut notes = Vec::new();
-    if let Some(frames) = parts.shift {
-        let seconds = f64::from(frames) * course.frame_time;
-        notes.push(format!(
-            "the clock of the table is off: the run is the same with {seconds:+.3} s added to its times"
-        ));
-    }
-    if parts.is_mirrored {
-        let unity = "is it in Unity's coordinates (--unity), or was that said of one that is not?";
-        notes.push(format!(
-            "with z mirrored the run follows the course's rule much longer: {unity}"
-        ));
-    }
     if let Some([since, most]) = parts.rounding {
         notes.push(format!(
             "from {since:.2} s on rounding alone moves a ball by up to {most:.1e} m: it may be off by four times \

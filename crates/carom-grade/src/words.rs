@@ -1,16 +1,25 @@
 //! Describes verdicts in words.
 
-use crate::verdict::{Departure, Explanation, Verdict};
+use crate::scatter::Scatter;
+use crate::verdict::{Cause, Departure, DepartureContact, Explanation, Verdict};
 
 impl Verdict {
     /// Result in one line.
     pub fn headline(&self) -> String {
-        if self.same {
+        if self.same && self.form.is_empty() {
             return format!(
                 "same as the course's rule, to {} digits (largest difference {:.1e} m)",
                 self.digits.unwrap_or(0),
                 self.fit.max
             );
+        }
+        let form = match self.form.as_slice() {
+            [] => String::new(),
+            form => format!(" in another form: {}", form.join("; ")),
+        };
+        if self.fit.is_complete() {
+            let scatter = self.scatter.map_or("", |_| ", but for scatter");
+            return format!("same as the course's rule{scatter}{form}");
         }
         let Some(departure) = &self.departure else {
             return match self.compared_until {
@@ -21,40 +30,73 @@ impl Verdict {
             };
         };
         let Departure { time, ball, .. } = departure;
-        format!("departs from the course's rule at {time:.2} s, ball {ball}")
+        format!("departs from the course's rule at {time:.2} s, ball {ball}{}", self.read_as())
     }
 
     /// Further lines of the verdict, each with a name.
     pub fn lines(&self) -> Vec<(&'static str, String)> {
         let mut lines = Vec::new();
+        if let Some(scatter) = self.scatter {
+            lines.push(("scatter", scatter.in_words()));
+        }
         if let Some(departure) = &self.departure {
             lines.push(("where", departure.place()));
             lines.push(("contact", departure.touched()));
+            lines.extend(departure.right().map(|it| ("right", it)));
         }
         match self.explanations.split_first() {
-            Some((best, others)) if self.explained => {
-                lines.push(("mistake", best.named()));
-                lines.push(("", best.sentence()));
-                for mistake in best.mistakes.iter() {
+            Some((best, others)) => {
+                lines.push((best.heading(), best.named()));
+                lines.extend(best.ambiguous().map(|it| ("", it)));
+                lines.extend(best.departs().map(|it| ("then", it)));
+                if !best.cause.mistakes.is_empty() {
+                    lines.push(("", best.sentence()));
+                }
+                for mistake in best.cause.mistakes.iter() {
                     lines.push(("program", mistake.wrong().to_owned()));
                     lines.push(("lecture", mistake.right().to_owned()));
                 }
                 lines.push(("fit", best.fit_in_words()));
                 lines.extend(others.iter().map(|it| ("runner-up", it.in_a_line())));
             }
-            Some((best, _)) => {
-                let nearest =
-                    format!("no known mistake explains it; nearest is {}", best.in_a_line());
-                lines.push(("mistake", nearest));
-            }
-            None if self.departure.is_some() => {
-                lines.push(("mistake", "no known mistake explains it".to_owned()))
-            }
+            None if self.departure.is_some() => lines
+                .push(("mistake", "no known mistake and no wrong number explains it".to_owned())),
             None => {}
         }
         lines.extend(self.notes.iter().map(|note| ("note", note.clone())));
         lines
     }
+
+    /// The form in which a run that departs was read, after a comma.
+    fn read_as(&self) -> String {
+        match self.form.as_slice() {
+            [] => String::new(),
+            form => format!(", read in another form: {}", form.join("; ")),
+        }
+    }
+}
+
+impl Scatter {
+    fn in_words(&self) -> String {
+        let Self { deviation, tolerance } = *self;
+        format!("{} in each coordinate; --tolerance {tolerance} allows it", length(deviation))
+    }
+}
+
+/// Writes a length in the unit that people would use.
+pub(crate) fn length(meters: f64) -> String {
+    let size = meters.abs();
+    let (value, unit) = match size {
+        _ if size < 1e-9 => return format!("{meters:.1e} m"),
+        _ if size < 1e-6 => (1e9 * meters, "nm"),
+        _ if size < 1e-3 * 0.9995 => (1e6 * meters, "µm"),
+        _ if size < 1e-2 * 0.9995 => (1e3 * meters, "mm"),
+        _ if size < 1.0 * 0.9995 => (1e2 * meters, "cm"),
+        _ if size < 1e4 => (meters, "m"),
+        _ => (1e-3 * meters, "km"),
+    };
+    let decimals = usize::from(value.abs() < 99.95);
+    format!("{value:.decimals$} {unit}")
 }
 
 impl Departure {
@@ -63,8 +105,9 @@ impl Departure {
         let there = written(self.position);
         match (self.expected, self.distance) {
             (Some(expected), Some(distance)) => format!(
-                "line {}: the ball is at {there}, {distance:.2e} m from {}",
+                "line {}: the ball is at {there}, {} from {}",
                 self.line,
+                length(distance),
                 written(expected)
             ),
             _ => format!(
@@ -78,37 +121,77 @@ impl Departure {
         match &self.contact {
             Some(contact) => {
                 let only = if contact.only_by_mistake { ", where the rule has none" } else { "" };
-                format!("{} of {} at {:.2} s{only}", contact.kind, contact.collider, contact.time)
+                format!("{contact} at {:.2} s{only}", contact.time)
             }
             None => "none".to_owned(),
         }
     }
+
+    /// What the ball does right before.
+    fn right(&self) -> Option<String> {
+        match self.contacts_right {
+            0 => None,
+            1 => Some("the ball's first contact is right".to_owned()),
+            right => Some(format!("the ball's first {right} contacts are right")),
+        }
+    }
+}
+
+impl std::fmt::Display for DepartureContact {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} of {}", self.kind, self.collider)
+    }
+}
+
+impl std::fmt::Display for Cause {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let mistakes = self.mistakes.iter().map(|it| it.name().to_owned());
+        let all: Vec<String> =
+            mistakes.chain(self.numbers.iter().map(ToString::to_string)).collect();
+        f.write_str(&all.join(" + "))
+    }
 }
 
 impl Explanation {
-    /// Names the mistakes, and those that this run does not distinguish from them.
+    /// Names the mistakes and wrong numbers, and how far they explain the run.
     pub fn named(&self) -> String {
-        let mut names = self.mistakes.to_string();
-        for other in &self.same_as {
-            names += &format!(", or {} (this run cannot tell)", other.name());
+        match &self.then {
+            Some(then) => format!("{} until {:.2} s", self.cause, then.time),
+            None => self.cause.to_string(),
         }
-        names
+    }
+
+    /// What the named causes are.
+    fn heading(&self) -> &'static str {
+        if self.cause.mistakes.is_empty() { "number" } else { "mistake" }
+    }
+
+    /// Names the causes that this run does not distinguish from the best.
+    fn ambiguous(&self) -> Option<String> {
+        let others: Vec<String> = self.same_as.iter().map(ToString::to_string).collect();
+        let others = others.join(", or ");
+        (!others.is_empty()).then(|| format!("or {others}: this run cannot tell them apart"))
+    }
+
+    /// Where the run departs from the named causes.
+    fn departs(&self) -> Option<String> {
+        let then = self.then.as_ref()?;
+        let place = match (&then.contact, then.number) {
+            (Some(contact), number) => format!("at contact {number}, {contact}"),
+            (None, 0) => "before its first contact".to_owned(),
+            (None, number) => format!("after contact {number}"),
+        };
+        Some(format!("departs from that, too, at {:.2} s: ball {}, {place}", then.time, then.ball))
     }
 
     fn fit_in_words(&self) -> String {
         let fit = &self.fit;
-        if self.share <= 0.0 {
-            let after = self.distance_after;
-            return format!(
-                "follows no longer than the rule; {after:.1e} m off right after it departs"
-            );
-        }
-        let until = fit.departure.map_or(String::new(), |it| format!(", until {:.2} s", it.time));
-        format!("{} of {} rows{until}, residual {:.1e} m", fit.followed, fit.rows, fit.rms)
+        format!("{} of {} rows, residual {}", fit.followed, fit.rows, length(fit.rms))
     }
 
     fn in_a_line(&self) -> String {
-        format!("{} ({})", self.named(), self.fit_in_words())
+        let other = self.ambiguous().map_or(String::new(), |it| format!(", {it}"));
+        format!("{}{other} ({})", self.named(), self.fit_in_words())
     }
 }
 
@@ -132,6 +215,8 @@ mod tests {
         let verdict = Verdict {
             scene: "long".to_owned(),
             same: fit.is_complete(),
+            form: Vec::new(),
+            scatter: None,
             tolerance: 5e-4,
             balls: 1,
             time: [1.0, 900.0],

@@ -41,7 +41,7 @@ fn slips_of_another_program_are_named() {
     for (scene, slips, mistake) in slips {
         let verdict = verdict_on(scene, slips);
         assert!(!verdict.same && verdict.explained, "{scene}: {verdict:?}");
-        assert_eq!(verdict.explanations[0].mistakes, mistake.into(), "{scene}");
+        assert_eq!(verdict.explanations[0].cause.mistakes, mistake.into(), "{scene}");
     }
 }
 
@@ -53,8 +53,7 @@ fn a_run_in_unitys_coordinates_is_recognised_if_it_was_not_said() {
     let reading = Reading { columns, ..Reading::default() };
     let run = Recorded::parse(Path::new("run.csv"), text.as_bytes(), &reading).unwrap();
     let verdict = grader("simtest3").grade(&run).verdict;
-    assert!(!verdict.same);
-    assert!(verdict.notes.iter().any(|note| note.contains("--unity")), "{:?}", verdict.notes);
+    assert!(verdict.same && verdict.headline().contains("z mirrored (--unity)"), "{verdict:?}");
 }
 
 #[test]
@@ -62,7 +61,7 @@ fn two_slips_at_once_are_named_together() {
     let slips = Slips { explicit_euler: true, whole_restitution: true, ..Slips::default() };
     let verdict = verdict_on("simtest3", slips);
     let both = [Mistake::ExplicitEuler, Mistake::RestitutionOfWhole].into_iter().collect();
-    assert_eq!(verdict.explanations[0].mistakes, both);
+    assert_eq!(verdict.explanations[0].cause.mistakes, both);
     assert!(verdict.explanations[0].fit.is_complete());
 }
 
@@ -156,7 +155,7 @@ fn mistakes_that_no_simtest_shows_are_named_where_they_can_be_seen() {
         let run = planted(&grader, mistake.into(), 4.0, Style::default());
         let verdict = grader.grade(&run).verdict;
         assert!(!verdict.same && verdict.explained, "{mistake:?}: {verdict:?}");
-        assert_eq!(verdict.explanations[0].mistakes, mistake.into(), "{verdict:?}");
+        assert_eq!(verdict.explanations[0].cause.mistakes, mistake.into(), "{verdict:?}");
     }
 }
 
@@ -177,7 +176,7 @@ fn pages_hold_all_that_they_show() {
     let mut grader = grader("simtest5");
     let run = planted(&grader, Mistake::EdgeNormalOfPlane.into(), 4.0, Style::default());
     let graded = grader.grade(&run);
-    let page = carom_grade::page(grader.course(), &run, &graded);
+    let page = carom_grade::page(grader.course(), &graded);
     for part in ["edge-normal-of-plane", "departs from the course", "PlaneCollider", "<svg"] {
         assert!(page.contains(part), "{part}");
     }

@@ -138,15 +138,16 @@ fn add_panel(
     boxes: &mut Vec<PackedPanel>,
 ) {
     match panel.shape {
+        ref shape if is_round(shape) => {
+            let facets = round::facets(panel).filter(|_| !is_cut_open(panel));
+            faces.extend(facets.map(|facet| packed_facet(&facet, panel, eye)));
+        }
         Shape::Box { size } => boxes.push(packed_box(panel, size, eye)),
         Shape::Container { size, .. } if is_volume(panel) => {
             boxes.push(packed_box(panel, size, eye));
         }
         Shape::Rectangle { size_x, size_z } => {
             faces.push(packed_rectangle(panel, [size_x, size_z], eye));
-        }
-        shape if is_round(&shape) && !is_cut_open(panel) => {
-            faces.extend(round::facets(panel).map(|facet| packed_facet(&facet, panel, eye)));
         }
         // Spheres are balls; half-spaces and walls of containers cast no shadows and are added
         // later.
@@ -271,8 +272,12 @@ fn packed_panel(
 
 fn packed_facet(facet: &Facet, panel: &Panel, eye: DVec3) -> PackedPanel {
     let Facet { pose, half, curvatures: [along, around] } = *facet;
-    let size = (DVec3::new(half[0], around, half[1]), along);
-    packed_panel(&Panel { pose, ..*panel }, pose.position - eye, FACET, size)
+    joined(&[
+        four(pose.position - eye, FACET + finish(panel.finish)),
+        pose.rotation.as_quat().to_array(),
+        four(DVec3::new(half[0], around, half[1]), along),
+        color(panel.color, panel.opacity),
+    ])
 }
 
 fn packed_rectangle(panel: &Panel, [size_x, size_z]: [f64; 2], eye: DVec3) -> PackedPanel {

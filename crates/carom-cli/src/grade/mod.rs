@@ -84,7 +84,7 @@ impl Graders<'_> {
         let reading = args.format.reading(grader.course().frame_time);
         let recorded = Recorded::read(run, &reading).map_err(refused)?;
         let graded = grader.grade(&recorded);
-        reports.write(grader.course(), &recorded, &graded)?;
+        reports.write(run, grader.course(), &graded)?;
         Ok(graded.verdict)
     }
 }
@@ -147,9 +147,9 @@ impl<'a> Reports<'a> {
         Some(if self.is_folder { path.join(name) } else { path.to_owned() })
     }
 
-    fn write(&self, course: &Course, recorded: &Recorded, graded: &Graded) -> Result<(), Failure> {
-        let Some(file) = self.file(&recorded.path) else { return Ok(()) };
-        let page = carom_grade::page(course, recorded, graded);
+    fn write(&self, run: &Path, course: &Course, graded: &Graded) -> Result<(), Failure> {
+        let Some(file) = self.file(run) else { return Ok(()) };
+        let page = carom_grade::page(course, graded);
         let written = create_folders_of(&file).and_then(|()| std::fs::write(&file, page));
         written.map_err(|error| unwritable(&file, &error))
     }

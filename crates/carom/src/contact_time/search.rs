@@ -138,7 +138,7 @@ fn longest_step(
     if far > horizon - t {
         return far;
     }
-    let ahead = window.min(now.window(path, aim, t)).min(horizon - t);
+    let ahead = window.min(now.window(path, aim, t, horizon)).min(horizon - t);
     let step = now.safe_step(path, aim, t, ahead);
     if step >= ahead {
         *window *= 2.0;
@@ -287,12 +287,12 @@ impl Look {
 
     /// How far ahead \[s\] to look from here: over a core that is not convex, bounds of the curvature hold for a
     /// part of its radius.
-    fn window(&self, path: &impl Path, aim: f64, t: f64) -> f64 {
+    fn window(&self, path: &impl Path, aim: f64, t: f64, horizon: f64) -> f64 {
         let concavity = self.sight.concavity.filter(|it| !it.is_none());
         let Some(concavity) = concavity else { return f64::INFINITY };
         let span = concavity.span.max(self.gap.distance).max(self.zero.distance + aim);
         let speed = self.state.velocity.norm();
-        let pull = path.max_acceleration_anywhere(t, t + path.window());
+        let pull = path.max_acceleration_anywhere(t, horizon.min(t + path.window()));
         // v τ + a τ² = span
         let root = (speed * speed + 4.0 * pull * span).sqrt();
         if root > 0.0 { 2.0 * span / (speed + root) } else { f64::INFINITY }

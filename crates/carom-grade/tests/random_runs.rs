@@ -1,0 +1,234 @@
+//! Random runs of an independent simulator: what is planted is named, and nothing else is named with
+//! confidence. A quick part runs with the other tests; `cargo xtask test --full` runs all, and every
+//! known mistake together with every number.
+
+#[path = "common/planting.rs"]
+mod planting;
+#[path = "common/simulator.rs"]
+mod simulator;
+
+use carom_grade::{Cause, Course, Grader, Mistake, TOLERANCE, Verdict};
+use planting::{EXACT, Table, part, random, read, said, scene, table};
+use rand_pcg::Pcg64;
+use simulator::{Plan, Row, simulate};
+
+/// Longer than the time until slots are reused [s].
+const SECONDS: f64 = 18.4;
+
+/// Distance [m] that makes a difference visible, and the fraction of rows in which it must be.
+const VISIBLE: f64 = 1e-3;
+const ENOUGH: f64 = 0.02;
+
+/// How well a plan was named.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Outcome {
+    /// The plan differs from the rule in too few rows.
+    Unseen,
+    /// It is named, or a cause that writes the same run.
+    Named,
+    /// One of two planted causes is named.
+    InPart,
+    /// Nothing is named.
+    Missed,
+    /// Something else is named.
+    Wrong,
+}
+
+/// The simulator's name of a quantity, and the grader's.
+const NUMBERS: [(&str, &str); 9] = [
+    ("time step", "time step"),
+    ("mass", "mass"),
+    ("force", "constant force"),
+    ("drag", "drag coefficient"),
+    ("restitution 0", "restitution of"),
+    ("tangential", "tangential factor"),
+    ("radius", "radius"),
+    ("velocity", "initial velocity"),
+    ("period", "emitter period"),
+];
+
+/// A random wrong value of a quantity of a scene.
+fn value(random: &mut Pcg64, scene: &carom_scene::Scene, name: &str) -> Vec<f64> {
+    // A factor that is not near 1.
+    let factor = if part(random) < 0.5 { 0.4 + 0.4 * part(random) } else { 1.25 + part(random) };
+    let emitter = &scene.emitters[0];
+    let value = match name {
+        "time step" => 0.02 * factor,
+        "mass" => emitter.sphere.mass.unwrap() * factor,
+        "force" => 20.0 * factor,
+        "drag" => 0.05 + 0.6 * part(random),
+        "restitution 0" => 0.1 + 0.5 * part(random),
+        "tangential" => 0.4 + 0.5 * part(random),
+        "radius" => 0.5 * emitter.sphere.diameter.unwrap() * factor,
+        "period" => (0.7 * factor * 100.0).round() / 100.0,
+        _ => return (0..3).map(|_| 4.0 * part(random) - 2.0).collect(),
+    };
+    // People write short numbers.
+    vec![(value * 1000.0).round() / 1000.0]
+}
+
+/// Fraction of the rows of a run in which another is visibly elsewhere.
+fn seen(wrong: &[Row], right: &[Row]) -> f64 {
+    let key = |row: &Row| ((row.time * 1e6).round() as u64, row.ball);
+    let right: std::collections::BTreeMap<_, _> = right.iter().map(|it| (key(it), it)).collect();
+    let is_apart = |row: &&Row| {
+        right.get(&key(row)).is_none_or(|other| {
+            let apart = row.position.iter().zip(other.position).map(|(a, b)| (a - b).powi(2));
+            apart.sum::<f64>().sqrt() > VISIBLE
+        })
+    };
+    wrong.iter().filter(is_apart).count() as f64 / wrong.len() as f64
+}
+
+/// Whether a cause has a slip of the plan, or one of its numbers with its value.
+fn has(cause: &Cause, slip: &str) -> bool {
+    cause.mistakes.iter().any(|it| it.name() == slip)
+}
+
+fn has_number(cause: &Cause, name: &str, values: &[f64]) -> bool {
+    let words = NUMBERS.iter().find(|it| it.0 == name).unwrap().1;
+    cause.numbers.iter().filter(|it| it.quantity.starts_with(words)).any(|it| {
+        let size = values.iter().fold(0.0_f64, |most, it| most.max(it.abs()));
+        it.values.iter().zip(values).all(|(a, b)| (a - b).abs() < 0.01 * size)
+    })
+}
+
+fn outcome(verdict: &Verdict, plan: &Plan, noise: f64) -> Outcome {
+    let Some(best) = verdict.explanations.first() else { return Outcome::Missed };
+    let parts = |cause: &Cause| {
+        let slips = plan.slips.iter().filter(|it| has(cause, it)).count();
+        slips + plan.numbers.iter().filter(|it| has_number(cause, it.0, &it.1)).count()
+    };
+    let planted = plan.slips.len() + plan.numbers.len();
+    let causes = || std::iter::once(&best.cause).chain(&best.same_as);
+    let size = |it: &Cause| it.mistakes.len() + it.numbers.len();
+    if causes().any(|it| parts(it) == planted) {
+        return Outcome::Named;
+    }
+    // Another explanation that writes the same run is none that is wrong.
+    if best.fit.is_complete() && best.fit.rms < 2.0 * noise + 1e-4 {
+        return Outcome::Named;
+    }
+    if causes().any(|it| parts(it) == size(it)) { Outcome::InPart } else { Outcome::Wrong }
+}
+
+/// Grades a plan, written in a random style.
+fn graded(grader: &mut Grader, scene: &carom_scene::Scene, plan: &Plan, style: Table) -> Verdict {
+    let text = table(&simulate(scene, plan, SECONDS), style, |t, x| (t, x));
+    grader.grade(&read(&text)).verdict
+}
+
+fn style(random: &mut Pcg64, seed: u64) -> Table {
+    let scatter = [0.0, 0.0, 1e-6, 1e-3][(4.0 * part(random)) as usize];
+    let decimals = [None, None, Some(6), Some(4)][(4.0 * part(random)) as usize];
+    let every = [1, 1, 2, 3][(4.0 * part(random)) as usize];
+    Table { scatter, decimals, every, velocities: part(random) < 0.3, seed }
+}
+
+/// Outcome of a random run, with a text about it if it is not named.
+fn random_outcome(seed: u64) -> (Outcome, String) {
+    let mut random = random(seed);
+    let name = format!("simtest{}", 1 + (6.0 * part(&mut random)) as usize);
+    let scene = scene(&name);
+    let kind = part(&mut random);
+    let mut plan = Plan { single: part(&mut random) < 0.5, ..Plan::default() };
+    if kind < 0.5 {
+        let all: Vec<Mistake> = Mistake::all().collect();
+        plan.slips.push(all[(all.len() as f64 * part(&mut random)) as usize].name());
+    } else if kind < 0.9 {
+        let (number, _) = NUMBERS[(NUMBERS.len() as f64 * part(&mut random)) as usize];
+        plan.numbers.push((number, value(&mut random, &scene, number)));
+    }
+    let mut style = style(&mut random, seed);
+    if plan.slips.contains(&"display-frames") {
+        // A table of the display's frames has all of them.
+        style.every = 1;
+    }
+    let mut grader = Grader::new(Course::of(&scene).unwrap(), TOLERANCE);
+    let verdict = graded(&mut grader, &scene, &plan, style);
+    let noise = style.scatter + style.decimals.map_or(0.0, |it| 10_f64.powi(-(it as i32)));
+    let is_right = plan.slips.is_empty() && plan.numbers.is_empty();
+    let part_seen =
+        seen(&simulate(&scene, &plan, SECONDS), &simulate(&scene, &Plan::default(), SECONDS));
+    let outcome = if is_right {
+        let is_it = verdict.same || verdict.scatter.is_some() && verdict.fit.is_complete();
+        if is_it { Outcome::Named } else { Outcome::Wrong }
+    } else if part_seen < ENOUGH {
+        Outcome::Unseen
+    } else {
+        outcome(&verdict, &plan, noise)
+    };
+    (outcome, format!("{seed}: {name} {plan:?} {style:?}: {outcome:?}\n{}", said(&verdict)))
+}
+
+/// Grades random runs; returns how many of those that can be seen are named, and of how many.
+fn named(seeds: std::ops::Range<u64>) -> [usize; 2] {
+    let (mut named, mut counted) = (0, 0);
+    for seed in seeds {
+        let (outcome, text) = random_outcome(seed);
+        assert_ne!(outcome, Outcome::Wrong, "{text}");
+        counted += usize::from(outcome != Outcome::Unseen);
+        named += usize::from(outcome == Outcome::Named);
+        if ![Outcome::Named, Outcome::Unseen].contains(&outcome) {
+            println!("{text}");
+        }
+    }
+    [named, counted]
+}
+
+#[test]
+fn a_dozen_random_runs_are_named() {
+    let [named, counted] = named(0..12);
+    assert_eq!(named, counted);
+}
+
+#[test]
+#[ignore = "minutes; `cargo xtask test --full` runs it"]
+fn of_300_random_runs_95_percent_are_named_and_none_wrongly() {
+    let [named, counted] = named(1000..1300);
+    println!("{named} of {counted} named");
+    assert!(100 * named >= 95 * counted, "{named} of {counted}");
+}
+
+#[test]
+#[ignore = "minutes; `cargo xtask test --full` runs it"]
+fn mistakes_with_wrong_numbers_are_named_right() {
+    let scene = scene("simtest3");
+    let mut grader = Grader::new(Course::of(&scene).unwrap(), TOLERANCE);
+    let right = simulate(&scene, &Plan::default(), SECONDS);
+    let mut counts = [0; 3];
+    for mistake in Mistake::all() {
+        for (number, _) in NUMBERS {
+            let mut random = random(mistake as u64);
+            let numbers = vec![(number, value(&mut random, &scene, number))];
+            let both = Plan { slips: vec![mistake.name()], numbers, single: false };
+            let slip = Plan { numbers: Vec::new(), ..both.clone() };
+            let alone = Plan { slips: Vec::new(), ..both.clone() };
+            let run = simulate(&scene, &both, SECONDS);
+            // Each of the two must be seen beside the other.
+            let is_unseen = |other: &[Row]| seen(&run, other) < ENOUGH;
+            if is_unseen(&right)
+                || is_unseen(&simulate(&scene, &slip, SECONDS))
+                || is_unseen(&simulate(&scene, &alone, SECONDS))
+            {
+                continue;
+            }
+            let every = if mistake == Mistake::DisplayFrames { 1 } else { 3 };
+            let verdict = graded(&mut grader, &scene, &both, Table { every, ..EXACT });
+            let outcome = outcome(&verdict, &both, 0.0);
+            assert_ne!(outcome, Outcome::Wrong, "{both:?}\n{}", said(&verdict));
+            match outcome {
+                Outcome::Named => counts[0] += 1,
+                Outcome::InPart => counts[1] += 1,
+                _ => counts[2] += 1,
+            }
+            if outcome != Outcome::Named {
+                println!("{outcome:?}: {both:?}\n{}", said(&verdict));
+            }
+        }
+    }
+    let [named, in_part, missed] = counts;
+    println!("{named} named, {in_part} in part, {missed} not");
+    let all = named + in_part + missed;
+    assert!(100 * named >= 95 * all, "{named} of {all}");
+}
