@@ -1,6 +1,6 @@
 //! Colliders as the world sees them: surfaces in their places.
 
-use glam::{DVec2, DVec3};
+use glam::{DQuat, DVec2, DVec3};
 
 use crate::band::{Band, Profile};
 use crate::collider::{Collider, Pose, Shape, Sides};
@@ -200,6 +200,22 @@ impl Form {
         match self {
             Self::Band(band) => band.is_turned_in_place_by(motion.origin, motion.angular_velocity),
             _ => false,
+        }
+    }
+
+    /// The same form elsewhere by this way \[m\].
+    pub fn shifted(&self, way: DVec3) -> Self {
+        let placement = Placement { rotation: DQuat::IDENTITY, from: DVec3::ZERO, to: way };
+        match *self {
+            Self::Sphere { center, radius } => Self::Sphere { center: center + way, radius },
+            Self::HalfSpace { point, normal } => Self::HalfSpace { point: point + way, normal },
+            Self::Rectangle(it) => Self::Rectangle(Rectangle { center: it.center + way, ..it }),
+            Self::Facet(ref it) => Self::Facet(placement.facet(it)),
+            Self::Edge(ref it) => Self::Edge(placement.edge(it)),
+            Self::Corner(ref it) => Self::Corner(placement.corner(it)),
+            Self::Band(it) => Self::Band(Band { center: it.center + way, ..it }),
+            Self::Round(it) => Self::Round(RoundSolid { center: it.center + way, ..it }),
+            Self::Box(it) => Self::Box(SolidBox { center: it.center + way, ..it }),
         }
     }
 

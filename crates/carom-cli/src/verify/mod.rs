@@ -9,6 +9,7 @@ mod collapse;
 mod conservation;
 mod convergence;
 mod course;
+mod curved_flights;
 mod fluid;
 mod forces;
 mod friction;

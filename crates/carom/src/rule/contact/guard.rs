@@ -168,7 +168,10 @@ impl Guard<'_> {
 
     /// The numbers of all surfaces that deflect.
     fn all_surfaces(&self) -> Vec<u32> {
-        let deflects = |it: &u32| self.system.surfaces[*it as usize].role == Role::Deflects;
+        let deflects = |it: &u32| {
+            let own = self.places.surface_of(*it);
+            self.system.surfaces[own as usize].role == Role::Deflects
+        };
         (0..self.places.len() as u32).filter(deflects).collect()
     }
 

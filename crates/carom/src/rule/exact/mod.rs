@@ -27,7 +27,6 @@ mod frame_work;
 mod impact;
 mod neighbours;
 mod pair_times;
-mod periodic;
 mod persistent;
 mod predict;
 mod prefetch;
@@ -42,7 +41,6 @@ pub(crate) use frame::{
     Arrivals, Unheld, adopt, begin, end, persistent_contacts, start, tick_for_springs,
 };
 pub(crate) use neighbours::MAX_SPHERES;
-pub(crate) use periodic::wrapped;
 pub(crate) use span::Span;
 pub(crate) use timeline::Timeline;
 pub(crate) use zone::Zone;
