@@ -145,6 +145,8 @@ impl Maze {
             Shape::Box { size } | Shape::Container { size, .. } => {
                 0.5 * DVec3::from_array(size).min_element()
             }
+            Shape::Cylinder { radius, height } => radius.min(0.5 * height),
+            Shape::Capsule { radius, .. } => radius,
             _ => 0.0,
         };
         self.with_role(|role| matches!(role, Role::Collectible(_)))
@@ -160,7 +162,7 @@ impl Maze {
             }
             Shape::Rectangle { size_x, size_z } => 0.5 * (size_x * size_x + size_z * size_z).sqrt(),
             Shape::HalfSpace => 0.0,
-            ref other => mesh_reach(other),
+            ref other => shape_reach(other),
         };
         self.with_role(|role| matches!(role, Role::Collectible(_)))
             .map(move |it| (DVec3::from_array(it.position), outer(&it.shape)))
@@ -221,6 +223,7 @@ pub(crate) fn ground_height(collider: &Collider, place: DVec3) -> Option<f64> {
             local.x.abs() <= 0.5 * size_x && local.z.abs() <= 0.5 * size_z
         }
         Shape::HalfSpace => true,
+        Shape::Disc { radius } => local.with_y(0.0).length() <= radius,
         _ => false,
     };
     reaches.then_some(height)
@@ -242,13 +245,24 @@ fn color(scene: &mut Scene, roles: &[Role]) {
     scene.spheres[0].color.get_or_insert(spheres.unwrap_or(BALL_COLOR));
 }
 
-/// Returns the radius of a sphere about the origin of a mesh or height field that holds it \[m\]; 0 for other shapes.
-pub(crate) fn mesh_reach(shape: &Shape) -> f64 {
-    match shape.physical() {
-        Ok(carom::Shape::Mesh(mesh)) => {
-            let [min, max] = mesh.bounds();
-            min.abs().max(max.abs()).length()
+/// Returns the radius of a sphere about the origin of a mesh or a shape of revolution that holds it \[m\]; 0 for
+/// other shapes.
+pub(crate) fn shape_reach(shape: &Shape) -> f64 {
+    if let Ok(carom::Shape::Mesh(mesh)) = shape.physical() {
+        let [min, max] = mesh.bounds();
+        return min.abs().max(max.abs()).length();
+    }
+    match *shape {
+        Shape::Cylinder { radius, height: length } | Shape::Pipe { radius, length, .. } => {
+            DVec3::new(radius, 0.5 * length, 0.0).length()
         }
+        Shape::Cone { bottom_radius, top_radius, height }
+        | Shape::Funnel { bottom_radius, top_radius, height } => {
+            DVec3::new(bottom_radius.max(top_radius), 0.5 * height, 0.0).length()
+        }
+        Shape::Capsule { radius, length } => radius + 0.5 * length,
+        Shape::Torus { ring_radius, tube_radius } => ring_radius + tube_radius,
+        Shape::Disc { radius } | Shape::Bowl { radius, .. } => radius,
         _ => 0.0,
     }
 }

@@ -1,6 +1,7 @@
 //! Boxes along the axes around what is drawn.
 
 use carom::{DVec3, Pose, Shape};
+use carom_scene::outline::half_lengths;
 
 /// A box along the axes \[m\].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,7 +38,7 @@ impl Bounds {
                 middle = 0.5 * (min + max);
                 0.5 * (max - min)
             }
-            _ => return None,
+            other => half_lengths(other)?,
         };
         let rotation = pose.rotation.normalize();
         let reach = (rotation * (DVec3::X * half.x)).abs()

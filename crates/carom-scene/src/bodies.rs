@@ -1,11 +1,11 @@
 //! Converts spheres, colliders and emitters of scenes into those of `carom`.
 
-use carom::{Friction, Mass, Pose, Sides, World};
+use carom::{Ends, Friction, Mass, Pose, Sides, World};
 
 use crate::error::{Problem, SceneError};
 use crate::requirement::{check, check_positive};
 use crate::scene::values::{quaternion, vector};
-use crate::scene::{Collider, Emitter, Shape, Side, Sphere};
+use crate::scene::{Collider, Emitter, End, Shape, Side, Sphere};
 
 /// Adds the sphere that stands at `path` in the scene.
 pub(crate) fn add_sphere(world: &mut World, sphere: &Sphere, path: &str) -> Result<(), Problem> {
@@ -128,6 +128,37 @@ impl Shape {
             Self::Container { size, open } => {
                 carom::Shape::Container { size: vector(*size), open: sides(open) }
             }
+            Self::Cylinder { radius, height } => {
+                carom::Shape::Cylinder { radius: *radius, height: *height }
+            }
+            Self::Cone { bottom_radius, top_radius, height } => carom::Shape::Cone {
+                bottom_radius: *bottom_radius,
+                top_radius: *top_radius,
+                height: *height,
+            },
+            Self::Capsule { radius, length } => {
+                carom::Shape::Capsule { radius: *radius, length: *length }
+            }
+            Self::Disc { radius } => carom::Shape::Disc { radius: *radius },
+            Self::Torus { ring_radius, tube_radius } => {
+                carom::Shape::Torus { ring_radius: *ring_radius, tube_radius: *tube_radius }
+            }
+            Self::Pipe { radius, length, closed } => {
+                let [bottom, top] = [End::Bottom, End::Top].map(|end| closed.contains(&end));
+                carom::Shape::Pipe {
+                    radius: *radius,
+                    length: *length,
+                    closed: Ends { bottom, top },
+                }
+            }
+            Self::Bowl { radius, opening_degrees } => {
+                carom::Shape::Bowl { radius: *radius, opening: opening_degrees.to_radians() }
+            }
+            Self::Funnel { bottom_radius, top_radius, height } => carom::Shape::Funnel {
+                bottom_radius: *bottom_radius,
+                top_radius: *top_radius,
+                height: *height,
+            },
             Self::Mesh(mesh) => carom::Shape::Mesh(mesh.mesh()?),
             Self::HeightField(heights) => carom::Shape::Mesh(heights.mesh()?),
         })

@@ -37,6 +37,7 @@ mod load;
 mod mesh_file;
 mod meshes;
 mod origin;
+pub mod outline;
 mod overlap;
 mod overrides;
 mod palette;
