@@ -59,6 +59,7 @@ mod report;
 pub mod respond;
 mod rotation;
 mod rule;
+mod sensor;
 mod settings;
 mod sphere;
 mod state;
@@ -91,7 +92,7 @@ pub use persistent_contact::PersistentContact;
 pub use query::{Body, Hit, NearBody, Queries, QueryFilter};
 pub use report::{
     BodyPair, ContactAccount, EnergyAccount, Impact, ImpactGroup, LedgerEntry, Overlap,
-    StageCounts, StepReport, TriggerContact, ZoneAccount,
+    SensorEvent, StageCounts, StepReport, TriggerContact, ZoneAccount,
 };
 pub use settings::{
     Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, Rule, Settings,

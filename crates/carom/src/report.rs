@@ -34,6 +34,8 @@ pub struct StepReport {
     pub groups: Vec<ImpactGroup>,
     /// Spheres inside triggers, in order of sphere, then collider.
     pub triggers: Vec<TriggerContact>,
+    /// When spheres entered and left triggers, in order of time, then of sphere and collider.
+    pub sensor_events: Vec<SensorEvent>,
     /// Spheres that emitters put into the world, ascending.
     pub emitted: Vec<SphereId>,
     /// Spheres that emitters took out again to make place.
@@ -193,6 +195,7 @@ impl StepReport {
         self.impacts.clear();
         self.groups.clear();
         self.triggers.clear();
+        self.sensor_events.clear();
         self.emitted.clear();
         self.left_out.clear();
         self.retired.clear();
@@ -332,6 +335,46 @@ pub struct TriggerContact {
     pub normal: DVec3,
     /// Where on the trigger's surface \[m\].
     pub point: DVec3,
+}
+
+/// A sphere that enters a trigger, or leaves it.
+///
+/// A sphere is in a trigger while their surfaces touch or overlap. Under the rule `exact` the time is that of
+/// the flight, to rounding, however small the trigger and however fast the sphere. Under the other rules
+/// the way of a sphere is straight within a frame, under `contact` within a sub-step. What is in a trigger when
+/// a step begins, though it was not when the last one ended, enters at time 0.
+///
+/// ```
+/// use carom::{Collider, DVec3, Pose, Shape, Sphere, World};
+///
+/// let mut world = World::default();
+/// let gate = Collider::new(Shape::Box { size: DVec3::splat(2.0) }, Pose::at(DVec3::ZERO));
+/// world.add_collider(gate.as_trigger())?;
+/// let fast = Sphere::new(DVec3::new(-21.0, 0.0, 0.0), 1.0).with_velocity(DVec3::new(100.0, 0.0, 0.0));
+/// world.add_sphere(fast)?;
+/// let events = &world.step(1.0)?.sensor_events;
+/// assert_eq!((events[0].enters, events[1].enters), (true, false));
+/// assert!((events[0].time - 0.19).abs() < 1e-15 && (events[1].time - 0.23).abs() < 1e-15);
+/// assert_eq!(events[0].speed, 100.0);
+/// # Ok::<(), carom::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct SensorEvent {
+    /// Time since the start of the step \[s\].
+    pub time: f64,
+    /// The trigger.
+    pub collider: ColliderId,
+    /// The sphere.
+    pub sphere: SphereId,
+    /// Whether the sphere enters; else it leaves.
+    pub enters: bool,
+    /// Where on the trigger's surface \[m\].
+    pub point: DVec3,
+    /// Unit normal from the trigger's surface to the sphere.
+    pub normal: DVec3,
+    /// Speed of the sphere relative to the trigger \[m/s\].
+    pub speed: f64,
 }
 
 impl TriggerContact {

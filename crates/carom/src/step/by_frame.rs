@@ -1,6 +1,7 @@
 //! Steps by a rule that knows nothing but frames: what is due is emitted at the start.
 
 use super::attempt::{Attempt, Scratch};
+use super::sweep;
 use crate::emitter;
 use crate::error::Error;
 use crate::interval::Interval;
@@ -21,12 +22,15 @@ pub(super) fn step(
     attempt.take(|attempt| {
         attempt.scratch.start.copy_all(&attempt.state.spheres.motion);
         attempt.emit(due);
+        attempt.begin_tracks();
         let Attempt { state, scratch, report, .. } = attempt;
         let is_done = advance(state, frame, scratch, report);
         let stopped = Error::Stopped { time: frame.time };
         let checked = if is_done { state.check_finite(frame.h) } else { Err(stopped) };
         if checked.is_err() {
             std::mem::swap(&mut state.spheres.motion, &mut scratch.start);
+        } else {
+            sweep::report(attempt);
         }
         checked
     })

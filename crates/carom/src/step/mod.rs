@@ -5,6 +5,7 @@ mod attempt;
 mod by_event;
 mod by_frame;
 mod lookahead;
+mod sweep;
 
 pub(crate) use attempt::Scratch;
 pub(crate) use lookahead::predict;
@@ -77,7 +78,9 @@ pub(crate) fn step(
                 motion.spin.advance(frame.h);
                 by_frame::account_for_impacts(state, report);
                 true
-            })
+            })?;
+            attempt.report_moved_triggers();
+            Ok(())
         }
         Rule::Bisect(parameters) => {
             by_frame::step(&mut attempt, |state, frame, scratch, report| {
@@ -88,20 +91,26 @@ pub(crate) fn step(
                 motion.spin.advance(frame.h);
                 by_frame::account_for_impacts(state, report);
                 is_done
-            })
+            })?;
+            attempt.report_moved_triggers();
+            Ok(())
         }
         Rule::Exact(parameters) => by_event::step(attempt, parameters, until),
         Rule::Contact(_) if attempt.state.is_idle(attempt.start, attempt.length) => {
             let (_, motion, solver) = attempt.state.split_with_solver();
             contact::rest(solver, motion, attempt.length, attempt.report);
-            attempt.take(|_| Ok(()))?;
+            attempt.begin_tracks();
+            attempt.take(|attempt| {
+                sweep::report(attempt);
+                Ok(())
+            })?;
             attempt.report_triggers();
             Ok(())
         }
         Rule::Contact(parameters) => {
             by_frame::step(&mut attempt, |state, frame, scratch, report| {
                 let (system, motion, solver) = state.split_with_solver();
-                let memory = (solver, &mut scratch.contact);
+                let memory = (solver, &mut scratch.contact, &mut scratch.tracks);
                 parallel::among_threads(system.spheres.id.len(), || {
                     contact::step(&system, parameters, motion, frame, memory, report, stop_request)
                 })

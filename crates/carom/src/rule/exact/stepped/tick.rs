@@ -91,6 +91,7 @@ fn fly(timeline: &mut Timeline, stepped: &[Stepped], now: f64) {
             continue;
         }
         body.begin_flight(from, velocity, now);
+        timeline.note_flight(slot);
         let cell_crossing = stay_in_region(timeline, slot, [now, next], &mut found);
         // Those near it look for it.
         let events = NextEvents::NEVER;
@@ -166,6 +167,7 @@ fn leave(
         }
     }
     timeline.flights.leave_zone(slot, [position, velocity], now);
+    timeline.note_flight(slot);
     timeline.flights.let_go(slot, now);
     predict::predict(timeline, context, slot, now);
     timeline.zone.near.push(slot);
