@@ -40,6 +40,7 @@ mod error;
 mod flight;
 mod forces;
 mod friction;
+mod groups;
 mod hash;
 mod id;
 mod integrate;
@@ -84,6 +85,7 @@ pub use forces::{
     Vortex, Wind,
 };
 pub use friction::Friction;
+pub use groups::Groups;
 pub use hash::StateHash;
 pub use id::{ColliderId, EmitterId, ForceId, SphereId, SpringId};
 pub use mesh::{Mesh, MeshError, MeshFaults};

@@ -104,6 +104,8 @@ pub struct EnergyAccount {
     pub contacts: f64,
     /// Work of moving colliders \[J\].
     pub colliders: f64,
+    /// Work of the kicks of colliders \[J\].
+    pub kicks: f64,
     /// Work of moving spheres out of what they overlap \[J\], against forces that have a potential or
     /// are linear.
     pub correction: f64,
@@ -114,7 +116,7 @@ pub struct EnergyAccount {
 impl EnergyAccount {
     /// The sum of all entries \[J\].
     pub fn total(&self) -> f64 {
-        self.contacts + self.colliders + self.correction + self.emission
+        self.contacts + self.colliders + self.kicks + self.correction + self.emission
     }
 }
 
@@ -122,6 +124,7 @@ impl AddAssign for EnergyAccount {
     fn add_assign(&mut self, other: Self) {
         self.contacts += other.contacts;
         self.colliders += other.colliders;
+        self.kicks += other.kicks;
         self.correction += other.correction;
         self.emission += other.emission;
     }
@@ -246,10 +249,12 @@ pub struct ImpactGroup {
     pub momentum_scale: f64,
     /// Kinetic energy of its spheres before \[J\].
     pub energy_before: f64,
-    /// Kinetic energy after, less the work of moving colliders \[J\].
+    /// Kinetic energy after, less the work of moving colliders and of kicks \[J\].
     pub energy_after: f64,
     /// Work of moving colliders \[J\].
     pub collider_work: f64,
+    /// Work of the kicks of colliders \[J\].
+    pub kick_work: f64,
     /// Change of the kinetic energy that the coefficients of restitution demand \[J\], <= 0.
     pub energy_demanded: f64,
 }
@@ -322,6 +327,8 @@ pub struct Impact {
     /// Impulse of friction on body 2, and against it on body 1, across the normal \[N s\]: zero without
     /// friction. At the contact point it turns both bodies, too.
     pub tangential_impulse: DVec3,
+    /// Speed that the collider added along the normal \[m/s\]: its [`Collider::kick`](crate::Collider::kick), or 0.
+    pub kick: f64,
 }
 
 /// A sphere inside a trigger at the end of a step.

@@ -14,6 +14,8 @@ const PART_OF_BOX: f64 = 0.5;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Leg {
     pub sphere: SphereId,
+    /// Of the sphere in the arrays of the world.
+    pub index: u32,
     /// \[m\]
     pub radius: f64,
     pub flight: Flight,

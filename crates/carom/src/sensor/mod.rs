@@ -100,6 +100,9 @@ impl Sensors {
                 self.targets.push(Target::new(number, DVec3::ZERO, system));
             }
         }
+        let groups = system.spheres.groups(leg.index as usize);
+        let is_seen = |it: &Target| system.surfaces[it.surface as usize].groups.collides(groups);
+        self.targets.retain(is_seen);
         self.targets.sort_by_key(|target| (target.collider, target.surface));
     }
 

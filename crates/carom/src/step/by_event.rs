@@ -56,6 +56,8 @@ fn account_for_contacts(report: &mut StepReport, timeline: &mut Timeline, end: f
     report.energy_account.contacts += taken.collect::<Sum>().value();
     let given = report.groups.iter().map(|group| group.collider_work);
     report.energy_account.colliders += given.collect::<Sum>().value();
+    let kicked = report.groups.iter().map(|group| group.kick_work);
+    report.energy_account.kicks += kicked.collect::<Sum>().value();
     account_for_persistent_contacts(report, timeline, end);
 }
 

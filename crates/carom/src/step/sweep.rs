@@ -29,7 +29,15 @@ pub(super) fn report(attempt: &mut Attempt) {
             };
             let flight_start = start + number as f64 * part;
             let end = start + (number + 1) as f64 * part;
-            let leg = Leg { sphere, radius, flight, flight_start, from: flight_start, to: end };
+            let leg = Leg {
+                sphere,
+                index: index as u32,
+                radius,
+                flight,
+                flight_start,
+                from: flight_start,
+                to: end,
+            };
             sensors.watch(&leg, &system, start);
         }
     }

@@ -51,6 +51,12 @@ pub(super) fn search(
     watched.clear();
     if system.settings.spheres_collide {
         search.find_pairs(slots, slabs);
+        if !system.spheres.groups.is_empty() {
+            let meet = |[first, second]: &[u32; 2]| {
+                system.spheres_meet(slots.index[*first as usize], slots.index[*second as usize])
+            };
+            slabs.list.iter_mut().for_each(|slab| slab.pairs.retain(meet));
+        }
         if slots.asleep() > 0 {
             for slab in &mut slabs.list {
                 watch_sleepers(slots, &mut slab.pairs, watched);
@@ -213,7 +219,8 @@ impl Known<'_> {
 
     /// Whether a sphere and a surface may touch until the next search, or the end of the frame.
     fn may_touch(&self, slot: usize, surface: u32) -> bool {
-        if self.system.surfaces[surface as usize].role != Role::Deflects {
+        let deflects = self.system.surfaces[surface as usize].role == Role::Deflects;
+        if !deflects || !self.system.meets_surface(self.slots.index[slot], surface) {
             return false;
         }
         let (center, radius) =
@@ -245,6 +252,7 @@ impl Known<'_> {
         let bodies = Bodies::Surface { sphere, surface };
         let material = ContactMaterial::of(bodies, self.system);
         let mut contact = SurfaceContact::new(relative, surface, material);
+        contact.kick = self.system.surfaces[surface as usize].kick;
         contact.impulses = self.kept.of_surface(self.before[slot], surface);
         contact
     }

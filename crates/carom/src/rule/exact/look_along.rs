@@ -55,7 +55,8 @@ fn look_along(watch: &mut Watch, timeline: &Timeline, system: &System, index: us
     let Seen { flight, flight_start, from, .. } = watch.flights[index];
     let sphere: SphereId = system.spheres.id[index];
     let radius = timeline.flights.species_of(timeline.flights.slot_of[index]).radius;
-    let leg = Leg { sphere, radius, flight, flight_start, from, to: to.max(from) };
+    let to = to.max(from);
+    let leg = Leg { sphere, index: index as u32, radius, flight, flight_start, from, to };
     watch.sensors.watch(&leg, system, watch.step_start);
     watch.flights[index].from = leg.to;
 }

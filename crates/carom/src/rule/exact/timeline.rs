@@ -183,7 +183,8 @@ impl Timeline {
         let level = self.flights.species_of(slot).level;
         let shift = self.neighbours.shift_from_box(slot);
         let moving = self.moving_surfaces.iter().map(move |&surface| (surface, shift));
-        self.neighbours.surfaces_near(slot, level).chain(moving)
+        let near = self.neighbours.surfaces_near(slot, level).chain(moving);
+        near.filter(move |near| self.neighbours.meets_surface(slot, near.0))
     }
 
     /// Whether a sphere is certain to meet no surface on its flight, but those that hold it.

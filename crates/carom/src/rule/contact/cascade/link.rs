@@ -40,6 +40,8 @@ pub struct Link {
     carried: f64,
     /// Whether it bore something in the sub-step, or in the flight before.
     pub bears: bool,
+    /// Whether its surface kicks, which no cascade follows.
+    pub has_kick: bool,
     pub role: Role,
     pub normal: DVec3,
     pub point: DVec3,
@@ -69,6 +71,7 @@ impl Link {
             friction: ContactFriction::default(),
             carried: 0.0,
             bears: false,
+            has_kick: false,
             role: Role::Off,
             normal: DVec3::Y,
             point: DVec3::ZERO,
@@ -120,6 +123,7 @@ impl Link {
                     friction: ContactFriction { rolling, spinning, ..contact.friction },
                     carried,
                     bears: carried > 0.0,
+                    has_kick: contact.kick > 0.0,
                     ..none
                 }
             }

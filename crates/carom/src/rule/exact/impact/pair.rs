@@ -178,6 +178,7 @@ impl PairImpact {
             separation_speed: (self.velocities[1] - self.velocities[0]).dot(self.normal),
             impulse,
             tangential_impulse: friction.map_or(DVec3::ZERO, FrictionImpulses::total),
+            kick: 0.0,
         };
         let account = account_of_pair(
             self.velocities_before,
