@@ -53,6 +53,7 @@ mod numbered;
 mod parallel;
 mod path;
 mod persistent_contact;
+mod polynomial_flight;
 mod query;
 mod real;
 mod rectangle;

@@ -117,12 +117,11 @@ fn a_vortex_turns_rigidly_inside_and_like_an_ideal_one_outside() {
 /// A world with frames of a length \[s\].
 type WorldOfFrames = fn(f64) -> World;
 
-/// Worlds with frames, or under the rule `exact` force ticks, of a length \[s\], with the order in it.
-fn schemes() -> [(WorldOfFrames, f64); 3] {
+/// Worlds with frames of a length \[s\], with the order in it.
+fn schemes() -> [(WorldOfFrames, f64); 2] {
     [
         (|_| world_with(Integrator::VelocityVerlet), 2.0),
         (|_| world_with(Integrator::RungeKutta4), 4.0),
-        (|h| world(Exact::default().with_force_tick(h)), 2.0),
     ]
 }
 

@@ -6,8 +6,8 @@ mod common;
 use std::collections::BTreeSet;
 
 use carom::{
-    Boundary, Collider, ColliderId, Contact, DQuat, DVec3, Gravity, Pose, Rule, SensorEvent,
-    Settings, Shape, Sides, Sphere, SphereId, ViscousDrag, World,
+    Boundary, Collider, ColliderId, Contact, DQuat, DVec3, Gravity, Pose, QuadraticDrag, Rule,
+    SensorEvent, Settings, Shape, Sides, Sphere, SphereId, ViscousDrag, World,
 };
 use common::{Numbers, assert_close, assert_close_vec, bisect, discrete, vec};
 
@@ -123,9 +123,13 @@ fn follow(inside: &mut BTreeSet<(SphereId, ColliderId)>, events: &[SensorEvent])
 
 #[test]
 fn events_lead_from_the_triggers_of_one_frame_to_those_of_the_next() {
-    for rule in rules() {
+    // Under air drag in its square, flights have no closed form.
+    for (rule, has_air) in rules().into_iter().zip([false; 4]).chain([(Rule::default(), true)]) {
         let mut world = world(rule);
         let mut numbers = Numbers(7);
+        if has_air {
+            world.add_force(QuadraticDrag::new(1.2)).unwrap();
+        }
         world.add_force(Gravity::new(vec(0.0, -9.81, 0.0))).unwrap();
         world.add_force(ViscousDrag::new(0.05)).unwrap();
         let shape = Shape::Container { size: DVec3::splat(4.0), open: Sides::NONE };

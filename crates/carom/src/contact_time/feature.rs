@@ -83,13 +83,13 @@ fn meet_triangles(
     met.min_by(f64::total_cmp)
 }
 
-fn segment(edge: &Edge, origin: DVec3, radius: f64) -> Obstacle {
+pub(super) fn segment(edge: &Edge, origin: DVec3, radius: f64) -> Obstacle {
     let (center, half) = (edge.center - origin, edge.half * edge.axis);
     Obstacle::Segment { ends: [center - half, center + half], radius }
 }
 
 /// Whether a feature is what of its mesh is nearest to a centre \[m\], but for rounding.
-fn is_nearest(form: &Form, center: DVec3) -> bool {
+pub(super) fn is_nearest(form: &Form, center: DVec3) -> bool {
     match form {
         Form::Facet(facet) => facet.is_under(center),
         Form::Edge(edge) => edge.is_nearest(center),

@@ -28,6 +28,7 @@ mod roundoff;
 mod search;
 mod sphere_sphere;
 mod sphere_surface;
+mod track;
 mod turning;
 
 pub use bisection::{Bisection, Probe, bisect};
@@ -35,3 +36,4 @@ pub(crate) use reach::Reach;
 pub(crate) use sphere_sphere::Approach;
 pub use sphere_sphere::{sphere_sphere, sphere_sphere_linear};
 pub(crate) use sphere_surface::sphere_surface;
+pub(crate) use track::{PolynomialTrack, Track, track_surface, tracks};

@@ -18,6 +18,17 @@ pub(super) trait Path {
     /// An upper bound of the acceleration along all unit vectors \[m/s²\], as above.
     fn max_acceleration_anywhere(&self, from: f64, to: f64) -> f64;
 
+    /// An upper bound of the rate \[m/s³\] at which the size of the acceleration grows up to a time \[s\]; none
+    /// (the default) where it never does.
+    fn growth(&self, _to: f64) -> f64 {
+        0.0
+    }
+
+    /// The rate \[1/s\] at which the acceleration decays, 0 (the default) where it does not.
+    fn decay_rate(&self) -> f64 {
+        0.0
+    }
+
     /// The longest time \[s\] for which [`Self::max_acceleration`] is worth computing at first.
     fn window(&self) -> f64 {
         f64::INFINITY
@@ -60,6 +71,10 @@ impl Path for Flight {
 
     fn max_acceleration_anywhere(&self, from: f64, _to: f64) -> f64 {
         libm::exp(-self.drag_rate * from) * self.initial_acceleration().norm()
+    }
+
+    fn decay_rate(&self) -> f64 {
+        self.drag_rate
     }
 }
 

@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use crate::flight::Flight;
 use crate::norm::Norm;
+use crate::polynomial_flight::PolynomialFlight;
 use crate::surface::{Form, Rectangle};
 
 /// Distances are compared with this part of the coordinates to spare: far more than their rounding,
@@ -20,6 +21,8 @@ pub(crate) struct Reach {
     horizon: f64,
     /// How far it goes at most, whichever way \[m\].
     way: f64,
+    /// How far from the flight its path may be \[m\].
+    beside: f64,
 }
 
 impl Reach {
@@ -27,7 +30,17 @@ impl Reach {
     #[inline]
     pub fn of(flight: Flight, radius: f64, horizon: f64) -> Self {
         let way = flight.farthest(horizon).norm() * (1.0 + MARGIN);
-        Self { flight, radius, horizon, way }
+        Self { flight, radius, horizon, way, beside: 0.0 }
+    }
+
+    /// That of a sphere of this `radius` \[m\], > 0, in all the time of a polynomial flight.
+    pub fn of_polynomial(flight: &PolynomialFlight, radius: f64) -> Self {
+        let PolynomialFlight { position, velocity, acceleration } = *flight;
+        let [first, ..] = acceleration.coefficients;
+        let parabola = Flight { position, velocity, acceleration: first, drag_rate: 0.0 };
+        let beside = acceleration.beyond_parabola() * (1.0 + MARGIN);
+        let reach = Self::of(parabola, radius, acceleration.length);
+        Self { way: reach.way + beside, beside, ..reach }
     }
 
     /// Whether the sphere certainly meets no surface of this `form`, at rest, with all of it shifted by
@@ -101,7 +114,7 @@ impl Reach {
     fn approach(&self, direction: DVec3) -> f64 {
         let velocity = (-self.flight.velocity.dot(direction)).max(0.0);
         let acceleration = (-self.flight.acceleration.dot(direction)).max(0.0);
-        self.horizon * (velocity + 0.5 * self.horizon * acceleration) * (1.0 + MARGIN)
+        self.horizon * (velocity + 0.5 * self.horizon * acceleration) * (1.0 + MARGIN) + self.beside
     }
 }
 

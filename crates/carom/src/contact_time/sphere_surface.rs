@@ -93,6 +93,6 @@ fn sphere_turning_surface(
 }
 
 /// Size of the coordinates of a surface and of the radii.
-fn size_of(form: &Form, radius: f64) -> Magnitudes {
+pub(super) fn size_of(form: &Form, radius: f64) -> Magnitudes {
     Magnitudes::of_length(form.coordinates() + radius)
 }

@@ -4,7 +4,6 @@ use glam::DVec3;
 
 use super::path::{Path, State};
 use super::roundoff::Magnitudes;
-use crate::flight::Flight;
 use crate::norm::Norm;
 
 /// A steady rotation about an axis through the origin.
@@ -43,19 +42,19 @@ impl Turns {
     }
 }
 
-/// A flight in a coordinate system that turns about the origin: with `y = R⁻¹ x`,
+/// A motion in a coordinate system that turns about the origin: with `y = R⁻¹ x`,
 ///
 /// ```text
 /// y'  = R⁻¹ (x' - ω×x)      y'' = R⁻¹ (x'' - 2 ω×x' + ω×(ω×x))
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Turning {
+pub(super) struct Turning<P> {
     /// In a coordinate system that does not turn.
-    pub flight: Flight,
+    pub flight: P,
     pub turns: Turns,
 }
 
-impl Path for Turning {
+impl<P: Path> Path for Turning<P> {
     fn state_at(&self, t: f64) -> State {
         let Turns { angular_velocity: omega, rate, .. } = self.turns;
         let State { position: x, velocity: v, acceleration: a, size } = self.flight.state_at(t);
@@ -82,7 +81,7 @@ impl Path for Turning {
     /// n·y'' = m·x'' - 2 (m×ω)·x' - (m×ω)·(x×ω)
     /// ```
     ///
-    /// and its derivative is at most `γ |m·x''| + |m×ω| (3 |x''| + 3 |ω| |x'| + |ω| |x×ω|)`;
+    /// and its derivative is at most `γ |m·x''| + J + |m×ω| (3 |x''| + 3 |ω| |x'| + |ω| |x×ω|)`;
     /// |m×ω| does not change. Where the direction is the axis, only drag is left.
     fn max_acceleration(&self, direction: DVec3, from: f64, to: f64) -> f64 {
         let Turns { angular_velocity: omega, rate, .. } = self.turns;
@@ -91,13 +90,14 @@ impl Path for Turning {
         let (m_turn, x_turn) = (m.cross(omega), x.cross(omega));
         let along = m.dot(a);
         let now = along - 2.0 * m_turn.dot(v) - m_turn.dot(x_turn);
-        // Upper bounds over the interval; the acceleration of a flight never grows.
-        let ahead = to - from;
-        let (turn, a) = (m_turn.norm(), a.norm());
+        // Upper bounds over the interval.
+        let (ahead, growth) = (to - from, self.flight.growth(to));
+        let (turn, a) = (m_turn.norm(), a.norm() + growth * ahead);
         let v_max = v.norm() + a * ahead;
         let x_turn_max = x_turn.norm() + rate * ahead * (v.norm() + 0.5 * a * ahead);
-        let along_max = along.abs() + turn * a * ahead;
-        let jerk = self.flight.drag_rate * along_max
+        let along_max = along.abs() + turn * a * ahead + growth * ahead;
+        let jerk = self.flight.decay_rate() * along_max
+            + growth
             + turn * (3.0 * a + 3.0 * rate * v_max + rate * x_turn_max);
         let by_jerk = now + jerk * ahead;
         let by_size = along_max + turn * (2.0 * v_max + x_turn_max);
@@ -106,7 +106,8 @@ impl Path for Turning {
 
     fn max_acceleration_anywhere(&self, from: f64, to: f64) -> f64 {
         let State { position: x, velocity: v, acceleration: a, .. } = self.flight.state_at(from);
-        let (rate, ahead, a) = (self.turns.rate, to - from, a.norm());
+        let (rate, ahead) = (self.turns.rate, to - from);
+        let a = a.norm() + self.flight.growth(to) * ahead;
         let v_max = v.norm() + a * ahead;
         let x_max = x.norm() + ahead * (v.norm() + 0.5 * a * ahead);
         a + rate * (2.0 * v_max + rate * x_max)
@@ -119,14 +120,14 @@ impl Path for Turning {
 
 /// A flight as seen from a point that circles the origin, in a coordinate system that does not turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Orbit {
-    pub flight: Flight,
+pub(super) struct Orbit<P> {
+    pub flight: P,
     pub turns: Turns,
     /// Where the point is at time 0 \[m\].
     pub arm: DVec3,
 }
 
-impl Path for Orbit {
+impl<P: Path> Path for Orbit<P> {
     fn state_at(&self, t: f64) -> State {
         let Turns { angular_velocity: omega, rate, .. } = self.turns;
         let State { position, velocity, acceleration, size } = self.flight.state_at(t);

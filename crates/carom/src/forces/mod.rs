@@ -83,8 +83,9 @@ pub trait Force: Any + Debug + Send + Sync {
     /// The same force as a constant acceleration and a linear drag, for spheres of this `radius`
     /// \[m\] and `mass` \[kg\]; `None` (the default) for a force that depends on more than that.
     ///
-    /// The rule `exact` moves spheres under such forces in closed form; any other force it holds
-    /// constant from one force tick to the next (`Exact::force_tick`).
+    /// The rule `exact` moves spheres under such forces in closed form. Any other force it evaluates some
+    /// tens of times in each step of a curved flight, at whatever time and state it needs, not in their
+    /// order.
     fn linear(&self, _radius: f64, _mass: f64) -> Option<LinearForce> {
         None
     }
@@ -169,6 +170,16 @@ fn linear_form(force: &dyn Force, radius: f64, mass: f64) -> Option<LinearForce>
         linear.acceleration.is_finite() && linear.drag_rate >= 0.0 && linear.drag_rate.is_finite()
     };
     force.linear(radius, mass).filter(is_usable)
+}
+
+/// The forces that are not linear for spheres of this `radius` \[m\] and `mass` \[kg\].
+pub(crate) fn without_linear_form(
+    forces: &Numbered<Arc<dyn Force>>,
+    radius: f64,
+    mass: f64,
+) -> Vec<&dyn Force> {
+    let others = forces.iter().map(|(_, force)| &**force);
+    others.filter(|force| linear_form(*force, radius, mass).is_none()).collect()
 }
 
 /// Sum of the forces \[N\] that are not linear on a sphere.

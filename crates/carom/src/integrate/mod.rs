@@ -6,6 +6,7 @@
 
 mod acceleration;
 mod explicit_euler;
+pub(crate) mod gauss_radau;
 mod kinematics;
 mod runge_kutta_4;
 mod scheme;

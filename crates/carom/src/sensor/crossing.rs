@@ -77,11 +77,10 @@ impl Crossing<'_> {
 
     fn entry_of(&self, target: &Target, now: f64) -> Option<f64> {
         let (form, motion) = self.place(target, now);
-        let mut flight = self.leg.flight_from(now);
-        flight.position -= target.shift;
+        let track = self.leg.track_from(now, target.shift);
         let horizon = self.leg.to - now;
         let meet = |form: &Form, radius: f64| {
-            contact_time::sphere_surface(&flight, radius, form, &motion, horizon)
+            contact_time::track_surface(&track, radius, form, &motion, horizon)
         };
         let delay = match form {
             Form::Box(solid) => {
@@ -108,11 +107,10 @@ impl Crossing<'_> {
         for _ in 0..MOST_PASSES {
             let (form, motion) = self.place(target, from);
             let Form::Rectangle(Rectangle { center, normal, .. }) = form else { return None };
-            let mut flight = self.leg.flight_from(from);
-            flight.position -= target.shift;
+            let track = self.leg.track_from(from, target.shift);
             let front = Form::HalfSpace { point: center, normal: -normal };
             let horizon = self.leg.to - from;
-            let delay = contact_time::sphere_surface(&flight, 0.0, &front, &motion, horizon)?;
+            let delay = contact_time::track_surface(&track, 0.0, &front, &motion, horizon)?;
             let time = from + delay;
             let (form, _) = self.place(target, time);
             let place = self.leg.flight_from(time).position - target.shift;
@@ -200,7 +198,7 @@ impl Crossing<'_> {
                 (depth, opening) = (height, -relative.dot(it.normal));
             }
         }
-        let flown = self.leg.flight.farthest(time - self.leg.flight_start).norm();
+        let flown = self.leg.farthest(time).norm();
         let size = form.coordinates() + self.leg.flight.position.norm() + target.shift.norm();
         let rounding = ROUNDING * (size + flown + radius);
         let point = separation.point + target.shift;
@@ -209,9 +207,9 @@ impl Crossing<'_> {
 
     /// An upper bound of the speed of the sphere relative to the trigger from `now` to the end of the leg \[m/s\].
     fn fastest(&self, now: f64) -> f64 {
-        let Flight { position, velocity, acceleration, .. } = self.leg.flight_from(now);
+        let Flight { position, velocity, .. } = self.leg.flight_from(now);
         let h = self.leg.to - now;
-        let own = velocity.norm() + h * acceleration.norm();
+        let own = velocity.norm() + h * self.leg.most_acceleration();
         let of_surface = |target: &Target| {
             let (_, motion) = self.place(target, now);
             let SurfaceMotion { origin, velocity, angular_velocity } = motion;

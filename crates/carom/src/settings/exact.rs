@@ -27,9 +27,10 @@ pub struct Exact {
     /// Time between two ticks, at which zones are stepped \[s\], > 0. Ticks are at its multiples on the
     /// world's clock.
     pub zone_tick: f64,
-    /// Time between two force ticks \[s\], > 0: forces that are not linear in the velocity alone, and
-    /// those between spheres, are held constant from one to the next. They are at its multiples on the
-    /// world's clock, whatever the frames; where springs need it, it is halved until they are stable. In frames of
+    /// Time between two force ticks \[s\], > 0: forces between spheres, with all others in such a world, and
+    /// forces that are not linear on spheres in persistent contact are held constant from one to the next.
+    /// Spheres in flight under forces that act on each alone do not need it. Ticks are at its multiples on
+    /// the world's clock, whatever the frames; where springs need it, it is halved until they are stable. In frames of
     /// more than 64 of it it is doubled, in those of less than a quarter of it halved, until they are no more.
     pub force_tick: f64,
 }

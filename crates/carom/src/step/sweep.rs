@@ -34,6 +34,7 @@ pub(super) fn report(attempt: &mut Attempt) {
                 index: index as u32,
                 radius,
                 flight,
+                curve: None,
                 flight_start,
                 from: flight_start,
                 to: end,

@@ -55,7 +55,11 @@ impl Clearance {
     /// Whether a sphere stays in it for a `time` \[s\].
     #[inline]
     pub fn holds(&self, flight: &Flight, time: f64) -> bool {
-        let (position, way) = (flight.position, flight.farthest(time));
+        self.holds_way(flight.position, flight.farthest(time))
+    }
+
+    /// Whether a sphere stays in it that goes no farther from a position \[m\] than this along each axis \[m\].
+    pub fn holds_way(&self, position: DVec3, way: DVec3) -> bool {
         ((position - way).cmpgt(self.0.min) & (position + way).cmplt(self.0.max)).all()
     }
 }

@@ -41,7 +41,7 @@ impl ContactScale {
     pub fn of_spheres(flights: &Flights, slots: &[u32], time: f64) -> Self {
         slots.iter().fold(Self::default(), |scale, &slot| {
             let (position, velocity) = flights.state_of(slot, time);
-            scale.with(position, velocity, flights.free_species_of(slot))
+            scale.with(position, velocity, &flights.free_species_at(slot, time))
         })
     }
 

@@ -40,7 +40,7 @@ pub(crate) fn follow(
     let mut now = span.start;
     let mut leg = leg_of(timeline, slot, now);
     loop {
-        if timeline.flights.is_stepped(slot) {
+        if timeline.flights.is_stepped(slot) || timeline.flights.curve_of(slot).is_some() {
             course.end = PathEnd::NoClosedForm;
         } else if course.impacts.len() >= most_impacts {
             course.end = PathEnd::Impacts;
@@ -97,7 +97,10 @@ fn concerns(timeline: &Timeline, followed: u32, at_work: u32, event: &Event) -> 
     let cluster = |slot: u32| timeline.flights.species_of(slot).cluster;
     let other = match event.target.unpacked() {
         EventTarget::Sphere(other) => other,
-        EventTarget::Surface(_) | EventTarget::Cluster | EventTarget::Restart => at_work,
+        EventTarget::Surface(_)
+        | EventTarget::Cluster
+        | EventTarget::Restart
+        | EventTarget::StepEnd => at_work,
     };
     let is_held_with = |slot: u32| cluster(slot).is_some() && cluster(slot) == cluster(followed);
     [at_work, other].into_iter().any(|slot| slot == followed || is_held_with(slot))

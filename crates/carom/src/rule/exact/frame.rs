@@ -66,8 +66,10 @@ pub(crate) fn start(
     let frame = [time; 2];
     let mut timeline = Timeline { parameters, flights, frame, zone, ..Timeline::default() };
     (timeline.spring_rate, timeline.held_until) = (spring_rate, time);
+    timeline.curves_until = f64::INFINITY;
     arrange(&mut timeline, system, time);
     timeline.work.begin(&timeline.flights.bodies);
+    timeline.find_curves(system);
     predict_all(&mut timeline, system, time);
     timeline
 }
@@ -98,6 +100,13 @@ pub(crate) fn adopt<F: Fn(SphereId) -> f64>(
         };
         flights.rotations = system.spheres.id.iter().enumerate().map(rotation_of).collect();
     }
+    if flights.are_curved() && before.flights.are_curved() {
+        for (id, curve) in system.spheres.id.iter().zip(&mut flights.curves) {
+            if let Ok(place) = arrivals.known.binary_search(id) {
+                *curve = before.flights.curves[place].to_begin();
+            }
+        }
+    }
     let mut zone = before.zone.clone();
     zone.follow(&system.spheres.id);
     flights.set_stepped(&zone.indices(&system.spheres.id));
@@ -105,10 +114,11 @@ pub(crate) fn adopt<F: Fn(SphereId) -> f64>(
     arrange(&mut timeline, system, time);
     timeline.work.begin(&timeline.flights.bodies);
     (timeline.force_tick, timeline.spring_rate) = (before.force_tick, before.spring_rate);
-    timeline.next_emission = arrivals.next;
+    (timeline.next_emission, timeline.curves_until) = (arrivals.next, before.curves_until);
     if timeline.flights.hold_forces {
         held_forces::renew(&mut timeline, system, time);
     }
+    timeline.find_curves(system);
     predict_all(&mut timeline, system, time);
     timeline
 }
@@ -129,14 +139,22 @@ pub(crate) fn begin(
     next: f64,
 ) -> Result<(), Unheld> {
     (timeline.frame, timeline.next_emission) = (frame, next);
+    let are_applied = !system.spheres.applied_force.is_empty();
+    timeline.curves_until = if are_applied { frame[1] } else { f64::INFINITY };
     let is_other_tick = set_force_tick(timeline, frame[1] - frame[0])?;
     let is_renewed = is_other_tick || is_renewal_due(timeline, system, frame[0]);
+    let mut renewed = Vec::new();
     if is_renewed {
-        held_forces::renew(timeline, system, frame[0]);
+        renewed = held_forces::renew(timeline, system, frame[0]);
+        timeline.find_curves(system);
         check_accelerations(timeline, system).map_err(Unheld::NotFinite)?;
     }
-    if is_renewed || !timeline.moving_surfaces.is_empty() {
+    let are_curved = timeline.flights.are_curved();
+    if (is_renewed && !are_curved) || are_applied || !timeline.moving_surfaces.is_empty() {
         predict_all(timeline, system, frame[0]);
+    } else if is_renewed {
+        predict_each(timeline, system, &renewed, frame[0]);
+        timeline.schedule.tidy();
     } else {
         timeline.schedule.tidy();
     }
@@ -179,7 +197,7 @@ fn is_renewal_due(timeline: &Timeline, system: &System, start: f64) -> bool {
     hold_forces && (are_applied || !forces_vary || timeline.held_until <= start)
 }
 
-/// Finds forces anew at a force tick that is now \[s\].
+/// Finds forces anew at a force tick that is now \[s\]. Returns how many flights began anew.
 ///
 /// # Errors
 /// A sphere on which a force is not finite.
@@ -187,18 +205,38 @@ pub(super) fn force_tick(
     timeline: &mut Timeline,
     system: &System,
     now: f64,
-) -> Result<(), SphereId> {
+) -> Result<u64, SphereId> {
     let before: Vec<u32> = timeline.flights.bodies.iter().map(|body| body.generation).collect();
-    held_forces::renew(timeline, system, now);
+    let renewed = held_forces::renew(timeline, system, now);
+    timeline.find_curves(system);
     check_accelerations(timeline, system)?;
     timeline.work.pass_over(&before, &timeline.flights.bodies);
-    predict_all(timeline, system, now);
-    Ok(())
+    if timeline.flights.are_curved() {
+        predict_each(timeline, system, &renewed, now);
+    } else {
+        predict_all(timeline, system, now);
+    }
+    Ok(renewed.len() as u64)
+}
+
+/// Predicts the next events of some spheres, as of `time` \[s\].
+fn predict_each(timeline: &mut Timeline, system: &System, slots: &[u32], time: f64) {
+    let mut search = PairSearch::default();
+    for &slot in slots {
+        let prediction = predict::prediction(timeline, system, slot, &mut search, time);
+        timeline.enter(slot, prediction);
+    }
+    let counts = &mut timeline.work.unreported;
+    counts.predictions += slots.len() as u64;
+    counts.pair_tests += search.tests();
 }
 
 /// Refuses a force that is not finite, with the sphere that it acts on.
 fn check_accelerations(timeline: &Timeline, system: &System) -> Result<(), SphereId> {
-    let Flights { bodies, species, index_of, .. } = &timeline.flights;
+    let Flights { bodies, species, index_of, lost, .. } = &timeline.flights;
+    if let Some(index) = *lost {
+        return Err(system.spheres.id[index as usize]);
+    }
     let is_lost = |body: &Body| !species[body.species as usize].acceleration.is_finite();
     let lost = bodies.iter().position(is_lost);
     lost.map_or(Ok(()), |slot| Err(system.spheres.id[index_of[slot] as usize]))
@@ -285,8 +323,7 @@ fn arrange(timeline: &mut Timeline, system: &System, time: f64) {
 
 fn contents<'a>(flights: &'a Flights, system: &System<'a>, time: f64) -> Contents<'a> {
     Contents {
-        bodies: &flights.bodies,
-        species: &flights.species,
+        flights,
         time,
         period: system.settings.boundary.period(),
         surfaces: system.surfaces,

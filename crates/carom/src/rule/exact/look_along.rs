@@ -52,11 +52,12 @@ pub(crate) fn end(timeline: &mut Timeline, system: &System, now: f64) -> Option<
 
 /// Looks along the flight of a sphere up to `to` \[s\].
 fn look_along(watch: &mut Watch, timeline: &Timeline, system: &System, index: usize, to: f64) {
-    let Seen { flight, flight_start, from, .. } = watch.flights[index];
+    let Seen { flight, curve, flight_start, from, .. } = watch.flights[index];
     let sphere: SphereId = system.spheres.id[index];
     let radius = timeline.flights.species_of(timeline.flights.slot_of[index]).radius;
     let to = to.max(from);
-    let leg = Leg { sphere, index: index as u32, radius, flight, flight_start, from, to };
+    let index_of = index as u32;
+    let leg = Leg { sphere, index: index_of, radius, flight, curve, flight_start, from, to };
     watch.sensors.watch(&leg, system, watch.step_start);
     watch.flights[index].from = leg.to;
 }
@@ -65,5 +66,12 @@ fn look_along(watch: &mut Watch, timeline: &Timeline, system: &System, index: us
 fn seen(timeline: &Timeline, slot: u32, from: f64) -> Seen {
     let body = &timeline.flights.bodies[slot as usize];
     let flight = body.flight(timeline.flights.species_of(slot));
-    Seen { flight, flight_start: body.time, generation: body.generation, from: body.time.max(from) }
+    let curve = timeline.flights.curve_of(slot).map(|curve| curve.0);
+    Seen {
+        flight,
+        curve,
+        flight_start: body.time,
+        generation: body.generation,
+        from: body.time.max(from),
+    }
 }

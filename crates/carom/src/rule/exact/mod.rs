@@ -54,7 +54,7 @@ pub(crate) use zone::Zone;
 use std::mem::take;
 
 use context::StepContext;
-use events::{EventTarget, UpcomingEvent};
+use events::{EventTarget, PackedTarget, UpcomingEvent};
 use frame_work::UNITS_PER_FLIGHT;
 use pair_times::PairSearch;
 
@@ -160,8 +160,7 @@ fn renew_forces(
     now: f64,
 ) -> Result<f64, Unfinished> {
     let is_lost = |sphere| Unfinished::NonFiniteForce { sphere };
-    frame::force_tick(timeline, context.system, now).map_err(is_lost)?;
-    let flights = timeline.flights.bodies.len() as u64;
+    let flights = frame::force_tick(timeline, context.system, now).map_err(is_lost)?;
     context.renewed += flights;
     if context.work.spend(UNITS_PER_FLIGHT * flights) { Ok(now) } else { Err(Unfinished::Stopped) }
 }
@@ -191,9 +190,12 @@ fn happen(
     // Between impacts with a light one a heavy sphere hardly moves.
     let involved = [Some(slot), event.target.slot()];
     let has_moved = |slot: &u32| !timeline.is_unresolved(*slot, event.time);
-    let is_counted = context.has_zones() && !involved.iter().flatten().any(has_moved);
+    let is_counted = context.has_zones()
+        && event.target != PackedTarget::STEP_END
+        && !involved.iter().flatten().any(has_moved);
     match event.target.unpacked() {
         EventTarget::Restart => predict::restart(timeline, context, slot, event.time),
+        EventTarget::StepEnd => predict::next_step(timeline, context, slot, event.time),
         EventTarget::Sphere(other) => {
             impact::of_spheres(timeline, context, [slot, other], event.time);
         }
@@ -203,6 +205,11 @@ fn happen(
         EventTarget::Cluster => {
             impact::of_sphere(timeline, context, slot, None, event.time);
         }
+    }
+    if let Some(index) = timeline.flights.lost {
+        return Err(Unfinished::NonFiniteForce {
+            sphere: context.system.spheres.id[index as usize],
+        });
     }
     if let Some(slot) = context.unanswered {
         let sphere = context.id_of(timeline, slot);

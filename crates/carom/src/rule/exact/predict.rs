@@ -28,6 +28,7 @@ pub(crate) struct Unresolved {
 /// Predicts what a sphere meets next as of `now` \[s\], and enters it into the schedule.
 pub(super) fn predict(timeline: &mut Timeline, context: &mut StepContext, slot: u32, now: f64) {
     context.counts.predictions += 1;
+    timeline.find_curve(context.system, slot);
     let prediction = prediction(timeline, context.system, slot, &mut context.searches[0], now);
     timeline.enter(slot, prediction);
 }
@@ -84,8 +85,14 @@ fn prediction_after(
 ) -> Prediction {
     let body = &timeline.flights.bodies[slot as usize];
     let species = &timeline.flights.species[body.species as usize];
-    let (neighbours, horizon) = (&timeline.neighbours, timeline.flight_end(species));
-    let stays = horizon < f64::INFINITY && neighbours.stays(slot, body, species, horizon);
+    let (neighbours, horizon) = (&timeline.neighbours, timeline.flight_end(slot, species));
+    let curve = if species.is_curved { timeline.flights.curve_of(slot) } else { None };
+    let stays = match &curve {
+        Some((flight, _)) => {
+            neighbours.stays_within(slot, species.level, body.position, flight.farthest())
+        }
+        None => horizon < f64::INFINITY && neighbours.stays(slot, body, species, horizon),
+    };
     let meets_none = system.surfaces.is_empty() || species.is_stepped;
     if !(meets_none || (stays && timeline.is_clear_of_surfaces(slot))) {
         meet_surfaces(timeline, system, slot, (body, species), passed, &mut events);
@@ -94,12 +101,22 @@ fn prediction_after(
         let time = timeline.flights.clusters.renewal_by(cluster, slot);
         events.add(Event::at(time, PackedTarget::CLUSTER));
     }
+    if let Some((_, end)) = curve {
+        events.add(Event::at(end, PackedTarget::STEP_END));
+    }
     if events.first.time < now {
         // It was passed over. From the start of another flight it is found again only if it closes.
         events = NextEvents::only(Event::at(now, PackedTarget::RESTART));
     }
-    let cell_crossing =
-        if stays { f64::INFINITY } else { neighbours.crossing_time(slot, body, species, now) };
+    let cell_crossing = match &curve {
+        _ if stays => f64::INFINITY,
+        Some((flight, _)) => {
+            let state = timeline.flights.state_of(slot, now);
+            let bounds = flight.acceleration.bounds();
+            neighbours.crossing_time_within((slot, species.level), state, bounds, now)
+        }
+        None => neighbours.crossing_time(slot, body, species, now),
+    };
     Prediction { events, cell_crossing }
 }
 
@@ -128,6 +145,7 @@ pub(super) fn pass_over(
     if events == Some(predicted) {
         return;
     }
+    restart.time = restart.time.min(timeline.flights.step_end(slot));
     // Of meetings only the first two are known.
     let is_far = restart.time - now > 2.0 * context.parameters.contact_duration;
     let next = match events {
@@ -145,7 +163,7 @@ fn bodies_of(timeline: &Timeline, sphere: u32, event: &Event) -> Option<Bodies> 
             Some(Bodies::pair([sphere, timeline.flights.index_of[other as usize]]))
         }
         EventTarget::Surface(surface) => Some(Bodies::Surface { sphere, surface }),
-        EventTarget::Cluster | EventTarget::Restart => None,
+        EventTarget::Cluster | EventTarget::Restart | EventTarget::StepEnd => None,
     }
 }
 
@@ -184,6 +202,15 @@ pub(super) fn restart(timeline: &mut Timeline, context: &mut StepContext, slot: 
     predict(timeline, context, slot, now);
 }
 
+/// Begins the next step of the curve of a sphere, where one ends `now` \[s\].
+pub(super) fn next_step(timeline: &mut Timeline, context: &mut StepContext, slot: u32, now: f64) {
+    let (position, velocity) = timeline.flights.state_of(slot, now);
+    timeline.begin_flight(slot, position, velocity, now);
+    timeline.find_curve(context.system, slot);
+    timeline.find_clearance(context.system, slot);
+    predict(timeline, context, slot, now);
+}
+
 /// Gives a sphere that leaves its neighbour region at `now` \[s\] another one, and searches for what it
 /// may meet there.
 pub(super) fn cross_cell(timeline: &mut Timeline, context: &mut StepContext, slot: u32, now: f64) {
@@ -211,9 +238,13 @@ fn meet_surfaces(
     events: &mut NextEvents,
 ) {
     let sphere = timeline.flights.index_of[slot as usize];
-    let (horizon, flight_end) = (timeline.horizon(), timeline.flight_end(species));
-    let reach = (flight_end < f64::INFINITY)
-        .then(|| Reach::of(body.flight(species), species.radius, flight_end - body.time));
+    let flight_end = timeline.flight_end(slot, species);
+    let horizon = if species.is_curved { flight_end } else { timeline.horizon() };
+    let reach = match timeline.flights.curve_of(slot) {
+        Some((flight, _)) => Some(Reach::of_polynomial(&flight, species.radius)),
+        None => (flight_end < f64::INFINITY)
+            .then(|| Reach::of(body.flight(species), species.radius, flight_end - body.time)),
+    };
     let center = body.position;
     let planes = planes_that_hold(timeline, system, slot);
     for (number, shift) in timeline.surfaces_near(slot) {
@@ -234,13 +265,15 @@ fn meet_surfaces(
         // A surface that moves is given as it is at the start of the frame.
         let start = if is_at_rest { body.time } else { body.time.max(timeline.frame[0]) };
         let (form, motion) = surface.after(start - timeline.frame[0]);
-        let mut flight = body.flight_from(species, start);
-        flight.position -= shift;
         let turns = motion.angular_velocity != DVec3::ZERO;
         // Where a turning surface will be is known until the end of the frame.
         let until = if turns { timeline.frame[1].min(horizon) } else { horizon };
+        if until < start {
+            continue;
+        }
+        let track = timeline.flights.track_from(slot, start).shifted(-shift);
         let delay =
-            contact_time::sphere_surface(&flight, species.radius, &form, &motion, until - start);
+            contact_time::track_surface(&track, species.radius, &form, &motion, until - start);
         if let Some(delay) = delay {
             let target = PackedTarget::surface(number);
             events.add(Event::at(start + delay, target));

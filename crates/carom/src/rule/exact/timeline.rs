@@ -5,8 +5,9 @@ use glam::DVec3;
 use super::budget::Budget;
 use super::clearance::{Clearance, Obstacle};
 use super::contact_scale::RESOLVED_PATH;
+use super::contacts::Member;
 use super::events::{Event, NextEvents, PackedTarget, Prediction, Schedule, UpcomingEvent};
-use super::flights::{Flights, Species};
+use super::flights::{Flights, Species, StepLimits};
 use super::frame_work::FrameWork;
 use super::neighbours::{NeighbourBuffer, Neighbours};
 use super::watch::Watch;
@@ -46,6 +47,8 @@ pub(crate) struct Timeline {
     pub(super) spring_rate: f64,
     /// Until when forces are held as they are, on the world's clock \[s\].
     pub(super) held_until: f64,
+    /// When all curves end at the latest, as forces applied over a frame do, on the world's clock \[s\].
+    pub(super) curves_until: f64,
     /// When the next spheres are emitted, on the world's clock \[s\].
     pub(super) next_emission: f64,
     /// The watch over sensors during a step, where there are some.
@@ -93,19 +96,65 @@ impl Timeline {
     /// Until when predictions are of use, on the world's clock \[s\]: until all flights begin anew.
     #[inline]
     pub fn horizon(&self) -> f64 {
-        if self.flights.hold_forces { self.held_until } else { f64::INFINITY }
+        if !self.flights.hold_forces {
+            f64::INFINITY
+        } else if self.flights.are_curved() {
+            self.curves_until
+        } else {
+            self.held_until
+        }
     }
 
-    /// Until when a sphere of this species stays on its flight at most, on the world's clock \[s\]:
-    /// until the forces of its persistent contacts are found anew, the zone that it is in is stepped, or
-    /// all flights begin anew.
+    /// Until when the sphere at `slot`, of this species, stays on its flight at most, on the world's clock
+    /// \[s\]: until the step of its curve ends, the forces of its persistent contacts are found anew, the zone
+    /// that it is in is stepped, or all flights begin anew.
     #[inline]
-    pub(super) fn flight_end(&self, species: &Species) -> f64 {
+    pub(super) fn flight_end(&self, slot: u32, species: &Species) -> f64 {
+        if species.is_curved {
+            return self.flights.step_end(slot);
+        }
         if species.is_stepped {
             return self.zone.next_tick().min(self.horizon());
         }
         let renewal = species.cluster.map(|number| self.flights.clusters.get(number).renewal);
-        renewal.map_or(self.horizon(), |renewal| renewal.min(self.horizon()))
+        renewal.map_or(self.horizon(), |renewal| {
+            renewal.min(self.horizon()).min(self.next_force_tick())
+        })
+    }
+
+    /// Begins the flight of a sphere that is known by what it does at an event, with no contact forces.
+    pub(super) fn begin_free_flight(&mut self, member: &Member, time: f64) {
+        let Member { slot, position, velocity, species, .. } = *member;
+        self.set_free(slot, time);
+        if self.flights.are_curved() {
+            self.flights.set_free_acceleration(slot, species.acceleration);
+        }
+        self.begin_flight(slot, position, velocity, time);
+    }
+
+    /// Finds the flight of a sphere from its beginning to the end of a step, if forces without a closed form act on
+    /// it and it is not known yet.
+    #[inline]
+    pub(super) fn find_curve(&mut self, system: &System, slot: u32) {
+        if self.flights.are_curved() && self.flights.is_unknown(slot) {
+            let curve = self.flights.step_from_start(system, slot, self.step_limits());
+            self.flights.set_curve(slot, curve);
+        }
+    }
+
+    /// Finds all flights that are not known yet.
+    pub(super) fn find_curves(&mut self, system: &System) {
+        if !self.flights.are_curved() {
+            return;
+        }
+        // In the order of ids: a force of a program may count its calls.
+        for index in 0..self.flights.slot_of.len() {
+            self.find_curve(system, self.flights.slot_of[index]);
+        }
+    }
+
+    fn step_limits(&self) -> StepLimits {
+        StepLimits { until: self.curves_until, tick: self.parameters.force_tick }
     }
 
     /// Begins another flight of a sphere from this state at `time` \[s\].
@@ -192,8 +241,14 @@ impl Timeline {
     pub(super) fn is_clear_of_surfaces(&self, slot: u32) -> bool {
         self.clearances.get(slot as usize).is_some_and(|clearance| {
             let body = &self.flights.bodies[slot as usize];
-            let flight = body.flight(self.flights.species_of(slot));
-            clearance.holds(&flight, self.horizon() - body.time)
+            let species = self.flights.species_of(slot);
+            if species.is_curved {
+                let curve = self.flights.curve_of(slot);
+                return curve.is_some_and(|(flight, _)| {
+                    clearance.holds_way(body.position, flight.farthest())
+                });
+            }
+            clearance.holds(&body.flight(species), self.flight_end(slot, species) - body.time)
         })
     }
 

@@ -1,6 +1,7 @@
 //! The watch over sensors: which flights spheres were last seen on.
 
 use crate::flight::Flight;
+use crate::polynomial_flight::PolynomialFlight;
 use crate::sensor::{Presence, Sensors};
 
 /// The flight of each sphere as it was last seen, and what sensors saw along those before.
@@ -19,6 +20,7 @@ pub(crate) struct Watch {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Seen {
     pub flight: Flight,
+    pub curve: Option<PolynomialFlight>,
     pub flight_start: f64,
     pub generation: u32,
     /// Up to when sensors have looked along it, on the world's clock \[s\].

@@ -4,7 +4,9 @@ use glam::DVec3;
 
 use crate::flight::Flight;
 use crate::rule::exact::contact_scale::ContactScale;
-use crate::rule::exact::flights::{Flights, Species};
+use crate::rule::exact::flights::{Flights, FreeField, Species};
+use crate::rule::exact::timeline::Timeline;
+use crate::system::System;
 
 /// A sphere of a group.
 #[derive(Debug, Clone, Copy)]
@@ -31,8 +33,20 @@ impl Member {
             position,
             velocity,
             angular_velocity: flights.angular_velocity_of(slot, time),
-            species: *flights.free_species_of(slot),
+            species: flights.free_species_at(slot, time),
         }
+    }
+
+    /// Finds the forces on it anew where its velocity is another than that of its curve up to `time` \[s\].
+    pub fn renew_forces(&mut self, timeline: &Timeline, system: &System, time: f64) {
+        let flights = &timeline.flights;
+        if !flights.are_curved() || !self.species.is_curved {
+            return;
+        }
+        let field = FreeField::of(system, self.index as usize);
+        let acceleration = field.acceleration_at(time, self.position, self.velocity);
+        // Drag in closed form is no part of the acceleration of a species.
+        self.species.acceleration = acceleration + self.species.drag_rate * self.velocity;
     }
 
     /// Centre \[m\] and velocity \[m/s\].

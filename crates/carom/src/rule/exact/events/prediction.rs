@@ -72,6 +72,8 @@ pub(crate) enum EventTarget {
     Cluster,
     /// Nothing: the flight begins anew from where the sphere is.
     Restart,
+    /// The step of its curve ends, and another one begins.
+    StepEnd,
 }
 
 /// An [`EventTarget`] in four bytes: the slot of a sphere, a surface's number with the highest bit set
@@ -85,6 +87,7 @@ impl PackedTarget {
     /// No slot: these are smaller.
     pub const CLUSTER: Self = Self(MAX_SPHERES as u32);
     pub const RESTART: Self = Self(MAX_SPHERES as u32 + 1);
+    pub const STEP_END: Self = Self(MAX_SPHERES as u32 + 2);
 
     #[inline(always)]
     pub fn sphere(slot: u32) -> Self {
@@ -109,6 +112,7 @@ impl PackedTarget {
             }
             Self::CLUSTER => EventTarget::Cluster,
             Self::RESTART => EventTarget::Restart,
+            Self::STEP_END => EventTarget::StepEnd,
             Self(slot) => EventTarget::Sphere(slot),
         }
     }
@@ -161,10 +165,11 @@ mod tests {
         for slot in [0, last] {
             assert_eq!(PackedTarget::sphere(slot).unpacked(), EventTarget::Sphere(slot));
         }
-        for number in [0, 7, last, last + 1, last + 2] {
+        for number in [0, 7, last, last + 1, last + 2, last + 3] {
             assert_eq!(PackedTarget::surface(number).unpacked(), EventTarget::Surface(number));
         }
         assert_eq!(PackedTarget::CLUSTER.unpacked(), EventTarget::Cluster);
         assert_eq!(PackedTarget::RESTART.unpacked(), EventTarget::Restart);
+        assert_eq!(PackedTarget::STEP_END.unpacked(), EventTarget::StepEnd);
     }
 }

@@ -36,6 +36,9 @@ pub(crate) struct Species {
     pub free: u32,
     /// Whether these spheres are in a stepped zone.
     pub is_stepped: bool,
+    /// Whether the flight of the sphere is a [`Curve`](super::Curve): forces without a closed form act on it,
+    /// and no contacts. Such a sphere is a species of its own.
+    pub is_curved: bool,
 }
 
 impl Species {
@@ -53,7 +56,7 @@ impl Species {
             && self.drag_rate == 0.0
             && other.drag_rate == 0.0
             && (self.cluster.is_none() || other.cluster.is_none())
-            && !(self.is_stepped || other.is_stepped)
+            && !(self.is_stepped | other.is_stepped | self.is_curved | other.is_curved)
     }
 }
 
@@ -100,6 +103,7 @@ impl SpeciesOfSpheres {
                     contact_work: ContactWork::None,
                     free: number,
                     is_stepped: false,
+                    is_curved: !is_all && !system.has_interactions(),
                 });
             }
             number_of.push(number);

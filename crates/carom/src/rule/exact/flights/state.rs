@@ -7,6 +7,7 @@ use glam::DVec3;
 use super::body::Body;
 use super::clusters::{Cluster, Clusters, Support, Supported};
 use super::contact_work::{ContactWork, WorkDone};
+use super::curves::Curve;
 use super::rotation::Rotation;
 use super::species::{Species, SpeciesOfSpheres};
 use crate::bodies::Motion;
@@ -31,6 +32,10 @@ pub(crate) struct Flights {
     pub clusters: Clusters,
     /// How spheres turn, by index; empty where no friction acts.
     pub rotations: Vec<Rotation>,
+    /// By index, the curves of spheres whose flights are such; empty where none is.
+    pub curves: Vec<Curve>,
+    /// A sphere, by index, on which a force was not finite.
+    pub lost: Option<u32>,
     /// Whether some forces are held constant for a time.
     pub hold_forces: bool,
     /// Whether some of them have no closed form, so that they change with where spheres are.
@@ -50,6 +55,7 @@ impl Flights {
         let SpeciesOfSpheres { species, number_of, hold_forces, forces_vary } =
             SpeciesOfSpheres::of(system);
         let count = number_of.len();
+        let are_curved = species.iter().any(|species| species.is_curved);
         let period = system.settings.boundary.period();
         let body = |index: usize| {
             let position = periodic::wrapped(motion.position[index], period);
@@ -68,6 +74,8 @@ impl Flights {
             index_of,
             clusters: Clusters::default(),
             rotations: Vec::new(),
+            curves: if are_curved { vec![Curve::default(); count] } else { Vec::new() },
+            lost: None,
             hold_forces,
             forces_vary,
             contact_work: WorkDone::NONE,
@@ -88,11 +96,17 @@ impl Flights {
         self.clusters.renumber(|slot| new_slots[slot as usize]);
     }
 
+    /// Whether spheres that nothing touches fly on curves, each by its own steps.
+    #[inline]
+    pub fn are_curved(&self) -> bool {
+        !self.curves.is_empty()
+    }
+
     /// The species of all spheres, if there is one, and their relative motion is straight.
     #[inline(always)]
     pub fn only_species(&self) -> Option<&Species> {
         match &self.species[..] {
-            [species] if species.drag_rate == 0.0 => Some(species),
+            [species] if species.drag_rate == 0.0 && !species.is_curved => Some(species),
             _ => None,
         }
     }
@@ -110,7 +124,11 @@ impl Flights {
     #[inline(always)]
     pub fn state_of(&self, slot: u32, time: f64) -> (DVec3, DVec3) {
         let body = &self.bodies[slot as usize];
-        body.state_at(&self.species[body.species as usize], time)
+        let species = &self.species[body.species as usize];
+        if species.is_curved {
+            return self.state_on_curve(slot, time);
+        }
+        body.state_at(species, time)
     }
 
     /// The flight of the sphere at an index of the world's arrays. Where forces of persistent contacts
@@ -240,6 +258,7 @@ impl Flights {
                 acceleration: DVec3::ZERO,
                 drag_rate: 0.0,
                 is_stepped: true,
+                is_curved: false,
                 ..species
             });
         }
@@ -271,7 +290,13 @@ impl Flights {
                 self.rotate(slot, rotation, time);
             }
             let free = *self.species_of(slot);
-            let species = Species { acceleration, cluster: Some(cluster), contact_work, ..free };
+            let species = Species {
+                acceleration,
+                cluster: Some(cluster),
+                contact_work,
+                is_curved: false,
+                ..free
+            };
             let number = match self.spare_species.pop() {
                 Some(number) => {
                     self.species[number as usize] = species;

@@ -382,8 +382,7 @@ fn begin_flights(
     supports: Vec<Support>,
 ) {
     for member in &group.members {
-        timeline.set_free(member.slot, group.time);
-        timeline.begin_flight(member.slot, member.position, member.velocity, group.time);
+        timeline.begin_free_flight(member, group.time);
         timeline.flights.rotate(member.slot, [member.angular_velocity, DVec3::ZERO], group.time);
     }
     for index in struck.iter().flat_map(|bodies| bodies.spheres()) {

@@ -42,6 +42,7 @@ pub(crate) fn of_sphere(
     }
     let fastest = member.velocity.norm();
     let struck = strike(timeline, context, &touched, &mut member, time);
+    member.renew_forces(timeline, context.system, time);
     let contact_duration = context.duration_of(&member.scale(touched.is_curved()), time);
     let corner = &touched.corner;
     let duration = timeline.horizon() - time;
@@ -51,8 +52,7 @@ pub(crate) fn of_sphere(
         let is_at_rest = planar.velocity.norm() <= REST * fastest;
         member.velocity = if is_at_rest { DVec3::ZERO } else { planar.velocity };
     }
-    timeline.set_free(slot, time);
-    timeline.begin_flight(slot, member.position, member.velocity, time);
+    timeline.begin_free_flight(&member, time);
     timeline.flights.rotate(slot, [member.angular_velocity, DVec3::ZERO], time);
     if struck.iter().any(Option::is_some) {
         timeline.flights.bodies[slot as usize].strike();

@@ -1,12 +1,14 @@
 //! What neighbours are found from, and the grids that suit it.
 
+use std::ops::Range;
+
 use glam::DVec3;
 
 use super::grid::Grid;
 use super::region::OVERHANG;
 use crate::detect::surface_tree::SurfaceTree;
 use crate::groups::Groups;
-use crate::rule::exact::flights::{Body, Species};
+use crate::rule::exact::flights::{Flights, Species};
 use crate::rule::exact::periodic::wrapped;
 use crate::surface::Surface;
 
@@ -21,8 +23,7 @@ pub(super) const SLACK: f64 = 1.0 + 1e-9;
 /// Spheres at some time, and surfaces.
 #[derive(Clone, Copy)]
 pub(crate) struct Contents<'a> {
-    pub bodies: &'a [Body],
-    pub species: &'a [Species],
+    pub flights: &'a Flights,
     /// On the world's clock \[s\].
     pub time: f64,
     /// Edges of the periodic box about the origin \[m\]; infinite along an open axis.
@@ -45,8 +46,12 @@ pub(super) struct CrowdedGrid {
 }
 
 impl Contents<'_> {
-    pub(super) fn position_of(&self, body: &Body) -> DVec3 {
-        body.state_at(&self.species[body.species as usize], self.time).0
+    pub(super) fn position_of(&self, slot: u32) -> DVec3 {
+        self.flights.state_of(slot, self.time).0
+    }
+
+    fn slots(&self) -> Range<u32> {
+        0..self.flights.bodies.len() as u32
     }
 
     /// Groups of spheres by slot; empty where all bodies collide.
@@ -60,12 +65,13 @@ impl Contents<'_> {
     }
 
     fn level_count(&self) -> u32 {
-        self.species.iter().map(|species| species.level + 1).max().unwrap_or(0)
+        self.flights.species.iter().map(|species| species.level + 1).max().unwrap_or(0)
     }
 
     /// The largest radius of a level \[m\].
     pub(super) fn radius_of(&self, level: u32) -> f64 {
-        let of_level = self.species.iter().filter(|species| species.level == level);
+        let has_level = |species: &&Species| species.level == level;
+        let of_level = self.flights.species.iter().filter(has_level);
         of_level.map(|species| species.radius).fold(0.0, f64::max)
     }
 
@@ -89,20 +95,20 @@ impl Contents<'_> {
         if !self.spheres_collide {
             return (radius, self.surfaces.len());
         }
-        let is_held = |body: &&Body| self.species[body.species as usize].level >= level;
+        let is_held = |&slot: &u32| self.flights.species_of(slot).level >= level;
         let diameter = 2.0 * radius / (1.0 - 2.0 * OVERHANG) * SLACK;
-        (diameter, self.bodies.iter().filter(is_held).count())
+        (diameter, self.slots().filter(is_held).count())
     }
 
     /// A grid over all spheres.
     fn grid(&self, min_width: f64, seek: usize) -> Grid {
-        let positions = self.bodies.iter().map(|body| wrapped(self.position_of(body), self.period));
+        let positions = self.slots().map(|slot| wrapped(self.position_of(slot), self.period));
         Grid::over(positions, self.period, min_width, seek)
     }
 
     /// A grid for lists of neighbours, if spheres are of one level and crowded in `grid`.
     pub(super) fn crowded_grid(&self, grid: &Grid) -> Option<CrowdedGrid> {
-        let count = self.bodies.len();
+        let count = self.flights.bodies.len();
         let diameter = 2.0 * self.radius_of(0);
         let volume = grid.len() as f64 * grid.width().element_product();
         let crowd = count as f64 / volume * (diameter * diameter * diameter);
@@ -119,11 +125,8 @@ impl Contents<'_> {
     /// curve through the cells of the smallest spheres.
     pub fn curve_order(&self) -> Vec<u32> {
         let Some(grid) = self.grids().pop() else { return Vec::new() };
-        let key = |slot: &u32| {
-            let position = self.position_of(&self.bodies[*slot as usize]);
-            grid.curve_key(wrapped(position, self.period))
-        };
-        let mut order: Vec<u32> = (0..self.bodies.len() as u32).collect();
+        let key = |slot: &u32| grid.curve_key(wrapped(self.position_of(*slot), self.period));
+        let mut order: Vec<u32> = self.slots().collect();
         order.sort_by_cached_key(key);
         order
     }

@@ -18,7 +18,7 @@ use crate::groups::Groups;
 use crate::lanes::{LANES, Lanes};
 use crate::norm::Norm;
 use crate::real::Vector;
-use crate::rule::exact::flights::{Body, Species};
+use crate::rule::exact::flights::{Body, Flights, Species};
 use crate::rule::exact::periodic;
 
 /// The regions of all spheres, and which spheres and surfaces are near them.
@@ -52,7 +52,8 @@ struct Arrival {
 impl Neighbours {
     /// Finds the neighbours of all spheres.
     pub fn new(contents: Contents) -> Self {
-        let Contents { bodies, species, period, spheres_collide, .. } = contents;
+        let Contents { flights, period, spheres_collide, .. } = contents;
+        let Flights { bodies, species, .. } = flights;
         let Levels { levels, are_crowded } = Levels::new(contents);
         let nowhere = |body: &Body| Region::nowhere(species[body.species as usize].radius);
         // A neighbour is less than three cells away along each axis, of the coarsest grid.
@@ -78,7 +79,7 @@ impl Neighbours {
         let mut new = NeighbourBuffer::default();
         for (slot, body) in (0u32..).zip(bodies) {
             let level = species[body.species as usize].level;
-            let state = [contents.position_of(body), body.velocity];
+            let state = [contents.position_of(slot), body.velocity];
             let cell = neighbours.place(slot, level, state);
             neighbours.enter_cells(slot, level, cell);
             new.clear();
@@ -278,6 +279,43 @@ impl Neighbours {
         }
         // The clock has to move on, however fast the sphere is.
         (now + first).max(now.next_up())
+    }
+
+    /// A time before which a sphere does not leave its neighbour region that has this centre \[m\] and velocity
+    /// \[m/s\] `now`, and from then on accelerations between these bounds along each axis \[m/s²\]; on the
+    /// world's clock \[s\].
+    pub fn crossing_time_within(
+        &self,
+        (slot, level): (u32, u32),
+        (position, velocity): (DVec3, DVec3),
+        [least, most]: [DVec3; 2],
+        now: f64,
+    ) -> f64 {
+        let Level { grid, half_edges, .. } = &self.levels[level as usize];
+        let center = self.regions[slot as usize].center;
+        let offset = center + self.shift_from_box(slot) - position;
+        let half_edges = CROSSING * half_edges;
+        let (low, high) = grid.without_ends(center, offset - half_edges, offset + half_edges);
+        let mut first = f64::INFINITY;
+        for axis in 0..3 {
+            let motion = |acceleration| AxisMotion {
+                velocity: velocity[axis],
+                acceleration,
+                drag_rate: 0.0,
+            };
+            let upward = motion(most[axis]).leaves(f64::NEG_INFINITY, high[axis]);
+            let downward = motion(least[axis]).leaves(low[axis], f64::INFINITY);
+            first = first.min(upward).min(downward);
+        }
+        (now + first).max(now.next_up())
+    }
+
+    /// Whether a sphere that is at `position` \[m\] certainly does not leave its neighbour region if it goes no
+    /// farther than this along each axis \[m\].
+    pub fn stays_within(&self, slot: u32, level: u32, position: DVec3, way: DVec3) -> bool {
+        let Level { half_edges, .. } = &self.levels[level as usize];
+        let offset = self.region(slot).center + self.shift_from_box(slot) - position;
+        (offset.abs() + way).cmple(CROSSING * half_edges).all()
     }
 
     /// Whether the sphere certainly does not leave its neighbour region until `horizon`, on the world's

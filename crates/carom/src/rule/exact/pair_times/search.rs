@@ -210,16 +210,26 @@ fn time_of_meeting(timeline: &Timeline, slot: u32, neighbour: Neighbour) -> f64 
         return f64::INFINITY;
     }
     let shift = timeline.neighbours.shift_of(slot, neighbour);
-    let [end, other_end] = species.map(|species| timeline.flight_end(species));
+    let [end, other_end] = [0, 1].map(|one| timeline.flight_end(slots[one], species[one]));
     let end = end.min(other_end);
     if end < f64::INFINITY {
         let reach = |one: usize| {
             let (body, species) = (bodies[one], species[one]);
-            Reach::of(body.flight(species), species.radius, end - body.time)
+            match flights.curve_of(slots[one]) {
+                Some((flight, _)) => Reach::of_polynomial(&flight, species.radius),
+                None => Reach::of(body.flight(species), species.radius, end - body.time),
+            }
         };
         if reach(0).misses_sphere(&reach(1), shift) {
             return f64::INFINITY;
         }
+    }
+    if species.iter().any(|species| species.is_curved) {
+        let ordered = if index < other_index { slots } else { [slots[1], slots[0]] };
+        let shift = if index < other_index { shift } else { -shift };
+        let time = time_of_contact_on_curves(timeline, ordered, shift);
+        let is_too_late = are_stepped != [false; 2] && time > end;
+        return if is_too_late { f64::INFINITY } else { time };
     }
     let time = if index < other_index {
         time_of_contact(bodies, species, shift)
@@ -229,6 +239,21 @@ fn time_of_meeting(timeline: &Timeline, slot: u32, neighbour: Neighbour) -> f64 
     };
     let is_too_late = are_stepped != [false; 2] && time > end;
     if is_too_late { f64::INFINITY } else { time }
+}
+
+/// When two spheres meet one of which is on a curve, on the world's clock \[s\], before the end of a step;
+/// infinite if they do not.
+fn time_of_contact_on_curves(timeline: &Timeline, slots: [u32; 2], shift: DVec3) -> f64 {
+    let flights = &timeline.flights;
+    let start = flights.bodies[slots[0] as usize].time.max(flights.bodies[slots[1] as usize].time);
+    let [first, second] = slots.map(|slot| flights.track_from(slot, start));
+    let end = flights.step_end(slots[0]).min(flights.step_end(slots[1]));
+    if end < start {
+        return f64::INFINITY;
+    }
+    let radius_sum: f64 = slots.iter().map(|&slot| flights.species_of(slot).radius).sum();
+    let delay = contact_time::tracks(&first, &second.shifted(shift), radius_sum, end - start);
+    delay.map_or(f64::INFINITY, |delay| start + delay)
 }
 
 /// When two spheres meet that fly differently, on the world's clock \[s\]; infinite if never. The search

@@ -1,5 +1,5 @@
-//! Held forces: forces without a closed form, constant from one force tick to the next, and applied forces,
-//! which are constant over a frame.
+//! Held forces: those between spheres, and on spheres in persistent contact, constant from one force tick to the
+//! next; and applied forces, which are constant over a frame.
 
 use glam::DVec3;
 
@@ -27,20 +27,35 @@ fn held_until(timeline: &Timeline, system: &System, now: f64) -> f64 {
     others.into_iter().filter(|&other| other > now).fold(next_tick, f64::min)
 }
 
-/// Begins a new flight of every sphere `now` \[s\] under the forces that act on it in the middle of the time
-/// for which they are held: an error of the third order in its length, of the second over all ticks (the
-/// midpoint rule). Persistent contacts with planes go on where forces are the same everywhere; others are
-/// found anew.
+/// Begins a new flight `now` \[s\] of every sphere whose forces are held: of those in persistent contact, and of all
+/// others if none flies on a curve. Returns their slots.
+///
+/// They fly under the forces that act on them in the middle of the time for which these are held: an error of the
+/// third order in its length, of the second over all ticks (the midpoint rule). Persistent contacts with planes go
+/// on where forces are the same everywhere; others are found anew.
 ///
 /// Forces between spheres are those where all would be in the middle if nothing accelerated them, a drift,
 /// a kick and a drift: the leapfrog scheme, which keeps energy, without damping, as velocity Verlet does.
-pub(crate) fn renew(timeline: &mut Timeline, system: &System, start: f64) {
+pub(crate) fn renew(timeline: &mut Timeline, system: &System, start: f64) -> Vec<u32> {
     let end = held_until(timeline, system, start);
     timeline.held_until = end;
     let between = forces_between(timeline, system, [start, end]);
     timeline.zone.held_forces.clone_from(&between);
+    let are_curved = timeline.flights.are_curved();
+    // Forces applied over a frame are others in each.
+    let are_restarted = timeline.curves_until.is_finite() && start == timeline.frame[0];
+    let mut renewed = Vec::new();
     for slot in 0..timeline.flights.bodies.len() as u32 {
         let species = *timeline.flights.free_species_of(slot);
+        let is_free = timeline.flights.species_of(slot).cluster.is_none();
+        if are_curved && is_free && !timeline.flights.is_stepped(slot) {
+            if are_restarted {
+                let (position, velocity) = timeline.flights.state_of(slot, start);
+                timeline.begin_flight(slot, position, velocity, start);
+                renewed.push(slot);
+            }
+            continue;
+        }
         let index = timeline.flights.index_of[slot as usize] as usize;
         let applied = system.spheres.applied_acceleration(index).unwrap_or(DVec3::ZERO);
         let (linear, is_all) = forces::total_linear(system.forces, species.radius, species.mass);
@@ -58,7 +73,9 @@ pub(crate) fn renew(timeline: &mut Timeline, system: &System, start: f64) {
             begin_under_varying(timeline, system, slot, uniform, [start, end]);
         }
         timeline.find_clearance(system, slot);
+        renewed.push(slot);
     }
+    renewed
 }
 
 /// The forces between spheres in the middle of an interval \[N\], by index; empty where there are none.

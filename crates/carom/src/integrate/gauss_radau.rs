@@ -1,0 +1,436 @@
+//! Steps of 15th order under any forces: Gauss-Radau quadrature with its own control of the step.
+//!
+//! Source: Everhart, in *Dynamics of Comets* (1985), 185; Rein and Spiegel, MNRAS 446, 1424 (2015), IAS15. The
+//! acceleration is a polynomial through its values at eight nodes of a step. The step is a good one where its
+//! highest term is small.
+
+use glam::DVec3;
+
+use crate::norm::Norm;
+use crate::polynomial_flight::{ORDERS, PolynomialAcceleration, TERMS};
+
+/// Nodes of the Gauss-Radau quadrature of order 15 on `[0, 1]`.
+const NODES: [f64; TERMS] = [
+    0.0,
+    0.056_262_560_536_922_15,
+    0.180_240_691_736_892_36,
+    0.352_624_717_113_169_6,
+    0.547_153_626_330_555_4,
+    0.734_210_177_215_410_5,
+    0.885_320_946_839_095_8,
+    0.977_520_613_561_287_5,
+];
+
+/// Powers of s in `s (s - h_1) ... (s - h_(n-1))`, by n.
+const NEWTON: [[f64; TERMS]; TERMS] = newton_basis();
+
+/// The highest term of the acceleration is at most this part of it. The path between the nodes is then good to
+/// rounding: their polynomial leaves less than 1e-4 of the term after the highest.
+const TOLERANCE: f64 = 1e-9;
+/// A term that changes a velocity by less than this part is of no account, for a path off by a ten-thousandth of it.
+const VELOCITY_PART: f64 = 1e-3;
+/// Nor is one that changes a position by less than the rounding of forces at rounded places makes of it.
+const POSITION_PART: f64 = 2e-3;
+/// A step is taken whose highest term is so many times the tolerance; a longer one is tried again.
+const ACCEPTED: f64 = 8.0;
+/// Part of the step that the estimate allows, to spare.
+const SAFETY: f64 = 0.9;
+/// From step to step the length changes at most by these factors.
+const MOST_GROWTH: f64 = 4.0;
+const MOST_SHRINKAGE: f64 = 0.1;
+/// Iterations for the values at the nodes, at most. Steps that are short enough take three to eight.
+const MAX_ITERATIONS: u32 = 12;
+/// The iteration has converged when the highest term changes by less than this part.
+const CONVERGED: f64 = 1e-16;
+/// An iteration that comes no nearer than this has not converged.
+const DIVERGED: f64 = 1e-10;
+/// Forces vary by less than this part over a step where nothing can be said of how fast they do.
+const STEADY: f64 = 1e-12;
+/// Where no step is short enough, the force jumps: a step of this part of the last good one crosses that.
+const SHORTEST: f64 = 1e-12;
+/// Where jumps follow each other at once, each step that crosses one is so many times the one before.
+const LEAP: f64 = 8.0;
+
+/// What to expect of the steps of some spheres.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct Pace {
+    /// Length of the step to try next \[s\].
+    pub trial: f64,
+    /// A step this short is taken, whatever its error \[s\].
+    pub shortest: f64,
+}
+
+impl Pace {
+    /// Where nothing is known but a time \[s\] in which the spheres hardly move.
+    pub fn of(time: f64) -> Self {
+        Self { trial: time, shortest: SHORTEST * time }
+    }
+
+    /// After a step of this length \[s\], a good one or one across a jump. Where there are jumps all along, steps
+    /// become as long as `rough` \[s\].
+    fn after(self, length: f64, is_good: bool, rough: f64) -> Self {
+        let shortest = if is_good {
+            // It becomes shorter only slowly: towards a jump good steps become ever shorter.
+            (SHORTEST * length).max(0.5 * self.shortest)
+        } else {
+            (LEAP * length).min(rough)
+        };
+        Self { trial: self.trial.max(shortest), shortest }
+    }
+}
+
+/// Spheres at the beginning of a step.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Start<'a> {
+    /// \[m\]
+    pub positions: &'a [DVec3],
+    /// \[m/s\]
+    pub velocities: &'a [DVec3],
+    /// On the world's clock \[s\].
+    pub time: f64,
+    /// When the step has to end at the latest \[s\].
+    pub until: f64,
+    /// Where forces are steady, steps are at most this long \[s\].
+    pub steady: f64,
+    /// Where forces are rough, steps are at most this long \[s\].
+    pub rough: f64,
+}
+
+/// A step of some spheres.
+#[derive(Debug, Clone)]
+pub(crate) struct Step {
+    /// When it ends, on the world's clock \[s\].
+    pub end: f64,
+    /// Of each sphere.
+    pub accelerations: Vec<PolynomialAcceleration>,
+    pub pace: Pace,
+}
+
+/// Accelerations of some spheres \[m/s²\], and the sum of the sizes of their terms, at a time \[s\] with these
+/// positions \[m\] and velocities \[m/s\].
+pub(crate) trait Field {
+    fn evaluate(&mut self, time: f64, positions: &[DVec3], velocities: &[DVec3], at: &mut Values);
+}
+
+/// What a [`Field`] finds.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Values {
+    /// \[m/s²\]
+    pub accelerations: Vec<DVec3>,
+    /// Sums of the sizes of what each is the sum of \[m/s²\].
+    pub sizes: Vec<f64>,
+}
+
+impl Values {
+    fn of(count: usize) -> Self {
+        Self { accelerations: vec![DVec3::ZERO; count], sizes: vec![0.0; count] }
+    }
+}
+
+/// Takes one step. What went before, if it is known, gives the first guess.
+pub(crate) fn step(
+    start: &Start,
+    before: Option<&[PolynomialAcceleration]>,
+    mut pace: Pace,
+    field: &mut impl Field,
+) -> Step {
+    let count = start.positions.len();
+    let mut first = Values::of(count);
+    field.evaluate(start.time, start.positions, start.velocities, &mut first);
+    // The clock has to move on by more than its rounding.
+    let least = 64.0 * f64::EPSILON * start.time.abs();
+    let rough = start.rough.max(least);
+    let shortest = pace.shortest.clamp(least, rough);
+    loop {
+        let is_shortest = pace.trial <= shortest;
+        let end = (start.time + pace.trial.max(least)).min(start.until);
+        let end = end.max(start.time.next_up());
+        let length = end - start.time;
+        let mut attempt = Attempt::new(start, &first, length, before);
+        let has_converged = attempt.iterate(field);
+        let error = if has_converged { attempt.error(field) } else { f64::INFINITY };
+        let is_good = error <= ACCEPTED * TOLERANCE;
+        if is_good || is_shortest || !first.is_finite() {
+            if error == f64::INFINITY {
+                attempt.hold();
+            }
+            let is_cut = end == start.until;
+            let ratio = growth(error).min(MOST_GROWTH);
+            let mut trial = if is_good { ratio * length } else { length };
+            if attempt.is_steady() {
+                trial = trial.min(start.steady.max(length));
+            }
+            if is_cut {
+                trial = trial.max(pace.trial);
+            }
+            let pace = Pace { trial, ..pace }.after(length, is_good, rough);
+            return Step { end, accelerations: attempt.into_accelerations(), pace };
+        }
+        pace.trial = (length * growth(error).clamp(MOST_SHRINKAGE, SAFETY)).max(shortest);
+    }
+}
+
+impl Values {
+    fn is_finite(&self) -> bool {
+        self.accelerations.iter().all(|it| it.is_finite())
+    }
+}
+
+/// By which factor a step with this error may be longer: the error grows with the seventh power of its length.
+fn growth(error: f64) -> f64 {
+    if error == 0.0 {
+        return MOST_GROWTH;
+    }
+    let growth = SAFETY * libm::pow(TOLERANCE / error, 1.0 / 7.0);
+    if growth.is_finite() { growth } else { 0.0 }
+}
+
+/// A step of some length that is tried.
+struct Attempt<'a> {
+    start: &'a Start<'a>,
+    /// Accelerations at the beginning \[m/s²\].
+    first: &'a Values,
+    /// \[s\]
+    length: f64,
+    /// Of each sphere: the acceleration as a sum of products of nodes \[m/s²\].
+    newton: Vec<[DVec3; TERMS]>,
+    /// The same as a sum of powers \[m/s²\].
+    powers: Vec<[DVec3; TERMS]>,
+    /// Sizes of the accelerations of each sphere, at most \[m/s²\].
+    sizes: Vec<f64>,
+}
+
+impl<'a> Attempt<'a> {
+    fn new(
+        start: &'a Start,
+        first: &'a Values,
+        length: f64,
+        before: Option<&[PolynomialAcceleration]>,
+    ) -> Self {
+        let powers: Vec<[DVec3; TERMS]> = first
+            .accelerations
+            .iter()
+            .enumerate()
+            .map(|(sphere, &acceleration)| {
+                let mut powers =
+                    before.map_or([DVec3::ZERO; TERMS], |it| it[sphere].continued(length));
+                powers[0] = acceleration;
+                powers
+            })
+            .collect();
+        let newton = powers.iter().map(newton_form).collect();
+        Self { start, first, length, newton, powers, sizes: first.sizes.clone() }
+    }
+
+    /// Finds the accelerations at the nodes by iteration; tells whether it converges.
+    fn iterate(&mut self, field: &mut impl Field) -> bool {
+        let count = self.powers.len();
+        let (mut positions, mut velocities) = (vec![DVec3::ZERO; count], vec![DVec3::ZERO; count]);
+        let mut values = Values::of(count);
+        let mut change_before = f64::INFINITY;
+        for _ in 0..MAX_ITERATIONS {
+            let mut change = 0.0f64;
+            for (node, &s) in NODES.iter().enumerate().skip(1) {
+                self.states_at(s, &mut positions, &mut velocities);
+                let time = self.start.time + s * self.length;
+                field.evaluate(time, &positions, &velocities, &mut values);
+                change = self.take_in(node, &values);
+            }
+            if !change.is_finite() {
+                return false;
+            }
+            if change <= CONVERGED {
+                return true;
+            }
+            if change >= change_before {
+                return change <= DIVERGED;
+            }
+            change_before = change;
+        }
+        change_before <= DIVERGED
+    }
+
+    /// Where the spheres are at a part of the step, and how they move there.
+    fn states_at(&self, s: f64, positions: &mut [DVec3], velocities: &mut [DVec3]) {
+        let t = s * self.length;
+        for (sphere, powers) in self.powers.iter().enumerate() {
+            let (mut way, mut change) = (DVec3::ZERO, DVec3::ZERO);
+            for (&c, k) in powers.iter().zip(ORDERS).rev() {
+                way = way * s + c / ((k + 1.0) * (k + 2.0));
+                change = change * s + c / (k + 1.0);
+            }
+            let velocity = self.start.velocities[sphere];
+            positions[sphere] = self.start.positions[sphere] + t * (velocity + t * way);
+            velocities[sphere] = velocity + t * change;
+        }
+    }
+
+    /// Takes in the accelerations at a node; tells by what part that changes the term of this node.
+    fn take_in(&mut self, node: usize, values: &Values) -> f64 {
+        let mut most = 0.0f64;
+        for sphere in 0..self.powers.len() {
+            let acceleration = values.accelerations[sphere];
+            let size = self.sizes[sphere].max(values.sizes[sphere]);
+            self.sizes[sphere] = size;
+            let mut term = (acceleration - self.first.accelerations[sphere]) / NODES[node];
+            let before = NODES.iter().zip(&self.newton[sphere]).take(node).skip(1);
+            for (place, known) in before {
+                term = (term - *known) / (NODES[node] - place);
+            }
+            let change = term - self.newton[sphere][node];
+            self.newton[sphere][node] = term;
+            for (power, factor) in self.powers[sphere].iter_mut().zip(NEWTON[node]) {
+                *power += factor * change;
+            }
+            if !change.is_finite() {
+                return f64::INFINITY;
+            }
+            if change != DVec3::ZERO {
+                most = most.max(change.norm() / size);
+            }
+        }
+        most
+    }
+
+    /// The highest term as a part of what it is measured by, of the sphere where that is largest; or how far the
+    /// polynomial is from the acceleration at the end, where no node is.
+    fn error(&self, field: &mut impl Field) -> f64 {
+        let count = self.powers.len();
+        let (mut positions, mut velocities) = (vec![DVec3::ZERO; count], vec![DVec3::ZERO; count]);
+        let mut values = Values::of(count);
+        self.states_at(1.0, &mut positions, &mut velocities);
+        field.evaluate(self.start.time + self.length, &positions, &velocities, &mut values);
+        let mut most = 0.0f64;
+        for (sphere, powers) in self.powers.iter().enumerate() {
+            let last = powers[TERMS - 1].norm();
+            let end: DVec3 = powers.iter().sum();
+            let missed = (values.accelerations[sphere] - end).norm();
+            if !(last.is_finite() && missed.is_finite()) {
+                return f64::INFINITY;
+            }
+            let size = self.size_at(sphere, [positions[sphere], velocities[sphere]]);
+            let error = last.max(missed);
+            most = if error == 0.0 { most } else { most.max(error / size) };
+        }
+        most
+    }
+
+    /// What the error of a sphere is measured by \[m/s²\], which is at one of the ends of the step there \[m\], with
+    /// this velocity \[m/s\].
+    fn size_at(&self, sphere: usize, [position, velocity]: [DVec3; 2]) -> f64 {
+        let (h, start) = (self.length, self.start);
+        let speed = start.velocities[sphere].norm().max(velocity.norm());
+        let place = start.positions[sphere].norm().max(position.norm());
+        self.sizes[sphere] + VELOCITY_PART * speed / h + POSITION_PART * place / h / h
+    }
+
+    /// Takes the accelerations at the beginning for those of all the step.
+    fn hold(&mut self) {
+        for (powers, &acceleration) in self.powers.iter_mut().zip(&self.first.accelerations) {
+            *powers = [DVec3::ZERO; TERMS];
+            powers[0] = acceleration;
+        }
+    }
+
+    /// Whether the accelerations hardly vary.
+    fn is_steady(&self) -> bool {
+        self.powers.iter().zip(&self.sizes).all(|(powers, size)| {
+            let varying: f64 = powers[1..].iter().map(|c| c.norm()).sum();
+            varying <= STEADY * size
+        })
+    }
+
+    fn into_accelerations(self) -> Vec<PolynomialAcceleration> {
+        let length = self.length;
+        let of = |coefficients| PolynomialAcceleration { length, coefficients };
+        self.powers.into_iter().map(of).collect()
+    }
+}
+
+/// A sum of powers as one of products of nodes: repeated division by `s - h_n`, with the remainders.
+fn newton_form(powers: &[DVec3; TERMS]) -> [DVec3; TERMS] {
+    let mut terms = *powers;
+    for (first, node) in NODES.into_iter().enumerate().skip(1) {
+        for k in (first..TERMS - 1).rev() {
+            let higher = terms[k + 1];
+            terms[k] += node * higher;
+        }
+    }
+    terms
+}
+
+const fn newton_basis() -> [[f64; TERMS]; TERMS] {
+    let mut basis = [[0.0; TERMS]; TERMS];
+    basis[0][0] = 1.0;
+    let mut n = 1;
+    while n < TERMS {
+        let mut k = 0;
+        while k < TERMS {
+            let raised = if k > 0 { basis[n - 1][k - 1] } else { 0.0 };
+            basis[n][k] = raised - NODES[n - 1] * basis[n - 1][k];
+            k += 1;
+        }
+        n += 1;
+    }
+    basis
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `x'' = -x` for each component.
+    struct Oscillator;
+
+    impl Field for Oscillator {
+        fn evaluate(&mut self, _: f64, positions: &[DVec3], _: &[DVec3], at: &mut Values) {
+            at.accelerations[0] = -positions[0];
+            at.sizes[0] = positions[0].norm();
+        }
+    }
+
+    fn steps(until: f64) -> (DVec3, DVec3, u32) {
+        let (mut position, mut velocity, mut time) = (DVec3::X, DVec3::Y, 0.0);
+        let (mut pace, mut before, mut count) = (Pace::of(0.01), None, 0);
+        while time < until {
+            let (positions, velocities) = ([position], [velocity]);
+            let start = Start {
+                positions: &positions,
+                velocities: &velocities,
+                time,
+                until,
+                steady: 1.0,
+                rough: 1.0,
+            };
+            let step = step(&start, before.as_deref(), pace, &mut Oscillator);
+            let (way, change) = step.accelerations[0].gained_until(step.end - time);
+            position += (step.end - time) * velocity + way;
+            velocity += change;
+            (time, pace, before) = (step.end, step.pace, Some(step.accelerations));
+            count += 1;
+        }
+        (position, velocity, count)
+    }
+
+    #[test]
+    fn a_circle_closes_to_rounding_in_few_steps() {
+        let (position, velocity, count) = steps(std::f64::consts::TAU * 10.0);
+        // Some hundred steps, each of which rounds at 1e-16 and adds to the phase.
+        assert!((position - DVec3::X).length() < 1e-13, "{position}");
+        assert!((velocity - DVec3::Y).length() < 1e-13, "{velocity}");
+        assert!(count < 600, "{count}");
+    }
+
+    #[test]
+    fn forms_of_a_polynomial_agree() {
+        let mut powers = [DVec3::ZERO; TERMS];
+        powers.iter_mut().zip(ORDERS).for_each(|(power, k)| *power = DVec3::splat(1.0 - 0.3 * k));
+        let newton = newton_form(&powers);
+        for k in 0..TERMS {
+            let back: DVec3 = (0..TERMS).map(|n| NEWTON[n][k] * newton[n]).sum();
+            // Rounding of eight terms of size 10.
+            assert!((back - powers[k]).length() < 1e-13, "{k}");
+        }
+    }
+}
