@@ -18,8 +18,6 @@ pub struct Conduct {
     pub rule: Rule,
     /// Whether there are spheres, or emitters that can create some.
     pub has_spheres: bool,
-    /// Whether the world is a periodic box, which only the rule `exact` supports.
-    pub is_periodic: bool,
     /// Whether there are forces.
     pub has_forces: bool,
     /// Largest overlap at the end of a frame, as a fraction of the mean radius.
@@ -53,7 +51,7 @@ pub fn advice(conduct: Conduct) -> Option<String> {
             "balls overlap by {overlap:.1} of a radius: `--rule contact` keeps them apart in heaps, \
              `--rule exact` in bounces"
         )),
-        Rule::Exact if has_forces && impact_rate > IMPACT_RATE && !conduct.is_periodic => Some(format!(
+        Rule::Exact if has_forces && impact_rate > IMPACT_RATE => Some(format!(
             "each ball has {impact_rate:.0} impacts in a second, as in a heap: `--rule contact` is made \
              for those"
         )),

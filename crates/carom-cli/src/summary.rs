@@ -217,7 +217,6 @@ impl Conduct {
             has_spheres: !world.spheres().is_empty()
                 || observer.retired > 0
                 || world.emitters().len() > 0,
-            is_periodic: world.settings().boundary.is_periodic(),
             has_forces: !replay.scene().forces.is_empty(),
             overlap: if radius > 0.0 { observer.largest_overlap / radius } else { 0.0 },
             impact_rate: observer.impacts as f64 / (spheres * world.time().max(f64::MIN_POSITIVE)),

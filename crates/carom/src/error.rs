@@ -41,7 +41,7 @@ pub enum Error {
         "sphere {sphere}{}, at {at} s: more impacts and other work than the {limit} per sphere and \
          frame that `max_impacts` allows; the state before the step, at {time} s, was kept. Shorter \
          frames, a longer `contact_duration`, a smaller `restitution` or a larger `max_impacts` may \
-         help{}", in_contact_with(*companions), for_heaps(*is_periodic)
+         help; the rule `contact` is made for heaps", in_contact_with(*companions)
     )]
     TooManyImpacts {
         /// A sphere that was at work then.
@@ -54,15 +54,13 @@ pub enum Error {
         at: f64,
         /// Start of the refused step \[s\].
         time: f64,
-        /// Whether the world is a periodic box, which no other rule knows.
-        is_periodic: bool,
     },
-    /// Friction acts on a sphere in a way that the rule `exact` can follow in stepped zones only, and there are
-    /// none: by its settings, or because the world is periodic.
+    /// Friction acts on a sphere in a way that the rule `exact` can follow in stepped zones only, and its settings
+    /// allow none.
     #[error(
         "sphere {sphere}, at {at} s: friction acts on it in contacts that have no closed form, and \
-         nothing may be stepped{}; the state before the step, at {time} s, was kept. {}",
-        where_none_is_stepped(*is_periodic), instead_of_zones(*is_periodic)
+         nothing may be stepped, by the setting `zones`; the state before the step, at {time} s, was kept. \
+         With `zones = \"automatic\"`, or the rule `contact`, which steps everything, it can be taken"
     )]
     NeedsZone {
         /// A sphere that it acts on.
@@ -71,8 +69,6 @@ pub enum Error {
         at: f64,
         /// Start of the refused step \[s\].
         time: f64,
-        /// Whether the world is a periodic box, where nothing is stepped whatever the settings.
-        is_periodic: bool,
     },
     /// A [`StopRequest`](crate::StopRequest) ended the step.
     #[error("the step that starts at {time} s was stopped; the state before it was kept")]
@@ -90,25 +86,6 @@ fn for_springs(stable_frame: Option<f64>) -> String {
         )
     };
     stable_frame.map(text).unwrap_or_default()
-}
-
-/// Which rule is made for heaps, where it may be chosen, for a message.
-fn for_heaps(is_periodic: bool) -> &'static str {
-    if is_periodic { "" } else { "; the rule `contact` is made for heaps" }
-}
-
-/// Where nothing is stepped, for a message.
-fn where_none_is_stepped(is_periodic: bool) -> &'static str {
-    if is_periodic { " in a periodic box" } else { ", by the setting `zones`" }
-}
-
-/// What to do where nothing is stepped, for a message.
-fn instead_of_zones(is_periodic: bool) -> &'static str {
-    if is_periodic {
-        "Without friction, or with walls in place of the periodic box, the step can be taken"
-    } else {
-        "With `zones = \"automatic\"`, or the rule `contact`, which steps everything, it can be taken"
-    }
 }
 
 /// What a sphere is in contact with, for a message.

@@ -51,7 +51,7 @@ impl PredictedPath {
     /// path. At the time of an event it is that after it.
     pub fn position_at(&self, time: f64) -> Option<DVec3> {
         let (position, _) = self.state_at(time)?;
-        Some(crate::rule::exact::wrapped(position, self.period))
+        Some(crate::rule::periodic::wrapped(position, self.period))
     }
 
     /// Velocity \[m/s\] at a time on the world's clock \[s\]; `None` outside of the path. At the time of an event it

@@ -209,6 +209,15 @@ impl State {
         Ok(())
     }
 
+    /// Refuses a periodic box in which a sphere could touch two images of another one.
+    pub fn check_box(&self) -> Result<(), Error> {
+        let smallest = self.settings.boundary.period().min_element();
+        let largest = self.spheres.radii().iter().copied().fold(0.0, f64::max);
+        let requirement = "at least four times the radius of every sphere along every axis";
+        validate::require(smallest >= 4.0 * largest, "size", requirement, smallest)
+            .map_err(|invalid| invalid.about(Subject::Settings))
+    }
+
     /// Refuses emitters that would have too many spheres due until `time` \[s\].
     pub fn check_emitters(&self, time: f64) -> Result<(), Error> {
         for (number, emitter) in self.emitters.iter() {

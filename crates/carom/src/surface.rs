@@ -1,6 +1,6 @@
 //! Colliders as the world sees them: surfaces in their places.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 use crate::collider::{Collider, Pose, Shape, Sides};
 use crate::friction::Friction;
@@ -175,6 +175,20 @@ pub(crate) enum Form {
 }
 
 impl Form {
+    /// The same form elsewhere by this way \[m\].
+    pub fn shifted(&self, way: DVec3) -> Self {
+        let placement = Placement { rotation: DQuat::IDENTITY, from: DVec3::ZERO, to: way };
+        match *self {
+            Self::Sphere { center, radius } => Self::Sphere { center: center + way, radius },
+            Self::HalfSpace { point, normal } => Self::HalfSpace { point: point + way, normal },
+            Self::Rectangle(it) => Self::Rectangle(Rectangle { center: it.center + way, ..it }),
+            Self::Facet(ref it) => Self::Facet(placement.facet(it)),
+            Self::Edge(ref it) => Self::Edge(placement.edge(it)),
+            Self::Corner(ref it) => Self::Corner(placement.corner(it)),
+            Self::Box(it) => Self::Box(SolidBox { center: it.center + way, ..it }),
+        }
+    }
+
     /// Size of the coordinates that it is given by \[m\].
     pub fn coordinates(&self) -> f64 {
         match *self {

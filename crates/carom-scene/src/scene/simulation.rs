@@ -124,7 +124,7 @@ pub enum Boundary {
     /// Open space.
     #[default]
     Open,
-    /// A periodic box about the origin; only under the rule `exact`.
+    /// A periodic box about the origin; only under the rules `exact` and `contact`.
     Periodic {
         /// Edges, in m, each > 0; `inf` along an open axis.
         size: Vector,

@@ -5,3 +5,4 @@ pub(crate) mod contact;
 pub(crate) mod discrete;
 pub(crate) mod exact;
 mod islands;
+pub(crate) mod periodic;

@@ -25,7 +25,7 @@ pub enum Boundary {
     #[default]
     Open,
     /// A box about the origin that repeats itself: what leaves through a face comes in through the
-    /// opposite one, and spheres meet across faces. Only under the rule `exact`.
+    /// opposite one, and spheres meet across faces. Only under the rules `exact` and `contact`.
     Periodic {
         /// Edges \[m\], each > 0; infinite along an axis that is open.
         size: DVec3,

@@ -56,7 +56,7 @@ pub struct Settings {
     /// Whether spheres collide with one another; colliders they always collide with.
     pub spheres_collide: bool,
     /// What is around the spheres: part of the world, as its colliders are, and not of the rule, even
-    /// though only `exact` knows a periodic box so far.
+    /// though `discrete` and `bisect` know no periodic box.
     pub boundary: Boundary,
 }
 
@@ -103,9 +103,10 @@ impl Settings {
     pub(crate) fn validate(&self) -> Result<(), InvalidValue> {
         self.boundary.validate()?;
         if self.boundary != Boundary::Open {
-            let is_exact = matches!(self.rule, Rule::Exact(_));
-            let requirement = "used with the rule `exact`: others know no periodic box";
-            validate::require(is_exact, "boundary", requirement, "periodic")?;
+            let is_known = matches!(self.rule, Rule::Exact(_) | Rule::Contact(_));
+            let requirement =
+                "used with the rules `exact` and `contact`: others know no periodic box";
+            validate::require(is_known, "boundary", requirement, "periodic")?;
         }
         match self.rule {
             Rule::Discrete(_) => Ok(()),

@@ -118,10 +118,8 @@ fn advance(
         if let Some(watch) = watch.take() {
             exact::begin_watch(timeline, watch, now);
         }
-        let came_to =
-            exact::advance(&system, timeline, span, work, report, until).map_err(|unfinished| {
-                refusal(unfinished, start, system.settings.boundary.is_periodic())
-            })?;
+        let came_to = exact::advance(&system, timeline, span, work, report, until)
+            .map_err(|unfinished| refusal(unfinished, start))?;
         *watch = exact::end_watch(timeline, &system, came_to);
         now = due;
         let is_over = until == Until::NextImpact && !attempt.report.impacts.is_empty();
@@ -172,16 +170,14 @@ fn place_spheres(attempt: &mut Attempt, timeline: &Timeline, end: f64) -> Result
     )
 }
 
-/// Why a step that starts at `time` \[s\] was not taken to its end, in a periodic box or not.
-fn refusal(unfinished: Unfinished, time: f64, is_periodic: bool) -> Error {
+/// Why a step that starts at `time` \[s\] was not taken to its end.
+fn refusal(unfinished: Unfinished, time: f64) -> Error {
     match unfinished {
         Unfinished::Stopped => Error::Stopped { time },
         Unfinished::NonFiniteForce { sphere } => no_longer_finite(sphere, "velocity", time),
-        Unfinished::NoClosedForm { sphere, time: at } => {
-            Error::NeedsZone { sphere, at, time, is_periodic }
-        }
+        Unfinished::NoClosedForm { sphere, time: at } => Error::NeedsZone { sphere, at, time },
         Unfinished::TooManyImpacts { sphere, limit, companions, time: at } => {
-            Error::TooManyImpacts { sphere, limit, companions, at, time, is_periodic }
+            Error::TooManyImpacts { sphere, limit, companions, at, time }
         }
     }
 }
@@ -207,7 +203,7 @@ pub(super) fn check(state: &State, parameters: Exact, length: f64) -> Result<(),
 /// Refuses spheres for which there is no room.
 pub(super) fn check_room(state: &State) -> Result<(), Error> {
     check_count(state)?;
-    check_box(state)
+    state.check_box()
 }
 
 /// Refuses more spheres than the rule `exact` can tell apart.
@@ -230,13 +226,4 @@ pub(super) fn refused_forces(unheld: Unheld, time: f64) -> Error {
         }
         .about(Subject::Step),
     }
-}
-
-/// Refuses a periodic box in which a sphere could touch two images of another one.
-fn check_box(state: &State) -> Result<(), Error> {
-    let smallest = state.settings.boundary.period().min_element();
-    let largest = state.spheres.radii().iter().copied().fold(0.0, f64::max);
-    let requirement = "at least four times the radius of every sphere along every axis";
-    validate::require(smallest >= 4.0 * largest, "size", requirement, smallest)
-        .map_err(|invalid| invalid.about(Subject::Settings))
 }

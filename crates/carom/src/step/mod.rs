@@ -31,7 +31,8 @@ pub(crate) fn check(state: &State, dt: f64) -> Result<(), Error> {
     state.check_emitters(state.clock.after(dt).seconds())?;
     match state.settings.rule {
         Rule::Exact(parameters) => by_event::check(state, parameters, dt),
-        Rule::Discrete(_) | Rule::Bisect(_) | Rule::Contact(_) => Ok(()),
+        Rule::Contact(_) => state.check_box(),
+        Rule::Discrete(_) | Rule::Bisect(_) => Ok(()),
     }
 }
 
@@ -108,6 +109,7 @@ pub(crate) fn step(
             Ok(())
         }
         Rule::Contact(parameters) => {
+            attempt.state.check_box()?;
             by_frame::step(&mut attempt, |state, frame, scratch, report| {
                 let (system, motion, solver) = state.split_with_solver();
                 let memory = (solver, &mut scratch.contact, &mut scratch.tracks);

@@ -17,13 +17,14 @@ pub(super) fn report(attempt: &mut Attempt) {
     let mut sensors = Sensors::with(attempt.state.presence.clone());
     let (start, part) = (attempt.start, attempt.length / (places.len() - 1) as f64);
     let (system, _) = attempt.state.split();
+    let boundary = system.settings.boundary;
     for (index, &sphere) in system.spheres.id.iter().enumerate() {
         let radius = system.spheres.radius[index];
         for (number, two) in places.windows(2).enumerate() {
             let (from, to) = (two[0][index], two[1][index]);
             let flight = Flight {
                 position: from,
-                velocity: (to - from) / part,
+                velocity: boundary.nearest_image(to - from) / part,
                 acceleration: DVec3::ZERO,
                 drag_rate: 0.0,
             };

@@ -94,7 +94,7 @@ class Contact(Part):
 
 @dataclass(frozen=True)
 class Periodic(Part):
-    """A periodic box about the origin; only under the rule ``exact``.
+    """A periodic box about the origin; only under the rules ``exact`` and ``contact``.
 
     Attributes:
         size: Edges [m], each > 0; infinite along an axis that is open.

@@ -2,15 +2,18 @@
 //! processor's vectors.
 
 use fearless_simd::{Level, Simd, SimdMask, dispatch, mask64x4};
+use glam::DVec3;
 
-use super::batch::{ApproachBatch, Batches, FrictionBatch, Hit, PairBatch, Quad, RollingBatch};
+use super::batch::{
+    ApproachBatch, Batches, FrictionBatch, Hit, PairBatch, Quad, RollingBatch, get,
+};
 use super::gather::{
-    TINY, apply, apply_spin, arrays, difference, gathered, is_any, slip, smaller, sum, turn,
-    vector, xyz,
+    TINY, apply, apply_spin, arrays, difference, gathered, is_any, offset, slip, smaller, sum,
+    turn, vector, xyz,
 };
 use super::slots::Run;
 use super::sub_step::{GROWTH, SubStep};
-use super::swept;
+use super::swept::{self, Traits};
 use crate::lanes::{LANES, Lanes};
 use crate::real::{Real, Vector};
 
@@ -32,14 +35,15 @@ fn prepare_all<S: Simd, const FRICTION: bool>(
     batches: &mut Batches,
     sub_step: &SubStep,
 ) {
-    let Batches { pairs, approaches, restitutions, hits, frictions, rollings, .. } = batches;
+    let Batches { pairs, approaches, restitutions, hits, frictions, rollings, shifts, .. } =
+        batches;
     hits.clear();
     for (number, (batch, approach)) in pairs.iter_mut().zip(approaches).enumerate() {
-        let aimed = aim(simd, run, (batch, approach), &restitutions[number], sub_step);
+        let given = Given { restitution: &restitutions[number], shift: shifts.get(number) };
+        let aimed = aim(simd, run, (batch, approach), given, sub_step);
         let mut speed = [0.0; LANES];
         if aimed.is_any() {
-            let traits = (&*approach, &restitutions[number]);
-            speed = aimed.meet(simd, run, batch, traits, sub_step);
+            speed = aimed.meet(simd, run, batch, (approach, given), sub_step);
             if speed != [0.0; LANES] {
                 hits.push(Hit { batch: number as u32, speed });
             }
@@ -55,6 +59,15 @@ fn prepare_all<S: Simd, const FRICTION: bool>(
             }
         }
     }
+}
+
+/// What no sub-step changes of the pairs of a batch.
+#[derive(Clone, Copy)]
+struct Given<'a> {
+    /// Coefficients of restitution.
+    restitution: &'a Quad,
+    /// From where spheres 2 are to their images \[m\], where space is periodic.
+    shift: Option<&'a [Quad; 3]>,
 }
 
 /// How the pairs of a batch come near each other in a sub-step.
@@ -76,12 +89,12 @@ fn aim<S: Simd>(
     simd: S,
     run: &Run,
     (batch, approach): (&mut PairBatch, &mut ApproachBatch),
-    restitution: &Quad,
+    Given { restitution, shift }: Given,
     sub_step: &SubStep,
 ) -> Aimed<S> {
     let all = |number| Lanes::all(simd, number);
     let zero = all(0.0);
-    let offset = xyz(difference(simd, run.position, batch));
+    let offset = offset(simd, run.position, batch, shift);
     let length = offset.length_squared().sqrt();
     let is_lost = length.is_less(all(TINY));
     let inverse = all(1.0) / length.max(all(TINY));
@@ -154,7 +167,7 @@ impl<S: Simd> Aimed<S> {
         simd: S,
         run: &Run,
         batch: &mut PairBatch,
-        (approach, restitution): (&ApproachBatch, &Quad),
+        (approach, Given { restitution, shift }): (&ApproachBatch, Given),
         sub_step: &SubStep,
     ) -> Quad {
         let zero = Lanes::all(simd, 0.0);
@@ -168,7 +181,12 @@ impl<S: Simd> Aimed<S> {
         let is_swept = (self.goes_far | bounces) & (self.is_free | self.is_hit);
         let is_swept = Lanes::all(simd, 1.0).select(is_swept, zero).to_array();
         for lane in (0..LANES).filter(|&lane| is_swept[lane] > 0.0) {
-            let traits = [approach.radius_sum[lane], restitution[lane]];
+            let shift = shift.map_or(DVec3::ZERO, |it| DVec3::from_array(get(it, lane)));
+            let traits = Traits {
+                radius_sum: approach.radius_sum[lane],
+                restitution: restitution[lane],
+                shift,
+            };
             if let Some(found) = swept::aim_pair(run, batch, (lane, traits), sub_step) {
                 speed[lane] = found;
             }

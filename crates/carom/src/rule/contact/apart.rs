@@ -40,7 +40,7 @@ pub(crate) fn nearness(solver: &Solver) -> Vec<(SphereId, Nearness)> {
         for (number, lane, _) in slab.batches.contacts() {
             let both = slab.slots_of(number, lane);
             let [from, to] = both.map(|slot| slots.position[slot]);
-            let offset = to.vector() - from.vector();
+            let offset = slots.offset(both);
             let [before, after] = both.map(|slot| slots.velocity[slot].vector());
             let radius_sum = from.number() + to.number();
             let (distance, velocity) = (offset.length(), after - before);

@@ -124,6 +124,8 @@ pub(super) struct Pair {
     pub inverse_inertias: [f64; 2],
     pub material: ContactMaterial,
     pub impulses: Impulses,
+    /// From where sphere 2 is to its image that sphere 1 touches \[m\].
+    pub shift: DVec3,
 }
 
 /// The pairs of a run of slots, in batches.
@@ -141,6 +143,9 @@ pub(super) struct Batches {
     pub frictions: Vec<FrictionBatch>,
     /// As many, or none where there is no rolling friction.
     pub rollings: Vec<RollingBatch>,
+    /// From where spheres 2 are to their images that spheres 1 touch \[m\]; as many as pairs, or none where space
+    /// is not periodic.
+    pub shifts: Vec<[Quad; 3]>,
     /// Pairs in each batch.
     counts: Vec<u8>,
     /// A batch with room that is not before each; itself while it has room.
@@ -158,6 +163,7 @@ impl Batches {
         self.hits.clear();
         self.frictions.clear();
         self.rollings.clear();
+        self.shifts.clear();
         self.counts.clear();
         self.with_room.clear();
         self.last.clear();
@@ -195,6 +201,9 @@ impl Batches {
         if kinds.rolling {
             self.rollings.push(RollingBatch::default());
         }
+        if kinds.images {
+            self.shifts.push([[0.0; LANES]; 3]);
+        }
     }
 
     /// The first batch from this one on that has room, which may be one that is not there yet.
@@ -228,6 +237,9 @@ impl Batches {
         approach.previous[lane] = pair.impulses.previous;
         approach.radius_sum[lane] = pair.radii[0] + pair.radii[1];
         self.restitutions[number][lane] = pair.material.restitution;
+        if let Some(shifts) = self.shifts.get_mut(number) {
+            set(shifts, lane, pair.shift.to_array());
+        }
         let inverse_inertia = pair.inverse_inertias[0] + pair.inverse_inertias[1];
         if let Some(friction) = self.frictions.get_mut(number) {
             set(&mut friction.tangential, lane, pair.impulses.tangential);
@@ -254,6 +266,11 @@ impl Batches {
             let batch = &self.pairs[number];
             lanes(number).map(move |lane| (number, lane, [batch.first[lane], batch.second[lane]]))
         })
+    }
+
+    /// From where sphere 2 of a contact is to its image that sphere 1 touches \[m\].
+    pub fn shift(&self, number: usize, lane: usize) -> DVec3 {
+        self.shifts.get(number).map_or(DVec3::ZERO, |it| DVec3::from_array(get(it, lane)))
     }
 
     /// The contacts that an impact was found for and that bear something, and their speeds of approach
@@ -327,6 +344,8 @@ pub(super) struct ContactKinds {
     pub friction: bool,
     /// There is rolling or spinning friction.
     pub rolling: bool,
+    /// Space is periodic: spheres may touch images of others.
+    pub images: bool,
 }
 
 /// A component of each vector of a batch.

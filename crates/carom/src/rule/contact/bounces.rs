@@ -139,6 +139,7 @@ fn of_pairs(slots: &Slots, slab: &Slab, sub_step: &SubStep, bounces: &mut Vec<On
         let [first, second] = slab.slots_of(number, lane);
         let radius_sum = slab.batches.approaches[number].radius_sum[lane];
         let offset = slots.position[second].vector() - slots.position[first].vector();
+        let offset = offset + slab.batches.shift(number, lane);
         let normal = DVec3::from_array(batch::get(&slab.batches.pairs[number].normal, lane));
         let velocity = slots.before[second].vector() - slots.before[first].vector();
         // The speed of approach may have changed until then.

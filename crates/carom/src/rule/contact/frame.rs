@@ -39,11 +39,15 @@ pub(super) fn begin(system: &System, motion: &mut Motion, solver: &mut Solver) {
         solver.watched.clear();
         solver.slabs = Slabs::of_one(ids.len());
         solver.materials = Materials::of(system);
+        if solver.is_changed {
+            solver.places.forget_images();
+        }
         (solver.kinds, solver.is_stale, solver.is_changed) = (kinds, true, false);
     }
     if kinds.friction || !motion.spin.angular_velocity.is_empty() {
         motion.spin.make_room(ids.len());
     }
+    solver.slots.period = system.settings.boundary.period();
     solver.slots.read(system, motion, kinds.friction);
     solver.smallest_radius = system.spheres.radius.iter().copied().fold(f64::INFINITY, f64::min);
     solver.has_other_forces = solver.slots.read_forces(system);
@@ -82,6 +86,7 @@ fn kinds_of(system: &System) -> ContactKinds {
     ContactKinds {
         friction: system.frictions().any(|it| it.acts()),
         rolling: system.frictions().any(rolls),
+        images: system.settings.boundary.is_periodic(),
     }
 }
 

@@ -42,6 +42,21 @@ pub(super) fn difference<S: Simd>(simd: S, all: &[Row], batch: &PairBatch) -> [L
     Lanes::transposed([e - a, f - b, g - c, h - d])
 }
 
+/// Ways from spheres 1 to spheres 2, or to the images of these that a shift leads to \[m\].
+#[inline(always)]
+pub(super) fn offset<S: Simd>(
+    simd: S,
+    positions: &[Row],
+    batch: &PairBatch,
+    shift: Option<&[Quad; 3]>,
+) -> Vector<Lanes<S>> {
+    let offset = xyz(difference(simd, positions, batch));
+    match shift {
+        Some(shift) => offset + vector(simd, shift),
+        None => offset,
+    }
+}
+
 /// First plus second of each pair.
 #[inline(always)]
 pub(super) fn sum<S: Simd>(simd: S, all: &[Row], batch: &PairBatch) -> [Lanes<S>; LANES] {

@@ -170,8 +170,9 @@ impl Guard<'_> {
     fn surfaces_of(&self, slot: usize) -> Vec<u32> {
         let sphere = self.index[slot];
         let deflects = |it: &u32| {
-            self.system.surfaces[*it as usize].role == Role::Deflects
-                && self.system.meets_surface(sphere, *it)
+            let own = self.places.surface_of(*it);
+            self.system.surfaces[own as usize].role == Role::Deflects
+                && self.system.meets_surface(sphere, own)
         };
         (0..self.places.len() as u32).filter(deflects).collect()
     }

@@ -41,11 +41,11 @@ fn of_pairs(solver: &Solver, slab: &Slab, time: f64, impacts: &mut Vec<Impact>) 
         }
         let at = &solver.slots;
         let relative = at.velocity[second].vector() - at.velocity[first].vector();
-        let center = at.position[first];
+        let radius = at.position[first].number();
         impacts.push(Impact {
             time,
             between: BodyPair::Spheres(at.id[first], at.id[second]),
-            point: center.vector() + center.number() * normal,
+            point: at.place(first) + radius * normal,
             normal,
             approach_speed,
             separation_speed: relative.dot(normal),
@@ -73,13 +73,14 @@ fn of_surfaces(
         }
         let center = solver.slots.position[slot];
         let relative = solver.slots.velocity[slot].vector() - contact.velocity;
+        let own = solver.places.surface_of(contact.surface);
         impacts.push(Impact {
             time,
             between: BodyPair::Collider {
-                collider: system.surfaces[contact.surface as usize].collider,
+                collider: system.surfaces[own as usize].collider,
                 sphere: solver.slots.id[slot],
             },
-            point: center.vector() - center.number() * contact.normal,
+            point: solver.slots.place(slot) - center.number() * contact.normal,
             normal: contact.normal,
             approach_speed: contact.approach,
             separation_speed: relative.dot(contact.normal),

@@ -6,8 +6,8 @@ use fearless_simd::{Level, Simd, dispatch};
 use super::batch::{Batches, FrictionBatch, PairBatch, RollingBatch};
 use super::found::Found;
 use super::gather::{
-    TINY, apply, apply_spin, arrays, difference, gathered, is_any, limited, rows_of, shift, slip,
-    smaller, sum, turn, vector, xyz,
+    TINY, apply, apply_spin, arrays, difference, gathered, is_any, limited, offset, rows_of, shift,
+    slip, smaller, sum, turn, vector, xyz,
 };
 use super::slots::Run;
 use super::sub_step::{RELAXATION, SLOP};
@@ -159,8 +159,9 @@ fn solve_rolling<S: Simd>(simd: S, run: &mut Run, batch: &PairBatch, rolling: &m
 fn correct_all<S: Simd>(simd: S, run: &mut Run, batches: &Batches) -> f64 {
     let zero = Lanes::all(simd, 0.0);
     let mut largest = zero;
-    for (batch, approach) in batches.pairs.iter().zip(&batches.approaches) {
-        let offset = xyz(difference(simd, run.position, batch));
+    let both = batches.pairs.iter().zip(&batches.approaches);
+    for (number, (batch, approach)) in both.enumerate() {
+        let offset = offset(simd, run.position, batch, batches.shifts.get(number));
         let length = offset.length_squared().sqrt();
         let radius_sum = Lanes::each(simd, approach.radius_sum);
         let overlap = radius_sum * (1.0 - SLOP) - length;

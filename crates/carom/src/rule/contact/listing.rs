@@ -59,8 +59,9 @@ fn of_pair(
     if slots.id[first] > slots.id[second] {
         (first, second, impulses) = (second, first, impulses.reversed());
     }
-    let [from, to] = [first, second].map(|slot| slots.position[slot]);
-    let separation = sphere_sphere([from.vector(), to.vector()], [from.number(), to.number()]);
+    let radii = [first, second].map(|slot| slots.position[slot].number());
+    let from = slots.place(first);
+    let separation = sphere_sphere([from, slots.image_near(second, from)], radii);
     PersistentContact {
         between: BodyPair::Spheres(slots.id[first], slots.id[second]),
         ..of_separation(separation, forces(impulses, sliding, solver.h))
@@ -89,8 +90,12 @@ fn of_surface(
 ) -> Option<PersistentContact> {
     let slots = &solver.slots;
     let (center, radius) = (slots.position[slot].vector(), slots.position[slot].number());
-    let surface = &system.surfaces[surface as usize];
-    let separation = sphere_surface(&surface.form, center, radius)?;
+    let (own, shift) = solver.places.image(surface);
+    let surface = &system.surfaces[own as usize];
+    let mut separation = sphere_surface(&surface.form, center - shift, radius)?;
+    if shift != DVec3::ZERO || slots.place(slot) != center {
+        separation.point += shift + (slots.place(slot) - center);
+    }
     Some(PersistentContact {
         between: BodyPair::Collider { collider: surface.collider, sphere: slots.id[slot] },
         ..of_separation(separation, forces)

@@ -31,6 +31,7 @@ mod found;
 mod frame;
 mod gather;
 mod guard;
+mod images;
 mod impacts;
 mod incidence;
 mod kept;

@@ -2,11 +2,11 @@
 
 use glam::DVec3;
 
-use super::batch::{ContactKinds, Pair};
+use super::batch::{ContactKinds, Impulses, Pair};
 use super::dormant;
 use super::kept::Kept;
 use super::materials::{ContactMaterial, Materials};
-use super::places::Places;
+use super::places::{Places, offsets};
 use super::search::Search;
 use super::slab::{self, Slab, Slabs};
 use super::slots::Slots;
@@ -19,8 +19,12 @@ use crate::detect::surface_tree::{self, Bounds};
 use crate::interval::Interval;
 use crate::parallel;
 use crate::report::StepReport;
+use crate::rule::periodic::image_shift;
 use crate::surface::{Form, Role};
 use crate::system::System;
+
+/// Two images are equally near whose squared distances differ by less than this part.
+const ROUNDING: f64 = 1e-9;
 
 /// Puts spheres into the order of space, finds which may touch, and makes contacts of them, which go on
 /// from the impulses that they had.
@@ -51,18 +55,25 @@ pub(super) fn search(
     watched.clear();
     if system.settings.spheres_collide {
         search.find_pairs(slots, slabs);
+        search.find_image_pairs(slots, slabs);
         if !system.spheres.groups.is_empty() {
             let meet = |[first, second]: &[u32; 2]| {
                 system.spheres_meet(slots.index[*first as usize], slots.index[*second as usize])
             };
-            slabs.list.iter_mut().for_each(|slab| slab.pairs.retain(meet));
+            for slab in &mut slabs.list {
+                slab.pairs.retain(meet);
+                slab.image_pairs.retain(|pair| meet(&pair.slots));
+            }
         }
         if slots.asleep() > 0 {
             for slab in &mut slabs.list {
                 watch_sleepers(slots, &mut slab.pairs, watched);
+                slab.image_pairs.iter().for_each(|it| watch(slots, it.slots, watched));
             }
         }
     }
+    let reach = Search::reach(slots) + solver.drift.reach;
+    places.find_images(system.surfaces, slots.period, reach);
     let known = Known {
         system,
         slots,
@@ -102,6 +113,7 @@ fn divide(slots: &Slots, slabs: &mut Slabs, search: &Search) {
         slab.batches.clear(next_end - slab.start);
         slab.surfaces.clear();
         slab.pairs.clear();
+        slab.image_pairs.clear();
     }
     slabs.far.end = slots.len();
     slabs.far.batches.clear(slots.len());
@@ -109,16 +121,19 @@ fn divide(slots: &Slots, slabs: &mut Slabs, search: &Search) {
 
 /// Takes out the pairs of which both sleep, and notes those of which one does.
 fn watch_sleepers(slots: &Slots, pairs: &mut Vec<[u32; 2]>, watched: &mut Vec<[u32; 2]>) {
-    pairs.retain(|&[first, second]| {
-        let is_awake = |slot: u32| !slots.sleeps[slot as usize];
-        match [is_awake(first), is_awake(second)] {
-            [true, true] => {}
-            [true, false] => watched.push([second, first]),
-            [false, true] => watched.push([first, second]),
-            [false, false] => return false,
-        }
-        true
+    pairs.retain(|&pair| {
+        watch(slots, pair, watched);
+        pair.iter().any(|&slot| !slots.sleeps[slot as usize])
     });
+}
+
+/// Notes a pair of which one sleeps and the other does not.
+fn watch(slots: &Slots, [first, second]: [u32; 2], watched: &mut Vec<[u32; 2]>) {
+    match [first, second].map(|slot| slots.sleeps[slot as usize]) {
+        [false, true] => watched.push([second, first]),
+        [true, false] => watched.push([first, second]),
+        [true, true] | [false, false] => {}
+    }
 }
 
 /// What contacts are made of.
@@ -147,12 +162,12 @@ impl Known<'_> {
         let tasks: Vec<_> = list.iter_mut().enumerate().collect();
         parallel::for_each(tasks, |(number, slab)| {
             let next_end = ends[(number + 1).min(ends.len() - 1)];
-            let Slab { start, batches, pairs, .. } = &mut *slab;
+            let Slab { start, batches, pairs, image_pairs, .. } = &mut *slab;
             let mut unloaded = Vec::new();
-            pairs.retain(|&slots| {
+            let mut is_far = |slots: [u32; 2], shift: DVec3| {
                 let is_far = slots[1] as usize >= next_end;
                 if !is_far {
-                    let pair = self.pair(slots, *start);
+                    let pair = self.pair(slots, shift, *start);
                     if pair.impulses.is_some() {
                         batches.push(&pair, self.kinds);
                     } else {
@@ -160,20 +175,27 @@ impl Known<'_> {
                     }
                 }
                 is_far
-            });
+            };
+            pairs.retain(|&slots| is_far(slots, DVec3::ZERO));
+            image_pairs.retain(|pair| is_far(pair.slots, pair.shift));
             unloaded.iter().for_each(|pair| batches.push(pair, self.kinds));
             self.add_surfaces(slab);
         });
-        for pair in list.iter_mut().flat_map(|slab| slab.pairs.drain(..)) {
-            far.batches.push(&self.pair(pair, 0), self.kinds);
+        for slots in list.iter_mut().flat_map(|slab| slab.pairs.drain(..)) {
+            far.batches.push(&self.pair(slots, DVec3::ZERO, 0), self.kinds);
+        }
+        for pair in list.iter_mut().flat_map(|slab| slab.image_pairs.drain(..)) {
+            far.batches.push(&self.pair(pair.slots, pair.shift, 0), self.kinds);
         }
     }
 
-    /// What is known of the spheres in two slots, counted from the start of a run.
+    /// What is known of the spheres in two slots, counted from the start of a run, of which the second touches
+    /// by its image that is shifted so \[m\].
     #[inline(always)]
-    fn pair(&self, slots: [u32; 2], start: usize) -> Pair {
+    fn pair(&self, slots: [u32; 2], shift: DVec3, start: usize) -> Pair {
         let at = self.slots;
         let [first, second] = slots.map(|slot| slot as usize);
+        let is_nearest = !self.kinds.images || self.is_nearest([first, second], shift);
         let indices = [at.index[first], at.index[second]];
         let spins = [at.spin.get(first), at.spin.get(second)];
         Pair {
@@ -182,8 +204,21 @@ impl Known<'_> {
             inverse_masses: [at.velocity[first].number(), at.velocity[second].number()],
             inverse_inertias: spins.map(|row| row.map_or(0.0, |row| row.number())),
             material: self.materials.of_pair(indices, self.system),
-            impulses: self.kept.of_pair([self.before[first], self.before[second]]),
+            impulses: if is_nearest {
+                self.kept.of_pair([self.before[first], self.before[second]])
+            } else {
+                Impulses::default()
+            },
+            shift,
         }
+    }
+
+    /// Whether no other image of the second sphere, shifted otherwise \[m\], is nearer to the first: impulses are kept
+    /// by pair.
+    fn is_nearest(&self, [first, second]: [usize; 2], shift: DVec3) -> bool {
+        let [from, to] = [first, second].map(|slot| self.slots.position[slot].vector());
+        let nearest = self.slots.offset([first, second]);
+        (to + shift - from).length_squared() <= (1.0 + ROUNDING) * nearest.length_squared()
     }
 
     /// Makes contacts of the spheres of a slab with the surfaces that they may touch until the next
@@ -198,6 +233,9 @@ impl Known<'_> {
             let margin = slots.reference[slot].number() + self.drift;
             let bounds = Bounds::around(center, DVec3::splat(radius + margin));
             self.system.tree.near(&bounds, &mut near);
+            if self.kinds.images {
+                self.add_images(&bounds, &mut near);
+            }
             if some_move {
                 self.add_moving(&mut near);
             }
@@ -210,6 +248,19 @@ impl Known<'_> {
         }
     }
 
+    /// Adds the images of surfaces near some bounds \[m\].
+    fn add_images(&self, bounds: &Bounds, near: &mut Vec<u32>) {
+        let period = self.slots.period;
+        let mut others = Vec::new();
+        for offset in offsets(period) {
+            let shift = image_shift(offset.map(i32::from), period);
+            let bounds = Bounds { min: bounds.min - shift, max: bounds.max - shift };
+            self.system.tree.near(&bounds, &mut others);
+            let numbers = others.iter().filter_map(|&it| self.places.number_of_image(it, offset));
+            near.extend(numbers);
+        }
+    }
+
     /// Adds the surfaces that move, whose bounds are those of the start of the frame.
     fn add_moving(&self, near: &mut Vec<u32>) {
         near.extend(self.places.moving());
@@ -219,8 +270,9 @@ impl Known<'_> {
 
     /// Whether a sphere and a surface may touch until the next search, or the end of the frame.
     fn may_touch(&self, slot: usize, surface: u32) -> bool {
-        let deflects = self.system.surfaces[surface as usize].role == Role::Deflects;
-        if !deflects || !self.system.meets_surface(self.slots.index[slot], surface) {
+        let own = self.places.surface_of(surface);
+        let deflects = self.system.surfaces[own as usize].role == Role::Deflects;
+        if !deflects || !self.system.meets_surface(self.slots.index[slot], own) {
             return false;
         }
         let (center, radius) =
@@ -249,10 +301,11 @@ impl Known<'_> {
 
     fn contact(&self, slot: usize, relative: u32, surface: u32) -> SurfaceContact {
         let sphere = self.slots.index[slot];
-        let bodies = Bodies::Surface { sphere, surface };
+        let own = self.places.surface_of(surface);
+        let bodies = Bodies::Surface { sphere, surface: own };
         let material = ContactMaterial::of(bodies, self.system);
         let mut contact = SurfaceContact::new(relative, surface, material);
-        contact.kick = self.system.surfaces[surface as usize].kick;
+        contact.kick = self.system.surfaces[own as usize].kick;
         contact.impulses = self.kept.of_surface(self.before[slot], surface);
         contact
     }

@@ -1,14 +1,24 @@
 //! Where surfaces are at both ends of a sub-step.
 
+use std::collections::BTreeMap;
+
 use glam::DVec3;
 
 use crate::detect::sphere_surface;
+use crate::detect::surface_tree::{Bounds, bounds};
+use crate::rule::periodic::image_shift;
 use crate::surface::{Form, Role, Surface, SurfaceMotion};
+
+/// When more images are needed, so many times as far are looked for: that is seldom so.
+const IMAGES_FARTHER: f64 = 1.5;
 
 /// Where a surface is, and how it moves.
 pub(super) type Place = (Form, SurfaceMotion);
 
-/// The places of all surfaces, by their number.
+/// An image of a surface in a periodic box: the number of the surface, and boxes between both along each axis.
+type ImageKey = (u32, [i8; 3]);
+
+/// The places of all surfaces, by their number, and those of their images, by numbers that follow.
 #[derive(Debug, Clone, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Places {
@@ -19,12 +29,19 @@ pub(super) struct Places {
     ends: Vec<Place>,
     /// The numbers of those that move and deflect.
     moving: Vec<u32>,
+    /// The images that spheres may touch.
+    images: Vec<(ImageKey, DVec3)>,
+    /// Their numbers.
+    number_of: BTreeMap<ImageKey, u32>,
+    /// Images are known that come so near to the box \[m\].
+    image_reach: f64,
 }
 
 impl Places {
     /// Takes over the surfaces of a frame that begins.
     pub fn begin_frame(&mut self, surfaces: &[Surface]) {
         place_all(surfaces, 0.0, &mut self.starts);
+        place_images(surfaces, &self.images, &mut self.starts);
         self.ends.clear();
         let moves =
             |(_, it): &(u32, &Surface)| it.role == Role::Deflects && !it.motion.is_at_rest();
@@ -36,6 +53,7 @@ impl Places {
     pub fn begin_sub_step(&mut self, surfaces: &[Surface], end: f64) {
         if !self.moving.is_empty() {
             place_all(surfaces, end, &mut self.ends);
+            place_images(surfaces, &self.images, &mut self.ends);
         }
     }
 
@@ -46,7 +64,58 @@ impl Places {
         }
     }
 
-    /// How many there are.
+    /// Finds the images of bounded surfaces at rest that come nearer than `reach` \[m\] to the periodic box with
+    /// these edges \[m\]. Those that are known keep their numbers.
+    pub fn find_images(&mut self, surfaces: &[Surface], period: DVec3, reach: f64) {
+        if period == DVec3::INFINITY || reach <= self.image_reach {
+            return;
+        }
+        self.image_reach = IMAGES_FARTHER * reach;
+        let Self { starts, images, number_of, image_reach, .. } = self;
+        let near = Bounds::around(DVec3::ZERO, 0.5 * period).widened(*image_reach);
+        for (number, surface) in (0..).zip(surfaces) {
+            let bounds = bounds(&surface.form).filter(|_| surface.motion.is_at_rest());
+            let Some(Bounds { min, max }) = bounds else { continue };
+            for offset in offsets(period) {
+                let shift = image_shift(offset.map(i32::from), period);
+                let is_near = Bounds { min: min + shift, max: max + shift }.overlap(&near);
+                if is_near && !number_of.contains_key(&(number, offset)) {
+                    number_of.insert((number, offset), starts.len() as u32);
+                    images.push(((number, offset), shift));
+                    starts.push((surface.form.shifted(shift), surface.motion));
+                }
+            }
+        }
+    }
+
+    /// Forgets all images: surfaces are others.
+    pub fn forget_images(&mut self) {
+        self.images.clear();
+        self.number_of.clear();
+        self.image_reach = 0.0;
+    }
+
+    /// The image of a surface so many boxes away, if it is known.
+    pub fn number_of_image(&self, surface: u32, offset: [i8; 3]) -> Option<u32> {
+        self.number_of.get(&(surface, offset)).copied()
+    }
+
+    /// The number of the surface of which one is the image, and the way from it \[m\]; of a surface itself, its own
+    /// number.
+    pub fn image(&self, number: u32) -> (u32, DVec3) {
+        let own = self.starts.len() - self.images.len();
+        match self.images.get((number as usize).wrapping_sub(own)) {
+            Some(&((surface, _), shift)) if number as usize >= own => (surface, shift),
+            _ => (number, DVec3::ZERO),
+        }
+    }
+
+    /// The number of the surface of which one is the image; of a surface itself, its own number.
+    pub fn surface_of(&self, number: u32) -> u32 {
+        self.image(number).0
+    }
+
+    /// How many there are, with images.
     pub fn len(&self) -> usize {
         self.starts.len()
     }
@@ -91,6 +160,24 @@ impl Places {
         };
         self.moving.iter().filter_map(speed).fold(0.0, f64::max)
     }
+}
+
+/// The image offsets beside the periodic box with these edges \[m\].
+pub(super) fn offsets(period: DVec3) -> impl Iterator<Item = [i8; 3]> {
+    let along = |axis: usize| if period[axis].is_finite() { -1..=1 } else { 0..=0 };
+    let [x, y, z] = [0, 1, 2].map(along);
+    let all = x.flat_map(move |x| {
+        let z = z.clone();
+        y.clone().flat_map(move |y| z.clone().map(move |z| [x, y, z]))
+    });
+    all.filter(|&offset| offset != [0; 3])
+}
+
+fn place_images(surfaces: &[Surface], images: &[(ImageKey, DVec3)], places: &mut Vec<Place>) {
+    places.extend(images.iter().map(|&((surface, _), shift)| {
+        let surface = &surfaces[surface as usize];
+        (surface.form.shifted(shift), surface.motion)
+    }));
 }
 
 fn place_all(surfaces: &[Surface], time: f64, places: &mut Vec<Place>) {

@@ -1,5 +1,8 @@
 //! How finely time is cut: sub-steps short enough for what forces and turning surfaces do in one.
 
+use glam::DVec3;
+
+use super::slots::Slots;
 use super::solver::Solver;
 
 /// In a sub-step of the length h, what accelerates with a from rest goes by h² a: by no more than the square of
@@ -7,6 +10,8 @@ use super::solver::Solver;
 const FALL: f64 = 0.25;
 /// A surface turns by no more than this angle in a sub-step \[rad\].
 pub(crate) const TURN: f64 = 0.25;
+/// In a periodic box no sphere goes farther in a sub-step than this part of its shortest edge, beside the mean motion.
+const OF_BOX: f64 = 0.125;
 /// Sub-steps are halved so often at most.
 const MOST_HALVINGS: u32 = 6;
 
@@ -17,12 +22,24 @@ pub(super) fn sub_steps(solver: &Solver, least: u32, frame: f64) -> u32 {
     let rates = both.map(|(row, place)| row.vector().length() / place.number());
     let fall = rates.fold(0.0, f64::max).sqrt() / FALL;
     let turn = solver.places.turning_rate() / TURN;
+    let across = fastest_beside(slots) / (OF_BOX * slots.period.min_element());
+    let most = fall.max(turn).max(across);
     let mut number = least;
     for _ in 0..MOST_HALVINGS {
-        if frame * fall.max(turn) <= f64::from(number) {
+        if frame * most <= f64::from(number) {
             break;
         }
         number = number.saturating_mul(2);
     }
     number
+}
+
+/// The highest speed beside the mean velocity \[m/s\]; 0 where space is not periodic.
+fn fastest_beside(slots: &Slots) -> f64 {
+    if slots.period == DVec3::INFINITY || slots.len() == 0 {
+        return 0.0;
+    }
+    let velocities = || slots.velocity.iter().map(|row| row.vector());
+    let mean = velocities().sum::<DVec3>() / slots.len() as f64;
+    velocities().map(|it| (it - mean).length()).fold(0.0, f64::max)
 }

@@ -5,6 +5,7 @@ use std::ops::Range;
 use glam::DVec3;
 
 use super::drift::Drift;
+use super::images::{ImagePair, ImageSearch};
 use super::order::{self, Grid};
 use super::places::Places;
 use super::row::Row;
@@ -24,6 +25,9 @@ const MOST_OF_FEW: f64 = 8.0;
 /// Margins are to be this part of the mean radius in the mean: with wider ones there are fewer searches,
 /// but more contacts that bear nothing.
 const MEAN_MARGIN: f64 = 0.15;
+/// In a periodic box, spheres may go at most this part of its shortest edge, unless they go farther in a sub-step:
+/// so two never reach images of each other that are farther than the next box.
+const MOST_OF_BOX: f64 = 0.25;
 /// A search is to last so many frames at least and at most, at the speeds of now.
 const LASTING: [f64; 2] = [1.5, 16.0];
 /// Speeds may grow by this factor meanwhile.
@@ -71,6 +75,8 @@ pub(super) struct Search {
     wide: Vec<u32>,
     broad_phase: BroadPhase,
     pairs: Vec<[u32; 2]>,
+    image_search: ImageSearch,
+    image_pairs: Vec<ImagePair>,
     /// Pairs that were tested.
     tests: u64,
 }
@@ -85,6 +91,7 @@ impl Search {
         [frame, h]: [f64; 2],
         surfaces: Option<&Places>,
     ) -> Drift {
+        slots.wrap();
         let drift = self.find_margins(slots, [frame, h], surfaces);
         let Self { grid, starts, margins, from, slot_of, cells, spare, .. } = self;
         let count = slots.len();
@@ -128,6 +135,7 @@ impl Search {
         let lasting = (MEAN_MARGIN * radii / speeds.max(f64::MIN_POSITIVE)).clamp(least, most);
         // What is slow among fast ones may be hit, and fly as they do.
         let mean_speed = speeds / count;
+        let farthest = MOST_OF_BOX * slots.period.min_element();
         let wanted = |slot: usize| {
             FASTER * lasting * speed(&slots.velocity[slot]).max(mean_speed)
                 / slots.position[slot].number()
@@ -138,6 +146,7 @@ impl Search {
         self.margins.clear();
         self.margins.extend((0..slots.len()).map(|slot| {
             let bounded = wanted(slot).clamp(LEAST_MARGIN, most) * slots.position[slot].number();
+            let bounded = bounded.min(farthest);
             // Within a sub-step it goes on by half of what it does in one, or turns round at a surface.
             let row = &slots.velocity[slot];
             let beside = 1.5 * speed(row).max(mean_speed);
@@ -146,7 +155,8 @@ impl Search {
             let fastest = beside.max(turned + hit(surfaces, slots, slot, frame));
             bounded.max(FASTER * fastest * h)
         }));
-        Drift::begin(velocity, lasting)
+        let within = (farthest / velocity.length().max(f64::MIN_POSITIVE)).max(FASTER * h);
+        Drift::begin(velocity, lasting.min(within))
     }
 
     /// First slots of so many runs of whole layers, and the end of the last: about as many spheres in each.
@@ -198,6 +208,25 @@ impl Search {
             slab.pairs.extend_from_slice(&rest[..count]);
             rest = &rest[count..];
         }
+    }
+
+    /// Finds the pairs across the faces of a periodic box, each for the slab of the smaller slot.
+    pub fn find_image_pairs(&mut self, slots: &Slots, slabs: &mut Slabs) {
+        let Self { image_search, image_pairs, tests, .. } = self;
+        image_search.find(slots, image_pairs);
+        *tests += image_pairs.len() as u64;
+        let mut rest = &image_pairs[..];
+        for slab in &mut slabs.list {
+            let count = rest.partition_point(|pair| (pair.slots[0] as usize) < slab.end);
+            slab.image_pairs.extend_from_slice(&rest[..count]);
+            rest = &rest[count..];
+        }
+    }
+
+    /// How far spheres may reach beyond the box until the next search, by radii and margins \[m\].
+    pub fn reach(slots: &Slots) -> f64 {
+        let reaches = slots.position.iter().zip(&slots.reference);
+        reaches.map(|(place, from)| place.number() + from.number()).fold(0.0, f64::max)
     }
 
     /// The slot that the sphere of each slot was moved to.

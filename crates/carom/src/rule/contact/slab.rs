@@ -8,6 +8,7 @@
 use super::batch::Batches;
 use super::descent::Descent;
 use super::found::Found;
+use super::images::ImagePair;
 use super::slots::{Run, Slots};
 use super::surfaces::SurfaceContact;
 use crate::parallel;
@@ -27,6 +28,8 @@ pub(super) struct Slab {
     pub surfaces: Vec<SurfaceContact>,
     /// Pairs of slots that a search found, until contacts are made of them.
     pub pairs: Vec<[u32; 2]>,
+    /// Pairs across the faces of a periodic box, likewise.
+    pub image_pairs: Vec<ImagePair>,
     pub descent: Descent,
     /// Pairs that the search tested.
     pub tests: u64,

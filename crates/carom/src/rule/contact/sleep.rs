@@ -127,7 +127,7 @@ fn near_restless(solver: &Solver) -> Vec<bool> {
     for slab in solver.slabs.iter() {
         for (number, lane, _) in slab.batches.contacts() {
             let [first, second] = slab.slots_of(number, lane);
-            let offset = position[second].vector() - position[first].vector();
+            let offset = solver.slots.offset([first, second]);
             let reach = (1.0 - DEEP) * (position[first].number() + position[second].number());
             if offset.length_squared() < reach * reach {
                 (is_near[first], is_near[second]) = (true, true);

@@ -6,6 +6,8 @@ use super::row::Row;
 use crate::bodies::Motion;
 use crate::forces::{self, SphereState};
 use crate::id::SphereId;
+use crate::rule::periodic;
+use crate::settings::nearest_image;
 use crate::system::System;
 
 /// Spheres by slot: neighbours in space are neighbours in memory.
@@ -16,7 +18,7 @@ pub(super) struct Slots {
     pub id: Vec<SphereId>,
     /// The index of each sphere in the world's arrays; [`GONE`] if it is there no more.
     pub index: Vec<u32>,
-    /// Centre \[m\] and radius \[m\].
+    /// Centre \[m\] and radius \[m\]. In a periodic box it counts on across the faces from search to search.
     pub position: Vec<Row>,
     /// Velocity \[m/s\] and 1/m \[1/kg\], 0 for one that sleeps: nothing moves it.
     pub velocity: Vec<Row>,
@@ -41,6 +43,8 @@ pub(super) struct Slots {
     pub acceleration: Vec<Row>,
     /// The acceleration by forces that are linear \[m/s²\]; empty where there are no others.
     linear: Vec<Row>,
+    /// Edges of the periodic box \[m\], infinite along open axes.
+    pub period: DVec3,
 }
 
 /// The index of a sphere that was taken out of the world.
@@ -91,11 +95,10 @@ impl Slots {
 
     /// Takes over from the world where spheres are and how they move.
     pub fn read(&mut self, system: &System, motion: &Motion, with_spin: bool) {
-        let Self { index, position, velocity, spin, turn, .. } = self;
+        self.read_places(system, motion);
+        let Self { index, velocity, spin, turn, .. } = self;
         let spheres = system.spheres;
         let indices = || index.iter().map(|&index| index as usize);
-        position.clear();
-        position.extend(indices().map(|i| Row::new(motion.position[i], spheres.radius[i])));
         velocity.clear();
         velocity.extend(indices().map(|i| Row::new(motion.velocity[i], 0.0)));
         spin.clear();
@@ -110,6 +113,43 @@ impl Slots {
         self.read_masses(system);
         self.before.clone_from(&self.velocity);
         self.spin_before.clone_from(&self.spin);
+    }
+
+    /// Takes over where spheres are. One that the world shows at the image of its place keeps that place.
+    fn read_places(&mut self, system: &System, motion: &Motion) {
+        let Self { index, position, period, .. } = self;
+        let radii = &system.spheres.radius;
+        let is_periodic = *period != DVec3::INFINITY;
+        position.resize(index.len(), Row::default());
+        for (row, &index) in position.iter_mut().zip(&*index) {
+            let (own, shown) = (row.vector(), motion.position[index as usize]);
+            let is_same = is_periodic && periodic::wrapped(own, *period) == shown;
+            *row = Row::new(if is_same { own } else { shown }, radii[index as usize]);
+        }
+    }
+
+    /// Takes all spheres into the periodic box.
+    pub fn wrap(&mut self) {
+        if self.period != DVec3::INFINITY {
+            for row in &mut self.position {
+                *row = row.with_vector(periodic::wrapped(row.vector(), self.period));
+            }
+        }
+    }
+
+    /// Where a sphere is shown, by its slot \[m\]: in the periodic box.
+    pub fn place(&self, slot: usize) -> DVec3 {
+        periodic::wrapped(self.position[slot].vector(), self.period)
+    }
+
+    /// The image of a sphere that is nearest to a place \[m\].
+    pub fn image_near(&self, slot: usize, place: DVec3) -> DVec3 {
+        periodic::image_near(self.position[slot].vector(), place, self.period)
+    }
+
+    /// The way from one sphere to another, or in a periodic box to its nearest image \[m\].
+    pub fn offset(&self, [from, to]: [usize; 2]) -> DVec3 {
+        nearest_image(self.position[to].vector() - self.position[from].vector(), self.period)
     }
 
     /// Takes over from the world how hard spheres are to move and to turn; those that sleep are immovable.
@@ -179,13 +219,14 @@ impl Slots {
     /// Has the accelerations of all forces, of now and at this time on the world's clock \[s\].
     pub fn add_other_forces(&mut self, system: &System, time: f64) {
         let between = self.forces_between(system, time);
+        let period = self.period;
         let moving = self.position.iter().zip(&self.velocity);
         let accelerations = self.acceleration.iter_mut().zip(&self.linear);
         for (slot, ((position, velocity), (acceleration, linear))) in
             moving.zip(accelerations).enumerate()
         {
             let state = SphereState {
-                position: position.vector(),
+                position: periodic::wrapped(position.vector(), period),
                 velocity: velocity.vector(),
                 radius: position.number(),
                 mass: 1.0 / velocity.number(),
@@ -225,7 +266,7 @@ impl Slots {
     /// Gives the world where spheres are and how they move at the end of a frame.
     pub fn write(&self, motion: &mut Motion) {
         for (slot, &index) in self.index.iter().enumerate() {
-            motion.position[index as usize] = self.position[slot].vector();
+            motion.position[index as usize] = self.place(slot);
             motion.velocity[index as usize] = self.velocity[slot].vector();
         }
         for (slot, spin) in self.spin.iter().enumerate() {

@@ -15,17 +15,28 @@ pub(super) const FAR: f64 = 0.125;
 /// What the normal velocity may be where nothing is met \[m/s\]: anything.
 pub(super) const FREE: f64 = f64::MAX;
 
+/// What no sub-step changes of a contact of two spheres.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Traits {
+    /// \[m\]
+    pub radius_sum: f64,
+    pub restitution: f64,
+    /// From where sphere 2 is to its image that sphere 1 touches \[m\].
+    pub shift: DVec3,
+}
+
 /// Has a contact of a batch that bounces, or whose spheres go far, wait for the impact that they come to
 /// within the sub-step, with the normal there; if they come to none, it bears nothing. Gives the speed of
 /// approach \[m/s\], 0 if they come to none; `None` if they overlap already.
 pub(super) fn aim_pair(
     run: &Run,
     batch: &mut PairBatch,
-    (lane, [radius_sum, restitution]): (usize, [f64; 2]),
+    (lane, traits): (usize, Traits),
     sub_step: &SubStep,
 ) -> Option<f64> {
+    let Traits { radius_sum, restitution, shift } = traits;
     let [first, second] = [batch.first[lane] as usize, batch.second[lane] as usize];
-    let offset = run.position[second].vector() - run.position[first].vector();
+    let offset = run.position[second].vector() - run.position[first].vector() + shift;
     let velocity = run.before[second].vector() - run.before[first].vector();
     if first == second || offset.length_squared() <= radius_sum * radius_sum {
         return None;

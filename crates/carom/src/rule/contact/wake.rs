@@ -36,7 +36,7 @@ pub(super) fn touched(system: &System, solver: &mut Solver, h: f64) {
     for &[sleeper, other] in &solver.watched {
         let [sleeper, other] = [sleeper, other].map(|slot| slot as usize);
         let radius_sum = position[sleeper].number() + position[other].number();
-        let offset = position[other].vector() - position[sleeper].vector();
+        let offset = solver.slots.offset([sleeper, other]);
         let way = h * slots::accelerated(velocity[other], acceleration[other], h);
         // The nearest point of the way.
         let length_squared = way.length_squared();
@@ -81,7 +81,7 @@ fn in_reach(slots: &Slots, struck: &[usize], distance: f64) -> Vec<usize> {
         for slot in (0..sleeps.len()).filter(|&slot| sleeps[slot]) {
             let to = position[slot];
             let reach = from.number() + to.number() + distance;
-            let is_near = (to.vector() - from.vector()).length_squared() < reach * reach;
+            let is_near = slots.offset([found[next], slot]).length_squared() < reach * reach;
             if is_near && !found.contains(&slot) {
                 found.push(slot);
             }
@@ -108,10 +108,10 @@ pub(super) fn loaded(system: &System, solver: &mut Solver) {
 fn left_alone(system: &System, slots: &Slots, dormant: &[Dormant]) -> Vec<usize> {
     let has_gone = |contact: &&Dormant| {
         let Partner::Awake(other) = contact.partner else { return false };
-        let own = slots.position[contact.sphere as usize];
-        slots.position.get(other as usize).is_none_or(|other| {
+        let (own, place) = (slots.position[contact.sphere as usize], other as usize);
+        slots.position.get(place).is_none_or(|other| {
             let reach = (1.0 + TOUCH) * (own.number() + other.number());
-            (own.vector() - other.vector()).length_squared() > reach * reach
+            slots.offset([contact.sphere as usize, place]).length_squared() > reach * reach
         })
     };
     let bore = |contact: &&Dormant| {

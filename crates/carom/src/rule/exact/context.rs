@@ -65,9 +65,9 @@ impl<'a> StepContext<'a> {
         }
     }
 
-    /// Whether what takes too much work is stepped. The rule `contact` knows no periodic box.
+    /// Whether what takes too much work is stepped.
     pub fn has_zones(&self) -> bool {
-        self.parameters.zones == Zones::Automatic && self.period == DVec3::INFINITY
+        self.parameters.zones == Zones::Automatic
     }
 
     pub fn combine_rule(&self) -> CombineRule {

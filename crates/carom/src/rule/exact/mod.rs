@@ -28,7 +28,6 @@ mod impact;
 mod look_along;
 mod neighbours;
 mod pair_times;
-mod periodic;
 mod persistent;
 mod predict;
 mod prefetch;
@@ -45,7 +44,6 @@ pub(crate) use frame::{
 };
 pub(crate) use look_along::{begin as begin_watch, end as end_watch};
 pub(crate) use neighbours::MAX_SPHERES;
-pub(crate) use periodic::wrapped;
 pub(crate) use span::Span;
 pub(crate) use timeline::Timeline;
 pub(crate) use watch::Watch;

@@ -14,6 +14,7 @@ use crate::parallel;
 use crate::persistent_contact::PersistentContact;
 use crate::report::StepReport;
 use crate::rule::contact::{self, Nearness, Scratch, Solver};
+use crate::rule::periodic;
 use crate::settings::Contact;
 use crate::surface::Surface;
 use crate::system::System;
@@ -328,10 +329,14 @@ impl Zone {
             let ticks = &mut self.free_ticks[place as usize];
             *ticks = if bears { 0 } else { *ticks + 1 };
         }
-        let stepped = |place: usize| Stepped {
-            index: self.index[place],
-            positions: [before.position[place], self.motion.position[place]],
-            rotation: rotation_between([&before.spin, &self.motion.spin], place, self.ticks),
+        let period = system.settings.boundary.period();
+        let stepped = |place: usize| {
+            let [from, to] = [before.position[place], self.motion.position[place]];
+            Stepped {
+                index: self.index[place],
+                positions: [from, periodic::image_near(to, from, period)],
+                rotation: rotation_between([&before.spin, &self.motion.spin], place, self.ticks),
+            }
         };
         (0..self.index.len()).map(stepped).collect()
     }

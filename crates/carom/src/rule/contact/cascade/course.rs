@@ -197,7 +197,8 @@ fn first_meeting(island: &mut Island, places: &[Place], time: f64) -> Option<f64
     let path = |place: usize| path(&bodies[place], touched[place], time);
     let mut first = f64::INFINITY;
     for link in island.links.iter_mut().filter(|link| link.role == Role::Awaited) {
-        let own = path(link.second);
+        let mut own = path(link.second);
+        own.position += link.shift;
         let found = match link.first {
             Some(other) => contact_time::sphere_sphere(&path(other), &own, link.size(), time),
             None => {

@@ -33,6 +33,8 @@ pub struct Link {
     pub first: Option<usize>,
     pub second: usize,
     pub surface: u32,
+    /// From where body 2 is to its image that body 1 touches \[m\].
+    pub shift: DVec3,
     radius_sum: f64,
     restitution: f64,
     friction: ContactFriction,
@@ -66,6 +68,7 @@ impl Link {
             first: None,
             second: 0,
             surface: 0,
+            shift: DVec3::ZERO,
             radius_sum: 0.0,
             restitution: 0.0,
             friction: ContactFriction::default(),
@@ -92,6 +95,7 @@ impl Link {
                 let carried = batches.approaches[batch].previous[lane];
                 Self {
                     slots: slab.slots_of(batch, lane).map(|slot| slot as u32),
+                    shift: batches.shift(batch, lane),
                     radius_sum: batches.approaches[batch].radius_sum[lane],
                     restitution: batches.restitutions[batch][lane],
                     friction: ContactFriction {
@@ -133,7 +137,7 @@ impl Link {
     /// The gap of two spheres where they are as the sub-step begins \[m\].
     pub fn gap_between(&self, slots: &Slots) -> f64 {
         let [first, second] = self.slots.map(|slot| slots.position[slot as usize].vector());
-        (second - first).length() - self.radius_sum
+        (second - first + self.shift).length() - self.radius_sum
     }
 
     /// Notes whether it bore something before the sub-step, which is what counts from its start on.
@@ -153,7 +157,7 @@ impl Link {
             return separation.is_some();
         };
         let first = &bodies[first];
-        let offset = second.position - first.position;
+        let offset = second.position - first.position + self.shift;
         let length = offset.length();
         if length > 0.0 {
             self.normal = offset / length;

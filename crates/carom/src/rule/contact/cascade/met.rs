@@ -3,8 +3,9 @@
 use glam::DVec3;
 
 use crate::report::{BodyPair, Impact};
-use crate::rule::contact::slots::Slots;
+use crate::rule::contact::solver::Solver;
 use crate::rule::contact::sub_step::SubStep;
+use crate::rule::periodic;
 use crate::system::System;
 
 /// An impact of a cascade.
@@ -36,7 +37,8 @@ pub struct Contact {
 
 impl Met {
     /// As it is reported.
-    pub fn report(&self, system: &System, slots: &Slots, sub_step: &SubStep) -> Impact {
+    pub fn report(&self, system: &System, solver: &Solver, sub_step: &SubStep) -> Impact {
+        let slots = &solver.slots;
         let Contact {
             point,
             mut normal,
@@ -58,14 +60,15 @@ impl Met {
                 }
             }
             Partners::Surface(surface, slot) => {
-                let collider = system.surfaces[surface as usize].collider;
+                let own = solver.places.surface_of(surface);
+                let collider = system.surfaces[own as usize].collider;
                 BodyPair::Collider { collider, sphere: slots.id[slot as usize] }
             }
         };
         Impact {
             time: sub_step.time,
             between,
-            point,
+            point: periodic::wrapped(point, slots.period),
             normal,
             approach_speed,
             separation_speed,

@@ -42,7 +42,7 @@ pub(super) fn follow(
         let Some(mut island) = gathering.gather(solver, seed, sub_step) else { continue };
         let course = Course::run(&mut island, solver.places.starts(), sub_step);
         report.energy_account.contacts += course.work;
-        let impacts = course.impacts.iter().map(|it| it.report(system, &solver.slots, sub_step));
+        let impacts = course.impacts.iter().map(|it| it.report(system, solver, sub_step));
         report.impacts.extend(impacts);
         withdraw(solver, &island, course.last, sub_step);
     }

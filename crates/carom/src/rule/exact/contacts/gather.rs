@@ -15,8 +15,8 @@ use crate::rule::exact::contact_scale::{MOST_MISSED, TOUCHING};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::flights::Cluster;
 use crate::rule::exact::neighbours::NeighbourBuffer;
-use crate::rule::exact::periodic;
 use crate::rule::exact::timeline::Timeline;
+use crate::rule::periodic;
 
 /// Gathers the spheres at `seeds`, whatever touches them at `time` \[s\], what touches that, and so
 /// on, clusters as a whole. `joined` contacts count as touching, too.

@@ -13,7 +13,7 @@ use crate::bodies::Motion;
 use crate::lanes::{LANES, Lanes};
 use crate::parallel;
 use crate::real::Vector;
-use crate::rule::exact::periodic;
+use crate::rule::periodic;
 
 /// Where all flights are read one after another, so many are fetched into the cache ahead.
 const FETCHED_AHEAD: usize = 32;

@@ -7,7 +7,7 @@ use super::body::Body;
 use crate::flight;
 use crate::lanes::{LANES, Lanes};
 use crate::real::Vector;
-use crate::rule::exact::periodic;
+use crate::rule::periodic;
 
 /// A sphere in flight since some time \[s\], or several side by side.
 #[derive(Clone, Copy)]

@@ -12,7 +12,7 @@ use super::rotation::Rotation;
 use super::species::{Species, SpeciesOfSpheres};
 use crate::bodies::Motion;
 use crate::detect::contact::Bodies;
-use crate::rule::exact::periodic;
+use crate::rule::periodic;
 use crate::system::System;
 
 /// The flights of all spheres, and the clusters that persistent contacts make of them.

@@ -18,11 +18,11 @@ use crate::rule::exact::contacts::{self, Group, Member, Touch};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::flights::Support;
 use crate::rule::exact::frame_work::UNITS_PER_FLIGHT;
-use crate::rule::exact::periodic;
 use crate::rule::exact::persistent::{piece_end, solve};
 use crate::rule::exact::predict::{self, Unresolved};
 use crate::rule::exact::stepped;
 use crate::rule::exact::timeline::Timeline;
+use crate::rule::periodic;
 
 /// Units of work that it takes to find what touches a sphere, and to predict what it meets next.
 const UNITS_PER_MEMBER: u64 = 500;

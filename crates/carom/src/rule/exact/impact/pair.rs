@@ -15,10 +15,10 @@ use crate::rule::exact::contacts::Member;
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::flights::Body;
 use crate::rule::exact::pair_times::NearTest;
-use crate::rule::exact::periodic;
 use crate::rule::exact::predict;
 use crate::rule::exact::stepped;
 use crate::rule::exact::timeline::Timeline;
+use crate::rule::periodic;
 
 /// Whatever is nearer to a sphere than this part of the distance of centres may take part in the
 /// impact, and is looked at closely. Generous: it only decides which way is taken to one result.

@@ -9,7 +9,7 @@ use super::region::OVERHANG;
 use crate::detect::surface_tree::SurfaceTree;
 use crate::groups::Groups;
 use crate::rule::exact::flights::{Flights, Species};
-use crate::rule::exact::periodic::wrapped;
+use crate::rule::periodic::wrapped;
 use crate::surface::Surface;
 
 /// Lists are kept if there are more spheres than this to a cell as wide as a diameter: then to

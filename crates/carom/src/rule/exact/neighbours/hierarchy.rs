@@ -19,7 +19,7 @@ use crate::lanes::{LANES, Lanes};
 use crate::norm::Norm;
 use crate::real::Vector;
 use crate::rule::exact::flights::{Body, Flights, Species};
-use crate::rule::exact::periodic;
+use crate::rule::periodic;
 
 /// The regions of all spheres, and which spheres and surfaces are near them.
 #[derive(Debug, Clone, Default)]

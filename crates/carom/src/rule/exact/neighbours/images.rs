@@ -7,7 +7,7 @@ use super::neighbour::{IMAGES, Neighbour};
 use super::region::Region;
 use crate::lanes::{LANES, Lanes};
 use crate::real::Vector;
-use crate::rule::exact::periodic;
+use crate::rule::periodic;
 
 /// How images of spheres are distinguished from others.
 #[derive(Debug, Clone, Copy, Default)]

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::rule::exact::periodic::image_shift;
+use crate::rule::periodic::image_shift;
 
 /// Bits of the slot in a [`Neighbour`].
 const SLOT_BITS: u32 = 27;

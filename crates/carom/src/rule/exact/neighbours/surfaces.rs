@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::contents::Contents;
 use super::grid::Grid;
 use crate::detect::surface_tree::Bounds;
-use crate::rule::exact::periodic::image_shift;
+use crate::rule::periodic::image_shift;
 use crate::surface::{Form, Role, Surface};
 
 /// Bounds are widened by this factor: more than rounding.

@@ -12,8 +12,8 @@ use crate::report::BodyPair;
 use crate::respond;
 use crate::rule::exact::contacts::{self, Group, Member, Touch};
 use crate::rule::exact::context::StepContext;
-use crate::rule::exact::periodic;
 use crate::rule::exact::timeline::Timeline;
+use crate::rule::periodic;
 
 /// A contact slides where friction is this part of the largest possible at least.
 const SLIDES: f64 = 1.0 - 1e-9;

@@ -11,8 +11,8 @@ use crate::norm::Norm;
 use crate::respond;
 use crate::rule::exact::contacts::{self, Group, Member, Touch};
 use crate::rule::exact::context::StepContext;
-use crate::rule::exact::periodic;
 use crate::rule::exact::timeline::Timeline;
+use crate::rule::periodic;
 use crate::sum::Sum;
 
 /// Kinetic energy is restored to at most this many times what is left: what has come to its turning

@@ -91,12 +91,12 @@ fn in_front(
 ) -> DVec3 {
     let duration = timeline.zone.next_tick() - time;
     let surfaces = timeline.surfaces_near(slot);
-    // A zone has no periodic box, and so no shifts.
     let passages: Vec<Passage> = surfaces
-        .map(|(surface, _)| {
+        .map(|(surface, shift)| {
             let (before, motion) = context.surface_at(surface, time);
             let (after, _) = motion.carry(&before, duration);
-            Passage { before, after, carried: motion.carried(position, duration) }
+            let carried = motion.carried(position - shift, duration) + shift;
+            Passage { before: before.shifted(shift), after: after.shifted(shift), carried }
         })
         .collect();
     let end = position + duration * velocity;

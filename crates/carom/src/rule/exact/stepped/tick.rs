@@ -14,6 +14,7 @@ use crate::rule::exact::neighbours::NeighbourBuffer;
 use crate::rule::exact::predict;
 use crate::rule::exact::timeline::Timeline;
 use crate::rule::exact::zone::Stepped;
+use crate::rule::periodic;
 
 /// A sphere touches surfaces that are nearer than this part of its radius: the solver leaves less.
 const NEAR: f64 = 0.01;
@@ -23,7 +24,7 @@ pub(crate) fn tick(timeline: &mut Timeline, context: &mut StepContext) -> f64 {
     let (now, tick) = (timeline.zone.next_tick(), context.parameters.zone_tick);
     if timeline.zone.is_idle() {
         let resting = timeline.zone.rest();
-        fly(timeline, &resting, now);
+        fly(timeline, context, &resting, now);
         look_around(timeline, context);
         return now;
     }
@@ -44,7 +45,7 @@ pub(crate) fn tick(timeline: &mut Timeline, context: &mut StepContext) -> f64 {
     // Of a zone it is known in which sub-step an impact was.
     let time = context.since_start(now);
     context.report.impacts[first..].iter_mut().for_each(|impact| impact.time = time);
-    fly(timeline, &stepped, now);
+    fly(timeline, context, &stepped, now);
     look_around(timeline, context);
     context.report.zone_account.ticks += 1;
     context.work.spend(stepped.len() as u64);
@@ -64,6 +65,7 @@ fn comes_back(
         return false;
     }
     let species = timeline.flights.free_species_of(slot);
+    let center = where_it_counts(timeline, context, slot, center, now);
     let touches = |(surface, shift): (u32, DVec3)| {
         let (form, _) = context.surface_at(surface, now);
         let separation = sphere_surface(&form, center - shift, species.radius);
@@ -76,8 +78,22 @@ fn comes_back(
     !is_at_rest || touched.next().is_some() || species.drag_rate > 0.0
 }
 
+/// The image of a place \[m\] in a periodic box where the position of a sphere counts at `now` \[s\].
+fn where_it_counts(
+    timeline: &Timeline,
+    context: &StepContext,
+    slot: u32,
+    place: DVec3,
+    now: f64,
+) -> DVec3 {
+    if context.period == DVec3::INFINITY {
+        return place;
+    }
+    periodic::image_near(place, timeline.flights.state_of(slot, now).0, context.period)
+}
+
 /// Begins the straight flights of spheres in a zone from a tick at `now` \[s\] to the next one.
-fn fly(timeline: &mut Timeline, stepped: &[Stepped], now: f64) {
+fn fly(timeline: &mut Timeline, context: &StepContext, stepped: &[Stepped], now: f64) {
     let next = timeline.zone.next_tick();
     let mut found = NeighbourBuffer::default();
     for &Stepped { index, positions: [from, to], rotation } in stepped {
@@ -86,12 +102,12 @@ fn fly(timeline: &mut Timeline, stepped: &[Stepped], now: f64) {
             timeline.flights.rotations[index as usize] = rotation;
         }
         let velocity = if from == to { DVec3::ZERO } else { (to - from) / (next - now) };
-        let body = &mut timeline.flights.bodies[slot as usize];
+        let from = where_it_counts(timeline, context, slot, from, now);
+        let body = &timeline.flights.bodies[slot as usize];
         if velocity == DVec3::ZERO && body.velocity == DVec3::ZERO && body.position == from {
             continue;
         }
-        body.begin_flight(from, velocity, now);
-        timeline.note_flight(slot);
+        timeline.begin_flight(slot, from, velocity, now);
         let cell_crossing = stay_in_region(timeline, slot, [now, next], &mut found);
         // Those near it look for it.
         let events = NextEvents::NEVER;
@@ -151,10 +167,11 @@ fn leave(
     timeline: &mut Timeline,
     context: &mut StepContext,
     index: u32,
-    [mut position, velocity]: [DVec3; 2],
+    [position, velocity]: [DVec3; 2],
     now: f64,
 ) {
     let slot = timeline.flights.slot_of[index as usize];
+    let mut position = where_it_counts(timeline, context, slot, position, now);
     let species = *timeline.flights.free_species_of(slot);
     for (surface, shift) in timeline.surfaces_near(slot) {
         let (form, _) = context.surface_at(surface, now);
@@ -168,6 +185,7 @@ fn leave(
     }
     timeline.flights.leave_zone(slot, [position, velocity], now);
     timeline.note_flight(slot);
+    timeline.wrap(slot);
     timeline.flights.let_go(slot, now);
     predict::predict(timeline, context, slot, now);
     timeline.zone.near.push(slot);

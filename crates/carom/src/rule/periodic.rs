@@ -17,6 +17,16 @@ pub(crate) fn wrapped(position: DVec3, period: DVec3) -> DVec3 {
     (position - way).clamp(-0.5 * period, 0.5 * period)
 }
 
+/// The image of a position that is nearest to a place \[m\]. `period` has the edges of the box, infinite along
+/// an open axis.
+pub(super) fn image_near(position: DVec3, place: DVec3, period: DVec3) -> DVec3 {
+    if period == DVec3::INFINITY {
+        return position;
+    }
+    let boxes = ((place - position) / period).round();
+    position + DVec3::select(period.is_finite_mask(), boxes * period, DVec3::ZERO)
+}
+
 /// Whether a position is in the box about the origin.
 #[inline(always)]
 pub(super) fn is_in_box(position: DVec3, period: DVec3) -> bool {
