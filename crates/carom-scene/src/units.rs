@@ -66,7 +66,7 @@ const DEGREES: &str = "degrees";
 const RADIANS: &str = "rad";
 
 /// Unit of each field that has one.
-const FIELDS: [(&str, &str); 45] = [
+const FIELDS: [(&str, &str); 46] = [
     ("acceleration", "m/s²"),
     ("anchor", "m"),
     ("angular_velocity", "rad/s"),
@@ -85,6 +85,7 @@ const FIELDS: [(&str, &str); 45] = [
     ("force_tick", "s"),
     ("frame_time", "s"),
     ("gravity", "m/s²"),
+    ("kick", "m/s"),
     ("look_at", "m"),
     ("mass", "kg"),
     ("max", "m"),
