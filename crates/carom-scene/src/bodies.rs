@@ -1,11 +1,11 @@
 //! Converts spheres, colliders and emitters of scenes into those of `carom`.
 
-use carom::{Friction, Groups, Mass, Pose, Sides, World};
+use carom::{Ends, Friction, Groups, Mass, Pose, Sides, World};
 
 use crate::error::{Problem, SceneError};
 use crate::requirement::{check, check_positive};
 use crate::scene::values::{quaternion, vector};
-use crate::scene::{Collider, Emitter, Shape, Side, Sphere};
+use crate::scene::{Collider, Emitter, End, Shape, Side, Sphere};
 
 /// Adds the sphere that stands at `path` in the scene.
 pub(crate) fn add_sphere(world: &mut World, sphere: &Sphere, path: &str) -> Result<(), Problem> {
@@ -130,6 +130,31 @@ impl From<&Shape> for carom::Shape {
             Shape::Container { size, open } => {
                 Self::Container { size: vector(*size), open: sides(open) }
             }
+            Shape::Cylinder { radius, height } => {
+                Self::Cylinder { radius: *radius, height: *height }
+            }
+            Shape::Cone { bottom_radius, top_radius, height } => Self::Cone {
+                bottom_radius: *bottom_radius,
+                top_radius: *top_radius,
+                height: *height,
+            },
+            Shape::Capsule { radius, length } => Self::Capsule { radius: *radius, length: *length },
+            Shape::Disc { radius } => Self::Disc { radius: *radius },
+            Shape::Torus { ring_radius, tube_radius } => {
+                Self::Torus { ring_radius: *ring_radius, tube_radius: *tube_radius }
+            }
+            Shape::Pipe { radius, length, closed } => {
+                let [bottom, top] = [End::Bottom, End::Top].map(|end| closed.contains(&end));
+                Self::Pipe { radius: *radius, length: *length, closed: Ends { bottom, top } }
+            }
+            Shape::Bowl { radius, opening_degrees } => {
+                Self::Bowl { radius: *radius, opening: opening_degrees.to_radians() }
+            }
+            Shape::Funnel { bottom_radius, top_radius, height } => Self::Funnel {
+                bottom_radius: *bottom_radius,
+                top_radius: *top_radius,
+                height: *height,
+            },
         }
     }
 }

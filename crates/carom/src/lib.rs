@@ -28,6 +28,7 @@
 #![warn(clippy::unwrap_used)]
 
 mod axis_motion;
+mod band;
 mod bodies;
 mod clock;
 mod collider;
@@ -60,6 +61,7 @@ mod rectangle;
 mod report;
 pub mod respond;
 mod rotation;
+mod round_solid;
 mod rule;
 mod sensor;
 mod settings;
@@ -76,7 +78,7 @@ mod world;
 pub use glam::{DQuat, DVec3};
 
 pub use bodies::Spheres;
-pub use collider::{Collider, Pose, Shape, Sides};
+pub use collider::{Collider, Ends, Pose, Shape, Sides};
 pub use emitter::Emitter;
 pub use error::{Error, InvalidValue, Subject};
 pub use flight::Flight;

@@ -159,7 +159,22 @@ export type Shape =
   | "half-space"
   | { box: { size: [number, number, number] } }
   /** Hollow: walls without thickness, with spheres bouncing off on both sides. */
-  | { container: { size: [number, number, number]; open?: Side | Side[] } };
+  | { container: { size: [number, number, number]; open?: Side | Side[] } }
+  /** Solids of revolution about local y; one radius of a cone may be 0. */
+  | { cylinder: { radius: number; height: number } }
+  | { cone: { bottomRadius: number; topRadius?: number; height: number } }
+  /** All within a radius of a line along local y. */
+  | { capsule: { radius: number; length: number } }
+  | { torus: { ringRadius: number; tubeRadius: number } }
+  /** In the local xz plane, facing local +y; spheres pass through it from behind. */
+  | { disc: { radius: number } }
+  /** Hollow, about local y: walls without thickness, with spheres bouncing off on both sides. */
+  | { pipe: { radius: number; length: number; closed?: End | End[] } }
+  | { bowl: { radius: number; openingDegrees?: number } }
+  | { funnel: { bottomRadius: number; topRadius: number; height: number } };
+
+/** An end of a pipe in its own frame: towards -y, +y. */
+export type End = "bottom" | "top";
 
 /** A side of a box in its own frame: towards -x, +x, -y, +y, -z, +z. */
 export type Side = "left" | "right" | "bottom" | "top" | "back" | "front";

@@ -96,9 +96,7 @@ fn overlap(system: &System, motion: &Motion, sphere: u32, surface: u32) -> Optio
     let separation = sphere_surface(form, motion.position[i], system.spheres.radius[i])?;
     let meets = match form {
         Form::Sphere { .. } | Form::Edge(_) | Form::Corner(_) => separation.distance < 0.0,
-        Form::Rectangle(_) | Form::HalfSpace { .. } | Form::Box(_) | Form::Facet(_) => {
-            separation.distance <= 0.0
-        }
+        _ => separation.distance <= 0.0,
     };
     let bodies = Bodies::Surface { sphere, surface };
     meets.then_some(Contact { bodies, separation, state: ContactState::Intersecting })

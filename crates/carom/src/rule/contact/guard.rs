@@ -14,9 +14,12 @@ use super::slots::Run;
 use super::solver::{Bounce, Solver, Turn};
 use super::sub_step::SubStep;
 use super::surfaces::{self, SurfaceContact};
+use crate::band::Band;
+use crate::contact_time;
+use crate::flight::Flight;
 use crate::mesh::Facet;
 use crate::report::StepReport;
-use crate::surface::{Form, Rectangle, Role};
+use crate::surface::{Form, Rectangle, Role, SurfaceMotion};
 use crate::system::System;
 
 /// The centre of a sphere stays so far in front of a surface, as a part of the radius, whatever presses on it:
@@ -268,9 +271,39 @@ impl Way<'_> {
                 let out = way_out([start - *before, end - *after], radius + least)?;
                 Some(*after + out)
             }
+            [Form::Band(before), Form::Band(after)] => {
+                let start = after.carried_from(before, start);
+                pushed_by_band(after, [start, end], least, beside)
+            }
             _ => None,
         }
     }
+}
+
+/// Where a centre ends at the `least` distance \[m\] in front of a surface of revolution, if its straight way would
+/// come nearer, to the face or `beside` it by less than this \[m\].
+fn pushed_by_band(band: &Band, [start, end]: [DVec3; 2], least: f64, beside: f64) -> Option<DVec3> {
+    let way = end - start;
+    let before = band.seen_from(start);
+    if before.front < 0.0 || before.distance > least + way.length() {
+        return None;
+    }
+    let flight =
+        Flight { position: start, velocity: way, acceleration: DVec3::ZERO, drag_rate: 0.0 };
+    let form = Form::Band(*band);
+    let part = contact_time::sphere_surface(&flight, least, &form, &SurfaceMotion::REST, 1.0)?;
+    let there = start + part * way;
+    let reached = band.seen_from(there);
+    if reached.room < -beside {
+        return None;
+    }
+    // Along the face it goes on, where it stays over it.
+    let over = band.face_seen_from(end);
+    let along = end + (least - over.front).max(0.0) * over.normal;
+    let stays = over.front < least
+        && over.normal.dot(reached.normal) > 0.0
+        && band.seen_from(along).room >= 0.0;
+    Some(if stays { along } else { there })
 }
 
 /// A point in the coordinates of a rectangle, with y in front of it \[m\].

@@ -290,6 +290,7 @@ impl Known<'_> {
             (None, Form::Rectangle(rectangle)) => {
                 (center - rectangle.center).dot(rectangle.normal) >= -margin
             }
+            (None, Form::Band(band)) => band.seen_from(center).front >= -margin,
             (None, Form::Facet(_) | Form::Edge(_) | Form::Corner(_)) => {
                 let bounds = surface_tree::bounds(form);
                 let reach = Bounds::around(center, DVec3::splat(radius + margin));

@@ -162,14 +162,15 @@ impl SurfaceContact {
         }
         self.start = center;
         self.angular_velocity = motion.angular_velocity;
-        self.swing = motion.swing(center, before);
+        let turns = motion.turns_form(form);
+        self.swing = if turns { motion.swing(center, before) } else { DVec3::ZERO };
         (self.approach, self.bias, self.kicked) = (0.0, FREE, 0.0);
         let separation = sphere_surface(form, center, radius);
         if let Some(Separation { distance, normal, point }) = separation {
-            (self.normal, self.velocity) = if motion.turns() {
+            (self.normal, self.velocity) = if turns {
                 turning_plane(motion, (normal, point), (center, radius + distance), sub_step.h)
             } else {
-                (normal, motion.velocity)
+                (normal, motion.velocity + motion.turning_in_place(form, point))
             };
             self.bias = distance.max(0.0) / sub_step.h;
             self.watch_for_impact(run, distance, sub_step);
@@ -241,7 +242,7 @@ impl SurfaceContact {
         let pressing = -flight.acceleration.dot(self.normal);
         self.bias = approach.max(0.0) * time / sub_step.h;
         self.note_impact((approach.max(0.0), pressing), radius, time, sub_step);
-        if motion.turns() && self.bias >= 0.0 && is_flat(form, separation.normal) {
+        if motion.turns_form(form) && self.bias >= 0.0 && is_flat(form, separation.normal) {
             // It stays at the plane, which turns on.
             let height = (flight.position - separation.point).dot(separation.normal);
             let plane = (separation.normal, separation.point);
@@ -412,7 +413,8 @@ fn is_flat(form: &Form, normal: DVec3) -> bool {
         Form::HalfSpace { .. } => true,
         Form::Rectangle(rectangle) => rectangle.normal == normal,
         Form::Facet(_) => true,
-        Form::Sphere { .. } | Form::Box(_) | Form::Edge(_) | Form::Corner(_) => false,
+        Form::Band(band) => band.flat_normal() == Some(normal),
+        _ => false,
     }
 }
 
