@@ -65,8 +65,9 @@ make: Any = carom
         ),
         (
             lambda: make.Collider("box"),
-            "Collider.shape: must be a carom.Ball, carom.Rectangle, carom.HalfSpace, carom.Box or "
-            "carom.Container, not 'box'; write carom.Box(...)",
+            "Collider.shape: must be a carom.Ball, carom.Rectangle, carom.HalfSpace, carom.Box, "
+            "carom.Container, carom.Cylinder, carom.Cone, carom.Capsule, carom.Disc, carom.Torus, "
+            "carom.Pipe, carom.Bowl or carom.Funnel, not 'box'; write carom.Box(...)",
         ),
         (lambda: make.Collider({"sphere": {"radius": 1}}), "; write carom.Ball(...)"),
         (lambda: make.Collider(carom.HalfSpace), "; write carom.HalfSpace(...)"),

@@ -1,6 +1,6 @@
 //! Detects balls that leave closed containers, which is impossible without passing a wall.
 
-use carom::{Collider, ColliderId, DVec3, Shape, Sides, SphereId, World};
+use carom::{Collider, ColliderId, DVec3, Ends, Shape, Sides, SphereId, World};
 
 /// Tracks which balls are inside each closed container.
 #[derive(Debug, Default)]
@@ -25,9 +25,7 @@ impl Escapes {
     pub fn look(&mut self, world: &World) {
         let inside: Vec<_> = world
             .colliders()
-            .filter_map(|(id, collider)| {
-                Some((id, inside(collider, closed_size(collider)?, world)))
-            })
+            .filter_map(|(id, collider)| Some((id, inside(collider, world)?)))
             .collect();
         for (container, before) in &self.inside {
             let Some((_, now)) = inside.iter().find(|(id, _)| id == container) else { continue };
@@ -57,22 +55,27 @@ impl Escapes {
     }
 }
 
-/// Size of a closed container \[m\]; `None` for another collider.
-fn closed_size(collider: &Collider) -> Option<DVec3> {
+/// Whether a collider holds a place in its own coordinates \[m\]; `None` if it is no closed container.
+fn holds(collider: &Collider, local: DVec3) -> Option<bool> {
     match collider.shape {
-        Shape::Container { size, open } if open == Sides::NONE && !collider.trigger => Some(size),
+        _ if collider.trigger => None,
+        Shape::Container { size, open: Sides::NONE } => Some(local.abs().cmple(0.5 * size).all()),
+        Shape::Pipe { radius, length, closed: Ends::BOTH } => {
+            let from_axis = DVec3::new(local.x, 0.0, local.z).length();
+            Some(from_axis <= radius && local.y.abs() <= 0.5 * length)
+        }
+        Shape::Bowl { radius, opening: 0.0 } => Some(local.length() <= radius),
         _ => None,
     }
 }
 
-/// Ids of the balls whose centre is in a container of this size \[m\], ascending.
-fn inside(collider: &Collider, size: DVec3, world: &World) -> Vec<SphereId> {
+/// Ids of the balls whose centre is in a closed container, ascending; `None` for another collider.
+fn inside(collider: &Collider, world: &World) -> Option<Vec<SphereId>> {
+    holds(collider, DVec3::ZERO)?;
     let to_local = collider.pose.rotation.normalize().inverse();
-    let is_inside = |center: DVec3| {
-        let local = to_local * (center - collider.pose.position);
-        local.abs().cmple(0.5 * size).all()
-    };
+    let is_inside =
+        |center: DVec3| holds(collider, to_local * (center - collider.pose.position)) == Some(true);
     let spheres = world.spheres();
     let all = spheres.ids().iter().zip(spheres.positions());
-    all.filter(|(_, center)| is_inside(**center)).map(|(id, _)| *id).collect()
+    Some(all.filter(|(_, center)| is_inside(**center)).map(|(id, _)| *id).collect())
 }

@@ -4,7 +4,7 @@ use carom::{DVec3, World};
 
 use crate::error::MazeError;
 use crate::grid::Grid;
-use crate::maze::{Maze, Role, ground_height};
+use crate::maze::{Maze, Role, ground_height, round_reach};
 use crate::route;
 
 /// Cells per radius of the ball: fine enough for ways that are a third of a radius wider than the
@@ -171,6 +171,7 @@ pub(crate) fn bounds(maze: &Maze) -> [DVec3; 2] {
                 0.5 * DVec3::from_array(size).length()
             }
             Shape::HalfSpace => 0.0,
+            ref round => round_reach(round),
         };
         let center = DVec3::from_array(collider.position);
         bounds[0] = bounds[0].min(center - half);

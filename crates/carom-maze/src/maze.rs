@@ -145,7 +145,9 @@ impl Maze {
             Shape::Box { size } | Shape::Container { size, .. } => {
                 0.5 * DVec3::from_array(size).min_element()
             }
-            Shape::Rectangle { .. } | Shape::HalfSpace => 0.0,
+            Shape::Cylinder { radius, height } => radius.min(0.5 * height),
+            Shape::Capsule { radius, .. } => radius,
+            _ => 0.0,
         };
         self.with_role(|role| matches!(role, Role::Collectible(_)))
             .map(move |it| (DVec3::from_array(it.position), inner(&it.shape)))
@@ -160,6 +162,7 @@ impl Maze {
             }
             Shape::Rectangle { size_x, size_z } => 0.5 * (size_x * size_x + size_z * size_z).sqrt(),
             Shape::HalfSpace => 0.0,
+            ref round => round_reach(round),
         };
         self.with_role(|role| matches!(role, Role::Collectible(_)))
             .map(move |it| (DVec3::from_array(it.position), outer(&it.shape)))
@@ -220,7 +223,8 @@ pub(crate) fn ground_height(collider: &Collider, place: DVec3) -> Option<f64> {
             local.x.abs() <= 0.5 * size_x && local.z.abs() <= 0.5 * size_z
         }
         Shape::HalfSpace => true,
-        Shape::Sphere { .. } | Shape::Box { .. } | Shape::Container { .. } => false,
+        Shape::Disc { radius } => local.with_y(0.0).length() <= radius,
+        _ => false,
     };
     reaches.then_some(height)
 }
@@ -239,4 +243,22 @@ fn color(scene: &mut Scene, roles: &[Role]) {
     }
     let spheres = scene.colors.as_ref().and_then(|colors: &Colors| colors.spheres);
     scene.spheres[0].color.get_or_insert(spheres.unwrap_or(BALL_COLOR));
+}
+
+/// Returns the radius of a sphere about the centre of a shape of revolution that holds the shape \[m\]; 0 for
+/// other shapes.
+pub(crate) fn round_reach(shape: &Shape) -> f64 {
+    match *shape {
+        Shape::Cylinder { radius, height: length } | Shape::Pipe { radius, length, .. } => {
+            DVec3::new(radius, 0.5 * length, 0.0).length()
+        }
+        Shape::Cone { bottom_radius, top_radius, height }
+        | Shape::Funnel { bottom_radius, top_radius, height } => {
+            DVec3::new(bottom_radius.max(top_radius), 0.5 * height, 0.0).length()
+        }
+        Shape::Capsule { radius, length } => radius + 0.5 * length,
+        Shape::Torus { ring_radius, tube_radius } => ring_radius + tube_radius,
+        Shape::Disc { radius } | Shape::Bowl { radius, .. } => radius,
+        _ => 0.0,
+    }
 }

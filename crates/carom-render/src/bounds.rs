@@ -1,6 +1,7 @@
 //! Boxes along the axes around what is drawn.
 
 use carom::{DVec3, Pose, Shape};
+use carom_scene::outline::half_lengths;
 
 /// A box along the axes \[m\].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,7 +32,7 @@ impl Bounds {
             Shape::Sphere { radius } => return Some(Self::of_sphere(pose.position, radius)),
             Shape::Rectangle { size_x, size_z } => 0.5 * DVec3::new(size_x, 0.0, size_z),
             Shape::Box { size } | Shape::Container { size, .. } => 0.5 * size,
-            _ => return None,
+            ref other => half_lengths(other)?,
         };
         let rotation = pose.rotation.normalize();
         let reach = (rotation * (DVec3::X * half.x)).abs()

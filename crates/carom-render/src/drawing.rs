@@ -82,7 +82,7 @@ impl Ball {
 /// A surface of a collider.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Panel {
-    /// A rectangle, box, container or half-space.
+    /// Any but a sphere.
     pub shape: Shape,
     /// Position and rotation.
     pub pose: Pose,

@@ -2,12 +2,14 @@
 //! so that 32 bits suffice however far the eye is from the origin.
 
 use carom::{DVec3, Shape};
+use carom_scene::outline::{is_hollow, is_round};
 use carom_scene::scene::Finish;
 
 use crate::container::{self, Seen};
 use crate::cutaway;
 use crate::drawing::{Arrow, Ball, Drawing, Panel, Pattern, linear};
 use crate::framing::Framing;
+use crate::round::{self, Facet};
 
 /// A ball: centre and radius, colour with pattern and finish, rotation.
 pub(crate) type PackedBall = [f32; 12];
@@ -28,6 +30,7 @@ const BOX: f64 = 1.0;
 const GROUND: f64 = 2.0;
 const WALL: f64 = 3.0;
 const INCLINE: f64 = 4.0;
+const FACET: f64 = 5.0;
 
 /// Value of the opacity for faces of which only the rims are drawn.
 const RIM: f64 = -1.0;
@@ -94,6 +97,7 @@ impl Instances {
         clear.chain(rims).for_each(|panel| add_panel(&panel, eye, faces, boxes));
         for panel in &drawing.panels {
             add_walls(panel, eye, faces);
+            add_round_walls(panel, eye, faces);
             add_half_space(panel, eye, framing, faces);
         }
         arrows.extend(drawing.arrows.iter().map(|arrow| packed_arrow(arrow, eye)));
@@ -134,6 +138,10 @@ fn add_panel(
     boxes: &mut Vec<PackedPanel>,
 ) {
     match panel.shape {
+        ref shape if is_round(shape) => {
+            let facets = round::facets(panel).filter(|_| !is_cut_open(panel));
+            faces.extend(facets.map(|facet| packed_facet(&facet, panel, eye)));
+        }
         Shape::Box { size } => boxes.push(packed_box(panel, size, eye)),
         Shape::Container { size, .. } if is_volume(panel) => {
             boxes.push(packed_box(panel, size, eye));
@@ -145,6 +153,22 @@ fn add_panel(
         // later.
         _ => {}
     }
+}
+
+/// Returns whether a shape is drawn as the inner side of a wall, open towards the eye.
+fn is_cut_open(panel: &Panel) -> bool {
+    is_hollow(&panel.shape) && !is_volume(panel)
+}
+
+/// Adds the wall of a hollow shape of revolution: the inner side where it is behind what the wall holds, elsewhere
+/// only the rims. It casts no shadow, because the shadow would move with the eye.
+fn add_round_walls(panel: &Panel, eye: DVec3, faces: &mut Vec<PackedPanel>) {
+    if !is_cut_open(panel) {
+        return;
+    }
+    let pack = |facet: Facet| packed_facet(&facet, panel, eye);
+    faces.extend(round::facets(panel).filter(|it| !it.faces(eye)).map(|it| pack(it.turned())));
+    faces.extend(round::rims(panel).map(pack));
 }
 
 /// Returns whether a container is drawn as a volume without walls, as a trigger is.
@@ -242,6 +266,16 @@ fn packed_panel(
         four(center, kind + finish(panel.finish)),
         panel.pose.rotation.normalize().as_quat().to_array(),
         four(half, grid),
+        color(panel.color, panel.opacity),
+    ])
+}
+
+fn packed_facet(facet: &Facet, panel: &Panel, eye: DVec3) -> PackedPanel {
+    let Facet { pose, half, curvatures: [along, around] } = *facet;
+    joined(&[
+        four(pose.position - eye, FACET + finish(panel.finish)),
+        pose.rotation.as_quat().to_array(),
+        four(DVec3::new(half[0], around, half[1]), along),
         color(panel.color, panel.opacity),
     ])
 }

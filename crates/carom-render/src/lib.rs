@@ -36,6 +36,7 @@ mod preset;
 mod quality;
 mod readback;
 mod renderer;
+mod round;
 mod shadow;
 mod stamp;
 mod target;

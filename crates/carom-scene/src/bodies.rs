@@ -1,11 +1,11 @@
 //! Converts spheres, colliders and emitters of scenes into those of `carom`.
 
-use carom::{Friction, Mass, Pose, Sides, World};
+use carom::{Ends, Friction, Groups, Mass, Pose, Sides, World};
 
 use crate::error::{Problem, SceneError};
 use crate::requirement::{check, check_positive};
 use crate::scene::values::{quaternion, vector};
-use crate::scene::{Collider, Emitter, Shape, Side, Sphere};
+use crate::scene::{Collider, Emitter, End, Shape, Side, Sphere};
 
 /// Adds the sphere that stands at `path` in the scene.
 pub(crate) fn add_sphere(world: &mut World, sphere: &Sphere, path: &str) -> Result<(), Problem> {
@@ -51,7 +51,9 @@ pub(crate) fn sphere(sphere: &Sphere, path: &str) -> Result<carom::Sphere, Probl
         ))
         .with_orientation(quaternion(sphere.orientation))
         .with_angular_velocity(vector(sphere.angular_velocity))
-        .with_inertia_factor(sphere.inertia_factor))
+        .with_inertia_factor(sphere.inertia_factor)
+        .with_groups(Groups { groups: sphere.groups, collides_with: sphere.collides_with })
+        .with_user_data(sphere.user_data))
 }
 
 /// Friction of a body: `coefficients` of sliding, rolling and spinning friction.
@@ -81,6 +83,9 @@ impl Sphere {
             orientation: sphere.orientation.to_array(),
             angular_velocity: sphere.angular_velocity.to_array(),
             inertia_factor: sphere.inertia_factor,
+            groups: sphere.groups.groups,
+            collides_with: sphere.groups.collides_with,
+            user_data: sphere.user_data,
             ..Self::at(sphere.position.to_array(), sphere.radius)
         }
     }
@@ -125,6 +130,31 @@ impl From<&Shape> for carom::Shape {
             Shape::Container { size, open } => {
                 Self::Container { size: vector(*size), open: sides(open) }
             }
+            Shape::Cylinder { radius, height } => {
+                Self::Cylinder { radius: *radius, height: *height }
+            }
+            Shape::Cone { bottom_radius, top_radius, height } => Self::Cone {
+                bottom_radius: *bottom_radius,
+                top_radius: *top_radius,
+                height: *height,
+            },
+            Shape::Capsule { radius, length } => Self::Capsule { radius: *radius, length: *length },
+            Shape::Disc { radius } => Self::Disc { radius: *radius },
+            Shape::Torus { ring_radius, tube_radius } => {
+                Self::Torus { ring_radius: *ring_radius, tube_radius: *tube_radius }
+            }
+            Shape::Pipe { radius, length, closed } => {
+                let [bottom, top] = [End::Bottom, End::Top].map(|end| closed.contains(&end));
+                Self::Pipe { radius: *radius, length: *length, closed: Ends { bottom, top } }
+            }
+            Shape::Bowl { radius, opening_degrees } => {
+                Self::Bowl { radius: *radius, opening: opening_degrees.to_radians() }
+            }
+            Shape::Funnel { bottom_radius, top_radius, height } => Self::Funnel {
+                bottom_radius: *bottom_radius,
+                top_radius: *top_radius,
+                height: *height,
+            },
         }
     }
 }
@@ -147,7 +177,10 @@ pub(crate) fn collider(collider: &Collider) -> carom::Collider {
     let solid = carom::Collider::new(shape, pose)
         .moving(vector(collider.velocity), vector(collider.angular_velocity))
         .with_restitution(collider.restitution)
-        .with_friction(collider.surface_friction());
+        .with_friction(collider.surface_friction())
+        .with_kick(collider.kick)
+        .with_groups(Groups { groups: collider.groups, collides_with: collider.collides_with })
+        .with_user_data(collider.user_data);
     if collider.trigger { solid.as_trigger() } else { solid }
 }
 

@@ -23,6 +23,8 @@ embed!(
     "hourglass.toml",
     "avalanche.toml",
     "granular-column.toml",
+    "bowl.toml",
+    "drum.toml",
     "draw-shot.toml",
     "masse.toml",
     "maze.toml",

@@ -35,6 +35,7 @@ mod legible;
 mod library;
 mod load;
 mod origin;
+pub mod outline;
 mod overlap;
 mod overrides;
 mod palette;

@@ -66,10 +66,11 @@ const DEGREES: &str = "degrees";
 const RADIANS: &str = "rad";
 
 /// Unit of each field that has one.
-const FIELDS: [(&str, &str); 45] = [
+const FIELDS: [(&str, &str); 53] = [
     ("acceleration", "m/s²"),
     ("anchor", "m"),
     ("angular_velocity", "rad/s"),
+    ("bottom_radius", "m"),
     ("center", "m"),
     ("coefficient", "kg/s"),
     ("contact_duration", "s"),
@@ -85,16 +86,21 @@ const FIELDS: [(&str, &str); 45] = [
     ("force_tick", "s"),
     ("frame_time", "s"),
     ("gravity", "m/s²"),
+    ("height", "m"),
+    ("kick", "m/s"),
+    ("length", "m"),
     ("look_at", "m"),
     ("mass", "kg"),
     ("max", "m"),
     ("min", "m"),
     ("near", "m"),
+    ("opening_degrees", DEGREES),
     ("period", "s"),
     ("position", "m"),
     ("radius", "m"),
     ("radius_range", "m"),
     ("rest_length", "m"),
+    ("ring_radius", "m"),
     ("row_step", "m"),
     ("size", "m"),
     ("size_x", "m"),
@@ -107,6 +113,8 @@ const FIELDS: [(&str, &str); 45] = [
     ("stiffness", "N/m"),
     ("surface_height", "m"),
     ("tolerance", "m"),
+    ("top_radius", "m"),
+    ("tube_radius", "m"),
     ("velocity", "m/s"),
     ("vertical_fov_degrees", DEGREES),
     ("viscosity", "Pa s"),

@@ -48,17 +48,25 @@ const SYNONYMS: [(&str, &str); 35] = [
 pub(crate) const DECIMAL_POINT: &str = "decimals have a point, not a comma";
 
 /// Tables for which authors may write a number or a list, with an example of each.
-const TABLES: [(&str, &str); 11] = [
+const TABLES: [(&str, &str); 19] = [
+    ("bowl", "{ radius = 1.0 }"),
     ("box", "{ size = [1.0, 1.0, 1.0] }"),
     ("camera", "[camera]"),
+    ("capsule", "{ radius = 0.5, length = 1.0 }"),
     ("colors", "[colors]"),
+    ("cone", "{ bottom_radius = 0.5, height = 1.0 }"),
     ("constant", "{ force = [0.0, -1.0, 0.0] }"),
     ("container", "{ size = [1.0, 1.0, 1.0] }"),
+    ("cylinder", "{ radius = 0.5, height = 1.0 }"),
+    ("disc", "{ radius = 0.5 }"),
+    ("funnel", "{ bottom_radius = 0.1, top_radius = 0.5, height = 1.0 }"),
     ("gravity", "{ acceleration = [0.0, -9.81, 0.0] }"),
+    ("pipe", "{ radius = 0.5, length = 1.0 }"),
     ("rectangle", "{ size_x = 2.0, size_z = 2.0 }"),
     ("simulation", "[simulation]"),
     ("sphere", "{ radius = 0.5 }"),
     ("sun", "[sun]"),
+    ("torus", "{ ring_radius = 1.0, tube_radius = 0.2 }"),
     ("viscous-drag", "{ coefficient = 0.1 }"),
 ];
 

@@ -100,6 +100,12 @@ fn add_collider(world: &mut World, collider: &Collider, path: &str) -> Result<()
             "must leave one wall at least".into()
         })?;
     }
+    if let Shape::Bowl { opening_degrees, .. } = collider.shape {
+        let is_open = (0.0..180.0).contains(&opening_degrees);
+        check(is_open, &format!("{path}.shape.bowl.opening_degrees"), || {
+            format!("must be at least 0 and less than 180, not {opening_degrees}")
+        })?;
+    }
     let added = world.add_collider(physical);
     added.map(drop).map_err(|error| collider_problem(path, &collider.shape, error))
 }
@@ -128,8 +134,20 @@ fn collider_problem(path: &str, shape: &Shape, error: carom::Error) -> Problem {
         Shape::HalfSpace => "half-space",
         Shape::Box { .. } => "box",
         Shape::Container { .. } => "container",
+        Shape::Cylinder { .. } => "cylinder",
+        Shape::Cone { .. } => "cone",
+        Shape::Capsule { .. } => "capsule",
+        Shape::Disc { .. } => "disc",
+        Shape::Torus { .. } => "torus",
+        Shape::Pipe { .. } => "pipe",
+        Shape::Bowl { .. } => "bowl",
+        Shape::Funnel { .. } => "funnel",
     };
-    let is_length = |field: &str| field == "radius" || field.starts_with("size");
+    let is_length = |field: &str| {
+        field.ends_with("radius")
+            || field.starts_with("size")
+            || ["height", "length"].contains(&field)
+    };
     match error {
         carom::Error::Invalid { ref source, .. } if is_length(source.field) => {
             Problem::of_physics(&format!("{path}.shape.{shape}"), error)

@@ -156,7 +156,7 @@ fn the_maze_holds_the_figures_of_the_course() {
                 assert!(collider.trigger);
                 (theirs, "position", None, false)
             }
-            Shape::HalfSpace | Shape::Container { .. } => panic!("neither is in the maze"),
+            ref other => panic!("{other:?} is not in the maze"),
         };
         assert_eq!(collider.position.to_vec(), vector(&theirs[center]));
         assert_eq!(size, size.as_ref().map(|_| vector(&theirs["size"])));

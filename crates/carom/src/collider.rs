@@ -4,6 +4,7 @@ use glam::{DQuat, DVec3};
 
 use crate::error::InvalidValue;
 use crate::friction::Friction;
+use crate::groups::Groups;
 use crate::mesh::Mesh;
 use crate::rotation;
 use crate::validate;
@@ -41,8 +42,90 @@ pub enum Shape {
         /// Where there is no wall.
         open: Sides,
     },
+    /// A solid cylinder about the local y axis, half of it above the origin.
+    Cylinder {
+        /// Radius \[m\], > 0.
+        radius: f64,
+        /// Full length along local y \[m\], > 0.
+        height: f64,
+    },
+    /// A solid cone, or the frustum of one, about the local y axis, half of its height above the origin.
+    Cone {
+        /// Radius at the lower end \[m\], >= 0.
+        bottom_radius: f64,
+        /// Radius at the upper end \[m\], >= 0. One of the two is > 0.
+        top_radius: f64,
+        /// Full length along local y \[m\], > 0.
+        height: f64,
+    },
+    /// All within a radius of a line along local y about the origin.
+    Capsule {
+        /// Radius \[m\], > 0.
+        radius: f64,
+        /// Length of the line \[m\], > 0: the capsule is longer by twice the radius.
+        length: f64,
+    },
+    /// A disc in the local xz plane about the origin. Its front faces local +y; a sphere whose centre is behind it
+    /// passes.
+    Disc {
+        /// Radius \[m\], > 0.
+        radius: f64,
+    },
+    /// A solid ring about the local y axis: all within a radius of a circle in the local xz plane.
+    Torus {
+        /// Radius of the circle \[m\], larger than that of the tube.
+        ring_radius: f64,
+        /// Radius of the tube \[m\], > 0.
+        tube_radius: f64,
+    },
+    /// A hollow cylinder about the local y axis, half of it above the origin: a wall without thickness, off which
+    /// spheres bounce on either side.
+    Pipe {
+        /// Radius \[m\], > 0.
+        radius: f64,
+        /// Full length along local y \[m\], > 0.
+        length: f64,
+        /// Which ends a disc closes.
+        closed: Ends,
+    },
+    /// A hollow sphere about the origin that is open towards local +y: a wall without thickness, off which spheres
+    /// bounce on either side.
+    Bowl {
+        /// Radius \[m\], > 0.
+        radius: f64,
+        /// Angle between local +y and the rim, as seen from the origin \[rad\], in [0, π): 0 of a whole sphere, π/2 of
+        /// half of one.
+        opening: f64,
+    },
+    /// A hollow cone about the local y axis, half of its height above the origin and open at both ends: a wall without
+    /// thickness, off which spheres bounce on either side.
+    Funnel {
+        /// Radius of the lower opening \[m\], >= 0.
+        bottom_radius: f64,
+        /// Radius of the upper opening \[m\], >= 0. One of the two is > 0.
+        top_radius: f64,
+        /// Full length along local y \[m\], > 0.
+        height: f64,
+    },
     /// A surface of triangles, or a height field.
     Mesh(Mesh),
+}
+
+/// Some of the two ends of a pipe.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Ends {
+    /// Towards -y.
+    pub bottom: bool,
+    /// Towards +y.
+    pub top: bool,
+}
+
+impl Ends {
+    /// No end.
+    pub const NONE: Self = Self { bottom: false, top: false };
+    /// Both ends.
+    pub const BOTH: Self = Self { bottom: true, top: true };
 }
 
 /// Some of the six sides of a box, in its own frame.
@@ -158,6 +241,14 @@ pub struct Collider {
     pub friction: Friction,
     /// A trigger reports contact and deflects nothing.
     pub trigger: bool,
+    /// Speed \[m/s\], >= 0, that an impact adds along the normal, as the bumpers of a pinball machine do: a sphere
+    /// that comes with v leaves with `e v + kick`. Its energy is in
+    /// [`EnergyAccount::kicks`](crate::EnergyAccount::kicks).
+    pub kick: f64,
+    /// Which spheres it collides with; of a trigger, which it sees.
+    pub groups: Groups,
+    /// Whatever a program wants to find with it; no part of the physics.
+    pub user_data: u64,
 }
 
 impl Collider {
@@ -171,6 +262,9 @@ impl Collider {
             restitution: 1.0,
             friction: Friction::default(),
             trigger: false,
+            kick: 0.0,
+            groups: Groups::DEFAULT,
+            user_data: 0,
         }
     }
 
@@ -205,24 +299,72 @@ impl Collider {
         Self { trigger: true, ..self }
     }
 
+    /// The same collider, which adds a speed \[m/s\] along the normal in every impact.
+    pub fn with_kick(self, kick: f64) -> Self {
+        Self { kick, ..self }
+    }
+
+    /// The same collider in these groups.
+    pub fn with_groups(self, groups: Groups) -> Self {
+        Self { groups, ..self }
+    }
+
+    /// The same collider with this number of the program's own.
+    pub fn with_user_data(self, user_data: u64) -> Self {
+        Self { user_data, ..self }
+    }
+
     pub(crate) fn validate(&self) -> Result<(), InvalidValue> {
-        match self.shape {
-            Shape::Sphere { radius } => validate::positive("radius", radius)?,
-            Shape::Rectangle { size_x, size_z } => {
-                validate::positive("size_x", size_x)?;
-                validate::positive("size_z", size_z)?;
-            }
-            Shape::HalfSpace | Shape::Mesh(_) => {}
-            Shape::Box { size } | Shape::Container { size, .. } => {
-                validate::positive("size.x", size.x)?;
-                validate::positive("size.y", size.y)?;
-                validate::positive("size.z", size.z)?;
-            }
-        }
+        self.shape.validate()?;
         self.pose.validate()?;
         validate::finite("velocity", self.velocity)?;
         validate::finite("angular_velocity", self.angular_velocity)?;
         validate::unit_interval("restitution", self.restitution)?;
+        validate::non_negative("kick", self.kick)?;
         self.friction.validate()
+    }
+}
+
+impl Shape {
+    fn validate(&self) -> Result<(), InvalidValue> {
+        match *self {
+            Self::Sphere { radius } | Self::Disc { radius } => validate::positive("radius", radius),
+            Self::Rectangle { size_x, size_z } => {
+                validate::positive("size_x", size_x)?;
+                validate::positive("size_z", size_z)
+            }
+            Self::HalfSpace | Self::Mesh(_) => Ok(()),
+            Self::Box { size } | Self::Container { size, .. } => {
+                validate::positive("size.x", size.x)?;
+                validate::positive("size.y", size.y)?;
+                validate::positive("size.z", size.z)
+            }
+            Self::Cylinder { radius, height } => {
+                validate::positive("radius", radius)?;
+                validate::positive("height", height)
+            }
+            Self::Capsule { radius, length } | Self::Pipe { radius, length, .. } => {
+                validate::positive("radius", radius)?;
+                validate::positive("length", length)
+            }
+            Self::Cone { bottom_radius, top_radius, height }
+            | Self::Funnel { bottom_radius, top_radius, height } => {
+                validate::non_negative("bottom_radius", bottom_radius)?;
+                validate::non_negative("top_radius", top_radius)?;
+                validate::positive("top_radius", bottom_radius.max(top_radius))?;
+                validate::positive("height", height)
+            }
+            Self::Torus { ring_radius, tube_radius } => {
+                validate::positive("tube_radius", tube_radius)?;
+                validate::positive("ring_radius", ring_radius)?;
+                let is_ring = ring_radius > tube_radius;
+                validate::require(is_ring, "ring_radius", "larger than tube_radius", ring_radius)
+            }
+            Self::Bowl { radius, opening } => {
+                validate::positive("radius", radius)?;
+                let is_open = (0.0..std::f64::consts::PI).contains(&opening);
+                validate::require(is_open, "opening", "at least 0 and less than pi", opening)
+            }
+        }
     }
 }

@@ -28,6 +28,7 @@
 #![warn(clippy::unwrap_used)]
 
 mod axis_motion;
+mod band;
 mod bodies;
 mod clock;
 mod collider;
@@ -40,6 +41,7 @@ mod error;
 mod flight;
 mod forces;
 mod friction;
+mod groups;
 mod hash;
 mod id;
 mod integrate;
@@ -59,7 +61,9 @@ mod rectangle;
 mod report;
 pub mod respond;
 mod rotation;
+mod round_solid;
 mod rule;
+mod sensor;
 mod settings;
 mod sphere;
 mod state;
@@ -74,7 +78,7 @@ mod world;
 pub use glam::{DQuat, DVec3};
 
 pub use bodies::Spheres;
-pub use collider::{Collider, Pose, Shape, Sides};
+pub use collider::{Collider, Ends, Pose, Shape, Sides};
 pub use emitter::Emitter;
 pub use error::{Error, InvalidValue, Subject};
 pub use flight::Flight;
@@ -84,6 +88,7 @@ pub use forces::{
     Vortex, Wind,
 };
 pub use friction::Friction;
+pub use groups::Groups;
 pub use hash::StateHash;
 pub use id::{ColliderId, EmitterId, ForceId, SphereId, SpringId};
 pub use mesh::{Mesh, MeshError, MeshFaults};
@@ -92,7 +97,7 @@ pub use persistent_contact::PersistentContact;
 pub use query::{Body, Hit, NearBody, Queries, QueryFilter};
 pub use report::{
     BodyPair, ContactAccount, EnergyAccount, Impact, ImpactGroup, LedgerEntry, Overlap,
-    StageCounts, StepReport, TriggerContact, ZoneAccount,
+    SensorEvent, StageCounts, StepReport, TriggerContact, ZoneAccount,
 };
 pub use settings::{
     Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, Rule, Settings,

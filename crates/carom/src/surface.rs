@@ -1,13 +1,16 @@
 //! Colliders as the world sees them: surfaces in their places.
 
-use glam::{DQuat, DVec3};
+use glam::{DQuat, DVec2, DVec3};
 
+use crate::band::{Band, Profile};
 use crate::collider::{Collider, Pose, Shape, Sides};
 use crate::friction::Friction;
+use crate::groups::Groups;
 use crate::id::ColliderId;
 use crate::mesh::{Corner, Edge, Facet, Features, Placement};
 use crate::norm::Norm;
 pub(crate) use crate::rectangle::Rectangle;
+use crate::round_solid::{Outline, RoundSolid};
 
 /// One surface of a collider in world coordinates, with what a contact needs to know of it.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,6 +20,9 @@ pub(crate) struct Surface {
     pub collider: ColliderId,
     pub restitution: f64,
     pub friction: Friction,
+    /// Speed that an impact adds along the normal \[m/s\].
+    pub kick: f64,
+    pub groups: Groups,
     pub role: Role,
     pub motion: SurfaceMotion,
 }
@@ -58,6 +64,21 @@ impl SurfaceMotion {
     /// Whether directions change with it.
     pub fn turns(&self) -> bool {
         self.angular_velocity != DVec3::ZERO
+    }
+
+    /// Whether the place of a surface of this form changes by its turning.
+    pub fn turns_form(&self, form: &Form) -> bool {
+        self.turns() && !form.is_turned_in_place_by(self)
+    }
+
+    /// Velocity \[m/s\] at a point, if turning leaves a surface of this form as it is, less the velocity of its
+    /// origin; else 0.
+    pub fn turning_in_place(&self, form: &Form, point: DVec3) -> DVec3 {
+        if self.turns() && !self.turns_form(form) {
+            self.angular_velocity.cross(point - self.origin)
+        } else {
+            DVec3::ZERO
+        }
     }
 
     /// Acceleration \[m/s²\], as seen from the surface, of what flies at a point without forces, with this velocity \[m/s\].
@@ -117,7 +138,8 @@ impl SurfaceMotion {
             return (form.clone(), *self);
         }
         let Self { origin, velocity, angular_velocity } = *self;
-        let pose = Pose::at(origin).moved(velocity, angular_velocity, h);
+        let turning = if self.turns_form(form) { angular_velocity } else { DVec3::ZERO };
+        let pose = Pose::at(origin).moved(velocity, turning, h);
         let placement = Placement { rotation: pose.rotation, from: origin, to: pose.position };
         let place = |point: DVec3| placement.point(point);
         let turn = |direction: DVec3| placement.direction(direction);
@@ -132,6 +154,10 @@ impl SurfaceMotion {
             Form::Corner(ref it) => Form::Corner(placement.corner(it)),
             Form::Box(b) => {
                 Form::Box(SolidBox { center: place(b.center), axes: b.axes.map(turn), ..b })
+            }
+            Form::Band(b) => Form::Band(Band { center: place(b.center), axis: turn(b.axis), ..b }),
+            Form::Round(s) => {
+                Form::Round(RoundSolid { center: place(s.center), axis: turn(s.axis), ..s })
             }
         };
         (form, Self { origin: pose.position, ..*self })
@@ -164,6 +190,8 @@ pub(crate) enum Form {
         normal: DVec3,
     },
     Box(SolidBox),
+    Band(Band),
+    Round(RoundSolid),
     /// Of a mesh, as the next two.
     Facet(Facet),
     Edge(Edge),
@@ -171,6 +199,14 @@ pub(crate) enum Form {
 }
 
 impl Form {
+    /// Whether the turning of a motion leaves it as it is.
+    fn is_turned_in_place_by(&self, motion: &SurfaceMotion) -> bool {
+        match self {
+            Self::Band(band) => band.is_turned_in_place_by(motion.origin, motion.angular_velocity),
+            _ => false,
+        }
+    }
+
     /// The same form elsewhere by this way \[m\].
     pub fn shifted(&self, way: DVec3) -> Self {
         let placement = Placement { rotation: DQuat::IDENTITY, from: DVec3::ZERO, to: way };
@@ -181,6 +217,8 @@ impl Form {
             Self::Facet(ref it) => Self::Facet(placement.facet(it)),
             Self::Edge(ref it) => Self::Edge(placement.edge(it)),
             Self::Corner(ref it) => Self::Corner(placement.corner(it)),
+            Self::Band(it) => Self::Band(Band { center: it.center + way, ..it }),
+            Self::Round(it) => Self::Round(RoundSolid { center: it.center + way, ..it }),
             Self::Box(it) => Self::Box(SolidBox { center: it.center + way, ..it }),
         }
     }
@@ -194,6 +232,8 @@ impl Form {
                 center.norm() + half_x + half_z
             }
             Self::Box(SolidBox { center, half, .. }) => center.norm() + half.element_sum(),
+            Self::Band(band) => band.coordinates(),
+            Self::Round(solid) => solid.coordinates(),
             Self::Facet(Facet { frame: Rectangle { center, half_x, half_z, .. }, .. }) => {
                 center.norm() + half_x + half_z
             }
@@ -217,6 +257,8 @@ impl Form {
                 let rises = axes.map(|axis| axis.dot(normal).abs());
                 height(center) + half.dot(DVec3::from_array(rises))
             }
+            Self::Band(band) => height(band.center) + band.extent(normal)[1],
+            Self::Round(solid) => height(solid.center) + solid.extent(normal)[1],
             Self::Facet(ref facet) => facet.height_above([point, normal]),
             Self::Edge(ref edge) => edge.height_above([point, normal]),
             Self::Corner(Corner { point, .. }) => height(point),
@@ -237,15 +279,26 @@ pub(crate) struct SolidBox {
 
 /// Appends the surfaces of a collider. Those of a solid box are its volume and then its faces, in
 /// the order -x, +x, -y, +y, -z, +z; those of a container its walls in the same order, each facing
-/// outward and then inward. A box or a container that only reports is its volume.
+/// outward and then inward. A box or a container that only reports is its volume. A solid of revolution has its volume,
+/// then its side and discs; a hollow one has its walls, each facing outward and then inward.
 pub(crate) fn place(id: ColliderId, collider: &Collider, surfaces: &mut Vec<Surface>) {
-    let Collider { ref shape, pose, restitution, friction, trigger, .. } = *collider;
+    let Collider { ref shape, pose, restitution, friction, trigger, kick, groups, .. } = *collider;
     let (center, motion) = (pose.position, SurfaceMotion::of(collider));
     let rotation = pose.rotation.normalize();
     let axes @ [x, y, z] = [rotation * DVec3::X, rotation * DVec3::Y, rotation * DVec3::Z];
     let mut add = |form, role| {
         let role = if trigger { Role::Reports } else { role };
-        surfaces.push(Surface { form, collider: id, restitution, friction, role, motion });
+        let collider = id;
+        surfaces.push(Surface {
+            form,
+            collider,
+            restitution,
+            friction,
+            kick,
+            groups,
+            role,
+            motion,
+        });
     };
     match *shape {
         Shape::Sphere { radius } => add(Form::Sphere { center, radius }, Role::Deflects),
@@ -274,6 +327,30 @@ pub(crate) fn place(id: ColliderId, collider: &Collider, surfaces: &mut Vec<Surf
                 add(Form::Rectangle(face), Role::Deflects);
                 add(Form::Rectangle(face.turned()), Role::Deflects);
             }
+        }
+        Shape::Disc { radius } => {
+            let profile = Profile::line(DVec2::ZERO, DVec2::new(radius, 0.0));
+            add(Form::Band(Band { center, axis: y, profile }), Role::Deflects);
+        }
+        Shape::Cylinder { .. }
+        | Shape::Cone { .. }
+        | Shape::Capsule { .. }
+        | Shape::Torus { .. } => {
+            let Some(outline) = Outline::of(shape) else { return };
+            let solid = RoundSolid { center, axis: y, outline };
+            add(Form::Round(solid), Role::Encloses);
+            if !trigger {
+                solid.bands().for_each(|band| add(Form::Band(band), Role::Deflects));
+            }
+        }
+        Shape::Pipe { .. } | Shape::Bowl { .. } | Shape::Funnel { .. } => {
+            let Some(outline) = Outline::of(shape) else { return };
+            let inside = RoundSolid { center, axis: y, outline };
+            if trigger {
+                add(Form::Round(inside), Role::Reports);
+                return;
+            }
+            inside.walls(shape).for_each(|wall| add(Form::Band(wall), Role::Deflects));
         }
         Shape::Mesh(ref mesh) => {
             let placement = Placement { rotation, from: DVec3::ZERO, to: center };

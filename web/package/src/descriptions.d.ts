@@ -45,6 +45,12 @@ export interface SphereDescription {
   angularVelocity?: Vector;
   /** Moment of inertia divided by m r², > 0; default: 0.4, that of a solid ball. */
   inertiaFactor?: number;
+  /** Groups that it is in, one bit for each of 32; default: 1, the first. */
+  groups?: number;
+  /** Groups that it collides with, one bit for each; default: all. */
+  collidesWith?: number;
+  /** A number to find it by; without effect on motion. */
+  userData?: number;
   /** Colour; default: by density, or the scene's own. */
   color?: Iterable<number>;
   /** How the surface reflects light; without effect on motion. */
@@ -80,6 +86,12 @@ export interface Sphere {
   angularVelocity?: [number, number, number];
   /** Moment of inertia divided by m r², > 0; if missing, 0.4, that of a solid ball. */
   inertiaFactor?: number;
+  /** Groups that it is in, one bit for each of 32; if missing, 1, the first. */
+  groups?: number;
+  /** Groups that it collides with, one bit for each; if missing, all. */
+  collidesWith?: number;
+  /** A number to find it by; without effect on motion. */
+  userData?: number;
   /** Red, green, blue (sRGB). */
   color: Color;
   /** How the surface reflects light; without effect on motion. */
@@ -147,7 +159,22 @@ export type Shape =
   | "half-space"
   | { box: { size: [number, number, number] } }
   /** Hollow: walls without thickness, with spheres bouncing off on both sides. */
-  | { container: { size: [number, number, number]; open?: Side | Side[] } };
+  | { container: { size: [number, number, number]; open?: Side | Side[] } }
+  /** Solids of revolution about local y; one radius of a cone may be 0. */
+  | { cylinder: { radius: number; height: number } }
+  | { cone: { bottomRadius: number; topRadius?: number; height: number } }
+  /** All within a radius of a line along local y. */
+  | { capsule: { radius: number; length: number } }
+  | { torus: { ringRadius: number; tubeRadius: number } }
+  /** In the local xz plane, facing local +y; spheres pass through it from behind. */
+  | { disc: { radius: number } }
+  /** Hollow, about local y: walls without thickness, with spheres bouncing off on both sides. */
+  | { pipe: { radius: number; length: number; closed?: End | End[] } }
+  | { bowl: { radius: number; openingDegrees?: number } }
+  | { funnel: { bottomRadius: number; topRadius: number; height: number } };
+
+/** An end of a pipe in its own frame: towards -y, +y. */
+export type End = "bottom" | "top";
 
 /** A side of a box in its own frame: towards -x, +x, -y, +y, -z, +z. */
 export type Side = "left" | "right" | "bottom" | "top" | "back" | "front";
@@ -180,6 +207,14 @@ export interface ColliderDescription {
   tangentialRestitution?: number;
   /** Whether it is a trigger, which reports contact at the end of a frame but deflects nothing. */
   trigger?: boolean;
+  /** Speed that an impact adds along the normal [m/s], >= 0; default: 0. */
+  kick?: number;
+  /** Groups that it is in, one bit for each of 32; default: 1, the first. */
+  groups?: number;
+  /** Groups that it collides with, one bit for each; default: all. */
+  collidesWith?: number;
+  /** A number to find it by; without effect on motion. */
+  userData?: number;
   /** Whether it is drawn. */
   visible?: boolean;
   /** Colour; default: the scene's own. */

@@ -8,6 +8,7 @@ use carom::{
 };
 
 use super::claim::{Claim, Expected, Measured, Outcome, Tolerance};
+use super::curved_flights;
 use super::setup::{FRAME, G, run_until, world, world_with};
 
 pub fn claims() -> Vec<Claim> {
@@ -27,6 +28,11 @@ pub fn claims() -> Vec<Claim> {
         kepler_energy(),
         pendulum(),
         terminal_velocity(),
+        curved_flights::kepler_energy(),
+        curved_flights::kepler_phase(),
+        curved_flights::quadratic_drag(),
+        curved_flights::energy_of_hits(),
+        curved_flights::bits_of_frames(),
         chain(100, "energy of a chain of 100 spheres on springs over 100,000 frames [start]"),
         chain(1000, "energy of a chain of 1,000 spheres on springs over 100,000 frames [start]")
             .slow(),

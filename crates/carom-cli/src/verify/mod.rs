@@ -9,6 +9,7 @@ mod collapse;
 mod conservation;
 mod convergence;
 mod course;
+mod curved_flights;
 mod fluid;
 mod forces;
 mod friction;
@@ -23,6 +24,7 @@ mod setup;
 mod silo;
 mod simultaneous;
 mod single_impacts;
+mod surfaces;
 mod tunnelling;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -60,7 +62,7 @@ pub fn verify(args: &Verify) -> Result<(), Failure> {
 type Topic = (&'static str, fn() -> Vec<Claim>);
 
 /// All topics, in the order in which their claims are printed.
-const TOPICS: [Topic; 17] = [
+const TOPICS: [Topic; 18] = [
     ("motion", motion::claims),
     ("forces", forces::claims),
     ("impacts", single_impacts::claims),
@@ -73,6 +75,7 @@ const TOPICS: [Topic; 17] = [
     ("resting", resting::claims),
     ("friction", friction::claims),
     ("rolling", rolling::claims),
+    ("surfaces", surfaces::claims),
     ("convergence", convergence::claims),
     ("packing", packing::claims),
     ("silo", silo::claims),

@@ -116,6 +116,20 @@ fn scale_collider(collider: &mut Collider, scale: Scale) {
         }
         Shape::HalfSpace => {}
         Shape::Box { size } | Shape::Container { size, .. } => scale_vector(size, length),
+        Shape::Disc { radius } | Shape::Bowl { radius, .. } => *radius *= length,
+        Shape::Cylinder { radius: a, height: b }
+        | Shape::Capsule { radius: a, length: b }
+        | Shape::Pipe { radius: a, length: b, .. }
+        | Shape::Torus { ring_radius: a, tube_radius: b } => {
+            *a *= length;
+            *b *= length;
+        }
+        Shape::Cone { bottom_radius, top_radius, height }
+        | Shape::Funnel { bottom_radius, top_radius, height } => {
+            *bottom_radius *= length;
+            *top_radius *= length;
+            *height *= length;
+        }
     }
 }
 

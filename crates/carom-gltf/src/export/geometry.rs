@@ -1,12 +1,13 @@
 //! Meshes of size 1 for bodies, which nodes scale.
 
-use carom::Sides;
+use carom::{Shape, Sides};
+use carom_scene::outline::outlines;
 
 use super::arrays::Arrays;
 use crate::document::{Attributes, Primitive};
 
 /// Shape of a mesh.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) enum Form {
     /// A sphere of radius 1.
     Sphere,
@@ -20,6 +21,11 @@ pub(super) enum Form {
     Walls {
         /// Sides without a wall.
         open: Sides,
+    },
+    /// A shape of revolution in its own size, visible from both sides.
+    Round {
+        /// The shape.
+        shape: Shape,
     },
 }
 
@@ -45,8 +51,8 @@ pub(super) struct Geometry {
 impl Geometry {
     /// Returns the triangles of a form: those in the colour of the body, then those in the second
     /// tone of a banded sphere.
-    pub fn triangles(&mut self, form: Form, arrays: &mut Arrays) -> Vec<Primitive> {
-        match form {
+    pub fn triangles(&mut self, form: &Form, arrays: &mut Arrays) -> Vec<Primitive> {
+        match *form {
             Form::Sphere => {
                 let vertices = self.sphere(arrays);
                 let all = || arrays.push_indices(&sphere_indices(|_| true));
@@ -74,6 +80,10 @@ impl Geometry {
             Form::Walls { open } if open == Sides::ALL => Vec::new(),
             Form::Walls { open } => {
                 let [vertices, normals, indices] = cube(arrays, open, -1.0);
+                vec![primitive(vertices, normals, indices)]
+            }
+            Form::Round { ref shape } => {
+                let [vertices, normals, indices] = round(shape, arrays);
                 vec![primitive(vertices, normals, indices)]
             }
         }
@@ -165,6 +175,40 @@ fn cube(arrays: &mut Arrays, open: Sides, outward: f32) -> [usize; 3] {
         // The directions across, along and axis are right-handed.
         let front = if sign * outward > 0.0 { [0, 1, 2, 0, 2, 3] } else { [0, 2, 1, 0, 3, 2] };
         indices.extend(front.map(|it| first + it));
+    }
+    [arrays.push_vertices(&vertices), arrays.push_vertices(&normals), arrays.push_indices(&indices)]
+}
+
+/// The surface of a shape of revolution, with normals that are smooth along an outline and around.
+fn round(shape: &Shape, arrays: &mut Arrays) -> [usize; 3] {
+    let (mut vertices, mut normals, mut indices) = (Vec::new(), Vec::new(), Vec::new());
+    for outline in outlines(shape) {
+        let first = vertices.len() as u16;
+        for (number, &[radius, height]) in outline.iter().enumerate() {
+            let [before, after] = [number.saturating_sub(1), (number + 1).min(outline.len() - 1)];
+            let way = [0, 1].map(|axis| outline[after][axis] - outline[before][axis]);
+            let length = (way[0] * way[0] + way[1] * way[1]).sqrt();
+            let [out, up] = [-way[1] / length, way[0] / length];
+            for slice in 0..=SLICES {
+                let (cos, sin) = circle_point(slice % SLICES, SLICES);
+                vertices.push([radius * cos, height, radius * sin].map(|it| it as f32));
+                normals.push([out * cos, up, out * sin].map(|it| it as f32));
+            }
+        }
+        let corner = |point: usize, slice: usize| first + (point * (SLICES + 1) + slice) as u16;
+        for point in 1..outline.len() {
+            for slice in 0..SLICES {
+                let [a, b] = [corner(point - 1, slice), corner(point - 1, slice + 1)];
+                let [c, d] = [corner(point, slice), corner(point, slice + 1)];
+                // On the axis, a quad is a triangle.
+                if outline[point - 1][0] > 0.0 {
+                    indices.extend([a, b, d]);
+                }
+                if outline[point][0] > 0.0 {
+                    indices.extend([a, d, c]);
+                }
+            }
+        }
     }
     [arrays.push_vertices(&vertices), arrays.push_vertices(&normals), arrays.push_indices(&indices)]
 }

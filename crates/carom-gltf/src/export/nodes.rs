@@ -1,6 +1,7 @@
 //! Nodes of a file: colliders, camera, light and balls, with their meshes and materials.
 
 use carom::{Collider, DQuat, DVec3, Shape, Sides, Sphere, World};
+use carom_scene::outline::{half_lengths, is_round};
 use carom_scene::scene::Scene;
 use carom_scene::{Coat, Palette};
 
@@ -12,7 +13,7 @@ use super::tracks::Placement;
 use crate::document::{Camera, Document, LightReference, Lights, Mesh, Node, NodeExtensions};
 
 /// Properties by which meshes are shared.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 struct MeshKey {
     form: Form,
     coat: Coat,
@@ -65,10 +66,11 @@ impl Nodes {
         arrays: &mut Arrays,
     ) -> usize {
         let place = self.collider_place(collider);
-        let form = match collider.shape {
+        let form = match &collider.shape {
             Shape::Sphere { .. } => Form::Sphere,
             Shape::Box { .. } => Form::Cube,
-            Shape::Container { open, .. } => Form::Walls { open },
+            Shape::Container { open, .. } => Form::Walls { open: *open },
+            shape if is_round(shape) => Form::Round { shape: shape.clone() },
             _ => Form::Square,
         };
         let body = self.bodies.collider(collider);
@@ -102,6 +104,7 @@ impl Nodes {
             Shape::Sphere { radius } => [radius; 3],
             Shape::Rectangle { size_x, size_z } => [size_x, 1.0, size_z],
             Shape::Box { size } | Shape::Container { size, .. } => size.to_array(),
+            ref shape if is_round(shape) => [1.0; 3],
             _ => [8.0 * self.extent, 1.0, 8.0 * self.extent],
         };
         let (position, rotation) = (collider.pose.position, collider.pose.rotation.normalize());
@@ -158,8 +161,8 @@ impl Nodes {
         if let Some(known) = self.meshes.iter().position(|it| *it == key) {
             return Some(known);
         }
-        let double_sided = key.form == Form::Square;
-        let mut primitives = self.geometry.triangles(key.form, arrays);
+        let double_sided = matches!(key.form, Form::Square | Form::Round { .. });
+        let mut primitives = self.geometry.triangles(&key.form, arrays);
         for (i, primitive) in primitives.iter_mut().enumerate() {
             let material = look::material(key.coat, double_sided, i == 1);
             primitive.material = Some(place_of(&mut self.document.materials, material));
@@ -211,7 +214,7 @@ fn extent(world: &World) -> f64 {
             Shape::Sphere { radius } => radius,
             Shape::Rectangle { size_x, size_z } => DVec3::new(size_x, 0.0, size_z).length() / 2.0,
             Shape::Box { size } | Shape::Container { size, .. } => size.length() / 2.0,
-            _ => 0.0,
+            ref shape => half_lengths(shape).map_or(0.0, |half| half.length()),
         };
         collider.pose.position.length() + half
     });

@@ -37,7 +37,7 @@ impl Patch {
         let (half_x, half_z) = match collider.shape {
             Shape::Rectangle { size_x, size_z } => (0.5 * size_x, 0.5 * size_z),
             Shape::HalfSpace => (f64::INFINITY, f64::INFINITY),
-            Shape::Sphere { .. } | Shape::Box { .. } | Shape::Container { .. } => return None,
+            _ => return None,
         };
         let rotation = DQuat::from_array(collider.rotation).normalize();
         let (axis_x, axis_z) = (rotation * DVec3::X, rotation * DVec3::Z);

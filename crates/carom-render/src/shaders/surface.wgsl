@@ -1,10 +1,11 @@
-// Rectangles, boxes and half-spaces.
+// Rectangles, boxes, half-spaces and pieces of surfaces of revolution.
 
 struct Instance {
     // Relative to the eye; w: kind and finish.
     @location(0) center: vec4<f32>,
     @location(1) rotation: vec4<f32>,
-    // Half of the lengths along the local axes; w: distance of the grid lines.
+    // Half of the lengths along the local axes; w: distance of the grid lines. Of a piece of a surface of revolution
+    // y and w are the curvatures along local z and x.
     @location(2) extent: vec4<f32>,
     // Linear; w: opacity, negative if only the rims of faces are drawn.
     @location(3) color: vec4<f32>,
@@ -21,6 +22,7 @@ struct Varying {
     @location(5) @interpolate(flat) color: vec4<f32>,
     @location(6) @interpolate(flat) kind: f32,
     @location(7) @interpolate(flat) finish: f32,
+    @location(8) smooth_normal: vec3<f32>,
 }
 
 const BOX: f32 = 1.0;
@@ -28,12 +30,18 @@ const BOX: f32 = 1.0;
 const GROUND: f32 = 2.0;
 const WALL: f32 = 3.0;
 const INCLINE: f32 = 4.0;
+const FACET: f32 = 5.0;
 
 @vertex
 fn vertex(@builtin(vertex_index) index: u32, instance: Instance) -> Varying {
     let kind = kind_of(instance.center.w);
     let corner = corner_of(index, kind);
-    let local = corner.place * instance.extent.xyz;
+    var local = corner.place * instance.extent.xyz;
+    var normal = corner.normal;
+    if kind == FACET {
+        local.y = 0.0;
+        normal = vec3<f32>(instance.extent.w * local.x, 1.0, instance.extent.y * local.z);
+    }
     let point = instance.center.xyz + rotate(instance.rotation, local);
     var out: Varying;
     out.clip = globals.clip_from_eye * vec4<f32>(point, 1.0);
@@ -41,6 +49,7 @@ fn vertex(@builtin(vertex_index) index: u32, instance: Instance) -> Varying {
     out.local = local;
     out.normal = rotate(instance.rotation, corner.normal);
     out.face = corner.normal;
+    out.smooth_normal = rotate(instance.rotation, normal);
     out.extent = instance.extent;
     out.color = instance.color;
     out.kind = kind;
@@ -71,15 +80,15 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
 
     var color = in.color.rgb;
     if is_front {
-        if in.kind != BOX {
+        if in.kind != BOX && in.kind != FACET {
             color *= 1.0 - 0.10 * grid(place, in.extent.w, pixel);
         }
-    } else {
+    } else if in.kind != FACET {
         color = mix(color * 0.45, vec3<f32>(0.10, 0.11, 0.14), 0.5);
         color *= 1.0 + 0.5 * stripes(place.x + place.y, in.extent.w * 0.5, pixel.x + pixel.y);
     }
     var opacity = in.color.w;
-    let is_half_space = in.kind >= GROUND;
+    let is_half_space = in.kind >= GROUND && in.kind != FACET;
     let inside = inside_room(in.point, in.kind);
     let inside_width = max(fwidth(inside), 1e-6 * distance);
     if is_half_space {
@@ -94,7 +103,7 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
             discard;
         }
         color = in.color.rgb * 0.55;
-    } else {
+    } else if in.kind != FACET {
         let to_edge = (reach - abs(place)) / pixel;
         let edge = 1.0 - smoothstep(0.4, 1.6, min(to_edge.x, to_edge.y));
         color *= 1.0 - 0.35 * edge;
@@ -104,7 +113,7 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
 
     var surface: Surface;
     surface.point = in.point;
-    surface.normal = normalize(select(-in.normal, in.normal, is_front));
+    surface.normal = normalize(select(-in.smooth_normal, in.smooth_normal, is_front));
     surface.color = color;
     surface.gloss = 0.0;
     surface.finish = in.finish;

@@ -5,7 +5,10 @@ use serde::{Deserialize, Serialize};
 
 use super::finish::Finish;
 use super::rotation;
-use super::values::{Color, Quaternion, Vector, is_default, one, unturned};
+use super::values::{
+    Color, Quaternion, Vector, all_groups, are_all_groups, first_group, is_default, is_first_group,
+    one, unturned,
+};
 
 /// A fixed or steadily moving shape that spheres bounce off.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -53,6 +56,20 @@ pub struct Collider {
     /// Whether it only reports spheres and deflects none.
     #[serde(default, skip_serializing_if = "is_default")]
     pub trigger: bool,
+    /// Speed that an impact adds along the normal, in m/s, >= 0: a sphere that comes with v leaves with e v + kick.
+    #[schemars(range(min = 0.0))]
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub kick: f64,
+    /// Groups that it is in, one bit for each of 32: `0b101` is the first and the third. By default the first.
+    #[serde(default = "first_group", skip_serializing_if = "is_first_group")]
+    pub groups: u32,
+    /// Groups that it collides with, one bit for each; by default all. Two bodies collide if each is in a group that the
+    /// other collides with.
+    #[serde(default = "all_groups", skip_serializing_if = "are_all_groups")]
+    pub collides_with: u32,
+    /// A number for programs to find it by; no part of the physics.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub user_data: u64,
     /// Whether it is drawn; true by default.
     #[serde(default = "yes", skip_serializing_if = "is_true")]
     pub visible: bool,
@@ -80,6 +97,10 @@ impl Collider {
             spinning_friction: None,
             tangential_restitution: None,
             trigger: false,
+            kick: 0.0,
+            groups: first_group(),
+            collides_with: all_groups(),
+            user_data: 0,
             visible: true,
             color: None,
             finish: Finish::default(),
@@ -118,10 +139,102 @@ pub enum Shape {
         /// Full lengths along local x, y, z, in m, each > 0.
         size: Vector,
         /// Sides without a wall: one, or a list. By default none.
-        #[schemars(with = "OneOrMore")]
+        #[schemars(with = "OneOrMore<Side>")]
         #[serde(default, skip_serializing_if = "Vec::is_empty", with = "one_or_more")]
         open: Vec<Side>,
     },
+    /// A solid cylinder about local y.
+    Cylinder {
+        /// In m, > 0.
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
+        radius: f64,
+        /// Full length along local y, in m, > 0.
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
+        height: f64,
+    },
+    /// A solid cone about local y, or the frustum of one.
+    Cone {
+        /// Radius at the lower end, in m, >= 0.
+        #[schemars(range(min = 0.0))]
+        bottom_radius: f64,
+        /// Radius at the upper end, in m, >= 0; by default 0. One of the two is > 0.
+        #[schemars(range(min = 0.0))]
+        #[serde(default)]
+        top_radius: f64,
+        /// Full length along local y, in m, > 0.
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
+        height: f64,
+    },
+    /// All within a radius of a line along local y.
+    Capsule {
+        /// In m, > 0.
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
+        radius: f64,
+        /// Length of the line, in m, > 0. The capsule is longer by twice the radius.
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
+        length: f64,
+    },
+    /// A disc in its local xz plane that faces local +y. Spheres pass it from behind.
+    Disc {
+        /// In m, > 0.
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
+        radius: f64,
+    },
+    /// A solid ring about local y: all within a radius of a circle.
+    Torus {
+        /// Radius of the circle, in m, larger than that of the tube.
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
+        ring_radius: f64,
+        /// Radius of the tube, in m, > 0.
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
+        tube_radius: f64,
+    },
+    /// A hollow cylinder about local y. Its wall has no thickness; spheres bounce off both sides.
+    Pipe {
+        /// In m, > 0.
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
+        radius: f64,
+        /// Full length along local y, in m, > 0.
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
+        length: f64,
+        /// Ends with a wall: one, or a list. By default none.
+        #[schemars(with = "OneOrMore<End>")]
+        #[serde(default, skip_serializing_if = "Vec::is_empty", with = "one_or_more")]
+        closed: Vec<End>,
+    },
+    /// A hollow sphere that is open towards local +y. Its wall has no thickness; spheres bounce off both sides.
+    Bowl {
+        /// In m, > 0.
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
+        radius: f64,
+        /// Angle between local +y and the rim as seen from the centre, in degrees, in [0, 180): 0 of a whole sphere. By
+        /// default 90.
+        #[schemars(range(min = 0.0), extend("exclusiveMaximum" = 180.0))]
+        #[serde(default = "quarter", skip_serializing_if = "is_quarter")]
+        opening_degrees: f64,
+    },
+    /// A hollow cone about local y, open at both ends. Its wall has no thickness; spheres bounce off both sides.
+    Funnel {
+        /// Radius of the lower opening, in m, >= 0.
+        #[schemars(range(min = 0.0))]
+        bottom_radius: f64,
+        /// Radius of the upper opening, in m, >= 0. One of the two is > 0.
+        #[schemars(range(min = 0.0))]
+        top_radius: f64,
+        /// Full length along local y, in m, > 0.
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
+        height: f64,
+    },
+}
+
+/// An end of a pipe in its own coordinates.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum End {
+    /// Towards -y.
+    Bottom,
+    /// Towards +y.
+    Top,
 }
 
 /// A side of a box in its own coordinates.
@@ -142,51 +255,77 @@ pub enum Side {
     Front,
 }
 
-/// One side, or several.
+/// One of them, or several.
 #[derive(JsonSchema)]
 #[serde(untagged)]
 #[expect(dead_code, reason = "describes what is written")]
-enum OneOrMore {
-    /// One side.
-    One(Side),
-    /// A list of sides.
-    More(Vec<Side>),
+enum OneOrMore<T> {
+    /// One.
+    One(T),
+    /// A list.
+    More(Vec<T>),
 }
 
-/// One side as a word, others as a list.
+fn quarter() -> f64 {
+    90.0
+}
+
+fn is_quarter(degrees: &f64) -> bool {
+    *degrees == quarter()
+}
+
+/// One as a word, others as a list.
 mod one_or_more {
+    use std::marker::PhantomData;
+
     use serde::de::value::{SeqAccessDeserializer, StrDeserializer};
     use serde::de::{SeqAccess, Visitor};
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-    use super::Side;
-
-    pub fn serialize<S: Serializer>(sides: &[Side], serializer: S) -> Result<S::Ok, S::Error> {
-        match sides {
-            [side] => side.serialize(serializer),
-            sides => sides.serialize(serializer),
+    pub fn serialize<T: Serialize, S: Serializer>(
+        items: &[T],
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        match items {
+            [item] => item.serialize(serializer),
+            items => items.serialize(serializer),
         }
     }
 
-    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Side>, D::Error> {
-        deserializer.deserialize_any(Sides)
+    pub fn deserialize<'de, T: Word<'de>, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<Vec<T>, D::Error> {
+        deserializer.deserialize_any(Words(PhantomData))
     }
 
-    struct Sides;
+    /// What is written as a word.
+    pub trait Word<'de>: Deserialize<'de> {
+        const EXPECTED: &'static str;
+    }
 
-    impl<'de> Visitor<'de> for Sides {
-        type Value = Vec<Side>;
+    impl Word<'_> for super::Side {
+        const EXPECTED: &'static str = "a side or a list of sides";
+    }
 
-        fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-            formatter.write_str("a side or a list of sides")
+    impl Word<'_> for super::End {
+        const EXPECTED: &'static str = "an end or a list of ends";
+    }
+
+    struct Words<T>(PhantomData<T>);
+
+    impl<'de, T: Word<'de>> Visitor<'de> for Words<T> {
+        type Value = Vec<T>;
+
+        fn expecting(&self, formatter: &mut std::fmt::Formatter) -> std::fmt::Result {
+            formatter.write_str(T::EXPECTED)
         }
 
-        fn visit_str<E: serde::de::Error>(self, side: &str) -> Result<Vec<Side>, E> {
-            Ok(vec![Side::deserialize(StrDeserializer::new(side))?])
+        fn visit_str<E: serde::de::Error>(self, word: &str) -> Result<Vec<T>, E> {
+            Ok(vec![T::deserialize(StrDeserializer::new(word))?])
         }
 
-        fn visit_seq<A: SeqAccess<'de>>(self, sides: A) -> Result<Vec<Side>, A::Error> {
-            Vec::deserialize(SeqAccessDeserializer::new(sides))
+        fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Vec<T>, A::Error> {
+            Vec::deserialize(SeqAccessDeserializer::new(list))
         }
     }
 }

@@ -17,7 +17,7 @@ pub(crate) mod values;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use collider::{Collider, Shape, Side};
+pub use collider::{Collider, End, Shape, Side};
 pub use emitter::Emitter;
 pub use finish::Finish;
 pub use force::Force;

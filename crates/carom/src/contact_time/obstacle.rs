@@ -1,13 +1,14 @@
-//! What a sphere may meet, as a convex core: the surfaces touch where the centre is at the
-//! distance of a radius from it.
+//! What a sphere may meet, as a core: the surfaces touch where the centre is at the distance of a
+//! radius from it.
 
 use glam::DVec3;
 
+use crate::band::{Band, Concavity};
 use crate::norm::Norm;
 use crate::surface::Rectangle;
 
-/// An obstacle at rest. Its core is convex, so the distance from it lies above each of its
-/// tangent planes; the search rests on that.
+/// An obstacle at rest. Where its core is convex, the distance from it lies above each of its
+/// tangent planes; elsewhere it falls below them by what the concavity allows. The search rests on that.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Obstacle {
     /// The origin.
@@ -16,6 +17,8 @@ pub(super) enum Obstacle {
     HalfSpace { point: DVec3, normal: DVec3, radius: f64 },
     /// A rectangle, which meets only centres in front of its plane.
     Rectangle { rectangle: Rectangle, radius: f64 },
+    /// A surface of revolution, which meets only centres in front of it.
+    Band { band: Band, radius: f64 },
     /// The points of a line between two ends.
     Segment { ends: [DVec3; 2], radius: f64 },
     /// A plane through `point`, which meets only centres in front of it.
@@ -43,6 +46,10 @@ pub(super) struct Sight {
     pub barrier: Option<Barrier>,
     /// Whether nothing is met from here, whatever the distance: the centre is behind.
     pub is_behind: bool,
+    /// How fast the distance may fall by the curvature of the core; `None` of a convex one.
+    pub concavity: Option<Concavity>,
+    /// A half-space that holds every place of contact, whatever the way goes past before.
+    pub hull: Option<Barrier>,
 }
 
 /// A half-space that holds every place of contact.
@@ -66,6 +73,7 @@ impl Obstacle {
             Self::Rectangle { ref rectangle, radius } => {
                 see_rectangle(rectangle, radius, position, velocity)
             }
+            Self::Band { ref band, radius } => see_band(band, radius, position, velocity),
             Self::Segment { ends, radius } => see_segment(ends, radius, position, velocity),
             Self::Plane { point, normal, radius } => {
                 let height = (position - point).dot(normal);
@@ -91,6 +99,8 @@ impl Sight {
             turning: 0.0,
             barrier: None,
             is_behind: false,
+            concavity: None,
+            hull: None,
         }
     }
 
@@ -113,8 +123,45 @@ impl Sight {
             turning,
             barrier: None,
             is_behind: false,
+            concavity: None,
+            hull: None,
         }
     }
+}
+
+/// As in `detect/sphere_band.rs`; from behind, the distance is that to the front.
+fn see_band(band: &Band, radius: f64, position: DVec3, velocity: DVec3) -> Sight {
+    let view = band.seen_from(position);
+    let concavity = Some(band.concavity(&view));
+    let is_behind = view.front < 0.0;
+    let turning = |number: usize| {
+        let speed = velocity.dot(view.directions[number]);
+        speed * speed * view.curvatures[number]
+    };
+    // What the normal turns about.
+    let sharpest = view.curvatures[0].abs().max(view.curvatures[1].abs());
+    let from_core = if sharpest > 0.0 { sharpest.recip() } else { f64::INFINITY };
+    let (offset, reach) = (position - band.center, band.reach() + radius);
+    let from_center = offset.norm();
+    let hull = (from_center > reach)
+        .then(|| Barrier { distance: from_center - reach, normal: offset / from_center });
+    let seen = Sight {
+        hull,
+        from_core,
+        distance: view.distance - radius,
+        normal: view.normal,
+        is_round: sharpest > 0.0,
+        flat_within: 0.0,
+        turning: turning(0) + turning(1),
+        barrier: None,
+        is_behind,
+        concavity,
+    };
+    if !is_behind {
+        return seen;
+    }
+    let (distance, normal) = (-view.front, -view.front_normal);
+    Sight { distance, normal, barrier: Some(Barrier { distance, normal }), ..seen }
 }
 
 impl Sight {

@@ -61,7 +61,13 @@ impl Reach {
                 offset.norm() > size + self.way + margin
             }
             Form::Rectangle(ref rectangle) => self.misses_rectangle(position, rectangle),
-            Form::Box(_) => true,
+            Form::Band(ref band) => {
+                let view = band.seen_from(position);
+                let margin = MARGIN * (position.abs().element_sum() + band.coordinates());
+                let near = if view.front < 0.0 { -view.front } else { view.distance - self.radius };
+                near > self.way + margin
+            }
+            Form::Box(_) | Form::Round(_) => true,
             Form::Facet(ref facet) => self.misses_rectangle(position, &facet.frame),
             Form::Edge(ref edge) => {
                 let size = edge.center.abs().element_sum() + edge.half + self.radius;

@@ -137,7 +137,7 @@ impl Zero {
         let angle = flat.distance / from_core;
         Self {
             speed: flat.speed + angle * speed,
-            acceleration: flat.acceleration + angle * (size.acceleration + turning),
+            acceleration: flat.acceleration + angle * (size.acceleration + turning.abs()),
             ..flat
         }
     }

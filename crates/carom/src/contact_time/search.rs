@@ -134,12 +134,16 @@ fn longest_step(
     window: &mut f64,
     horizon: f64,
 ) -> f64 {
-    let ahead = window.min(horizon - t);
+    let far = now.time_to_hull(path, aim, t, horizon - t);
+    if far > horizon - t {
+        return far;
+    }
+    let ahead = window.min(now.window(path, aim, t, horizon)).min(horizon - t);
     let step = now.safe_step(path, aim, t, ahead);
     if step >= ahead {
         *window *= 2.0;
         // Past the horizon, or on to the next window.
-        return if t + ahead >= horizon { step } else { ahead };
+        return if t + ahead >= horizon { step } else { ahead.max(far) };
     }
     // The bound is closer over a nearer window, and allows a longer step.
     let mut nearer = 4.0 * step;
@@ -153,7 +157,7 @@ fn longest_step(
         }
         nearer *= 4.0;
     }
-    longest
+    longest.max(far)
 }
 
 /// What there is to see at one instant.
@@ -215,14 +219,20 @@ impl Look {
     /// A step \[s\] before which no contact begins within the window; it may be longer than that,
     /// and infinite.
     fn safe_step(&self, path: &impl Path, aim: f64, t: f64, window: f64) -> f64 {
-        let bound = |normal: DVec3| self.pull(path, normal, t, window);
+        let falls = self.falls_by_curvature(path, t, window);
+        let bound = |normal: DVec3| self.pull(path, normal, t, window) + falls;
+        let slide = self.shortest_way_time(path, aim, t, window);
+        if falls == f64::INFINITY {
+            return slide;
+        }
         let barrier = self.sight.barrier.map_or(0.0, |Barrier { distance, normal }| {
             let aim = if distance > self.zero.distance { aim } else { self.zero.distance.max(aim) };
             time_to_fall(distance + aim, normal.dot(self.state.velocity), bound(normal))
         });
         let Gap { distance, speed, .. } = self.gap;
         if distance > self.zero.distance {
-            return barrier.max(time_to_fall(distance + aim, speed, bound(self.sight.normal)));
+            let falling = time_to_fall(distance + aim, speed, bound(self.sight.normal));
+            return barrier.max(falling).max(slide);
         }
         if self.sight.is_behind {
             return barrier;
@@ -240,6 +250,54 @@ impl Look {
         barrier.max(parting)
     }
 
+    /// An upper bound of the acceleration \[m/s²\] with which the distance from a core that is not convex falls, by the
+    /// curvature of the core, on a straight way.
+    fn falls_by_curvature(&self, path: &impl Path, t: f64, window: f64) -> f64 {
+        let Some(concavity) = self.sight.concavity else { return 0.0 };
+        let (way, speed) = self.most_moved(path, t, window);
+        let curvature = concavity.most(way);
+        if curvature == 0.0 { 0.0 } else { curvature * speed * speed }
+    }
+
+    /// Upper bounds of the way \[m\] and of the speed \[m/s\] within the window.
+    fn most_moved(&self, path: &impl Path, t: f64, window: f64) -> (f64, f64) {
+        let anywhere = path.max_acceleration_anywhere(t, t + window);
+        let gained = if anywhere > 0.0 { anywhere * window } else { 0.0 };
+        let speed = self.state.velocity.norm() + gained;
+        (if speed > 0.0 { speed * window } else { 0.0 }, speed)
+    }
+
+    /// A step \[s\] in which the sphere does not go as far as the distance from a core that is not convex.
+    fn shortest_way_time(&self, path: &impl Path, aim: f64, t: f64, window: f64) -> f64 {
+        if self.sight.concavity.is_none() {
+            return 0.0;
+        }
+        let (_, speed) = self.most_moved(path, t, window);
+        let distance = self.gap.distance.max(0.0) + aim;
+        if speed > 0.0 { distance / speed } else { f64::INFINITY }
+    }
+
+    /// A step \[s\] before which the sphere does not come to the half-space that holds every place of contact.
+    fn time_to_hull(&self, path: &impl Path, aim: f64, t: f64, window: f64) -> f64 {
+        self.sight.hull.map_or(0.0, |Barrier { distance, normal }| {
+            let pull = self.pull(path, normal, t, window);
+            time_to_fall(distance + aim, normal.dot(self.state.velocity), pull)
+        })
+    }
+
+    /// How far ahead \[s\] to look from here: over a core that is not convex, bounds of the curvature hold for a
+    /// part of its radius.
+    fn window(&self, path: &impl Path, aim: f64, t: f64, horizon: f64) -> f64 {
+        let concavity = self.sight.concavity.filter(|it| !it.is_none());
+        let Some(concavity) = concavity else { return f64::INFINITY };
+        let span = concavity.span.max(self.gap.distance).max(self.zero.distance + aim);
+        let speed = self.state.velocity.norm();
+        let pull = path.max_acceleration_anywhere(t, horizon.min(t + path.window()));
+        // v τ + a τ² = span
+        let root = (speed * speed + 4.0 * pull * span).sqrt();
+        if root > 0.0 { 2.0 * span / (speed + root) } else { f64::INFINITY }
+    }
+
     /// An upper bound of the acceleration against a fixed normal.
     fn pull(&self, path: &impl Path, normal: DVec3, t: f64, window: f64) -> f64 {
         let pull = path.max_acceleration(-normal, t, t + window);
@@ -254,6 +312,9 @@ impl Look {
     /// 1/ρ for each metre.
     fn opening_pull(&self, path: &impl Path, t: f64, window: f64) -> f64 {
         let anywhere = path.max_acceleration_anywhere(t, t + window);
+        if self.sight.concavity.is_some() {
+            return anywhere + self.falls_by_curvature(path, t, window);
+        }
         let way = window * (self.state.velocity.norm() + 0.5 * anywhere * window);
         let is_flat = self.sight.flat_within == f64::INFINITY || way <= self.sight.flat_within;
         let turn = if is_flat { 0.0 } else { way / (self.sight.from_core - way) };

@@ -9,6 +9,7 @@ use super::roundoff::Magnitudes;
 use super::search;
 use super::sphere_sphere::sphere_point;
 use super::turning::{Orbit, Turning, Turns};
+use crate::band::Band;
 use crate::flight::Flight;
 use crate::norm::Norm;
 use crate::surface::{Form, Rectangle, SurfaceMotion};
@@ -29,7 +30,7 @@ pub(crate) fn sphere_surface(
     motion: &SurfaceMotion,
     horizon: f64,
 ) -> Option<f64> {
-    if motion.angular_velocity != DVec3::ZERO {
+    if motion.turns_form(form) {
         debug_assert!(horizon.is_finite(), "a turning surface needs a finite horizon");
         return sphere_turning_surface(flight, radius, form, motion, horizon);
     }
@@ -49,7 +50,12 @@ pub(crate) fn sphere_surface(
             let obstacle = Obstacle::Rectangle { rectangle, radius };
             search::first_contact(&relative, &obstacle, size, horizon)
         }
-        Form::Box(_) => None,
+        Form::Band(band) => {
+            let relative = flight.seen_from(DVec3::ZERO, motion.velocity);
+            let obstacle = Obstacle::Band { band, radius };
+            search::first_contact(&relative, &obstacle, size, horizon)
+        }
+        Form::Box(_) | Form::Round(_) => None,
         Form::Facet(_) | Form::Edge(_) | Form::Corner(_) => {
             sphere_feature(flight, radius, (form, motion), size, horizon)
         }
@@ -85,7 +91,12 @@ fn sphere_turning_surface(
             let obstacle = Obstacle::Rectangle { rectangle, radius };
             search::first_contact(&path, &obstacle, size, horizon)
         }
-        Form::Box(_) => None,
+        Form::Band(band) => {
+            let band = Band { center: band.center - origin, ..band };
+            let obstacle = Obstacle::Band { band, radius };
+            search::first_contact(&path, &obstacle, size, horizon)
+        }
+        Form::Box(_) | Form::Round(_) => None,
         Form::Facet(_) | Form::Edge(_) | Form::Corner(_) => {
             sphere_turning_feature(&path, radius, (form, motion), size, horizon)
         }

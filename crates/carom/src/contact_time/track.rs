@@ -9,6 +9,7 @@ use super::roundoff::Magnitudes;
 use super::search;
 use super::sphere_surface::{size_of, sphere_surface};
 use super::turning::{Orbit, Turning, Turns};
+use crate::band::Band;
 use crate::flight::Flight;
 use crate::norm::Norm;
 use crate::polynomial_flight::{ORDERS, PolynomialFlight, TERMS, upper_bound};
@@ -232,7 +233,7 @@ pub(crate) fn track_surface(
     let drift = Magnitudes { speed: velocity.norm(), ..size_of(form, radius) };
     let size = track.size() + drift;
     let seen_from = |origin| track.seen_from(origin, velocity);
-    if angular_velocity == DVec3::ZERO {
+    if !motion.turns_form(form) {
         let (origin, obstacle) = obstacle(form, radius, DVec3::ZERO)?;
         let time = search::first_contact(&seen_from(origin), &obstacle, size, horizon);
         let place = |time| motion.carried_back(track.state_at(time).position, time);
@@ -250,7 +251,11 @@ pub(crate) fn track_surface(
             let path = Turning { flight, turns };
             sphere_turning_feature(&path, radius, (form, motion), size, horizon)
         }
-        Form::HalfSpace { .. } | Form::Rectangle(_) | Form::Box(_) => {
+        Form::HalfSpace { .. }
+        | Form::Rectangle(_)
+        | Form::Box(_)
+        | Form::Band(_)
+        | Form::Round(_) => {
             let (_, obstacle) = obstacle(form, radius, origin)?;
             search::first_contact(&Turning { flight, turns }, &obstacle, size, horizon)
         }
@@ -278,6 +283,10 @@ fn obstacle(form: &Form, radius: f64, origin: DVec3) -> Option<(DVec3, Obstacle)
         }
         Form::Edge(ref edge) => Some((DVec3::ZERO, segment(edge, origin, radius))),
         Form::Corner(ref corner) => Some((corner.point, Obstacle::Point { radius })),
-        Form::Box(_) => None,
+        Form::Band(band) => {
+            let band = Band { center: band.center - origin, ..band };
+            Some((DVec3::ZERO, Obstacle::Band { band, radius }))
+        }
+        Form::Box(_) | Form::Round(_) => None,
     }
 }

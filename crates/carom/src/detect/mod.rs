@@ -9,6 +9,7 @@ pub(crate) mod contacts;
 pub(crate) mod image_overlaps;
 pub(crate) mod instant;
 mod separation;
+mod sphere_band;
 mod sphere_box;
 mod sphere_half_space;
 mod sphere_mesh;
@@ -20,6 +21,7 @@ use glam::DVec3;
 
 pub use classify::{ContactState, classify};
 pub use separation::Separation;
+pub(crate) use sphere_band::{sphere_band, sphere_band_known_in_front, sphere_round_solid};
 pub(crate) use sphere_box::sphere_box;
 pub use sphere_half_space::sphere_half_space;
 pub(crate) use sphere_mesh::{
@@ -43,16 +45,19 @@ pub(crate) fn sphere_surface(form: &Form, center: DVec3, radius: f64) -> Option<
             Some(sphere_half_space((*point, *normal), center, radius))
         }
         Form::Box(solid) => Some(sphere_box(solid, center, radius)),
+        Form::Band(band) => sphere_band(band, center, radius),
+        Form::Round(solid) => Some(sphere_round_solid(solid, center, radius)),
         Form::Facet(facet) => sphere_facet(facet, center, radius),
         Form::Edge(edge) => sphere_edge(edge, center, radius),
         Form::Corner(corner) => sphere_corner(corner, center, radius),
     }
 }
 
-/// [`sphere_surface`] of a sphere that has been in front: it may have come behind a rectangle or a face of a mesh.
+/// [`sphere_surface`] of a sphere that has been in front: it may have come behind a one-sided surface.
 pub(crate) fn known_in_front(form: &Form, center: DVec3, radius: f64) -> Option<Separation> {
     match form {
         Form::Rectangle(it) => Some(sphere_rectangle_known_in_front(it, center, radius)),
+        Form::Band(it) => Some(sphere_band_known_in_front(it, center, radius)),
         Form::Facet(it) if it.is_under(center) => Some(sphere_facet_plane(it, center, radius)),
         _ => sphere_surface(form, center, radius),
     }

@@ -24,6 +24,11 @@ impl Bounds {
         Self { min: self.min - margin, max: self.max + margin }
     }
 
+    /// Elsewhere by `shift` \[m\].
+    pub fn moved(&self, shift: DVec3) -> Self {
+        Self { min: self.min + shift, max: self.max + shift }
+    }
+
     #[inline]
     pub fn overlap(&self, other: &Self) -> bool {
         // All comparisons at once: the processor cannot predict which one fails.
@@ -46,6 +51,8 @@ pub(crate) fn bounds(form: &Form) -> Option<Bounds> {
         Form::Box(SolidBox { center, axes: [x, y, z], half }) => {
             (center, half.x * x.abs() + half.y * y.abs() + half.z * z.abs())
         }
+        Form::Band(ref band) => within(band.center, |axis| band.extent(axis)),
+        Form::Round(ref solid) => within(solid.center, |axis| solid.extent(axis)),
         Form::Facet(ref facet) => around(facet),
         Form::Edge(ref edge) => (edge.center, edge.half * edge.axis.abs()),
         Form::Corner(ref corner) => (corner.point, DVec3::ZERO),
@@ -53,6 +60,14 @@ pub(crate) fn bounds(form: &Form) -> Option<Bounds> {
     // Wider by far more than rounding, so that a surface at the very edge is never passed over.
     let slack = 1e-12 * (center.abs() + half).max_element();
     Some(Bounds::around(center, half + slack))
+}
+
+/// Centre and half lengths of bounds, from the extents along the axes about a point.
+fn within(point: DVec3, extent: impl Fn(DVec3) -> [f64; 2]) -> (DVec3, DVec3) {
+    let extents = [DVec3::X, DVec3::Y, DVec3::Z].map(extent);
+    let least = DVec3::from_array(extents.map(|it| it[0]));
+    let most = DVec3::from_array(extents.map(|it| it[1]));
+    (point + 0.5 * (least + most), 0.5 * (most - least))
 }
 
 /// Of larger outlines the rectangle about them has to do.

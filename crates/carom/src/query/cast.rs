@@ -89,6 +89,10 @@ impl Sweep {
                 let meetings = faces.filter_map(|face| self.come_to(&face));
                 meetings.min_by(|one, other| one.0.total_cmp(&other.0))
             }
+            Form::Round(solid) => {
+                let meetings = solid.bands().filter_map(|band| self.come_to(&Form::Band(band)));
+                meetings.min_by(|one, other| one.0.total_cmp(&other.0))
+            }
             _ => self.come_to(form),
         }
     }

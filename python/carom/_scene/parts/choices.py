@@ -28,6 +28,12 @@ Side: TypeAlias = Literal["left", "right", "bottom", "top", "back", "front"]
 - ``"back"``: Towards -z.
 - ``"front"``: Towards +z.
 """
+End: TypeAlias = Literal["bottom", "top"]
+"""An end of a pipe in its own coordinates.
+
+- ``"bottom"``: Towards -y.
+- ``"top"``: Towards +y.
+"""
 Integrator: TypeAlias = Literal[
     "semi-implicit-euler", "explicit-euler", "velocity-verlet", "runge-kutta-4"
 ]

@@ -6,7 +6,7 @@ Made by `cargo xtask parts` of the schema of scene files, which says what is to 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import ClassVar, TypeAlias
 
 from carom._scene.parts.choices import Finish, Side
@@ -16,13 +16,14 @@ from carom._scene.parts.kinds import (
     Color,
     Lengths,
     NonNegative,
+    Number,
     Positive,
     Quaternion,
     Restitution,
     Vector,
 )
 from carom._scene.parts.part import Part
-from carom._scene.parts.together import simplify_open
+from carom._scene.parts.together import simplify_closed, simplify_open
 
 
 @dataclass(frozen=True)
@@ -92,7 +93,150 @@ class Container(Part):
         simplify_open(self)
 
 
-Shape: TypeAlias = Ball | Rectangle | HalfSpace | Box | Container
+@dataclass(frozen=True)
+class Cylinder(Part):
+    """A solid cylinder about local y.
+
+    Attributes:
+        radius: In m, > 0.
+        height: Full length along local y [m], > 0.
+    """
+
+    tag: ClassVar[str] = "cylinder"
+    radius: Positive
+    height: Positive
+
+
+@dataclass(frozen=True)
+class Cone(Part):
+    """A solid cone about local y, or the frustum of one.
+
+    Attributes:
+        bottom_radius: Radius at the lower end [m], >= 0.
+        height: Full length along local y [m], > 0.
+        top_radius: Radius at the upper end [m], >= 0; by default 0. One of the two is > 0.
+    """
+
+    tag: ClassVar[str] = "cone"
+    bottom_radius: NonNegative
+    height: Positive
+    top_radius: NonNegative = 0.0
+
+
+@dataclass(frozen=True)
+class Capsule(Part):
+    """All within a radius of a line along local y.
+
+    Attributes:
+        radius: In m, > 0.
+        length: Length of the line [m], > 0. The capsule is longer by twice the radius.
+    """
+
+    tag: ClassVar[str] = "capsule"
+    radius: Positive
+    length: Positive
+
+
+@dataclass(frozen=True)
+class Disc(Part):
+    """A disc in its local xz plane that faces local +y.
+
+    Spheres pass it from behind.
+
+    Attributes:
+        radius: In m, > 0.
+    """
+
+    tag: ClassVar[str] = "disc"
+    radius: Positive
+
+
+@dataclass(frozen=True)
+class Torus(Part):
+    """A solid ring about local y: all within a radius of a circle.
+
+    Attributes:
+        ring_radius: Radius of the circle [m], larger than that of the tube.
+        tube_radius: Radius of the tube [m], > 0.
+    """
+
+    tag: ClassVar[str] = "torus"
+    ring_radius: Positive
+    tube_radius: Positive
+
+
+@dataclass(frozen=True)
+class Pipe(Part):
+    """A hollow cylinder about local y.
+
+    Its wall has no thickness; spheres bounce off both sides.
+
+    Attributes:
+        radius: In m, > 0.
+        length: Full length along local y [m], > 0.
+        closed: Ends with a wall: one, or a list. By default none.
+    """
+
+    tag: ClassVar[str] = "pipe"
+    radius: Positive
+    length: Positive
+    closed: OneOrMore2 = field(default_factory=OneOrMore2)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        simplify_closed(self)
+
+
+@dataclass(frozen=True)
+class Bowl(Part):
+    """A hollow sphere that is open towards local +y.
+
+    Its wall has no thickness; spheres bounce off both sides.
+
+    Attributes:
+        radius: In m, > 0.
+        opening_degrees: Angle between local +y and the rim as seen from the centre [degrees], in
+            [0, 180): 0 of a whole sphere. By default 90.
+    """
+
+    tag: ClassVar[str] = "bowl"
+    radius: Positive
+    opening_degrees: NonNegative = 0.0
+
+
+@dataclass(frozen=True)
+class Funnel(Part):
+    """A hollow cone about local y, open at both ends.
+
+    Its wall has no thickness; spheres bounce off both sides.
+
+    Attributes:
+        bottom_radius: Radius of the lower opening [m], >= 0.
+        top_radius: Radius of the upper opening [m], >= 0. One of the two is > 0.
+        height: Full length along local y [m], > 0.
+    """
+
+    tag: ClassVar[str] = "funnel"
+    bottom_radius: NonNegative
+    top_radius: NonNegative
+    height: Positive
+
+
+Shape: TypeAlias = (
+    Ball
+    | Rectangle
+    | HalfSpace
+    | Box
+    | Container
+    | Cylinder
+    | Cone
+    | Capsule
+    | Disc
+    | Torus
+    | Pipe
+    | Bowl
+    | Funnel
+)
 """Form of a collider in its own frame."""
 
 
@@ -120,6 +264,13 @@ class Collider(Part):
         tangential_restitution: Coefficient of tangential restitution in [0, 1]. If missing, the
             other body's value counts.
         finish: How its surface reflects light.
+        kick: Speed that an impact adds along the normal [m/s], >= 0: a sphere that comes with v
+            leaves with e v + kick.
+        groups: Groups that it is in, one bit for each of 32: ``0b101`` is the first and the third.
+            By default the first.
+        collides_with: Groups that it collides with, one bit for each; by default all. Two bodies
+            collide if each is in a group that the other collides with.
+        user_data: A number for programs to find it by; no part of the physics.
     """
 
     shape: Shape
@@ -137,3 +288,7 @@ class Collider(Part):
     spinning_friction: NonNegative | None = None
     tangential_restitution: Restitution | None = None
     finish: Finish = "satin"
+    kick: NonNegative = 0.0
+    groups: Number = 1
+    collides_with: Number = 0xFFFFFFFF
+    user_data: Number = 0

@@ -49,3 +49,9 @@ def simplify_open(container: Any) -> None:
     """Has one open side be itself, as it comes back from text."""
     if len(container.open) == 1:
         object.__setattr__(container, "open", container.open[0])
+
+
+def simplify_closed(pipe: Any) -> None:
+    """Has one closed end be itself, as it comes back from text."""
+    if len(pipe.closed) == 1:
+        object.__setattr__(pipe, "closed", pipe.closed[0])

@@ -1,9 +1,10 @@
 //! Situations with a contact planted at a known time: hits, near misses, grazes within rounding,
 //! starts in contact.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::situation::{Bodies, Situation};
+use crate::band::{Band, Profile};
 use crate::flight::{Flight, Propagator};
 use crate::surface::SurfaceMotion;
 use crate::surface::{Form, Rectangle};
@@ -48,6 +49,8 @@ pub enum Kind {
     Sphere,
     HalfSpace,
     Rectangle,
+    /// A line or an arc about an axis.
+    Band,
 }
 
 /// Whether paths are parabolas and surfaces do not turn.
@@ -121,6 +124,7 @@ fn surface(numbers: &mut Numbers, scales: &Scales, kind: Kind, air: Air, turns: 
     let radius = scales.length * numbers.decade(-3.0, 0.0);
     let place = if numbers.one_in(2) { DVec3::ZERO } else { far_place(numbers, scales) };
     let (form, planted) = form(numbers, scales, kind, place);
+    let radius = radius.min(widest_inside(&form));
     let (center, relative) = approach(numbers, scales, &planted, radius);
     let motion = motion(numbers, scales, place, turns);
     let (omega, t) = (motion.angular_velocity, scales.time);
@@ -178,7 +182,92 @@ fn form(numbers: &mut Numbers, scales: &Scales, kind: Kind, place: DVec3) -> (Fo
             let point = place + x * axis_x + z * axis_z;
             (Form::Rectangle(rectangle), Planted { point, normal })
         }
+        Kind::Band => band(numbers, length, place, normal),
     }
+}
+
+/// Radius \[m\] of a sphere that never touches a surface of revolution on two sides at once.
+fn widest_inside(form: &Form) -> f64 {
+    let Form::Band(Band { profile, .. }) = form else { return f64::INFINITY };
+    let ends = profile.ends().map(|end| end.x).into_iter().filter(|&x| x > 0.0);
+    let rim = ends.fold(f64::INFINITY, f64::min);
+    match *profile {
+        Profile::Line { direction, .. } if direction.y <= 0.0 && direction.x == 0.0 => {
+            f64::INFINITY
+        }
+        Profile::Line { direction, .. } if direction.y == 0.0 => f64::INFINITY,
+        Profile::Arc { center, radius, .. } if center.x > 0.0 => 0.5 * (center.x - radius),
+        Profile::Arc { radius, .. } => 0.5 * radius.min(rim),
+        Profile::Line { .. } => 0.5 * rim,
+    }
+}
+
+/// A surface of revolution about an axis, and a point on its face or a rim, with a normal there.
+fn band(numbers: &mut Numbers, length: f64, place: DVec3, axis: DVec3) -> (Form, Planted) {
+    let (x, z) = axis.any_orthonormal_pair();
+    let angle = numbers.between(0.0, 6.28);
+    let radial = libm::cos(angle) * x + libm::sin(angle) * z;
+    let part = numbers.between(0.0, 1.0);
+    let profile = profile(numbers, length);
+    let ends = profile.ends();
+    let (inner, normal) = match profile {
+        Profile::Line { from, direction, length, .. } => {
+            let end = numbers.bits() % 4;
+            let along = if end < 2 { end as f64 } else { part };
+            let face = DVec2::new(-direction.y, direction.x);
+            let out = [-direction, direction][(end % 2) as usize];
+            let lean = if end < 2 { numbers.between(0.0, 1.0) } else { 0.0 };
+            let rim = [ends[0].x, ends[1].x][(end % 2) as usize];
+            let is_point = end < 2 && rim == 0.0 && direction.y == 0.0;
+            let lean = if is_point { 0.0 } else { lean };
+            (from + along * length * direction, (face + lean * out).normalize())
+        }
+        Profile::Arc { center, radius, ends, is_hollow } => {
+            let turn = if ends[0] == ends[1] {
+                DVec2::from_angle(numbers.between(0.0, 6.28))
+            } else {
+                (ends[0] + part * (ends[1] - ends[0]) + DVec2::X * 1e-3).normalize()
+            };
+            (center + radius * turn, if is_hollow { -turn } else { turn })
+        }
+    };
+    let thickness = match profile {
+        Profile::Line { thickness, .. } => thickness,
+        Profile::Arc { .. } => 0.0,
+    };
+    let foot = inner + thickness * normal;
+    let world = |vector: DVec2| vector.x * radial + vector.y * axis;
+    let band = Band { center: place, axis, profile };
+    (Form::Band(band), Planted { point: place + world(foot), normal: world(normal) })
+}
+
+fn profile(numbers: &mut Numbers, length: f64) -> Profile {
+    let radius = length * numbers.decade(-2.0, 0.0);
+    let half = length * numbers.decade(-2.0, 0.0);
+    let line = |a: [f64; 2], b: [f64; 2]| Profile::line(a.into(), b.into());
+    let profile = match numbers.bits() % 6 {
+        0 => line([radius, half], [radius, -half]),
+        1 => line([radius * numbers.between(0.0, 1.0), half], [radius, -half]),
+        2 => line([0.0, half], [radius, half]),
+        3 => Profile::Line {
+            from: DVec2::new(0.0, half),
+            direction: DVec2::NEG_Y,
+            length: 2.0 * half,
+            thickness: radius,
+        },
+        4 => {
+            let opening = numbers.between(0.0, 3.0);
+            let rim = DVec2::new(libm::sin(opening), libm::cos(opening));
+            let (center, ends) = (DVec2::ZERO, [DVec2::NEG_Y, rim]);
+            Profile::Arc { center, radius, ends, is_hollow: false }
+        }
+        _ => {
+            let (center, ends) = (DVec2::new(length, 0.0), [DVec2::X; 2]);
+            return Profile::Arc { center, radius: 0.9 * radius, ends, is_hollow: false };
+        }
+    };
+    let is_capsule = matches!(profile, Profile::Line { thickness, .. } if thickness > 0.0);
+    if !is_capsule && numbers.one_in(2) { profile.turned() } else { profile }
 }
 
 /// Centre and relative velocity of a sphere at the planted contact: hit, graze, near graze or

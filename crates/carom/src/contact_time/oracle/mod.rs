@@ -187,3 +187,6 @@ contacts_of!(turning_spheres_are_met_when_they_touch, 9, 2_000, Sphere, Drag, tr
 contacts_of!(turning_planes_are_met_when_they_touch, 10, 3_000, HalfSpace, Drag, true);
 contacts_of!(turning_rectangles_are_met_when_they_touch, 11, 5_000, Rectangle, None, true);
 contacts_of!(turning_rectangles_in_air_are_met_when_they_touch, 12, 5_000, Rectangle, Drag, true);
+contacts_of!(surfaces_of_revolution_are_met_when_they_touch, 13, 2_000, Band, None, false);
+contacts_of!(surfaces_of_revolution_in_air_are_met_when_they_touch, 14, 1_000, Band, Drag, false);
+contacts_of!(turning_surfaces_of_revolution_are_met_when_they_touch, 15, 700, Band, Drag, true);

@@ -1,8 +1,9 @@
 //! Two bodies on their way, and how far apart they are in any precision.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::number::{Big, Number, Vector};
+use crate::band::{Band, Profile};
 use crate::contact_time::{sphere_sphere, sphere_surface};
 use crate::flight::{Flight, Propagator};
 use crate::surface::SurfaceMotion;
@@ -73,6 +74,7 @@ impl Situation {
                         let offset = place.minus(&from_origin(&rectangle.center));
                         from_rectangle(rectangle, &offset, *radius)
                     }
+                    Form::Band(band) => from_band(band, &place, motion.origin, *radius),
                     _ => unreachable!("not generated"),
                 }
             }
@@ -109,6 +111,7 @@ impl Situation {
                     Form::Sphere { center, radius } => (center.length(), *radius),
                     Form::HalfSpace { point, .. } => (point.length(), 0.0),
                     Form::Rectangle(r) => (r.center.length() + r.half_x + r.half_z, 0.0),
+                    Form::Band(band) => (band.coordinates(), 0.0),
                     _ => unreachable!("not generated"),
                 };
                 let omega = motion.angular_velocity.length();
@@ -167,6 +170,52 @@ fn from_rectangle<N: Number>(
     let z = outside(rectangle.axis_z, rectangle.half_z);
     let value = Vector([x, height, z]).length() - N::of(radius);
     Distance { value, is_behind }
+}
+
+/// By the nearest of the points of a profile that may be nearest: of the face, of both ends.
+fn from_band<N: Number>(band: &Band, place: &Vector<N>, origin: DVec3, radius: f64) -> Distance<N> {
+    let offset = place.minus(&Vector::of(band.center).minus(&Vector::of(origin)));
+    let axis = Vector::of(band.axis);
+    // The axis has a length of one but for rounding.
+    let scale = N::of(1.0) / axis.length();
+    let axis = axis.times(&scale);
+    let y = offset.dot(&axis);
+    let x = offset.minus(&axis.times(&y)).length();
+    let of = |value: f64| N::of(value);
+    let between = |a: [N; 2], b: [N; 2]| {
+        let [p, q] = [a[0].clone() - b[0].clone(), a[1].clone() - b[1].clone()];
+        (p.clone() * p + q.clone() * q).root()
+    };
+    let point = || [x.clone(), y.clone()];
+    let to_ends = || {
+        let [first, second] =
+            band.profile.ends().map(|end| between(point(), [of(end.x), of(end.y)]));
+        if first < second { first } else { second }
+    };
+    let (front, distance, thickness) = match band.profile {
+        Profile::Line { from, direction, length, thickness } => {
+            let [p, q] = [x.clone() - of(from.x), y.clone() - of(from.y)];
+            let along = p.clone() * of(direction.x) + q.clone() * of(direction.y);
+            let front = q * of(direction.x) - p * of(direction.y);
+            let is_disc = direction.y == 0.0;
+            let is_over = (along >= of(0.0) || (is_disc && direction.x > 0.0))
+                && (along <= of(length) || (is_disc && direction.x < 0.0));
+            let distance = if is_over { front.clone() } else { to_ends() };
+            (front, distance, thickness)
+        }
+        Profile::Arc { center, radius, ends, is_hollow } => {
+            let from_center = between(point(), [of(center.x), of(center.y)]);
+            let out = from_center - of(radius);
+            let front = if is_hollow { -out } else { out };
+            let [p, q] = [x.clone() - of(center.x), y.clone() - of(center.y)];
+            let side = |end: DVec2| of(end.x) * q.clone() - of(end.y) * p.clone();
+            let is_over = ends[0] == ends[1] || (ends[1].x == 0.0) || side(ends[1]) <= of(0.0);
+            let distance = if is_over { front.clone() } else { to_ends() };
+            (front, distance, 0.0)
+        }
+    };
+    let is_behind = front < of(0.0);
+    Distance { value: distance - of(thickness) - of(radius), is_behind }
 }
 
 impl Situation {

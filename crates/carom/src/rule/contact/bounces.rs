@@ -285,7 +285,7 @@ impl Leg {
         // One that turns may catch up with what has just bounced off it.
         let stops = slabs.surfaces_of(self.slot).filter_map(|contact| {
             let place = places.at_start(contact.surface);
-            let may_be_met = contact.impulses.normal == 0.0 || place.1.turns();
+            let may_be_met = contact.impulses.normal == 0.0 || place.1.turns_form(&place.0);
             may_be_met.then(|| self.meets(slots, place))?
         });
         Stop::first(stops)

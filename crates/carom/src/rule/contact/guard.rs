@@ -14,9 +14,12 @@ use super::slots::Run;
 use super::solver::{Bounce, Solver, Turn};
 use super::sub_step::SubStep;
 use super::surfaces::{self, SurfaceContact};
+use crate::band::Band;
+use crate::contact_time;
+use crate::flight::Flight;
 use crate::mesh::Facet;
 use crate::report::StepReport;
-use crate::surface::{Form, Rectangle, Role};
+use crate::surface::{Form, Rectangle, Role, SurfaceMotion};
 use crate::system::System;
 
 /// The centre of a sphere stays so far in front of a surface, as a part of the radius, whatever presses on it:
@@ -40,7 +43,8 @@ pub(super) fn hold(
     let Solver { slots, slabs, places, bounces, landings, drift, .. } = solver;
     let go_astray = slabs.iter().any(|it| it.found.leaves || it.found.overlap > FAR_APART);
     let (common, h) = (drift.way, sub_step.h);
-    let guard = Guard { system, places, bounces, landings, common, h, go_astray };
+    let index = if go_astray { slots.index.clone() } else { Vec::new() };
+    let guard = Guard { system, places, index, bounces, landings, common, h, go_astray };
     slabs.each(slots, |mut run, slab| {
         let Found { energy, squeezed, .. } = guard.hold_all(&mut run, slab);
         (slab.found.energy, slab.found.squeezed) = (energy, squeezed);
@@ -54,6 +58,8 @@ pub(super) fn hold(
 struct Guard<'a> {
     system: &'a System<'a>,
     places: &'a Places,
+    /// Of each slot in the arrays of the world; empty where no sphere goes astray.
+    index: Vec<u32>,
     bounces: &'a [Bounce],
     /// Spheres that met bodies on the way, each at its time: what counts is the flight after the last.
     landings: &'a Landings,
@@ -91,7 +97,7 @@ impl Guard<'_> {
                     let start = own.map_or(run.reference[slot].vector(), |it| it.start);
                     let start = self.start_of(slab.start + slot, start);
                     let way = (start, self.turn_of(slab.start + slot));
-                    let end = self.held(run, slot, way, &self.all_surfaces());
+                    let end = self.held(run, slot, way, &self.surfaces_of(slab.start + slot));
                     go_to(run, slot, end);
                 }
             }
@@ -163,11 +169,13 @@ impl Guard<'_> {
         surfaces.iter().map(passage).collect()
     }
 
-    /// The numbers of all surfaces that deflect.
-    fn all_surfaces(&self) -> Vec<u32> {
+    /// The numbers of all surfaces that deflect a sphere, by its slot.
+    fn surfaces_of(&self, slot: usize) -> Vec<u32> {
+        let sphere = self.index[slot];
         let deflects = |it: &u32| {
             let own = self.places.surface_of(*it);
             self.system.surfaces[own as usize].role == Role::Deflects
+                && self.system.meets_surface(sphere, own)
         };
         (0..self.places.len() as u32).filter(deflects).collect()
     }
@@ -263,9 +271,39 @@ impl Way<'_> {
                 let out = way_out([start - *before, end - *after], radius + least)?;
                 Some(*after + out)
             }
+            [Form::Band(before), Form::Band(after)] => {
+                let start = after.carried_from(before, start);
+                pushed_by_band(after, [start, end], least, beside)
+            }
             _ => None,
         }
     }
+}
+
+/// Where a centre ends at the `least` distance \[m\] in front of a surface of revolution, if its straight way would
+/// come nearer, to the face or `beside` it by less than this \[m\].
+fn pushed_by_band(band: &Band, [start, end]: [DVec3; 2], least: f64, beside: f64) -> Option<DVec3> {
+    let way = end - start;
+    let before = band.seen_from(start);
+    if before.front < 0.0 || before.distance > least + way.length() {
+        return None;
+    }
+    let flight =
+        Flight { position: start, velocity: way, acceleration: DVec3::ZERO, drag_rate: 0.0 };
+    let form = Form::Band(*band);
+    let part = contact_time::sphere_surface(&flight, least, &form, &SurfaceMotion::REST, 1.0)?;
+    let there = start + part * way;
+    let reached = band.seen_from(there);
+    if reached.room < -beside {
+        return None;
+    }
+    // Along the face it goes on, where it stays over it.
+    let over = band.face_seen_from(end);
+    let along = end + (least - over.front).max(0.0) * over.normal;
+    let stays = over.front < least
+        && over.normal.dot(reached.normal) > 0.0
+        && band.seen_from(along).room >= 0.0;
+    Some(if stays { along } else { there })
 }
 
 /// A point in the coordinates of a rectangle, with y in front of it \[m\].

@@ -4,8 +4,10 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
+use crate::band::Band;
 use crate::detect::sphere_surface;
 use crate::detect::surface_tree::{Bounds, bounds};
+use crate::round_solid::RoundSolid;
 use crate::rule::periodic::image_shift;
 use crate::surface::{Form, Role, Surface, SurfaceMotion};
 
@@ -196,6 +198,9 @@ pub(crate) fn turning_rate(form: &Form, motion: &SurfaceMotion) -> f64 {
         // Of a collider of its own, about its centre.
         Form::Sphere { .. } => 0.0,
         Form::HalfSpace { normal, .. } => motion.angular_velocity.cross(*normal).length(),
+        Form::Band(Band { axis, .. }) | Form::Round(RoundSolid { axis, .. }) => {
+            motion.angular_velocity.cross(*axis).length()
+        }
         _ => motion.angular_velocity.length(),
     }
 }

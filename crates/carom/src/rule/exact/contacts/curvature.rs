@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use super::separation::are_within;
+use super::separation::{are_within, is_over_face};
+use crate::band::{Band, View};
 use crate::detect::Separation;
 use crate::norm::Norm;
 use crate::surface::Form;
@@ -16,6 +17,9 @@ pub(crate) enum NormalCurvature {
     RoundFeature(f64),
     /// About an edge in this direction, this far from the centre of body 2 \[m\].
     Edge(DVec3, f64),
+    /// By these second derivatives of the gap along two unit vectors across the normal \[1/m\]: negative where the
+    /// surface is hollow.
+    Principal { directions: [DVec3; 2], curvatures: [f64; 2] },
 }
 
 impl NormalCurvature {
@@ -27,6 +31,47 @@ impl NormalCurvature {
             Self::Edge(direction, distance) => {
                 Some((tangential - tangential.dot(direction) * direction, distance))
             }
+            Self::Principal { directions, curvatures } => {
+                let parts: [DVec3; 2] = std::array::from_fn(|number| {
+                    let turns = curvatures[number] != 0.0;
+                    let part = tangential.dot(directions[number]) * directions[number];
+                    if turns { part } else { DVec3::ZERO }
+                });
+                let velocity = parts[0] + parts[1];
+                let sharpest = curvatures[0].abs().max(curvatures[1].abs()).recip();
+                let rate = self.rate(tangential).norm();
+                Some((velocity, if rate > 0.0 { velocity.norm() / rate } else { sharpest }))
+            }
+        }
+    }
+
+    /// How fast the normal turns by this velocity \[rad/s\].
+    pub fn rate(&self, tangential: DVec3) -> DVec3 {
+        match *self {
+            Self::Principal { directions, curvatures } => {
+                let along = |number: usize| {
+                    let speed = tangential.dot(directions[number]);
+                    speed * curvatures[number] * directions[number]
+                };
+                along(0) + along(1)
+            }
+            _ => self.turning(tangential).map_or(DVec3::ZERO, |(part, distance)| part / distance),
+        }
+    }
+
+    /// Second derivative of the gap \[m/s²\] by this velocity.
+    pub fn acceleration(&self, tangential: DVec3) -> f64 {
+        match *self {
+            Self::Principal { directions, curvatures } => {
+                let along = |number: usize| {
+                    let speed = tangential.dot(directions[number]);
+                    speed * speed * curvatures[number]
+                };
+                along(0) + along(1)
+            }
+            _ => self
+                .turning(tangential)
+                .map_or(0.0, |(part, distance)| part.length_squared() / distance),
         }
     }
 }
@@ -43,7 +88,10 @@ pub(super) fn curvature_of(
         Form::Sphere { center: fixed, .. } => {
             NormalCurvature::RoundFeature((center - *fixed).norm())
         }
-        Form::HalfSpace { .. } | Form::Box(_) | Form::Facet(_) => NormalCurvature::Flat,
+        Form::HalfSpace { .. } | Form::Box(_) | Form::Round(_) | Form::Facet(_) => {
+            NormalCurvature::Flat
+        }
+        Form::Band(band) => curvature_of_band(band, [center, velocity]),
         Form::Edge(edge) => NormalCurvature::Edge(edge.axis, distance),
         Form::Corner(_) => NormalCurvature::RoundFeature(distance),
         Form::Rectangle(rectangle) => match are_within(rectangle, [center, velocity]) {
@@ -53,4 +101,14 @@ pub(super) fn curvature_of(
             [false, false] => NormalCurvature::RoundFeature(distance),
         },
     }
+}
+
+fn curvature_of_band(band: &Band, state: [DVec3; 2]) -> NormalCurvature {
+    let is_over = is_over_face(band, state);
+    if is_over && band.flat_normal().is_some() {
+        return NormalCurvature::Flat;
+    }
+    let view = if is_over { band.face_seen_from(state[0]) } else { band.rim_seen_from(state[0]) };
+    let View { directions, curvatures, .. } = view;
+    NormalCurvature::Principal { directions, curvatures }
 }

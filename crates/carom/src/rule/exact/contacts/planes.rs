@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::separation::{are_within, separation};
+use super::separation::{are_within, is_over_face, separation};
 use crate::norm::Norm;
 use crate::rule::exact::contact_scale::TOUCHING;
 use crate::surface::{Form, Surface};
@@ -32,8 +32,12 @@ impl<'a> Plane<'a> {
             Form::Rectangle(rectangle) => {
                 (are_within(rectangle, state) == [true; 2]).then_some(rectangle.normal)?
             }
+            Form::Band(band) => {
+                let normal = band.flat_normal()?;
+                is_over_face(band, state).then_some(normal)?
+            }
             Form::Facet(facet) => facet.holds(state).then_some(facet.frame.normal)?,
-            Form::Sphere { .. } | Form::Box(_) | Form::Edge(_) | Form::Corner(_) => return None,
+            _ => return None,
         };
         Some(Self { surface, normal, form, image: DVec3::ZERO })
     }

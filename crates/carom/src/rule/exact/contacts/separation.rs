@@ -3,9 +3,10 @@
 use glam::DVec3;
 
 use super::member::Member;
+use crate::band::Band;
 use crate::detect::{
-    Separation, sphere_corner_point, sphere_edge_line, sphere_facet_plane,
-    sphere_rectangle_known_in_front, sphere_surface,
+    Separation, known_in_front, sphere_corner_point, sphere_edge_line, sphere_facet_plane,
+    sphere_surface,
 };
 use crate::id::ColliderId;
 use crate::norm::Norm;
@@ -24,9 +25,7 @@ pub(crate) fn separation(
     is_predicted: bool,
 ) -> Option<Separation> {
     match form {
-        Form::Rectangle(rectangle) if is_predicted => {
-            Some(sphere_rectangle_known_in_front(rectangle, center, radius))
-        }
+        Form::Rectangle(_) | Form::Band(_) if is_predicted => known_in_front(form, center, radius),
         Form::Facet(facet) => Some(sphere_facet_plane(facet, center, radius)),
         Form::Edge(edge) => Some(sphere_edge_line(edge, center, radius)),
         Form::Corner(corner) => Some(sphere_corner_point(corner, center, radius)),
@@ -60,6 +59,18 @@ pub(crate) fn are_within(rectangle: &Rectangle, [center, velocity]: [DVec3; 2]) 
         };
         beyond < 0.0 || (beyond <= 2.0 * slack && moves_in())
     })
+}
+
+/// Whether a sphere with this centre \[m\] and velocity relative to a band \[m/s\] is over its face. At the very
+/// rim it is if it moves away from that.
+pub(crate) fn is_over_face(band: &Band, [center, velocity]: [DVec3; 2]) -> bool {
+    let slack = TOUCHING * band.coordinates();
+    let view = band.face_seen_from(center);
+    if view.room.abs() > slack {
+        return view.room > 0.0;
+    }
+    let step = slack / velocity.norm().max(f64::MIN_POSITIVE);
+    band.face_seen_from(center + step * velocity).room > view.room
 }
 
 /// Rounding of a place beside a rectangle, at an `offset` from its centre \[m\].
@@ -172,6 +183,6 @@ fn is_above(form: &Form, point: DVec3, height: f64) -> bool {
         Form::Facet(facet) => facet.height_of(point).abs() > height,
         Form::Edge(edge) => edge.distance_of(point) > height,
         Form::Corner(corner) => (point - corner.point).norm() > height,
-        Form::Sphere { .. } | Form::Box(_) => false,
+        _ => false,
     }
 }

@@ -30,6 +30,8 @@ pub(crate) struct Touch {
     /// Of the surface, were it to reach as far as the centre of body 2 \[m/s\]: along the normal it is
     /// the same where they touch. 0 where body 1 is a sphere.
     pub surface_velocity: DVec3,
+    /// The part of that by which the surface turns in its place, as a wheel does about its axle \[m/s\].
+    pub turning_in_place: DVec3,
     /// Of the surface \[rad/s\].
     pub surface_spin: DVec3,
     /// Acceleration of the gap from the turning of the surface, without sliding, is its part along
@@ -67,8 +69,18 @@ impl Touch {
 
     /// Velocity of body 2 relative to body 1 \[m/s\].
     pub fn relative_velocity(&self, members: &[Member]) -> DVec3 {
-        let first = self.first.map_or(self.surface_velocity, |first| members[first].velocity);
+        let first = self.first.map_or(self.form_velocity(), |first| members[first].velocity);
         members[self.second].velocity - first
+    }
+
+    /// Velocity of the place of the surface, which does not change where it turns in place \[m/s\].
+    pub fn form_velocity(&self) -> DVec3 {
+        self.surface_velocity - self.turning_in_place
+    }
+
+    /// Angular velocity of the place of the surface \[rad/s\].
+    pub fn form_spin(&self) -> DVec3 {
+        if self.turning_in_place == DVec3::ZERO { self.surface_spin } else { DVec3::ZERO }
     }
 
     /// Its part along the normal: negative where the bodies close.
@@ -84,7 +96,7 @@ impl Touch {
 
     /// Whether its normal turns, because bodies slide along each other or the surface turns.
     pub fn is_curved(&self) -> bool {
-        self.curvature != NormalCurvature::Flat || self.surface_spin != DVec3::ZERO
+        self.curvature != NormalCurvature::Flat || self.form_spin() != DVec3::ZERO
     }
 
     /// Whether the surface moves, and so does work on the sphere.
@@ -128,7 +140,8 @@ impl Touch {
                 let center = second.position + self.shift;
                 let mut separation =
                     separation(&form, center, second.species.radius, self.is_predicted)?;
-                let velocity = second.velocity - motion.velocity_at(center);
+                let turning_in_place = motion.turning_in_place(&form, center);
+                let velocity = second.velocity - (motion.velocity_at(center) - turning_in_place);
                 let curvature = curvature_of(&form, [center, velocity], &separation);
                 if let (Form::Rectangle(face), NormalCurvature::Flat) = (&form, curvature) {
                     // At its very edge, too.
@@ -136,7 +149,8 @@ impl Touch {
                     separation.distance = height - second.species.radius;
                     separation.normal = face.normal;
                 }
-                Some(Self { curvature, ..self.with(separation).with_motion(&motion, center) })
+                let touch = self.with(separation).with_motion(&motion, center);
+                Some(Self { curvature, turning_in_place, ..touch })
             }
         }
     }
@@ -183,6 +197,7 @@ impl Touch {
             gap: 0.0,
             curvature: NormalCurvature::Flat,
             surface_velocity: DVec3::ZERO,
+            turning_in_place: DVec3::ZERO,
             surface_spin: DVec3::ZERO,
             surface_pull: DVec3::ZERO,
         }

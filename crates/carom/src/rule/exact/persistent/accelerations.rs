@@ -44,9 +44,8 @@ pub(crate) fn free_acceleration(member: &Member) -> DVec3 {
 /// bodies slide along a curve, and the swing of a surface that turns.
 pub(super) fn bias(touch: &Touch, members: &[Member]) -> f64 {
     let tangential = touch.across(touch.relative_velocity(members));
-    let sliding = touch.curvature.turning(tangential);
-    let curve = sliding.map_or(0.0, |(turning, distance)| turning.length_squared() / distance);
-    let spin = touch.surface_spin;
+    let curve = touch.curvature.acceleration(tangential);
+    let spin = touch.form_spin();
     if spin == DVec3::ZERO {
         return curve;
     }

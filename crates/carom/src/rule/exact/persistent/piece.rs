@@ -7,7 +7,7 @@ use super::correction::corrections;
 use crate::flight::Propagator;
 use crate::norm::Norm;
 use crate::rule::exact::contact_scale::{ContactScale, MOST_MISSED, TOUCHING};
-use crate::rule::exact::contacts::{Group, Member, Touch};
+use crate::rule::exact::contacts::{Group, Member, NormalCurvature, Touch};
 use crate::rule::exact::context::StepContext;
 use crate::sum::Sum;
 
@@ -15,6 +15,9 @@ use crate::sum::Sum;
 /// between is a parabola through the middle of the turn; its gap to the true one is of the third
 /// order, below 1e-10 of the radius of the curve.
 pub(super) const TURN: f64 = 1e-3;
+/// The same where a surface of revolution turns the normal: there a sphere may stay for a long time, and the errors of
+/// many pieces add up.
+const TURN_ON_BAND: f64 = 0.2 * TURN;
 /// Part of a radius by which a piece of path may close the gap of a persistent contact: more than what
 /// rounding opens.
 const MOST_CLOSED: f64 = 1e-10;
@@ -36,7 +39,7 @@ pub(super) fn turning_time(
 ) -> f64 {
     let mut time = f64::INFINITY;
     for touch in touches {
-        let spin = touch.surface_spin.norm();
+        let spin = touch.form_spin().norm();
         if spin > 0.0 {
             time = time.min(TURN / spin).min(frame_left);
         }
@@ -51,14 +54,16 @@ pub(super) fn turning_time(
             continue;
         };
         let scale = IDLE * (accelerations.largest + relative.norm());
+        let is_band = matches!(touch.curvature, NormalCurvature::Principal { .. });
+        let turn = if is_band { TURN_ON_BAND } else { TURN };
         if velocity.norm() > 0.0 {
-            time = time.min(TURN * distance / velocity.norm());
+            time = time.min(turn * distance / velocity.norm());
         }
         if velocity.norm() > 0.0 || acceleration.norm() > scale {
             let radii = touch.places().map(|place| members[place].species.radius);
             let length = 0.25 * radii.fold(distance, f64::min);
             let acceleration = acceleration.norm().max(scale);
-            time = time.min((2.0 * TURN * length / acceleration).sqrt());
+            time = time.min((2.0 * turn * length / acceleration).sqrt());
         }
     }
     time

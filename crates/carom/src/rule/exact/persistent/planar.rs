@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::NoClosedForm;
 use super::accelerations::{IDLE, free_acceleration, is_back_within};
 use super::rolling::{PressedSphere, Rolling, on_plane};
-use super::sliding::time_on;
+use super::sliding::{time_on, time_on_disc};
 use crate::axis_motion::AxisMotion;
 use crate::detect::contact::Bodies;
 use crate::flight::Flight;
@@ -190,6 +190,11 @@ impl PlanarSupport {
             if persists && may_end {
                 let time = time_on(plane.form, [position, velocity], motion);
                 self.valid_for = self.valid_for.min(time);
+            }
+            if let Form::Band(disc) = plane.form
+                && persists
+            {
+                self.valid_for = self.valid_for.min(time_on_disc(disc, &flight));
             }
         }
     }

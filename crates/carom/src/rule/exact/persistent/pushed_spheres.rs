@@ -320,8 +320,7 @@ impl<'a> PushedSpheres<'a> {
 
     fn contact(&self, members: &[Member], (touch, slides): (&Touch, &Direction)) -> PushingContact {
         let velocity = touch.across(touch.relative_velocity(members));
-        let turning = touch.curvature.turning(velocity);
-        let normal_turns = turning.map_or(DVec3::ZERO, |(velocity, distance)| velocity / distance);
+        let normal_turns = touch.curvature.rate(velocity);
         let slip_bias = touch.across(surface_turning(members, touch).cross(normal_turns));
         PushingContact {
             first: touch.first,

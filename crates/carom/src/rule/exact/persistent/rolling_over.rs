@@ -111,8 +111,7 @@ impl CurvedContact<'_> {
         let normal = touch.normal;
         let pressing =
             -species.acceleration.dot(normal) - bias(touch, std::slice::from_ref(member));
-        let turning = touch.curvature.turning(touch.across(velocity));
-        let turning = turning.map_or(DVec3::ZERO, |(velocity, distance)| velocity / distance);
+        let turning = touch.curvature.rate(touch.across(velocity));
         let spin = species.radius * angular_velocity.dot(normal);
         PressedSphere {
             normal,

@@ -4,10 +4,14 @@ use glam::DVec3;
 
 use super::accelerations::Accelerations;
 use crate::axis_motion::AxisMotion;
+use crate::band::Band;
+use crate::contact_time;
 use crate::detect::contact::Bodies;
-use crate::rule::exact::contacts::{Group, Touch, are_within, slack_of};
+use crate::flight::Flight;
+use crate::rule::exact::contact_scale::TOUCHING;
+use crate::rule::exact::contacts::{Group, Touch, are_within, is_over_face, slack_of};
 use crate::rule::exact::context::StepContext;
-use crate::surface::{Form, Rectangle};
+use crate::surface::{Form, Rectangle, SurfaceMotion};
 
 /// Time \[s\] until a sphere may slide off the part of a surface that it is in contact with.
 pub(super) fn sliding_time(
@@ -22,12 +26,18 @@ pub(super) fn sliding_time(
         let (form, _) = context.surface_at(surface, group.time);
         let member = &group.members[touch.second];
         let center = member.position + touch.shift;
-        let velocity = member.velocity - touch.surface_velocity;
+        let velocity = member.velocity - touch.form_velocity();
+        let (acceleration, drag_rate) =
+            (accelerations.each[touch.second], member.species.drag_rate);
         let motion = |axis: DVec3| AxisMotion {
             velocity: velocity.dot(axis),
-            acceleration: accelerations.each[touch.second].dot(axis),
-            drag_rate: member.species.drag_rate,
+            acceleration: acceleration.dot(axis),
+            drag_rate,
         };
+        if let Form::Band(band) = &form {
+            let flight = Flight { position: center, velocity, acceleration, drag_rate };
+            time = time.min(time_on_disc(band, &flight));
+        }
         time = time.min(time_on(&form, [center, velocity], motion));
     }
     time
@@ -45,8 +55,32 @@ pub(super) fn time_on(
         Form::Facet(facet) => facet.time_on(center, motion),
         Form::Edge(edge) => edge.time_on(center, motion),
         Form::Corner(corner) => corner.time_on(center, motion),
-        Form::Sphere { .. } | Form::HalfSpace { .. } | Form::Box(_) => f64::INFINITY,
+        Form::Band(band) => time_on_band(band, [center, velocity], motion),
+        _ => f64::INFINITY,
     }
+}
+
+/// Time \[s\] until a sphere with this centre \[m\] and velocity relative to a band \[m/s\] may slide off its face, along
+/// the profile.
+fn time_on_band(band: &Band, state: [DVec3; 2], motion: impl Fn(DVec3) -> AxisMotion) -> f64 {
+    if band.disc_radius().is_some() || !is_over_face(band, state) {
+        return f64::INFINITY;
+    }
+    // As far as the rim is certain to be behind it.
+    let slack = TOUCHING * band.coordinates();
+    let view = band.face_seen_from(state[0]);
+    let [before, after] = band.rooms(state[0]);
+    motion(view.directions[0]).leaves(-before - slack, after + slack)
+}
+
+/// Time \[s\] until a sphere with this flight relative to a disc may slide off it; infinite for other bands.
+pub(super) fn time_on_disc(disc: &Band, flight: &Flight) -> f64 {
+    let slack = TOUCHING * disc.coordinates();
+    let is_over = || is_over_face(disc, [flight.position, flight.velocity]);
+    let Some(wall) = disc.beyond_disc(slack).filter(|_| is_over()) else { return f64::INFINITY };
+    let (form, rest, endless) = (Form::Band(wall), SurfaceMotion::REST, f64::INFINITY);
+    let time = contact_time::sphere_surface(flight, 0.0, &form, &rest, endless);
+    time.unwrap_or(f64::INFINITY)
 }
 
 /// Time \[s\] until a sphere with this centre \[m\] and velocity relative to a rectangle \[m/s\] may slide off

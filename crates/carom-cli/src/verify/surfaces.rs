@@ -1,0 +1,267 @@
+//! Surfaces of revolution under the rule `exact`: pendulums in bowls and pipes, a ball that rolls in an upright pipe,
+//! loops, a billiard in a sphere; and a turntable.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use carom::{
+    Collider, Contact, DQuat, DVec3, Ends, Error, Exact, Gravity, Pose, Rule, Shape, Sphere, World,
+};
+
+use super::claim::{Claim, Expected, Fault, Measured, Outcome, Tolerance};
+use super::setup::{G, world};
+
+/// Of the hollows \[m\].
+const HOLLOW: f64 = 1.0;
+/// Of the balls \[m\].
+const BALL: f64 = 0.1;
+/// Where the centre of a ball runs \[m\].
+const PATH: f64 = HOLLOW - BALL;
+const PIECES: &str = "a ball on a surface of revolution goes in pieces of 2e-4 rad";
+
+pub fn claims() -> Vec<Claim> {
+    let mut claims = swings();
+    claims.extend(loops());
+    claims.push(upright_pipe());
+    claims.push(billiard());
+    let mut claims: Vec<Claim> =
+        claims.into_iter().map(|claim| claim.about(Exact::default().into())).collect();
+    claims.extend([Exact::default().into(), Contact::default().into()].map(turntable));
+    claims
+}
+
+/// A world with gravity and one hollow of this shape about the origin.
+fn hollow(shape: Shape, rotation: DQuat, friction: f64) -> Result<World, Error> {
+    let mut world = world(Exact::default().into())?;
+    world.add_force(Gravity::new(DVec3::new(0.0, -G, 0.0)))?;
+    let pose = Pose::at(DVec3::ZERO).rotated(rotation);
+    world.add_collider(Collider::new(shape, pose).with_friction(friction))?;
+    Ok(world)
+}
+
+fn lying_pipe(friction: f64) -> Result<World, Error> {
+    let pipe = Shape::Pipe { radius: HOLLOW, length: 2.0, closed: Ends::NONE };
+    hollow(pipe, DQuat::from_rotation_x(FRAC_PI_2), friction)
+}
+
+fn bowl(opening: f64, friction: f64) -> Result<World, Error> {
+    hollow(Shape::Bowl { radius: HOLLOW, opening }, DQuat::IDENTITY, friction)
+}
+
+fn place(world: &World) -> DVec3 {
+    world.spheres().positions()[0]
+}
+
+/// Claims about small swings at the bottom.
+fn swings() -> Vec<Claim> {
+    let claim = |name: &str, friction: f64, world: fn(f64) -> Result<World, Error>| {
+        let factor = if friction > 0.0 { 1.4 } else { 1.0 };
+        let amplitude: f64 = 0.05;
+        // 1 + θ²/16 + 11 θ⁴/3072 of small swings.
+        let stretch = 1.0 + amplitude.powi(2) / 16.0 + 11.0 * amplitude.powi(4) / 3072.0;
+        let expected = 2.0 * PI * (factor * PATH / G).sqrt() * stretch;
+        Claim::new(
+            name,
+            Expected::value(expected, "Landau and Lifshitz, Mechanics (1976), 11 and 39"),
+            Tolerance::relative(1e-5, PIECES),
+            move |_| period(world(friction)?, amplitude),
+        )
+    };
+    vec![
+        claim(
+            "exact: period of a ball that slides in a bowl, 2 pi sqrt((R - r)/g) [s]",
+            0.0,
+            |it| bowl(FRAC_PI_2, it),
+        ),
+        claim("exact: and of one that rolls, 2 pi sqrt(7 (R - r)/(5 g)) [s]", 1.0, |it| {
+            bowl(FRAC_PI_2, it)
+        }),
+        claim("exact: period of a ball that slides in a lying pipe [s]", 0.0, lying_pipe),
+        claim("exact: and of one that rolls there [s]", 1.0, lying_pipe),
+    ]
+}
+
+/// Mean period of the swings of a ball from an amplitude \[rad\].
+fn period(mut world: World, amplitude: f64) -> Outcome {
+    let place = PATH * DVec3::new(libm::sin(amplitude), -libm::cos(amplitude), 0.0);
+    world.add_sphere(Sphere::new(place, BALL).with_restitution(0.0))?;
+    let frame = 1.0 / 240.0;
+    let (mut first, mut last, mut count, mut before) = (0.0, 0.0, 0.0, place.x);
+    while world.time() < 10.0 {
+        world.step(frame)?;
+        let now = self::place(&world).x;
+        if before < 0.0 && now >= 0.0 {
+            last = world.time() - frame * now / (now - before);
+            if first == 0.0 {
+                first = last;
+            } else {
+                count += 1.0;
+            }
+        }
+        before = now;
+    }
+    Ok(Measured::in_world(&world, (last - first) / count))
+}
+
+/// Claims about the least height from which a ball gets round.
+fn loops() -> Vec<Claim> {
+    let claim = |name: &str, friction: f64, expected: f64, tolerance| {
+        let source = if friction > 0.0 { "0.7 v² and the slip near the top" } else { "energy" };
+        Claim::new(name, Expected::value(expected, source), tolerance, move |_| {
+            least_height(friction)
+        })
+    };
+    let slips = Tolerance::absolute(1e-3, "three digits are given");
+    vec![
+        claim(
+            "exact: least height for a loop without friction, 5/2 (R - r) [R - r]",
+            0.0,
+            2.5,
+            Tolerance::relative(1e-5, PIECES),
+        ),
+        claim("exact: least height for a loop with friction .3 [R - r]", 0.3, 2.731, slips),
+        claim(
+            "exact: least height for a loop with friction 1: near 27/10 [R - r]",
+            1.0,
+            2.703,
+            slips,
+        ),
+    ]
+}
+
+/// Least height above the lowest place of the centre, in parts of the radius of its path, from which a ball that
+/// slides or rolls gets round.
+fn least_height(friction: f64) -> Outcome {
+    // h of a ball at the lowest place: its kinetic energy over its weight.
+    let share = if friction > 0.0 { 0.7 } else { 0.5 };
+    let (mut low, mut high) = (2.0, 3.2);
+    let mut last = None;
+    for _ in 0..20 {
+        let height = 0.5 * (low + high);
+        let speed = (height * PATH * G / share).sqrt();
+        let (world, goes_round) = round(friction, speed)?;
+        last = Some(world);
+        if goes_round { high = height } else { low = height }
+    }
+    let world = last.ok_or("no loop was tried")?;
+    Ok(Measured::in_world(&world, 0.5 * (low + high)))
+}
+
+/// Whether a ball with this speed at the lowest place stays on the wall as far as the top \[m/s\].
+fn round(friction: f64, speed: f64) -> Result<(World, bool), Fault> {
+    let mut world = lying_pipe(friction)?;
+    let ball = Sphere::new(DVec3::new(0.0, -PATH, 0.0), BALL)
+        .with_restitution(0.0)
+        .with_velocity(DVec3::X * speed)
+        .with_angular_velocity(DVec3::Z * (speed / BALL));
+    world.add_sphere(ball)?;
+    while world.time() < 2.0 {
+        world.step(1.0 / 240.0)?;
+        let place = place(&world);
+        // A ball that has left the wall is farther from it than what pieces of path leave.
+        if place.length() < PATH * (1.0 - 1e-6) {
+            return Ok((world, false));
+        }
+        if place.x < 0.0 {
+            return Ok((world, true));
+        }
+    }
+    Ok((world, false))
+}
+
+/// Gualtieri et al., Am. J. Phys. 74, 497 (2006): the golfer's dilemma.
+fn upright_pipe() -> Claim {
+    let rate = 6.0;
+    let omega = (2.0_f64 / 7.0).sqrt() * rate;
+    let drop = 5.0 / 7.0 * G / (omega * omega);
+    Claim::new(
+        "exact: a ball that rolls round an upright pipe swings with sqrt(2/7) of its rate [part of 2 x 0.68 m]",
+        Expected::no_error("Gualtieri et al., Am. J. Phys. 74, 497 (2006)"),
+        Tolerance::absolute(1e-5, PIECES),
+        move |_| {
+            let pipe = Shape::Pipe { radius: HOLLOW, length: 20.0, closed: Ends::NONE };
+            let mut world = hollow(pipe, DQuat::IDENTITY, 1e3)?;
+            let speed = rate * PATH;
+            let ball = Sphere::new(DVec3::X * PATH, BALL)
+                .with_restitution(0.0)
+                .with_velocity(DVec3::Z * -speed)
+                .with_angular_velocity(DVec3::Y * (-speed / BALL));
+            world.add_sphere(ball)?;
+            let mut worst = 0.0_f64;
+            while world.time() < 5.0 {
+                world.step(1.0 / 60.0)?;
+                let expected = -drop * (1.0 - libm::cos(omega * world.time()));
+                worst = worst.max((place(&world).y - expected).abs() / (2.0 * drop));
+            }
+            Ok(Measured::in_world(&world, worst))
+        },
+    )
+}
+
+/// Without gravity, angular momentum about the centre of a sphere is kept.
+fn billiard() -> Claim {
+    Claim::new(
+        "exact: change of angular momentum in 10 s of billiard in a sphere [part of it]",
+        Expected::no_error("normals lead to the centre"),
+        Tolerance::absolute(1e-13, "rounding of some fifty impacts"),
+        |_| {
+            let mut world = world(Exact::default().into())?;
+            let sphere = Shape::Bowl { radius: HOLLOW, opening: 0.0 };
+            world.add_collider(Collider::new(sphere, Pose::at(DVec3::ZERO)))?;
+            let start = DVec3::new(0.2, 0.3, -0.1);
+            let ball = Sphere::new(start, BALL).with_velocity(DVec3::new(3.0, 1.0, 2.0));
+            world.add_sphere(ball)?;
+            let momentum = |world: &World| place(world).cross(world.spheres().velocities()[0]);
+            let before = momentum(&world);
+            while world.time() < 10.0 {
+                world.step(1.0 / 60.0)?;
+            }
+            let change = (momentum(&world) - before).length() / before.length();
+            Ok(Measured::in_world(&world, change))
+        },
+    )
+}
+
+/// A ball that rolls on a turntable goes in circles at 2/7 of its rate.
+fn turntable(rule: Rule) -> Claim {
+    let rate = 3.0;
+    let duration = 2.0;
+    Claim::new(
+        format!(
+            "{}: a ball that rolls on a turntable circles at 2/7 of its rate [part]",
+            name(rule)
+        ),
+        Expected::value(2.0 / 7.0, "Weltner, Am. J. Phys. 47, 984 (1979)"),
+        Tolerance::relative(1e-2, "friction on what moves is of first order in a sub-step"),
+        move |_| {
+            let mut world = world(rule)?;
+            world.add_force(Gravity::new(DVec3::new(0.0, -G, 0.0)))?;
+            let disc = Collider::new(Shape::Disc { radius: 3.0 }, Pose::at(DVec3::ZERO));
+            let turning = DVec3::Y * rate;
+            world.add_collider(disc.moving(DVec3::ZERO, turning).with_friction(1.0))?;
+            let start = DVec3::new(0.5, BALL, 0.0);
+            let velocity = DVec3::new(0.3, 0.0, 0.4);
+            // Without slip: v - ω × r n is the velocity of the disc there.
+            let beside = velocity - turning.cross(start);
+            let ball = Sphere::new(start, BALL)
+                .with_restitution(0.0)
+                .with_velocity(velocity)
+                .with_angular_velocity(DVec3::Y.cross(beside) / BALL);
+            world.add_sphere(ball)?;
+            while world.time() < duration - 1e-9 {
+                world.step(1.0 / 60.0)?;
+            }
+            let now = world.spheres().velocities()[0];
+            // Angle about +y from the first velocity to the last.
+            let angle = libm::atan2(velocity.cross(now).y, velocity.dot(now));
+            Ok(Measured::in_world(&world, angle / (rate * duration)))
+        },
+    )
+    .about(rule)
+}
+
+fn name(rule: Rule) -> &'static str {
+    match rule {
+        Rule::Contact(_) => "contact",
+        _ => "exact",
+    }
+}
