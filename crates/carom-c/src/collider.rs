@@ -287,7 +287,11 @@ pub unsafe extern "C" fn carom_world_set_collider(
         let collider = unsafe { read(collider, "collider") }?;
         world.with(|inner| {
             let own = ColliderId::from_number(id);
-            let collider = collider.physical(Some(inner.world.collider(own)?.shape))?;
+            // What programs in C cannot name stays as it is.
+            let before = inner.world.collider(own)?;
+            let (kick, groups, user_data) = (before.kick, before.groups, before.user_data);
+            let collider = collider.physical(Some(before.shape))?;
+            let collider = collider.with_kick(kick).with_groups(groups).with_user_data(user_data);
             inner.world.set_collider(own, collider.clone())?;
             let place = inner.world.colliders().position(|(other, _)| other == own);
             inner.described.change_colliders(|all| {

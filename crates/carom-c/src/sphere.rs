@@ -211,7 +211,14 @@ pub unsafe extern "C" fn carom_world_set_sphere(
     call(|| {
         // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
         let sphere = unsafe { read(sphere, "sphere") }?;
-        world.with(|inner| Ok(inner.world.set_sphere(SphereId::from_number(id), sphere.into())?))
+        let sphere: carom::Sphere = sphere.into();
+        world.with(|inner| {
+            let own = SphereId::from_number(id);
+            // What programs in C cannot name stays as it is.
+            let before = inner.world.sphere(own)?;
+            let sphere = sphere.with_groups(before.groups).with_user_data(before.user_data);
+            Ok(inner.world.set_sphere(own, sphere)?)
+        })
     })
 }
 

@@ -12,6 +12,8 @@ pub struct EnergyBalance {
     contacts: f64,
     /// Work of moving colliders \[J\].
     colliders: f64,
+    /// Work of the kicks of colliders \[J\].
+    kicks: f64,
     /// Work of separating overlapping spheres \[J\].
     correction: f64,
     /// Energy of emitted spheres minus that of removed spheres \[J\].
@@ -25,9 +27,9 @@ pub struct EnergyBalance {
 impl EnergyBalance {
     /// Creates the balance from the accounts and the total `change` of energy \[J\].
     pub fn new(account: EnergyAccount, change: f64, remainder_is: &'static str) -> Self {
-        let EnergyAccount { contacts, colliders, correction, emission, .. } = account;
+        let EnergyAccount { contacts, colliders, kicks, correction, emission, .. } = account;
         let remainder = change - account.total();
-        Self { contacts, colliders, correction, emission, remainder, remainder_is }
+        Self { contacts, colliders, kicks, correction, emission, remainder, remainder_is }
     }
 
     /// Lines of the summary. Zero entries are left out, except the first and the last.
@@ -35,6 +37,7 @@ impl EnergyBalance {
         let entries = [
             ("  contacts", self.contacts, "taken by restitution and friction"),
             ("  colliders", self.colliders, "given by moving colliders"),
+            ("  kicks", self.kicks, "given by colliders that kick"),
             ("  correction", self.correction, "given by the correction of overlaps"),
             ("  emission", self.emission, "of emitted balls, less those taken out"),
             ("  remainder", self.remainder, self.remainder_is),

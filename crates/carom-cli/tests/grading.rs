@@ -75,11 +75,19 @@ fn a_folder_of_submissions_gets_a_table_pages_and_the_worst_exit_code() {
     assert!(bad_line(&["grade", &right, "--table", &table], 2).contains("is there already"));
     let broken = path(&folder, "carl_simtest1.csv");
     std::fs::write(&broken, "t,ball,x,y,z\n0.02,0,1,2,up\n").unwrap();
-    let errors = bad(&["grade", &right, &broken, &wrong, "--table", &table, "--force"], 2);
+    let files = ["--table", &table, "--report", &pages, "--force"];
+    let errors = bad(&[&["grade", &right, &broken, &wrong][..], &files].concat(), 2);
     assert!(errors.contains("carl_simtest1.csv:2: \"up\" is no number"), "{errors}");
     assert!(errors.contains("1 of 3 runs cannot be graded"), "{errors}");
     let text = std::fs::read_to_string(&table).unwrap();
     assert!(text.contains("error") && text.contains("drag-sign"), "{text}");
+    // The page of the class has all of them, with the reason for the unreadable one.
+    let index = std::fs::read_to_string(path(&folder, "pages/index.html")).unwrap();
+    for part in
+        ["3 runs", "href=\"anna_SimTest3.html\"", "drag-sign", "cannot be read", "is no number"]
+    {
+        assert!(index.contains(part), "{part}: {index}");
+    }
 }
 
 #[test]

@@ -7,7 +7,7 @@ use crate::course_rule::Clock;
 use crate::fit::{Fit, Rows};
 use crate::program::Program;
 use crate::quantity::{Number, Quantity};
-use crate::tracks::Tracks;
+use crate::tracks::{Key, Tracks};
 
 /// Times of rows after a departure that a fit takes up next.
 const NEXT: usize = 10;
@@ -215,7 +215,8 @@ impl Bench<'_> {
         let mut range = [0.0_f64, f64::INFINITY];
         let mut is_new = vec![true; self.rows.keys.len()];
         for row in &recorded.rows {
-            let crate::tracks::Key::Number(ball) = self.rows.keys[row.label] else { continue };
+            // A slot first holds the ball with its number.
+            let (Key::Number(ball) | Key::Slot(ball)) = self.rows.keys[row.label];
             if !std::mem::take(&mut is_new[row.label]) || ball == 0 {
                 continue;
             }

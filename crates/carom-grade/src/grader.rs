@@ -330,15 +330,22 @@ impl Grader {
         let mut rows = self.rows(&found.case, found.tolerance);
         let rule = self.rule(&found.case.recorded);
         let display = display_times(&self.course, &found.case.recorded);
-        let bench =
-            Bench { course: &self.course, rows: &rows, end: rule.end, display: display.clone() };
+        let bench = self.bench(&rows, rule, display.as_deref());
+        // A wrong program rounds in another way than the rule.
+        let singles = self.singles(&bench, rule);
+        let is_longer = |it: &&Candidate| it.fit.followed > right.followed;
+        let first: Vec<Candidate> = singles.iter().filter(is_longer).cloned().collect();
+        if let Some(best) = verdict::best(&first) {
+            let own = self.widened(&bench, &best.program);
+            rows.widen(&own, SPREADS);
+        }
+        let bench = self.bench(&rows, rule, display.as_deref());
         let singles = self.singles(&bench, rule);
         let all = Search { bench: &bench, right, singles }.explanations();
         let Some(best) = verdict::best(&all) else { return (Vec::new(), None) };
-        // Another program rounds in another way.
         let own = self.widened(&bench, &best.program);
         rows.widen(&own, SPREADS);
-        let bench = Bench { course: &self.course, rows: &rows, end: rule.end, display };
+        let bench = self.bench(&rows, rule, display.as_deref());
         let mut all: Vec<Candidate> = verdict::listed(all);
         for candidate in &mut all {
             *candidate = bench.rounded(bench.candidate(candidate.program.clone()));
@@ -346,6 +353,11 @@ impl Grader {
         let all = verdict::listed(all);
         let run = all.first().map(|it| bench.run(&it.program, rule.end));
         (all, run)
+    }
+
+    fn bench<'a>(&'a self, rows: &'a Rows<'a>, rule: &Rule, display: Option<&[f64]>) -> Bench<'a> {
+        let display = display.map(<[f64]>::to_vec);
+        Bench { course: &self.course, rows, end: rule.end, display }
     }
 
     /// Compares a table with all programs that have a known mistake.

@@ -27,14 +27,17 @@
 #![warn(clippy::unwrap_used)]
 
 mod assign;
+mod class;
 mod contact;
 mod course;
 mod course_rule;
+mod encoding;
 mod error;
 mod estimate;
 mod fit;
 mod form;
 mod grader;
+mod heading;
 mod mistake;
 mod number;
 mod program;
@@ -45,11 +48,14 @@ mod report;
 mod scatter;
 mod search;
 mod spread;
+mod spreadsheet;
 mod svg;
+mod table;
 mod tracks;
 mod verdict;
 mod words;
 
+pub use class::{ClassRun, class_page};
 pub use contact::ContactKind;
 pub use course::Course;
 pub use error::GradeError;
@@ -57,8 +63,9 @@ pub use fit::{Departed, Fit};
 pub use grader::{Graded, Grader, TOLERANCE};
 pub use mistake::{Mistake, Mistakes};
 pub use quantity::WrongNumber;
-pub use recorded::{Columns, Reading, Recorded};
+pub use recorded::{Reading, Recorded};
 pub use report::page;
 pub use scatter::Scatter;
+pub use table::Columns;
 pub use tracks::{State, Touch, Tracks};
 pub use verdict::{Cause, Departure, DepartureContact, Explanation, Then, Verdict};

@@ -4,13 +4,13 @@ use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
 
 use carom::DVec3;
 use carom_scene::legible;
 
 use crate::error::GradeError;
 use crate::number::{decimals, number};
+use crate::table::{Columns, Places, Table, broken};
 
 /// Most rows of a table.
 const MOST_ROWS: usize = 2_000_000;
@@ -23,44 +23,6 @@ const FARTHEST: f64 = 1e9;
 
 /// Most bytes of a table.
 const MOST_BYTES: u64 = 512 << 20;
-
-/// Default names of columns, in lower case. If several exist, the first of this list counts.
-const USUAL: [(&str, &[&str], &str); 8] = [
-    ("t", &["t", "time", "seconds"], "the time"),
-    ("ball", &["ball", "id", "index", "sphere", "number"], "the ball"),
-    ("x", &["x", "px", "pos_x", "position_x", "position.x"], "the position"),
-    ("y", &["y", "py", "pos_y", "position_y", "position.y"], "the position"),
-    ("z", &["z", "pz", "pos_z", "position_z", "position.z"], "the position"),
-    ("vx", &["vx", "vel_x", "velocity_x", "velocity.x"], "the velocity"),
-    ("vy", &["vy", "vel_y", "velocity_y", "velocity.y"], "the velocity"),
-    ("vz", &["vz", "vel_z", "velocity_z", "velocity.z"], "the velocity"),
-];
-
-/// Names of columns that differ from the defaults: `t=time,ball=id`.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Columns(BTreeMap<&'static str, String>);
-
-impl FromStr for Columns {
-    type Err = GradeError;
-
-    fn from_str(text: &str) -> Result<Self, GradeError> {
-        let mut names = BTreeMap::new();
-        for part in text.split(',').filter(|part| !part.trim().is_empty()) {
-            let wrong = |what: &str| {
-                let keys: Vec<&str> = USUAL.iter().map(|usual| usual.0).collect();
-                let keys = keys.join(", ");
-                GradeError::Columns(format!("columns: {what}; write t=NAME, for {keys}"))
-            };
-            let (key, name) = part.split_once('=').ok_or_else(|| wrong("there is no ="))?;
-            let key = USUAL.iter().map(|usual| usual.0).find(|it| *it == key.trim());
-            let key = key.ok_or_else(|| wrong(&format!("\"{part}\" names no quantity")))?;
-            if names.insert(key, name.trim().to_owned()).is_some() {
-                return Err(wrong(&format!("{key} is there twice")));
-            }
-        }
-        Ok(Self(names))
-    }
-}
 
 /// Format of a table.
 #[derive(Debug, Clone, PartialEq)]
@@ -81,6 +43,18 @@ impl Default for Reading {
     fn default() -> Self {
         let columns = Columns::default();
         Self { columns, length_unit: 1.0, time_unit: 1.0, time_offset: 0.0, unity: false }
+    }
+}
+
+impl Reading {
+    /// Unit of length \[m\]: as asked for, or as the heading says.
+    fn length_unit(&self, places: &Places) -> f64 {
+        if self.length_unit == 1.0 { places.length_unit.unwrap_or(1.0) } else { self.length_unit }
+    }
+
+    /// Unit of time \[s\]: as asked for, or as the heading says.
+    fn time_unit(&self, places: &Places) -> f64 {
+        if self.time_unit == 1.0 { places.time_unit.unwrap_or(1.0) } else { self.time_unit }
     }
 }
 
@@ -136,28 +110,26 @@ impl Recorded {
     /// # Errors
     /// [`GradeError`] for an invalid line, with its number.
     pub fn parse(path: &Path, bytes: &[u8], reading: &Reading) -> Result<Self, GradeError> {
-        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-        let first = bytes.split(|it| *it == b'\n').next().unwrap_or_default();
-        let delimiter = [b';', b'\t'].into_iter().find(|it| first.contains(it)).unwrap_or(b',');
-        let mut table = csv::ReaderBuilder::new();
-        table.delimiter(delimiter).trim(csv::Trim::All);
-        let mut table = table.from_reader(bytes);
-        let broken = |error: csv::Error| broken(path, &error);
-        let header = table.headers().map_err(broken)?.clone();
-        let places = Places::of(path, &header, &reading.columns)?;
-        let mut parts = Parts { path, reading, places, labels: BTreeMap::new(), decimals: 0 };
+        let Table { places, width, records } = Table::find(path, bytes, &reading.columns)?;
+        let is_seen = |place: Option<usize>| f64::from(u8::from(place.is_some()));
+        let seen = DVec3::from_array(places.position.map(is_seen));
+        let length_unit = reading.length_unit(&places);
+        let mut parts =
+            Parts { path, reading, places, width, labels: BTreeMap::new(), decimals: 0 };
         let mut rows = Vec::new();
-        let mut record = csv::StringRecord::new();
-        while table.read_record(&mut record).map_err(broken)? {
+        for record in records {
+            let record = record.map_err(|error| broken(path, &error))?;
             if rows.len() == MOST_ROWS {
                 return Err(refused(path, "has more than 2,000,000 rows"));
             }
-            rows.push(parts.row(&record)?);
+            if !parts.is_empty(&record) {
+                rows.push(parts.row(&record)?);
+            }
         }
         if rows.is_empty() {
             return Err(refused(path, "has no rows"));
         }
-        let resolution = 0.5 * 10_f64.powi(-parts.decimals) * reading.length_unit;
+        let resolution = 0.5 * 10_f64.powi(-parts.decimals) * length_unit;
         let labels = order(&mut rows, parts.labels);
         let twice =
             rows.windows(2).find(|it| (it[0].time, it[0].label) == (it[1].time, it[1].label));
@@ -166,7 +138,7 @@ impl Recorded {
             let problem = format!("ball {ball} at this time is in line {} already", first.line);
             return Err(malformed(path, second.line, problem));
         }
-        Ok(Self { path: path.to_owned(), rows, labels, resolution, seen: DVec3::ONE })
+        Ok(Self { path: path.to_owned(), rows, labels, resolution, seen })
     }
 
     /// Distance of a row from a position in the coordinates that the table has \[m\].
@@ -187,56 +159,13 @@ impl Recorded {
     }
 }
 
-/// Indices of the columns of a table.
-struct Places {
-    time: usize,
-    ball: Option<usize>,
-    position: [usize; 3],
-    velocity: Option<[usize; 3]>,
-}
-
-impl Places {
-    fn of(path: &Path, header: &csv::StringRecord, columns: &Columns) -> Result<Self, GradeError> {
-        let find = |number: usize| -> Result<usize, GradeError> {
-            let (key, usual, what) = USUAL[number];
-            let named = columns.0.get(key);
-            let place = match named {
-                Some(named) => header.iter().position(|name| name == named),
-                // The first name of the list counts: beside `ball`, a column `index` may number
-                // rows.
-                None => usual
-                    .iter()
-                    .find_map(|usual| header.iter().position(|name| name.to_lowercase() == *usual)),
-            };
-            place.ok_or_else(|| GradeError::MissingColumn {
-                path: path.to_owned(),
-                column: named.map_or(key, String::as_str).to_owned(),
-                what,
-                key,
-                there: header.iter().collect::<Vec<_>>().join(", "),
-            })
-        };
-        let is_named = |key: &str| columns.0.contains_key(key);
-        let ball = match find(1) {
-            Err(_) if !is_named("ball") => None,
-            found => Some(found?),
-        };
-        let velocity = [find(5), find(6), find(7)];
-        let is_wanted = ["vx", "vy", "vz"].into_iter().any(is_named);
-        let velocity = match velocity {
-            [Ok(x), Ok(y), Ok(z)] => Some([x, y, z]),
-            [x, y, z] if is_wanted => Some([x?, y?, z?]),
-            _ => None,
-        };
-        Ok(Self { time: find(0)?, ball, position: [find(2)?, find(3)?, find(4)?], velocity })
-    }
-}
-
 /// State of the parser.
 struct Parts<'a> {
     path: &'a Path,
     reading: &'a Reading,
     places: Places,
+    /// Number of fields of the heading.
+    width: usize,
     /// Labels, each with its index in the order of lines.
     labels: BTreeMap<String, usize>,
     /// Most decimals of a position.
@@ -246,11 +175,14 @@ struct Parts<'a> {
 impl Parts<'_> {
     fn row(&mut self, record: &csv::StringRecord) -> Result<Row, GradeError> {
         let line = record.position().map_or(0, csv::Position::line);
-        let Reading { length_unit, time_unit, time_offset, unity, .. } = *self.reading;
+        self.check_width(record, line)?;
+        let Reading { time_offset, unity, .. } = *self.reading;
+        let length_unit = self.reading.length_unit(&self.places);
+        let time_unit = self.reading.time_unit(&self.places);
         let mirrored = if unity { DVec3::new(1.0, 1.0, -1.0) } else { DVec3::ONE };
         let time = self.number(record, line, self.places.time)? * time_unit + time_offset;
-        let position = self.vector(record, line, self.places.position)? * length_unit * mirrored;
-        for place in self.places.position {
+        let position = self.position(record, line)? * length_unit * mirrored;
+        for place in self.places.position.into_iter().flatten() {
             self.decimals = self.decimals.max(decimals(record.get(place).unwrap_or_default()));
         }
         let velocity = self.places.velocity.map(|it| self.vector(record, line, it)).transpose()?;
@@ -273,6 +205,39 @@ impl Parts<'_> {
         let next = self.labels.len();
         let label = *self.labels.entry(label.to_owned()).or_insert(next);
         Ok(Row { line, time, label, position, velocity })
+    }
+
+    /// Whether a record has no position: a blank row, or a frame in which a ball was not seen.
+    fn is_empty(&self, record: &csv::StringRecord) -> bool {
+        let mut own = self.places.position.iter().flatten().map(|place| record.get(*place));
+        let has_time = record.get(self.places.time).is_some_and(|it| !it.is_empty());
+        let is_whole = !has_time || record.len() >= self.width;
+        is_whole && own.all(|it| it.is_none_or(str::is_empty))
+    }
+
+    /// Checks that a record has the columns that are read, and none that the heading does not have.
+    fn check_width(&self, record: &csv::StringRecord, line: u64) -> Result<(), GradeError> {
+        let Places { time, ball, position, velocity, .. } = &self.places;
+        let velocity = velocity.iter().flatten();
+        let last = position.iter().flatten().chain(ball).chain(velocity).chain([time]).max();
+        let is_long = record.iter().skip(self.width).any(|it| !it.is_empty());
+        if !is_long && last.is_none_or(|last| *last < record.len()) {
+            return Ok(());
+        }
+        let (fields, width) = (record.len(), self.width);
+        let problem = format!("{fields} fields where the first line has {width}");
+        Err(malformed(self.path, line, problem))
+    }
+
+    /// Position in the units of the table; 0 for a coordinate that it does not have.
+    fn position(&self, record: &csv::StringRecord, line: u64) -> Result<DVec3, GradeError> {
+        let mut values = [0.0; 3];
+        for (value, place) in values.iter_mut().zip(self.places.position) {
+            if let Some(place) = place {
+                *value = self.number(record, line, place)?;
+            }
+        }
+        Ok(DVec3::from_array(values))
     }
 
     fn vector(
@@ -330,18 +295,6 @@ fn order(rows: &mut [Row], labels: BTreeMap<String, usize>) -> Vec<String> {
 pub(crate) fn whole(label: &str) -> Option<i64> {
     let value = number(label)?;
     (value == value.trunc() && value.abs() < 1e15).then_some(value as i64)
-}
-
-fn broken(path: &Path, error: &csv::Error) -> GradeError {
-    let line = error.position().map_or(1, csv::Position::line);
-    let problem = match error.kind() {
-        csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
-            format!("{len} fields where the first line has {expected_len}")
-        }
-        csv::ErrorKind::Utf8 { .. } => "not text in UTF-8".to_owned(),
-        _ => error.to_string(),
-    };
-    malformed(path, line, problem)
 }
 
 fn malformed(path: &Path, line: u64, problem: String) -> GradeError {

@@ -9,6 +9,7 @@ use crate::recorded::Recorded;
 use crate::svg::{Figure, Line, Picture, escaped};
 use crate::tracks::{Key, Tracks};
 use crate::verdict::{Explanation, Verdict};
+use crate::words::length;
 
 const STYLE: &str = include_str!("report.css");
 
@@ -79,7 +80,7 @@ fn said(verdict: &Verdict) -> String {
         return text;
     }
     text += "<h2>Known mistakes</h2><table><tr><th>mistake</th><th>what the program does</th>\
-             <th>formula</th><th>of the lecture</th><th>rows that follow</th><th>residual, m</th></tr>";
+             <th>formula</th><th>of the lecture</th><th>rows that follow</th><th>residual</th></tr>";
     for explanation in &verdict.explanations {
         text += &row(explanation);
     }
@@ -97,14 +98,14 @@ fn row(explanation: &Explanation) -> String {
     let fit = &explanation.fit;
     format!(
         "<tr><td>{}{same}</td><td>{}</td><td><code>{}</code></td><td><code>{}</code></td>\
-         <td>{} of {}</td><td>{:.1e}</td></tr>",
+         <td>{} of {}</td><td>{}</td></tr>",
         escaped(&explanation.named()),
         escaped(&explanation.sentence()),
         formulas(Mistake::wrong),
         formulas(Mistake::right),
         fit.followed,
         fit.rows,
-        fit.rms
+        length(fit.rms)
     )
 }
 

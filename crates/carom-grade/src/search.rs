@@ -12,6 +12,9 @@ const MOST_ROWS_OF_PAIRS: usize = 100_000;
 /// Fraction of all rows by which two causes must agree longer than a single one to be named.
 const WORTH_A_PAIR: f64 = 0.02;
 
+/// Change of a number, as a part of it, below which it only fits the rounding of a run.
+const LEAST_CHANGE: f64 = 2e-3;
+
 /// Times of rows after the departures of its parts up to which a pair must agree.
 const NEXT: usize = 10;
 
@@ -41,9 +44,20 @@ impl Search<'_> {
         if best < rows && rows <= MOST_ROWS_OF_PAIRS {
             let least = best as f64 + WORTH_A_PAIR * rows as f64;
             let pairs = self.pairs(&numbers);
-            found.extend(pairs.into_iter().filter(|it| it.fit.followed as f64 > least));
+            let is_worth = |it: &Candidate| it.fit.followed as f64 > least && self.is_seen(it);
+            found.extend(pairs.into_iter().filter(is_worth));
         }
         found
+    }
+
+    /// Whether each number of a program is other than that of the course, not only by rounding.
+    fn is_seen(&self, candidate: &Candidate) -> bool {
+        candidate.program.numbers.iter().all(|number| {
+            let expected = number.quantity.expected(self.bench.course);
+            let size = expected.iter().fold(0.0_f64, |most, it| most.max(it.abs()));
+            let least = LEAST_CHANGE * if size > 0.0 { size } else { 1.0 };
+            number.values.iter().zip(&expected).any(|(own, it)| (own - it).abs() > least)
+        })
     }
 
     /// Time at which a program departs \[s\].

@@ -28,7 +28,7 @@ impl Figure {
     pub fn svg(&self) -> String {
         let points = || self.lines.iter().flat_map(|line| &line.points);
         let along = Range::of(points().map(|it| it[0]));
-        let up = Range::of(points().map(|it| it[1]));
+        let up = self.heights();
         let x = |value: f64| MARGIN[0] + along.part(value) * INSIDE[0];
         let y = |value: f64| 8.0 + (1.0 - up.part(value)) * INSIDE[1];
         let (width, height) = (MARGIN[0] + INSIDE[0] + 12.0, INSIDE[1] + MARGIN[1] + 8.0);
@@ -64,14 +64,38 @@ impl Figure {
             "<text x=\"{right}\" y=\"{:.1}\" text-anchor=\"end\">t, s</text>",
             bottom + 30.0
         );
+        // The inner drawing clips lines that leave the axes.
+        let [inside_x, inside_y] = INSIDE;
+        svg += &format!(
+            "<svg x=\"{left}\" y=\"{top}\" width=\"{inside_x}\" height=\"{inside_y}\" \
+             viewBox=\"{left} {top} {inside_x} {inside_y}\">"
+        );
         for line in &self.lines {
             let points = line.points.iter().map(|it| [x(it[0]), y(it[1])]);
             polyline(&mut svg, line.class, points);
         }
+        svg += "</svg>";
         if let Some(mark) = self.mark {
             svg += &format!("<path class=\"mark\" d=\"M{:.1} {top}V{bottom}\"/>", x(mark));
         }
         svg + "</svg></figure>"
+    }
+}
+
+impl Figure {
+    /// Range of the vertical axis: that of the line `right`, and of other lines up to the same
+    /// height above and below it, so that a ball far away leaves the others visible.
+    fn heights(&self) -> Range {
+        let all = || self.lines.iter().flat_map(|line| &line.points).map(|it| it[1]);
+        let right = self.lines.iter().filter(|line| line.class == "right");
+        let right: Vec<f64> = right.flat_map(|line| &line.points).map(|it| it[1]).collect();
+        if right.is_empty() || self.logarithmic {
+            return Range::of(all());
+        }
+        let own = Range::of(right.into_iter());
+        let span = own.most - own.least;
+        let [least, most] = [own.least - span, own.most + span];
+        Range::of(all().map(|it| it.clamp(least, most)).chain([own.least, own.most]))
     }
 }
 
@@ -231,6 +255,16 @@ mod tests {
         assert_eq!(range.ticks(), [5.0, 10.0]);
         assert_eq!(Range::of([3.0].into_iter()).ticks().len(), 5);
         assert_eq!(short(0.25), "0.25");
+    }
+
+    #[test]
+    fn a_line_that_goes_far_leaves_the_axes_as_they_are() {
+        let right = Line { class: "right", points: vec![[0.0, 0.0], [1.0, 2.0]] };
+        let run = Line { class: "run", points: vec![[0.0, 0.0], [1.0, 1e6]] };
+        let lines = vec![right, run];
+        let figure = Figure { title: String::new(), lines, mark: None, logarithmic: false };
+        let range = figure.heights();
+        assert_eq!((range.least, range.most), (0.0, 4.0));
     }
 
     #[test]

@@ -377,6 +377,9 @@ fn notes(parts: &Parts) -> Vec<String> {
     if end < WHOLE * duration {
         notes.push(format!("only the first {end:.2} s of {duration} s are in the table"));
     }
+    if recorded.seen.min_element() == 0.0 {
+        notes.push("the table has no z: only x and y are compared".to_owned());
+    }
     if let Some(end) = compared_until(parts) {
         notes.push(format!("the run is longer than what is compared: {end} s"));
     }

@@ -148,8 +148,9 @@ fn random_outcome(seed: u64) -> (Outcome, String) {
     let verdict = graded(&mut grader, &scene, &plan, style);
     let noise = style.scatter + style.decimals.map_or(0.0, |it| 10_f64.powi(-(it as i32)));
     let is_right = plan.slips.is_empty() && plan.numbers.is_empty();
-    let part_seen =
-        seen(&simulate(&scene, &plan, SECONDS), &simulate(&scene, &Plan::default(), SECONDS));
+    // Rounded as the plan, so that only its mistake makes a difference.
+    let right = Plan { single: plan.single, ..Plan::default() };
+    let part_seen = seen(&simulate(&scene, &plan, SECONDS), &simulate(&scene, &right, SECONDS));
     let outcome = if is_right {
         let is_it = verdict.same || verdict.scatter.is_some() && verdict.fit.is_complete();
         if is_it { Outcome::Named } else { Outcome::Wrong }

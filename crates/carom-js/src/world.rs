@@ -162,12 +162,13 @@ impl World {
         all.map(|&count| count as f64).collect()
     }
 
-    /// Returns the energy account \[J\]: work of contacts, of moving colliders and of the
+    /// Returns the energy account \[J\]: work of contacts, of moving colliders, of kicks and of the
     /// correction of overlaps, and the energy of emitted spheres minus that of removed ones.
     #[wasm_bindgen(getter, js_name = energyAccount)]
     pub fn energy_account(&self) -> Vec<f64> {
         let account = self.world.report().energy_account;
-        vec![account.contacts, account.colliders, account.correction, account.emission]
+        let given = [account.contacts, account.colliders, account.kicks];
+        given.into_iter().chain([account.correction, account.emission]).collect()
     }
 
     /// Returns the quality of the solutions of the rule `contact`: sub-steps with limited impulses,

@@ -429,13 +429,13 @@ impl Engine {
         ])
     }
 
-    /// Returns the energy account [J]: work of contacts, of moving colliders and of the correction
+    /// Returns the energy account [J]: work of contacts, of moving colliders, of kicks and of the correction
     /// of overlaps, and the energy of emitted spheres minus that of removed ones.
     #[pyo3(name = "_energy_account")]
-    fn energy_account(&self, py: Python<'_>) -> PyResult<(f64, f64, f64, f64)> {
-        let EnergyAccount { contacts, colliders, correction, emission, .. } =
+    fn energy_account(&self, py: Python<'_>) -> PyResult<(f64, f64, f64, f64, f64)> {
+        let EnergyAccount { contacts, colliders, kicks, correction, emission, .. } =
             self.lock(py)?.world.report().energy_account;
-        Ok((contacts, colliders, correction, emission))
+        Ok((contacts, colliders, kicks, correction, emission))
     }
 
     /// Returns the quality of the solutions of the rule `contact`: sub-steps with limited impulses,

@@ -1,6 +1,6 @@
 //! Converts spheres, colliders and emitters of scenes into those of `carom`.
 
-use carom::{Ends, Friction, Mass, Pose, Sides, World};
+use carom::{Ends, Friction, Groups, Mass, Pose, Sides, World};
 
 use crate::error::{Problem, SceneError};
 use crate::requirement::{check, check_positive};
@@ -51,7 +51,9 @@ pub(crate) fn sphere(sphere: &Sphere, path: &str) -> Result<carom::Sphere, Probl
         ))
         .with_orientation(quaternion(sphere.orientation))
         .with_angular_velocity(vector(sphere.angular_velocity))
-        .with_inertia_factor(sphere.inertia_factor))
+        .with_inertia_factor(sphere.inertia_factor)
+        .with_groups(Groups { groups: sphere.groups, collides_with: sphere.collides_with })
+        .with_user_data(sphere.user_data))
 }
 
 /// Friction of a body: `coefficients` of sliding, rolling and spinning friction.
@@ -81,6 +83,9 @@ impl Sphere {
             orientation: sphere.orientation.to_array(),
             angular_velocity: sphere.angular_velocity.to_array(),
             inertia_factor: sphere.inertia_factor,
+            groups: sphere.groups.groups,
+            collides_with: sphere.groups.collides_with,
+            user_data: sphere.user_data,
             ..Self::at(sphere.position.to_array(), sphere.radius)
         }
     }
@@ -183,7 +188,10 @@ pub(crate) fn collider(collider: &Collider) -> Result<carom::Collider, String> {
     let solid = carom::Collider::new(shape, pose)
         .moving(vector(collider.velocity), vector(collider.angular_velocity))
         .with_restitution(collider.restitution)
-        .with_friction(collider.surface_friction());
+        .with_friction(collider.surface_friction())
+        .with_kick(collider.kick)
+        .with_groups(Groups { groups: collider.groups, collides_with: collider.collides_with })
+        .with_user_data(collider.user_data);
     Ok(if collider.trigger { solid.as_trigger() } else { solid })
 }
 

@@ -66,7 +66,7 @@ const DEGREES: &str = "degrees";
 const RADIANS: &str = "rad";
 
 /// Unit of each field that has one.
-const FIELDS: [(&str, &str); 52] = [
+const FIELDS: [(&str, &str); 53] = [
     ("acceleration", "m/s²"),
     ("anchor", "m"),
     ("angular_velocity", "rad/s"),
@@ -87,6 +87,7 @@ const FIELDS: [(&str, &str); 52] = [
     ("frame_time", "s"),
     ("gravity", "m/s²"),
     ("height", "m"),
+    ("kick", "m/s"),
     ("length", "m"),
     ("look_at", "m"),
     ("mass", "kg"),

@@ -3,6 +3,7 @@
 use glam::{DQuat, DVec3};
 
 use crate::friction::Friction;
+use crate::groups::Groups;
 use crate::id::SphereId;
 use crate::rotation;
 use crate::sphere::{Mass, SOLID_BALL, Sphere};
@@ -119,9 +120,19 @@ pub(crate) struct Properties {
     pub inertia_factor: Vec<f64>,
     /// \[N\]; empty while no sphere is under a force of its own.
     pub applied_force: Vec<DVec3>,
+    /// Empty while all spheres are in the first group and collide with all.
+    pub groups: Vec<Groups>,
+    /// Empty while all are 0.
+    pub user_data: Vec<u64>,
 }
 
 impl Properties {
+    /// The groups of a sphere.
+    #[inline]
+    pub fn groups(&self, index: usize) -> Groups {
+        self.groups.get(index).copied().unwrap_or_default()
+    }
+
     /// Acceleration \[m/s²\] of a sphere by the force that is applied to it alone.
     #[inline]
     pub fn applied_acceleration(&self, index: usize) -> Option<DVec3> {
@@ -138,6 +149,8 @@ impl Properties {
             friction: some(&self.friction, indices),
             inertia_factor: some(&self.inertia_factor, indices),
             applied_force: some(&self.applied_force, indices),
+            groups: some(&self.groups, indices),
+            user_data: some(&self.user_data, indices),
         }
     }
 
@@ -234,6 +247,16 @@ impl Spheres {
         &self.properties.applied_force
     }
 
+    /// The groups of each sphere; empty while all are in the first one and collide with all.
+    pub fn groups(&self) -> &[Groups] {
+        &self.properties.groups
+    }
+
+    /// What programs keep with each sphere; empty while all is 0.
+    pub fn user_data(&self) -> &[u64] {
+        &self.properties.user_data
+    }
+
     /// Moment of inertia of the sphere at an index \[kg m²\], about any axis through its centre.
     ///
     /// # Panics
@@ -262,6 +285,8 @@ impl Spheres {
             orientation: self.orientations().get(index).copied().unwrap_or_default(),
             angular_velocity: self.angular_velocities().get(index).copied().unwrap_or_default(),
             inertia_factor: self.properties.inertia_factor(index),
+            groups: self.properties.groups(index),
+            user_data: self.user_data().get(index).copied().unwrap_or_default(),
         }
     }
 
@@ -276,6 +301,8 @@ impl Spheres {
         push(&mut properties.friction, count, sphere.friction, Friction::default());
         push(&mut properties.inertia_factor, count, sphere.inertia_factor, SOLID_BALL);
         push(&mut properties.applied_force, count, DVec3::ZERO, DVec3::ZERO);
+        push(&mut properties.groups, count, sphere.groups, Groups::DEFAULT);
+        push(&mut properties.user_data, count, sphere.user_data, 0);
         motion.position.push(sphere.position);
         motion.velocity.push(sphere.velocity);
         motion.spin.push(count, sphere);
@@ -290,6 +317,8 @@ impl Spheres {
         properties.restitution[index] = sphere.restitution;
         set(&mut properties.friction, count, index, sphere.friction, Friction::default());
         set(&mut properties.inertia_factor, count, index, sphere.inertia_factor, SOLID_BALL);
+        set(&mut properties.groups, count, index, sphere.groups, Groups::DEFAULT);
+        set(&mut properties.user_data, count, index, sphere.user_data, 0);
         motion.position[index] = sphere.position;
         motion.velocity[index] = sphere.velocity;
         motion.spin.set(count, index, sphere);
@@ -309,6 +338,8 @@ impl Spheres {
         keep(&mut properties.friction, &stays);
         keep(&mut properties.inertia_factor, &stays);
         keep(&mut properties.applied_force, &stays);
+        keep(&mut properties.groups, &stays);
+        keep(&mut properties.user_data, &stays);
         keep(&mut motion.position, &stays);
         keep(&mut motion.velocity, &stays);
         keep(&mut motion.spin.orientation, &stays);

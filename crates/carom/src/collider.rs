@@ -4,6 +4,7 @@ use glam::{DQuat, DVec3};
 
 use crate::error::InvalidValue;
 use crate::friction::Friction;
+use crate::groups::Groups;
 use crate::mesh::Mesh;
 use crate::rotation;
 use crate::validate;
@@ -240,6 +241,14 @@ pub struct Collider {
     pub friction: Friction,
     /// A trigger reports contact and deflects nothing.
     pub trigger: bool,
+    /// Speed \[m/s\], >= 0, that an impact adds along the normal, as the bumpers of a pinball machine do: a sphere
+    /// that comes with v leaves with `e v + kick`. Its energy is in
+    /// [`EnergyAccount::kicks`](crate::EnergyAccount::kicks).
+    pub kick: f64,
+    /// Which spheres it collides with; of a trigger, which it sees.
+    pub groups: Groups,
+    /// Whatever a program wants to find with it; no part of the physics.
+    pub user_data: u64,
 }
 
 impl Collider {
@@ -253,6 +262,9 @@ impl Collider {
             restitution: 1.0,
             friction: Friction::default(),
             trigger: false,
+            kick: 0.0,
+            groups: Groups::DEFAULT,
+            user_data: 0,
         }
     }
 
@@ -287,12 +299,28 @@ impl Collider {
         Self { trigger: true, ..self }
     }
 
+    /// The same collider, which adds a speed \[m/s\] along the normal in every impact.
+    pub fn with_kick(self, kick: f64) -> Self {
+        Self { kick, ..self }
+    }
+
+    /// The same collider in these groups.
+    pub fn with_groups(self, groups: Groups) -> Self {
+        Self { groups, ..self }
+    }
+
+    /// The same collider with this number of the program's own.
+    pub fn with_user_data(self, user_data: u64) -> Self {
+        Self { user_data, ..self }
+    }
+
     pub(crate) fn validate(&self) -> Result<(), InvalidValue> {
         self.shape.validate()?;
         self.pose.validate()?;
         validate::finite("velocity", self.velocity)?;
         validate::finite("angular_velocity", self.angular_velocity)?;
         validate::unit_interval("restitution", self.restitution)?;
+        validate::non_negative("kick", self.kick)?;
         self.friction.validate()
     }
 }

@@ -41,6 +41,7 @@ mod error;
 mod flight;
 mod forces;
 mod friction;
+mod groups;
 mod hash;
 mod id;
 mod integrate;
@@ -62,6 +63,7 @@ pub mod respond;
 mod rotation;
 mod round_solid;
 mod rule;
+mod sensor;
 mod settings;
 mod sphere;
 mod state;
@@ -86,6 +88,7 @@ pub use forces::{
     Vortex, Wind,
 };
 pub use friction::Friction;
+pub use groups::Groups;
 pub use hash::StateHash;
 pub use id::{ColliderId, EmitterId, ForceId, SphereId, SpringId};
 pub use mesh::{Mesh, MeshError, MeshFaults};
@@ -94,7 +97,7 @@ pub use persistent_contact::PersistentContact;
 pub use query::{Body, Hit, NearBody, Queries, QueryFilter};
 pub use report::{
     BodyPair, ContactAccount, EnergyAccount, Impact, ImpactGroup, LedgerEntry, Overlap,
-    StageCounts, StepReport, TriggerContact, ZoneAccount,
+    SensorEvent, StageCounts, StepReport, TriggerContact, ZoneAccount,
 };
 pub use settings::{
     Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, Rule, Settings,

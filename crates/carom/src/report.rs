@@ -34,6 +34,8 @@ pub struct StepReport {
     pub groups: Vec<ImpactGroup>,
     /// Spheres inside triggers, in order of sphere, then collider.
     pub triggers: Vec<TriggerContact>,
+    /// When spheres entered and left triggers, in order of time, then of sphere and collider.
+    pub sensor_events: Vec<SensorEvent>,
     /// Spheres that emitters put into the world, ascending.
     pub emitted: Vec<SphereId>,
     /// Spheres that emitters took out again to make place.
@@ -102,6 +104,8 @@ pub struct EnergyAccount {
     pub contacts: f64,
     /// Work of moving colliders \[J\].
     pub colliders: f64,
+    /// Work of the kicks of colliders \[J\].
+    pub kicks: f64,
     /// Work of moving spheres out of what they overlap \[J\], against forces that have a potential or
     /// are linear.
     pub correction: f64,
@@ -112,7 +116,7 @@ pub struct EnergyAccount {
 impl EnergyAccount {
     /// The sum of all entries \[J\].
     pub fn total(&self) -> f64 {
-        self.contacts + self.colliders + self.correction + self.emission
+        self.contacts + self.colliders + self.kicks + self.correction + self.emission
     }
 }
 
@@ -120,6 +124,7 @@ impl AddAssign for EnergyAccount {
     fn add_assign(&mut self, other: Self) {
         self.contacts += other.contacts;
         self.colliders += other.colliders;
+        self.kicks += other.kicks;
         self.correction += other.correction;
         self.emission += other.emission;
     }
@@ -193,6 +198,7 @@ impl StepReport {
         self.impacts.clear();
         self.groups.clear();
         self.triggers.clear();
+        self.sensor_events.clear();
         self.emitted.clear();
         self.left_out.clear();
         self.retired.clear();
@@ -243,10 +249,12 @@ pub struct ImpactGroup {
     pub momentum_scale: f64,
     /// Kinetic energy of its spheres before \[J\].
     pub energy_before: f64,
-    /// Kinetic energy after, less the work of moving colliders \[J\].
+    /// Kinetic energy after, less the work of moving colliders and of kicks \[J\].
     pub energy_after: f64,
     /// Work of moving colliders \[J\].
     pub collider_work: f64,
+    /// Work of the kicks of colliders \[J\].
+    pub kick_work: f64,
     /// Change of the kinetic energy that the coefficients of restitution demand \[J\], <= 0.
     pub energy_demanded: f64,
 }
@@ -319,6 +327,8 @@ pub struct Impact {
     /// Impulse of friction on body 2, and against it on body 1, across the normal \[N s\]: zero without
     /// friction. At the contact point it turns both bodies, too.
     pub tangential_impulse: DVec3,
+    /// Speed that the collider added along the normal \[m/s\]: its [`Collider::kick`](crate::Collider::kick), or 0.
+    pub kick: f64,
 }
 
 /// A sphere inside a trigger at the end of a step.
@@ -332,6 +342,46 @@ pub struct TriggerContact {
     pub normal: DVec3,
     /// Where on the trigger's surface \[m\].
     pub point: DVec3,
+}
+
+/// A sphere that enters a trigger, or leaves it.
+///
+/// A sphere is in a trigger while their surfaces touch or overlap. Under the rule `exact` the time is that of
+/// the flight, to rounding, however small the trigger and however fast the sphere. Under the other rules
+/// the way of a sphere is straight within a frame, under `contact` within a sub-step. What is in a trigger when
+/// a step begins, though it was not when the last one ended, enters at time 0.
+///
+/// ```
+/// use carom::{Collider, DVec3, Pose, Shape, Sphere, World};
+///
+/// let mut world = World::default();
+/// let gate = Collider::new(Shape::Box { size: DVec3::splat(2.0) }, Pose::at(DVec3::ZERO));
+/// world.add_collider(gate.as_trigger())?;
+/// let fast = Sphere::new(DVec3::new(-21.0, 0.0, 0.0), 1.0).with_velocity(DVec3::new(100.0, 0.0, 0.0));
+/// world.add_sphere(fast)?;
+/// let events = &world.step(1.0)?.sensor_events;
+/// assert_eq!((events[0].enters, events[1].enters), (true, false));
+/// assert!((events[0].time - 0.19).abs() < 1e-15 && (events[1].time - 0.23).abs() < 1e-15);
+/// assert_eq!(events[0].speed, 100.0);
+/// # Ok::<(), carom::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct SensorEvent {
+    /// Time since the start of the step \[s\].
+    pub time: f64,
+    /// The trigger.
+    pub collider: ColliderId,
+    /// The sphere.
+    pub sphere: SphereId,
+    /// Whether the sphere enters; else it leaves.
+    pub enters: bool,
+    /// Where on the trigger's surface \[m\].
+    pub point: DVec3,
+    /// Unit normal from the trigger's surface to the sphere.
+    pub normal: DVec3,
+    /// Speed of the sphere relative to the trigger \[m/s\].
+    pub speed: f64,
 }
 
 impl TriggerContact {

@@ -6,6 +6,7 @@ use glam::{DQuat, DVec3};
 
 use crate::error::InvalidValue;
 use crate::friction::Friction;
+use crate::groups::Groups;
 use crate::id::SphereId;
 use crate::validate;
 
@@ -65,6 +66,10 @@ pub struct Sphere {
     /// Moment of inertia about any axis through the centre, divided by m r², > 0: [`SOLID_BALL`]
     /// unless given, [`THIN_SHELL`] for a hollow one.
     pub inertia_factor: f64,
+    /// Which bodies it collides with.
+    pub groups: Groups,
+    /// Whatever a program wants to find with it; no part of the physics.
+    pub user_data: u64,
 }
 
 impl Sphere {
@@ -81,6 +86,8 @@ impl Sphere {
             orientation: DQuat::IDENTITY,
             angular_velocity: DVec3::ZERO,
             inertia_factor: SOLID_BALL,
+            groups: Groups::DEFAULT,
+            user_data: 0,
         }
     }
 
@@ -132,6 +139,16 @@ impl Sphere {
     /// The same sphere with this moment of inertia, divided by m r².
     pub fn with_inertia_factor(self, inertia_factor: f64) -> Self {
         Self { inertia_factor, ..self }
+    }
+
+    /// The same sphere in these groups.
+    pub fn with_groups(self, groups: Groups) -> Self {
+        Self { groups, ..self }
+    }
+
+    /// The same sphere with this number of the program's own.
+    pub fn with_user_data(self, user_data: u64) -> Self {
+        Self { user_data, ..self }
     }
 
     /// Mass \[kg\], however it was given.

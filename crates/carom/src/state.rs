@@ -17,6 +17,7 @@ use crate::numbered::Numbered;
 use crate::persistent_contact::PersistentContact;
 use crate::rule::contact::{self, Solver};
 use crate::rule::exact::{self, Timeline, Zone};
+use crate::sensor::Presence;
 use crate::settings::{Boundary, Rule, Settings};
 use crate::system::System;
 use crate::validate;
@@ -44,6 +45,8 @@ pub(crate) struct State {
     pub zone: Zone,
     /// Whether spheres were in zones so far.
     pub was_stepped: bool,
+    /// Which spheres were in which triggers at the end of the last step.
+    pub presence: Presence,
     /// Under the rule `contact`, neighbours and the impulses of contacts.
     pub solver: Solver,
 }

@@ -5,6 +5,7 @@ use glam::{DQuat, DVec2, DVec3};
 use crate::band::{Band, Profile};
 use crate::collider::{Collider, Pose, Shape, Sides};
 use crate::friction::Friction;
+use crate::groups::Groups;
 use crate::id::ColliderId;
 use crate::mesh::{Corner, Edge, Facet, Features, Placement};
 use crate::norm::Norm;
@@ -19,6 +20,9 @@ pub(crate) struct Surface {
     pub collider: ColliderId,
     pub restitution: f64,
     pub friction: Friction,
+    /// Speed that an impact adds along the normal \[m/s\].
+    pub kick: f64,
+    pub groups: Groups,
     pub role: Role,
     pub motion: SurfaceMotion,
 }
@@ -278,13 +282,23 @@ pub(crate) struct SolidBox {
 /// outward and then inward. A box or a container that only reports is its volume. A solid of revolution has its volume,
 /// then its side and discs; a hollow one has its walls, each facing outward and then inward.
 pub(crate) fn place(id: ColliderId, collider: &Collider, surfaces: &mut Vec<Surface>) {
-    let Collider { ref shape, pose, restitution, friction, trigger, .. } = *collider;
+    let Collider { ref shape, pose, restitution, friction, trigger, kick, groups, .. } = *collider;
     let (center, motion) = (pose.position, SurfaceMotion::of(collider));
     let rotation = pose.rotation.normalize();
     let axes @ [x, y, z] = [rotation * DVec3::X, rotation * DVec3::Y, rotation * DVec3::Z];
     let mut add = |form, role| {
         let role = if trigger { Role::Reports } else { role };
-        surfaces.push(Surface { form, collider: id, restitution, friction, role, motion });
+        let collider = id;
+        surfaces.push(Surface {
+            form,
+            collider,
+            restitution,
+            friction,
+            kick,
+            groups,
+            role,
+            motion,
+        });
     };
     match *shape {
         Shape::Sphere { radius } => add(Form::Sphere { center, radius }, Role::Deflects),

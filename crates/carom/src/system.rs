@@ -41,6 +41,20 @@ impl<'a> System<'a> {
         Self { settings, forces, interactions, surfaces, tree, trigger_tree, spheres }
     }
 
+    /// Whether two spheres collide, by their groups.
+    #[inline]
+    pub fn spheres_meet(&self, first: u32, second: u32) -> bool {
+        let Properties { groups, .. } = self.spheres;
+        groups.is_empty() || groups[first as usize].collides(groups[second as usize])
+    }
+
+    /// Whether a sphere and a surface collide, by their groups.
+    #[inline]
+    pub fn meets_surface(&self, sphere: u32, surface: u32) -> bool {
+        let of_surface = self.surfaces[surface as usize].groups;
+        self.spheres.groups(sphere as usize).collides(of_surface)
+    }
+
     /// Whether forces act between spheres.
     #[inline]
     pub fn has_interactions(&self) -> bool {

@@ -39,6 +39,8 @@ class EnergyAccount(NamedTuple):
     """Work of contacts [J]: what restitution and friction took, <= 0 but for errors."""
     colliders: float
     """Work of moving colliders [J]."""
+    kicks: float
+    """Work of the kicks of colliders [J]."""
     correction: float
     """Work of moving spheres out of what they overlap [J]."""
     emission: float

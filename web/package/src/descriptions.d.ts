@@ -45,6 +45,12 @@ export interface SphereDescription {
   angularVelocity?: Vector;
   /** Moment of inertia divided by m r², > 0; default: 0.4, that of a solid ball. */
   inertiaFactor?: number;
+  /** Groups that it is in, one bit for each of 32; default: 1, the first. */
+  groups?: number;
+  /** Groups that it collides with, one bit for each; default: all. */
+  collidesWith?: number;
+  /** A number to find it by; without effect on motion. */
+  userData?: number;
   /** Colour; default: by density, or the scene's own. */
   color?: Iterable<number>;
   /** How the surface reflects light; without effect on motion. */
@@ -80,6 +86,12 @@ export interface Sphere {
   angularVelocity?: [number, number, number];
   /** Moment of inertia divided by m r², > 0; if missing, 0.4, that of a solid ball. */
   inertiaFactor?: number;
+  /** Groups that it is in, one bit for each of 32; if missing, 1, the first. */
+  groups?: number;
+  /** Groups that it collides with, one bit for each; if missing, all. */
+  collidesWith?: number;
+  /** A number to find it by; without effect on motion. */
+  userData?: number;
   /** Red, green, blue (sRGB). */
   color: Color;
   /** How the surface reflects light; without effect on motion. */
@@ -208,6 +220,14 @@ export interface ColliderDescription {
   tangentialRestitution?: number;
   /** Whether it is a trigger, which reports contact at the end of a frame but deflects nothing. */
   trigger?: boolean;
+  /** Speed that an impact adds along the normal [m/s], >= 0; default: 0. */
+  kick?: number;
+  /** Groups that it is in, one bit for each of 32; default: 1, the first. */
+  groups?: number;
+  /** Groups that it collides with, one bit for each; default: all. */
+  collidesWith?: number;
+  /** A number to find it by; without effect on motion. */
+  userData?: number;
   /** Whether it is drawn. */
   visible?: boolean;
   /** Colour; default: the scene's own. */

@@ -75,6 +75,8 @@ export interface EnergyAccount {
   contacts: number;
   /** Work of moving colliders [J]. */
   colliders: number;
+  /** Work of the kicks of colliders [J]. */
+  kicks: number;
   /** Work of the correction of overlaps [J]. */
   correction: number;
   /** Energy of emitted spheres minus that of removed ones [J]. */

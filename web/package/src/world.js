@@ -204,8 +204,8 @@ export class World {
   }
 
   get energyAccount() {
-    const [contacts, colliders, correction, emission] = this.#world.energyAccount;
-    return { contacts, colliders, correction, emission };
+    const [contacts, colliders, kicks, correction, emission] = this.#world.energyAccount;
+    return { contacts, colliders, kicks, correction, emission };
   }
 
   get contactAccount() {

@@ -12,8 +12,8 @@ use crate::replacing::Replacing;
 /// Grade recorded runs against the course's rule.
 #[derive(Debug, clap::Args)]
 pub struct Grade {
-    /// Recorded runs: CSV files with a row for each ball after each frame, and the columns t, ball, x, y, z
-    /// (vx, vy, vz).
+    /// Recorded runs: CSV files or spreadsheets (.xlsx) with a row for each ball after each frame, and the
+    /// columns t, ball, x, y, z (vx, vy, vz).
     #[arg(required_unless_present_any = ["mistakes", "plant"], value_name = "RUN")]
     pub runs: Vec<PathBuf>,
     /// The scene: name, title or file; without it, the scene whose name is in the name of the run's file.
@@ -29,7 +29,7 @@ pub struct Grade {
     #[arg(long, value_name = "M", default_value_t = TOLERANCE, value_parser = positive)]
     pub tolerance: f64,
     /// Write a page about the run; for several runs, or if this is a folder, a page for each run
-    /// into the folder.
+    /// into the folder, and index.html about all of several runs.
     #[arg(long, value_name = "PATH")]
     pub report: Option<PathBuf>,
     /// Write a row for each run to a .csv file.

@@ -11,7 +11,7 @@ use std::collections::btree_map::Entry;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use carom_grade::{Course, Graded, Grader, Recorded, Verdict};
+use carom_grade::{ClassRun, Course, Graded, Grader, Recorded, Verdict};
 use carom_scene::Library;
 use carom_scene::unfinished::create_folders_of;
 
@@ -50,6 +50,7 @@ pub fn grade(library: &Library, args: &Grade) -> Result<(), Failure> {
     if let Some(path) = &args.table {
         table::write(path, &rows)?;
     }
+    reports.write_class(&rows)?;
     print(&rows, args.json)?;
     let broken = rows.iter().filter(|row| row.error.is_some()).count();
     if broken > 0 {
@@ -127,6 +128,7 @@ impl<'a> Reports<'a> {
         let reports = Self { path, is_folder };
         let files: Vec<PathBuf> = args.runs.iter().filter_map(|run| reports.file(run)).collect();
         args.replacing.check(files.iter().map(PathBuf::as_path))?;
+        args.replacing.check(reports.class(args.runs.len()).as_deref())?;
         let mut sorted: Vec<&PathBuf> = files.iter().collect();
         sorted.sort();
         if let Some(two) = sorted.windows(2).find(|two| two[0] == two[1]) {
@@ -152,6 +154,32 @@ impl<'a> Reports<'a> {
         let page = carom_grade::page(course, graded);
         let written = create_folders_of(&file).and_then(|()| std::fs::write(&file, page));
         written.map_err(|error| unwritable(&file, &error))
+    }
+}
+
+impl Reports<'_> {
+    /// Writes `index.html` for several runs.
+    fn write_class(&self, rows: &[Row]) -> Result<(), Failure> {
+        let Some(file) = self.class(rows.len()) else { return Ok(()) };
+        let run = |row: &Row| {
+            let page = self.file(&row.run).filter(|_| row.verdict.is_some());
+            let page = page.and_then(|it| Some(it.file_name()?.to_string_lossy().into_owned()));
+            (row.run.display().to_string(), page)
+        };
+        let named = rows.iter().map(|row| (row, run(row)));
+        let runs: Vec<ClassRun> = named
+            .map(|(row, (name, page))| {
+                let error = row.error.as_deref().unwrap_or_default();
+                ClassRun { name, page, result: row.verdict.as_ref().ok_or(error) }
+            })
+            .collect();
+        std::fs::write(&file, carom_grade::class_page(&runs))
+            .map_err(|error| unwritable(&file, &error))
+    }
+
+    /// The page of a class, if there are several runs.
+    fn class(&self, runs: usize) -> Option<PathBuf> {
+        self.path.filter(|_| self.is_folder && runs > 1).map(|folder| folder.join("index.html"))
     }
 }
 

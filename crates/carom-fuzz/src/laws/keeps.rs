@@ -122,7 +122,7 @@ impl Keeps {
         if !now.is_finite() {
             return Err(format!("has energy {now}"));
         }
-        let given = [account.contacts, account.colliders, account.emission];
+        let given = [account.contacts, account.colliders, account.kicks, account.emission];
         let most = self.scale.max(world.kinetic_energy());
         self.scale = given.iter().fold(most, |most, it| most.max(it.abs()));
         let (change, scale) = (now - self.energy, self.scale);

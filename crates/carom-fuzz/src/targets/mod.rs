@@ -8,6 +8,7 @@ mod overrides;
 mod particles;
 mod recordings;
 mod scenes;
+mod spreadsheets;
 mod submissions;
 mod unfinished;
 mod unity;
@@ -16,7 +17,7 @@ mod worlds;
 use crate::target::Target;
 
 /// All targets.
-pub const TARGETS: [Target; 12] = [
+pub const TARGETS: [Target; 13] = [
     scenes::TARGET,
     overrides::TARGET,
     links::TARGET,
@@ -27,6 +28,7 @@ pub const TARGETS: [Target; 12] = [
     unity::TARGET,
     gltf::TARGET,
     submissions::TARGET,
+    spreadsheets::TARGET,
     options::TARGET,
     worlds::TARGET,
 ];

@@ -6,7 +6,10 @@ use serde::{Deserialize, Serialize};
 use super::finish::Finish;
 use super::mesh::{self, HeightField, Mesh};
 use super::rotation;
-use super::values::{Color, Quaternion, Vector, is_default, one, unturned};
+use super::values::{
+    Color, Quaternion, Vector, all_groups, are_all_groups, first_group, is_default, is_first_group,
+    one, unturned,
+};
 
 /// A fixed or steadily moving shape that spheres bounce off.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -54,6 +57,20 @@ pub struct Collider {
     /// Whether it only reports spheres and deflects none.
     #[serde(default, skip_serializing_if = "is_default")]
     pub trigger: bool,
+    /// Speed that an impact adds along the normal, in m/s, >= 0: a sphere that comes with v leaves with e v + kick.
+    #[schemars(range(min = 0.0))]
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub kick: f64,
+    /// Groups that it is in, one bit for each of 32: `0b101` is the first and the third. By default the first.
+    #[serde(default = "first_group", skip_serializing_if = "is_first_group")]
+    pub groups: u32,
+    /// Groups that it collides with, one bit for each; by default all. Two bodies collide if each is in a group that the
+    /// other collides with.
+    #[serde(default = "all_groups", skip_serializing_if = "are_all_groups")]
+    pub collides_with: u32,
+    /// A number for programs to find it by; no part of the physics.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub user_data: u64,
     /// Whether it is drawn; true by default.
     #[serde(default = "yes", skip_serializing_if = "is_true")]
     pub visible: bool,
@@ -81,6 +98,10 @@ impl Collider {
             spinning_friction: None,
             tangential_restitution: None,
             trigger: false,
+            kick: 0.0,
+            groups: first_group(),
+            collides_with: all_groups(),
+            user_data: 0,
             visible: true,
             color: None,
             finish: Finish::default(),

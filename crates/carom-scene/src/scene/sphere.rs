@@ -6,7 +6,10 @@ use serde::{Deserialize, Serialize};
 
 use super::finish::Finish;
 use super::rotation;
-use super::values::{Color, Quaternion, Vector, is_default, is_unturned, one, unturned};
+use super::values::{
+    Color, Quaternion, Vector, all_groups, are_all_groups, first_group, is_default, is_first_group,
+    is_unturned, one, unturned,
+};
 
 /// A sphere, or what the spheres of a generator or an emitter have in common.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -72,6 +75,16 @@ pub struct Sphere {
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     #[serde(default = "solid_ball", skip_serializing_if = "is_solid_ball")]
     pub inertia_factor: f64,
+    /// Groups that it is in, one bit for each of 32: `0b101` is the first and the third. By default the first.
+    #[serde(default = "first_group", skip_serializing_if = "is_first_group")]
+    pub groups: u32,
+    /// Groups that it collides with, one bit for each; by default all. Two bodies collide if each is in a group that the
+    /// other collides with.
+    #[serde(default = "all_groups", skip_serializing_if = "are_all_groups")]
+    pub collides_with: u32,
+    /// A number for programs to find it by; no part of the physics.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub user_data: u64,
     /// Colour. If missing, that of its density, else that of the scene's spheres.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub color: Option<Color>,
@@ -98,6 +111,9 @@ impl Sphere {
             orientation: unturned(),
             angular_velocity: [0.0; 3],
             inertia_factor: SOLID_BALL,
+            groups: first_group(),
+            collides_with: all_groups(),
+            user_data: 0,
             color: None,
             finish: Finish::default(),
         }

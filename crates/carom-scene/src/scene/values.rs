@@ -24,6 +24,26 @@ pub(super) fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }
 
+/// The groups that a body is in, if nothing is said.
+pub(super) fn first_group() -> u32 {
+    1
+}
+
+/// Whether a body is in the first group only.
+pub(super) fn is_first_group(groups: &u32) -> bool {
+    *groups == first_group()
+}
+
+/// The groups that a body collides with, if nothing is said.
+pub(super) fn all_groups() -> u32 {
+    u32::MAX
+}
+
+/// Whether a body collides with all groups.
+pub(super) fn are_all_groups(groups: &u32) -> bool {
+    *groups == all_groups()
+}
+
 /// Whether a rotation turns nothing.
 pub(super) fn is_unturned(value: &Quaternion) -> bool {
     *value == unturned()

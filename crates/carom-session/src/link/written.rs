@@ -9,8 +9,8 @@
 //! Ids are written as numbers. TOML preserves every number exactly.
 
 use carom::{
-    ColliderId, DQuat, DVec3, EmitterId, ForceId, Friction, Mass, SOLID_BALL, SphereId, SpringEnd,
-    SpringId,
+    ColliderId, DQuat, DVec3, EmitterId, ForceId, Friction, Groups, Mass, SOLID_BALL, SphereId,
+    SpringEnd, SpringId,
 };
 use carom_scene::legible;
 use carom_scene::scene::{Color, Force, Quaternion, Simulation, Vector};
@@ -165,6 +165,12 @@ struct Sphere {
     angular_velocity: Option<Vector>,
     /// `None` for a solid ball.
     inertia_factor: Option<f64>,
+    /// `None` for the first group.
+    groups: Option<u32>,
+    /// `None` for all.
+    collides_with: Option<u32>,
+    /// `None` for zero.
+    user_data: Option<u64>,
 }
 
 /// [`Mass`] as written.
@@ -379,6 +385,9 @@ impl From<&carom::Sphere> for Sphere {
             orientation: unusual(sphere.orientation, DQuat::IDENTITY).map(|it| it.to_array()),
             angular_velocity: unusual(sphere.angular_velocity, DVec3::ZERO).map(|it| it.to_array()),
             inertia_factor: unusual(sphere.inertia_factor, SOLID_BALL),
+            groups: unusual(sphere.groups.groups, Groups::DEFAULT.groups),
+            collides_with: unusual(sphere.groups.collides_with, Groups::DEFAULT.collides_with),
+            user_data: unusual(sphere.user_data, 0),
         }
     }
 }
@@ -400,6 +409,10 @@ impl From<Sphere> for carom::Sphere {
             WrittenMass::Kilograms(mass) => Mass::Kilograms(mass),
             WrittenMass::Density(density) => Mass::Density(density),
         };
+        let groups = Groups {
+            groups: sphere.groups.unwrap_or(Groups::DEFAULT.groups),
+            collides_with: sphere.collides_with.unwrap_or(Groups::DEFAULT.collides_with),
+        };
         Self::new(DVec3::from_array(sphere.position), sphere.radius)
             .with_velocity(DVec3::from_array(sphere.velocity))
             .with_mass(mass)
@@ -408,6 +421,8 @@ impl From<Sphere> for carom::Sphere {
             .with_orientation(sphere.orientation.map_or(DQuat::IDENTITY, DQuat::from_array))
             .with_angular_velocity(sphere.angular_velocity.map_or(DVec3::ZERO, DVec3::from_array))
             .with_inertia_factor(sphere.inertia_factor.unwrap_or(SOLID_BALL))
+            .with_groups(groups)
+            .with_user_data(sphere.user_data.unwrap_or_default())
     }
 }
 

@@ -46,7 +46,7 @@ pub(crate) fn of_everyone(
         search.everyone.rebuild((0..count).map(|i| at(instant, i)), tolerance);
         search.everyone.for_each_pair(|i, j| {
             search.pair_tests += 1;
-            keep(instant.pair(i, j, tolerance), contacts);
+            keep_pair(instant, [i, j], tolerance, contacts);
         });
     }
     of_surfaces(instant, 0..count, tolerance, &mut search.near, contacts);
@@ -68,7 +68,7 @@ pub(crate) fn of_overlapping_pairs(
     let mut keep = |i, j| {
         pair_tests += 1;
         let contact = instant.pair(i, j, 0.0);
-        if contact.separation.distance < -tolerance {
+        if contact.separation.distance < -tolerance && instant.system.spheres_meet(i, j) {
             contacts.push(contact);
         }
     };
@@ -105,7 +105,8 @@ pub(crate) fn find_overlapping_pair(
     search.some.rebuild(everyone.map(|i| at(instant, i)), 0.0);
     let found = search.some.try_for_each_pair(|i, j| {
         let contact = instant.pair(i, j, 0.0);
-        let is_found = contact.separation.distance < 0.0 && is_sought(&contact);
+        let overlaps = contact.separation.distance < 0.0 && instant.system.spheres_meet(i, j);
+        let is_found = overlaps && is_sought(&contact);
         if is_found { ControlFlow::Break(contact) } else { ControlFlow::Continue(()) }
     });
     found.break_value()
@@ -146,7 +147,7 @@ pub(crate) fn of_some(
         let members = members.iter().copied();
         for_each_candidate(instant, members, tolerance, &mut search.some, |i, j| {
             search.pair_tests += 1;
-            keep(instant.pair(i, j, tolerance), contacts);
+            keep_pair(instant, [i, j], tolerance, contacts);
         });
     }
     of_surfaces(instant, members.iter().copied(), tolerance, &mut search.near, contacts);
@@ -198,7 +199,7 @@ pub(crate) fn of_moved(
         everyone.for_each_pair_with(some, |i, j| {
             if !(moved.contains)(i) {
                 *pair_tests += 1;
-                keep(instant.pair(i, j, tolerance), contacts);
+                keep_pair(instant, [i, j], tolerance, contacts);
             }
         });
     }
@@ -266,6 +267,12 @@ fn of_surfaces(
 
 fn at(instant: &Instant, i: u32) -> (u32, DVec3, f64) {
     (i, instant.motion.position[i as usize], instant.system.spheres.radius[i as usize])
+}
+
+fn keep_pair(instant: &Instant, [i, j]: [u32; 2], tolerance: f64, contacts: &mut Vec<Contact>) {
+    if instant.system.spheres_meet(i, j) {
+        keep(instant.pair(i, j, tolerance), contacts);
+    }
 }
 
 fn keep(contact: Contact, contacts: &mut Vec<Contact>) {

@@ -43,7 +43,8 @@ pub(crate) fn visit(
             let [one, other] = [i, j].map(|place| &images[place as usize]);
             let depth = radius(one) + radius(other) - one.center.distance(other.center);
             let is_seen = one.sphere != other.sphere && (one.is_own || other.is_own);
-            if is_seen && depth > tolerance {
+            let meet = instant.system.spheres_meet(one.sphere, other.sphere);
+            if is_seen && meet && depth > tolerance {
                 visit(Bodies::pair([one.sphere, other.sphere]), depth);
             }
         });
@@ -76,7 +77,9 @@ fn of_surfaces(
                 let surface = &instant.system.surfaces[index as usize];
                 let separation = sphere_surface(&surface.form, *center, radius);
                 let depth = separation.map_or(0.0, |separation| -separation.distance);
-                if has_images(surface) && surface.role != Role::Reports && depth > tolerance {
+                let meets =
+                    surface.role != Role::Reports && instant.system.meets_surface(sphere, index);
+                if has_images(surface) && meets && depth > tolerance {
                     visit(Bodies::Surface { sphere, surface: index }, depth);
                 }
             }

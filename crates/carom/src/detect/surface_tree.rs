@@ -24,6 +24,11 @@ impl Bounds {
         Self { min: self.min - margin, max: self.max + margin }
     }
 
+    /// Elsewhere by `shift` \[m\].
+    pub fn moved(&self, shift: DVec3) -> Self {
+        Self { min: self.min + shift, max: self.max + shift }
+    }
+
     #[inline]
     pub fn overlap(&self, other: &Self) -> bool {
         // All comparisons at once: the processor cannot predict which one fails.

@@ -10,6 +10,7 @@ use crate::detect::instant::Instant;
 use crate::detect::sphere_surface;
 use crate::detect::surface_tree::Bounds;
 use crate::error::{Error, InvalidValue, Subject};
+use crate::groups::Groups;
 use crate::id::{ColliderId, SphereId};
 use crate::surface::{Form, Role};
 use crate::validate;
@@ -75,6 +76,8 @@ pub struct QueryFilter {
     pub triggers: bool,
     /// A sphere that it passes over: the one that asks.
     pub except: Option<SphereId>,
+    /// The groups that it is in and collides with, as if it were a body; by default all of both.
+    pub groups: Groups,
 }
 
 impl Default for QueryFilter {
@@ -85,8 +88,13 @@ impl Default for QueryFilter {
 
 impl QueryFilter {
     /// Spheres and colliders that deflect.
-    pub const DEFAULT: Self =
-        Self { spheres: true, colliders: true, triggers: false, except: None };
+    pub const DEFAULT: Self = Self {
+        spheres: true,
+        colliders: true,
+        triggers: false,
+        except: None,
+        groups: Groups { groups: u32::MAX, collides_with: u32::MAX },
+    };
 
     /// The same filter, which finds spheres or not.
     pub fn with_spheres(self, spheres: bool) -> Self {
@@ -101,6 +109,11 @@ impl QueryFilter {
     /// The same filter, which finds triggers or not.
     pub fn with_triggers(self, triggers: bool) -> Self {
         Self { triggers, ..self }
+    }
+
+    /// The same filter, which finds what a body in these groups collides with.
+    pub fn with_groups(self, groups: Groups) -> Self {
+        Self { groups, ..self }
     }
 
     /// The same filter, which passes over a sphere.
@@ -318,15 +331,21 @@ impl<'a> Queries<'a> {
         if !leaf.has_images && shift != DVec3::ZERO {
             return false;
         }
+        let system = &self.now.system;
         match leaf.item {
             Item::Sphere(sphere) => {
-                let id = self.now.system.spheres.id[sphere as usize];
-                filter.spheres && filter.except != Some(id)
+                let id = system.spheres.id[sphere as usize];
+                let groups = system.spheres.groups(sphere as usize);
+                filter.spheres && filter.except != Some(id) && filter.groups.collides(groups)
             }
-            Item::Surface(surface) => match self.now.system.surfaces[surface as usize].role {
-                Role::Reports => filter.triggers,
-                Role::Deflects | Role::Encloses => filter.colliders,
-            },
+            Item::Surface(surface) => {
+                let surface = &system.surfaces[surface as usize];
+                let is_of_kind = match surface.role {
+                    Role::Reports => filter.triggers,
+                    Role::Deflects | Role::Encloses => filter.colliders,
+                };
+                is_of_kind && filter.groups.collides(surface.groups)
+            }
         }
     }
 

@@ -8,6 +8,7 @@ mod face;
 mod friction;
 mod generalized_reflection;
 mod group;
+mod kick;
 mod least_change;
 mod line_of_centres;
 mod order_free;
@@ -24,6 +25,7 @@ pub(crate) use contact_force::contact_forces_within;
 pub use contact_force::{ContactForces, contact_forces};
 pub(crate) use friction::{FrictionContact, SpinningSphere, apply_friction};
 pub(crate) use group::rounding_of;
+pub(crate) use kick::kick;
 pub(crate) use least_change::least_change;
 pub use line_of_centres::line_of_centres;
 pub use reflection::reflection;
@@ -37,6 +39,7 @@ use crate::bodies::Motion;
 use crate::detect::Separation;
 use crate::detect::contact::{Bodies, Contact};
 use crate::friction::ContactFriction;
+use crate::integrate;
 use crate::report::{BodyPair, Impact};
 use crate::surface::Form;
 use crate::system::System;
@@ -59,7 +62,27 @@ pub(crate) fn answer(
     motion: &mut Motion,
     time: f64,
 ) -> Option<Impact> {
-    answer_with(contact, restitution_of(contact.bodies, system), system, motion, time)
+    let restitution = restitution_of(contact.bodies, system);
+    answer_with(
+        contact,
+        (restitution, kick_at(contact, system, motion, time)),
+        system,
+        motion,
+        time,
+    )
+}
+
+/// Speed that the surface of a contact adds \[m/s\]; 0 between spheres.
+fn kick_at(contact: &Contact, system: &System, motion: &Motion, time: f64) -> f64 {
+    let Bodies::Surface { sphere, surface } = contact.bodies else { return 0.0 };
+    let given = system.surfaces[surface as usize].kick;
+    if given == 0.0 {
+        return 0.0;
+    }
+    let index = sphere as usize;
+    let state = (motion.position[index], motion.velocity[index]);
+    let acceleration = integrate::acceleration_alone(system, index, state, time);
+    kick(given, -acceleration.dot(contact.separation.normal), system.spheres.radius[index])
 }
 
 /// Answers one contact without giving back any of the speed of approach.
@@ -69,7 +92,7 @@ pub(crate) fn answer_plastically(
     motion: &mut Motion,
     time: f64,
 ) -> Option<Impact> {
-    answer_with(contact, 0.0, system, motion, time)
+    answer_with(contact, (0.0, 0.0), system, motion, time)
 }
 
 /// Restitution of a contact, from those of its bodies.
@@ -98,7 +121,7 @@ pub(crate) fn friction_of(bodies: Bodies, system: &System) -> ContactFriction {
 
 fn answer_with(
     contact: &Contact,
-    restitution: f64,
+    (restitution, kick): (f64, f64),
     system: &System,
     motion: &mut Motion,
     time: f64,
@@ -119,7 +142,7 @@ fn answer_with(
             let i = sphere as usize;
             let of_surface = system.surfaces[surface as usize].motion.velocity_at(point);
             let relative = velocity[i] - of_surface;
-            let change = reflection(relative, normal, restitution)?;
+            let change = reflection(relative, normal, restitution)? + kick;
             velocity[i] += change * normal;
             let separation_speed = (velocity[i] - of_surface).dot(normal);
             (-relative.dot(normal), separation_speed, mass[i] * change)
@@ -135,6 +158,7 @@ fn answer_with(
         separation_speed,
         impulse,
         tangential_impulse: DVec3::ZERO,
+        kick,
     })
 }
 

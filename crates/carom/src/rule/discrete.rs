@@ -89,6 +89,9 @@ fn meet_surfaces(
 /// must overlap, with a flat one touching is enough.
 fn overlap(system: &System, motion: &Motion, sphere: u32, surface: u32) -> Option<Contact> {
     let i = sphere as usize;
+    if !system.meets_surface(sphere, surface) {
+        return None;
+    }
     let form = &system.surfaces[surface as usize].form;
     let separation = sphere_surface(form, motion.position[i], system.spheres.radius[i])?;
     let meets = match form {

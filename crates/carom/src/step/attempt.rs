@@ -10,8 +10,10 @@ use crate::numbered::Numbered;
 use crate::report::{StepReport, TriggerContact};
 use crate::rule::contact::{self, Solver};
 use crate::rule::{bisect, discrete};
+use crate::sensor::{Sensors, Tracks};
 use crate::settings::Rule;
 use crate::state::State;
+use crate::surface::{Role, Surface};
 use crate::work::Work;
 
 /// Working memory of steps, kept from one to the next only to spare its allocation.
@@ -21,6 +23,7 @@ pub(crate) struct Scratch {
     pub bisect: bisect::Scratch,
     pub contact: contact::Scratch,
     pub search: Search,
+    pub tracks: Tracks,
     /// Motion at the start of the step, to return to if it fails.
     pub start: Motion,
 }
@@ -88,6 +91,31 @@ impl<'a> Attempt<'a> {
         contacts::of_triggers(&now, 0.0, &mut scratch.search, |contact| {
             report.triggers.extend(TriggerContact::of(&contact, &now.system));
         });
+    }
+
+    /// Begins to note where the spheres are, if there are triggers.
+    pub fn begin_tracks(&mut self) {
+        let is_wanted = !self.state.colliders.trigger_tree().is_empty();
+        self.scratch.tracks.begin(is_wanted, self.state.spheres.positions());
+    }
+
+    /// Reports the spheres that are inside triggers now, if one of those moves: the rules `discrete` and `bisect` look
+    /// before it does.
+    pub fn report_moved_triggers(&mut self) {
+        let is_moving = |it: &Surface| it.role == Role::Reports && !it.motion.is_at_rest();
+        if self.state.colliders.surfaces().iter().any(is_moving) {
+            self.report.triggers.clear();
+            self.report_triggers();
+        }
+    }
+
+    /// Reports what sensors saw, and keeps which spheres are in which triggers; `None` where there are no triggers.
+    pub fn report_sensors(&mut self, sensors: Option<Sensors>) {
+        let Some(mut sensors) = sensors else { return self.state.presence.clear() };
+        let (system, _) = self.state.split();
+        sensors.finish(&system);
+        self.report.sensor_events = sensors.events;
+        self.state.presence = sensors.presence;
     }
 
     /// Notes what there is before an emission, to return to if the step fails.

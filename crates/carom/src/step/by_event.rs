@@ -7,7 +7,7 @@ use crate::error::{Error, InvalidValue, Subject};
 use crate::forces;
 use crate::id::SphereId;
 use crate::report::StepReport;
-use crate::rule::exact::{self, Arrivals, Span, Timeline, Unfinished, Unheld, Until};
+use crate::rule::exact::{self, Arrivals, Span, Timeline, Unfinished, Unheld, Until, Watch};
 use crate::settings::Exact;
 use crate::state::State;
 use crate::sum::Sum;
@@ -24,13 +24,15 @@ pub(super) fn step(mut attempt: Attempt, parameters: Exact, until: Until) -> Res
             check_closed_form(&system, "next event").map_err(|it| it.about(Subject::Step))?;
         }
         let mut timeline = begin(attempt, parameters, end)?;
-        let end = advance(attempt, &mut timeline, end, until)?;
+        let mut watch = watch_over(attempt);
+        let end = advance(attempt, &mut timeline, &mut watch, end, until)?;
         attempt.end_at(end);
         account_for_contacts(attempt.report, &mut timeline, end);
         place_spheres(attempt, &timeline, end)?;
         if !timeline.has_friction() {
             attempt.state.spheres.motion.spin.advance(attempt.length);
         }
+        attempt.report_sensors(watch.map(|watch| watch.sensors));
         attempt.state.timeline = Some(timeline);
         let account = &mut attempt.report.zone_account;
         attempt.state.was_stepped |= account.joined > 0;
@@ -41,12 +43,21 @@ pub(super) fn step(mut attempt: Attempt, parameters: Exact, until: Until) -> Res
     Ok(())
 }
 
+/// The watch over sensors in a step; `None` where there are none.
+fn watch_over(attempt: &mut Attempt) -> Option<Watch> {
+    let (start, presence) = (attempt.start, attempt.state.presence.clone());
+    let (system, _) = attempt.state.split();
+    (!system.trigger_tree.is_empty()).then(|| Watch::new(presence, start))
+}
+
 /// Accounts for the impacts of a step, and for persistent contacts up to its end \[s\].
 fn account_for_contacts(report: &mut StepReport, timeline: &mut Timeline, end: f64) {
     let taken = report.groups.iter().map(|group| group.energy_after - group.energy_before);
     report.energy_account.contacts += taken.collect::<Sum>().value();
     let given = report.groups.iter().map(|group| group.collider_work);
     report.energy_account.colliders += given.collect::<Sum>().value();
+    let kicked = report.groups.iter().map(|group| group.kick_work);
+    report.energy_account.kicks += kicked.collect::<Sum>().value();
     account_for_persistent_contacts(report, timeline, end);
 }
 
@@ -92,18 +103,25 @@ pub(super) fn check_closed_form(system: &System, what: &'static str) -> Result<(
 fn advance(
     attempt: &mut Attempt,
     timeline: &mut Timeline,
+    watch: &mut Option<Watch>,
     end: f64,
     until: Until,
 ) -> Result<f64, Error> {
     let (start, length) = (attempt.start, attempt.length);
     emit(attempt, timeline, start)?;
+    let mut now = start;
     loop {
         let due = emitter::next_due(&attempt.state.emitters);
         let span = Span { start, length, end: due.min(end) };
         let Attempt { state, work, report, .. } = &mut *attempt;
         let (system, _) = state.split();
+        if let Some(watch) = watch.take() {
+            exact::begin_watch(timeline, watch, now);
+        }
         let came_to = exact::advance(&system, timeline, span, work, report, until)
             .map_err(|unfinished| refusal(unfinished, start))?;
+        *watch = exact::end_watch(timeline, &system, came_to);
+        now = due;
         let is_over = until == Until::NextImpact && !attempt.report.impacts.is_empty();
         if due >= end || is_over {
             return Ok(came_to);

@@ -1,10 +1,11 @@
 //! Steps by a rule that knows nothing but frames: what is due is emitted at the start.
 
 use super::attempt::{Attempt, Scratch};
+use super::sweep;
 use crate::emitter;
 use crate::error::Error;
 use crate::interval::Interval;
-use crate::report::{BodyPair, StepReport};
+use crate::report::{BodyPair, Impact, StepReport};
 use crate::state::State;
 use crate::sum::Sum;
 use crate::surface::SurfaceMotion;
@@ -21,12 +22,15 @@ pub(super) fn step(
     attempt.take(|attempt| {
         attempt.scratch.start.copy_all(&attempt.state.spheres.motion);
         attempt.emit(due);
+        attempt.begin_tracks();
         let Attempt { state, scratch, report, .. } = attempt;
         let is_done = advance(state, frame, scratch, report);
         let stopped = Error::Stopped { time: frame.time };
         let checked = if is_done { state.check_finite(frame.h) } else { Err(stopped) };
         if checked.is_err() {
             std::mem::swap(&mut state.spheres.motion, &mut scratch.start);
+        } else {
+            sweep::report(attempt);
         }
         checked
     })
@@ -35,9 +39,17 @@ pub(super) fn step(
 /// Accounts for impacts that were answered one after the other, so that the speeds of each are those right
 /// before and after it.
 pub(super) fn account_for_impacts(state: &State, report: &mut StepReport) {
-    let [mut contacts, mut colliders] = [Sum::default(); 2];
+    let [mut contacts, mut colliders, mut kicks] = [Sum::default(); 3];
     for impact in &report.impacts {
-        contacts.add(0.5 * impact.impulse * (impact.separation_speed - impact.approach_speed));
+        let &Impact { impulse, approach_speed, separation_speed, kick, .. } = impact;
+        contacts.add(0.5 * impulse * (separation_speed - approach_speed));
+        if kick > 0.0 {
+            // From e v to e v + k; the impulse is m ((1 + e) v + k).
+            let mass = impulse / (approach_speed + separation_speed);
+            let work = mass * kick * (separation_speed - 0.5 * kick);
+            kicks.add(work);
+            contacts.add(-work);
+        }
         let BodyPair::Collider { collider, .. } = impact.between else { continue };
         if let Some(collider) = state.colliders.list().get(collider.0) {
             let velocity = SurfaceMotion::of(collider).velocity_at(impact.point);
@@ -46,4 +58,5 @@ pub(super) fn account_for_impacts(state: &State, report: &mut StepReport) {
     }
     report.energy_account.contacts += contacts.value();
     report.energy_account.colliders += colliders.value();
+    report.energy_account.kicks += kicks.value();
 }

@@ -5,6 +5,7 @@ mod attempt;
 mod by_event;
 mod by_frame;
 mod lookahead;
+mod sweep;
 
 pub(crate) use attempt::Scratch;
 pub(crate) use lookahead::predict;
@@ -78,7 +79,9 @@ pub(crate) fn step(
                 motion.spin.advance(frame.h);
                 by_frame::account_for_impacts(state, report);
                 true
-            })
+            })?;
+            attempt.report_moved_triggers();
+            Ok(())
         }
         Rule::Bisect(parameters) => {
             by_frame::step(&mut attempt, |state, frame, scratch, report| {
@@ -89,13 +92,19 @@ pub(crate) fn step(
                 motion.spin.advance(frame.h);
                 by_frame::account_for_impacts(state, report);
                 is_done
-            })
+            })?;
+            attempt.report_moved_triggers();
+            Ok(())
         }
         Rule::Exact(parameters) => by_event::step(attempt, parameters, until),
         Rule::Contact(_) if attempt.state.is_idle(attempt.start, attempt.length) => {
             let (_, motion, solver) = attempt.state.split_with_solver();
             contact::rest(solver, motion, attempt.length, attempt.report);
-            attempt.take(|_| Ok(()))?;
+            attempt.begin_tracks();
+            attempt.take(|attempt| {
+                sweep::report(attempt);
+                Ok(())
+            })?;
             attempt.report_triggers();
             Ok(())
         }
@@ -103,7 +112,7 @@ pub(crate) fn step(
             attempt.state.check_box()?;
             by_frame::step(&mut attempt, |state, frame, scratch, report| {
                 let (system, motion, solver) = state.split_with_solver();
-                let memory = (solver, &mut scratch.contact);
+                let memory = (solver, &mut scratch.contact, &mut scratch.tracks);
                 parallel::among_threads(system.spheres.id.len(), || {
                     contact::step(&system, parameters, motion, frame, memory, report, stop_request)
                 })

@@ -249,6 +249,51 @@ impl World {
         self.set_velocity(id, sphere.velocity + impulse / sphere.kilograms())
     }
 
+    /// Applies an impulse \[N s\] to a sphere at a point \[m\]: besides its velocity the angular velocity changes, by the
+    /// torque about the centre over the moment of inertia.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] if it is not in the world, [`Error::Invalid`] where a new quantity is not finite.
+    ///
+    /// ```
+    /// use carom::{DVec3, Sphere, World};
+    ///
+    /// let mut world = World::default();
+    /// let ball = world.add_sphere(Sphere::new(DVec3::ZERO, 0.5).with_mass(2.0))?;
+    /// world.apply_impulse_at(ball, DVec3::X, DVec3::new(0.0, 0.5, 0.0))?;
+    /// // The moment of inertia of a solid ball is 2/5 m r², here 0.2 kg m².
+    /// assert_eq!(world.sphere(ball)?.velocity, DVec3::new(0.5, 0.0, 0.0));
+    /// assert_eq!(world.sphere(ball)?.angular_velocity, DVec3::new(0.0, 0.0, -2.5));
+    /// # Ok::<(), carom::Error>(())
+    /// ```
+    pub fn apply_impulse_at(
+        &mut self,
+        id: SphereId,
+        impulse: DVec3,
+        point: DVec3,
+    ) -> Result<(), Error> {
+        let index = self.index_of(id)?;
+        let sphere = self.state.spheres.get(index);
+        let torque = (point - sphere.position).cross(impulse);
+        let turned = torque / self.state.spheres.moment_of_inertia(index);
+        let velocity = sphere.velocity + impulse / sphere.kilograms();
+        let angular_velocity = sphere.angular_velocity + turned;
+        self.set_sphere(id, Sphere { velocity, angular_velocity, ..sphere })
+    }
+
+    /// Gives a sphere another angular velocity \[rad/s\]; its place, velocity and orientation stay.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] if it is not in the world, [`Error::Invalid`] for one that is not finite.
+    pub fn set_angular_velocity(
+        &mut self,
+        id: SphereId,
+        angular_velocity: DVec3,
+    ) -> Result<(), Error> {
+        let sphere = self.sphere(id)?;
+        self.set_sphere(id, Sphere { angular_velocity, ..sphere })
+    }
+
     /// Puts spheres elsewhere, with other velocities; their spins stay. Where forces are applied to single
     /// spheres ([`Self::set_applied_forces`]), the flights of the others go on, which makes this cheap.
     ///

@@ -16,6 +16,7 @@ from carom._scene.parts.kinds import (
     Color,
     Lengths,
     NonNegative,
+    Number,
     Positive,
     Quaternion,
     Restitution,
@@ -263,6 +264,13 @@ class Collider(Part):
         tangential_restitution: Coefficient of tangential restitution in [0, 1]. If missing, the
             other body's value counts.
         finish: How its surface reflects light.
+        kick: Speed that an impact adds along the normal [m/s], >= 0: a sphere that comes with v
+            leaves with e v + kick.
+        groups: Groups that it is in, one bit for each of 32: ``0b101`` is the first and the third.
+            By default the first.
+        collides_with: Groups that it collides with, one bit for each; by default all. Two bodies
+            collide if each is in a group that the other collides with.
+        user_data: A number for programs to find it by; no part of the physics.
     """
 
     shape: Shape
@@ -280,3 +288,7 @@ class Collider(Part):
     spinning_friction: NonNegative | None = None
     tangential_restitution: Restitution | None = None
     finish: Finish = "satin"
+    kick: NonNegative = 0.0
+    groups: Number = 1
+    collides_with: Number = 0xFFFFFFFF
+    user_data: Number = 0

@@ -15,6 +15,7 @@ from carom._scene.parts.kinds import (
     UNTURNED,
     Color,
     NonNegative,
+    Number,
     Positive,
     Quaternion,
     Restitution,
@@ -51,6 +52,11 @@ class Sphere(Part):
             solid ball (default), 2/3 for a thin shell.
         color: Colour. If missing, that of its density, else that of the scene's spheres.
         finish: How its surface reflects light.
+        groups: Groups that it is in, one bit for each of 32: ``0b101`` is the first and the third.
+            By default the first.
+        collides_with: Groups that it collides with, one bit for each; by default all. Two bodies
+            collide if each is in a group that the other collides with.
+        user_data: A number for programs to find it by; no part of the physics.
     """
 
     position: Vector = ORIGIN
@@ -69,6 +75,9 @@ class Sphere(Part):
     inertia_factor: Positive = 0.4
     color: Color | None = None
     finish: Finish = "satin"
+    groups: Number = 1
+    collides_with: Number = 0xFFFFFFFF
+    user_data: Number = 0
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::accelerate::{kinetic_energy, work_of_impulses};
 use super::row::Row;
+use super::slab::Slab;
 use super::slots::Run;
 use super::solve;
 use super::solver::Solver;
@@ -30,8 +31,9 @@ const SOFTENING: u32 = 3;
 pub(super) fn keep(solver: &mut Solver, sub_step: &SubStep, report: &mut StepReport) -> bool {
     let before = solver.energy_before;
     let mut change = change(solver, sub_step.h);
+    let kicks = kick_work(solver);
     let mut round = 0;
-    while !solver.has_moving_surfaces && change.gain > ROUNDING * before && round < ROUNDS {
+    while !solver.has_moving_surfaces && change.gain - kicks > ROUNDING * before && round < ROUNDS {
         if round >= SOFTENING {
             solve::soften_bounces(solver, 0.5);
         }
@@ -41,11 +43,13 @@ pub(super) fn keep(solver: &mut Solver, sub_step: &SubStep, report: &mut StepRep
         round += 1;
     }
     report.contact_account.limited_sub_steps += u32::from(round > 0);
-    if !solver.has_moving_surfaces && change.gain > ROUNDING * before {
+    if !solver.has_moving_surfaces && change.gain - kicks > ROUNDING * before {
         take_less(solver, change.gain, sub_step.h);
         change = self::change(solver, sub_step.h);
     }
-    report.energy_account.contacts += change.work;
+    let kicks = kick_work(solver);
+    report.energy_account.kicks += kicks;
+    report.energy_account.contacts += change.work - kicks;
     if solver.has_moving_surfaces {
         let surfaces = solver.slabs.iter().flat_map(|slab| &slab.surfaces);
         let work = surfaces.map(|contact| contact.work()).sum::<f64>();
@@ -53,6 +57,15 @@ pub(super) fn keep(solver: &mut Solver, sub_step: &SubStep, report: &mut StepRep
         report.energy_account.contacts -= work;
     }
     round > 0
+}
+
+/// Work of the kicks of surfaces in a sub-step \[J\].
+fn kick_work(solver: &Solver) -> f64 {
+    let of_slab = |slab: &Slab| {
+        let mass = |slot: u32| solver.slots.velocity[slab.start + slot as usize].number().recip();
+        slab.surfaces.iter().map(|it| it.kick_work(mass(it.slot))).sum::<f64>()
+    };
+    solver.slabs.iter().map(of_slab).sum()
 }
 
 /// What impulses did to the kinetic energy of a sub-step.

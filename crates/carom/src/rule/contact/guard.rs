@@ -43,7 +43,8 @@ pub(super) fn hold(
     let Solver { slots, slabs, places, bounces, landings, drift, .. } = solver;
     let go_astray = slabs.iter().any(|it| it.found.leaves || it.found.overlap > FAR_APART);
     let (common, h) = (drift.way, sub_step.h);
-    let guard = Guard { system, places, bounces, landings, common, h, go_astray };
+    let index = if go_astray { slots.index.clone() } else { Vec::new() };
+    let guard = Guard { system, places, index, bounces, landings, common, h, go_astray };
     slabs.each(slots, |mut run, slab| {
         let Found { energy, squeezed, .. } = guard.hold_all(&mut run, slab);
         (slab.found.energy, slab.found.squeezed) = (energy, squeezed);
@@ -57,6 +58,8 @@ pub(super) fn hold(
 struct Guard<'a> {
     system: &'a System<'a>,
     places: &'a Places,
+    /// Of each slot in the arrays of the world; empty where no sphere goes astray.
+    index: Vec<u32>,
     bounces: &'a [Bounce],
     /// Spheres that met bodies on the way, each at its time: what counts is the flight after the last.
     landings: &'a Landings,
@@ -94,7 +97,7 @@ impl Guard<'_> {
                     let start = own.map_or(run.reference[slot].vector(), |it| it.start);
                     let start = self.start_of(slab.start + slot, start);
                     let way = (start, self.turn_of(slab.start + slot));
-                    let end = self.held(run, slot, way, &self.all_surfaces());
+                    let end = self.held(run, slot, way, &self.surfaces_of(slab.start + slot));
                     go_to(run, slot, end);
                 }
             }
@@ -166,11 +169,13 @@ impl Guard<'_> {
         surfaces.iter().map(passage).collect()
     }
 
-    /// The numbers of all surfaces that deflect.
-    fn all_surfaces(&self) -> Vec<u32> {
+    /// The numbers of all surfaces that deflect a sphere, by its slot.
+    fn surfaces_of(&self, slot: usize) -> Vec<u32> {
+        let sphere = self.index[slot];
         let deflects = |it: &u32| {
             let own = self.places.surface_of(*it);
             self.system.surfaces[own as usize].role == Role::Deflects
+                && self.system.meets_surface(sphere, own)
         };
         (0..self.places.len() as u32).filter(deflects).collect()
     }

@@ -51,6 +51,7 @@ fn of_pairs(solver: &Solver, slab: &Slab, time: f64, impacts: &mut Vec<Impact>) 
             separation_speed: relative.dot(normal),
             impulse: pair.impulse[lane],
             tangential_impulse,
+            kick: 0.0,
         });
     }
 }
@@ -85,6 +86,7 @@ fn of_surfaces(
             separation_speed: relative.dot(contact.normal),
             impulse: contact.impulses.normal,
             tangential_impulse: DVec3::from_array(contact.impulses.tangential),
+            kick: contact.kicked,
         });
     }
 }

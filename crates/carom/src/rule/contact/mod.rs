@@ -68,6 +68,7 @@ use glam::DVec3;
 use crate::bodies::Motion;
 use crate::interval::Interval;
 use crate::report::StepReport;
+use crate::sensor::Tracks;
 use crate::settings::Contact;
 use crate::system::System;
 use crate::work::{StopRequest, Work};
@@ -89,7 +90,7 @@ pub(crate) fn step(
     parameters: Contact,
     motion: &mut Motion,
     frame: Interval,
-    (solver, scratch): (&mut Solver, &mut Scratch),
+    (solver, scratch, tracks): (&mut Solver, &mut Scratch, &mut Tracks),
     report: &mut StepReport,
     stop_request: Option<&StopRequest>,
 ) -> bool {
@@ -103,6 +104,7 @@ pub(crate) fn step(
             return false;
         }
         sub_step(system, parameters, (frame, number), (solver, scratch), report);
+        tracks.note(|| solver.slots.positions());
     }
     frame::end(system, motion, frame.h, solver, report);
     true

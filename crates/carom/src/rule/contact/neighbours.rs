@@ -56,6 +56,15 @@ pub(super) fn search(
     if system.settings.spheres_collide {
         search.find_pairs(slots, slabs);
         search.find_image_pairs(slots, slabs);
+        if !system.spheres.groups.is_empty() {
+            let meet = |[first, second]: &[u32; 2]| {
+                system.spheres_meet(slots.index[*first as usize], slots.index[*second as usize])
+            };
+            for slab in &mut slabs.list {
+                slab.pairs.retain(meet);
+                slab.image_pairs.retain(|pair| meet(&pair.slots));
+            }
+        }
         if slots.asleep() > 0 {
             for slab in &mut slabs.list {
                 watch_sleepers(slots, &mut slab.pairs, watched);
@@ -262,7 +271,8 @@ impl Known<'_> {
     /// Whether a sphere and a surface may touch until the next search, or the end of the frame.
     fn may_touch(&self, slot: usize, surface: u32) -> bool {
         let own = self.places.surface_of(surface);
-        if self.system.surfaces[own as usize].role != Role::Deflects {
+        let deflects = self.system.surfaces[own as usize].role == Role::Deflects;
+        if !deflects || !self.system.meets_surface(self.slots.index[slot], own) {
             return false;
         }
         let (center, radius) =
@@ -292,9 +302,11 @@ impl Known<'_> {
 
     fn contact(&self, slot: usize, relative: u32, surface: u32) -> SurfaceContact {
         let sphere = self.slots.index[slot];
-        let bodies = Bodies::Surface { sphere, surface: self.places.surface_of(surface) };
+        let own = self.places.surface_of(surface);
+        let bodies = Bodies::Surface { sphere, surface: own };
         let material = ContactMaterial::of(bodies, self.system);
         let mut contact = SurfaceContact::new(relative, surface, material);
+        contact.kick = self.system.surfaces[own as usize].kick;
         contact.impulses = self.kept.of_surface(self.before[slot], surface);
         contact
     }

@@ -73,7 +73,7 @@ impl Places {
             return;
         }
         self.image_reach = IMAGES_FARTHER * reach;
-        let Self { starts, images, number_of, image_reach, .. } = self;
+        let Self { starts, ends, images, number_of, image_reach, .. } = self;
         let near = Bounds::around(DVec3::ZERO, 0.5 * period).widened(*image_reach);
         for (number, surface) in (0..).zip(surfaces) {
             let bounds = bounds(&surface.form).filter(|_| surface.motion.is_at_rest());
@@ -84,7 +84,12 @@ impl Places {
                 if is_near && !number_of.contains_key(&(number, offset)) {
                     number_of.insert((number, offset), starts.len() as u32);
                     images.push(((number, offset), shift));
-                    starts.push((surface.form.shifted(shift), surface.motion));
+                    let place = (surface.form.shifted(shift), surface.motion);
+                    // It is known where those that move end, and so of all, once a sub-step has begun.
+                    if !ends.is_empty() {
+                        ends.push(place.clone());
+                    }
+                    starts.push(place);
                 }
             }
         }

@@ -254,6 +254,15 @@ impl Slots {
         forces
     }
 
+    /// Centres \[m\], by index.
+    pub fn positions(&self) -> Vec<DVec3> {
+        let mut positions = vec![DVec3::ZERO; self.index.len()];
+        for (&index, position) in self.index.iter().zip(&self.position) {
+            positions[index as usize] = position.vector();
+        }
+        positions
+    }
+
     /// Gives the world where spheres are and how they move at the end of a frame.
     pub fn write(&self, motion: &mut Motion) {
         for (slot, &index) in self.index.iter().enumerate() {

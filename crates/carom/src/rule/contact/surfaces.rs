@@ -13,6 +13,7 @@ use crate::contact_time;
 use crate::detect::{Separation, sphere_surface};
 use crate::flight::Flight;
 use crate::friction::ContactFriction;
+use crate::respond;
 use crate::surface::{Form, SurfaceMotion};
 
 /// A centre is right in front of a plane, or behind it, below this part of the radius.
@@ -47,6 +48,9 @@ pub(super) struct SurfaceContact {
     pub time: f64,
     pub restitution: f64,
     pub friction: ContactFriction,
+    /// Speed that the surface adds in an impact \[m/s\], and what it adds in this one.
+    pub kick: f64,
+    pub kicked: f64,
     pub impulses: Impulses,
 }
 
@@ -69,6 +73,8 @@ impl SurfaceContact {
             time: 0.0,
             restitution,
             friction,
+            kick: 0.0,
+            kicked: 0.0,
             impulses: Impulses::default(),
         }
     }
@@ -88,8 +94,16 @@ impl SurfaceContact {
     /// the surface with; `None` without a bounce.
     pub fn bounce(&self, mass: f64) -> Option<DVec3> {
         let bounces = self.is_bounce() && self.impulses.normal > 0.0;
-        let own = mass * (1.0 + self.restitution) * self.approach;
+        let own = mass * (1.0 + self.restitution) * self.approach + mass * self.kicked;
         bounces.then(|| self.impulse() * (own / self.impulses.normal).min(1.0))
+    }
+
+    /// Work of the kick of the surface on a sphere of this mass \[kg\], at the time of the bounce \[J\].
+    pub fn kick_work(&self, mass: f64) -> f64 {
+        if self.kicked == 0.0 || !self.is_bounce() || self.impulses.normal <= 0.0 {
+            return 0.0;
+        }
+        mass * self.kicked * (self.restitution * self.approach + 0.5 * self.kicked)
     }
 
     /// Work that the surface does, in its place \[J\].
@@ -130,7 +144,7 @@ fn leave_first_bounce(of_sphere: &mut [SurfaceContact]) {
         let is_first = contact.is_bounce() && contact.time == first;
         let touches = contact.bias == 0.0 || contact.impulses.normal > 0.0;
         if !is_first && !touches && !contact.is_slow {
-            (contact.bias, contact.approach) = (FREE, 0.0);
+            (contact.bias, contact.approach, contact.kicked) = (FREE, 0.0, 0.0);
         }
     }
 }
@@ -150,7 +164,7 @@ impl SurfaceContact {
         self.angular_velocity = motion.angular_velocity;
         let turns = motion.turns_form(form);
         self.swing = if turns { motion.swing(center, before) } else { DVec3::ZERO };
-        (self.approach, self.bias) = (0.0, FREE);
+        (self.approach, self.bias, self.kicked) = (0.0, FREE, 0.0);
         let separation = sphere_surface(form, center, radius);
         if let Some(Separation { distance, normal, point }) = separation {
             (self.normal, self.velocity) = if turns {
@@ -195,7 +209,8 @@ impl SurfaceContact {
             let gap = distance.max(0.0);
             let speed_there = (speed * speed + 2.0 * pressing * gap).max(0.0).sqrt();
             let time = 2.0 * gap / (speed + speed_there);
-            self.note_impact(speed + pressing * time, pressing, time, sub_step);
+            let radius = run.position[slot].number();
+            self.note_impact((speed + pressing * time, pressing), radius, time, sub_step);
         } else if self.impulses.normal == 0.0 && distance > sub_step.h * (speed + fall) {
             // On its parabola it does not come so far as its last velocity says.
             self.bias += fall.max(0.0);
@@ -214,7 +229,7 @@ impl SurfaceContact {
             acceleration: run.acceleration[slot].vector(),
             drag_rate: 0.0,
         };
-        (self.bias, self.approach) = (FREE, 0.0);
+        (self.bias, self.approach, self.kicked) = (FREE, 0.0, 0.0);
         let time = contact_time::sphere_surface(&flight, radius, form, motion, sub_step.h);
         let Some(time) = time else { return self.aim_at_end(&flight, radius, place, sub_step) };
         // Seen from where the surface is now.
@@ -226,7 +241,7 @@ impl SurfaceContact {
         let approach = -(velocity - self.velocity).dot(self.normal);
         let pressing = -flight.acceleration.dot(self.normal);
         self.bias = approach.max(0.0) * time / sub_step.h;
-        self.note_impact(approach.max(0.0), pressing, time, sub_step);
+        self.note_impact((approach.max(0.0), pressing), radius, time, sub_step);
         if motion.turns_form(form) && self.bias >= 0.0 && is_flat(form, separation.normal) {
             // It stays at the plane, which turns on.
             let height = (flight.position - separation.point).dot(separation.normal);
@@ -257,15 +272,22 @@ impl SurfaceContact {
         self.bias = distance.max(0.0) / h - leaving;
     }
 
-    /// Notes an impact after a `time` \[s\] with this speed of approach \[m/s\]; it is a bounce if the
-    /// sphere, which accelerates towards the surface \[m/s²\], is still leaving it at the end.
-    fn note_impact(&mut self, approach: f64, pressing: f64, time: f64, sub_step: &SubStep) {
+    /// Notes an impact after a `time` \[s\] with this speed of approach \[m/s\] of a sphere with this radius \[m\]; it is
+    /// a bounce if the sphere, which accelerates towards the surface \[m/s²\], is still leaving it at the end.
+    fn note_impact(
+        &mut self,
+        (approach, pressing): (f64, f64),
+        radius: f64,
+        time: f64,
+        sub_step: &SubStep,
+    ) {
         self.approach = approach;
         let pressing = pressing - self.swing.dot(self.normal);
-        let rebound = self.restitution * approach - pressing * (sub_step.h - time);
+        let kick = if approach > 0.0 { respond::kick(self.kick, pressing, radius) } else { 0.0 };
+        let rebound = self.restitution * approach + kick - pressing * (sub_step.h - time);
         // What bears something already does not bounce: it would lose the impulse to start from.
         if rebound > 0.0 && self.impulses.normal == 0.0 {
-            (self.bias, self.time) = (-rebound, time);
+            (self.bias, self.time, self.kicked) = (-rebound, time, kick);
         }
     }
 

@@ -40,7 +40,7 @@ pub(crate) fn follow(
     let mut now = span.start;
     let mut leg = leg_of(timeline, slot, now);
     loop {
-        if timeline.flights.is_stepped(slot) {
+        if timeline.flights.is_stepped(slot) || timeline.flights.curve_of(slot).is_some() {
             course.end = PathEnd::NoClosedForm;
         } else if course.impacts.len() >= most_impacts {
             course.end = PathEnd::Impacts;

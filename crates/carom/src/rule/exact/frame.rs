@@ -329,6 +329,8 @@ fn contents<'a>(flights: &'a Flights, system: &System<'a>, time: f64) -> Content
         surfaces: system.surfaces,
         tree: system.tree,
         spheres_collide: system.settings.spheres_collide,
+        groups: &system.spheres.groups,
+        index_of: &flights.index_of,
     }
 }
 

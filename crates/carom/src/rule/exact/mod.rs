@@ -25,6 +25,7 @@ mod flights;
 mod frame;
 mod frame_work;
 mod impact;
+mod look_along;
 mod neighbours;
 mod pair_times;
 mod persistent;
@@ -34,15 +35,18 @@ mod span;
 mod stepped;
 mod ticks;
 mod timeline;
+mod watch;
 mod zone;
 
 pub(crate) use course::{Course, follow};
 pub(crate) use frame::{
     Arrivals, Unheld, adopt, begin, end, persistent_contacts, start, tick_for_springs,
 };
+pub(crate) use look_along::{begin as begin_watch, end as end_watch};
 pub(crate) use neighbours::MAX_SPHERES;
 pub(crate) use span::Span;
 pub(crate) use timeline::Timeline;
+pub(crate) use watch::Watch;
 pub(crate) use zone::Zone;
 
 use std::mem::take;
@@ -118,6 +122,7 @@ pub(crate) fn advance(
             Some((slot, next)) => {
                 let now = happen(timeline, &mut context, slot, next)?;
                 if due.is_now(timeline) {
+                    look_along::follow(timeline, system);
                     before.count_from_zero(timeline);
                     frame::arrange_anew(timeline, system, now);
                 }
@@ -130,6 +135,7 @@ pub(crate) fn advance(
             None if tick <= end && tick < force_tick => stepped::tick(timeline, &mut context),
             None => break,
         };
+        look_along::follow(timeline, system);
         if work.is_stopped() {
             return Err(Unfinished::Stopped);
         }

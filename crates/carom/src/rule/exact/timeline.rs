@@ -10,6 +10,7 @@ use super::events::{Event, NextEvents, PackedTarget, Prediction, Schedule, Upcom
 use super::flights::{Flights, Species, StepLimits};
 use super::frame_work::FrameWork;
 use super::neighbours::{NeighbourBuffer, Neighbours};
+use super::watch::Watch;
 use super::zone::Zone;
 use crate::settings::Exact;
 use crate::system::System;
@@ -50,6 +51,9 @@ pub(crate) struct Timeline {
     pub(super) curves_until: f64,
     /// When the next spheres are emitted, on the world's clock \[s\].
     pub(super) next_emission: f64,
+    /// The watch over sensors during a step, where there are some.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub(super) watch: Option<Box<Watch>>,
     /// Events, and cell crossings among them, since the spheres were put in order of place.
     pub(super) events: u64,
     pub(super) cell_crossings: u64,
@@ -156,7 +160,16 @@ impl Timeline {
     /// Begins another flight of a sphere from this state at `time` \[s\].
     pub(super) fn begin_flight(&mut self, slot: u32, position: DVec3, velocity: DVec3, time: f64) {
         self.flights.bodies[slot as usize].begin_flight(position, velocity, time);
+        self.note_flight(slot);
         self.wrap(slot);
+    }
+
+    /// Notes for sensors that a sphere begins another flight.
+    #[inline]
+    pub(super) fn note_flight(&mut self, slot: u32) {
+        if let Some(watch) = &mut self.watch {
+            watch.begun.push(slot);
+        }
     }
 
     /// Wraps the position where a flight begins into the periodic box; tells whether it was elsewhere.
@@ -219,7 +232,8 @@ impl Timeline {
         let level = self.flights.species_of(slot).level;
         let shift = self.neighbours.shift_from_box(slot);
         let moving = self.moving_surfaces.iter().map(move |&surface| (surface, shift));
-        self.neighbours.surfaces_near(slot, level).chain(moving)
+        let near = self.neighbours.surfaces_near(slot, level).chain(moving);
+        near.filter(move |near| self.neighbours.meets_surface(slot, near.0))
     }
 
     /// Whether a sphere is certain to meet no surface on its flight, but those that hold it.

@@ -74,8 +74,9 @@ impl Gathering {
             let is_taken = |body: &Body| {
                 body.inverse_mass > 0.0 && self.seen[body.slot as usize] != Seen::Never
             };
-            if bodies.len() > MOST_BODIES || links.len() > MOST_LINKS || bodies.iter().any(is_taken)
-            {
+            let is_large = bodies.len() > MOST_BODIES || links.len() > MOST_LINKS;
+            let has_kick = links.iter().any(|link| link.has_kick);
+            if is_large || has_kick || bodies.iter().any(is_taken) {
                 growing.is_whole = false;
                 return growing;
             }

@@ -42,6 +42,8 @@ pub struct Link {
     carried: f64,
     /// Whether it bore something in the sub-step, or in the flight before.
     pub bears: bool,
+    /// Whether its surface kicks, which no cascade follows.
+    pub has_kick: bool,
     pub role: Role,
     pub normal: DVec3,
     pub point: DVec3,
@@ -72,6 +74,7 @@ impl Link {
             friction: ContactFriction::default(),
             carried: 0.0,
             bears: false,
+            has_kick: false,
             role: Role::Off,
             normal: DVec3::Y,
             point: DVec3::ZERO,
@@ -124,6 +127,7 @@ impl Link {
                     friction: ContactFriction { rolling, spinning, ..contact.friction },
                     carried,
                     bears: carried > 0.0,
+                    has_kick: contact.kick > 0.0,
                     ..none
                 }
             }

@@ -74,6 +74,7 @@ impl Met {
             separation_speed,
             impulse,
             tangential_impulse,
+            kick: 0.0,
         }
     }
 }

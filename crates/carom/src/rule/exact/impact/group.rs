@@ -8,6 +8,7 @@ use glam::DVec3;
 use super::account::account_of;
 use super::follow_up;
 use super::friction::{self, FrictionImpulses};
+use super::surface_contacts::kick_of;
 use crate::detect::contact::Bodies;
 use crate::norm::Norm;
 use crate::report::{BodyPair, Impact, ImpactGroup};
@@ -181,6 +182,8 @@ struct Answer {
     /// One per touch \[N s\].
     impulses: Vec<f64>,
     friction: FrictionImpulses,
+    /// One per touch: what its surface added \[m/s\]; empty where none did.
+    kicks: Vec<f64>,
     /// What the impacts did to momentum and energy of the spheres.
     account: ImpactGroup,
 }
@@ -213,8 +216,14 @@ fn respond_to_impacts(
     let contacts = contacts_of(timeline, context, group);
     let plastic = |contact: &TouchingContact| TouchingContact { restitution: 0.0, ..*contact };
     let has_friction = timeline.has_friction();
+    let surfaces = context.system.surfaces;
+    let has_kick = |touch: &Touch| {
+        matches!(touch.bodies, Bodies::Surface { surface, .. }
+        if surfaces[surface as usize].kick > 0.0)
+    };
+    let has_kicks = group.touches.iter().any(has_kick);
     // Where nothing is answered a second time there are none.
-    let repeated = if merged.is_empty() && !has_friction { 0 } else { count };
+    let repeated = if merged.is_empty() && !has_friction && !has_kicks { 0 } else { count };
     let plastic: Vec<TouchingContact> = contacts[..repeated].iter().map(plastic).collect();
     let all: Vec<usize> = (0..repeated).collect();
     let law = context.parameters.impact_law;
@@ -238,6 +247,12 @@ fn respond_to_impacts(
     if !merged.is_empty() {
         resolve((&all, &plastic), group, &mut impulses);
     }
+    let mut kicks = Kicks::default();
+    if has_kicks {
+        kicks = kick(context, group, &mut impulses);
+        // A kick may have set bodies in motion towards others.
+        resolve((&all, &plastic), group, &mut impulses);
+    }
     let mut friction = FrictionImpulses::default();
     if has_friction {
         friction = friction::in_group(context, group, &impulses);
@@ -245,8 +260,40 @@ fn respond_to_impacts(
         resolve((&all, &plastic), group, &mut impulses);
     }
     let account = account_of([&before, &velocities_of(group)], &masses);
-    let account = friction.add_to(ImpactGroup { energy_demanded, ..account });
-    Answer { approach_speeds, impulses, friction, account }
+    let kick_work = kicks.work;
+    let account = friction.add_to(ImpactGroup { energy_demanded, kick_work, ..account });
+    Answer { approach_speeds, impulses, friction, kicks: kicks.speeds, account }
+}
+
+/// What the kicks of surfaces did to a group.
+#[derive(Default)]
+struct Kicks {
+    /// One per touch \[m/s\].
+    speeds: Vec<f64>,
+    /// \[J\]
+    work: f64,
+}
+
+/// Gives spheres that got an impulse of a surface its kick, too; at an edge that faces of a collider share, once.
+fn kick(context: &StepContext, group: &mut Group, impulses: &mut [f64]) -> Kicks {
+    let mut kicks = Kicks { speeds: vec![0.0; impulses.len()], work: 0.0 };
+    let mut kicked: Vec<(BodyPair, DVec3)> = Vec::new();
+    for (place, touch) in group.touches.iter().enumerate() {
+        let Bodies::Surface { surface, .. } = touch.bodies else { continue };
+        let between = BodyPair::of(touch.bodies, context.system);
+        if impulses[place] <= 0.0 || kicked.contains(&(between, touch.point)) {
+            continue;
+        }
+        let member = &group.members[touch.second];
+        let speed = kick_of(context, member, (surface, touch.normal));
+        let mass = member.species.mass;
+        kicks.work += mass * speed * (touch.normal_velocity(&group.members) + 0.5 * speed);
+        kicks.speeds[place] = speed;
+        impulses[place] += mass * speed;
+        group.members[touch.second].velocity += speed * touch.normal;
+        kicked.push((between, touch.point));
+    }
+    kicks
 }
 
 fn velocities_of(group: &Group) -> Vec<DVec3> {
@@ -255,7 +302,7 @@ fn velocities_of(group: &Group) -> Vec<DVec3> {
 
 /// Writes down the impacts of a group.
 fn record(context: &mut StepContext, group: &Group, answer: &Answer) {
-    let Answer { approach_speeds, impulses, friction, .. } = answer;
+    let Answer { approach_speeds, impulses, friction, kicks, .. } = answer;
     let mut account = answer.account;
     for (touch, &impulse) in group.touches.iter().zip(&friction.impulses) {
         if touch.first.is_none() {
@@ -266,8 +313,10 @@ fn record(context: &mut StepContext, group: &Group, answer: &Answer) {
     }
     let mut impacts: Vec<Impact> = Vec::new();
     let frictions = friction.impulses.iter().copied().chain(repeat(DVec3::ZERO));
-    for (((touch, &impulse), &approach_speed), tangential_impulse) in
-        group.touches.iter().zip(impulses).zip(approach_speeds).zip(frictions)
+    let kicks = kicks.iter().copied().chain(repeat(0.0));
+    let answers = impulses.iter().zip(approach_speeds).zip(frictions).zip(kicks);
+    for (touch, (((&impulse, &approach_speed), tangential_impulse), kick)) in
+        group.touches.iter().zip(answers)
     {
         if impulse <= 0.0 {
             continue;
@@ -294,10 +343,11 @@ fn record(context: &mut StepContext, group: &Group, answer: &Answer) {
             separation_speed: touch.normal_velocity(&group.members),
             impulse,
             tangential_impulse,
+            kick,
         });
     }
     if !impacts.is_empty() {
-        account.energy_after -= account.collider_work;
+        account.energy_after -= account.collider_work + account.kick_work;
         context.record(impacts, account);
     }
 }

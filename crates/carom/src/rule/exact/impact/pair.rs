@@ -69,6 +69,7 @@ pub(crate) fn of_spheres(
         slots.iter().for_each(|&slot| timeline.flights.bodies[slot as usize].strike());
     }
     impact.record(timeline, context, slots);
+    slots.iter().for_each(|&slot| timeline.note_flight(slot));
     let is_wrapped = slots.map(|slot| timeline.wrap(slot));
     for (one, slot) in slots.into_iter().enumerate() {
         if is_wrapped[one] {
@@ -177,6 +178,7 @@ impl PairImpact {
             separation_speed: (self.velocities[1] - self.velocities[0]).dot(self.normal),
             impulse,
             tangential_impulse: friction.map_or(DVec3::ZERO, FrictionImpulses::total),
+            kick: 0.0,
         };
         let account = account_of_pair(
             self.velocities_before,

@@ -7,7 +7,7 @@ use super::account::account_of;
 use super::friction::{self, FrictionImpulses};
 use super::group;
 use super::surface_contacts::{
-    MOST_TOUCHED, SingleSphere, SurfaceContacts, restitution_of, single_sphere,
+    MOST_TOUCHED, SingleSphere, SurfaceContacts, kick_of, restitution_of, single_sphere,
 };
 use crate::detect::contact::Bodies;
 use crate::norm::Norm;
@@ -95,7 +95,8 @@ fn strike(
     let Member { slot, index, position, velocity: before, species, .. } = *member;
     let rounding = respond::rounding_of(before);
     let (mut impacts, mut struck) = ([None; MOST_TOUCHED], [None; MOST_TOUCHED]);
-    let (mut energy_demanded, mut friction) = (0.0, FrictionImpulses::default());
+    let (mut energy_demanded, mut kick_work) = (0.0, 0.0);
+    let mut friction = FrictionImpulses::default();
     for (place, contact) in touched.contacts(position).into_iter().flatten().enumerate() {
         let approach_speed = -before.dot(contact.normal);
         if approach_speed <= rounding {
@@ -105,9 +106,13 @@ fn strike(
         let Some(change) = respond::reflection(before, contact.normal, restitution) else {
             continue;
         };
+        let kick = kick_of(context, member, (contact.surface, contact.normal));
+        let change = change + kick;
         member.velocity += change * contact.normal;
         let impulse = species.mass * change;
-        energy_demanded -= 0.5 * (1.0 - restitution) * impulse * approach_speed;
+        kick_work += species.mass * kick * (restitution * approach_speed + 0.5 * kick);
+        let struck_back = species.mass * (change - kick);
+        energy_demanded -= 0.5 * (1.0 - restitution) * struck_back * approach_speed;
         let bodies = Bodies::Surface { sphere: index, surface: contact.surface };
         if timeline.has_friction() {
             friction = friction::at_surface(context, member, bodies, (contact.normal, impulse));
@@ -122,6 +127,7 @@ fn strike(
             separation_speed: member.velocity.dot(contact.normal),
             impulse,
             tangential_impulse: friction.total(),
+            kick,
         });
     }
     if struck.iter().any(Option::is_some) {
@@ -130,7 +136,8 @@ fn strike(
             account.momentum_after -= impact.impulse * impact.normal;
         }
         account.momentum_after -= friction.total();
-        let account = friction.add_to(ImpactGroup { energy_demanded, ..account });
+        account.energy_after -= kick_work;
+        let account = friction.add_to(ImpactGroup { energy_demanded, kick_work, ..account });
         context.record(impacts.into_iter().flatten(), account);
     }
     struck

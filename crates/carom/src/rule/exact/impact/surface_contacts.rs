@@ -170,11 +170,12 @@ fn bounces_off(
     let Member { slot, velocity, species, .. } = *member;
     let approach_speed = -velocity.dot(round.normal);
     let restitution = restitution_of(timeline, context, slot, round.surfaces[0], time);
+    let leaves =
+        restitution * approach_speed + kick_of(context, member, (round.surfaces[0], round.normal));
     let pull = free_acceleration(member).norm() + velocity.length_squared() / species.radius;
     let scale = ContactScale { is_elastic: restitution == 1.0, ..member.scale(true) };
     let duration = context.duration_of(&scale, time);
-    approach_speed > respond::rounding_of(velocity)
-        && !is_back_within(duration, restitution * approach_speed, pull)
+    approach_speed > respond::rounding_of(velocity) && !is_back_within(duration, leaves, pull)
 }
 
 /// Restitution of an impact of a sphere on a surface at `time` \[s\].
@@ -188,4 +189,17 @@ pub(super) fn restitution_of(
     let bodies = Bodies::Surface { sphere: timeline.flights.index_of[slot as usize], surface };
     let restitution = respond::restitution_of(bodies, context.system);
     context.restitution_at(timeline, [slot], restitution, time)
+}
+
+/// Speed that a surface adds to a sphere along its normal in an impact \[m/s\].
+pub(super) fn kick_of(
+    context: &StepContext,
+    member: &Member,
+    (surface, normal): (u32, DVec3),
+) -> f64 {
+    let kick = context.system.surfaces[surface as usize].kick;
+    if kick == 0.0 {
+        return 0.0;
+    }
+    respond::kick(kick, -free_acceleration(member).dot(normal), member.species.radius)
 }

@@ -7,6 +7,7 @@ use glam::DVec3;
 use super::grid::Grid;
 use super::region::OVERHANG;
 use crate::detect::surface_tree::SurfaceTree;
+use crate::groups::Groups;
 use crate::rule::exact::flights::{Flights, Species};
 use crate::rule::periodic::wrapped;
 use crate::surface::Surface;
@@ -31,6 +32,10 @@ pub(crate) struct Contents<'a> {
     pub tree: &'a SurfaceTree,
     /// Whether spheres have to find each other at all.
     pub spheres_collide: bool,
+    /// Groups of spheres, by index; empty where all spheres collide.
+    pub groups: &'a [Groups],
+    /// By slot.
+    pub index_of: &'a [u32],
 }
 
 /// A grid for crowded spheres.
@@ -47,6 +52,16 @@ impl Contents<'_> {
 
     fn slots(&self) -> Range<u32> {
         0..self.flights.bodies.len() as u32
+    }
+
+    /// Groups of spheres by slot; empty where all bodies collide.
+    pub(super) fn groups_by_slot(&self) -> Vec<Groups> {
+        let is_special = |surface: &Surface| surface.groups != Groups::DEFAULT;
+        if self.groups.is_empty() && !self.surfaces.iter().any(is_special) {
+            return Vec::new();
+        }
+        let of = |&index: &u32| self.groups.get(index as usize).copied().unwrap_or_default();
+        self.index_of.iter().map(of).collect()
     }
 
     fn level_count(&self) -> u32 {

@@ -14,6 +14,7 @@ use super::neighbour::Neighbour;
 use super::neighbour_lists::{Crowd, NeighbourLists};
 use super::region::{CROSSING, LEAD, Region};
 use crate::axis_motion::AxisMotion;
+use crate::groups::Groups;
 use crate::lanes::{LANES, Lanes};
 use crate::norm::Norm;
 use crate::real::Vector;
@@ -34,6 +35,10 @@ pub(crate) struct Neighbours {
     images: Images,
     /// Whether spheres have to find each other at all.
     spheres_collide: bool,
+    /// By slot; empty where all bodies collide.
+    groups: Vec<Groups>,
+    /// By number; empty where all bodies collide.
+    groups_of_surfaces: Vec<Groups>,
 }
 
 /// A cell, and the side of it where spheres are new, if it is one.
@@ -64,7 +69,13 @@ impl Neighbours {
             periodic_box: PeriodicBox::new(period),
             images,
             spheres_collide,
+            groups: contents.groups_by_slot(),
+            groups_of_surfaces: Vec::new(),
         };
+        if !neighbours.groups.is_empty() {
+            let of_surfaces = contents.surfaces.iter().map(|surface| surface.groups);
+            neighbours.groups_of_surfaces = of_surfaces.collect();
+        }
         let mut new = NeighbourBuffer::default();
         for (slot, body) in (0u32..).zip(bodies) {
             let level = species[body.species as usize].level;
@@ -94,11 +105,30 @@ impl Neighbours {
     #[inline(always)]
     pub fn find(&self, slot: u32, level: u32, near: &mut NeighbourBuffer) {
         near.clear();
-        let Some(NeighbourLists { lists, .. }) = &self.lists else {
-            let cell = self.cell_of(slot, &self.levels[level as usize].grid);
-            return self.gather(slot, level, Arrival { cell, side: None }, near);
-        };
-        near.add_list(lists, slot);
+        match &self.lists {
+            Some(NeighbourLists { lists, .. }) => near.add_list(lists, slot),
+            None => {
+                let cell = self.cell_of(slot, &self.levels[level as usize].grid);
+                self.gather(slot, level, Arrival { cell, side: None }, near);
+            }
+        }
+        if !self.groups.is_empty() {
+            self.keep_those_met(slot, near);
+        }
+    }
+
+    /// Keeps the neighbours that a sphere collides with, by their groups, and the sphere itself.
+    #[inline(never)]
+    fn keep_those_met(&self, slot: u32, near: &mut NeighbourBuffer) {
+        let own = self.groups[slot as usize];
+        near.retain(|it| it.slot() == slot || own.collides(self.groups[it.slot() as usize]));
+    }
+
+    /// Whether a sphere collides with a surface, by their groups.
+    #[inline]
+    pub fn meets_surface(&self, slot: u32, surface: u32) -> bool {
+        self.groups.is_empty()
+            || self.groups[slot as usize].collides(self.groups_of_surfaces[surface as usize])
     }
 
     /// Fetches the region of a sphere into the cache, and its list if there are lists.
@@ -318,6 +348,9 @@ impl Neighbours {
         } else {
             let side = self.levels[level as usize].grid.side(before, cell);
             self.gather(slot, level, Arrival { cell, side }, near);
+        }
+        if !self.groups.is_empty() {
+            self.keep_those_met(slot, near);
         }
     }
 

@@ -120,6 +120,7 @@ fn join(
     timeline.zone.join(context.system, index, velocity, time, tick);
     let common = in_front(timeline, context, slot, [position, common], time);
     timeline.flights.enter_zone(slot, [position, common], time);
+    timeline.note_flight(slot);
     context.report.zone_account.joined += 1;
 }
 

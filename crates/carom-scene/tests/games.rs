@@ -1,0 +1,62 @@
+//! Groups, user data and kicks of scene files reach the world, are written again, and wrong ones are refused with
+//! their line.
+
+use carom::Groups;
+use carom_scene::Scene;
+
+const TEXT: &str = "name = 'game'
+[[spheres]]
+radius = 0.1
+groups = 0b101
+collides_with = 0b1
+user_data = 42
+
+[[colliders]]
+shape = 'half-space'
+position = [0, -1, 0]
+kick = '150 cm/s'
+groups = 0b10
+
+[[emitters]]
+period = 1
+position = [0, 5, 0]
+sphere = { radius = 0.1, groups = 0b10 }
+";
+
+fn read(text: &str) -> Scene {
+    Scene::from_toml(text, "game.toml").unwrap()
+}
+
+#[test]
+fn groups_user_data_and_kicks_reach_the_world() {
+    let world = read(TEXT).world().unwrap();
+    let sphere = world.spheres().get(0);
+    assert_eq!(sphere.groups, Groups { groups: 5, collides_with: 1 });
+    assert_eq!(sphere.user_data, 42);
+    let (_, floor) = world.colliders().next().unwrap();
+    assert_eq!((floor.kick, floor.user_data), (1.5, 0));
+    assert_eq!(floor.groups, Groups { groups: 2, collides_with: u32::MAX });
+    let (_, emitter) = world.emitters().next().unwrap();
+    assert_eq!(emitter.sphere.groups.groups, 2);
+}
+
+#[test]
+fn a_written_scene_has_them_again_and_no_defaults() {
+    let scene = read(TEXT);
+    let written = scene.to_toml();
+    assert_eq!(read(&written), scene);
+    assert_eq!(written.matches("groups").count(), 3, "{written}");
+    assert_eq!(written.matches("user_data").count(), 1, "{written}");
+}
+
+#[test]
+fn wrong_ones_are_refused_with_their_line() {
+    let refusal = |text: &str| match Scene::from_toml(text, "game.toml") {
+        Ok(scene) => scene.world().unwrap_err().to_string(),
+        Err(error) => error.to_string(),
+    };
+    let kick = refusal(&TEXT.replace("'150 cm/s'", "-1"));
+    assert!(kick.contains("11") && kick.contains("kick"), "{kick}");
+    let groups = refusal(&TEXT.replace("0b101", "-1"));
+    assert!(groups.contains("4") && groups.contains("groups"), "{groups}");
+}

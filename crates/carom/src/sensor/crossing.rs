@@ -1,0 +1,250 @@
+//! When a sphere in flight enters a trigger, and when it leaves it.
+
+use glam::DVec3;
+
+use super::Leg;
+use crate::contact_time::{self, Probe, bisect};
+use crate::detect::{Separation, sphere_surface};
+use crate::flight::Flight;
+use crate::id::{ColliderId, SphereId};
+use crate::norm::Norm;
+use crate::report::SensorEvent;
+use crate::surface::{Form, Rectangle, SurfaceMotion};
+use crate::system::System;
+
+/// Distances below this part of the coordinates are rounding.
+const ROUNDING: f64 = 32.0 * f64::EPSILON;
+/// Close to the surface a search steps by this part of the leg at least, and by twice as much each time: a
+/// way along the surface comes to an end, and what is missed is no deeper than a step is long.
+const LEAST_STEP: f64 = 1e-12;
+/// A search that comes no farther gives up; oblique ways take some hundreds of steps.
+const MOST_STEPS: u32 = 1 << 16;
+/// Halvings that use up the bits of a time.
+const MOST_HALVINGS: u32 = 128;
+/// Crossings of the plane of a rectangle that a search from behind looks at.
+const MOST_PASSES: u32 = 16;
+
+/// A surface of a trigger, or its image.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Target {
+    pub collider: ColliderId,
+    pub surface: u32,
+    /// From the surface to its image \[m\].
+    shift: DVec3,
+}
+
+impl Target {
+    pub fn new(surface: u32, shift: DVec3, system: &System) -> Self {
+        Self { collider: system.surfaces[surface as usize].collider, surface, shift }
+    }
+}
+
+/// A sphere on a leg, and one trigger.
+pub(super) struct Crossing<'a> {
+    pub leg: &'a Leg,
+    pub targets: &'a [Target],
+    pub system: &'a System<'a>,
+    /// When surfaces are where the system says, on the world's clock \[s\].
+    pub step_start: f64,
+}
+
+/// How a sphere stands to a trigger at one time.
+#[derive(Debug, Clone, Copy)]
+struct Look {
+    separation: Separation,
+    /// How far it has to go to be out \[m\]; negative outside.
+    depth: f64,
+    /// How fast it comes out \[m/s\].
+    opening: f64,
+    /// What counts as no distance \[m\].
+    rounding: f64,
+}
+
+impl Crossing<'_> {
+    /// Whether the sphere is in the trigger at `time` \[s\], where before it `was_in` or not: at the surface it
+    /// stays what it was.
+    pub fn is_in_at(&self, time: f64, was_in: bool) -> bool {
+        self.look(time).is_some_and(|look| {
+            if was_in { look.depth >= -look.rounding } else { look.depth > look.rounding }
+        })
+    }
+
+    /// When the sphere, which is out at `now` \[s\], comes in, up to the end of the leg.
+    pub fn entry(&self, now: f64) -> Option<f64> {
+        let times = self.targets.iter().filter_map(|target| self.entry_of(target, now));
+        times.min_by(f64::total_cmp)
+    }
+
+    fn entry_of(&self, target: &Target, now: f64) -> Option<f64> {
+        let (form, motion) = self.place(target, now);
+        let track = self.leg.track_from(now, target.shift);
+        let horizon = self.leg.to - now;
+        let meet = |form: &Form, radius: f64| {
+            contact_time::track_surface(&track, radius, form, &motion, horizon)
+        };
+        let delay = match form {
+            Form::Box(solid) => {
+                let faces = solid.faces().into_iter().map(Form::Rectangle);
+                faces.filter_map(|face| meet(&face, self.leg.radius)).min_by(f64::total_cmp)
+            }
+            Form::Rectangle(rectangle) => {
+                let from_front = meet(&form, self.leg.radius).map(|delay| now + delay);
+                let from_behind = self.entry_from_behind(target, &rectangle, now);
+                return from_front.into_iter().chain(from_behind).min_by(f64::total_cmp);
+            }
+            _ => meet(&form, self.leg.radius),
+        };
+        delay.map(|delay| now + delay)
+    }
+
+    /// When the centre comes from behind a rectangle to its front, so near that the sphere overlaps it.
+    fn entry_from_behind(&self, target: &Target, rectangle: &Rectangle, now: f64) -> Option<f64> {
+        let start = self.leg.flight_from(now).position - target.shift - rectangle.center;
+        let mut from = now;
+        if start.dot(rectangle.normal) >= 0.0 {
+            return None;
+        }
+        for _ in 0..MOST_PASSES {
+            let (form, motion) = self.place(target, from);
+            let Form::Rectangle(Rectangle { center, normal, .. }) = form else { return None };
+            let track = self.leg.track_from(from, target.shift);
+            let front = Form::HalfSpace { point: center, normal: -normal };
+            let horizon = self.leg.to - from;
+            let delay = contact_time::track_surface(&track, 0.0, &front, &motion, horizon)?;
+            let time = from + delay;
+            let (form, _) = self.place(target, time);
+            let place = self.leg.flight_from(time).position - target.shift;
+            let there = crate::detect::known_in_front(&form, place, self.leg.radius);
+            if there.is_some_and(|it| it.distance < 0.0) {
+                return Some(time);
+            }
+            from = time.max(from.next_up());
+        }
+        None
+    }
+
+    /// When the sphere, which is in at `now` \[s\], comes out, up to the end of the leg.
+    ///
+    /// No way out is shorter than the depth, which bounds a step by the depth over the speed. Where the sphere
+    /// comes out for sure within twice the time that it would take at its present rate, halving finds when.
+    pub fn exit(&self, now: f64) -> Option<f64> {
+        let to = self.leg.to;
+        let speed = self.fastest(now);
+        let mut least = LEAST_STEP * (to - now);
+        let (mut before, mut time) = (now, now);
+        for _ in 0..MOST_STEPS {
+            let Some(look) = self.look(time) else { return Some(self.pin_down(before, time)) };
+            if look.depth < -look.rounding {
+                return Some(self.pin_down(before, time));
+            }
+            if time >= to || speed == 0.0 {
+                return None;
+            }
+            let is_close = look.depth <= look.rounding;
+            let after = (time + least).max(time.next_up()).min(to);
+            let comes_out = is_close && look.opening > ROUNDING * speed;
+            if comes_out && self.is_out_at(after) {
+                return Some(self.pin_down(time, after));
+            }
+            let ahead = (time + 2.0 * look.depth.max(0.0) / look.opening).min(to);
+            if look.opening > 0.0 && !is_close && self.is_out_at(ahead) {
+                return Some(self.pin_down(time, ahead));
+            }
+            let step = (look.depth / speed).max(least);
+            least = if is_close { 2.0 * least } else { LEAST_STEP * (to - now) };
+            (before, time) = (time, (time + step).max(time.next_up()).min(to));
+        }
+        None
+    }
+
+    /// Whether the sphere is out at `time` \[s\], for whatever rounding says.
+    fn is_out_at(&self, time: f64) -> bool {
+        self.look(time).is_none_or(|look| look.depth < 0.0)
+    }
+
+    /// The time \[s\] at which the sphere comes out that is in at one time and out at a later one.
+    fn pin_down(&self, before: f64, after: f64) -> f64 {
+        let mut latest = after;
+        bisect(after - before, MOST_HALVINGS, |elapsed| {
+            if self.is_out_at(before + elapsed) {
+                latest = before + elapsed;
+                Probe::After
+            } else {
+                Probe::Before
+            }
+        });
+        latest
+    }
+
+    /// How the sphere stands to the trigger at `time` \[s\], by the surface that it is deepest in; `None` where
+    /// it is on the side of all that nothing collides with.
+    fn look(&self, time: f64) -> Option<Look> {
+        let looks = self.targets.iter().filter_map(|target| self.look_at(target, time));
+        looks.max_by(|a, b| a.depth.total_cmp(&b.depth))
+    }
+
+    fn look_at(&self, target: &Target, time: f64) -> Option<Look> {
+        let (form, motion) = self.place(target, time);
+        let Flight { position, velocity, .. } = self.leg.flight_from(time);
+        let center = position - target.shift;
+        let radius = self.leg.radius;
+        let separation = sphere_surface(&form, center, radius)?;
+        let relative = velocity - motion.velocity_at(separation.point);
+        let (mut depth, mut opening) = (-separation.distance, relative.dot(separation.normal));
+        if let Form::Rectangle(it) = form {
+            // It is out, too, where its centre comes behind.
+            let height = (center - it.center).dot(it.normal);
+            if height < depth {
+                (depth, opening) = (height, -relative.dot(it.normal));
+            }
+        }
+        let flown = self.leg.farthest(time).norm();
+        let size = form.coordinates() + self.leg.flight.position.norm() + target.shift.norm();
+        let rounding = ROUNDING * (size + flown + radius);
+        let point = separation.point + target.shift;
+        Some(Look { separation: Separation { point, ..separation }, depth, opening, rounding })
+    }
+
+    /// An upper bound of the speed of the sphere relative to the trigger from `now` to the end of the leg \[m/s\].
+    fn fastest(&self, now: f64) -> f64 {
+        let Flight { position, velocity, .. } = self.leg.flight_from(now);
+        let h = self.leg.to - now;
+        let own = velocity.norm() + h * self.leg.most_acceleration();
+        let of_surface = |target: &Target| {
+            let (_, motion) = self.place(target, now);
+            let SurfaceMotion { origin, velocity, angular_velocity } = motion;
+            let reach = (position - target.shift - origin).norm() + h * (own + velocity.norm());
+            velocity.norm() + angular_velocity.norm() * (reach + self.leg.radius)
+        };
+        own + self.targets.iter().map(of_surface).fold(0.0, f64::max)
+    }
+
+    /// Geometry and motion of a surface at `time` \[s\].
+    fn place(&self, target: &Target, time: f64) -> (Form, SurfaceMotion) {
+        self.system.surfaces[target.surface as usize].after(time - self.step_start)
+    }
+
+    /// What is reported of an entry or an exit at `time` \[s\].
+    pub fn event(
+        &self,
+        (sphere, collider): (SphereId, ColliderId),
+        enters: bool,
+        time: f64,
+    ) -> SensorEvent {
+        let flight = self.leg.flight_from(time);
+        let Target { surface, .. } = self.targets[0];
+        let look = self.look(time);
+        let of_rectangle = || {
+            let (form, _) = self.place(&self.targets[0], time);
+            let center = flight.position - self.targets[0].shift;
+            crate::detect::known_in_front(&form, center, self.leg.radius)
+        };
+        let separation = look.map(|look| look.separation).or_else(of_rectangle);
+        let (point, normal) = separation.map_or((flight.position, DVec3::Y), |separation| {
+            (separation.point, separation.normal)
+        });
+        let (_, motion) = self.system.surfaces[surface as usize].after(time - self.step_start);
+        let speed = (flight.velocity - motion.velocity_at(point)).norm();
+        SensorEvent { time: time - self.step_start, collider, sphere, enters, point, normal, speed }
+    }
+}

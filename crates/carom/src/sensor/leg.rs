@@ -1,0 +1,127 @@
+//! A leg of a sphere's way, as sensors see it.
+
+use glam::DVec3;
+
+use crate::contact_time::{PolynomialTrack, Track};
+use crate::detect::surface_tree::Bounds;
+use crate::flight::Flight;
+use crate::id::SphereId;
+use crate::norm::Norm;
+use crate::polynomial_flight::PolynomialFlight;
+use crate::settings::nearest_image;
+
+/// In a periodic box a leg is cut where it may have crossed this part of the box.
+const PART_OF_BOX: f64 = 0.5;
+
+/// A part of the flight of one sphere.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Leg {
+    pub sphere: SphereId,
+    /// Of the sphere in the arrays of the world.
+    pub index: u32,
+    /// \[m\]
+    pub radius: f64,
+    pub flight: Flight,
+    /// Where forces have no closed form, what is flown instead.
+    pub curve: Option<PolynomialFlight>,
+    /// When the flight's own time is 0, on the world's clock \[s\].
+    pub flight_start: f64,
+    /// Beginning and end of the part, on the world's clock \[s\].
+    pub from: f64,
+    pub to: f64,
+}
+
+impl Leg {
+    /// Where the sphere is at `time` \[s\] and how it moves there, as a flight.
+    pub fn flight_from(&self, time: f64) -> Flight {
+        let age = time - self.flight_start;
+        let (position, velocity) = match &self.curve {
+            Some(curve) => curve.after(age),
+            None => self.flight.after(age),
+        };
+        Flight { position, velocity, ..self.flight }
+    }
+
+    /// How the sphere moves from `time` \[s\] on, as seen from a place \[m\].
+    pub fn track_from(&self, time: f64, place: DVec3) -> Track {
+        let track = match self.curve {
+            Some(curve) => {
+                let age = time - self.flight_start;
+                Track::Polynomial(Box::new(PolynomialTrack::new(curve, age)))
+            }
+            None => Track::Flight(self.flight_from(time)),
+        };
+        track.shifted(-place)
+    }
+
+    /// How far the flight comes up to `time` \[s\] at most, along each axis \[m\].
+    pub fn farthest(&self, time: f64) -> DVec3 {
+        match &self.curve {
+            Some(curve) => curve.farthest(),
+            None => self.flight.farthest(time - self.flight_start),
+        }
+    }
+
+    /// An upper bound of the acceleration from `time` \[s\] on \[m/s²\], but for drag, which only slows down.
+    pub fn most_acceleration(&self) -> f64 {
+        match &self.curve {
+            Some(curve) => {
+                let [low, high] = curve.acceleration.bounds();
+                low.abs().max(high.abs()).norm()
+            }
+            None => self.flight.acceleration.norm(),
+        }
+    }
+
+    /// Bounds of the sphere over the leg.
+    pub fn bounds(&self) -> Bounds {
+        let (start, way) = match &self.curve {
+            Some(curve) => (curve.position, curve.farthest()),
+            None => {
+                let start = self.flight_from(self.from);
+                (start.position, start.farthest(self.to - self.from))
+            }
+        };
+        let slack = 1e-9 * (start.abs().max_element() + way.max_element() + self.radius);
+        Bounds::around(start, way + (self.radius + slack))
+    }
+
+    /// The leg in pieces that are short beside a box with these edges \[m\], each of which begins in it.
+    pub fn pieces(self, period: DVec3) -> impl Iterator<Item = Self> {
+        let whole = self.to - self.from;
+        let way = match &self.curve {
+            Some(curve) => curve.farthest(),
+            None => self.flight_from(self.from).farthest(whole),
+        };
+        let count = (way / (PART_OF_BOX * period)).max_element().ceil().clamp(1.0, 1e9) as u32;
+        let is_periodic = period != DVec3::INFINITY;
+        (0..count).map(move |number| {
+            if !is_periodic {
+                return self;
+            }
+            let at = |number: u32| self.from + whole * (f64::from(number) / f64::from(count));
+            let (from, to) =
+                (at(number), if number + 1 == count { self.to } else { at(number + 1) });
+            let place = self.flight_from(from).position;
+            let shift = nearest_image(place, period) - place;
+            let flight = Flight { position: self.flight.position + shift, ..self.flight };
+            let moved = |curve: PolynomialFlight| PolynomialFlight {
+                position: curve.position + shift,
+                ..curve
+            };
+            Self { flight, curve: self.curve.map(moved), from, to, ..self }
+        })
+    }
+}
+
+/// Shifts \[m\] of images that a piece of a leg may come to in a box with these edges \[m\].
+pub(super) fn shifts(period: DVec3) -> impl Iterator<Item = DVec3> {
+    let boxes = |axis: usize| if period[axis].is_finite() { -1..=1 } else { 0..=0 };
+    let [xs, ys, zs] = [0, 1, 2].map(boxes);
+    let period = DVec3::select(period.is_finite_mask(), period, DVec3::ZERO);
+    xs.flat_map(move |x: i32| {
+        let zs = zs.clone();
+        ys.clone().flat_map(move |y: i32| zs.clone().map(move |z: i32| [x, y, z]))
+    })
+    .map(move |boxes| DVec3::from_array(boxes.map(f64::from)) * period)
+}
