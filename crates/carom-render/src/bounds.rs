@@ -38,7 +38,7 @@ impl Bounds {
                 middle = 0.5 * (min + max);
                 0.5 * (max - min)
             }
-            other => half_lengths(other)?,
+            ref other => half_lengths(other)?,
         };
         let rotation = pose.rotation.normalize();
         let reach = (rotation * (DVec3::X * half.x)).abs()
