@@ -368,3 +368,20 @@ fn a_chute_gains_what_gravity_gives_across_the_faces() {
         assert_close(world.total_energy(), start + given, 1e-3 * largest);
     }
 }
+
+#[test]
+fn images_of_plates_bear_beside_a_paddle_that_moves() {
+    // The search within the first sub-step finds the images, when it is known already where the paddle ends.
+    let mut world = world_in(vec(1.0, f64::INFINITY, 1.0), Contact::default());
+    world.add_force(Gravity::new(vec(0.0, -G, 0.0))).unwrap();
+    let plate = Shape::Rectangle { size_x: 1.0, size_z: 1.0 };
+    world.add_collider(Collider::new(plate, Pose::at(DVec3::ZERO)).with_friction(0.5)).unwrap();
+    let paddle = Shape::Box { size: vec(0.1, 0.1, 0.1) };
+    let paddle = Collider::new(paddle, Pose::at(vec(0.0, 0.5, 0.0)));
+    world.add_collider(paddle.moving(vec(0.1, 0.0, 0.0), DVec3::ZERO)).unwrap();
+    let ball = Sphere::new(vec(0.49, 0.1, 0.2), 0.1).with_velocity(vec(1.0, 0.0, 0.0));
+    let id = world.add_sphere(ball.with_friction(0.5).with_restitution(0.0)).unwrap();
+    run(&mut world, 20);
+    // On the image of the plate it lies as on the plate: the slop of an overlap is left.
+    assert_close(world.sphere(id).unwrap().position.y, 0.1, 1e-3);
+}
