@@ -65,7 +65,7 @@ fn an_applied_weight_is_gravity() {
     let ball = Sphere::new(DVec3::new(0.0, 3.0, 0.0), 0.5).with_mass(2.0);
     let floor = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO));
     for rule in rules() {
-        let mut applied = world_of(rule, &[ball], &[floor.clone()]);
+        let mut applied = world_of(rule, &[ball], std::slice::from_ref(&floor));
         let mut falling = applied.clone();
         applied.set_applied_forces(&[2.0 * g]).unwrap();
         falling.add_force(Gravity::new(g)).unwrap();

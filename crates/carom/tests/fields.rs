@@ -253,7 +253,7 @@ fn balls_under_varying_forces_stay_on_the_plane_that_bears_them() {
             for (add, restitution) in
                 VARYING.iter().flat_map(|&add| [0.0, 0.5, 0.9].map(|e| (add, e)))
             {
-                let mut world = borne(add, &[floor.clone()], restitution, size);
+                let mut world = borne(add, std::slice::from_ref(&floor), restitution, size);
                 let ball = |x: f64| light_ball(vec(x, 0.1, 0.0), size).with_friction(friction);
                 world.add_sphere(ball(-1.0).with_restitution(restitution)).unwrap();
                 let moving = ball(1.0).with_velocity(vec(0.0, 0.0, 0.5) * size);

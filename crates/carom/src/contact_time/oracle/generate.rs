@@ -205,7 +205,7 @@ fn widest_inside(form: &Form) -> f64 {
 /// A surface of revolution about an axis, and a point on its face or a rim, with a normal there.
 fn band(numbers: &mut Numbers, length: f64, place: DVec3, axis: DVec3) -> (Form, Planted) {
     let (x, z) = axis.any_orthonormal_pair();
-    let angle = numbers.between(0.0, 6.28);
+    let angle = numbers.between(0.0, std::f64::consts::TAU);
     let radial = libm::cos(angle) * x + libm::sin(angle) * z;
     let part = numbers.between(0.0, 1.0);
     let profile = profile(numbers, length);
@@ -224,7 +224,7 @@ fn band(numbers: &mut Numbers, length: f64, place: DVec3, axis: DVec3) -> (Form,
         }
         Profile::Arc { center, radius, ends, is_hollow } => {
             let turn = if ends[0] == ends[1] {
-                DVec2::from_angle(numbers.between(0.0, 6.28))
+                DVec2::from_angle(numbers.between(0.0, std::f64::consts::TAU))
             } else {
                 (ends[0] + part * (ends[1] - ends[0]) + DVec2::X * 1e-3).normalize()
             };
