@@ -89,7 +89,7 @@ fn files_of_other_programs_are_read() {
     let scene = import(&plain, Some(0.5)).unwrap().scene;
     assert_eq!(scene.spheres[1].position, [0.0, 0.0, 3.0]);
     assert_eq!((scene.spheres[1].radius, scene.spheres[1].mass), (Some(0.5), None));
-    // As ASE writes it: another order, columns that nobody asked for, a box from the origin.
+    // As ASE writes it: another order, columns that are not read, a box from the origin.
     let extended = "2\nProperties=pos:R:3:forces:R:3:species:S:1:velo:R:3 note=\"a = b\" \
                     Lattice=\"4 0 0 0 4 0 0 0 8\" pbc=\"T T F\"\n\
                     1 1 1 9 9 9 C 0.5 0 0\n3 3 5 9 9 9 C 0 0 0\n";

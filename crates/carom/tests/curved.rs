@@ -1,4 +1,4 @@
-//! Surfaces of revolution under all rules: nobody leaves a closed hollow or enters a solid, and motion on them is
+//! Surfaces of revolution under all rules: no sphere leaves a closed hollow or enters a solid, and motion on them is
 //! that of the closed forms.
 //!
 //! It proves nothing about shapes that move otherwise than steadily.

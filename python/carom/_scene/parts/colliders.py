@@ -14,13 +14,16 @@ from carom._scene.parts.kinds import (
     ORIGIN,
     UNTURNED,
     Color,
+    Heights,
     Lengths,
     NonNegative,
     Number,
     Positive,
     Quaternion,
     Restitution,
+    Triangles,
     Vector,
+    Vertices,
 )
 from carom._scene.parts.part import Part
 from carom._scene.parts.together import simplify_closed, simplify_open
@@ -222,6 +225,44 @@ class Funnel(Part):
     height: Positive
 
 
+@dataclass(frozen=True)
+class Mesh(Part):
+    """A surface of triangles: from a file, or of arrays.
+
+    Attributes:
+        file: Path of a file that ends in .glb, .gltf, .obj or .stl, relative to the scene file.
+        vertices: Vertices [m].
+        triangles: Triangles: the numbers of three vertices each, from 0, against the clock as seen
+            from the front.
+        scale: Factor of all coordinates, > 0; 1 by default.
+        one_sided: Whether an open mesh is met from its front only; false by default. A closed one
+            always is.
+    """
+
+    tag: ClassVar[str] = "mesh"
+    file: str | None = None
+    vertices: Vertices = ()
+    triangles: Triangles = ()
+    scale: Positive = 1.0
+    one_sided: bool = False
+
+
+@dataclass(frozen=True)
+class HeightField(Part):
+    """Ground over a rectangle in the local xz plane about the origin, given by heights.
+
+    Attributes:
+        size_x: Full length along local x [m], > 0.
+        size_z: Full length along local z [m], > 0.
+        heights: Rows of heights along x [m], from the lowest z on: two or more of the same length.
+    """
+
+    tag: ClassVar[str] = "height-field"
+    size_x: Positive
+    size_z: Positive
+    heights: Heights
+
+
 Shape: TypeAlias = (
     Ball
     | Rectangle
@@ -236,6 +277,8 @@ Shape: TypeAlias = (
     | Pipe
     | Bowl
     | Funnel
+    | Mesh
+    | HeightField
 )
 """Form of a collider in its own frame."""
 
