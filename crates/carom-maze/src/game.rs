@@ -1,14 +1,15 @@
 //! The game: the maze tilts, the ball rolls, and the ball's contacts count.
 
 use carom::{
-    BodyPair, Collider, ColliderId, Contact, DQuat, DVec3, Discrete, Error, Exact, Friction, Pose,
-    Rule, Settings, Snapshot, SphereId, World, Zones,
+    BodyPair, ColliderId, Contact, DQuat, DVec3, Discrete, Error, Exact, Friction, Rule, Settings,
+    Snapshot, SphereId, World, Zones,
 };
 use carom_scene::scene::Scene;
 
 use crate::error::GameError;
 use crate::maze::{Maze, Role};
 use crate::options::Options;
+use crate::part::Part;
 use crate::progress::Progress;
 use crate::tilt::{Steering, Tilt, rotation_vector};
 
@@ -56,14 +57,6 @@ pub enum GameEvent {
     },
 }
 
-/// A collider of the world, with its pose in the level maze.
-#[derive(Debug, Clone)]
-struct Part {
-    id: ColliderId,
-    role: Role,
-    level: Collider,
-}
-
 /// A game in a maze.
 ///
 /// Time starts with the first frame in which the player steers. The ball starts at rest on the
@@ -106,9 +99,7 @@ impl Game {
         }
         let mut world = maze.scene().world()?;
         play_with(&mut world, &options)?;
-        let both = world.colliders().zip(maze.roles());
-        let parts =
-            both.map(|((id, level), &role)| Part { id, role, level: level.clone() }).collect();
+        let parts = Part::all(&world, &maze);
         Ok(Self {
             start: world.snapshot(),
             ball: world.spheres().ids()[0],
@@ -203,7 +194,7 @@ impl Game {
             .iter()
             .map(|part| {
                 let moving = self.world.collider(part.id);
-                moving.map(|it| (part.id, it.with_pose(posed(&part.level, tilt.rotation()))))
+                moving.map(|it| (part.id, it.with_pose(part.posed(tilt.rotation()))))
             })
             .collect::<Result<_, Error>>()?;
         self.world.set_colliders(&turned)?;
@@ -222,8 +213,8 @@ impl Game {
             return Ok(());
         }
         let moved = |part: &Part| {
-            let pose = posed(&part.level, before);
-            let way = posed(&part.level, after).position - pose.position;
+            let pose = part.posed(before);
+            let way = part.posed(after).position - pose.position;
             let velocity = way / self.options.frame_time;
             (part.id, part.level.clone().moving(velocity, turn).with_pose(pose))
         };
@@ -234,9 +225,7 @@ impl Game {
     /// Returns whether the colliders are at rest in the poses of a rotation of the maze.
     fn is_posed(&self, rotation: DQuat) -> bool {
         let mut both = self.world.colliders().zip(&self.parts);
-        both.all(|((_, now), part)| {
-            *now == part.level.clone().with_pose(posed(&part.level, rotation))
-        })
+        both.all(|((_, now), part)| *now == part.level.clone().with_pose(part.posed(rotation)))
     }
 
     /// Takes the collectibles that the ball touches.
@@ -306,9 +295,7 @@ impl Game {
     /// Starts again: everything is at its start, the time is 0, and the best time stays.
     pub fn play_again(&mut self) {
         self.world.restore(&self.start);
-        let both = self.world.colliders().zip(self.maze.roles());
-        self.parts =
-            both.map(|((id, level), &role)| Part { id, role, level: level.clone() }).collect();
+        self.parts = Part::all(&self.world, &self.maze);
         self.scene.clone_from(self.maze.scene());
         self.tilt = Tilt::LEVEL;
         self.state = GameState::Rolling;
@@ -493,12 +480,4 @@ fn play_with(world: &mut World, options: &Options) -> Result<(), Error> {
 
 fn settings(rule: Rule, world: &World) -> Settings {
     world.settings().with_rule(rule)
-}
-
-/// Returns the pose of a collider when the maze is turned about the origin.
-fn posed(level: &Collider, rotation: DQuat) -> Pose {
-    Pose {
-        position: rotation * level.pose.position,
-        rotation: rotation * level.pose.rotation.normalize(),
-    }
 }

@@ -41,6 +41,7 @@ mod layout;
 mod maze;
 mod maze_text;
 mod options;
+mod part;
 mod player;
 mod progress;
 mod random;

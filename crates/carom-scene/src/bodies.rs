@@ -3,6 +3,7 @@
 use carom::{Ends, Friction, Groups, Mass, Pose, Sides, World};
 
 use crate::error::{Problem, SceneError};
+use crate::meshes;
 use crate::requirement::{check, check_positive};
 use crate::scene::values::{quaternion, vector};
 use crate::scene::{Collider, Emitter, End, Shape, Side, Sphere};
@@ -164,7 +165,7 @@ impl Shape {
                 top_radius: *top_radius,
                 height: *height,
             },
-            Self::Mesh(mesh) => carom::Shape::Mesh(mesh.mesh()?),
+            Self::Mesh(mesh) => carom::Shape::Mesh(mesh.mesh(meshes::made)?),
             Self::HeightField(heights) => carom::Shape::Mesh(heights.mesh()?),
         })
     }

@@ -332,30 +332,40 @@ pub(crate) fn place(id: ColliderId, collider: &Collider, surfaces: &mut Vec<Surf
             let profile = Profile::line(DVec2::ZERO, DVec2::new(radius, 0.0));
             add(Form::Band(Band { center, axis: y, profile }), Role::Deflects);
         }
-        Shape::Cylinder { .. }
-        | Shape::Cone { .. }
-        | Shape::Capsule { .. }
-        | Shape::Torus { .. } => {
-            let Some(outline) = Outline::of(shape) else { return };
-            let solid = RoundSolid { center, axis: y, outline };
-            add(Form::Round(solid), Role::Encloses);
-            if !trigger {
-                solid.bands().for_each(|band| add(Form::Band(band), Role::Deflects));
-            }
-        }
-        Shape::Pipe { .. } | Shape::Bowl { .. } | Shape::Funnel { .. } => {
-            let Some(outline) = Outline::of(shape) else { return };
-            let inside = RoundSolid { center, axis: y, outline };
-            if trigger {
-                add(Form::Round(inside), Role::Reports);
-                return;
-            }
-            inside.walls(shape).for_each(|wall| add(Form::Band(wall), Role::Deflects));
-        }
         Shape::Mesh(ref mesh) => {
             let placement = Placement { rotation, from: DVec3::ZERO, to: center };
             place_mesh(mesh.features(), &placement, |form| add(form, Role::Deflects));
         }
+        Shape::Cylinder { .. }
+        | Shape::Cone { .. }
+        | Shape::Capsule { .. }
+        | Shape::Torus { .. }
+        | Shape::Pipe { .. }
+        | Shape::Bowl { .. }
+        | Shape::Funnel { .. } => place_round(shape, (center, y), trigger, add),
+    }
+}
+
+/// Places a solid of revolution, its volume first, or the walls of a hollow one.
+fn place_round(
+    shape: &Shape,
+    (center, axis): (DVec3, DVec3),
+    is_trigger: bool,
+    mut add: impl FnMut(Form, Role),
+) {
+    let Some(outline) = Outline::of(shape) else { return };
+    let solid = RoundSolid { center, axis, outline };
+    let is_hollow = matches!(shape, Shape::Pipe { .. } | Shape::Bowl { .. } | Shape::Funnel { .. });
+    if is_trigger || !is_hollow {
+        add(Form::Round(solid), Role::Encloses);
+    }
+    if is_trigger {
+        return;
+    }
+    if is_hollow {
+        solid.walls(shape).for_each(|wall| add(Form::Band(wall), Role::Deflects));
+    } else {
+        solid.bands().for_each(|band| add(Form::Band(band), Role::Deflects));
     }
 }
 

@@ -9,7 +9,6 @@ use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::values::{Vector, is_default, one};
-use crate::meshes;
 
 /// A surface of triangles: from a file, or listed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -115,10 +114,13 @@ impl Mesh {
         Self { file: None, vertices, triangles, scale, one_sided: false, made }
     }
 
-    /// The mesh of the description, made once: a file is read when it is first needed.
-    pub(crate) fn mesh(&self) -> Result<carom::Mesh, String> {
+    /// Returns what `make` makes of the description. It is called once: a file is read when it is first needed.
+    pub(crate) fn mesh(
+        &self,
+        make: impl Fn(&Self) -> Result<carom::Mesh, String>,
+    ) -> Result<carom::Mesh, String> {
         let alone = || Self { made: Made::default(), ..self.clone() };
-        self.made.get(self, alone, || meshes::made(self))
+        self.made.get(self, alone, || make(self))
     }
 }
 

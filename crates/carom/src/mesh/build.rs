@@ -3,6 +3,7 @@
 mod borders;
 mod corners;
 mod faces;
+mod facets;
 
 use super::topology::Topology;
 use super::{Corner, Edge, Facet};
@@ -29,7 +30,7 @@ impl Features {
         let faces = Faces::of(topology);
         let borders = Borders::of(topology, &faces);
         Self {
-            facets: faces.facets(topology, &borders),
+            facets: facets::facets(&faces, topology, &borders),
             edges: borders.edges(topology, &faces, is_two_sided),
             corners: corners::corners(topology, &faces, &borders, is_two_sided),
             is_two_sided,

@@ -112,7 +112,8 @@ pub(crate) fn step(
             attempt.state.check_box()?;
             by_frame::step(&mut attempt, |state, frame, scratch, report| {
                 let (system, motion, solver) = state.split_with_solver();
-                let memory = (solver, &mut scratch.contact, &mut scratch.tracks);
+                let (scratch, tracks) = (&mut scratch.contact, &mut scratch.tracks);
+                let memory = contact::Memory { solver, scratch, tracks };
                 parallel::among_threads(system.spheres.id.len(), || {
                     contact::step(&system, parameters, motion, frame, memory, report, stop_request)
                 })

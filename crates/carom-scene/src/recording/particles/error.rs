@@ -68,3 +68,25 @@ pub enum ParticleError {
         source: Box<SceneError>,
     },
 }
+
+/// Why a frame is not read.
+#[derive(Debug)]
+pub(super) enum Fault {
+    /// The file ends within it.
+    CutShort,
+    /// The last line read is wrong.
+    Problem(Problem),
+    Io(io::Error),
+}
+
+impl From<io::Error> for Fault {
+    fn from(error: io::Error) -> Self {
+        Self::Io(error)
+    }
+}
+
+impl From<Problem> for Fault {
+    fn from(problem: Problem) -> Self {
+        Self::Problem(problem)
+    }
+}

@@ -4,34 +4,12 @@ use std::fs::{File, OpenOptions};
 use std::io::{self, Read};
 use std::path::Path;
 
-use super::error::{ParticleError, Problem};
+use super::error::{Fault, ParticleError, Problem};
 use super::frame::RawFrame;
 use super::lines::Lines;
 use super::{ParticleFormat, dump, xyz};
 use crate::recording::recovered::RecoveryError;
 use crate::unfinished::lock;
-
-/// Why a frame is not read.
-#[derive(Debug)]
-pub(super) enum Fault {
-    /// The file ends within it.
-    CutShort,
-    /// The last line read is wrong.
-    Problem(Problem),
-    Io(io::Error),
-}
-
-impl From<io::Error> for Fault {
-    fn from(error: io::Error) -> Self {
-        Self::Io(error)
-    }
-}
-
-impl From<Problem> for Fault {
-    fn from(problem: Problem) -> Self {
-        Self::Problem(problem)
-    }
-}
 
 /// The last whole frame of a file.
 #[derive(Debug)]

@@ -5,10 +5,9 @@ use std::io::{self, Read, Write};
 use carom::{DVec3, World};
 
 use super::columns::{Columns, Quantity};
-use super::error::Problem;
+use super::error::{Fault, Problem};
 use super::frame::{FrameBox, Header};
 use super::lines::Lines;
-use super::reader::Fault;
 use crate::recording::table_file::digits;
 
 /// The symbol of a particle that is no atom.

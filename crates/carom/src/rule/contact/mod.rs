@@ -84,16 +84,27 @@ pub(crate) fn rest(solver: &Solver, motion: &mut Motion, h: f64, report: &mut St
     }
 }
 
+/// Memory of the rule that a frame writes.
+pub(crate) struct Memory<'a> {
+    /// Order of the spheres, their neighbours and impulses.
+    pub solver: &'a mut Solver,
+    /// Rebuilt in each frame.
+    pub scratch: &'a mut Scratch,
+    /// Where spheres are after each sub-step, for sensors.
+    pub tracks: &'a mut Tracks,
+}
+
 /// Advances all spheres by one frame. Tells whether it came to its end, or a request stopped it.
 pub(crate) fn step(
     system: &System,
     parameters: Contact,
     motion: &mut Motion,
     frame: Interval,
-    (solver, scratch, tracks): (&mut Solver, &mut Scratch, &mut Tracks),
+    memory: Memory,
     report: &mut StepReport,
     stop_request: Option<&StopRequest>,
 ) -> bool {
+    let Memory { solver, scratch, tracks } = memory;
     let work = Work::new(stop_request);
     solver.sleep_speed = parameters.sleep_speed;
     frame::begin(system, motion, solver);

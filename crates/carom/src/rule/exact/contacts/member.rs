@@ -5,7 +5,6 @@ use glam::DVec3;
 use crate::flight::Flight;
 use crate::rule::exact::contact_scale::ContactScale;
 use crate::rule::exact::flights::{Flights, FreeField, Species};
-use crate::rule::exact::timeline::Timeline;
 use crate::system::System;
 
 /// A sphere of a group.
@@ -38,8 +37,7 @@ impl Member {
     }
 
     /// Finds the forces on it anew where its velocity is another than that of its curve up to `time` \[s\].
-    pub fn renew_forces(&mut self, timeline: &Timeline, system: &System, time: f64) {
-        let flights = &timeline.flights;
+    pub fn renew_forces(&mut self, flights: &Flights, system: &System, time: f64) {
         if !flights.are_curved() || !self.species.is_curved {
             return;
         }

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::body::Body;
+use super::curve::{Curve, CurveStep};
 use super::species::Species;
 use super::state::Flights;
 use crate::contact_time::{PolynomialTrack, Track};
@@ -16,23 +17,6 @@ use crate::system::System;
 /// radius: they may be others there.
 const STEADY_RADII: f64 = 16.0;
 
-/// One step of the flight of a sphere.
-#[derive(Debug, Clone, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(crate) struct Curve(Option<CurveStep>);
-
-#[derive(Debug, Clone)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-struct CurveStep {
-    /// Generation of the flight that it is.
-    generation: u32,
-    acceleration: PolynomialAcceleration,
-    /// When it ends, on the world's clock \[s\].
-    end: f64,
-    /// What is to be expected of the step after it.
-    pace: Pace,
-}
-
 /// Bounds for the steps of curves.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct StepLimits {
@@ -40,15 +24,6 @@ pub(crate) struct StepLimits {
     pub until: f64,
     /// How long they are at most where nothing can be said of a force \[s\].
     pub tick: f64,
-}
-
-impl Curve {
-    /// One whose flight has yet to begin, by steps as those of this one.
-    pub fn to_begin(&self) -> Self {
-        // No flight is of this generation: those that an event begins are even, those of impacts one more.
-        let step = self.0.clone().map(|step| CurveStep { generation: u32::MAX, ..step });
-        Self(step)
-    }
 }
 
 impl Flights {

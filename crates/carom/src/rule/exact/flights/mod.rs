@@ -4,6 +4,7 @@ mod at_time;
 mod body;
 mod clusters;
 mod contact_work;
+mod curve;
 mod curves;
 mod lanes;
 mod rotation;

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::body::Body;
 use super::clusters::{Cluster, Clusters, Support, Supported};
 use super::contact_work::{ContactWork, WorkDone};
-use super::curves::Curve;
+use super::curve::Curve;
 use super::rotation::Rotation;
 use super::species::{Species, SpeciesOfSpheres};
 use crate::bodies::Motion;

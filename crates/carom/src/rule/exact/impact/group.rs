@@ -8,7 +8,7 @@ use glam::DVec3;
 use super::account::account_of;
 use super::follow_up;
 use super::friction::{self, FrictionImpulses};
-use super::surface_contacts::kick_of;
+use super::kick::kick_of;
 use crate::detect::contact::Bodies;
 use crate::norm::Norm;
 use crate::report::{BodyPair, Impact, ImpactGroup};

@@ -4,6 +4,7 @@ mod account;
 mod follow_up;
 mod friction;
 mod group;
+mod kick;
 mod pair;
 mod single_sphere;
 mod surface_contacts;

@@ -6,8 +6,9 @@ use glam::DVec3;
 use super::account::account_of;
 use super::friction::{self, FrictionImpulses};
 use super::group;
+use super::kick::kick_of;
 use super::surface_contacts::{
-    MOST_TOUCHED, SingleSphere, SurfaceContacts, kick_of, restitution_of, single_sphere,
+    MOST_TOUCHED, SingleSphere, SurfaceContacts, restitution_of, single_sphere,
 };
 use crate::detect::contact::Bodies;
 use crate::norm::Norm;
@@ -42,7 +43,7 @@ pub(crate) fn of_sphere(
     }
     let fastest = member.velocity.norm();
     let struck = strike(timeline, context, &touched, &mut member, time);
-    member.renew_forces(timeline, context.system, time);
+    member.renew_forces(&timeline.flights, context.system, time);
     let contact_duration = context.duration_of(&member.scale(touched.is_curved()), time);
     let corner = &touched.corner;
     let duration = timeline.horizon() - time;

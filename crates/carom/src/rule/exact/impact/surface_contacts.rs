@@ -3,6 +3,7 @@
 
 use glam::DVec3;
 
+use super::kick::kick_of;
 use super::pair::NEARBY;
 use crate::detect::Separation;
 use crate::detect::contact::Bodies;
@@ -189,17 +190,4 @@ pub(super) fn restitution_of(
     let bodies = Bodies::Surface { sphere: timeline.flights.index_of[slot as usize], surface };
     let restitution = respond::restitution_of(bodies, context.system);
     context.restitution_at(timeline, [slot], restitution, time)
-}
-
-/// Speed that a surface adds to a sphere along its normal in an impact \[m/s\].
-pub(super) fn kick_of(
-    context: &StepContext,
-    member: &Member,
-    (surface, normal): (u32, DVec3),
-) -> f64 {
-    let kick = context.system.surfaces[surface as usize].kick;
-    if kick == 0.0 {
-        return 0.0;
-    }
-    respond::kick(kick, -free_acceleration(member).dot(normal), member.species.radius)
 }
