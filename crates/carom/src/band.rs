@@ -81,6 +81,31 @@ pub(crate) struct View {
     pub from_axis: f64,
 }
 
+/// On the axis of a band are points that are no farther from it than this part of the size of the band.
+const ON_AXIS: f64 = 1e-9;
+/// A normal along or across the axis has a smaller component \[1\] in the other direction.
+const LEAST_TILT: f64 = 1e-3;
+
+impl Foot {
+    /// From the axis a whole ring is nearest: its normals together are along the axis. A sphere there comes to the
+    /// ring more slowly than it moves along that.
+    fn over_ring(&self) -> Self {
+        let normal = DVec2::new(0.0, 1f64.copysign(self.normal.y));
+        Self { normal, curvatures: [0.0; 2], ..*self }
+    }
+}
+
+impl View {
+    /// Unit vector to the axis and the distance from it \[m\], where from the axis a ring of the face is nearest;
+    /// `None` on the axis.
+    pub fn way_to_ring(&self, band: &Band) -> Option<(DVec3, f64)> {
+        let inward = band.axis.cross(self.directions[1]);
+        let tilt = self.normal.dot(inward);
+        let is_ring = tilt > LEAST_TILT && self.normal.dot(band.axis).abs() > LEAST_TILT;
+        (is_ring && self.from_axis > ON_AXIS * band.reach()).then_some((inward, self.from_axis))
+    }
+}
+
 impl Band {
     /// The band as seen from a point \[m\].
     pub fn seen_from(&self, point: DVec3) -> View {
@@ -126,6 +151,9 @@ impl Band {
     fn view(&self, foot: &Foot, from_axis: f64, radial: DVec3) -> View {
         let world = |vector: DVec2| vector.x * radial + vector.y * self.axis;
         let along = world(DVec2::new(foot.normal.y, -foot.normal.x));
+        let is_on_axis = from_axis <= ON_AXIS * self.profile.size();
+        let is_ring = foot.normal.x < -LEAST_TILT && foot.normal.y.abs() > LEAST_TILT;
+        let foot = if is_on_axis && is_ring { &foot.over_ring() } else { foot };
         View {
             distance: foot.distance,
             normal: world(foot.normal),

@@ -12,7 +12,7 @@ use proptest::prelude::*;
 use crate::busy_scene;
 
 fn packed(bytes: &[u8]) -> String {
-    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::fast());
+    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::best());
     encoder.write_all(bytes).unwrap();
     URL_SAFE_NO_PAD.encode(encoder.finish().unwrap())
 }

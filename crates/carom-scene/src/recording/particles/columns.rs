@@ -1,6 +1,6 @@
 //! Columns of particle files, and what they hold.
 
-use super::error::Problem;
+use super::error::{Problem, shown};
 
 /// Quantities of a particle, one component each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,7 +65,7 @@ impl Columns {
             let text = row.get(column).copied().unwrap_or_default();
             let value: Option<f64> = text.parse().ok().filter(|it: &f64| it.is_finite());
             *number = value.ok_or_else(|| {
-                Problem::from(format!("column {} is no finite number: {text:?}", column + 1))
+                Problem::from(format!("column {} is no finite number: {}", column + 1, shown(text)))
             })?;
         }
         Ok(Some(numbers))

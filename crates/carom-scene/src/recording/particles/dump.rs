@@ -5,7 +5,7 @@ use std::io::{self, Read, Write};
 use carom::{DVec3, World};
 
 use super::columns::{Columns, Quantity};
-use super::error::{Fault, Problem};
+use super::error::{Fault, Problem, shown};
 use super::frame::{FrameBox, Header};
 use super::lines::Lines;
 use crate::recording::table_file::digits;
@@ -44,7 +44,8 @@ pub(super) fn read_header<R: Read>(lines: &mut Lines<R>) -> Result<Option<Header
         }
         let Some(item) = line.strip_prefix("ITEM: ") else {
             return Err(Problem::from(format!(
-                "expected a line that begins with ITEM:, not {line:?}"
+                "expected a line that begins with ITEM:, not {}",
+                shown(&line)
             ))
             .into());
         };
@@ -73,7 +74,10 @@ pub(super) fn read_header<R: Read>(lines: &mut Lines<R>) -> Result<Option<Header
 }
 
 fn parsed<T: std::str::FromStr>(item: &str, value: &str) -> Result<T, Problem> {
-    value.trim().parse().map_err(|_| format!("{item}: expected a number, not {value:?}").into())
+    value
+        .trim()
+        .parse()
+        .map_err(|_| format!("{}: expected a number, not {}", shown(item), shown(value)).into())
 }
 
 fn bounds<R: Read>(kinds: &str, lines: &mut Lines<R>) -> Result<FrameBox, Fault> {
@@ -89,9 +93,11 @@ fn bounds<R: Read>(kinds: &str, lines: &mut Lines<R>) -> Result<FrameBox, Fault>
         let Some(line) = lines.next()? else { return Err(Fault::CutShort) };
         let numbers: Vec<f64> = line.split_whitespace().filter_map(|it| it.parse().ok()).collect();
         let [from, to] = numbers[..] else {
-            return Err(
-                Problem::from(format!("expected two bounds of the box, not {line:?}")).into()
-            );
+            return Err(Problem::from(format!(
+                "expected two bounds of the box, not {}",
+                shown(&line)
+            ))
+            .into());
         };
         (low[axis], high[axis]) = (from, to);
     }

@@ -6,10 +6,19 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use crate::error::SceneError;
+use crate::legible::legible;
 
 /// What is wrong at a place of a file.
 #[derive(Debug)]
 pub(super) struct Problem(pub String);
+
+/// Most characters of a text of the file that a message shows.
+const SHOWN: usize = 40;
+
+/// Quotes a text of the file for a message.
+pub(super) fn shown(text: &str) -> String {
+    format!("\"{}\"", legible(text, SHOWN))
+}
 
 impl From<String> for Problem {
     fn from(text: String) -> Self {

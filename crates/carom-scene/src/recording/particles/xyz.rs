@@ -5,7 +5,7 @@ use std::io::{self, Read, Write};
 use carom::{DVec3, World};
 
 use super::columns::{Columns, Quantity};
-use super::error::{Fault, Problem};
+use super::error::{Fault, Problem, shown};
 use super::frame::{FrameBox, Header};
 use super::lines::Lines;
 use crate::recording::table_file::digits;
@@ -35,7 +35,9 @@ pub(super) fn read_header<R: Read>(lines: &mut Lines<R>) -> Result<Option<Header
         // Some programs leave empty lines after the last frame.
         if !line.trim().is_empty() {
             break line.trim().parse().map_err(|_| {
-                Fault::Problem(format!("expected the number of particles, not {line:?}").into())
+                Fault::Problem(
+                    format!("expected the number of particles, not {}", shown(&line)).into(),
+                )
             })?;
         }
     };
@@ -99,7 +101,11 @@ fn of_properties(properties: &str) -> Result<Columns, Problem> {
         };
         let count: usize =
             count.parse().ok().filter(|it| (1..=1000).contains(it)).ok_or_else(|| {
-                format!("Properties: {name} has {count:?} columns, expected a number up to 1000")
+                format!(
+                    "Properties: {} has {} columns, expected a number up to 1000",
+                    shown(name),
+                    shown(count)
+                )
             })?;
         if let Some(quantity) = quantity(name).filter(|it| it.width() == count) {
             (0..count).for_each(|i| columns.put(quantity, i, columns.width + i));
@@ -151,5 +157,5 @@ fn numbers<const N: usize>(name: &str, text: &str) -> Result<[f64; N], Problem> 
 
 fn number(name: &str, text: &str) -> Result<f64, Problem> {
     let value = text.parse().ok().filter(|it: &f64| it.is_finite());
-    value.ok_or_else(|| format!("{name}: expected a finite number, not {text:?}").into())
+    value.ok_or_else(|| format!("{name}: expected a finite number, not {}", shown(text)).into())
 }

@@ -70,7 +70,12 @@ fn time_on_band(band: &Band, state: [DVec3; 2], motion: impl Fn(DVec3) -> AxisMo
     let slack = TOUCHING * band.coordinates();
     let view = band.face_seen_from(state[0]);
     let [before, after] = band.rooms(state[0]);
-    motion(view.directions[0]).leaves(-before - slack, after + slack)
+    let along = motion(view.directions[0]).leaves(-before - slack, after + slack);
+    // On the axis it meets the other side of the ring that it lies in.
+    match view.way_to_ring(band) {
+        Some((inward, way)) => along.min(motion(inward).leaves(f64::NEG_INFINITY, way)),
+        None => along,
+    }
 }
 
 /// Time \[s\] until a sphere with this flight relative to a disc may slide off it; infinite for other bands.
