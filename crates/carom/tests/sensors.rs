@@ -155,20 +155,16 @@ fn events_lead_from_the_triggers_of_one_frame_to_those_of_the_next() {
                 Sphere::new(1.7 * numbers.vector(), 0.1).with_velocity(5.0 * numbers.vector());
             world.add_sphere(ball).unwrap();
         }
-        let (mut inside, mut count, mut differing) = (BTreeSet::new(), 0, 0);
+        let (mut inside, mut count) = (BTreeSet::new(), 0);
         for frame in 0..150 {
             let report = world.step(1.0 / 60.0).unwrap();
             follow(&mut inside, &report.sensor_events);
             count += report.sensor_events.len();
             let expected = report.triggers.iter().map(|it| (it.sphere, it.collider)).collect();
-            let is_exact = rule == Rule::default() || matches!(rule, Rule::Contact(_));
-            if is_exact && !has_air {
+            if rule == Rule::default() || matches!(rule, Rule::Contact(_)) {
                 assert_eq!(inside, expected, "{rule:?}, frame {frame}");
             }
-            differing += usize::from(has_air && inside != expected);
         }
-        // Where a ball lies at the very border, the piece of path that stands for its way may be beside it.
-        assert!(differing < 3, "{differing}");
         assert!(count > 50, "{count}");
     }
 }

@@ -116,11 +116,21 @@ impl Crossing<'_> {
             let place = self.leg.flight_from(time).position - target.shift;
             let there = crate::detect::known_in_front(&form, place, self.leg.radius);
             if there.is_some_and(|it| it.distance < 0.0) {
-                return Some(time);
+                return Some(self.first_in_front(target, time));
             }
             from = time.max(from.next_up());
         }
         None
+    }
+
+    /// The first time from `time` \[s\] on at which the centre, which comes to the front of a rectangle then, is there,
+    /// whatever rounding says.
+    fn first_in_front(&self, target: &Target, time: f64) -> f64 {
+        let (mut time, mut step) = (time, time.next_up() - time);
+        while time < self.leg.to && self.look_at(target, time).is_none() {
+            (time, step) = ((time + step).min(self.leg.to), 2.0 * step);
+        }
+        time
     }
 
     /// When the sphere, which is in at `now` \[s\], comes out, up to the end of the leg.
