@@ -66,7 +66,7 @@ const DEGREES: &str = "degrees";
 const RADIANS: &str = "rad";
 
 /// Unit of each field that has one.
-const FIELDS: [(&str, &str); 53] = [
+const FIELDS: [(&str, &str); 55] = [
     ("acceleration", "m/s²"),
     ("anchor", "m"),
     ("angular_velocity", "rad/s"),
