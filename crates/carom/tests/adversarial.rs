@@ -158,7 +158,7 @@ fn fault(seed: u64, is_rough: bool) -> Option<String> {
         }
     }
     let took = began.elapsed();
-    (took > Duration::from_secs(5)).then(|| format!("took {took:?}, zone {in_zone}"))
+    (took > PATIENCE).then(|| format!("took {took:?}, zone {in_zone}"))
 }
 
 fn check(seeds: Range<u64>, is_rough: bool) {
