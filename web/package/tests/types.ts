@@ -70,7 +70,8 @@ const size = (shape: Shape): number => {
   if (shape === "half-space") return Infinity;
   if ("sphere" in shape) return 2 * shape.sphere.radius;
   if ("rectangle" in shape) return Math.max(shape.rectangle.sizeX, shape.rectangle.sizeZ);
-  return Math.max(...("box" in shape ? shape.box : shape.container).size);
+  if ("container" in shape) return Math.max(...shape.container.size);
+  return "box" in shape ? Math.max(...shape.box.size) : NaN;
 };
 const largest: number = Math.max(...world.colliders.map(({ shape }: Collider) => size(shape)));
 

@@ -112,10 +112,12 @@ fn kind_of_name(name: &str, schema: &Schema) -> String {
     match name {
         "Rotation" => "Quaternion".to_owned(),
         "Sphere" => "SizedSphere".to_owned(),
-        "OneOrMore" => "Side | Sequence[Side]".to_owned(),
         "Boundary" => "Literal[\"open\"] | Periodic".to_owned(),
         "Stacking" | "WindBack" | "Zones" => literal(&schema.choices(name).unwrap_or_default()),
-        _ => name.to_owned(),
+        _ => match name.strip_prefix("OneOrMore") {
+            Some(one) => format!("{one} | Sequence[{one}]"),
+            None => name.to_owned(),
+        },
     }
 }
 

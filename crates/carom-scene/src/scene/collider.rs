@@ -267,6 +267,7 @@ pub enum Side {
 /// One of them, or several.
 #[derive(JsonSchema)]
 #[serde(untagged)]
+#[schemars(rename = "OneOrMore{T}")]
 #[expect(dead_code, reason = "describes what is written")]
 enum OneOrMore<T> {
     /// One.
