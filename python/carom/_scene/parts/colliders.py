@@ -6,10 +6,10 @@ Made by `cargo xtask parts` of the schema of scene files, which says what is to 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import ClassVar, TypeAlias
 
-from carom._scene.parts.choices import Finish, Side
+from carom._scene.parts.choices import End, Finish, Side
 from carom._scene.parts.kinds import (
     ORIGIN,
     UNTURNED,
@@ -183,7 +183,7 @@ class Pipe(Part):
     tag: ClassVar[str] = "pipe"
     radius: Positive
     length: Positive
-    closed: OneOrMore2 = field(default_factory=OneOrMore2)
+    closed: End | Sequence[End] = ()
 
     def __post_init__(self) -> None:
         super().__post_init__()
