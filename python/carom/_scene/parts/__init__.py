@@ -21,6 +21,8 @@ from carom._scene.parts.colliders import (
     Disc,
     Funnel,
     HalfSpace,
+    HeightField,
+    Mesh,
     Pipe,
     Rectangle,
     Shape,
