@@ -84,8 +84,8 @@ const REFUSED = {
     /spheres\[1\]\.radius/,
   ],
   "a wrong collider after good spheres": [
-    (w) => w.add({ spheres: [{ radius: 1 }], colliders: [{ shape: "cone" }] }),
-    /`cone`/,
+    (w) => w.add({ spheres: [{ radius: 1 }], colliders: [{ shape: "pyramid" }] }),
+    /`pyramid`/,
   ],
   "an unknown force": [(w) => w.addForce({ viscousDragg: { coefficient: 1 } }), /"viscousDrag"/],
   "a drag that drives": [
