@@ -57,8 +57,15 @@ for (const [graphics, name] of /** @type {const} */ ([
       await viewer.page.keyboard.press("p");
       await viewer.until(({ watching }) => watching.playing);
       const { picturesPerSecond, milliseconds, spheres } = await measure(viewer);
-      const late = read(await viewer.keepPicture(`${graphics}-${scene}`));
-      assert.ok(difference(start, late, MIDDLE) > 0.002);
+      const hasMoved = async () => {
+        const late = read(await viewer.keepPicture(`${graphics}-${scene}`));
+        return difference(start, late, MIDDLE) > 0.002;
+      };
+      // Whole periods of an emitter later it looks the same.
+      if (!(await hasMoved())) {
+        await viewer.pause(300);
+        assert.ok(await hasMoved());
+      }
       const rate = picturesPerSecond.toFixed(1);
       context.diagnostic(
         `${name} in software, ${scene}, ${spheres} spheres, ${SIZE.width} x ${SIZE.height}: ${rate} pictures/s, ` +
