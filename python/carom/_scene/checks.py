@@ -39,6 +39,13 @@ class Numbers(NamedTuple):
     are_whole: bool = False
 
 
+class Rows(NamedTuple):
+    """Says that a field takes rows of numbers, or an array of them."""
+
+    row: Any
+    """The annotation of a row."""
+
+
 class Whole(NamedTuple):
     """Says that a field takes a part only if nothing is missing in it."""
 
@@ -212,6 +219,8 @@ def _kind(hint: Any, where: str) -> _Kind | None:
         if any(it is ColorText for it in extras):
             return _or_color_text(vector, where)
         return _or_turn(vector) if any(it is Turn for it in extras) else vector
+    if rows := [it for it in extras if isinstance(it, Rows)]:
+        return _sequence(_kinds(rows[-1].row, where), where)
     if hint in (float, int):
         return _number(hint, requirements, where)
     if hint is bool:

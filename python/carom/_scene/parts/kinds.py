@@ -8,7 +8,7 @@ from typing import Annotated, Any, TypeAlias
 
 from numpy.typing import NDArray
 
-from carom._scene.checks import ColorText, Numbers, Requirement, Turn
+from carom._scene.checks import ColorText, Numbers, Requirement, Rows, Turn
 
 
 def _are_finite(values: Sequence[float]) -> bool:
@@ -36,11 +36,16 @@ Numeric: TypeAlias = Sequence[float] | NDArray[Any]
 """Numbers in a row."""
 Vector: TypeAlias = Annotated[Numeric, _THREE, _FINITE]
 """Three numbers x, y, z."""
-Vertices: TypeAlias = Sequence[Vector] | NDArray[Any]
+Vertices: TypeAlias = Annotated[Sequence[Vector] | NDArray[Any], Rows(Vector)]
 """Places x, y, z [m], one a row."""
-Triangles: TypeAlias = Sequence[Sequence[int]] | NDArray[Any]
+Triangles: TypeAlias = Annotated[
+    Sequence[Sequence[int]] | NDArray[Any],
+    Rows(Annotated[Numeric, Numbers("three numbers of vertices", 3, are_whole=True)]),
+]
 """Three numbers of vertices each, one triangle a row."""
-Heights: TypeAlias = Sequence[Numeric] | NDArray[Any]
+Heights: TypeAlias = Annotated[
+    Sequence[Numeric] | NDArray[Any], Rows(Annotated[Numeric, Numbers("numbers")])
+]
 """Rows of heights [m]."""
 Lengths: TypeAlias = Annotated[Numeric, _THREE, _ALL_POSITIVE]
 """Lengths along x, y, z [m], each > 0."""
