@@ -12,7 +12,7 @@ pub struct ChangedFile {
     files: Vec<(PathBuf, Option<Seen>)>,
 }
 
-/// When a file was last modified, and its length [bytes]: a file that is emptied and written within
+/// When a file was last modified, and its length \[bytes\]: a file that is emptied and written within
 /// one step of its time differs in length alone.
 type Seen = (SystemTime, u64);
 

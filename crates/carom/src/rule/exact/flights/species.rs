@@ -36,7 +36,7 @@ pub(crate) struct Species {
     pub free: u32,
     /// Whether these spheres are in a stepped zone.
     pub is_stepped: bool,
-    /// Whether the flight of the sphere is a [`Curve`](super::Curve): forces without a closed form act on it,
+    /// Whether the flight of the sphere is a `Curve`: forces without a closed form act on it,
     /// and no contacts. Such a sphere is a species of its own.
     pub is_curved: bool,
 }
