@@ -31,7 +31,7 @@ const TOLERANCE: f64 = 1e-9;
 const VELOCITY_PART: f64 = 1e-3;
 /// Nor is one that changes a position by less than the rounding of forces at rounded places makes of it.
 const POSITION_PART: f64 = 2e-3;
-/// A step is taken whose highest term is so many times the tolerance; a longer one is tried again.
+/// Largest accepted ratio of the highest term of a step to the tolerance; a step above it is tried again.
 const ACCEPTED: f64 = 8.0;
 /// Part of the step that the estimate allows, to spare.
 const SAFETY: f64 = 0.9;
@@ -48,7 +48,7 @@ const DIVERGED: f64 = 1e-10;
 const STEADY: f64 = 1e-12;
 /// Where no step is short enough, the force jumps: a step of this part of the last good one crosses that.
 const SHORTEST: f64 = 1e-12;
-/// Where jumps follow each other at once, each step that crosses one is so many times the one before.
+/// Growth of a step over the one before, where both cross a jump of the force.
 const LEAP: f64 = 8.0;
 
 /// What to expect of the steps of some spheres.

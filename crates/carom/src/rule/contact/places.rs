@@ -11,7 +11,7 @@ use crate::round_solid::RoundSolid;
 use crate::rule::periodic::image_shift;
 use crate::surface::{Form, Role, Surface, SurfaceMotion};
 
-/// When more images are needed, so many times as far are looked for: that is seldom so.
+/// Growth of the search distance when more images are needed; this is rare.
 const IMAGES_FARTHER: f64 = 1.5;
 
 /// Where a surface is, and how it moves.
@@ -102,7 +102,7 @@ impl Places {
         self.image_reach = 0.0;
     }
 
-    /// The image of a surface so many boxes away, if it is known.
+    /// The image of a surface at an offset in boxes, if it is known.
     pub fn number_of_image(&self, surface: u32, offset: [i8; 3]) -> Option<u32> {
         self.number_of.get(&(surface, offset)).copied()
     }

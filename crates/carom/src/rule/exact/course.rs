@@ -20,7 +20,7 @@ pub(crate) struct Course {
     pub end: PathEnd,
 }
 
-/// Follows the sphere at an index of the world's arrays over a span, or up to so many impacts of it. Others
+/// Follows the sphere at an index of the world's arrays over a span, or up to a number of impacts. Others
 /// change their flights only where it strikes them.
 ///
 /// # Errors
@@ -74,7 +74,7 @@ pub(crate) fn follow(
     Ok(course)
 }
 
-/// Lets happen what is next to the sphere at work, as far as it concerns the one that is followed; gives the time
+/// Answers the next event as far as it concerns the followed sphere, and returns its time
 /// \[s\]. Of what others do among themselves, only cell crossings happen.
 fn answer(
     timeline: &mut Timeline,
@@ -106,7 +106,7 @@ fn concerns(timeline: &Timeline, followed: u32, at_work: u32, event: &Event) -> 
     [at_work, other].into_iter().any(|slot| slot == followed || is_held_with(slot))
 }
 
-/// Lets a sphere meet nothing but the one that is followed, from `now` \[s\] on.
+/// Predicts the meetings of a sphere with the followed one alone, from `now` \[s\] on.
 fn meet_only(
     timeline: &mut Timeline,
     context: &mut StepContext,

@@ -36,7 +36,7 @@ impl Member {
         }
     }
 
-    /// Finds the forces on it anew where its velocity is another than that of its curve up to `time` \[s\].
+    /// Updates the forces on a sphere whose velocity at `time` \[s\] differs from that of its curve.
     pub fn renew_forces(&mut self, flights: &Flights, system: &System, time: f64) {
         if !flights.are_curved() || !self.species.is_curved {
             return;
