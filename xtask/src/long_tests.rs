@@ -16,6 +16,7 @@ pub fn run() -> Outcome {
         let heaps = [package, "--test", "heaps", "--", "--ignored"];
         cargo(&[&OPTIMISED[..], &heaps].concat())?;
     }
+    cargo(&[&OPTIMISED[..], &["carom", "--test", "rough_meshes", "--", "--ignored"]].concat())?;
     let grading = ["carom-grade", "--", "--ignored"];
     cargo(&[&OPTIMISED[..], &grading].concat())?;
     hashes_of_releases()?;

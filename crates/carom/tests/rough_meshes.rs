@@ -43,9 +43,11 @@ fn thrown(seed: u64, count: usize, friction: f64) -> Thrown {
     let mesh = mesh(kind, &mut numbers);
     let triangles = triangles(&mesh);
     let mut world = world_on(mesh, [[0.0, 0.6, 1.0][seed as usize / 5 % 3], friction]);
+    // Many must have room in a mesh that is met from within.
+    let largest = if count > 5 { 0.12 } else { 0.25 };
     let mut balls: Vec<(DVec3, SphereId, f64)> = Vec::new();
     while balls.len() < count {
-        let radius = numbers.between(0.05, 0.25);
+        let radius = numbers.between(0.05, largest);
         let place = match kind {
             Kind::Room => 0.6 * numbers.vector(),
             Kind::Pit => numbers.vector() + vec(0.0, 1.4, 0.0),
@@ -121,12 +123,25 @@ fn no_ball_comes_into_a_random_mesh_without_friction_or_gains_energy() {
 #[test]
 fn a_rough_ball_comes_into_a_random_mesh_by_no_more_than_zones_leave() {
     let mut count = 0;
-    for seed in 0..30 {
+    // In the last of them an impact drove a ball along a valley and left its spin as it was: 3.5e-3 of all energy.
+    for seed in (0..30).chain([198]) {
         let seen = thrown(seed, 3, 0.3).watch(480);
-        // Where a ball rolls in a valley it is in a zone, whose sub-steps correct what overlaps.
-        let [tolerance, gain] = if seen.was_stepped { [0.01, 5e-3] } else { [1e-9, 1e-7] };
+        // Where a ball rolls in a valley it is in a zone, whose sub-steps correct what overlaps, and which lifts
+        // what joins it.
+        let [tolerance, gain] = if seen.was_stepped { [0.01, 2e-4] } else { [1e-9, 1e-7] };
         assert!(seen.deepest <= tolerance && seen.largest_gain <= gain, "{seed} {seen:?}");
         count += usize::from(!seen.was_stepped);
     }
     assert!(count >= 10, "{count} worlds without a zone");
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn no_ball_of_four_thousand_comes_into_one_of_two_hundred_random_meshes() {
+    for seed in 0..200 {
+        let friction = if seed % 2 == 0 { 0.0 } else { 0.3 };
+        let seen = thrown(seed, 20, friction).watch(2400);
+        let [tolerance, gain] = if seen.was_stepped { [0.05, 2e-3] } else { [1e-8, 1e-7] };
+        assert!(seen.deepest <= tolerance && seen.largest_gain <= gain, "{seed} {seen:?}");
+    }
 }

@@ -44,8 +44,8 @@ pub(crate) struct Zone {
     velocity_before: Vec<DVec3>,
     /// Ticks since each bore something or was borne.
     free_ticks: Vec<u32>,
-    /// Spheres that joined since the last tick, with the velocity that they have then \[m/s\].
-    waiting: Vec<(SphereId, DVec3)>,
+    /// Spheres that joined since the last tick.
+    waiting: Vec<Waiting>,
     solver: Solver,
     #[cfg_attr(feature = "serde", serde(skip))]
     scratch: Scratch,
@@ -61,6 +61,17 @@ pub(crate) struct Zone {
     /// Slots of spheres that are in no zone and have one that is among their neighbours; more than once,
     /// perhaps, and some for which it is so no more.
     pub near: Vec<u32>,
+}
+
+/// A sphere that waits for the first tick since it joined a zone.
+#[derive(Debug, Clone, Copy)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+struct Waiting {
+    sphere: SphereId,
+    /// When it joined, on the world's clock \[s\].
+    since: f64,
+    /// Its velocity then and at the tick \[m/s\].
+    velocities: [DVec3; 2],
 }
 
 /// How a sphere in a zone moves.
@@ -93,17 +104,16 @@ impl Zone {
         if self.is_empty() { f64::INFINITY } else { self.ticks[1] }
     }
 
-    /// Takes in the sphere at an index of the world's arrays, which joins at a time \[s\] with a velocity
-    /// \[m/s\]. Ticks are `tick` \[s\] apart, or parts of that where spheres are small or springs, on which motion
+    /// Sets and gives the next tick \[s\] for the sphere at an index of the world's arrays, which is about to join
+    /// at a time \[s\]. Ticks are `tick` \[s\] apart, or parts of that where spheres are small or springs, on which motion
     /// has a rate \[1/s\], stiff.
-    pub fn join(
+    pub fn expect(
         &mut self,
         system: &System,
         index: u32,
-        velocity: DVec3,
         time: f64,
         [tick, spring_rate]: [f64; 2],
-    ) {
+    ) -> f64 {
         let index = index as usize;
         if self.is_empty() {
             let turning = halvings_for_turning(system.surfaces, tick);
@@ -113,7 +123,13 @@ impl Zone {
         if self.is_empty() || self.ticks[1] == f64::INFINITY {
             self.ticks = [time, first_tick_after(time, self.part_of(tick))];
         }
-        self.waiting.push((system.spheres.id[index], velocity));
+        self.ticks[1]
+    }
+
+    /// Takes in a sphere that was expected. Its velocity changes steadily from that `since` it joined \[s\] to
+    /// that at the next tick \[m/s\].
+    pub fn join(&mut self, sphere: SphereId, velocities: [DVec3; 2], since: f64) {
+        self.waiting.push(Waiting { sphere, since, velocities });
     }
 
     /// The time between its ticks \[s\].
@@ -122,7 +138,7 @@ impl Zone {
     }
 
     /// Has all spheres that are still there wait for the first tick after a time \[s\], with these
-    /// velocities, by index \[m/s\]; ticks are as in [`Self::join`].
+    /// velocities, by index \[m/s\]; ticks are as in [`Self::expect`].
     pub fn restart(&mut self, system: &System, time: f64, tick: [f64; 2], velocities: &[DVec3]) {
         let all = self.indices(&system.spheres.id);
         self.waiting.clear();
@@ -134,7 +150,8 @@ impl Zone {
         self.held_forces.clear();
         self.solver.set_changed();
         for index in all {
-            self.join(system, index, velocities[index as usize], time, tick);
+            self.expect(system, index, time, tick);
+            self.join(system.spheres.id[index as usize], [velocities[index as usize]; 2], time);
         }
     }
 
@@ -143,7 +160,7 @@ impl Zone {
     pub fn follow(&mut self, ids: &[SphereId]) {
         self.held_forces.clear();
         let is_there = |id: &SphereId| ids.binary_search(id).is_ok();
-        self.waiting.retain(|(id, _)| is_there(id));
+        self.waiting.retain(|it| is_there(&it.sphere));
         let stays: Vec<bool> = self.properties.id.iter().map(is_there).collect();
         self.keep(&stays);
         self.index = self
@@ -232,14 +249,18 @@ impl Zone {
     /// The places of all spheres, those that joined since the last tick among them, in arrays of the world
     /// that hold these ids.
     pub fn indices(&self, ids: &[SphereId]) -> Vec<u32> {
-        let waiting = self.waiting.iter().map(|(id, _)| id);
+        let waiting = self.waiting.iter().map(|it| &it.sphere);
         let all = self.properties.id.iter().chain(waiting);
         all.flat_map(|id| ids.binary_search(id)).map(|index| index as u32).collect()
     }
 
-    /// The spheres that joined since the last tick, with their velocities \[m/s\].
-    pub fn waiting(&self) -> &[(SphereId, DVec3)] {
-        &self.waiting
+    /// The spheres that joined since the last tick, with their velocities at a time since then \[s\].
+    pub fn waiting(&self, time: f64) -> impl Iterator<Item = (SphereId, DVec3)> {
+        let next = self.ticks[1];
+        self.waiting.iter().map(move |&Waiting { sphere, since, velocities: [before, after] }| {
+            let part = if next > since { (time - since) / (next - since) } else { 1.0 };
+            (sphere, before + part.clamp(0.0, 1.0) * (after - before))
+        })
     }
 
     /// The contacts that bore something in the last sub-step.
@@ -264,10 +285,9 @@ impl Zone {
         let ids = &system.spheres.id;
         // By index, with the place that it has already.
         let known = (0u32..).zip(&self.index).map(|(place, &index)| (index, Err(place)));
-        let come = self
-            .waiting
-            .drain(..)
-            .filter_map(|(id, velocity)| Some((ids.binary_search(&id).ok()? as u32, Ok(velocity))));
+        let come = self.waiting.drain(..).filter_map(|it| {
+            Some((ids.binary_search(&it.sphere).ok()? as u32, Ok(it.velocities[1])))
+        });
         let mut all: Vec<(u32, Result<DVec3, u32>)> = known.chain(come).collect();
         all.sort_unstable_by_key(|sphere| sphere.0);
         let mut motion = Motion::default();

@@ -10,23 +10,32 @@ use crate::rule::exact::context::StepContext;
 use crate::rule::exact::predict;
 use crate::rule::exact::timeline::Timeline;
 
-/// Makes a zone of a group, as its spheres came to it.
+/// Makes a zone of a group, whose spheres move as its impacts have left them.
 ///
 /// Until the next tick they go on together with their mean velocity, as far as no surface is in the way;
-/// then their own velocities count.
+/// then their own velocities count. One that is alone goes on under its forces.
 pub(crate) fn make_zone(timeline: &mut Timeline, context: &mut StepContext, group: &Group) {
-    let mass: f64 = group.members.iter().map(|member| member.species.mass).sum();
-    let momenta = group.members.iter().map(|member| member.species.mass * member.velocity);
-    let mut common = momenta.sum::<DVec3>() / mass;
-    for member in &group.members {
-        common = free_way(timeline, context, (member.slot, member.position), common, group.time);
-    }
+    let common = match group.members[..] {
+        [_] => None,
+        _ => Some(common_velocity(timeline, context, group)),
+    };
     for member in &group.members {
         let state = [member.position, member.velocity];
-        join(timeline, context, member.slot, state, common, group.time);
+        join(timeline, context, member.slot, (state, common), group.time);
+        timeline.flights.rotate(member.slot, [member.angular_velocity, DVec3::ZERO], group.time);
     }
     let slots = group.members.iter().map(|member| member.slot);
     look_around(timeline, context, slots, group.time);
+}
+
+/// The mean velocity of a group \[m/s\], without what would take its spheres into surfaces.
+fn common_velocity(timeline: &Timeline, context: &StepContext, group: &Group) -> DVec3 {
+    let mass: f64 = group.members.iter().map(|member| member.species.mass).sum();
+    let momenta = group.members.iter().map(|member| member.species.mass * member.velocity);
+    let mean = momenta.sum::<DVec3>() / mass;
+    group.members.iter().fold(mean, |velocity, member| {
+        free_way(timeline, context, (member.slot, member.position), velocity, group.time)
+    })
 }
 
 /// Makes a zone of a sphere at `time` \[s\], and of what touches it.
@@ -54,7 +63,7 @@ pub(crate) fn meet(timeline: &mut Timeline, context: &mut StepContext, slots: [u
     let states: Vec<_> = coming.iter().map(|&slot| timeline.flights.state_of(slot, time)).collect();
     for (&slot, state) in coming.iter().zip(states) {
         let common = free_way(timeline, context, (slot, state.0), velocity, time);
-        join(timeline, context, slot, state.into(), common, time);
+        join(timeline, context, slot, (state.into(), Some(common)), time);
     }
     look_around(timeline, context, coming.into_iter(), time);
 }
@@ -104,22 +113,47 @@ fn in_front(
     held.map_or(velocity, |held| (held - position) / duration)
 }
 
-/// Has a sphere join a zone with this centre \[m\] and velocity \[m/s\]; until the next tick it moves with
-/// the `common` velocity \[m/s\].
+/// How a sphere with this centre \[m\] and velocity \[m/s\] goes on under its forces from a time until the next tick
+/// \[s\], as far as no surface is in the way: its mean velocity on that way, and that at the tick \[m/s\]. Both
+/// belong together: what its forces do on the way is what its kinetic energy gains.
+fn under_forces(
+    timeline: &Timeline,
+    context: &StepContext,
+    slot: u32,
+    [position, velocity]: [DVec3; 2],
+    [time, tick]: [f64; 2],
+) -> [DVec3; 2] {
+    let species = timeline.flights.free_species_of(slot);
+    let change = species.acceleration - species.drag_rate * velocity;
+    let later = velocity + (tick - time) * change;
+    let [before, after] =
+        [velocity, later].map(|it| free_way(timeline, context, (slot, position), it, time));
+    let gained = after - before;
+    [before + 0.5 * gained, velocity + gained]
+}
+
+/// Has a sphere join a zone with this centre \[m\] and velocity \[m/s\]. Until the next tick it moves with the
+/// `common` velocity of others \[m/s\]; if there is none, under its forces.
 fn join(
     timeline: &mut Timeline,
     context: &mut StepContext,
     slot: u32,
-    [position, velocity]: [DVec3; 2],
-    common: DVec3,
+    (state, common): ([DVec3; 2], Option<DVec3>),
     time: f64,
 ) {
+    let [position, velocity] = state;
     timeline.set_free(slot, time);
     let index = timeline.flights.index_of[slot as usize];
     let tick = [context.parameters.zone_tick, timeline.spring_rate];
-    timeline.zone.join(context.system, index, velocity, time, tick);
-    let common = in_front(timeline, context, slot, [position, common], time);
-    timeline.flights.enter_zone(slot, [position, common], time);
+    let next = timeline.zone.expect(context.system, index, time, tick);
+    let [mean, later] = match common {
+        Some(common) => [common, velocity],
+        None => under_forces(timeline, context, slot, state, [time, next]),
+    };
+    let sphere = context.system.spheres.id[index as usize];
+    timeline.zone.join(sphere, [velocity, later], time);
+    let mean = in_front(timeline, context, slot, [position, mean], time);
+    timeline.flights.enter_zone(slot, [position, mean], time);
     timeline.note_flight(slot);
     context.report.zone_account.joined += 1;
 }

@@ -203,7 +203,7 @@ pub(crate) fn write_velocities(
     for (index, velocity) in zone.velocities(time) {
         motion.velocity[index as usize] = velocity;
     }
-    for &(sphere, velocity) in zone.waiting() {
+    for (sphere, velocity) in zone.waiting(time) {
         if let Ok(index) = ids.binary_search(&sphere) {
             motion.velocity[index] = velocity;
         }
