@@ -1,6 +1,6 @@
 //! Events of the last step, and persistent contacts.
 
-use carom::{BodyPair, Impact, Overlap, PersistentContact, TriggerContact};
+use carom::{BodyPair, Impact, Overlap, PersistentContact, SensorEvent, TriggerContact};
 
 use crate::pointer::{Out, Room, Strided};
 use crate::status::{CaromStatus, call};
@@ -54,7 +54,8 @@ pub struct CaromImpact {
     pub tangential_impulse: [f64; 3],
 }
 
-fn impact(impact: &Impact) -> CaromImpact {
+/// Converts an impact for C.
+pub(crate) fn impact(impact: &Impact) -> CaromImpact {
     CaromImpact {
         time: impact.time,
         bodies: impact.between.into(),
@@ -119,6 +120,38 @@ fn trigger(trigger: &TriggerContact) -> CaromTrigger {
         sphere: trigger.sphere.number(),
         normal: trigger.normal.to_array(),
         point: trigger.point.to_array(),
+    }
+}
+
+/// A sphere that enters a trigger or leaves it.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct CaromSensorEvent {
+    /// Time since the start of the step [s].
+    pub time: f64,
+    /// Id of the trigger.
+    pub collider: u64,
+    /// Id of the sphere.
+    pub sphere: u64,
+    /// 1 if the sphere enters, 0 if it leaves.
+    pub enters: u64,
+    /// Point on the trigger's surface [m].
+    pub point: [f64; 3],
+    /// Unit normal from the trigger's surface to the sphere.
+    pub normal: [f64; 3],
+    /// Speed of the sphere relative to the trigger [m/s].
+    pub speed: f64,
+}
+
+fn sensor_event(event: &SensorEvent) -> CaromSensorEvent {
+    CaromSensorEvent {
+        time: event.time,
+        collider: event.collider.number(),
+        sphere: event.sphere.number(),
+        enters: event.enters.into(),
+        point: event.point.to_array(),
+        normal: event.normal.to_array(),
+        speed: event.speed,
     }
 }
 
@@ -250,5 +283,23 @@ pub unsafe extern "C" fn carom_world_triggers(
         // SAFETY: the caller's array and pointer are null or valid, as the header demands.
         let room = unsafe { Room::new(triggers, array, count, "triggers") }?;
         world.with(|inner| room.fill(inner.world.report().triggers.iter().map(trigger)))
+    })
+}
+
+/// Reads which spheres entered and left triggers in the last step, in order of time, in the way of
+/// carom_world_ids(): all of them, however small the trigger and however fast the sphere.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carom_world_sensor_events(
+    world: CaromWorld,
+    events: *mut CaromSensorEvent,
+    stride: usize,
+    capacity: usize,
+    count: *mut usize,
+) -> CaromStatus {
+    call(|| {
+        let array = Strided { stride, count: capacity };
+        // SAFETY: the caller's array and pointer are null or valid, as the header demands.
+        let room = unsafe { Room::new(events, array, count, "events") }?;
+        world.with(|inner| room.fill(inner.world.report().sensor_events.iter().map(sensor_event)))
     })
 }
