@@ -259,8 +259,8 @@ export class World {
    */
   overlapping(center: Vector, radius: number, filter?: QueryFilter): NearBody[];
   /**
-   * Predicts the path of a sphere for `horizon` [s], or up to its impact number `mostImpacts`,
-   * without a step: flights in closed form, and what it meets. The other spheres keep to their
+   * Predicts the path of a sphere for `horizon` [s], or up to its impact number `mostImpacts`
+   * (default: 10,000), without a step: flights in closed form, and what it meets. The other spheres keep to their
    * flights, but for those that it strikes. While nothing else interferes, steps under `exact` give
    * the same to the bit.
    * @throws {CaromError} if the sphere is not in the world or the horizon not positive, and with

@@ -274,7 +274,7 @@ export class World {
     return nearBodies(attempt(() => world.overlapping(place, radius, finds)));
   }
 
-  predict(id, horizon, mostImpacts = Infinity) {
+  predict(id, horizon, mostImpacts = 10_000) {
     const world = this.#world;
     return new PredictedPath(attempt(() => world.predict(id, horizon, mostImpacts)));
   }
