@@ -79,6 +79,19 @@ int main(void) {
     OK(carom_world_sensor_events(world, events, 0, 2, &count));
     EXPECT(count == 2 && events[0].collider == gate && events[0].enters && !events[1].enters);
     EXPECT(fabs(events[0].time - 1.495e-3) < 1e-15 && events[0].speed == 1000.0);
+
+    // A bumper adds 3 m/s to a ball of 1 kg that comes with 1 m/s.
+    double work;
+    OK(carom_world_kick_work(world, &work));
+    EXPECT(work == 0.0);
+    OK(carom_world_add_toml(world, "colliders = [{ shape = \"half-space\", position = [0, -50, 0], kick = 3.0 }]", NULL));
+    ball = carom_sphere();
+    ball.position[1] = -48.5, ball.velocity[1] = -1.0;
+    OK(carom_world_add_sphere(world, &ball, NULL));
+    OK(carom_world_step(world, 1.0));
+    OK(carom_world_kick_work(world, &work));
+    EXPECT(fabs(work - 7.5) < 1e-12);
+    FAILS(CAROM_STATUS_NULL, carom_world_kick_work(world, NULL));
     OK(carom_world_free(world));
     printf("every query: ok\n");
     return 0;

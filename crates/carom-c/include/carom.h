@@ -405,7 +405,8 @@ typedef struct {
     /// Work of the correction of overlaps [J].
     double correction_work;
     /// Energy of emitted spheres minus that of removed ones [J]. The total energy changes by these
-    /// four, by the work of forces without a potential, and by the error of the integration.
+    /// four, by carom_world_kick_work(), by the work of forces without a potential, and by the error
+    /// of the integration.
     double emission_energy;
     /// Under the rule `contact`: largest change of an impulse in the last sweep, relative to the
     /// largest impulse.
@@ -824,6 +825,9 @@ CaromStatus carom_world_remove_emitter(CaromWorld world, uint64_t id);
 
 /// Reads counts and energies of the last step; all are 0 after carom_world_restore().
 CaromStatus carom_world_report(CaromWorld world, CaromReport *report);
+
+/// Reads the work of the kicks of colliders in the last step [J]; 0 after carom_world_restore().
+CaromStatus carom_world_kick_work(CaromWorld world, double *work);
 
 /// Reads the impacts of the last step in order of time, in the way of carom_world_ids().
 CaromStatus carom_world_impacts(CaromWorld world, CaromImpact *impacts, size_t stride, size_t capacity, size_t *count);

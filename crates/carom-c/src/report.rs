@@ -196,7 +196,8 @@ pub struct CaromReport {
     /// Work of the correction of overlaps [J].
     pub correction_work: f64,
     /// Energy of emitted spheres minus that of removed ones [J]. The total energy changes by these
-    /// four, by the work of forces without a potential, and by the error of the integration.
+    /// four, by carom_world_kick_work(), by the work of forces without a potential, and by the error
+    /// of the integration.
     pub emission_energy: f64,
     /// Under the rule `contact`: largest change of an impulse in the last sweep, relative to the
     /// largest impulse.
@@ -231,6 +232,14 @@ pub unsafe extern "C" fn carom_world_report(
             largest_overlap: account.largest_overlap,
         }
     })
+}
+
+/// Reads the work of the kicks of colliders in the last step [J]; 0 after carom_world_restore().
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carom_world_kick_work(world: CaromWorld, work: *mut f64) -> CaromStatus {
+    // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
+    let place = unsafe { Out::new(work, "work") };
+    world.measure(place, |inner| inner.world.report().energy_account.kicks)
 }
 
 /// Reads the impacts of the last step in order of time, in the way of carom_world_ids().
