@@ -236,6 +236,13 @@ def test_a_path_up_to_some_impacts_ends_at_the_last() -> None:
     assert np.isnan(path.positions_at([-1.0, path.end_time + 1])).all()
     assert path.positions_at(np.zeros((2, 3))).shape == (2, 3, 3)
     assert "2 impacts" in repr(path)
+    # A ball that loses nothing bounces for ever.
+    endless = carom.World()
+    endless.add_force(carom.Gravity((0, -9.81, 0)))
+    endless.add_collider(carom.Collider(carom.HalfSpace()))
+    ball = endless.add_sphere(carom.Sphere(position=(0, 1, 0), radius=0.1))
+    path = endless.predict(ball, 1e12)
+    assert (path.end, len(path.impacts)) == ("impacts", 10_000)
 
 
 @pytest.mark.parametrize("rule", RULES)

@@ -30,12 +30,12 @@ impl Engine {
         py: Python<'_>,
         id: &Bound<'_, PyAny>,
         horizon: &Bound<'_, PyAny>,
-        most_impacts: Option<&Bound<'_, PyAny>>,
+        most_impacts: &Bound<'_, PyAny>,
     ) -> PyResult<Path> {
         let id = SphereId::from_number(arguments::id("sphere", id)?);
         let horizon = arguments::number("horizon", horizon)?;
-        let most = most_impacts.map(|most| arguments::count("most_impacts", most)).transpose()?;
-        let most = most.map_or(usize::MAX, |most| usize::try_from(most).unwrap_or(usize::MAX));
+        let most = arguments::count("most_impacts", most_impacts)?;
+        let most = usize::try_from(most).unwrap_or(usize::MAX);
         let mut guard = self.lock(py)?;
         let inner = &mut *guard;
         inner.heed_signals();

@@ -240,9 +240,7 @@ class Queries(Engine):
         words = self._overlapping(_rows(places, shape), sizes, filter)
         return tables.records(words, tables.OVERLAPPING)
 
-    def predict(
-        self, sphere: int, horizon: float, *, most_impacts: int | None = None
-    ) -> PredictedPath:
+    def predict(self, sphere: int, horizon: float, *, most_impacts: int = 10_000) -> PredictedPath:
         """Predicts the path of a sphere without a step: flights in closed form, and what it meets.
 
         The other spheres keep to the flights that they are on, but for those that the sphere
@@ -253,7 +251,7 @@ class Queries(Engine):
         Args:
             sphere: Its id.
             horizon: For how long [s].
-            most_impacts: Up to its impact of this number; all within the horizon unless given.
+            most_impacts: Up to its impact of this number: ``end`` of the path tells.
 
         Raises:
             UnknownError: If the sphere is not in the world (any more).

@@ -399,9 +399,7 @@ class World(Strict, Queries, Bodies):
         self._refuse_functions("step_to_next_event")
         super().step_to_next_event(within)
 
-    def predict(
-        self, sphere: int, horizon: float, *, most_impacts: int | None = None
-    ) -> PredictedPath:
+    def predict(self, sphere: int, horizon: float, *, most_impacts: int = 10_000) -> PredictedPath:
         self._refuse_functions("predict")
         return super().predict(sphere, horizon, most_impacts=most_impacts)
 
