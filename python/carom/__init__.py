@@ -16,8 +16,20 @@ from carom._carom import Snapshot
 from carom._pictures.film import Film
 from carom._pictures.picture import Renderer
 from carom._run.batch import Batch
+from carom._run.queries import PredictedPath, QueryFilter
 from carom._run.reports import ContactAccount, EnergyAccount, StageCounts, ZoneAccount
-from carom._run.tables import CONTACT, IMPACT, LEDGER, OVERLAP, TRIGGER
+from carom._run.tables import (
+    CONTACT,
+    HIT,
+    IMPACT,
+    LEDGER,
+    LEG,
+    NEAR,
+    OVERLAP,
+    OVERLAPPING,
+    SENSOR_EVENT,
+    TRIGGER,
+)
 from carom._run.trajectory import Trajectory
 from carom._run.world import World
 from carom._scene.above import above
@@ -90,9 +102,14 @@ from carom.errors import (
 
 __all__ = [
     "CONTACT",
+    "HIT",
     "IMPACT",
     "LEDGER",
+    "LEG",
+    "NEAR",
     "OVERLAP",
+    "OVERLAPPING",
+    "SENSOR_EVENT",
     "TRIGGER",
     "Ball",
     "Batch",
@@ -138,7 +155,9 @@ __all__ = [
     "Pipe",
     "PointAttractor",
     "Points",
+    "PredictedPath",
     "QuadraticDrag",
+    "QueryFilter",
     "RandomFill",
     "Rectangle",
     "Renderer",

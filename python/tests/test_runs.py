@@ -168,7 +168,7 @@ def test_the_arrays_of_a_saved_trajectory_are_those_of_the_command_line(tmp_path
     carom_command("run", "billiards", "--frames", "9", "--out", str(theirs))
     carom.load("billiards").run(frames=9).save(ours)
     with np.load(theirs) as one, np.load(ours) as other:
-        assert set(one.files) | {"impacts"} == set(other.files)
+        assert set(one.files) | {"impacts", "sensor_events"} == set(other.files)
         for name in one.files:
             assert one[name].dtype == other[name].dtype
             # The start is in one of them.

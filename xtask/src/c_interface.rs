@@ -45,7 +45,7 @@ fn run_programs(packages: &[&str]) -> Outcome {
     }
     setup::c_interface()?;
     let programs = Programs::new()?;
-    for name in ["bouncing_ball", "state_hashes", "every_function"] {
+    for name in ["bouncing_ball", "state_hashes", "every_function", "every_query"] {
         programs.compile_c(name)?;
     }
     programs.compile_cpp("cradle")?;
@@ -140,11 +140,14 @@ impl Programs {
     /// checker.
     fn check_memory(&self, packages: &[&str]) -> Outcome {
         if !cfg!(target_os = "linux") {
-            return finish("every_function", &mut self.program("every_function"));
+            finish("every_function", &mut self.program("every_function"))?;
+            return finish("every_query", &mut self.program("every_query"));
         }
-        let mut words = VALGRIND.split_whitespace();
-        let mut command = Command::new(words.next().unwrap_or_default());
-        finish("valgrind", command.args(words).arg(self.folder.join("every_function")))?;
+        for name in ["every_function", "every_query"] {
+            let mut words = VALGRIND.split_whitespace();
+            let mut command = Command::new(words.next().unwrap_or_default());
+            finish("valgrind", command.args(words).arg(self.folder.join(name)))?;
+        }
         let test = ["test", "--quiet", "--profile", CI];
         let test = [&test[..], packages, &["--test", "misuse"]].concat();
         let target = host()?.to_uppercase().replace('-', "_");

@@ -62,6 +62,7 @@ pub fn test() -> Outcome {
         "carom",
         "carom._carom",
         "carom._run.bodies",
+        "carom._run.queries",
         "carom.gym",
         "carom.notebook",
         "--docformat",

@@ -189,6 +189,74 @@ namespace Carom
         public ulong Body1, Body2, Body1IsCollider;
     }
 
+    /// <summary>Which bodies a query finds; <see cref="Default"/> finds spheres and colliders, but no triggers.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct CaromQueryFilter
+    {
+        public uint Spheres, Colliders, Triggers, LeavesOutSphere;
+        public ulong WithoutSphere;
+        public uint Groups, CollidesWith;
+
+        public static CaromQueryFilter Default { get { return Native.carom_query_filter(); } }
+    }
+
+    /// <summary>A ray from a point along a way to its end [m].</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct CaromRay
+    {
+        public Double3 Origin, Way;
+
+        public CaromRay(Double3 origin, Double3 way) { Origin = origin; Way = way; }
+    }
+
+    /// <summary>A sphere that moves straight along a way to its end [m].</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct CaromMovingSphere
+    {
+        public Double3 Center;
+        public double Radius;
+        public Double3 Way;
+    }
+
+    /// <summary>What a ray or a moving sphere meets first; IsHit is 0 if it meets nothing.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct CaromHit
+    {
+        public uint IsHit, IsCollider;
+        public ulong Body;
+        public Double3 Point, Normal;
+        public double Fraction;
+    }
+
+    /// <summary>A body near a place; IsFound is 0 if there is none.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct CaromNearBody
+    {
+        public uint IsFound, IsCollider;
+        public ulong Body;
+        public Double3 Point, Normal;
+        public double Distance;
+    }
+
+    /// <summary>A sphere that enters a trigger (Enters 1) or leaves it (0) in the last step.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct CaromSensorEvent
+    {
+        public double Time;
+        public ulong Collider, Sphere, Enters;
+        public Double3 Point, Normal;
+        public double Speed;
+    }
+
+    /// <summary>A piece of a predicted path: a flight from an event to the next.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct CaromPathLeg
+    {
+        public double Start, End, FlightStart;
+        public Double3 Position, Velocity, Acceleration;
+        public double DragRate;
+    }
+
     /// <summary>One impact of the last step.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public struct CaromImpact
@@ -488,6 +556,71 @@ namespace Carom
             return impacts;
         }
 
+        /// <summary>Returns each entry of a sphere into a trigger, and each exit, in the last step.</summary>
+        public CaromSensorEvent[] SensorEvents()
+        {
+            UIntPtr count;
+            Check(Native.carom_world_sensor_events(Id, null, UIntPtr.Zero, UIntPtr.Zero, out count));
+            var events = new CaromSensorEvent[(int)count];
+            Check(Native.carom_world_sensor_events(Id, events, UIntPtr.Zero, count, out count));
+            return events;
+        }
+
+        /// <summary>Returns what each ray meets first; many in one call are fast.</summary>
+        public CaromHit[] CastRays(CaromRay[] rays, CaromQueryFilter filter)
+        {
+            var hits = new CaromHit[rays.Length];
+            Check(Native.carom_world_cast_rays(Id, rays, (UIntPtr)rays.Length, ref filter, hits));
+            return hits;
+        }
+
+        /// <summary>Returns what each moving sphere meets first.</summary>
+        public CaromHit[] CastSpheres(CaromMovingSphere[] spheres, CaromQueryFilter filter)
+        {
+            var hits = new CaromHit[spheres.Length];
+            Check(Native.carom_world_cast_spheres(Id, spheres, (UIntPtr)spheres.Length, ref filter, hits));
+            return hits;
+        }
+
+        /// <summary>Returns the body nearest to a point, up to a distance [m].</summary>
+        public CaromNearBody Nearest(Double3 point, double within, CaromQueryFilter filter)
+        {
+            CaromNearBody nearest;
+            Check(Native.carom_world_nearest(Id, ref point, within, ref filter, out nearest));
+            return nearest;
+        }
+
+        /// <summary>Returns the bodies that touch or overlap a sphere [m].</summary>
+        public CaromNearBody[] Overlapping(Double3 center, double radius, CaromQueryFilter filter)
+        {
+            var sphere = new CaromMovingSphere { Center = center, Radius = radius };
+            UIntPtr count;
+            Check(Native.carom_world_overlapping(Id, ref sphere, ref filter, null, UIntPtr.Zero, out count));
+            var bodies = new CaromNearBody[(int)count];
+            Check(Native.carom_world_overlapping(Id, ref sphere, ref filter, bodies, count, out count));
+            return bodies;
+        }
+
+        /// <summary>Predicts the path of a sphere for a time [s], or up to an impact, without a step.</summary>
+        public CaromPath Predict(ulong sphere, double horizon, ulong mostImpacts)
+        {
+            PathId path;
+            Check(Native.carom_world_predict(Id, sphere, horizon, (UIntPtr)mostImpacts, out path));
+            return new CaromPath(path);
+        }
+
+        /// <summary>Applies an impulse [N s] to a sphere at its centre.</summary>
+        public void ApplyImpulse(ulong sphere, Double3 impulse)
+        {
+            Check(Native.carom_world_apply_impulse(Id, sphere, ref impulse));
+        }
+
+        /// <summary>Applies an impulse [N s] to a sphere at a point [m].</summary>
+        public void ApplyImpulseAt(ulong sphere, Double3 impulse, Double3 point)
+        {
+            Check(Native.carom_world_apply_impulse_at(Id, sphere, ref impulse, ref point));
+        }
+
         /// <summary>Returns the persistent contacts with their forces.</summary>
         public CaromContact[] Contacts()
         {
@@ -547,6 +680,61 @@ namespace Carom
             var bytes = new byte[(int)size];
             Check(Native.carom_snapshot_to_bytes(Id, bytes, size, out size));
             return bytes;
+        }
+
+        public void Dispose() { handle.Dispose(); }
+    }
+
+    /// <summary>The predicted path of a sphere.</summary>
+    public sealed class CaromPath : IDisposable
+    {
+        readonly Native.PathHandle handle;
+
+        internal CaromPath(PathId id) { handle = new Native.PathHandle(id); }
+
+        // As for a world.
+        void Check(CaromStatus status)
+        {
+            GC.KeepAlive(handle);
+            Native.Check(status);
+        }
+
+        /// <summary>When the path ends, on the world's clock [s].</summary>
+        public double EndTime
+        {
+            get
+            {
+                int end;
+                double time;
+                Check(Native.carom_path_end(handle.Id, out end, out time));
+                return time;
+            }
+        }
+
+        /// <summary>Reads centre [m] and velocity [m/s] at a time of the path, on the world's clock [s].</summary>
+        public void At(double time, out Double3 position, out Double3 velocity)
+        {
+            Check(Native.carom_path_at(handle.Id, time, out position, out velocity));
+        }
+
+        /// <summary>Returns the impacts on the way; their times are from the prediction on.</summary>
+        public CaromImpact[] Impacts()
+        {
+            UIntPtr count;
+            Check(Native.carom_path_impacts(handle.Id, null, UIntPtr.Zero, UIntPtr.Zero, out count));
+            var impacts = new CaromImpact[(int)count];
+            Check(Native.carom_path_impacts(handle.Id, impacts, UIntPtr.Zero, count, out count));
+            return impacts;
+        }
+
+        /// <summary>Returns the flights of the path, one after the other.</summary>
+        public CaromPathLeg[] Legs()
+        {
+            UIntPtr count;
+            Check(Native.carom_path_legs(handle.Id, null, UIntPtr.Zero, UIntPtr.Zero, out count));
+            var legs = new CaromPathLeg[(int)count];
+            Check(Native.carom_path_legs(handle.Id, legs, UIntPtr.Zero, count, out count));
+            return legs;
         }
 
         public void Dispose() { handle.Dispose(); }
@@ -664,6 +852,12 @@ namespace Carom
         public ulong Id;
     }
 
+    [StructLayout(LayoutKind.Sequential)]
+    struct PathId
+    {
+        public ulong Id;
+    }
+
     /// <summary>Marks a function that the library calls, for Unity's compiler to C++.</summary>
     [AttributeUsage(AttributeTargets.Method)]
     sealed class MonoPInvokeCallbackAttribute : Attribute
@@ -698,6 +892,22 @@ namespace Carom
                 if (Id != 0) return carom_world_free(new WorldId { Id = Id }) == CaromStatus.Ok;
                 return carom_snapshot_free(new SnapshotId { Id = SnapshotId }) == CaromStatus.Ok;
             }
+        }
+
+        /// <summary>Frees a path once.</summary>
+        internal sealed class PathHandle : SafeHandle
+        {
+            internal readonly PathId Id;
+
+            internal PathHandle(PathId id) : base(IntPtr.Zero, true)
+            {
+                Id = id;
+                SetHandle(new IntPtr(1));
+            }
+
+            public override bool IsInvalid { get { return Id.Id == 0; } }
+
+            protected override bool ReleaseHandle() { return carom_path_free(Id) == CaromStatus.Ok; }
         }
 
         /// <summary>Throws unless a call succeeded.</summary>
@@ -974,6 +1184,47 @@ namespace Carom
             WorldId world, [Out] CaromContact[] contacts, UIntPtr stride, UIntPtr capacity, out UIntPtr count);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern CaromStatus carom_world_totals(WorldId world, out CaromTotals totals);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromQueryFilter carom_query_filter();
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_cast_rays(
+            WorldId world, [In] CaromRay[] rays, UIntPtr count, ref CaromQueryFilter filter, [Out] CaromHit[] hits);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_cast_spheres(
+            WorldId world, [In] CaromMovingSphere[] spheres, UIntPtr count, ref CaromQueryFilter filter,
+            [Out] CaromHit[] hits);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_nearest(
+            WorldId world, ref Double3 point, double within, ref CaromQueryFilter filter, out CaromNearBody nearest);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_overlapping(
+            WorldId world, ref CaromMovingSphere sphere, ref CaromQueryFilter filter, [Out] CaromNearBody[] bodies,
+            UIntPtr capacity, out UIntPtr count);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_sensor_events(
+            WorldId world, [Out] CaromSensorEvent[] events, UIntPtr stride, UIntPtr capacity, out UIntPtr count);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_apply_impulse(
+            WorldId world, ulong sphere, ref Double3 impulse);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_apply_impulse_at(
+            WorldId world, ulong sphere, ref Double3 impulse, ref Double3 point);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_predict(
+            WorldId world, ulong sphere, double horizon, UIntPtr mostImpacts, out PathId path);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_path_free(PathId path);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_path_end(PathId path, out int end, out double time);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_path_at(
+            PathId path, double time, out Double3 position, out Double3 velocity);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_path_impacts(
+            PathId path, [Out] CaromImpact[] impacts, UIntPtr stride, UIntPtr capacity, out UIntPtr count);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_path_legs(
+            PathId path, [Out] CaromPathLeg[] legs, UIntPtr stride, UIntPtr capacity, out UIntPtr count);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern CaromStatus carom_world_snapshot(WorldId world, out SnapshotId snapshot);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]

@@ -129,6 +129,39 @@ static class Worlds
         }
     }
 
+    static void Queries()
+    {
+        using (var world = new CaromWorld())
+        {
+            var ball = CaromSphere.Default;
+            var near = world.AddSphere(ball);
+            ball.Position.X = 5.0;
+            var far = world.AddSphere(ball);
+            var filter = CaromQueryFilter.Default;
+            var ray = new CaromRay(new Double3(-3.0, 0.0, 0.0), new Double3(8.0, 0.0, 0.0));
+            var hits = world.CastRays(new[] { ray }, filter);
+            Expect(hits[0].IsHit == 1 && hits[0].Body == near && hits[0].Fraction == 0.25, "a ray meets a ball");
+            filter.LeavesOutSphere = 1;
+            filter.WithoutSphere = near;
+            Expect(world.Nearest(ray.Origin, 100.0, filter).Body == far, "the other ball is the nearest");
+            var moving = new CaromMovingSphere { Center = ray.Origin, Radius = 1.0, Way = ray.Way };
+            Expect(world.CastSpheres(new[] { moving }, filter)[0].Fraction == 0.75, "a sphere stops before a ball");
+            Expect(world.Overlapping(ray.Origin, 3.0, CaromQueryFilter.Default).Length == 1, "one ball is near");
+            Expect(Refused(() => world.Nearest(ray.Origin, -1.0, filter)).Status == CaromStatus.Invalid, "no distance");
+            world.ApplyImpulse(near, new Double3(4.0, 0.0, 0.0));
+            world.ApplyImpulseAt(near, new Double3(0.0, 0.0, 0.0), ray.Origin);
+            using (var path = world.Predict(near, 2.0, 9))
+            {
+                Double3 position, velocity;
+                path.At(0.5, out position, out velocity);
+                Expect(position.X == 2.0 && velocity.X == 4.0 && path.EndTime == 2.0, "a path is known before");
+                Expect(path.Impacts()[0].Time == 0.75 && path.Legs()[0].End == 0.75, "and what is met on it");
+            }
+            world.Step(1.0);
+            Expect(world.Impacts()[0].Time == 0.75 && world.SensorEvents().Length == 0, "then it happens");
+        }
+    }
+
     static void Scenes(string[] hashes)
     {
         foreach (var pair in hashes)
@@ -182,6 +215,7 @@ static class Worlds
             Bounce();
             Functions();
             Springs();
+            Queries();
             Scenes(arguments);
 #if UNITY_5_3_OR_NEWER
             Unity();

@@ -1,21 +1,13 @@
-// Calls every function of carom.h correctly and with a mistake; `cargo xtask c --test` runs it under valgrind.
+// Calls every function of carom.h correctly and with a mistake, together with every_query.c; `cargo xtask c --test`
+// runs both under valgrind.
+
+#include "expect.h"
 
 #include <carom.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define EXPECT(condition)                                                                     \
-    do {                                                                                      \
-        if (!(condition)) {                                                                   \
-            fprintf(stderr, "%s:%d: not so: %s\n", __FILE__, __LINE__, #condition);            \
-            fprintf(stderr, "last error: %s\n", carom_last_error());                          \
-            exit(1);                                                                          \
-        }                                                                                     \
-    } while (0)
-#define OK(call) EXPECT((call) == CAROM_STATUS_OK)
-#define FAILS(status, call) EXPECT((call) == (status) && carom_last_error()[0] != '\0')
 
 // A row of a game, with more than a position.
 struct Body {

@@ -9,7 +9,7 @@
 // states: one value, a text that ends in a zero, or the stated number of rows with `stride` bytes from one to the next.
 // It may be unaligned. The library uses it only during the call, and copies what it needs.
 //
-// Handles (CaromWorld, CaromSnapshot) are never reused: a freed one is refused.
+// Handles (CaromWorld, CaromSnapshot, CaromPath) are never reused: a freed one is refused.
 //
 // Made by `cargo xtask header`; do not edit.
 
@@ -200,6 +200,27 @@ typedef int32_t CaromList;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
+/// Where a predicted path ends.
+enum CaromPathEnd
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /// At the end of the time asked for.
+    CAROM_PATH_END_HORIZON = 0,
+    /// At the last impact asked for.
+    CAROM_PATH_END_IMPACTS = 1,
+    /// Where a step would take the sphere in a stepped zone.
+    CAROM_PATH_END_NO_CLOSED_FORM = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum CaromPathEnd CaromPathEnd;
+#else
+typedef int32_t CaromPathEnd;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
 /// A handle of a world. It is never reused; zero is no world.
 ///
 /// Only one thread at a time may use a world: a call during another one returns CAROM_STATUS_BUSY.
@@ -384,7 +405,8 @@ typedef struct {
     /// Work of the correction of overlaps [J].
     double correction_work;
     /// Energy of emitted spheres minus that of removed ones [J]. The total energy changes by these
-    /// four, by the work of forces without a potential, and by the error of the integration.
+    /// four, by carom_world_kick_work(), by the work of forces without a potential, and by the error
+    /// of the integration.
     double emission_energy;
     /// Under the rule `contact`: largest change of an impulse in the last sweep, relative to the
     /// largest impulse.
@@ -455,6 +477,24 @@ typedef struct {
     double point[3];
 } CaromTrigger;
 
+/// A sphere that enters a trigger or leaves it.
+typedef struct {
+    /// Time since the start of the step [s].
+    double time;
+    /// Id of the trigger.
+    uint64_t collider;
+    /// Id of the sphere.
+    uint64_t sphere;
+    /// 1 if the sphere enters, 0 if it leaves.
+    uint64_t enters;
+    /// Point on the trigger's surface [m].
+    double point[3];
+    /// Unit normal from the trigger's surface to the sphere.
+    double normal[3];
+    /// Speed of the sphere relative to the trigger [m/s].
+    double speed;
+} CaromSensorEvent;
+
 /// Sums over all spheres.
 typedef struct {
     /// Kinetic energy, with rotation [J].
@@ -476,6 +516,99 @@ typedef struct {
     /// Depth of the overlap of their surfaces [m], > 0.
     double depth;
 } CaromOverlap;
+
+/// Which bodies a query finds. carom_query_filter() returns one with default values. Null in its
+/// place stands for that one, too.
+typedef struct {
+    /// 1 to find spheres, else 0.
+    uint32_t spheres;
+    /// 1 to find colliders that deflect, else 0.
+    uint32_t colliders;
+    /// 1 to find triggers, else 0.
+    uint32_t triggers;
+    /// 1 to leave out the sphere `without_sphere`, else 0.
+    uint32_t leaves_out_sphere;
+    /// Id of the sphere that is left out.
+    uint64_t without_sphere;
+    /// Groups that the query is in, one bit for each, as if it were a body.
+    uint32_t groups;
+    /// Groups that the query collides with, one bit for each.
+    uint32_t collides_with;
+} CaromQueryFilter;
+
+/// A ray.
+typedef struct {
+    /// Where it starts [m].
+    double origin[3];
+    /// From there to its end [m].
+    double way[3];
+} CaromRay;
+
+/// What a ray or a moving sphere meets first.
+typedef struct {
+    /// 1 if it meets a body, 0 if it meets nothing; then all other fields are 0.
+    uint32_t is_hit;
+    /// 1 if the body is a collider, 0 if it is a sphere.
+    uint32_t is_collider;
+    /// Id of the body.
+    uint64_t body;
+    /// Point on the surface of the body [m].
+    double point[3];
+    /// Unit normal of the body there, out of it.
+    double normal[3];
+    /// Part of the way before, 0 to 1.
+    double fraction;
+} CaromHit;
+
+/// A sphere that moves straight.
+typedef struct {
+    /// Centre where it starts [m].
+    double center[3];
+    /// Radius [m], > 0.
+    double radius;
+    /// From there to its end [m].
+    double way[3];
+} CaromMovingSphere;
+
+/// A body near a place.
+typedef struct {
+    /// 1 if there is a body, 0 if there is none; then all other fields are 0.
+    uint32_t is_found;
+    /// 1 if the body is a collider, 0 if it is a sphere.
+    uint32_t is_collider;
+    /// Id of the body.
+    uint64_t body;
+    /// The nearest point of its surface [m].
+    double point[3];
+    /// Unit normal of the body there, out of it.
+    double normal[3];
+    /// Distance of the surfaces [m], negative if they overlap.
+    double distance;
+} CaromNearBody;
+
+/// A handle of a predicted path. It is never reused; zero is no path.
+typedef struct {
+    /// The handle.
+    uint64_t id;
+} CaromPath;
+
+/// A piece of a predicted path: a flight from an event to the next.
+typedef struct {
+    /// When it begins, on the world's clock [s].
+    double start;
+    /// When it ends, on the world's clock [s].
+    double end;
+    /// When the flight's own time is 0, on the world's clock [s]; it may be before `start`.
+    double flight_start;
+    /// Centre then [m].
+    double position[3];
+    /// Velocity then [m/s].
+    double velocity[3];
+    /// Acceleration by everything but drag [m/s^2].
+    double acceleration[3];
+    /// Drag coefficient over mass [1/s], >= 0.
+    double drag_rate;
+} CaromPathLeg;
 
 /// A handle of a snapshot, the state of a world at one time. It is never reused; zero is no
 /// snapshot.
@@ -615,6 +748,28 @@ CaromStatus carom_world_write(CaromWorld world, int32_t quantity, const double *
 /// Writes a quantity as carom_world_write() does, from 32-bit numbers.
 CaromStatus carom_world_write_f32(CaromWorld world, int32_t quantity, const float *values, size_t stride, size_t count);
 
+/// Applies an impulse, three numbers [N s], to a sphere at its centre: its velocity changes by the
+/// impulse over its mass.
+CaromStatus carom_world_apply_impulse(CaromWorld world, uint64_t sphere, const double *impulse);
+
+/// Applies an impulse [N s] to a sphere at a point [m], three numbers each: its velocity changes as
+/// by carom_world_apply_impulse(), its angular velocity by (point - centre) x impulse over its
+/// moment of inertia.
+CaromStatus carom_world_apply_impulse_at(CaromWorld world, uint64_t sphere, const double *impulse, const double *point);
+
+/// Reads the groups that a sphere is in and those that it collides with, one bit for each of 32.
+CaromStatus carom_world_groups(CaromWorld world, uint64_t sphere, uint32_t *groups, uint32_t *collides_with);
+
+/// Sets the groups that a sphere is in and those that it collides with, one bit for each of 32. Two
+/// bodies collide if each is in a group that the other collides with.
+CaromStatus carom_world_set_groups(CaromWorld world, uint64_t sphere, uint32_t groups, uint32_t collides_with);
+
+/// Reads the number of a sphere for programs; 0 unless it was set.
+CaromStatus carom_world_user_data(CaromWorld world, uint64_t sphere, uint64_t *user_data);
+
+/// Sets the number of a sphere for programs; it is no part of the physics.
+CaromStatus carom_world_set_user_data(CaromWorld world, uint64_t sphere, uint64_t user_data);
+
 /// Returns a solid half-space below y = 0, at rest, with restitution 1 and without its own
 /// friction. Its `radius` and `size` are 1 m.
 CaromCollider carom_collider(void);
@@ -671,6 +826,9 @@ CaromStatus carom_world_remove_emitter(CaromWorld world, uint64_t id);
 /// Reads counts and energies of the last step; all are 0 after carom_world_restore().
 CaromStatus carom_world_report(CaromWorld world, CaromReport *report);
 
+/// Reads the work of the kicks of colliders in the last step [J]; 0 after carom_world_restore().
+CaromStatus carom_world_kick_work(CaromWorld world, double *work);
+
 /// Reads the impacts of the last step in order of time, in the way of carom_world_ids().
 CaromStatus carom_world_impacts(CaromWorld world, CaromImpact *impacts, size_t stride, size_t capacity, size_t *count);
 
@@ -682,12 +840,61 @@ CaromStatus carom_world_contacts(CaromWorld world, CaromContact *contacts, size_
 /// carom_world_ids().
 CaromStatus carom_world_triggers(CaromWorld world, CaromTrigger *triggers, size_t stride, size_t capacity, size_t *count);
 
+/// Reads which spheres entered and left triggers in the last step, in order of time, in the way of
+/// carom_world_ids(): all of them, however small the trigger and however fast the sphere.
+CaromStatus carom_world_sensor_events(CaromWorld world, CaromSensorEvent *events, size_t stride, size_t capacity, size_t *count);
+
 /// Reads the total energies and momenta of all spheres.
 CaromStatus carom_world_totals(CaromWorld world, CaromTotals *totals);
 
 /// Reads which spheres overlap each other (if spheres collide) or a solid collider by more than
 /// `tolerance` [m], in the way of carom_world_ids().
 CaromStatus carom_world_overlaps(CaromWorld world, double tolerance, CaromOverlap *overlaps, size_t stride, size_t capacity, size_t *count);
+
+/// Returns a filter that finds spheres and colliders, but no triggers.
+CaromQueryFilter carom_query_filter(void);
+
+/// Reads what `count` rays meet first into `hits`, which has room for as many; both are without
+/// gaps. A rectangle is met from its front only. One call with many rays is much faster than as
+/// many calls.
+CaromStatus carom_world_cast_rays(CaromWorld world, const CaromRay *rays, size_t count, const CaromQueryFilter *filter, CaromHit *hits);
+
+/// Reads what `count` moving spheres meet first into `hits`, in the way of carom_world_cast_rays().
+CaromStatus carom_world_cast_spheres(CaromWorld world, const CaromMovingSphere *spheres, size_t count, const CaromQueryFilter *filter, CaromHit *hits);
+
+/// Reads the body nearest to a point, three numbers [m], if its surface is at most `within` [m]
+/// away, which may be infinite.
+CaromStatus carom_world_nearest(CaromWorld world, const double *point, double within, const CaromQueryFilter *filter, CaromNearBody *nearest);
+
+/// Reads the bodies that touch or overlap a sphere, whose `way` is not used: spheres first, then
+/// colliders, in the order of ids. Writes their number to `count`; if `bodies` is null, only that.
+/// More than `capacity` bodies, which are without gaps, are an error.
+CaromStatus carom_world_overlapping(CaromWorld world, const CaromMovingSphere *sphere, const CaromQueryFilter *filter, CaromNearBody *bodies, size_t capacity, size_t *count);
+
+/// Predicts the path of a sphere for `horizon` [s], or up to its impact number `most_impacts`, and
+/// writes its handle. The world does not change. The other spheres keep to their flights, but for
+/// those that the sphere strikes. While nothing else interferes, steps under the rule `exact` give
+/// the same to the bit. Springs, and forces that are not linear, are refused.
+CaromStatus carom_world_predict(CaromWorld world, uint64_t sphere, double horizon, size_t most_impacts, CaromPath *path);
+
+/// Frees a path.
+CaromStatus carom_path_free(CaromPath path);
+
+/// Reads where a path ends (CaromPathEnd), and when, on the world's clock [s].
+CaromStatus carom_path_end(CaromPath path, int32_t *end, double *time);
+
+/// Reads centre [m] and velocity [m/s], three numbers each, at a time on the world's clock [s]; at
+/// an event those after it. In a periodic box the centre is within it. A time outside of the path
+/// is CAROM_STATUS_INVALID.
+CaromStatus carom_path_at(CaromPath path, double time, double *position, double *velocity);
+
+/// Reads the impacts of the sphere on its way in the way of carom_world_ids(). Their times are from
+/// the prediction on.
+CaromStatus carom_path_impacts(CaromPath path, CaromImpact *impacts, size_t stride, size_t capacity, size_t *count);
+
+/// Reads the legs of a path, one after the other without gaps in time, in the way of
+/// carom_world_ids().
+CaromStatus carom_path_legs(CaromPath path, CaromPathLeg *legs, size_t stride, size_t capacity, size_t *count);
 
 /// Takes a snapshot of everything that the future of a world depends on.
 CaromStatus carom_world_snapshot(CaromWorld world, CaromSnapshot *snapshot);

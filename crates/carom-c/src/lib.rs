@@ -1,6 +1,6 @@
 //! The C interface of Carom, declared in `include/carom.h`: conversions only, no physics.
 //!
-//! - A program holds worlds and snapshots by handles (`handle`). A handle is never reused, so that
+//! - A program holds worlds, snapshots and paths by handles (`handle`). A handle is never reused, so that
 //!   a stale one is an error.
 //! - Each function returns a [`CaromStatus`]; the message of the last error is stored per thread
 //!   (`status`). No panic leaves a function.
@@ -22,8 +22,11 @@ mod force;
 mod handle;
 mod listing;
 mod measures;
+mod motion;
+mod path;
 mod pointer;
 mod quantity;
+mod query;
 mod report;
 mod scene;
 mod snapshot;
@@ -38,7 +41,10 @@ pub use collider::*;
 pub use force::*;
 pub use listing::*;
 pub use measures::*;
+pub use motion::*;
+pub use path::*;
 pub use quantity::*;
+pub use query::*;
 pub use report::*;
 pub use scene::*;
 pub use snapshot::*;

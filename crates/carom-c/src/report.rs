@@ -1,6 +1,6 @@
 //! Events of the last step, and persistent contacts.
 
-use carom::{BodyPair, Impact, Overlap, PersistentContact, TriggerContact};
+use carom::{BodyPair, Impact, Overlap, PersistentContact, SensorEvent, TriggerContact};
 
 use crate::pointer::{Out, Room, Strided};
 use crate::status::{CaromStatus, call};
@@ -54,7 +54,8 @@ pub struct CaromImpact {
     pub tangential_impulse: [f64; 3],
 }
 
-fn impact(impact: &Impact) -> CaromImpact {
+/// Converts an impact for C.
+pub(crate) fn impact(impact: &Impact) -> CaromImpact {
     CaromImpact {
         time: impact.time,
         bodies: impact.between.into(),
@@ -122,6 +123,38 @@ fn trigger(trigger: &TriggerContact) -> CaromTrigger {
     }
 }
 
+/// A sphere that enters a trigger or leaves it.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct CaromSensorEvent {
+    /// Time since the start of the step [s].
+    pub time: f64,
+    /// Id of the trigger.
+    pub collider: u64,
+    /// Id of the sphere.
+    pub sphere: u64,
+    /// 1 if the sphere enters, 0 if it leaves.
+    pub enters: u64,
+    /// Point on the trigger's surface [m].
+    pub point: [f64; 3],
+    /// Unit normal from the trigger's surface to the sphere.
+    pub normal: [f64; 3],
+    /// Speed of the sphere relative to the trigger [m/s].
+    pub speed: f64,
+}
+
+fn sensor_event(event: &SensorEvent) -> CaromSensorEvent {
+    CaromSensorEvent {
+        time: event.time,
+        collider: event.collider.number(),
+        sphere: event.sphere.number(),
+        enters: event.enters.into(),
+        point: event.point.to_array(),
+        normal: event.normal.to_array(),
+        speed: event.speed,
+    }
+}
+
 /// Two bodies that overlap.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -163,7 +196,8 @@ pub struct CaromReport {
     /// Work of the correction of overlaps [J].
     pub correction_work: f64,
     /// Energy of emitted spheres minus that of removed ones [J]. The total energy changes by these
-    /// four, by the work of forces without a potential, and by the error of the integration.
+    /// four, by carom_world_kick_work(), by the work of forces without a potential, and by the error
+    /// of the integration.
     pub emission_energy: f64,
     /// Under the rule `contact`: largest change of an impulse in the last sweep, relative to the
     /// largest impulse.
@@ -198,6 +232,14 @@ pub unsafe extern "C" fn carom_world_report(
             largest_overlap: account.largest_overlap,
         }
     })
+}
+
+/// Reads the work of the kicks of colliders in the last step [J]; 0 after carom_world_restore().
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carom_world_kick_work(world: CaromWorld, work: *mut f64) -> CaromStatus {
+    // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
+    let place = unsafe { Out::new(work, "work") };
+    world.measure(place, |inner| inner.world.report().energy_account.kicks)
 }
 
 /// Reads the impacts of the last step in order of time, in the way of carom_world_ids().
@@ -250,5 +292,23 @@ pub unsafe extern "C" fn carom_world_triggers(
         // SAFETY: the caller's array and pointer are null or valid, as the header demands.
         let room = unsafe { Room::new(triggers, array, count, "triggers") }?;
         world.with(|inner| room.fill(inner.world.report().triggers.iter().map(trigger)))
+    })
+}
+
+/// Reads which spheres entered and left triggers in the last step, in order of time, in the way of
+/// carom_world_ids(): all of them, however small the trigger and however fast the sphere.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carom_world_sensor_events(
+    world: CaromWorld,
+    events: *mut CaromSensorEvent,
+    stride: usize,
+    capacity: usize,
+    count: *mut usize,
+) -> CaromStatus {
+    call(|| {
+        let array = Strided { stride, count: capacity };
+        // SAFETY: the caller's array and pointer are null or valid, as the header demands.
+        let room = unsafe { Room::new(events, array, count, "events") }?;
+        world.with(|inner| room.fill(inner.world.report().sensor_events.iter().map(sensor_event)))
     })
 }

@@ -1,4 +1,4 @@
-//! The header matches the sources, and `examples/every_function.c` calls each of its functions.
+//! The header matches the sources, and two programs in `examples` call each of its functions.
 //!
 //! `cargo xtask header` lets the first test rewrite the header.
 
@@ -9,9 +9,9 @@ use std::path::Path;
 use cbindgen::{Builder, Config};
 
 /// The sources in the order of their declarations in the header.
-const SOURCES: [&str; 14] = [
-    "version", "status", "world", "scene", "step", "sphere", "quantity", "collider", "force",
-    "spring", "listing", "report", "measures", "snapshot",
+const SOURCES: [&str; 17] = [
+    "version", "status", "world", "scene", "step", "sphere", "quantity", "motion", "collider",
+    "force", "spring", "listing", "report", "measures", "query", "path", "snapshot",
 ];
 /// Sources without declarations in the header.
 const OTHERS: [&str; 4] = ["described", "handle", "lib", "pointer"];
@@ -73,8 +73,9 @@ fn called(line: &str) -> Vec<String> {
 
 #[test]
 fn a_program_calls_every_function_of_the_header() {
-    let program = fs::read_to_string(folder().join("examples/every_function.c")).unwrap();
-    let code = program.lines().filter(|line| !line.trim().starts_with("//"));
+    let read = |name: &str| fs::read_to_string(folder().join("examples").join(name)).unwrap();
+    let programs = ["every_function.c", "every_query.c"].map(read).concat();
+    let code = programs.lines().filter(|line| !line.trim().starts_with("//"));
     let called: BTreeSet<String> = code.flat_map(called).collect();
     let declared = functions();
     assert!(declared.len() > 50, "{declared:?}");

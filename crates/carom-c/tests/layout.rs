@@ -41,6 +41,17 @@ fn structures_of_version_2_lie_as_they_did() {
     assert_eq!(collider, [16, 72, 152]);
     let impact = [offset_of!(CaromImpact, point), offset_of!(CaromImpact, tangential_impulse)];
     assert_eq!(impact, [32, 104]);
+    let of_queries = [
+        size_of::<CaromQueryFilter>(),
+        size_of::<CaromRay>(),
+        size_of::<CaromMovingSphere>(),
+        size_of::<CaromHit>(),
+        size_of::<CaromNearBody>(),
+        size_of::<CaromSensorEvent>(),
+        size_of::<CaromPath>(),
+        size_of::<CaromPathLeg>(),
+    ];
+    assert_eq!(of_queries, [32, 48, 56, 72, 72, 88, 8, 104]);
     assert_eq!(size_of::<CaromSpring>(), 72);
     let spring = [offset_of!(CaromSpring, to_point), offset_of!(CaromSpring, rest_length)];
     assert_eq!(spring, [16, 48]);
@@ -54,4 +65,5 @@ fn constants_of_version_2_are_what_they_were() {
     assert_eq!(CaromSide::Front as i32, 32);
     assert_eq!(CaromList::LeftOut as i32, 6);
     assert_eq!(CaromList::Springs as i32, 7);
+    assert_eq!(CaromPathEnd::NoClosedForm as i32, 2);
 }

@@ -147,7 +147,8 @@ fn bad_handle(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatus]) {
     let world = bench.pick(&bench.bad.clone());
     let (mut number, mut count, mut id) = (0.0, 0_usize, 0_u64);
     let (sphere, collider) = (carom_sphere(), carom_collider());
-    let function = bench.below(16);
+    let (ray, mut hit, mut path) = (CaromRay::default(), CaromHit::default(), CaromPath::default());
+    let function = bench.below(20);
     // SAFETY: all places are there.
     let status = unsafe {
         match function {
@@ -166,6 +167,10 @@ fn bad_handle(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatus]) {
             12 => carom_world_ids(world, 0, null_mut(), 0, 0, &raw mut count),
             13 => carom_world_add_toml(world, c"".as_ptr(), null_mut()),
             14 => carom_world_remove_spheres(world, &raw const id, 1),
+            15 => carom_world_cast_rays(world, &raw const ray, 1, null(), &raw mut hit),
+            16 => carom_world_predict(world, 0, 1.0, 1, &raw mut path),
+            17 => carom_world_sensor_events(world, null_mut(), 0, 0, &raw mut count),
+            18 => carom_path_free(CaromPath { id: world.id }),
             _ => carom_world_impacts(world, null_mut(), 0, 0, &raw mut count),
         }
     };
@@ -191,7 +196,8 @@ fn bad_snapshot(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatus]) {
 
 /// Passes null for a result.
 fn null_result(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatus]) {
-    let (world, function) = (bench.world, bench.below(14));
+    let (world, function) = (bench.world, bench.below(18));
+    let (ray, point) = (CaromRay::default(), [0.0; 3]);
     // SAFETY: null is refused.
     let status = unsafe {
         match function {
@@ -208,6 +214,10 @@ fn null_result(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatus]) {
             10 => carom_world_snapshot(world, null_mut()),
             11 => carom_world_read(world, 0, null_mut(), 0, bench.count()),
             12 => carom_world_index_of(world, 0, null_mut()),
+            13 => carom_world_predict(world, 0, 1.0, 1, null_mut()),
+            14 => carom_world_cast_rays(world, &raw const ray, 1, null(), null_mut()),
+            15 => carom_world_nearest(world, point.as_ptr(), 1.0, null(), null_mut()),
+            16 => carom_world_user_data(world, 0, null_mut()),
             _ => carom_world_next_event_time(world, 1.0, null_mut()),
         }
     };
@@ -216,8 +226,9 @@ fn null_result(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatus]) {
 
 /// Passes null for an argument.
 fn null_argument(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatus]) {
-    let (world, function, mut made) = (bench.world, bench.below(12), CaromWorld::default());
-    let mut snapshot = CaromSnapshot::default();
+    let (world, function, mut made) = (bench.world, bench.below(15), CaromWorld::default());
+    let (mut snapshot, mut hit) = (CaromSnapshot::default(), CaromHit::default());
+    let (mut near, mut count) = (CaromNearBody::default(), 0);
     let none =
         CaromForce { force: None, potential_energy: None, user_data: null_mut(), destroy: None };
     // SAFETY: null is refused.
@@ -234,6 +245,9 @@ fn null_argument(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatus]) {
             8 => carom_world_from_toml(null(), null(), 0, &raw mut made),
             9 => carom_world_from_scene(c"cradle".as_ptr(), null(), 1, &raw mut made),
             10 => carom_snapshot_from_bytes(null(), 9, &raw mut snapshot),
+            11 => carom_world_cast_rays(world, null(), 1, null(), &raw mut hit),
+            12 => carom_world_nearest(world, null(), 1.0, null(), &raw mut near),
+            13 => carom_world_overlapping(world, null(), null(), null_mut(), 0, &raw mut count),
             _ => carom_world_add_toml(world, null(), null_mut()),
         }
     };
@@ -322,11 +336,13 @@ fn no_constant(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatus]) {
 fn no_number_in_a_step(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatus]) {
     let (world, number) = (bench.world, bench.no_number());
     let number = bench.pick(&[number, 0.0, -0.0, -1.0]);
-    let (mut time, function) = (0.0, bench.below(2));
-    // SAFETY: a place for a time.
+    let (mut time, function) = (0.0, bench.below(3));
+    let mut path = CaromPath::default();
+    // SAFETY: places for a time and a path.
     let status = unsafe {
         match function {
             0 => carom_world_step(world, number),
+            1 => carom_world_predict(world, 0, number, 9, &raw mut path),
             _ => carom_world_next_event_time(world, number, &raw mut time),
         }
     };
@@ -428,7 +444,8 @@ fn no_number_in_a_force(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatu
 }
 
 fn no_such_id(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatus]) {
-    let (world, id, function) = (bench.world, bench.no_id(), bench.below(8));
+    let (world, id, function) = (bench.world, bench.no_id(), bench.below(11));
+    let (impulse, mut path) = ([0.0; 3], CaromPath::default());
     let (mut sphere, mut collider, mut index) = (carom_sphere(), carom_collider(), 0);
     // SAFETY: all places are there.
     let status = unsafe {
@@ -440,6 +457,9 @@ fn no_such_id(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatus]) {
             4 => carom_world_set_collider(world, id, &raw const collider),
             5 => carom_world_remove_collider(world, id),
             6 => carom_world_remove_force(world, id),
+            7 => carom_world_predict(world, id, 1.0, 9, &raw mut path),
+            8 => carom_world_apply_impulse(world, id, impulse.as_ptr()),
+            9 => carom_world_set_groups(world, id, 1, 1),
             _ => carom_world_index_of(world, id, &raw mut index),
         }
     };

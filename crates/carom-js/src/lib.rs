@@ -22,8 +22,11 @@ mod find;
 mod frictions;
 mod impact_table;
 mod members;
+mod motion;
 mod next_event;
 mod place;
+mod predicted_path;
+mod queries;
 mod snapshot;
 mod springs;
 mod world;
@@ -34,6 +37,8 @@ use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 pub use failure::Failure;
+pub use predicted_path::Path;
+pub use queries::Filter;
 pub use snapshot::Snapshot;
 pub use world::World;
 

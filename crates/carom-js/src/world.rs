@@ -238,6 +238,21 @@ impl World {
         let triggers = self.world.report().triggers.iter();
         triggers.flat_map(|it| [it.collider.number() as f64, it.sphere.number() as f64]).collect()
     }
+
+    /// Returns the entries of spheres into triggers and the exits in rows: time, collider, sphere,
+    /// 1 if the sphere enters or 0 if it leaves, point, normal, speed.
+    #[wasm_bindgen(getter, js_name = sensorEvents)]
+    pub fn sensor_events(&self) -> Vec<f64> {
+        let mut table = Vec::new();
+        for event in &self.world.report().sensor_events {
+            table.extend([event.time, event.collider.number() as f64]);
+            table.extend([event.sphere.number() as f64, f64::from(event.enters)]);
+            table.extend(event.point.to_array());
+            table.extend(event.normal.to_array());
+            table.push(event.speed);
+        }
+        table
+    }
 }
 
 fn numbers(ids: &[SphereId]) -> Vec<f64> {

@@ -389,6 +389,15 @@ impl Engine {
         Ok(PyArray1::from_vec(py, table.into_words()))
     }
 
+    /// Returns the events of sensors as words.
+    #[pyo3(name = "_sensor_event_words")]
+    fn sensor_event_words<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u64>>> {
+        let inner = &*self.lock(py)?;
+        let mut table = Table::default();
+        table.push_sensor_events(inner.frame_start, &inner.world.report().sensor_events);
+        Ok(PyArray1::from_vec(py, table.into_words()))
+    }
+
     /// Returns the overlaps deeper than `tolerance` [m] as words.
     #[pyo3(name = "_overlap_words")]
     fn overlap_words<'py>(

@@ -32,14 +32,17 @@ mod imports;
 #[cfg(feature = "pictures")]
 mod look;
 mod maze;
+mod motion;
 mod next_event;
 #[cfg(feature = "pictures")]
 mod painter;
 mod pairs;
 mod part;
 mod points;
+mod predicted_path;
 mod properties;
 mod quantity;
+mod queries;
 mod recording;
 mod running;
 mod scenes;
@@ -56,6 +59,7 @@ pub use engine::Engine;
 pub use maze::MazeEpisodes;
 #[cfg(feature = "pictures")]
 pub use painter::Painter;
+pub use predicted_path::Path;
 pub use snapshot::Snapshot;
 
 /// The same allocator as in the program `carom`. NumPy uses its own.
@@ -75,6 +79,8 @@ mod _carom {
     #[cfg(feature = "pictures")]
     #[pymodule_export]
     use crate::Painter;
+    #[pymodule_export]
+    use crate::Path;
     #[pymodule_export]
     use crate::Snapshot;
     #[pymodule_export]

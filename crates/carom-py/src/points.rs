@@ -1,37 +1,42 @@
 //! Passes many spheres between Python and scenes as arrays, without text or an object for each.
 
-use carom::{Sphere, World};
+use carom::{DVec3, Sphere, World};
 use carom_scene::scene::{self, Finish};
 use carom_scene::{Paint, Palette};
-use numpy::PyArrayDyn;
+use numpy::{PyArray1, PyArrayDyn, PyReadonlyArray1};
 use pyo3::prelude::*;
 
 use crate::arguments;
 use crate::arrays::shaped;
 use crate::failure::Failure;
 use crate::quantity::{Column, Quantity};
-use crate::setting::sphere_at;
+use crate::setting::{Label, sphere_at};
 
 /// Number of spheres; their quantities in the order of [`Quantity::OF_A_SPHERE`], with the defaults
 /// of [`carom::Sphere::new`] for missing ones; red, green and blue of each, NaN if it has no
-/// colour; finishes.
+/// colour; finishes; labels in the order of [`Label::ALL`].
 pub type Given<'py> = (
     usize,
     [Option<Bound<'py, PyAny>>; Quantity::OF_A_SPHERE.len()],
     Option<Bound<'py, PyAny>>,
     Option<Vec<String>>,
+    [Option<PyReadonlyArray1<'py, u64>>; Label::ALL.len()],
 );
 
-/// Quantities, colours and finishes as in [`Given`].
-pub type Told<'py> =
-    (Vec<Bound<'py, PyArrayDyn<f64>>>, Option<Bound<'py, PyArrayDyn<f64>>>, Option<Vec<String>>);
+/// Quantities, colours, finishes and labels as in [`Given`].
+pub type Told<'py> = (
+    Vec<Bound<'py, PyArrayDyn<f64>>>,
+    Option<Bound<'py, PyArrayDyn<f64>>>,
+    Option<Vec<String>>,
+    Vec<Option<Bound<'py, PyArray1<u64>>>>,
+);
 
 /// Reads the given spheres and the look of each.
 ///
 /// # Errors
-/// As [`arguments::array`], and [`Failure`] for an unknown finish.
+/// As [`arguments::array`], and [`Failure`] for an unknown finish, or a label with too many bits.
 pub fn read(
-    (count, quantities, colors, finishes): Given<'_>,
+    (count, quantities, colors, finishes, labels): Given<'_>,
 ) -> PyResult<(Vec<Sphere>, Vec<Paint>)> {
     let read = |(quantity, values): (Quantity, Option<_>)| {
         let array = |values| arguments::array(quantity.name(), &values, &quantity.shape(count));
@@ -39,7 +44,13 @@ pub fn read(
     };
     let given = Quantity::OF_A_SPHERE.into_iter().zip(quantities);
     let columns: Vec<Column> = given.filter_map(read).collect::<PyResult<_>>()?;
-    let spheres = (0..count).map(|index| sphere_at(&columns, index)).collect();
+    let mut spheres: Vec<Sphere> = (0..count).map(|index| sphere_at(&columns, index)).collect();
+    for (label, values) in Label::ALL.into_iter().zip(labels) {
+        let Some(values) = values else { continue };
+        for (sphere, &value) in spheres.iter_mut().zip(values.as_slice()?) {
+            *sphere = label.changed(*sphere, value)?;
+        }
+    }
     let colors =
         colors.map(|colors| arguments::array("colors", &colors, &[count, 3])).transpose()?;
     let finishes = finishes.unwrap_or_default();
@@ -80,7 +91,14 @@ pub fn told<'py>(py: Python<'py>, world: &World, palette: &Palette) -> PyResult<
     let has_finishes = paints.iter().any(|paint| paint.finish != Finish::default());
     let finishes = has_finishes.then(|| paints.iter().map(|paint| name(paint.finish)).collect());
     let finishes = finishes.transpose()?;
-    Ok((arrays, colors, finishes))
+    let labels = Label::ALL.into_iter().map(|label| {
+        let values = (0..spheres.len()).map(|index| label.of(&spheres.get(index)));
+        let values: Vec<u64> = values.collect();
+        let usual = label.of(&Sphere::new(DVec3::ZERO, 1.0));
+        values.iter().any(|&value| value != usual).then(|| PyArray1::from_vec(py, values))
+    });
+    let labels = labels.collect();
+    Ok((arrays, colors, finishes, labels))
 }
 
 fn finish(name: &str) -> Result<Finish, Failure> {

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, TryReserveError};
 use std::sync::Arc;
 
-use carom::{Impact, SphereId, World};
+use carom::{SphereId, StepReport, World};
 
 use crate::failure::Failure;
 use crate::quantity::Quantity;
@@ -19,6 +19,8 @@ pub struct Selection {
     pub is_single: bool,
     /// Whether impacts are recorded, too.
     pub has_impacts: bool,
+    /// Whether events of sensors are recorded, too.
+    pub has_sensor_events: bool,
 }
 
 /// Rows of states, one for each recorded frame.
@@ -35,8 +37,11 @@ pub struct Recording {
     /// Last radius \[m\] and mass \[kg\] of every sphere of any row.
     known: BTreeMap<SphereId, [f64; 2]>,
     /// Impacts of all frames, also of frames that are not recorded, if impacts are selected.
-    pub impacts: Table,
+    impacts: Table,
     has_impacts: bool,
+    /// Events of sensors in all frames, if they are selected.
+    sensor_events: Table,
+    has_sensor_events: bool,
 }
 
 /// The recorded rows, each with space for every sphere of any row.
@@ -103,6 +108,8 @@ impl Recording {
             known: BTreeMap::new(),
             impacts: Table::default(),
             has_impacts: selection.has_impacts,
+            sensor_events: Table::default(),
+            has_sensor_events: selection.has_sensor_events,
         })
     }
 
@@ -129,23 +136,30 @@ impl Recording {
         Ok(())
     }
 
-    /// Appends the impacts of a frame that started at `start` \[s\], if impacts are recorded.
+    /// Appends the impacts and the events of sensors of a frame that started at `start` \[s\], as
+    /// far as they are recorded.
     ///
     /// # Errors
     /// [`Failure`] if there is no memory for them.
-    pub fn push_impacts(&mut self, start: f64, impacts: &[Impact]) -> Result<(), Failure> {
+    pub fn push_events(&mut self, start: f64, report: &StepReport) -> Result<(), Failure> {
+        let StepReport { impacts, sensor_events, .. } = report;
         if self.has_impacts {
             self.impacts.reserve_impacts(impacts.len()).map_err(no_impact_room)?;
             self.impacts.push_impacts(start, impacts);
         }
+        if self.has_sensor_events {
+            let reserved = self.sensor_events.reserve_sensor_events(sensor_events.len());
+            reserved.map_err(no_sensor_event_room)?;
+            self.sensor_events.push_sensor_events(start, sensor_events);
+        }
         Ok(())
     }
 
-    /// Returns times, states and impacts.
+    /// Returns times, states, impacts, and events of sensors.
     ///
     /// # Errors
     /// [`Failure`] if there is no memory for them.
-    pub fn finish(self) -> Result<(Vec<f64>, States, Table), Failure> {
+    pub fn finish(self) -> Result<(Vec<f64>, States, [Table; 2]), Failure> {
         let ids: Vec<SphereId> = self.known.keys().copied().collect();
         let is_whole = self.members.iter().all(|members| **members == *ids);
         let mut motion = self.motion;
@@ -161,7 +175,7 @@ impl Recording {
             motion,
             ids,
         };
-        Ok((self.times, states, self.impacts))
+        Ok((self.times, states, [self.impacts, self.sensor_events]))
     }
 }
 
@@ -174,6 +188,12 @@ fn no_room(_: TryReserveError) -> Failure {
 
 fn no_impact_room(_: TryReserveError) -> Failure {
     Failure::memory("there is no memory for so many impacts: leave them out (impacts=False)")
+}
+
+fn no_sensor_event_room(_: TryReserveError) -> Failure {
+    let problem = "there is no memory for so many events of sensors: leave them out \
+                   (sensor_events=False)";
+    Failure::memory(problem)
 }
 
 impl Numbers {

@@ -18,14 +18,14 @@ use crate::recording::{Numbers, Recording, Selection};
 use crate::snapshot::Snapshot;
 use crate::stop::PATIENCE;
 
-/// Times, ids, radii, masses, impacts as words, the changing quantities with their names, and the
-/// exception that ended the run early.
+/// Times, ids, radii, masses, impacts and events of sensors as words, the changing quantities with
+/// their names, and the exception that ended the run early.
 type Arrays<'py> = (
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<u64>>,
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<f64>>,
-    Bound<'py, PyArray1<u64>>,
+    [Bound<'py, PyArray1<u64>>; 2],
     Vec<(&'static str, Bound<'py, PyAny>)>,
     Option<PyErr>,
 );
@@ -103,13 +103,15 @@ struct Named {
     quantities: Option<Vec<String>>,
     is_single: bool,
     has_impacts: bool,
+    has_sensor_events: bool,
 }
 
 impl Named {
     fn selection(self) -> Result<Selection, Failure> {
         let known = |names: Vec<String>| names.iter().map(|name| recorded(name)).collect();
         let quantities = self.quantities.map(known).transpose()?;
-        Ok(Selection { quantities, is_single: self.is_single, has_impacts: self.has_impacts })
+        let Self { is_single, has_impacts, has_sensor_events, .. } = self;
+        Ok(Selection { quantities, is_single, has_impacts, has_sensor_events })
     }
 }
 
@@ -165,7 +167,7 @@ fn take_frames(
     let watch = inner.heed_signals();
     for frame in frames {
         inner.take_frame(inner.frame_time(rhythm.dt), &watch)?;
-        recording.push_impacts(inner.frame_start, &inner.world.report().impacts)?;
+        recording.push_events(inner.frame_start, inner.world.report())?;
         if (frame + 1).is_multiple_of(rhythm.every) {
             recording.push(&inner.world)?;
         }
@@ -177,7 +179,7 @@ fn take_frames(
 }
 
 fn arrays_of(py: Python<'_>, recording: Recording, stopped: Option<PyErr>) -> PyResult<Arrays<'_>> {
-    let (times, states, impacts) = py.detach(|| recording.finish())?;
+    let (times, states, events) = py.detach(|| recording.finish())?;
     let rows = [times.len(), states.ids.len()];
     let named = |(quantity, numbers): (Quantity, Numbers)| {
         let shape = vec![rows[0], rows[1], quantity.width()];
@@ -193,7 +195,7 @@ fn arrays_of(py: Python<'_>, recording: Recording, stopped: Option<PyErr>) -> Py
         arrays::numbers(py, &states.ids),
         PyArray1::from_vec(py, states.radii),
         PyArray1::from_vec(py, states.masses),
-        PyArray1::from_vec(py, impacts.into_words()),
+        events.map(|table| PyArray1::from_vec(py, table.into_words())),
         motion,
         stopped,
     ))

@@ -1,6 +1,6 @@
 //! Sets quantities of spheres to values from Python.
 
-use carom::{DQuat, DVec3, Sphere, SphereId, SphereMotion, World};
+use carom::{DQuat, DVec3, Groups, Sphere, SphereId, SphereMotion, World};
 
 use crate::failure::Failure;
 use crate::quantity::{Column, Quantity};
@@ -67,6 +67,75 @@ pub fn changed(sphere: Sphere, quantity: Quantity, values: &[f64]) -> Sphere {
             sphere.with_friction(friction)
         }
     }
+}
+
+/// A whole number that all spheres have and forces know nothing of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Label {
+    Groups,
+    CollidesWith,
+    UserData,
+}
+
+impl Label {
+    pub const ALL: [Self; 3] = [Self::Groups, Self::CollidesWith, Self::UserData];
+
+    /// Returns the name in Python.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Groups => "groups",
+            Self::CollidesWith => "collides_with",
+            Self::UserData => "user_data",
+        }
+    }
+
+    /// Returns the label with a name.
+    ///
+    /// # Errors
+    /// [`Failure`] if none has it.
+    pub fn named(name: &str) -> Result<Self, Failure> {
+        let label = Self::ALL.into_iter().find(|label| label.name() == name);
+        label.ok_or_else(|| Failure::unknown("label", name))
+    }
+
+    /// Returns the label of a sphere.
+    pub fn of(self, sphere: &Sphere) -> u64 {
+        match self {
+            Self::Groups => sphere.groups.groups.into(),
+            Self::CollidesWith => sphere.groups.collides_with.into(),
+            Self::UserData => sphere.user_data,
+        }
+    }
+
+    /// Returns a sphere with another label.
+    ///
+    /// # Errors
+    /// [`Failure`] if it has more bits than there are groups.
+    pub fn changed(self, sphere: Sphere, label: u64) -> Result<Sphere, Failure> {
+        if self == Self::UserData {
+            return Ok(sphere.with_user_data(label));
+        }
+        let bits = u32::try_from(label).map_err(|_| {
+            Failure::value(self.name(), format_args!("must be in [0, 2^32), not {label}"))
+        })?;
+        let groups = match self {
+            Self::Groups => Groups { groups: bits, ..sphere.groups },
+            _ => Groups { collides_with: bits, ..sphere.groups },
+        };
+        Ok(sphere.with_groups(groups))
+    }
+}
+
+/// Sets a label of all spheres; if one is refused, none is set.
+pub fn set_labels(world: &mut World, label: Label, labels: &[u64]) -> Result<(), Failure> {
+    let spheres = world.spheres();
+    let changed = |(index, &value): (usize, &u64)| label.changed(spheres.get(index), value);
+    let changed: Vec<Sphere> = labels.iter().enumerate().map(changed).collect::<Result<_, _>>()?;
+    let ids = spheres.ids().to_vec();
+    for (id, sphere) in ids.into_iter().zip(changed) {
+        world.set_sphere(id, sphere)?;
+    }
+    Ok(())
 }
 
 /// Returns the sphere at an index of the columns.

@@ -6,7 +6,8 @@
 use std::collections::TryReserveError;
 
 use carom::{
-    BodyPair, Impact, LedgerEntry, Overlap, PersistentContact, StepReport, TriggerContact,
+    Body, BodyPair, DVec3, Hit, Impact, LedgerEntry, NearBody, Overlap, PathLeg, PersistentContact,
+    SensorEvent, StepReport, TriggerContact,
 };
 
 /// Rows of words; floating-point numbers are stored as their bits.
@@ -53,6 +54,58 @@ impl Table {
         }
     }
 
+    /// Reserves memory for `count` more events of sensors.
+    ///
+    /// # Errors
+    /// If there is no memory for them.
+    pub fn reserve_sensor_events(&mut self, count: usize) -> Result<(), TryReserveError> {
+        self.0.try_reserve(count * SENSOR_EVENT_WORDS)
+    }
+
+    /// Appends the events of sensors of a frame that started at `start` \[s\].
+    pub fn push_sensor_events(&mut self, start: f64, events: &[SensorEvent]) {
+        for event in events {
+            self.numbers([start + event.time]);
+            self.integers([event.collider.number() as i64, event.sphere.number() as i64]);
+            self.integers([i64::from(event.enters)]);
+            self.numbers(event.point.to_array());
+            self.numbers(event.normal.to_array());
+            self.numbers([event.speed]);
+        }
+    }
+
+    /// Appends what a ray or a sphere meets, or a row that says that it meets nothing.
+    pub fn push_hit(&mut self, hit: Option<Hit>) {
+        self.push_body(hit.map(|hit| hit.body));
+        self.numbers(hit.map_or(DVec3::NAN, |hit| hit.point).to_array());
+        self.numbers(hit.map_or(DVec3::NAN, |hit| hit.normal).to_array());
+        self.numbers([hit.map_or(f64::INFINITY, |hit| hit.fraction)]);
+    }
+
+    /// Appends a near body, or a row that says that there is none.
+    pub fn push_near(&mut self, near: Option<NearBody>) {
+        self.push_body(near.map(|near| near.body));
+        self.numbers(near.map_or(DVec3::NAN, |near| near.point).to_array());
+        self.numbers(near.map_or(DVec3::NAN, |near| near.normal).to_array());
+        self.numbers([near.map_or(f64::INFINITY, |near| near.distance)]);
+    }
+
+    /// Appends the number of a row.
+    pub fn push_row(&mut self, row: usize) {
+        self.integers([row as i64]);
+    }
+
+    /// Appends legs of a path.
+    pub fn push_legs(&mut self, legs: &[PathLeg]) {
+        for leg in legs {
+            self.numbers([leg.start, leg.end, leg.flight_start]);
+            self.numbers(leg.flight.position.to_array());
+            self.numbers(leg.flight.velocity.to_array());
+            self.numbers(leg.flight.acceleration.to_array());
+            self.numbers([leg.flight.drag_rate]);
+        }
+    }
+
     /// Appends persistent contacts.
     pub fn push_contacts(&mut self, contacts: &[PersistentContact]) {
         for contact in contacts {
@@ -91,6 +144,15 @@ impl Table {
         self.integers([collider, sphere_1, sphere_2.number() as i64]);
     }
 
+    /// Appends the ids of a body, of which it has one.
+    fn push_body(&mut self, body: Option<Body>) {
+        self.integers(match body {
+            Some(Body::Collider(collider)) => [collider.number() as i64, NOBODY],
+            Some(Body::Sphere(sphere)) => [NOBODY, sphere.number() as i64],
+            None => [NOBODY, NOBODY],
+        });
+    }
+
     fn integers<const N: usize>(&mut self, values: [i64; N]) {
         self.0.extend(values.map(i64::cast_unsigned));
     }
@@ -102,5 +164,7 @@ impl Table {
 
 /// Words per impact.
 const IMPACT_WORDS: usize = 16;
+/// Words per event of a sensor.
+const SENSOR_EVENT_WORDS: usize = 11;
 /// Replaces the id if body 1 is of the other kind.
 const NOBODY: i64 = -1;

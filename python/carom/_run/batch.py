@@ -169,6 +169,14 @@ class Batch(Strict, BatchEngine):
         """The spheres inside triggers: records of `carom.TRIGGER`, after a field ``world``."""
         return _of_worlds(*self._trigger_words(), tables.TRIGGER)
 
+    @property
+    def sensor_events(self) -> NDArray[np.void]:
+        """Who entered and left triggers: records of `carom.SENSOR_EVENT`, after a field ``world``.
+
+        Those of the last frame, a copy, in the order of worlds.
+        """
+        return _of_worlds(*self._sensor_event_words(), tables.SENSOR_EVENT)
+
     def _number(self, index: int) -> int:
         count = len(self)
         number = as_index(index)

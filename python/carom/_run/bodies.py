@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from carom._carom import Engine
 from carom._run import tables
 from carom._scene import parts
+from carom._scene.labels import labels_of
 from carom._scene.points import Points
 from carom._scene.text import read_part, read_parts, toml_value
 from carom.errors import CaromError, UnknownError
@@ -61,6 +62,9 @@ class Bodies(Engine):
         rolling_frictions: ArrayLike | None = None,
         spinning_frictions: ArrayLike | None = None,
         tangential_restitutions: ArrayLike | None = None,
+        groups: ArrayLike | None = None,
+        collides_with: ArrayLike | None = None,
+        user_data: ArrayLike | None = None,
         overlap: Literal["allow", "raise"] = "allow",
     ) -> NDArray[np.uint64]:
         """Adds n spheres, and returns their ids, shape (n,).
@@ -85,6 +89,12 @@ class Bodies(Engine):
             spinning_frictions: Coefficients of spinning friction, as ``frictions``.
             tangential_restitutions: Coefficients of tangential restitution in [0, 1], as
                 ``frictions``.
+            groups: Groups that they are in, one bit for each of 32, spread to shape (n,); the first
+                unless given.
+            collides_with: Groups that they collide with, one bit for each, spread to shape (n,);
+                all unless given.
+            user_data: Whole numbers for programs to find them by, spread to shape (n,); 0 unless
+                given.
             overlap: ``"raise"`` refuses spheres that overlap each other, or what is there.
 
         Raises:
@@ -113,6 +123,9 @@ class Bodies(Engine):
             "rolling_frictions": rolling_frictions,
             "spinning_frictions": spinning_frictions,
             "tangential_restitutions": tangential_restitutions,
+            "groups": groups,
+            "collides_with": collides_with,
+            "user_data": user_data,
         }
         named = {name: values for name, values in given.items() if values is not None}
         if _are_spheres(positions):
@@ -187,6 +200,50 @@ class Bodies(Engine):
         """
         parts.expect("sphere", sphere, parts.Sphere)
         self._set_sphere(id, f"spheres = [{toml_value(sphere, 'sphere')}]")
+
+    @property
+    def groups(self) -> NDArray[np.uint64]:
+        """Groups that spheres are in, one bit for each of 32, shape (n,). A copy; can be assigned.
+
+        >>> import carom
+        >>> world = carom.World()
+        >>> ids = world.add_spheres([(0, 0, 0), (3, 0, 0)], radii=1)
+        >>> world.groups = [0b01, 0b10]
+        >>> world.sphere(ids[1]).groups
+        2
+        """
+        return self._label("groups")
+
+    @groups.setter
+    def groups(self, values: ArrayLike) -> None:
+        self._set_labels("groups", labels_of("groups", values, len(self)))
+
+    @property
+    def collides_with(self) -> NDArray[np.uint64]:
+        """Groups that spheres collide with, one bit for each, shape (n,). A copy; can be assigned.
+
+        Two bodies collide if each is in a group that the other collides with.
+        """
+        return self._label("collides_with")
+
+    @collides_with.setter
+    def collides_with(self, values: ArrayLike) -> None:
+        self._set_labels("collides_with", labels_of("collides_with", values, len(self)))
+
+    @property
+    def user_data(self) -> NDArray[np.uint64]:
+        """Whole numbers for programs to find spheres by, shape (n,). A copy; can be assigned."""
+        return self._label("user_data")
+
+    @user_data.setter
+    def user_data(self, values: ArrayLike) -> None:
+        self._set_labels("user_data", labels_of("user_data", values, len(self)))
+
+    def _label(self, name: str) -> NDArray[np.uint64]:
+        labels = self._labels(name)
+        # What is written into a copy would be lost.
+        labels.flags.writeable = False
+        return labels
 
     # Springs
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from carom._carom import Engine
-from carom._run.tables import IMPACT, records
+from carom._run.tables import IMPACT, SENSOR_EVENT, records
 from carom._run.trajectory import RunRecord, Selection, Trajectory
 from carom._scene.points import spread
 from carom._scene.text import read_part
@@ -86,16 +86,23 @@ class Functions:
         every: int,
         selection: Selection,
     ) -> Trajectory:
-        """Takes frames, and records states and impacts as `World.run` does."""
+        """Takes frames, and records states and events as `World.run` does."""
         with self._lock:
             before = world.snapshot()
-            single = selection._replace(has_impacts=False)
+            single = selection._replace(has_impacts=False, has_sensor_events=False)
             states = [world._record(0, dt, 1, single)]
-            impacts: list[NDArray[np.void]] = []
+            events: dict[str, list[NDArray[np.void]]] = {}
+            if selection.has_impacts:
+                events["impacts"] = [np.empty(0, IMPACT)]
+            if selection.has_sensor_events:
+                events["sensor_events"] = [np.empty(0, SENSOR_EVENT)]
 
             def look(frame: int) -> None:
                 if selection.has_impacts:
-                    impacts.append(records(world._impact_words(), IMPACT))
+                    events["impacts"].append(records(world._impact_words(), IMPACT))
+                if selection.has_sensor_events:
+                    seen = records(world._sensor_event_words(), SENSOR_EVENT)
+                    events["sensor_events"].append(seen)
                 if (frame + 1) % every == 0:
                     states.append(world._record(0, dt, 1, single))
 
@@ -107,7 +114,7 @@ class Functions:
             except BaseException:
                 world.restore(before)
                 raise
-        trajectory = _joined(states, impacts if selection.has_impacts else None)
+        trajectory = _joined(states, events)
         if stopped is not None:
             stopped.trajectory = trajectory  # type: ignore[attr-defined]
             raise stopped
@@ -199,7 +206,7 @@ def count(name: str, given: object) -> int:
     return number
 
 
-def _joined(states: list[RunRecord], impacts: list[NDArray[np.void]] | None) -> Trajectory:
+def _joined(states: list[RunRecord], events: dict[str, list[NDArray[np.void]]]) -> Trajectory:
     """A trajectory of single states, each as the engine records it."""
     known: dict[int, tuple[float, float]] = {}
     for state in states:
@@ -212,8 +219,7 @@ def _joined(states: list[RunRecord], impacts: list[NDArray[np.void]] | None) -> 
         motion[name] = np.full(shape, np.nan, first.dtype)
         for place, state in enumerate(states):
             motion[name][place, np.searchsorted(all_ids, state[1])] = state[5][number][1][0]
-    if impacts is not None:
-        motion["impacts"] = np.concatenate([np.empty(0, IMPACT), *impacts])
+    motion.update({name: np.concatenate(parts) for name, parts in events.items()})
     return Trajectory(
         time=np.concatenate([state[0] for state in states]),
         ids=all_ids,

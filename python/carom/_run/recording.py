@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from carom._carom import Engine, Snapshot
 from carom._run.functions import count
-from carom._run.tables import IMPACT
+from carom._run.tables import IMPACT, SENSOR_EVENT
 from carom._run.trajectory import Recorded, Selection, Trajectory
 from carom.errors import CaromError
 
@@ -62,7 +62,7 @@ def run_into(
     out: Out,
     frames: int,
     every: int,
-    has_impacts: bool,
+    selection: Selection,
 ) -> Trajectory:
     """Takes frames, and records them as `World.run` does, into arrays with a row for each state.
 
@@ -72,15 +72,15 @@ def run_into(
         out: The arrays.
         frames: How many in all.
         every: A state is recorded after so many of them.
-        has_impacts: Whether impacts are recorded, too.
+        selection: Which events are recorded, too; of states it is what there are arrays for.
     """
     rows = frames // every + 1
     _check(out, rows, len(world))
     size = sum(array[0].nbytes for array in out.values())
     block = every * max(1, _BLOCK_BYTES // max(size, 1))
     before = world.snapshot()
-    record = _Record(out, rows, world.ids.copy(), has_impacts)
-    selection = Selection(list(out), False, has_impacts)
+    selection = selection._replace(quantities=list(out), is_single=False)
+    record = _Record(out, rows, world.ids.copy(), selection)
     stopped = None
     # One assignment each: Ctrl-C may come between any two instructions.
     first = take(0, selection)
@@ -121,11 +121,15 @@ class _Piece(NamedTuple):
 class _Record:
     """What the pieces of a run have put into its arrays. To keep a piece again changes nothing."""
 
-    def __init__(self, out: Out, rows: int, ids: NDArray[np.uint64], has_impacts: bool) -> None:
-        self._out, self._ids, self._has_impacts = out, ids, has_impacts
+    def __init__(self, out: Out, rows: int, ids: NDArray[np.uint64], selection: Selection) -> None:
+        self._out, self._ids = out, ids
         self._time = np.empty(rows)
         self._rows = 0
-        self._impacts: dict[int, NDArray[np.void]] = {}
+        self._events: dict[str, dict[int, NDArray[np.void]]] = {}
+        if selection.has_impacts:
+            self._events["impacts"] = {-1: np.empty(0, IMPACT)}
+        if selection.has_sensor_events:
+            self._events["sensor_events"] = {-1: np.empty(0, SENSOR_EVENT)}
 
     def keep(self, row: int, piece: Trajectory) -> None:
         """Writes a piece that begins with the state of a row.
@@ -140,15 +144,15 @@ class _Record:
         self._time[row:end] = piece.time
         for name, array in self._out.items():
             array[row:end] = getattr(piece, name)
-        if self._has_impacts:
-            self._impacts[row] = piece.impacts
+        for kind, parts in self._events.items():
+            parts[row] = getattr(piece, kind)
         self._rows = end
 
     def trajectory(self, world: Engine) -> Trajectory:
         """Returns what was kept."""
         recorded: dict[str, Any] = {name: array[: self._rows] for name, array in self._out.items()}
-        if self._has_impacts:
-            recorded["impacts"] = np.concatenate([np.empty(0, IMPACT), *self._impacts.values()])
+        for kind, parts in self._events.items():
+            recorded[kind] = np.concatenate(list(parts.values()))
         return Trajectory(
             time=self._time[: self._rows],
             ids=self._ids,

@@ -68,6 +68,105 @@ TRIGGER = np.dtype(
 """A sphere inside a trigger at the end of a frame: both ids, the nearest point of its surface [m],
 and the unit normal there."""
 
+SENSOR_EVENT = np.dtype(
+    [
+        ("time", "f8"),
+        ("collider", "i8"),
+        ("sphere", "i8"),
+        ("enters", "i8"),
+        ("point", "f8", (3,)),
+        ("normal", "f8", (3,)),
+        ("speed", "f8"),
+    ]
+)
+"""A sphere that enters a trigger or leaves it, in the order of time.
+
+A sphere is in a trigger while their surfaces touch or overlap. Under the rule ``exact`` the time is
+that of the flight, however small the trigger and however fast the sphere; under the other rules the
+way of a sphere is straight within a frame.
+
+============================ ===============================================================
+``time``                     when, on the world's clock [s]
+``collider``                 id of the trigger
+``sphere``                   id of the sphere
+``enters``                   1 where the sphere enters, 0 where it leaves
+``point``                    where on the surface of the trigger [m]
+``normal``                   unit normal from that surface to the sphere
+``speed``                    of the sphere relative to the trigger [m/s]
+============================ ===============================================================
+"""
+
+HIT = np.dtype(
+    [
+        ("collider", "i8"),
+        ("sphere", "i8"),
+        ("point", "f8", (3,)),
+        ("normal", "f8", (3,)),
+        ("fraction", "f8"),
+    ]
+)
+"""What a ray or a sphere on its way meets first.
+
+============================ ===============================================================
+``collider``                 id of the body if it is a collider, else -1
+``sphere``                   id of the body if it is a sphere, else -1
+``point``                    where on its surface [m]; nan where nothing is met
+``normal``                   unit normal of the body there, out of it; nan where nothing is met
+``fraction``                 part of the way before, 0 to 1; inf where nothing is met
+============================ ===============================================================
+"""
+
+NEAR = np.dtype(
+    [
+        ("collider", "i8"),
+        ("sphere", "i8"),
+        ("point", "f8", (3,)),
+        ("normal", "f8", (3,)),
+        ("distance", "f8"),
+    ]
+)
+"""A body near a place.
+
+============================ ===============================================================
+``collider``                 id of the body if it is a collider, else -1
+``sphere``                   id of the body if it is a sphere, else -1
+``point``                    the nearest point of its surface [m]; nan where no body is near
+``normal``                   unit normal of the body there, out of it; nan where no body is near
+``distance``                 of the surfaces [m], negative where they overlap; inf where no body
+                             is near
+============================ ===============================================================
+"""
+
+OVERLAPPING = np.dtype([("query", "i8"), *NEAR.descr])
+"""A body that touches or overlaps a sphere that was asked about.
+
+``query`` is the number of that sphere; the other fields are those of `carom.NEAR`, with distances
+of 0 or less.
+"""
+
+LEG = np.dtype(
+    [
+        ("start", "f8"),
+        ("end", "f8"),
+        ("flight_start", "f8"),
+        ("position", "f8", (3,)),
+        ("velocity", "f8", (3,)),
+        ("acceleration", "f8", (3,)),
+        ("drag_rate", "f8"),
+    ]
+)
+"""A piece of a predicted path: a flight from an event to the next.
+
+============================ ===============================================================
+``start``, ``end``           when it begins and ends, on the world's clock [s]
+``flight_start``             when the flight's own time is 0, on the world's clock [s]; it may
+                             be before ``start``
+``position``                 centre then [m]
+``velocity``                 velocity then [m/s]
+``acceleration``             by everything but drag [m/s²]
+``drag_rate``                drag coefficient over mass [1/s], >= 0
+============================ ===============================================================
+"""
 
 CONTACT = np.dtype(
     [

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from carom._run.tables import IMPACT, flat_columns
+from carom._run.tables import IMPACT, SENSOR_EVENT, flat_columns
 from carom._scene.above import above
 from carom._scene.scene import Scene
 from carom._scene.view import NOTEBOOK_SIZE, Size, Viewpoint
@@ -27,6 +27,9 @@ _PARTS = ("x", "y", "z", "w")
 """Of a quaternion; those of a vector are the first three."""
 _AXES = _PARTS[:3]
 
+_EVENTS = {"impacts": IMPACT, "sensor_events": SENSOR_EVENT}
+"""Records of what happens between states."""
+
 
 Recorded: TypeAlias = Literal["positions", "velocities", "orientations", "angular_velocities"]
 """What a run can record of each state."""
@@ -41,6 +44,8 @@ class Selection(NamedTuple):
     """Whether numbers of states are rounded to single precision."""
     has_impacts: bool
     """Whether impacts are recorded, too."""
+    has_sensor_events: bool
+    """Whether events of sensors are recorded, too."""
 
 
 RunRecord: TypeAlias = tuple[
@@ -48,11 +53,11 @@ RunRecord: TypeAlias = tuple[
     NDArray[np.uint64],
     NDArray[np.float64],
     NDArray[np.float64],
-    NDArray[np.uint64],
+    list[NDArray[np.uint64]],
     list[tuple[Recorded, NDArray[np.float64]]],
     BaseException | None,
 ]
-"""What the engine records of a run: times, ids, radii, masses, impacts, what changes, its end."""
+"""What the engine records of a run: times, ids, radii, masses, events, what changes, its end."""
 
 _COLUMNS: dict[Recorded, str] = {
     "positions": "position",
@@ -63,7 +68,7 @@ _COLUMNS: dict[Recorded, str] = {
 """What they are called in files."""
 
 
-_REQUIRED = ("positions", "velocities", "impacts")
+_REQUIRED = ("positions", "velocities", "impacts", "sensor_events")
 """What is there unless it was not recorded."""
 
 
@@ -76,7 +81,7 @@ def _not_recorded() -> Any:
 class Trajectory:
     """States of all spheres over time, and every impact. Arrays are C-ordered.
 
-    Positions, velocities and impacts that were not recorded are not there: to read them raises an
+    Positions, velocities and events that were not recorded are not there: to read them raises an
     `AttributeError` that says so.
 
     Attributes:
@@ -89,6 +94,8 @@ class Trajectory:
         masses: Masses [kg], shape (n,).
         impacts: Every impact of the run, those after its last recorded state among them, records
             of `carom.IMPACT`: 128 bytes for each.
+        sensor_events: Every entry of a sphere into a trigger, and every exit, records of
+            `carom.SENSOR_EVENT`: 88 bytes for each.
         orientations: How spheres are turned, quaternions x, y, z, w, shape (t, n, 4); NaN where a
             sphere is not there. None where they were not recorded: unless asked for, where no
             sphere turned at the beginning, and no friction could make one turn.
@@ -101,6 +108,7 @@ class Trajectory:
     radii: NDArray[np.float64]
     masses: NDArray[np.float64]
     impacts: NDArray[np.void] = field(default_factory=_not_recorded)
+    sensor_events: NDArray[np.void] = field(default_factory=_not_recorded)
     positions: NDArray[np.float64] = field(default_factory=_not_recorded)
     velocities: NDArray[np.float64] = field(default_factory=_not_recorded)
     orientations: NDArray[np.float64] | None = None
@@ -168,7 +176,7 @@ class Trajectory:
         """Writes an .npz file, which `load` reads: to the bit what this is.
 
         It has the arrays that ``carom run --out`` writes, one row for each sphere that is there at
-        each time, and the impacts besides, as records of `carom.IMPACT`.
+        each time, and the events besides, as records of `carom.IMPACT` and `carom.SENSOR_EVENT`.
 
         Args:
             path: Of the file, with its ending; one that is there is replaced.
@@ -196,8 +204,7 @@ class Trajectory:
             "radius": self.radii,
             "mass": self.masses,
         }
-        if "impacts" in self.__dict__:
-            arrays["impacts"] = self.impacts
+        arrays.update({name: self.__dict__[name] for name in _EVENTS if name in self.__dict__})
         for name, column_name in _COLUMNS.items():
             values = self._recorded(name)
             if values is not None:
@@ -207,7 +214,7 @@ class Trajectory:
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Trajectory:
-        """Reads an .npz file of `save`, or of ``carom run --out``, which has no impacts.
+        """Reads an .npz file of `save`, or of ``carom run --out``, which has no events.
 
         Raises:
             CaromError: If it is no such file.
@@ -238,11 +245,11 @@ class Trajectory:
                 spread = np.full((len(time), len(ids), values.shape[1]), np.nan, values.dtype)
                 spread[row, column] = values
                 motion[name] = spread
-        impacts = arrays.get("impacts")
-        if impacts is not None:
-            if impacts.dtype != IMPACT:
-                raise ValueError("its impacts are of another version")
-            motion["impacts"] = impacts
+        for events, kind in _EVENTS.items():
+            if events in arrays:
+                if arrays[events].dtype != kind:
+                    raise ValueError(f"its {events} are of another version")
+                motion[events] = arrays[events]
         return cls(
             time=time,
             ids=ids,
@@ -290,6 +297,16 @@ class Trajectory:
         import pandas
 
         return pandas.DataFrame(flat_columns(self.impacts))
+
+    def sensor_events_to_pandas(self) -> pandas.DataFrame:
+        """A row for each entry into a trigger and each exit; vectors as columns like ``point_x``.
+
+        Raises:
+            ModuleNotFoundError: Where pandas is not installed.
+        """
+        import pandas
+
+        return pandas.DataFrame(flat_columns(self.sensor_events))
 
     def to_xarray(self) -> xarray.Dataset:
         """Positions and velocities over ``time``, ``sphere`` and ``axis``; the arrays are shared.

@@ -15,6 +15,7 @@ from carom._carom import Snapshot
 from carom._run import tables
 from carom._run.bodies import Bodies
 from carom._run.functions import Functions
+from carom._run.queries import PredictedPath, Queries
 from carom._run.recording import Out, check_choice, check_rhythm, run_into
 from carom._run.reports import ContactAccount, EnergyAccount, StageCounts, ZoneAccount
 from carom._run.strict import Strict
@@ -44,13 +45,14 @@ def _restored(kind: type[World], snapshot: Snapshot) -> World:
     return world
 
 
-class World(Strict, Bodies):
+class World(Strict, Queries, Bodies):
     """Spheres that move.
 
     A world is made from a scene, and then has a life of its own. Arrays of spheres (``positions``,
     ``velocities``, ``radii``, ``masses``, ``restitutions``, ``orientations``,
     ``angular_velocities``, ``inertia_factors``, ``frictions``, ``rolling_frictions``,
-    ``spinning_frictions``, ``tangential_restitutions``, ``ids``) are in ascending order of id:
+    ``spinning_frictions``, ``tangential_restitutions``, ``groups``, ``collides_with``,
+    ``user_data``, ``ids``) are in ascending order of id:
 
     - To read one copies nothing: it is the same object for as long as no sphere comes or goes, and
       every frame writes the new state into it. Take ``world.positions.copy()`` to keep a state.
@@ -60,7 +62,8 @@ class World(Strict, Bodies):
       ``world.positions += (0, 1, 0)``. If a value is refused, the exception names the array and the
       row, and the array is as the world again.
     - What is assigned to the attribute is copied, spread by NumPy's rules of broadcasting, and
-      checked first: ``world.velocities = 0``. ``ids`` cannot be changed.
+      checked first: ``world.velocities = 0``. ``ids`` cannot be changed. ``groups``,
+      ``collides_with`` and ``user_data`` are copies, to be changed by assignment only.
 
     A world can be copied (``copy.copy``) and pickled; the copy goes on by itself, bit for bit.
 
@@ -156,6 +159,7 @@ class World(Strict, Bodies):
         dtype: DTypeLike | None = None,
         out: Out | None = None,
         impacts: bool = True,
+        sensor_events: bool = True,
     ) -> Trajectory:
         """Runs on, and records what happens.
 
@@ -178,6 +182,7 @@ class World(Strict, Bodies):
             impacts: Whether impacts are recorded: 128 bytes for each one, in memory in any case,
                 whatever ``out`` and ``every`` are. `carom.analysis` takes rates and pressures from
                 them.
+            sensor_events: Whether entries into triggers and exits are recorded: 88 bytes for each.
 
         Raises:
             CaromError: For a number that makes no sense.
@@ -195,6 +200,8 @@ class World(Strict, Bodies):
             raise TypeError("seconds and frames: give one of them")
         frames, every = check_rhythm(frames, every)
         has_impacts = check_choice("impacts", impacts)
+        has_sensor_events = check_choice("sensor_events", sensor_events)
+        selection = Selection(None, False, has_impacts, has_sensor_events)
         if out is not None:
             if quantities is not None or dtype is not None:
                 raise TypeError("out: goes without quantities and dtype, for it says both")
@@ -202,13 +209,14 @@ class World(Strict, Bodies):
             def take(frames: int, selection: Selection) -> Trajectory:
                 return self._run(frames, dt, every, selection)
 
-            return run_into(self, take, out, frames, every, has_impacts)
+            return run_into(self, take, out, frames, every, selection)
         kind = np.dtype(np.float64 if dtype is None else dtype)
         if kind not in (np.float64, np.float32):
             raise CaromError(f"dtype: must be float64 or float32, not {kind}", "dtype")
         one = [quantities] if isinstance(quantities, str) else quantities
         names: list[Recorded] | None = None if one is None else list(one)
-        return self._run(frames, dt, every, Selection(names, kind == np.float32, has_impacts))
+        selection = selection._replace(quantities=names, is_single=kind == np.float32)
+        return self._run(frames, dt, every, selection)
 
     def _run(self, frames: int, dt: float | None, every: int, selection: Selection) -> Trajectory:
         """Takes frames, and records them; they may end before the second state."""
@@ -219,7 +227,9 @@ class World(Strict, Bodies):
         )
         recorded: dict[str, Any] = dict(motion)
         if selection.has_impacts:
-            recorded["impacts"] = tables.records(words, tables.IMPACT)
+            recorded["impacts"] = tables.records(words[0], tables.IMPACT)
+        if selection.has_sensor_events:
+            recorded["sensor_events"] = tables.records(words[1], tables.SENSOR_EVENT)
         trajectory = Trajectory(time=time, ids=ids, radii=radii, masses=masses, **recorded)
         if stopped is not None:
             stopped.trajectory = trajectory  # type: ignore[attr-defined]
@@ -245,6 +255,14 @@ class World(Strict, Bodies):
     def triggers(self) -> NDArray[np.void]:
         """The spheres inside triggers at the end of the last frame, records of `carom.TRIGGER`."""
         return tables.records(self._trigger_words(), tables.TRIGGER)
+
+    @property
+    def sensor_events(self) -> NDArray[np.void]:
+        """Who entered and left triggers in the last frame, records of `carom.SENSOR_EVENT`.
+
+        However small the trigger and however fast the sphere. A copy.
+        """
+        return tables.records(self._sensor_event_words(), tables.SENSOR_EVENT)
 
     @property
     def work(self) -> StageCounts:
@@ -380,6 +398,10 @@ class World(Strict, Bodies):
         """
         self._refuse_functions("step_to_next_event")
         super().step_to_next_event(within)
+
+    def predict(self, sphere: int, horizon: float, *, most_impacts: int = 10_000) -> PredictedPath:
+        self._refuse_functions("predict")
+        return super().predict(sphere, horizon, most_impacts=most_impacts)
 
     # How it is stepped
 

@@ -10,6 +10,7 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from carom._scene.labels import LABELS, labels_of
 from carom._scene.parts import Finish, Sphere
 from carom.errors import CaromError
 
@@ -57,6 +58,11 @@ class Points(Sequence[Sphere]):
         tangential_restitutions: Coefficients of tangential restitution in [0, 1], as ``frictions``.
         colors: Red, green, blue, each in [0, 1], spread to shape (n, 3); nan for none of its own.
         finishes: How their surfaces take light, one for each or one for all; satin unless given.
+        groups: Groups that they are in, one bit for each of 32, spread to shape (n,); the first
+            unless given.
+        collides_with: Groups that they collide with, one bit for each, spread to shape (n,); all
+            unless given.
+        user_data: Whole numbers for programs to find them by, spread to shape (n,); 0 unless given.
 
     Raises:
         CaromError: For shapes that do not fit, and numbers that are not finite. What else makes no
@@ -73,7 +79,7 @@ class Points(Sequence[Sphere]):
     (100, 3)
     """
 
-    __slots__ = ("_arrays", "_colors", "_count", "_finishes")
+    __slots__ = ("_arrays", "_colors", "_count", "_finishes", "_labels")
 
     def __init__(
         self,
@@ -93,6 +99,9 @@ class Points(Sequence[Sphere]):
         tangential_restitutions: ArrayLike | None = None,
         colors: ArrayLike | None = None,
         finishes: Finish | Sequence[Finish] | None = None,
+        groups: ArrayLike | None = None,
+        collides_with: ArrayLike | None = None,
+        user_data: ArrayLike | None = None,
     ) -> None:
         self._count = count_of(positions)
         given = {
@@ -112,6 +121,12 @@ class Points(Sequence[Sphere]):
         self._arrays: dict[str, NDArray[np.float64]] = {
             name: spread(name, values, self._count, _WIDTHS[name])
             for name, values in given.items()
+            if values is not None
+        }
+        labels = {"groups": groups, "collides_with": collides_with, "user_data": user_data}
+        self._labels = {
+            name: labels_of(name, values, self._count)
+            for name, values in labels.items()
             if values is not None
         }
         if densities is not None:
@@ -136,8 +151,10 @@ class Points(Sequence[Sphere]):
     def __getitem__(self, index: int | slice | NDArray[Any]) -> Sphere | Points:
         if isinstance(index, (slice, np.ndarray)):
             part = {name: values[index] for name, values in self._arrays.items()}
+            labels = {name: values[index] for name, values in self._labels.items()}
             return Points(
                 **part,
+                **labels,
                 colors=None if self._colors is None else self._colors[index],
                 finishes=None
                 if self._finishes is None
@@ -165,7 +182,7 @@ class Points(Sequence[Sphere]):
         return f"<carom.Points: {self._count} spheres>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _made, (self._arrays, self._colors, self._finishes)
+        return _made, (self._arrays, self._colors, self._finishes, self._labels)
 
     @property
     def colors(self) -> NDArray[np.float64] | None:
@@ -177,10 +194,12 @@ class Points(Sequence[Sphere]):
         """How their surfaces take light, if that was given."""
         return self._finishes
 
-    def __getattr__(self, name: str) -> NDArray[np.float64]:
+    def __getattr__(self, name: str) -> NDArray[Any]:
         """The array of a quantity, as it was given; an `AttributeError` for one that was not."""
         if name in _WIDTHS and name in self._arrays:
             return self._arrays[name]
+        if name in LABELS and name in self._labels:
+            return self._labels[name]
         raise AttributeError(f"these carom.Points have no {name!r}")
 
     def _sphere(self, number: int) -> Sphere:
@@ -193,13 +212,15 @@ class Points(Sequence[Sphere]):
             values["color"] = tuple(self._colors[number].tolist())
         if self._finishes is not None:
             values["finish"] = self._finishes[number]
+        values.update({name: int(labels[number]) for name, labels in self._labels.items()})
         return Sphere(**values)
 
     def _given(self) -> tuple[Any, ...]:
         """What the engine takes."""
         columns = [self._arrays.get(name) for name in _WIDTHS]
         finishes = None if self._finishes is None else list(self._finishes)
-        return (self._count, columns, self._colors, finishes)
+        labels = [self._labels.get(name) for name in LABELS]
+        return (self._count, columns, self._colors, finishes, labels)
 
     @classmethod
     def _told(
@@ -207,6 +228,7 @@ class Points(Sequence[Sphere]):
         columns: Sequence[NDArray[np.float64]],
         colors: NDArray[np.float64] | None,
         finishes: Sequence[Finish] | None,
+        labels: Sequence[NDArray[np.uint64] | None],
     ) -> Points:
         """The spheres that the engine tells of; what none of them says anything of is left out."""
         named = dict(zip(_WIDTHS, columns, strict=True))
@@ -217,7 +239,9 @@ class Points(Sequence[Sphere]):
         for name in _SAYS_NOTHING:
             if np.isnan(named[name]).all():
                 del named[name]
-        return _made(named, colors, finishes)
+        own = zip(LABELS, labels, strict=True)
+        told = {name: values for name, values in own if values is not None}
+        return _made(named, colors, finishes, told)
 
 
 _SINGULAR = {
@@ -241,8 +265,9 @@ def _made(
     arrays: dict[str, NDArray[np.float64]],
     colors: NDArray[np.float64] | None,
     finishes: Sequence[Finish] | None,
+    labels: dict[str, NDArray[np.uint64]],
 ) -> Points:
-    return Points(**arrays, colors=colors, finishes=finishes)
+    return Points(**arrays, colors=colors, finishes=finishes, **labels)
 
 
 def count_of(positions: ArrayLike) -> int:

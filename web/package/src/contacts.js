@@ -1,6 +1,7 @@
 // Converts persistent contacts from the engine's rows of numbers.
 
 import { between } from "./bodies.js";
+import { rowsOf, vectorAt } from "./rows.js";
 
 /** Positions of the values in a row. */
 const AT = {
@@ -18,20 +19,17 @@ const COLUMNS = 15;
 
 /** Returns the contacts of a table as objects. */
 export function contacts(table) {
-  return Array.from({ length: table.length / COLUMNS }, (_, i) =>
-    contact(table.subarray(i * COLUMNS, (i + 1) * COLUMNS)),
-  );
+  return rowsOf(table, COLUMNS).map(contact);
 }
 
 function contact(row) {
-  const vector = (start) => Array.from(row.subarray(start, start + 3));
   return {
     between: between(row[AT.isCollider], row[AT.first], row[AT.second]),
-    point: vector(AT.point),
-    normal: vector(AT.normal),
+    point: vectorAt(row, AT.point),
+    normal: vectorAt(row, AT.normal),
     gap: row[AT.gap],
     normalForce: row[AT.normalForce],
-    tangentialForce: vector(AT.tangentialForce),
+    tangentialForce: vectorAt(row, AT.tangentialForce),
     isSliding: row[AT.isSliding] === 1,
   };
 }

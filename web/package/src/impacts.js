@@ -1,6 +1,7 @@
 // Converts impacts from the engine's rows of numbers.
 
 import { between } from "./bodies.js";
+import { rowsOf, vectorAt } from "./rows.js";
 
 /** Positions of the values in a row of the table of impacts. */
 export const IMPACT_COLUMNS = Object.freeze({
@@ -19,24 +20,20 @@ export const IMPACT_COLUMNS = Object.freeze({
 
 /** Returns the impacts of a table as objects. */
 export function impacts(table) {
-  const { count } = IMPACT_COLUMNS;
-  return Array.from({ length: table.length / count }, (_, i) =>
-    impact(table.subarray(i * count, (i + 1) * count)),
-  );
+  return rowsOf(table, IMPACT_COLUMNS.count).map(impact);
 }
 
 function impact(row) {
   const at = IMPACT_COLUMNS;
-  const vector = (start) => Array.from(row.subarray(start, start + 3));
   const [first, second] = [row[at.first], row[at.second]];
   return {
     time: row[at.time],
     between: between(row[at.isCollider], first, second),
-    point: vector(at.point),
-    normal: vector(at.normal),
+    point: vectorAt(row, at.point),
+    normal: vectorAt(row, at.normal),
     approachSpeed: row[at.approachSpeed],
     separationSpeed: row[at.separationSpeed],
     impulse: row[at.impulse],
-    tangentialImpulse: vector(at.tangentialImpulse),
+    tangentialImpulse: vectorAt(row, at.tangentialImpulse),
   };
 }

@@ -21,17 +21,21 @@ import type {
   Spring,
   SpringChanges,
   SpringDescription,
+  Vector,
 } from "./descriptions.js";
+import type { Hit, NearBody, PredictedPath, QueryFilter } from "./queries.js";
 import type {
   ContactAccount,
   EnergyAccount,
   Impact,
   PersistentContact,
+  SensorEvent,
   StageCounts,
   ZoneAccount,
 } from "./reports.js";
 
 export * from "./descriptions.js";
+export * from "./queries.js";
 export * from "./reports.js";
 
 /** Positions of the values in a row of `World.impactTable`; vectors take three numbers. */
@@ -193,9 +197,11 @@ export class World {
   readonly leftOut: number[];
   /**
    * Spheres inside triggers at the end of the last frame. A sphere that passes a trigger within a
-   * frame is not among them: make a trigger wider than the path of a frame, or the steps shorter.
+   * frame is not among them; `sensorEvents` has it.
    */
   readonly triggers: { collider: number; sphere: number }[];
+  /** Entries of spheres into triggers, and exits, of the last frame in order of time. */
+  readonly sensorEvents: SensorEvent[];
   /** The work of the last frame. */
   readonly work: StageCounts;
   /** Changes of the energy in the last frame. */
@@ -218,6 +224,49 @@ export class World {
    * or by friction, which acts under `exact` and `contact`.
    */
   readonly hasSpin: boolean;
+
+  /**
+   * Returns what a ray meets first that starts at `origin` and leads along `way` to its end [m]. A
+   * rectangle is met from its front only.
+   * @throws {CaromError} if a number is not finite, or the way crosses too many periodic boxes
+   */
+  castRay(origin: Vector, way: Vector, filter?: QueryFilter): Hit | undefined;
+  /**
+   * Returns what many rays meet first, much faster than as many calls of `castRay`. `origins` and
+   * `ways` are arrays like `positions`: x, y, z, x, y, z, ...
+   * @throws {CaromError} as `castRay`
+   */
+  castRays(
+    origins: Iterable<number>,
+    ways: Iterable<number>,
+    filter?: QueryFilter,
+  ): (Hit | undefined)[];
+  /**
+   * Returns what a sphere meets first that moves straight from `center` along `way` to its end [m].
+   * @throws {CaromError} as `castRay`, and if the radius is not positive
+   */
+  castSphere(center: Vector, radius: number, way: Vector, filter?: QueryFilter): Hit | undefined;
+  /**
+   * Returns the body nearest to a point, if its surface is at most `within` [m] away (default:
+   * however far).
+   * @throws {CaromError} if a number is not finite or `within` is negative
+   */
+  nearest(point: Vector, within?: number, filter?: QueryFilter): NearBody | undefined;
+  /**
+   * Returns the bodies that touch or overlap a sphere [m]: spheres first, then colliders, in the
+   * order of ids.
+   * @throws {CaromError} if the radius is not positive
+   */
+  overlapping(center: Vector, radius: number, filter?: QueryFilter): NearBody[];
+  /**
+   * Predicts the path of a sphere for `horizon` [s], or up to its impact number `mostImpacts`
+   * (default: 10,000), without a step: flights in closed form, and what it meets. The other spheres keep to their
+   * flights, but for those that it strikes. While nothing else interferes, steps under `exact` give
+   * the same to the bit.
+   * @throws {CaromError} if the sphere is not in the world or the horizon not positive, and with
+   * springs or forces that are not linear
+   */
+  predict(id: number, horizon: number, mostImpacts?: number): PredictedPath;
 
   /** Returns the kinetic energy, with rotation [J]. */
   kineticEnergy(): number;
@@ -276,6 +325,22 @@ export class World {
 
   /** Changes the given properties of a sphere. @throws {CaromError} */
   setSphere(id: number, changes: SphereDescription): void;
+  /**
+   * Applies an impulse [N s] to a sphere at its centre: its velocity changes by the impulse over
+   * its mass.
+   * @throws {CaromError} if it is not in the world, or the new velocity is not finite
+   */
+  applyImpulse(id: number, impulse: Vector): void;
+  /**
+   * Applies an impulse [N s] to a sphere at a point [m]: also its angular velocity changes, by
+   * (point - centre) × impulse over its moment of inertia.
+   * @throws {CaromError} as `applyImpulse`
+   */
+  applyImpulseAt(id: number, impulse: Vector, point: Vector): void;
+  /** Gives a sphere another velocity [m/s]. @throws {CaromError} */
+  setVelocity(id: number, velocity: Vector): void;
+  /** Gives a sphere another angular velocity [rad/s]. @throws {CaromError} */
+  setAngularVelocity(id: number, angularVelocity: Vector): void;
   /**
    * Changes the given properties of a collider. A new position applies at once, without pushing
    * spheres; a ball whose centre is then in a box falls through it. To move a collider, set

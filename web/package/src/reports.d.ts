@@ -20,6 +20,24 @@ export interface Impact {
   tangentialImpulse: [number, number, number];
 }
 
+/** A sphere that enters a trigger or leaves it, however small the trigger and fast the sphere. */
+export interface SensorEvent {
+  /** Time since the start of the frame [s]. */
+  time: number;
+  /** Id of the trigger. */
+  collider: number;
+  /** Id of the sphere. */
+  sphere: number;
+  /** Whether the sphere enters; else it leaves. */
+  enters: boolean;
+  /** Point on the surface of the trigger [m]. */
+  point: [number, number, number];
+  /** Unit normal from that surface to the sphere. */
+  normal: [number, number, number];
+  /** Speed of the sphere relative to the trigger [m/s]. */
+  speed: number;
+}
+
 /** Two bodies in persistent contact, and the force between them. */
 export interface PersistentContact {
   /** Ids of two spheres, bodies 1 and 2, or of a collider, body 1, and a sphere, body 2. */

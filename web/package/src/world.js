@@ -7,6 +7,9 @@ import { attempt, attemptPart, CaromError } from "./errors.js";
 import { IMPACT_COLUMNS, impacts } from "./impacts.js";
 import { writeMatrices } from "./matrices.js";
 import { parse } from "./names.js";
+import { PredictedPath } from "./path.js";
+import { filterOf, hits, nearBodies, vector, vectors } from "./queries.js";
+import { sensorEvents } from "./sensor_events.js";
 import { override, tables } from "./toml.js";
 import { Views } from "./views.js";
 
@@ -196,6 +199,10 @@ export class World {
     }));
   }
 
+  get sensorEvents() {
+    return sensorEvents(this.#world.sensorEvents);
+  }
+
   get work() {
     const [predictions, pairTests, events, cellCrossings, ...others] = this.#world.work;
     const [groups, solverIterations, searches, sweeps, contacts] = others;
@@ -231,6 +238,45 @@ export class World {
 
   get hasSpin() {
     return this.#world.hasSpin;
+  }
+
+  // Queries.
+
+  castRay(origin, way, filter) {
+    const [starts, ways] = [vector("origin", origin), vector("way", way)];
+    return this.castRays(starts, ways, filter)[0];
+  }
+
+  castRays(origins, ways, filter) {
+    const world = this.#world;
+    const starts = vectors("origins", origins);
+    const leads = vectors("ways", ways, starts.length / 3);
+    const finds = filterOf(filter);
+    return hits(attempt(() => world.castRays(starts, leads, finds)));
+  }
+
+  castSphere(center, radius, way, filter) {
+    const world = this.#world;
+    const [start, lead] = [vector("center", center), vector("way", way)];
+    const finds = filterOf(filter);
+    return hits(attempt(() => world.castSphere(start, radius, lead, finds)))[0];
+  }
+
+  nearest(point, within = Infinity, filter = {}) {
+    const world = this.#world;
+    const [place, finds] = [vector("point", point), filterOf(filter)];
+    return nearBodies(attempt(() => world.nearest(place, within, finds)))[0];
+  }
+
+  overlapping(center, radius, filter) {
+    const world = this.#world;
+    const [place, finds] = [vector("center", center), filterOf(filter)];
+    return nearBodies(attempt(() => world.overlapping(place, radius, finds)));
+  }
+
+  predict(id, horizon, mostImpacts = 10_000) {
+    const world = this.#world;
+    return new PredictedPath(attempt(() => world.predict(id, horizon, mostImpacts)));
   }
 
   // Sums over all spheres.
@@ -327,6 +373,27 @@ export class World {
     const weight = changes.density === undefined ? { mass } : {};
     const text = tables({ spheres: [{ ...rest, ...size, ...weight, ...changes }] });
     attemptPart(() => this.#world.setSphere(id, text));
+  }
+
+  applyImpulse(id, impulse) {
+    const [world, given] = [this.#world, vector("impulse", impulse)];
+    attempt(() => world.applyImpulse(id, given));
+  }
+
+  applyImpulseAt(id, impulse, point) {
+    const world = this.#world;
+    const [given, place] = [vector("impulse", impulse), vector("point", point)];
+    attempt(() => world.applyImpulseAt(id, given, place));
+  }
+
+  setVelocity(id, velocity) {
+    const [world, given] = [this.#world, vector("velocity", velocity)];
+    attempt(() => world.setVelocity(id, given));
+  }
+
+  setAngularVelocity(id, angularVelocity) {
+    const [world, given] = [this.#world, vector("angularVelocity", angularVelocity)];
+    attempt(() => world.setAngularVelocity(id, given));
   }
 
   setCollider(id, changes) {

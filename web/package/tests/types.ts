@@ -2,7 +2,7 @@
 // `@ts-expect-error` must be wrong.
 
 import { CaromError, IMPACT_COLUMNS, SceneError, scenes, World } from "carom";
-import type { Collider, Impact, Shape, SimulationChanges } from "carom";
+import type { Collider, Hit, Impact, PredictedPath, Shape, SimulationChanges } from "carom";
 
 const world: World = World.fromScene("tutorial3", { "simulation.rule": "exact", camera: null });
 const titles: string[] = scenes().map(({ title }) => title);
@@ -46,6 +46,15 @@ own.setSphere(ball, { velocity: [0, 1, 0] });
 own.setCollider(0, { restitution: 0.5 });
 const changes: SimulationChanges = { exact: { impactLaw: "simultaneous", maxImpacts: 100 } };
 own.setSimulation(changes);
+
+const hit: Hit | undefined = own.castRay([0, 0, 0], new Float32Array(3), { spheres: false });
+const hits: (Hit | undefined)[] = own.castRays(own.positions, own.velocities);
+// @ts-expect-error: a misspelled option
+own.castRay([0, 0, 0], [1, 0, 0], { sphere: false });
+const path: PredictedPath = own.predict(ball, 2, 3);
+// @ts-expect-error: outside of the path there is no position
+const place: [number, number, number] = path.positionAt(1);
+own.applyImpulseAt(ball, [0, 1, 0], [0, 0, 0]);
 
 const text = (impact: Impact): string =>
   "spheres" in impact.between

@@ -87,7 +87,11 @@ fn kind_of(property: &Value, schema: &Schema) -> String {
     let kind = if is("boolean") {
         "bool"
     } else if is("integer") {
-        if bound("minimum") == Some(1.0) { "Count" } else { "Number" }
+        match (bound("minimum") == Some(1.0), property["format"] == "uint64") {
+            (true, _) => "Count",
+            (false, true) => "LargeNumber",
+            (false, false) => "Number",
+        }
     } else if is("number") {
         match (
             bound("minimum"),

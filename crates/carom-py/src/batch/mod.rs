@@ -255,6 +255,15 @@ impl BatchEngine {
             report.triggers.len()
         })
     }
+
+    /// Returns the events of sensors in the last frame of all worlds as words, and their number
+    /// for each world.
+    fn _sensor_event_words<'py>(&self, py: Python<'py>) -> PyResult<Words<'py>> {
+        self.words(py, |table, start, report| {
+            table.push_sensor_events(start, &report.sensor_events);
+            report.sensor_events.len()
+        })
+    }
 }
 
 sphere_properties!(BatchEngine, numbers "(n, s)", vectors "(n, s, 3)", rotations "(n, s, 4)");

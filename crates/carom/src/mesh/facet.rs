@@ -67,13 +67,12 @@ impl Facet {
         time
     }
 
-    /// Whether no part of it is farther than `height` \[m\] above a plane, given by a point \[m\] and its normal.
+    /// Height of its highest point above a plane, which is given by a point \[m\] and its normal.
     pub fn height_above(&self, [point, normal]: [DVec3; 2]) -> f64 {
         let Rectangle { center, axis_x, axis_z, .. } = self.frame;
         let base = (center - point).dot(normal);
         let rise = DVec2::new(axis_x.dot(normal), axis_z.dot(normal));
-        let sides = self.outline.sides().iter();
-        sides.map(|side| base + side.ends[0].dot(rise)).fold(f64::NEG_INFINITY, f64::max)
+        self.outline.ends().map(|end| base + end.dot(rise)).fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// The triangles that cover it, in the world \[m\].
@@ -83,11 +82,10 @@ impl Facet {
         self.outline.triangles().iter().map(move |corners| corners.map(place))
     }
 
-    /// Its vertices in the world \[m\].
+    /// Its vertices in the world \[m\], each at least once.
     pub fn vertices(&self) -> impl Iterator<Item = DVec3> {
         let Rectangle { center, axis_x, axis_z, .. } = self.frame;
-        let sides = self.outline.sides().iter();
-        sides.map(move |side| center + side.ends[0].x * axis_x + side.ends[0].y * axis_z)
+        self.outline.ends().map(move |end| center + end.x * axis_x + end.y * axis_z)
     }
 
     fn local(&self, point: DVec3) -> DVec2 {

@@ -58,6 +58,11 @@ impl Outline {
         &self.0.sides
     }
 
+    /// Both ends of each side \[m\]: sides do not go round one way, so their first ends alone may miss a vertex.
+    pub fn ends(&self) -> impl Iterator<Item = DVec2> {
+        self.sides().iter().flat_map(|side| side.ends)
+    }
+
     /// Triangles that cover the face \[m\].
     pub fn triangles(&self) -> &[[DVec2; 3]] {
         &self.0.triangles

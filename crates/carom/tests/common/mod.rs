@@ -2,6 +2,7 @@
 #![allow(dead_code)]
 
 pub mod group;
+pub mod rough_mesh;
 
 use carom::{Bisect, DVec3, Discrete, Integrator, Rule, Settings, WindBack, World};
 

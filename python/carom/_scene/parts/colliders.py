@@ -15,6 +15,7 @@ from carom._scene.parts.kinds import (
     UNTURNED,
     Color,
     Heights,
+    LargeNumber,
     Lengths,
     NonNegative,
     Number,
@@ -334,4 +335,4 @@ class Collider(Part):
     kick: NonNegative = 0.0
     groups: Number = 1
     collides_with: Number = 0xFFFFFFFF
-    user_data: Number = 0
+    user_data: LargeNumber = 0

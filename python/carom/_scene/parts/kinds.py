@@ -85,6 +85,10 @@ Count: TypeAlias = Annotated[int, _AT_LEAST_ONE, _IN_32_BITS]
 """A whole number >= 1."""
 Number: TypeAlias = Annotated[int, _IN_32_BITS]
 """The number of a sphere, from 0."""
+LargeNumber: TypeAlias = Annotated[
+    int, Requirement("in [0, 2^63)", lambda value: 0 <= value < 2**63)
+]
+"""A whole number for programs, >= 0."""
 Seed: TypeAlias = Annotated[int, _IN_32_BITS]
 """The seed of something random."""
 FieldOfView: TypeAlias = Annotated[float, _FIELD_OF_VIEW]

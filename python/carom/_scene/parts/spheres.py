@@ -14,6 +14,7 @@ from carom._scene.parts.kinds import (
     ORIGIN,
     UNTURNED,
     Color,
+    LargeNumber,
     NonNegative,
     Number,
     Positive,
@@ -77,7 +78,7 @@ class Sphere(Part):
     finish: Finish = "satin"
     groups: Number = 1
     collides_with: Number = 0xFFFFFFFF
-    user_data: Number = 0
+    user_data: LargeNumber = 0
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -1,0 +1,98 @@
+// Calls every query of carom.h, predicted paths and changes of single spheres, correctly and with a mistake: two balls
+// in a row, the first of which flies through a sheet of 1 cm.
+
+#include "expect.h"
+
+#include <carom.h>
+#include <math.h>
+#include <string.h>
+
+int main(void) {
+    CaromWorld world;
+    uint64_t near, far, gate, data;
+    OK(carom_world_new(&world));
+    CaromSphere ball = carom_sphere();
+    ball.radius = 0.5;
+    OK(carom_world_add_sphere(world, &ball, &near));
+    ball.position[0] = 5.0;
+    OK(carom_world_add_sphere(world, &ball, &far));
+    CaromCollider sheet = carom_collider();
+    sheet.shape = CAROM_SHAPE_BOX;
+    sheet.size[0] = 0.01, sheet.size[1] = sheet.size[2] = 9.0, sheet.position[0] = 2.0, sheet.trigger = 1;
+    OK(carom_world_add_collider(world, &sheet, &gate));
+
+    CaromQueryFilter filter = carom_query_filter();
+    const CaromRay rays[2] = {{{-1.0, 0.0, 0.0}, {8.0, 0.0, 0.0}}, {{-1.0, 3.0, 0.0}, {8.0, 0.0, 0.0}}};
+    CaromHit hits[2];
+    OK(carom_world_cast_rays(world, rays, 2, NULL, hits));
+    EXPECT(hits[0].is_hit && hits[0].body == near && hits[0].fraction == 0.0625 && !hits[1].is_hit);
+    FAILS(CAROM_STATUS_NULL, carom_world_cast_rays(world, rays, 2, NULL, NULL));
+    filter.leaves_out_sphere = 1, filter.without_sphere = near;
+    CaromMovingSphere moving = {{-1.0, 0.0, 0.0}, 0.25, {8.0, 0.0, 0.0}};
+    OK(carom_world_cast_spheres(world, &moving, 1, &filter, hits));
+    EXPECT(hits[0].body == far && !hits[0].is_collider && hits[0].fraction == 5.25 / 8.0);
+    CaromNearBody body;
+    OK(carom_world_nearest(world, moving.center, INFINITY, &filter, &body));
+    EXPECT(body.is_found && body.body == far && body.distance == 5.5);
+    FAILS(CAROM_STATUS_INVALID, carom_world_nearest(world, moving.center, -1.0, NULL, &body));
+    size_t count;
+    moving.radius = 0.5;
+    OK(carom_world_overlapping(world, &moving, NULL, &body, 1, &count));
+    EXPECT(count == 1 && body.body == near && body.distance == 0.0);
+    moving.radius = 0.0;
+    FAILS(CAROM_STATUS_INVALID, carom_world_overlapping(world, &moving, NULL, NULL, 0, &count));
+    FAILS(CAROM_STATUS_INVALID, carom_world_cast_spheres(world, &moving, 1, NULL, hits));
+
+    const double impulse[3] = {1000.0, 0.0, 0.0}, top[3] = {0.0, 0.5, 0.0}, none[3] = {0.0, 0.0, 0.0};
+    OK(carom_world_apply_impulse(world, near, impulse));
+    OK(carom_world_apply_impulse_at(world, near, none, top));
+    FAILS(CAROM_STATUS_UNKNOWN, carom_world_apply_impulse(world, 99, impulse));
+    uint32_t groups, collides_with;
+    OK(carom_world_set_groups(world, far, 2, 3));
+    OK(carom_world_groups(world, far, &groups, &collides_with));
+    EXPECT(groups == 2 && collides_with == 3);
+    OK(carom_world_set_user_data(world, far, 77));
+    OK(carom_world_user_data(world, far, &data));
+    EXPECT(data == 77);
+
+    CaromPath path;
+    OK(carom_world_predict(world, near, 1.0, 100, &path));
+    FAILS(CAROM_STATUS_INVALID, carom_world_predict(world, near, 0.0, 100, &path));
+    OK(carom_world_step(world, 0.25));
+    double position[3], velocity[3], time;
+    OK(carom_path_at(path, 0.25, position, velocity));
+    OK(carom_world_sphere(world, near, &ball));
+    EXPECT(memcmp(position, ball.position, sizeof position) == 0 && velocity[0] == ball.velocity[0]);
+    FAILS(CAROM_STATUS_INVALID, carom_path_at(path, 2.0, position, velocity));
+    int32_t end;
+    OK(carom_path_end(path, &end, &time));
+    EXPECT(end == CAROM_PATH_END_HORIZON && time == 1.0);
+    CaromImpact impact;
+    CaromPathLeg legs[2];
+    OK(carom_path_impacts(path, &impact, 0, 1, &count));
+    EXPECT(count == 1 && impact.bodies.body_2 == far && fabs(impact.time - 0.004) < 1e-15);
+    OK(carom_path_legs(path, legs, 0, 2, &count));
+    EXPECT(count == 2 && legs[0].end == legs[1].start);
+    OK(carom_path_free(path));
+    FAILS(CAROM_STATUS_HANDLE, carom_path_free(path));
+    CaromSensorEvent events[2];
+    OK(carom_world_sensor_events(world, events, 0, 2, &count));
+    EXPECT(count == 2 && events[0].collider == gate && events[0].enters && !events[1].enters);
+    EXPECT(fabs(events[0].time - 1.495e-3) < 1e-15 && events[0].speed == 1000.0);
+
+    // A bumper adds 3 m/s to a ball of 1 kg that comes with 1 m/s.
+    double work;
+    OK(carom_world_kick_work(world, &work));
+    EXPECT(work == 0.0);
+    OK(carom_world_add_toml(world, "colliders = [{ shape = \"half-space\", position = [0, -50, 0], kick = 3.0 }]", NULL));
+    ball = carom_sphere();
+    ball.position[1] = -48.5, ball.velocity[1] = -1.0;
+    OK(carom_world_add_sphere(world, &ball, NULL));
+    OK(carom_world_step(world, 1.0));
+    OK(carom_world_kick_work(world, &work));
+    EXPECT(fabs(work - 7.5) < 1e-12);
+    FAILS(CAROM_STATUS_NULL, carom_world_kick_work(world, NULL));
+    OK(carom_world_free(world));
+    printf("every query: ok\n");
+    return 0;
+}

@@ -1,0 +1,58 @@
+//! Changes of the motion of single spheres.
+
+use carom::DVec3;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+use crate::failure::Failure;
+use crate::find;
+use crate::world::World;
+
+/// Vectors are three numbers each; `web/package/src` sees to that.
+#[wasm_bindgen]
+impl World {
+    /// Applies an impulse \[N s\] to a sphere at its centre.
+    ///
+    /// # Errors
+    /// [`Failure`] as [`carom::World::apply_impulse`].
+    #[wasm_bindgen(js_name = applyImpulse)]
+    pub fn apply_impulse(&mut self, id: f64, impulse: &[f64]) -> Result<(), Failure> {
+        let (sphere, _) = find::sphere(&self.world, id)?;
+        Ok(self.world.apply_impulse(sphere, DVec3::from_slice(impulse))?)
+    }
+
+    /// Applies an impulse \[N s\] to a sphere at a point \[m\].
+    ///
+    /// # Errors
+    /// [`Failure`] as [`carom::World::apply_impulse_at`].
+    #[wasm_bindgen(js_name = applyImpulseAt)]
+    pub fn apply_impulse_at(
+        &mut self,
+        id: f64,
+        impulse: &[f64],
+        point: &[f64],
+    ) -> Result<(), Failure> {
+        let (sphere, _) = find::sphere(&self.world, id)?;
+        let (impulse, point) = (DVec3::from_slice(impulse), DVec3::from_slice(point));
+        Ok(self.world.apply_impulse_at(sphere, impulse, point)?)
+    }
+
+    /// Gives a sphere another velocity \[m/s\].
+    ///
+    /// # Errors
+    /// [`Failure`] as [`carom::World::set_velocity`].
+    #[wasm_bindgen(js_name = setVelocity)]
+    pub fn set_velocity(&mut self, id: f64, velocity: &[f64]) -> Result<(), Failure> {
+        let (sphere, _) = find::sphere(&self.world, id)?;
+        Ok(self.world.set_velocity(sphere, DVec3::from_slice(velocity))?)
+    }
+
+    /// Gives a sphere another angular velocity \[rad/s\].
+    ///
+    /// # Errors
+    /// [`Failure`] as [`carom::World::set_angular_velocity`].
+    #[wasm_bindgen(js_name = setAngularVelocity)]
+    pub fn set_angular_velocity(&mut self, id: f64, velocity: &[f64]) -> Result<(), Failure> {
+        let (sphere, _) = find::sphere(&self.world, id)?;
+        Ok(self.world.set_angular_velocity(sphere, DVec3::from_slice(velocity))?)
+    }
+}
