@@ -43,7 +43,7 @@ fn histogram(runs: &[ClassRun]) -> String {
     let most = counts.first().map_or(1, |it| it.1);
     let bar = |(kind, count): (String, usize)| {
         let width = 100.0 * count as f64 / most as f64;
-        // Green for right runs, grey for those that nobody can judge.
+        // Green for right runs, grey for those without a verdict.
         let class = match kind.as_str() {
             kind if kind.starts_with("same") => "right",
             "cannot be read" | "compared in part" => "open",
