@@ -61,6 +61,11 @@ fn a_ray_meets_the_first_sphere_of_the_loop_over_all() {
 fn sorted_bodies_give_the_bits_of_a_single_query() {
     let mut world = scattered(300, 2.0, 3);
     world.add_collider(Collider::new(Shape::HalfSpace, Pose::at(vec(0.0, -2.0, 0.0)))).unwrap();
+    for collider in colliders() {
+        world.add_collider(collider.moving(vec(0.5, 0.0, -0.25), DVec3::ZERO)).unwrap();
+    }
+    // Single queries look only at surfaces near them, where these are now.
+    world.step(0.5).unwrap();
     let (queries, mut numbers) = (world.queries(), Numbers(4));
     for _ in 0..300 {
         let (place, way) = (2.0 * numbers.vector(), 5.0 * numbers.vector());
@@ -68,7 +73,9 @@ fn sorted_bodies_give_the_bits_of_a_single_query() {
         assert_eq!(ray, world.cast_ray(place, way, &ALL));
         let sphere = queries.cast_sphere(place, 0.1, way, &ALL);
         assert_eq!(sphere, world.cast_sphere(place, 0.1, way, &ALL));
-        assert_eq!(queries.nearest(place, 1.0, &ALL), world.nearest(place, 1.0, &ALL));
+        for within in [0.1, 1.0, f64::INFINITY] {
+            assert_eq!(queries.nearest(place, within, &ALL), world.nearest(place, within, &ALL));
+        }
         assert_eq!(queries.overlapping(place, 0.4, &ALL), world.overlapping(place, 0.4, &ALL));
     }
 }

@@ -11,8 +11,13 @@ use crate::settings::nearest_image;
 /// one that is larger another image is nearer than those beyond.
 const FARTHEST_IMAGE: f64 = 2.0;
 
-/// All bodies of an instant, those with bounds and those without, in a box with these edges \[m\].
-pub(super) fn bodies(now: &Instant, period: DVec3) -> (Vec<Leaf>, Vec<Leaf>) {
+/// The bodies of an instant, those with bounds and those without, in a box with these edges \[m\]. Where there are
+/// no images, surfaces outside of a `region` may be left out.
+pub(super) fn bodies(
+    now: &Instant,
+    period: DVec3,
+    region: Option<&Bounds>,
+) -> (Vec<Leaf>, Vec<Leaf>) {
     let (mut bounded, mut unbounded) = (Vec::new(), Vec::new());
     let radii = &now.system.spheres.radius;
     for (sphere, (&center, &radius)) in (0..).zip(now.motion.position.iter().zip(radii)) {
@@ -20,8 +25,8 @@ pub(super) fn bodies(now: &Instant, period: DVec3) -> (Vec<Leaf>, Vec<Leaf>) {
         let bounds = Bounds::around(center, DVec3::splat(radius + slack));
         bounded.push(in_box(Item::Sphere(sphere), bounds, period));
     }
-    for (number, surface) in (0..).zip(now.system.surfaces) {
-        let item = Item::Surface(number);
+    for number in surfaces(now, region.filter(|_| period == DVec3::INFINITY)) {
+        let (surface, item) = (&now.system.surfaces[number as usize], Item::Surface(number));
         match surface_tree::bounds(&surface.form) {
             Some(bounds) if surface.motion.is_at_rest() => {
                 bounded.push(in_box(item, bounds, period));
@@ -37,6 +42,14 @@ pub(super) fn bodies(now: &Instant, period: DVec3) -> (Vec<Leaf>, Vec<Leaf>) {
         }
     }
     (bounded, unbounded)
+}
+
+/// Indices of all surfaces, ascending, or of those whose bounds overlap a region \[m\].
+fn surfaces(now: &Instant, region: Option<&Bounds>) -> Vec<u32> {
+    let Some(region) = region else { return (0..now.system.surfaces.len() as u32).collect() };
+    let mut near = Vec::new();
+    now.system.tree.near(region, &mut near);
+    near
 }
 
 /// A body whose middle is brought into the box.

@@ -4,6 +4,8 @@ mod cast;
 mod images;
 mod tree;
 
+use std::borrow::Cow;
+
 use glam::DVec3;
 
 use crate::detect::instant::Instant;
@@ -139,7 +141,8 @@ impl QueryFilter {
 #[derive(Clone)]
 pub struct Queries<'a> {
     now: Instant<'a>,
-    tree: BodyTree,
+    /// All bodies sorted by place; `None` where each query looks at those near it one by one.
+    sorted: Option<BodyTree>,
     /// Edges of the periodic box \[m\]; infinite along an open axis.
     period: DVec3,
 }
@@ -148,8 +151,20 @@ impl<'a> Queries<'a> {
     /// Of a world at one instant; the bodies are `sorted` by place, or looked at one by one.
     pub(crate) fn of(now: Instant<'a>, sorted: bool) -> Self {
         let period = now.system.settings.boundary.period();
-        let (bounded, unbounded) = images::bodies(&now, period);
-        Self { tree: BodyTree::of(bounded, unbounded, sorted), now, period }
+        let tree = || {
+            let (bounded, unbounded) = images::bodies(&now, period, None);
+            BodyTree::of(bounded, unbounded, true)
+        };
+        Self { sorted: sorted.then(tree), now, period }
+    }
+
+    /// A tree with all bodies that are within a region, and maybe others.
+    fn bodies_near(&self, region: &Bounds) -> Cow<'_, BodyTree> {
+        let of_query = || {
+            let (bounded, unbounded) = images::bodies(&self.now, self.period, Some(region));
+            Cow::Owned(BodyTree::of(bounded, unbounded, false))
+        };
+        self.sorted.as_ref().map_or_else(of_query, Cow::Borrowed)
     }
 
     /// What a ray meets first that starts at `origin` \[m\] and leads along `way` to its end \[m\].
@@ -206,12 +221,13 @@ impl<'a> Queries<'a> {
         // Whatever is nearest has an image within half a box along each axis.
         let half = self.period.min(DVec3::splat(2.0 * within)) * 0.5;
         let region = Bounds::around(wrapped, half);
+        let tree = self.bodies_near(&around(wrapped, within));
         let mut nearest: Option<(NearBody, Item)> = None;
-        for shift in images::shifts(&region, self.tree.bounds(), self.period) {
+        for shift in images::shifts(&region, tree.bounds(), self.period) {
             let place = wrapped - shift;
             let mut limit = nearest.map_or(within, |(it, _)| it.distance);
             let bound = |bounds: &Bounds| distance_below(bounds, place);
-            self.tree.search(&bound, &mut limit, &mut |leaf, limit| {
+            tree.search(&bound, &mut limit, &mut |leaf, limit| {
                 let Some(found) = self.near_body(leaf, place, 0.0, shift, filter) else { return };
                 let is_nearer = |(best, item): &(NearBody, Item)| {
                     found.distance < best.distance
@@ -242,20 +258,25 @@ impl<'a> Queries<'a> {
         validate::finite("center", center).map_err(refused)?;
         let wrapped = images::wrapped(center, self.period);
         let region = Bounds::around(wrapped, DVec3::splat(radius));
-        let mut found: Vec<NearBody> = Vec::new();
-        for shift in images::shifts(&region, self.tree.bounds(), self.period) {
+        let tree = self.bodies_near(&around(wrapped, radius));
+        let mut found: Vec<(NearBody, Item)> = Vec::new();
+        for shift in images::shifts(&region, tree.bounds(), self.period) {
             let place = wrapped - shift;
             let mut limit = radius;
             let bound = |bounds: &Bounds| distance_below(bounds, place);
-            self.tree.search(&bound, &mut limit, &mut |leaf, _| {
+            tree.search(&bound, &mut limit, &mut |leaf, _| {
                 let near = self.near_body(leaf, place, radius, shift, filter);
-                found.extend(near.filter(|near| near.distance <= 0.0));
+                let near = near.filter(|near| near.distance <= 0.0);
+                found.extend(near.map(|near| (near, leaf.item)));
             });
         }
-        found.sort_by(|a, b| a.body.cmp(&b.body).then(a.distance.total_cmp(&b.distance)));
-        found.dedup_by_key(|near| near.body);
-        found.iter_mut().for_each(|near| near.point += center - wrapped);
-        Ok(found)
+        // Of surfaces of one body at one distance the first: the order of the search depends on the tree.
+        found.sort_by(|(a, of_a), (b, of_b)| {
+            a.body.cmp(&b.body).then(a.distance.total_cmp(&b.distance)).then(of_a.cmp(of_b))
+        });
+        found.dedup_by_key(|(near, _)| near.body);
+        let moved = |near: NearBody| NearBody { point: near.point + (center - wrapped), ..near };
+        Ok(found.into_iter().map(|(near, _)| moved(near)).collect())
     }
 
     /// How a body stands to a sphere at `place` as seen from an image that is shifted by `shift` \[m\].
@@ -287,36 +308,32 @@ impl<'a> Queries<'a> {
         way: DVec3,
         filter: &QueryFilter,
     ) -> Option<Hit> {
+        let tree = self.bodies_near(&Sweep::new(center, radius, way).bounds());
         for piece in images::pieces(center, way, self.period) {
             let sweep = Sweep::new(piece.start, radius, piece.way);
             let mut first: Option<(Hit, Item)> = None;
-            for shift in images::shifts(&sweep.bounds(), self.tree.bounds(), self.period) {
+            for shift in images::shifts(&sweep.bounds(), tree.bounds(), self.period) {
                 let sweep = sweep.seen_from(shift);
                 let mut limit = first.map_or(1.0, |(hit, _)| hit.fraction);
-                self.tree.search(
-                    &|bounds| sweep.reaches(bounds),
-                    &mut limit,
-                    &mut |leaf, limit| {
-                        if !self.is_found(leaf, shift, filter) {
-                            return;
-                        }
-                        let (form, own) = (self.form_of(leaf.item), sweep.seen_from(leaf.shift));
-                        let encloses = matches!(leaf.item, Item::Surface(surface)
+                tree.search(&|bounds| sweep.reaches(bounds), &mut limit, &mut |leaf, limit| {
+                    if !self.is_found(leaf, shift, filter) {
+                        return;
+                    }
+                    let (form, own) = (self.form_of(leaf.item), sweep.seen_from(leaf.shift));
+                    let encloses = matches!(leaf.item, Item::Surface(surface)
                         if self.now.system.surfaces[surface as usize].role == Role::Encloses);
-                        let Some((fraction, contact)) = own.meet(&form, encloses) else { return };
-                        let is_earlier = |(hit, item): &(Hit, Item)| {
-                            fraction < hit.fraction
-                                || (fraction == hit.fraction && leaf.item < *item)
-                        };
-                        if first.as_ref().is_none_or(is_earlier) {
-                            let point = contact.point + leaf.shift + shift;
-                            let body = self.body_of(leaf.item);
-                            let hit = Hit { body, point, normal: contact.normal, fraction };
-                            first = Some((hit, leaf.item));
-                            *limit = fraction.min(*limit);
-                        }
-                    },
-                );
+                    let Some((fraction, contact)) = own.meet(&form, encloses) else { return };
+                    let is_earlier = |(hit, item): &(Hit, Item)| {
+                        fraction < hit.fraction || (fraction == hit.fraction && leaf.item < *item)
+                    };
+                    if first.as_ref().is_none_or(is_earlier) {
+                        let point = contact.point + leaf.shift + shift;
+                        let body = self.body_of(leaf.item);
+                        let hit = Hit { body, point, normal: contact.normal, fraction };
+                        first = Some((hit, leaf.item));
+                        *limit = fraction.min(*limit);
+                    }
+                });
             }
             if let Some((hit, _)) = first {
                 let fraction = piece.fraction_at(hit.fraction);
@@ -389,6 +406,12 @@ impl<'a> Queries<'a> {
 
 fn refused(invalid: InvalidValue) -> Error {
     invalid.about(Subject::Query)
+}
+
+/// Bounds of the places up to a distance from a point \[m\], wider by more than rounding.
+fn around(point: DVec3, distance: f64) -> Bounds {
+    let slack = 1e-9 * (point.abs().max_element() + distance);
+    Bounds::around(point, DVec3::splat(distance + slack))
 }
 
 /// A lower bound of the distance of a point from what is within bounds \[m\].

@@ -9,7 +9,7 @@ use crate::path::PredictedPath;
 use crate::query::{Hit, NearBody, Queries, QueryFilter};
 use crate::step;
 
-/// Sorting bodies costs about as much as this many queries that look at all of them.
+/// Sorting all bodies costs about as much as this many queries that look at them one by one.
 const FEW: usize = 8;
 
 impl World {
