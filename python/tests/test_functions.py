@@ -170,8 +170,14 @@ def test_an_exception_of_a_function_leaves_the_world() -> None:
 
 
 def test_ctrl_c_ends_a_run_under_functions_and_gives_back_what_it_has() -> None:
-    world = trap()
-    with pytest.raises(KeyboardInterrupt) as stop, ctrl_c(after=0.3):
+    world, calls = trap(), []
+
+    def count(world: carom.World) -> tuple[float, float, float]:
+        calls.append(world.time)
+        return (0, 0, 0)
+
+    world.add_force(count)
+    with pytest.raises(KeyboardInterrupt) as stop, ctrl_c(once=lambda: len(calls) > 3):
         world.run(frames=10**7, dt=0.01)
     trajectory = stop.value.trajectory  # type: ignore[attr-defined]
     assert 0 < trajectory.time[-1] <= world.time

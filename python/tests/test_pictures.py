@@ -214,7 +214,11 @@ def test_what_was_filmed_until_ctrl_c_is_a_film(tmp_path: Path) -> None:
 
     thread = threading.Thread(target=work)
     thread.start()
-    with pytest.raises(KeyboardInterrupt), ctrl_c(after=1.5):
+
+    def has_begun() -> bool:
+        return sum(file.stat().st_size for file in tmp_path.iterdir()) > 10_000
+
+    with pytest.raises(KeyboardInterrupt), ctrl_c(after=1.5, once=has_begun):
         carom.load("simtest1").record(path, seconds=1e6, size=(128, 72), quality="draft")
     ended.set()
     thread.join()

@@ -332,10 +332,14 @@ def test_a_run_that_kills_every_worker_is_blamed_alone(
 @pytest.mark.parametrize("where", ["None", "'serial'"])
 def test_a_killed_sweep_goes_on_where_it_was(where: str, tmp_path: Path) -> None:
     store, log, script = tmp_path / "runs.sqlite", tmp_path / "log", tmp_path / "script.py"
+    again = tmp_path / "again"
     script.write_text(
         "import carom, os, time\n"
         "def slow(world, a):\n"
         "    time.sleep(0.02)\n"
+        # The first time none gets further: it is killed meanwhile.
+        f"    while a >= 60 and not os.path.exists({str(again)!r}):\n"
+        "        time.sleep(0.02)\n"
         f"    with open({str(log)!r}, 'a') as lines:\n"
         "        lines.write(f'{a} {os.getpid()}\\n')\n"
         "    return a * a\n"
@@ -367,6 +371,7 @@ def test_a_killed_sweep_goes_on_where_it_was(where: str, tmp_path: Path) -> None
     finished = kept()
     assert 15 <= finished < 100
     log.unlink()
+    again.touch()
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     total, process = (int(word) for word in done.stdout.split())
     assert total == sum(a * a for a in range(100))

@@ -194,7 +194,13 @@ describe("the page, for the module,", () => {
       for (let i = 0; i < 1000; i += 1) {
         services.showFragment(`t=${i}`);
       }
-      await new Promise((resolve) => setTimeout(resolve, 900));
+      const pause = (/** @type {number} */ time) =>
+        new Promise((resolve) => setTimeout(resolve, time));
+      while (location.hash !== "#t=999") {
+        await pause(20);
+      }
+      // Longer than between two that are shown.
+      await pause(900);
       return [history.length - before, location.hash];
     });
     assert.equal(steps, 0);
@@ -245,8 +251,11 @@ describe("the page, for the module,", () => {
         dispatchEvent(new DeviceOrientationEvent("deviceorientation", { alpha: 0, beta, gamma }));
       const before = services.tilt();
       services.useTilt(true);
-      await new Promise((resolve) => setTimeout(resolve, 50));
-      hold(30, 0);
+      // It listens as soon as the browser has agreed.
+      while (services.tilt() === null) {
+        await new Promise((resolve) => setTimeout(resolve, 20));
+        hold(30, 0);
+      }
       const level = services.tilt();
       hold(30, 90);
       const right = services.tilt();

@@ -9,6 +9,10 @@ use std::process::{Command, Output, Stdio};
 use command::{CAROM, bad, bad_line, carom, good, path};
 use serde_json::Value;
 
+/// How long a busy machine may take for what needs a moment.
+#[cfg(unix)]
+const PATIENCE: std::time::Duration = std::time::Duration::from_secs(60);
+
 fn stdout(output: &Output) -> String {
     String::from_utf8(output.stdout.clone()).unwrap()
 }
@@ -361,7 +365,7 @@ fn interrupted_run(file: &Path) -> Output {
     let unfinished = format!("{}.0.unfinished", file.display());
     let size = |path: &Path| std::fs::metadata(path).map_or(0, |it| it.len());
     let is_written = || size(file).max(size(Path::new(&unfinished))) > 200_000;
-    while !is_written() && began.elapsed().as_secs() < 10 {
+    while !is_written() && began.elapsed() < PATIENCE {
         std::thread::sleep(std::time::Duration::from_millis(20));
     }
     let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
@@ -547,7 +551,7 @@ fn signals_end_a_frame_of_minutes_with_a_summary_and_readable_files() {
             .unwrap();
         // The file appears before the frame, which then takes minutes.
         let began = std::time::Instant::now();
-        while !file.exists() && began.elapsed().as_secs() < 10 {
+        while !file.exists() && began.elapsed() < PATIENCE {
             std::thread::sleep(std::time::Duration::from_millis(20));
         }
         std::thread::sleep(std::time::Duration::from_secs(1));
@@ -555,8 +559,8 @@ fn signals_end_a_frame_of_minutes_with_a_summary_and_readable_files() {
         assert!(killed.success(), "the frame has ended before {signal}");
         let began = std::time::Instant::now();
         let output = child.wait_with_output().unwrap();
-        // A user may wait a second; a busy machine gets a little more.
-        assert!(began.elapsed().as_secs_f64() < 3.0, "{signal}: {:?}", began.elapsed());
+        // A user may wait a second, a busy machine many; the frame would take minutes.
+        assert!(began.elapsed() < PATIENCE / 2, "{signal}: {:?}", began.elapsed());
         assert_eq!(output.status.code(), Some(130));
         let summary = stdout(&output);
         assert!(summary.contains("state hash") && summary.contains("in 0 frames"), "{summary}");

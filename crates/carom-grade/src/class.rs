@@ -25,7 +25,7 @@ pub fn class_page(runs: &[ClassRun]) -> String {
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\
          <meta name=\"viewport\" content=\"width=device-width\"><title>Graded runs</title>\
          <style>{STYLE}</style></head><body><h1>{} runs</h1>\n{}\n\
-         <table><tr><th>run</th><th>scene</th><th>result</th><th>cause</th><th>rows that follow</th>\
+         <table class=\"runs\"><tr><th>run</th><th>scene</th><th>result</th><th>cause</th><th>rows that follow</th>\
          </tr>{rows}</table>\n</body></html>\n",
         runs.len(),
         histogram(runs)
@@ -43,8 +43,15 @@ fn histogram(runs: &[ClassRun]) -> String {
     let most = counts.first().map_or(1, |it| it.1);
     let bar = |(kind, count): (String, usize)| {
         let width = 100.0 * count as f64 / most as f64;
+        // Green for right runs, grey for those without a verdict.
+        let class = match kind.as_str() {
+            kind if kind.starts_with("same") => "right",
+            "cannot be read" | "compared in part" => "open",
+            _ => "wrong",
+        };
         format!(
-            "<tr><td>{}</td><td>{count}</td><td class=\"bars\"><i style=\"width: {width:.0}%\"></i></td></tr>",
+            "<tr><td>{}</td><td>{count}</td><td class=\"bars\">\
+             <i class=\"{class}\" style=\"width: {width:.0}%\"></i></td></tr>",
             escaped(&kind)
         )
     };
@@ -81,13 +88,17 @@ fn row(run: &ClassRun) -> String {
         Ok(verdict) => verdict,
         Err(error) => {
             let error = escaped(error);
-            return format!("<tr><td>{name}</td><td></td><td colspan=\"3\">{error}</td></tr>");
+            return format!(
+                "<tr><td>{name}</td><td></td><td colspan=\"3\" data-label=\"cannot be read\">{error}</td></tr>"
+            );
         }
     };
     let best = verdict.explanations.first();
     let fit = best.map_or(&verdict.fit, |it| &it.fit);
+    // On narrow screens, cells stand below one another, each with its label.
     format!(
-        "<tr><td>{name}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.1} %</td></tr>",
+        "<tr><td>{name}</td><td data-label=\"scene\">{}</td><td data-label=\"result\">{}</td>\
+         <td data-label=\"cause\">{}</td><td data-label=\"rows that follow\">{:.1} %</td></tr>",
         escaped(&verdict.scene),
         escaped(&verdict.headline()),
         best.map_or(String::new(), |it| escaped(&it.named())),

@@ -12,6 +12,12 @@ use crate::tracks::{Key, Tracks};
 /// Times of rows after a departure that a fit takes up next.
 const NEXT: usize = 10;
 
+/// Times of rows that a fit takes up first: few, because a contact in the wrong frame leads astray.
+const FEW: usize = 3;
+
+/// Numbers of times that are taken up in turn until a fit becomes better.
+const TAKES: [usize; 6] = [NEXT, FEW, 2 * NEXT, 4 * NEXT, 8 * NEXT, 16 * NEXT];
+
 /// Most rows of a fit.
 const MOST_ROWS: usize = 400;
 
@@ -65,27 +71,30 @@ impl Bench<'_> {
     /// rows long after contacts would lead astray. `None` if the numbers do not make the next rows
     /// agree.
     pub fn fitted(&self, start: &Program, from: f64) -> Option<Candidate> {
-        let until = self.rows.later(from, NEXT);
-        let start = self.refined(start, until)?;
-        if !self.rows.agree_until(&self.run(&start, until + self.margin()), until) {
-            return None;
-        }
-        let mut best = self.candidate(start);
-        let mut take = NEXT;
+        let few = self.agreeing(start, from, FEW)?;
+        let next = self.agreeing(&few, from, NEXT);
+        let mut best = self.candidate(next.or_else(|| self.agreeing(start, from, NEXT))?);
+        let mut takes = TAKES.iter();
         for _ in 0..MOST_STEPS {
-            let Some(departed) = best.fit.departure else { break };
-            let until = self.rows.later(departed.time, take);
+            let (Some(departed), Some(take)) = (best.fit.departure, takes.next()) else { break };
+            let until = self.rows.later(departed.time, *take);
             let Some(next) = self.refined(&best.program, until) else { break };
             let next = self.candidate(next);
-            let is_better = next.fit.followed > best.fit.followed;
-            if is_better {
+            if next.fit.followed > best.fit.followed {
                 best = next;
-            } else if take > 8 * NEXT {
-                break;
+                takes = TAKES.iter();
             }
-            take = if is_better { NEXT } else { 2 * take };
         }
         Some(self.over_all(best))
+    }
+
+    /// Fits the numbers of a program to the rows up to a number of times after `from` \[s\]; `None`
+    /// if they do not agree then.
+    fn agreeing(&self, start: &Program, from: f64, times: usize) -> Option<Program> {
+        let until = self.rows.later(from, times);
+        let program = self.refined(start, until)?;
+        let tracks = self.run(&program, until + self.margin());
+        self.rows.agree_until(&tracks, until).then_some(program)
     }
 
     /// Fits the numbers of a program once more, to all rows that agree.
@@ -108,7 +117,7 @@ impl Bench<'_> {
             program
         };
         if let Quantity::Period(_) = quantity {
-            let period = self.period()?;
+            let period = self.period(base)?;
             let found = self.candidate(with(vec![period]));
             return Some(found);
         }
@@ -118,13 +127,31 @@ impl Bench<'_> {
         if quantity == Quantity::FrameTime {
             starts.extend(self.usual_step().map(|it| with(vec![it])));
         }
-        let until = self.rows.later(from, NEXT);
-        let chosen = self.rows.chosen(until, MOST_ROWS);
-        let mut starts: Vec<(f64, Program)> =
-            starts.into_iter().map(|it| (self.misfit(&it, &chosen, until), it)).collect();
-        starts.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let fits = starts.iter().take(STARTS).filter_map(|(_, start)| self.fitted(start, from));
+        let fits = self.nearest(starts, from).into_iter().filter_map(|it| self.fitted(&it, from));
         best_of(fits)
+    }
+
+    /// Returns the starting values whose next rows after a time \[s\] are nearest to the table. If
+    /// several are as near, because a contact is in the same frame for all of them, more rows
+    /// decide.
+    fn nearest(&self, starts: Vec<Program>, from: f64) -> Vec<Program> {
+        let misfits = |starts: &[Program], next: usize| {
+            let until = self.rows.later(from, next);
+            let chosen = self.rows.chosen(until, MOST_ROWS);
+            starts.iter().map(|it| self.misfit(it, &chosen, until)).collect::<Vec<f64>>()
+        };
+        let near = misfits(&starts, NEXT);
+        let mut sorted = near.clone();
+        sorted.sort_by(f64::total_cmp);
+        let Some(&limit) = sorted.get(STARTS - 1).or(sorted.last()) else { return starts };
+        let mut all: Vec<(f64, Program)> = near.into_iter().zip(starts).collect();
+        all.retain(|it| it.0 <= limit * (1.0 + 1e-9));
+        if all.len() > STARTS {
+            let left: Vec<Program> = all.into_iter().map(|it| it.1).collect();
+            all = misfits(&left, 8 * NEXT).into_iter().zip(left).collect();
+        }
+        all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        all.into_iter().take(STARTS).map(|it| it.1).collect()
     }
 
     /// Rounds the numbers of a program as far as it follows the table as well.
@@ -141,7 +168,9 @@ impl Bench<'_> {
                 values.iter_mut().for_each(|it| *it = neat(*it, unit));
                 let rounded = self.candidate(program);
                 let (own, other) = (rounded.fit.residual, best.fit.residual);
-                if rounded.fit.followed >= best.fit.followed && own <= 1.005 * other + 1e-9 {
+                if rounded.fit.followed > best.fit.followed {
+                    best = rounded;
+                } else if rounded.fit.followed == best.fit.followed && own <= 1.005 * other + 1e-9 {
                     best = rounded;
                     break;
                 }
@@ -206,11 +235,13 @@ impl Bench<'_> {
         Some(with_values(start, &values))
     }
 
-    /// Period of an emitter \[s\] from the times at which balls appear; `None` if they do not come
-    /// at equal times.
-    fn period(&self) -> Option<f64> {
+    /// Period of an emitter \[s\] from the times at which balls appear in the frames of a program;
+    /// `None` if they do not come at equal times.
+    fn period(&self, base: &Program) -> Option<f64> {
         let recorded = self.rows.recorded;
-        let h = self.course.frame_time;
+        let is_of_display = base.mistakes.has(crate::mistake::Mistake::DisplayFrames);
+        let display = self.usual_step().filter(|_| is_of_display && self.display.is_some());
+        let h = display.unwrap_or(base.course(self.course).frame_time);
         let times = recorded.times();
         let mut range = [0.0_f64, f64::INFINITY];
         let mut is_new = vec![true; self.rows.keys.len()];

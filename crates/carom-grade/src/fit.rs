@@ -8,6 +8,7 @@ use crate::recorded::Recorded;
 use crate::tracks::{Key, Tracks};
 
 /// A recorded run with data about its rows from the course's rule.
+#[derive(Clone)]
 pub(crate) struct Rows<'a> {
     pub recorded: &'a Recorded,
     /// Meaning of each label.
@@ -133,11 +134,11 @@ impl Rows<'_> {
 }
 
 impl Rows<'_> {
-    /// Allows errors of a number of these spreads by rounding \[m\], too.
-    pub fn widen(&mut self, spreads: &[f64], number: f64) {
-        for (tolerance, spread) in self.tolerances.iter_mut().zip(spreads) {
-            *tolerance += number * spread;
-        }
+    /// Returns rows that may be off by these errors \[m\], too.
+    pub fn widened(&self, errors: &[f64]) -> Self {
+        let mut rows = self.clone();
+        rows.tolerances.iter_mut().zip(errors).for_each(|(own, error)| *own += error);
+        rows
     }
 
     /// Whether all rows up to a time \[s\] agree with `tracks`.

@@ -157,7 +157,10 @@ impl Grader {
         let (fit, rounding) = self.compare(&found.case, found.tolerance);
         let course = &self.course;
         let explain = |it: Candidate| Explanation::new(it, &fit, course);
-        let explanations = found.candidates.iter().cloned().map(explain).collect();
+        let explanations: Vec<Explanation> =
+            found.candidates.iter().cloned().map(explain).filter(Explanation::convinces).collect();
+        // What is not named is not drawn.
+        let explaining = found.explaining.filter(|_| !explanations.is_empty());
         let base = self.base_tolerance(&found.case.recorded);
         let rule = self.rule(&found.case.recorded);
         let Case { form, recorded, keys } = found.case;
@@ -170,14 +173,14 @@ impl Grader {
             scatter: found.scatter,
             rounding,
             explanations,
-            explaining: found.explaining.as_ref(),
+            explaining: explaining.as_ref(),
             tolerance: base,
             asked: self.tolerance,
             fit,
         };
         let verdict = Verdict::of(parts);
         let reference = rule.tracks.clone();
-        Graded { verdict, reference, explanation: found.explaining, recorded, keys }
+        Graded { verdict, reference, explanation: explaining, recorded, keys }
     }
 
     fn case(&mut self, form: Form, recorded: &Recorded) -> Case {
@@ -327,24 +330,23 @@ impl Grader {
     /// Finds what explains a run better than the course's rule does, the best first, and the run of
     /// the best.
     fn explanations(&self, found: &Found, right: &Fit) -> (Vec<Candidate>, Option<Tracks>) {
-        let mut rows = self.rows(&found.case, found.tolerance);
+        let rows = self.rows(&found.case, found.tolerance);
         let rule = self.rule(&found.case.recorded);
         let display = display_times(&self.course, &found.case.recorded);
+        let plain = self.bench(&rows, rule, display.as_deref());
+        // A wrong program rounds in another way than the rule: rows may be off by what rounding
+        // does to the likeliest program, too, once it is known.
+        let singles = self.singles(&plain, rule);
+        let rows = self.widened(&plain, likeliest(&singles, right));
         let bench = self.bench(&rows, rule, display.as_deref());
-        // A wrong program rounds in another way than the rule.
-        let singles = self.singles(&bench, rule);
-        let is_longer = |it: &&Candidate| it.fit.followed > right.followed;
-        let first: Vec<Candidate> = singles.iter().filter(is_longer).cloned().collect();
-        if let Some(best) = verdict::best(&first) {
-            let own = self.widened(&bench, &best.program);
-            rows.widen(&own, SPREADS);
-        }
+        let alone = Search { bench: &bench, right }.alone(self.singles(&bench, rule));
+        let rows = self.widened(&plain, verdict::best(&alone.better_than(right)));
         let bench = self.bench(&rows, rule, display.as_deref());
-        let singles = self.singles(&bench, rule);
-        let all = Search { bench: &bench, right, singles }.explanations();
-        let Some(best) = verdict::best(&all) else { return (Vec::new(), None) };
-        let own = self.widened(&bench, &best.program);
-        rows.widen(&own, SPREADS);
+        let search = Search { bench: &bench, right };
+        let alone = search.again(alone, self.singles(&bench, rule));
+        let mut all = alone.better_than(right);
+        all.extend(search.pairs(&alone));
+        let rows = self.widened(&plain, verdict::best(&all));
         let bench = self.bench(&rows, rule, display.as_deref());
         let mut all: Vec<Candidate> = verdict::listed(all);
         for candidate in &mut all {
@@ -375,8 +377,9 @@ impl Grader {
         Mistake::all().zip(known).map(compare).collect()
     }
 
-    /// Spreads by rounding of each row under a program \[m\].
-    fn widened(&self, bench: &Bench, program: &Program) -> Vec<f64> {
+    /// Rows that may be off by what rounding does to a program, too.
+    fn widened<'a>(&self, bench: &Bench<'a>, likeliest: Option<&Candidate>) -> Rows<'a> {
+        let Some(Candidate { program, .. }) = likeliest else { return bench.rows.clone() };
         let tracks = bench.run(program, bench.end);
         let clock = Clock::Fixed(bench.end);
         let spread = Spread::of(program, &self.course, &tracks, &clock);
@@ -384,9 +387,10 @@ impl Grader {
             let (frame, part) = tracks.frame_at(row.time)?;
             let frame = frame + usize::from(part > 0.0);
             let ball = tracks.ball(bench.rows.keys[row.label], frame)?;
-            Some(spread.at(ball, frame - tracks.balls[ball].birth))
+            Some(SPREADS * spread.at(ball, frame - tracks.balls[ball].birth))
         };
-        bench.rows.recorded.rows.iter().map(|row| of_row(row).unwrap_or(0.0)).collect()
+        let rows = bench.rows.recorded.rows.iter();
+        bench.rows.widened(&rows.map(|row| of_row(row).unwrap_or(0.0)).collect::<Vec<_>>())
     }
 }
 
@@ -429,6 +433,15 @@ impl Found {
     fn of(case: Case, tolerance: f64) -> Self {
         Self { case, tolerance, scatter: None, candidates: Vec::new(), explaining: None }
     }
+}
+
+/// The program that is likeliest to be right before its rounding is known: the one that agrees
+/// longest and then departs least.
+fn likeliest<'a>(singles: &'a [Candidate], right: &Fit) -> Option<&'a Candidate> {
+    let apart =
+        |it: &Candidate| it.fit.departure.map_or(0.0, |it| it.distance.unwrap_or(f64::INFINITY));
+    let may = singles.iter().filter(|it| it.fit.followed >= right.followed);
+    may.min_by(|a, b| b.fit.followed.cmp(&a.fit.followed).then(apart(a).total_cmp(&apart(b))))
 }
 
 /// Finds the display frames in which a table was recorded: the times of the table, if they are not

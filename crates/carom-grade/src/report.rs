@@ -79,30 +79,42 @@ fn said(verdict: &Verdict) -> String {
     if verdict.explanations.is_empty() {
         return text;
     }
-    text += "<h2>Known mistakes</h2><table><tr><th>mistake</th><th>what the program does</th>\
-             <th>formula</th><th>of the lecture</th><th>rows that follow</th><th>residual</th></tr>";
+    // Wrong numbers have no formulas.
+    let has_formulas = verdict.explanations.iter().any(|it| !it.cause.mistakes.is_empty());
+    let formulas = if has_formulas {
+        "<th>what the program does</th><th>formula</th><th>of the lecture</th>"
+    } else {
+        ""
+    };
+    text += &format!(
+        "<h2>What explains it</h2><table><tr><th>cause</th>{formulas}<th>rows that follow</th>\
+         <th>residual</th></tr>"
+    );
     for explanation in &verdict.explanations {
-        text += &row(explanation);
+        text += &row(explanation, has_formulas);
     }
     text + "</table>"
 }
 
-fn row(explanation: &Explanation) -> String {
-    let formulas = |formula: fn(Mistake) -> &'static str| {
+fn row(explanation: &Explanation, has_formulas: bool) -> String {
+    let all = |formula: fn(Mistake) -> &'static str| {
         let all: Vec<String> =
             explanation.cause.mistakes.iter().map(|it| escaped(formula(it))).collect();
         all.join("<br>")
     };
+    let formulas = format!(
+        "<td>{}</td><td><code>{}</code></td><td><code>{}</code></td>",
+        escaped(&explanation.sentence()),
+        all(Mistake::wrong),
+        all(Mistake::right)
+    );
     let same: Vec<String> = explanation.same_as.iter().map(|it| escaped(&it.to_string())).collect();
     let same = if same.is_empty() { String::new() } else { format!(", or {}", same.join(", ")) };
     let fit = &explanation.fit;
     format!(
-        "<tr><td>{}{same}</td><td>{}</td><td><code>{}</code></td><td><code>{}</code></td>\
-         <td>{} of {}</td><td>{}</td></tr>",
+        "<tr><td>{}{same}</td>{}<td>{} of {}</td><td>{}</td></tr>",
         escaped(&explanation.named()),
-        escaped(&explanation.sentence()),
-        formulas(Mistake::wrong),
-        formulas(Mistake::right),
+        if has_formulas { &formulas } else { "" },
         fit.followed,
         fit.rows,
         length(fit.rms)
@@ -118,7 +130,7 @@ impl Page<'_> {
                         <i class=\"right\"></i> the course's rule"
             .to_owned();
         if self.graded.explanation.is_some() {
-            text += " <i class=\"why\"></i> the mistake that fits best";
+            text += " <i class=\"why\"></i> what explains the run";
         }
         text += "</p>";
         for axis in 0..3 {

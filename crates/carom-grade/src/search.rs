@@ -18,36 +18,77 @@ const LEAST_CHANGE: f64 = 2e-3;
 /// Times of rows after the departures of its parts up to which a pair must agree.
 const NEXT: usize = 10;
 
+/// Programs with one cause each.
+pub(crate) struct Alone {
+    /// Programs with a known mistake, in the order of the list.
+    pub mistakes: Vec<Candidate>,
+    /// A program with one wrong number for each quantity, where its value can be found; empty if a
+    /// mistake explains all rows.
+    pub numbers: Vec<Option<Candidate>>,
+}
+
+impl Alone {
+    /// Returns the programs that agree longer than the course's rule, or only those that agree with
+    /// all rows, if some do.
+    pub fn better_than(&self, right: &Fit) -> Vec<Candidate> {
+        let all = self.mistakes.iter().chain(self.numbers.iter().flatten());
+        let mut found: Vec<Candidate> =
+            all.filter(|it| it.fit.followed > right.followed).cloned().collect();
+        if self.mistakes.iter().any(|it| it.fit.is_complete()) {
+            found.retain(|it| it.fit.is_complete());
+        }
+        found
+    }
+}
+
 /// A search over the causes of one run.
 pub(crate) struct Search<'a> {
     pub bench: &'a Bench<'a>,
     /// Comparison with the course's rule, which the run departs from.
     pub right: &'a Fit,
-    /// Runs of single mistakes, in the order of the list.
-    pub singles: Vec<Candidate>,
 }
 
 impl Search<'_> {
-    /// Finds programs that explain the run better than the course's rule does: one cause each, or
-    /// pairs if no single cause explains all.
-    pub fn explanations(&self) -> Vec<Candidate> {
-        let mut found = self.singles.clone();
-        if found.iter().any(|it| it.fit.is_complete()) {
-            found.retain(|it| it.fit.is_complete());
-            return found;
+    /// Adds the programs with one wrong number to those with one mistake.
+    pub fn alone(&self, mistakes: Vec<Candidate>) -> Alone {
+        if mistakes.iter().any(|it| it.fit.is_complete()) {
+            return Alone { mistakes, numbers: Vec::new() };
         }
-        let numbers = self.numbers();
-        found.extend(numbers.iter().flatten().cloned());
-        found.retain(|it| it.fit.followed > self.right.followed);
-        let best = found.iter().map(|it| it.fit.followed).max().unwrap_or(0);
+        let mut numbers = self.numbers();
+        // In a run of many contacts, the last digits decide how long it agrees.
+        let best = numbers
+            .iter_mut()
+            .flatten()
+            .reduce(|best, next| if next.fit.is_better_than(&best.fit) { next } else { best });
+        if let Some(best) = best {
+            *best = self.bench.rounded(best.clone());
+        }
+        Alone { mistakes, numbers }
+    }
+
+    /// Compares programs that were found with other errors of rows; `mistakes` are so already.
+    pub fn again(&self, found: Alone, mistakes: Vec<Candidate>) -> Alone {
+        if found.numbers.is_empty() {
+            return self.alone(mistakes);
+        }
+        let compared = |it: Option<Candidate>| it.map(|it| self.bench.candidate(it.program));
+        Alone { mistakes, numbers: found.numbers.into_iter().map(compared).collect() }
+    }
+
+    /// Finds pairs of causes that agree much longer than `alone`, if no single cause explains all.
+    pub fn pairs(&self, alone: &Alone) -> Vec<Candidate> {
+        let single = alone.better_than(self.right);
+        let best = single.iter().map(|it| it.fit.followed).max().unwrap_or(0);
         let rows = self.right.rows;
-        if best < rows && rows <= MOST_ROWS_OF_PAIRS {
-            let least = best as f64 + WORTH_A_PAIR * rows as f64;
-            let pairs = self.pairs(&numbers);
-            let is_worth = |it: &Candidate| it.fit.followed as f64 > least && self.is_seen(it);
-            found.extend(pairs.into_iter().filter(is_worth));
+        if best == rows || rows > MOST_ROWS_OF_PAIRS {
+            return Vec::new();
         }
-        found
+        let least = best as f64 + WORTH_A_PAIR * rows as f64;
+        let mut pairs = self.mistakes_twice(&alone.mistakes);
+        pairs.extend(self.mistakes_with_numbers(&alone.mistakes));
+        pairs.extend(self.numbers_twice(&alone.numbers));
+        pairs.retain(|it| it.fit.followed as f64 > least && self.is_seen(it));
+        pairs
     }
 
     /// Whether each number of a program is other than that of the course, not only by rounding.
@@ -76,22 +117,21 @@ impl Search<'_> {
         self.quantities().into_iter().map(fitted).collect()
     }
 
-    fn pairs(&self, numbers: &[Option<Candidate>]) -> Vec<Candidate> {
-        let mut found = self.mistakes_twice();
-        for single in &self.singles {
+    fn mistakes_with_numbers(&self, mistakes: &[Candidate]) -> Vec<Candidate> {
+        let mut found = Vec::new();
+        for single in mistakes {
             let from = self.departure(&single.fit);
             let with = |it| self.bench.with_quantity(&single.program, it, from);
             found.extend(self.quantities().into_iter().filter_map(with));
         }
-        found.extend(self.numbers_twice(numbers));
         found
     }
 
-    fn mistakes_twice(&self) -> Vec<Candidate> {
+    fn mistakes_twice(&self, mistakes: &[Candidate]) -> Vec<Candidate> {
         let mut found = Vec::new();
         let until = |of: &Candidate| self.bench.rows.later(self.departure(&of.fit), NEXT);
-        for (place, first) in self.singles.iter().enumerate() {
-            for second in &self.singles[place + 1..] {
+        for (place, first) in mistakes.iter().enumerate() {
+            for second in &mistakes[place + 1..] {
                 let both: Mistakes =
                     first.program.mistakes.iter().chain(second.program.mistakes.iter()).collect();
                 let program = Program::from(both);

@@ -152,6 +152,11 @@ impl Explanation {
         Self { cause, same_as: Vec::new(), fit, share, then: None }
     }
 
+    /// Whether the causes explain so much that they are named.
+    pub(crate) fn convinces(&self) -> bool {
+        self.share >= CONVINCING
+    }
+
     /// Describes what the program does, in sentences.
     pub fn sentence(&self) -> String {
         let sentences: Vec<&str> = self.cause.mistakes.iter().map(Mistake::sentence).collect();
@@ -248,9 +253,8 @@ fn digits(difference: f64) -> i32 {
     (0..=15).take_while(|digits| difference <= 0.5 * 10_f64.powi(-digits)).last().unwrap_or(0)
 }
 
-/// Returns the best explanations that convince; merges those that this run does not distinguish.
-fn grouped(mut found: Vec<Explanation>) -> Vec<Explanation> {
-    found.retain(|it| it.share >= CONVINCING);
+/// Returns the best explanations; merges those that this run does not distinguish.
+fn grouped(found: Vec<Explanation>) -> Vec<Explanation> {
     let mut listed: Vec<Explanation> = Vec::new();
     for explanation in found {
         match listed.iter().position(|it| is_same(&it.fit, &explanation.fit)) {

@@ -211,12 +211,14 @@ impl Band {
         }
     }
 
-    /// The inside of the cylinder over the rim of a disc, widened by `slack` \[m\].
-    pub fn beyond_disc(&self, slack: f64) -> Option<Self> {
-        let radius = self.disc_radius()? + slack;
-        let far = 1e3 * radius;
-        let profile = Profile::line(DVec2::new(radius, -far), DVec2::new(radius, far));
-        Some(Self { profile, ..*self })
+    /// The inside of a cylinder about the axis of a disc, at the height of a point \[m\]: as far from the rim as the
+    /// radius of the disc, and `slack` \[m\].
+    pub fn beyond_disc(&self, point: DVec3, slack: f64) -> Option<Self> {
+        let half = self.disc_radius()?;
+        let radius = 2.0 * half + slack;
+        let profile = Profile::line(DVec2::new(radius, -half), DVec2::new(radius, half));
+        let center = self.center + (point - self.center).dot(self.axis) * self.axis;
+        Some(Self { center, profile, ..*self })
     }
 
     /// Where a point \[m\] is that goes along from another place of the band to this one, by the shortest turn.

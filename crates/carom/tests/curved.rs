@@ -141,6 +141,39 @@ fn a_ball_that_slides_off_a_disc_falls_at_its_rim() {
     assert!(off < 1e-11, "{off}");
 }
 
+/// Of 600 balls that slide with friction, wherever rounding puts them at the rim.
+#[test]
+fn a_ball_slowed_by_friction_falls_at_the_rim_of_a_cap() {
+    for number in 0..600 {
+        let part = f64::from(number) / 600.0;
+        let (angle, speed, friction) = (20.0 * part, 3.0 + 7.0 * part, 0.3 - 0.28 * part);
+        let mut world = with_gravity(world(Exact::default()));
+        let height = 0.8 + part;
+        let shape = if number % 2 == 0 {
+            Shape::Disc { radius: 0.3 }
+        } else {
+            Shape::Cylinder { radius: 0.3, height: 2.0 * height }
+        };
+        let center = if number % 2 == 0 { height } else { 0.0 };
+        let pose = Pose::at(DVec3::new(0.1, center, -0.2));
+        world.add_collider(Collider::new(shape, pose).with_restitution(0.0)).unwrap();
+        let way = DVec3::new(libm::cos(angle), 0.0, libm::sin(angle));
+        let axis = DVec3::new(0.1, height + 0.05, -0.2);
+        let ball = Sphere::new(axis - 0.1 * way, 0.05).with_friction(friction);
+        world.add_sphere(ball.with_velocity(speed * way)).unwrap();
+        // v t - μ g t²/2 = 0.4 m, before the slip ends at 2 v / (7 μ g); then as it would fly, for v² > g r.
+        let slowing = friction * G;
+        let time = (speed - (speed * speed - 2.0 * slowing * 0.4).sqrt()) / slowing;
+        assert!(time < 2.0 * speed / (7.0 * slowing));
+        world.step(time + 0.1).unwrap();
+        let along = 0.3 + 0.1 * (speed - slowing * time);
+        let expected = axis + along * way - DVec3::Y * 0.5 * G * 0.01;
+        let off = (world.spheres().positions()[0] - expected).length();
+        // Rounding, and that of the place of the rim.
+        assert!(off < 1e-11, "{number}: {off}");
+    }
+}
+
 #[test]
 fn sizes_that_make_no_shape_are_refused() {
     let mut world = world(Exact::default());

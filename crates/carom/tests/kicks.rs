@@ -137,17 +137,21 @@ fn a_kick_too_small_to_lift_a_ball_leaves_it_at_rest() {
     }
 }
 
+/// Wherever rounding puts the edge for each of its two faces.
 #[test]
 fn a_kick_at_an_edge_of_a_box_is_given_once() {
-    for rule in [Rule::default(), Rule::Contact(Contact::default())] {
+    let mut numbers = Numbers(7);
+    for number in 0..400 {
+        let rule =
+            if number % 4 == 0 { Rule::Contact(Contact::default()) } else { Rule::default() };
         let mut world = world(rule);
-        let pose =
-            Pose::at(DVec3::ZERO).rotated(DQuat::from_rotation_z(std::f64::consts::FRAC_PI_4));
+        let place = if number < 4 { DVec3::ZERO } else { numbers.vector() };
+        let pose = Pose::at(place).rotated(DQuat::from_rotation_z(std::f64::consts::FRAC_PI_4));
         let edge = Collider::new(Shape::Box { size: DVec3::ONE }, pose).with_kick(2.0);
         world.add_collider(edge.with_restitution(0.0)).unwrap();
         let top = std::f64::consts::FRAC_1_SQRT_2;
-        let ball = Sphere::new(vec(0.0, top + 0.2, 0.0), 0.1).with_velocity(vec(0.0, -8.0, 0.0));
-        let ball = world.add_sphere(ball).unwrap();
+        let ball = Sphere::new(place + vec(0.0, top + 0.2, 0.0), 0.1);
+        let ball = world.add_sphere(ball.with_velocity(vec(0.0, -8.0, 0.0))).unwrap();
         world.step(1.0 / 60.0).unwrap();
         world.step(1.0 / 60.0).unwrap();
         assert_close(world.sphere(ball).unwrap().velocity.y, 2.0, 1e-9);

@@ -133,7 +133,7 @@ impl Keeps {
                 "has {rest:e} J too much for its account {account:?}, its energy being {scale:e} J"
             ));
         }
-        let gain = change - account.correction.max(0.0);
+        let gain = change - account.correction.max(0.0) - account.kicks;
         let uncertain = self.speed_error * momenta(world);
         if is_exact && self.gain.is_some_and(|most| gain > most * scale + uncertain) {
             return Err(format!("gains {gain:e} J, its energy being {scale:e} J"));
@@ -194,7 +194,8 @@ impl Keeps {
 
 /// Whether spheres come through it from behind.
 fn passes(collider: &Collider) -> bool {
-    matches!(collider.shape, Shape::Rectangle { .. })
+    let shape = &collider.shape;
+    matches!(shape, Shape::Rectangle { .. } | Shape::Disc { .. } | Shape::HeightField(_))
 }
 
 /// Whether bodies still close after an impact: surfaces that move leave a ball no way out, and no impulses answer that.

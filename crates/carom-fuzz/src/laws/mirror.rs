@@ -13,6 +13,11 @@ fn pair(scene: &Scene, _: &Trace) -> Option<Pair> {
     if scene.simulation.rule == Rule::Contact {
         return None;
     }
+    // The cells of a height field are divided along the diagonals of one direction.
+    let has_cells = |it: &Collider| matches!(it.shape, Shape::HeightField(_));
+    if scene.colliders.iter().any(has_cells) {
+        return None;
+    }
     let pair = Pair::new(mirrored(scene), Agreement::Rounding, |frame| {
         for body in &mut frame.bodies {
             body.position.x = -body.position.x;
@@ -64,14 +69,22 @@ fn mirror_collider(collider: &mut Collider) {
     mirror(&mut collider.velocity);
     mirror_turn(&mut collider.rotation);
     mirror_axis(&mut collider.angular_velocity);
-    if let Shape::Container { open, .. } = &mut collider.shape {
-        for side in open {
-            *side = match *side {
-                Side::Left => Side::Right,
-                Side::Right => Side::Left,
-                other => other,
-            };
+    // Shapes of revolution are their own mirror images.
+    match &mut collider.shape {
+        Shape::Container { open, .. } => {
+            for side in open {
+                *side = match *side {
+                    Side::Left => Side::Right,
+                    Side::Right => Side::Left,
+                    other => other,
+                };
+            }
         }
+        Shape::Mesh(mesh) => {
+            mesh.vertices.iter_mut().for_each(mirror);
+            mesh.triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
+        }
+        _ => {}
     }
 }
 

@@ -33,7 +33,10 @@ fn is_reversible(scene: &Scene) -> bool {
         && scene.springs.is_empty()
         && scene.spheres.iter().all(|it| it.restitution == 1.0 && is_smooth(it.friction))
         && scene.colliders.iter().all(|it| {
-            it.restitution == 1.0 && is_smooth(it.friction) && it.angular_velocity == [0.0; 3]
+            it.restitution == 1.0
+                && it.kick == 0.0
+                && is_smooth(it.friction)
+                && it.angular_velocity == [0.0; 3]
         })
         && scene
             .forces

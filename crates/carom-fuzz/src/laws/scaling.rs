@@ -105,6 +105,7 @@ fn scale_spring(spring: &mut Spring, scale: Scale) {
 
 fn scale_collider(collider: &mut Collider, scale: Scale) {
     let length = scale.of(1, 0, 0);
+    collider.kick *= scale.of(1, 0, -1);
     scale_vector(&mut collider.position, length);
     scale_vector(&mut collider.velocity, scale.of(1, 0, -1));
     scale_vector(&mut collider.angular_velocity, scale.of(0, 0, -1));

@@ -87,6 +87,9 @@ fn confused(q: [f64; 4]) -> [f64; 4] {
     let norm = q.iter().map(|it| it * it).sum::<f64>().sqrt();
     let [x, y, z, w] = q.map(|it| it / norm);
     let sine = length([x, y, z]);
+    if sine == 0.0 {
+        return q;
+    }
     let half = sine.atan2(w).to_degrees();
     let axis = times([x, y, z], half.sin() / sine);
     [axis[0], axis[1], axis[2], half.cos()]

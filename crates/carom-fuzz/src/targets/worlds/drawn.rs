@@ -80,6 +80,8 @@ pub struct Obstacle {
     /// Its angular velocity \[rad/s\], where it turns.
     pub spin: Option<Vector>,
     pub is_trigger: bool,
+    /// What an impact on it adds to the speed \[m/s\].
+    pub kick: Option<f64>,
 }
 
 #[derive(Debug, Clone)]
@@ -94,6 +96,8 @@ pub struct Ball {
     /// Where it is, or in which direction it touches the ball before.
     pub place: Vector,
     pub touches: bool,
+    /// The groups that it is in, and those that it collides with: the first, in which all else is, among them.
+    pub groups: Option<[u32; 2]>,
 }
 
 /// A vector in the cube from -1 to 1.
@@ -150,9 +154,6 @@ fn sensible(mut drawn: Drawn) -> Drawn {
         drawn.forces.retain(|it| LINEAR.iter().any(|kind| it.starts_with(kind)));
     }
     if is_periodic {
-        // There `exact` refuses what has no closed form, for it steps nothing.
-        let material = &mut drawn.material;
-        (material.friction, material.rolling, material.spinning) = (None, None, None);
         // Such gravity has no end there.
         drawn.forces.retain(|it| !it.starts_with("mutual"));
     }
@@ -245,26 +246,56 @@ fn emitter() -> impl Strategy<Value = Emitter> {
     )
 }
 
+/// Shapes that are flat, or a sphere.
+const FLAT: [&str; 6] = [
+    "{ box = { size = [0.8, 0.5, 0.3] } }",
+    "{ sphere = { radius = 0.4 } }",
+    "{ box = { size = [1.5, 0.02, 1.5] } }",
+    "{ rectangle = { size_x = 1.5, size_z = 0.75 } }",
+    "{ container = { size = [1.5, 1.0, 1.25], open = \"top\" } }",
+    "{ sphere = { radius = 0.02 } }",
+];
+
+/// Shapes of revolution.
+const ROUND: [&str; 10] = [
+    "{ cylinder = { radius = 0.3, height = 0.8 } }",
+    "{ cone = { bottom_radius = 0.4, height = 0.7 } }",
+    "{ cone = { bottom_radius = 0.4, top_radius = 0.15, height = 0.5 } }",
+    "{ capsule = { radius = 0.15, length = 0.6 } }",
+    "{ disc = { radius = 0.7 } }",
+    "{ torus = { ring_radius = 0.5, tube_radius = 0.15 } }",
+    "{ pipe = { radius = 0.5, length = 0.9 } }",
+    "{ pipe = { radius = 0.6, length = 0.7, closed = \"bottom\" } }",
+    "{ bowl = { radius = 0.7 } }",
+    "{ funnel = { bottom_radius = 0.15, top_radius = 0.7, height = 0.6 } }",
+];
+
+/// A tetrahedron, two triangles with a valley between them, and ground.
+const MESHES: [&str; 3] = [
+    "{ mesh = { vertices = [[0.5, -0.3, 0.0], [-0.3, -0.3, 0.4], [-0.3, -0.3, -0.4], [0.0, 0.5, 0.0]], \
+     triangles = [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]] } }",
+    "{ mesh = { vertices = [[0.0, 0.0, -0.7], [0.0, 0.0, 0.7], [0.7, 0.3, 0.0], [-0.7, 0.2, 0.0]], \
+     triangles = [[0, 1, 2], [1, 0, 3]] } }",
+    "{ height-field = { size_x = 1.6, size_z = 1.6, heights = [[0.3, 0.2, 0.2, 0.3], [0.2, -0.1, 0.0, 0.2], \
+     [0.2, 0.1, -0.1, 0.2], [0.3, 0.2, 0.2, 0.3]] } }",
+];
+
 fn obstacle() -> impl Strategy<Value = Obstacle> {
-    let shapes = [
-        "{ box = { size = [0.8, 0.5, 0.3] } }",
-        "{ sphere = { radius = 0.4 } }",
-        "{ box = { size = [1.5, 0.02, 1.5] } }",
-        "{ rectangle = { size_x = 1.5, size_z = 0.75 } }",
-        "{ container = { size = [1.5, 1.0, 1.25], open = \"top\" } }",
-        "{ sphere = { radius = 0.02 } }",
-    ];
+    let shape =
+        prop_oneof![3 => select(&FLAT[..]), 3 => select(&ROUND[..]), 1 => select(&MESHES[..])];
     let velocity = weighted(0.15, prop_oneof![3 => vector(), 1 => vector_of(20.0)]);
     let place = (vector_of(0.5 * HALF), prop_oneof![1 => Just([0.0; 3]), 3 => vector_of(180.0)]);
-    let is_trigger = proptest::bool::weighted(0.05);
-    (select(shapes.to_vec()), place, velocity, weighted(0.1, vector_of(3.0)), is_trigger).prop_map(
-        |(shape, (position, turn), velocity, spin, is_trigger)| Obstacle {
+    let spin = weighted(0.1, vector_of(3.0));
+    let answer = (proptest::bool::weighted(0.05), weighted(0.1, 0.1..5.0));
+    (shape, place, velocity, spin, answer).prop_map(
+        |(shape, (position, turn), velocity, spin, (is_trigger, kick))| Obstacle {
             shape,
             position,
             turn,
             velocity,
             spin,
             is_trigger,
+            kick,
         },
     )
 }
@@ -274,8 +305,9 @@ fn ball() -> impl Strategy<Value = Ball> {
     let speed = prop_oneof![4 => Just(5.0), 1 => Just(0.0), 1 => (1.0..3.0f64).prop_map(|it| 10f64.powf(it))];
     let turning = (weighted(0.3, vector_of(20.0)), select(&[0.4, 0.4, 2.0 / 3.0, 0.1][..]));
     let place = (vector(), proptest::bool::weighted(0.3));
-    (-2.5..-0.3, mass, speed, vector(), turning, place).prop_map(
-        |(radius, mass, speed, direction, (spin, inertia), (place, touches))| Ball {
+    let groups = weighted(0.1, select(&[[1, 1], [2, 1], [2, 3], [3, 5]][..]));
+    (-2.5..-0.3, mass, speed, vector(), turning, place, groups).prop_map(
+        |(radius, mass, speed, direction, (spin, inertia), (place, touches), groups)| Ball {
             radius,
             mass,
             velocity: scaled(direction, speed),
@@ -283,6 +315,7 @@ fn ball() -> impl Strategy<Value = Ball> {
             inertia,
             place,
             touches,
+            groups,
         },
     )
 }

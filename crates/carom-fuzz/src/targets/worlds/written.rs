@@ -64,9 +64,12 @@ fn ball(drawn: &Drawn, placed: &Placed, material: &str) -> String {
     let Placed { position, radius, ball } = placed;
     let (mass, velocity) = (10f64.powf(ball.mass), sum(ball.velocity, velocity_of_all(drawn)));
     let spin = ball.spin.map_or(String::new(), |it| format!("angular_velocity = {it:?}\n"));
+    let groups = ball.groups.map_or(String::new(), |[groups, others]| {
+        format!("groups = {groups}\ncollides_with = {others}\n")
+    });
     format!(
         "[[spheres]]\nposition = {position:?}\nvelocity = {velocity:?}\nradius = {radius:?}\n\
-         mass = {mass:?}\ninertia_factor = {:?}\n{spin}{material}",
+         mass = {mass:?}\ninertia_factor = {:?}\n{spin}{groups}{material}",
         ball.inertia
     )
 }
@@ -158,11 +161,12 @@ fn emitter(drawn: &Drawn, emitter: &Emitter) -> String {
 }
 
 fn obstacle(drawn: &Drawn, obstacle: &Obstacle, material: &str) -> String {
-    let Obstacle { shape, position, turn, velocity, spin, is_trigger } = obstacle;
+    let Obstacle { shape, position, turn, velocity, spin, is_trigger, kick } = obstacle;
     let motion = motion(drawn, *velocity, *spin);
     let trigger = if *is_trigger { "trigger = true\n" } else { "" };
+    let kick = kick.map_or(String::new(), |it| format!("kick = {it:?}\n"));
     format!(
         "[[colliders]]\nshape = {shape}\nposition = {position:?}\n\
-         rotation = {{ euler_degrees = {turn:?} }}\n{motion}{trigger}{material}"
+         rotation = {{ euler_degrees = {turn:?} }}\n{motion}{trigger}{kick}{material}"
     )
 }

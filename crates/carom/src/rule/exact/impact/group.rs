@@ -26,6 +26,9 @@ use crate::rule::periodic;
 
 /// Units of work that it takes to find what touches a sphere, and to predict what it meets next.
 const UNITS_PER_MEMBER: u64 = 500;
+/// Contacts of a sphere and a collider whose normals differ by less are at one place, where faces share an edge or a
+/// corner: far more than the rounding of places.
+const SAME_NORMAL: f64 = 1e-9;
 
 /// Answers what happens at `time` \[s\] among the spheres at `seeds`, the surface they met, if any,
 /// and all that touch them.
@@ -281,7 +284,8 @@ fn kick(context: &StepContext, group: &mut Group, impulses: &mut [f64]) -> Kicks
     for (place, touch) in group.touches.iter().enumerate() {
         let Bodies::Surface { surface, .. } = touch.bodies else { continue };
         let between = BodyPair::of(touch.bodies, context.system);
-        if impulses[place] <= 0.0 || kicked.contains(&(between, touch.point)) {
+        let is_kicked = |it: &(BodyPair, DVec3)| it.0 == between && is_same(it.1, touch.normal);
+        if impulses[place] <= 0.0 || kicked.iter().any(is_kicked) {
             continue;
         }
         let member = &group.members[touch.second];
@@ -291,9 +295,13 @@ fn kick(context: &StepContext, group: &mut Group, impulses: &mut [f64]) -> Kicks
         kicks.speeds[place] = speed;
         impulses[place] += mass * speed;
         group.members[touch.second].velocity += speed * touch.normal;
-        kicked.push((between, touch.point));
+        kicked.push((between, touch.normal));
     }
     kicks
+}
+
+fn is_same(normal: DVec3, other: DVec3) -> bool {
+    (normal - other).norm() <= SAME_NORMAL
 }
 
 fn velocities_of(group: &Group) -> Vec<DVec3> {
@@ -328,7 +336,8 @@ fn record(context: &mut StepContext, group: &Group, answer: &Answer) {
         let between = BodyPair::of(touch.bodies, context.system);
         let point = periodic::wrapped(touch.point, context.period);
         // Faces of a box share edges and corners, where a sphere meets several at one place.
-        let same = impacts.iter_mut().find(|it| it.between == between && it.point == point);
+        let is_there = |it: &&mut Impact| it.between == between && is_same(it.normal, touch.normal);
+        let same = impacts.iter_mut().find(is_there);
         if let Some(impact) = same {
             impact.impulse += impulse;
             impact.tangential_impulse += tangential_impulse;

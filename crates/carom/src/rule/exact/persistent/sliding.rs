@@ -82,9 +82,12 @@ fn time_on_band(band: &Band, state: [DVec3; 2], motion: impl Fn(DVec3) -> AxisMo
 pub(super) fn time_on_disc(disc: &Band, flight: &Flight) -> f64 {
     let slack = TOUCHING * disc.coordinates();
     let is_over = || is_over_face(disc, [flight.position, flight.velocity]);
-    let Some(wall) = disc.beyond_disc(slack).filter(|_| is_over()) else { return f64::INFINITY };
+    let wall = disc.beyond_disc(flight.position, slack).filter(|_| is_over());
+    let (Some(wall), Some(radius)) = (wall, disc.disc_radius()) else { return f64::INFINITY };
+    // The centre is over the rim where a sphere with the radius of the disc meets the wall: a centre that met one itself
+    // could be behind it by rounding.
     let (form, rest, endless) = (Form::Band(wall), SurfaceMotion::REST, f64::INFINITY);
-    let time = contact_time::sphere_surface(flight, 0.0, &form, &rest, endless);
+    let time = contact_time::sphere_surface(flight, radius, &form, &rest, endless);
     time.unwrap_or(f64::INFINITY)
 }
 
