@@ -195,7 +195,10 @@ impl Keeps {
 /// Whether spheres come through it from behind.
 fn passes(collider: &Collider) -> bool {
     let shape = &collider.shape;
-    matches!(shape, Shape::Rectangle { .. } | Shape::Disc { .. } | Shape::HeightField(_))
+    matches!(
+        shape,
+        Shape::Rectangle { .. } | Shape::Disc { .. } | Shape::HeightField(_) | Shape::Mesh(_)
+    )
 }
 
 /// Whether bodies still close after an impact: surfaces that move leave a ball no way out, and no impulses answer that.
