@@ -12,11 +12,11 @@ _PATIENCE = 60.0
 
 @contextmanager
 def ctrl_c(after: float = 0.0, once: Callable[[], bool] = lambda: True) -> Iterator[None]:
-    """Presses Ctrl-C after so many seconds, also where the shell has the tests ignore it.
+    """Presses Ctrl-C during the block, even if the shell makes the tests ignore it.
 
     Args:
-        after: How many [s].
-        once: Whether it may be pressed now: it is as soon as this is so.
+        after: The earliest time to press it, from the start of the block [s].
+        once: Returns whether it may be pressed; it is pressed when this first holds.
     """
 
     def press() -> None:

@@ -36,7 +36,7 @@ impl World {
         Ok(self.world.apply_impulse_at(sphere, impulse, point)?)
     }
 
-    /// Gives a sphere another velocity \[m/s\].
+    /// Sets the velocity of a sphere \[m/s\].
     ///
     /// # Errors
     /// [`Failure`] as [`carom::World::set_velocity`].
@@ -46,7 +46,7 @@ impl World {
         Ok(self.world.set_velocity(sphere, DVec3::from_slice(velocity))?)
     }
 
-    /// Gives a sphere another angular velocity \[rad/s\].
+    /// Sets the angular velocity of a sphere \[rad/s\].
     ///
     /// # Errors
     /// [`Failure`] as [`carom::World::set_angular_velocity`].

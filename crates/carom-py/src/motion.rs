@@ -42,7 +42,7 @@ impl Engine {
         self.change(id.py(), |inner| Ok(inner.world.apply_impulse_at(sphere, impulse, point)?))
     }
 
-    /// Gives a sphere another velocity [m/s].
+    /// Sets the velocity of a sphere [m/s].
     ///
     /// Raises:
     ///     UnknownError: If the world does not (or no longer) contain it.
@@ -52,7 +52,7 @@ impl Engine {
         self.change(id.py(), |inner| Ok(inner.world.set_velocity(sphere, velocity)?))
     }
 
-    /// Gives a sphere another angular velocity [rad/s].
+    /// Sets the angular velocity of a sphere [rad/s].
     ///
     /// Raises:
     ///     UnknownError: If the world does not (or no longer) contain it.

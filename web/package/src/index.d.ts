@@ -337,9 +337,9 @@ export class World {
    * @throws {CaromError} as `applyImpulse`
    */
   applyImpulseAt(id: number, impulse: Vector, point: Vector): void;
-  /** Gives a sphere another velocity [m/s]. @throws {CaromError} */
+  /** Sets the velocity of a sphere [m/s]. @throws {CaromError} */
   setVelocity(id: number, velocity: Vector): void;
-  /** Gives a sphere another angular velocity [rad/s]. @throws {CaromError} */
+  /** Sets the angular velocity of a sphere [rad/s]. @throws {CaromError} */
   setAngularVelocity(id: number, angularVelocity: Vector): void;
   /**
    * Changes the given properties of a collider. A new position applies at once, without pushing

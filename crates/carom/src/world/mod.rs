@@ -221,7 +221,7 @@ impl World {
         Ok(())
     }
 
-    /// Gives a sphere another velocity \[m/s\]; its place and spin stay.
+    /// Sets the velocity of a sphere \[m/s\]; its place and spin stay.
     ///
     /// # Errors
     /// [`Error::Unknown`] if it is not in the world, [`Error::Invalid`] for a velocity that is not finite.
@@ -281,7 +281,7 @@ impl World {
         self.set_sphere(id, Sphere { velocity, angular_velocity, ..sphere })
     }
 
-    /// Gives a sphere another angular velocity \[rad/s\]; its place, velocity and orientation stay.
+    /// Sets the angular velocity of a sphere \[rad/s\]; its place, velocity and orientation stay.
     ///
     /// # Errors
     /// [`Error::Unknown`] if it is not in the world, [`Error::Invalid`] for one that is not finite.

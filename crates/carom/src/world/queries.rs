@@ -19,8 +19,8 @@ impl World {
         Queries::of(self.state.now(), true)
     }
 
-    /// Queries for so many questions about the world as it is now: sorted as by [`Self::queries`] if that saves
-    /// work. The results are the same to the bit.
+    /// Returns the queries of the present state for `count` questions. For many questions the bodies are sorted as by
+    /// [`Self::queries`]. The results are the same to the bit.
     pub fn queries_for(&self, count: usize) -> Queries<'_> {
         Queries::of(self.state.now(), count > FEW)
     }
