@@ -66,7 +66,8 @@ fn kind(run: &ClassRun) -> String {
         let mistakes = best.cause.mistakes.iter().map(|it| it.name().to_owned());
         // Values differ from run to run.
         let numbers = best.cause.numbers.iter().map(|it| format!("wrong {}", it.quantity));
-        return mistakes.chain(numbers).collect::<Vec<_>>().join(" + ");
+        let causes = mistakes.chain(numbers).collect::<Vec<_>>().join(" + ");
+        return if best.nearest { format!("nearest: {causes}") } else { causes };
     }
     match verdict {
         Verdict { same: true, form, .. } if form.is_empty() => "same".to_owned(),
@@ -101,7 +102,7 @@ fn row(run: &ClassRun) -> String {
          <td data-label=\"cause\">{}</td><td data-label=\"rows that follow\">{:.1} %</td></tr>",
         escaped(&verdict.scene),
         escaped(&verdict.headline()),
-        best.map_or(String::new(), |it| escaped(&it.named())),
+        best.map_or(String::new(), |it| escaped(&it.in_a_table())),
         100.0 * fit.part()
     )
 }

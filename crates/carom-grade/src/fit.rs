@@ -7,6 +7,10 @@ use serde::Serialize;
 use crate::recorded::Recorded;
 use crate::tracks::{Key, Tracks};
 
+/// Residual, as a multiple of the tolerance, that is far off. Single precision leaves less of what a
+/// right program writes, wherever a run of the course still follows from its start.
+const FAR: f64 = 20.0;
+
 /// A recorded run with data about its rows from the course's rule.
 #[derive(Clone)]
 pub(crate) struct Rows<'a> {
@@ -70,6 +74,12 @@ impl Fit {
     /// Whether all rows agree.
     pub fn is_complete(&self) -> bool {
         self.followed == self.rows
+    }
+
+    /// Whether the rows that agree are far off on average, for an allowed error of `tolerance` \[m\]
+    /// without that by rounding. They agree then only because rounding moves such a run far.
+    pub(crate) fn is_far(&self, tolerance: f64) -> bool {
+        self.rms > FAR * tolerance
     }
 
     /// Fraction of the rows that agree.

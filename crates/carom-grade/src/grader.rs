@@ -156,7 +156,7 @@ impl Grader {
     fn graded(&self, found: Found) -> Graded {
         let (fit, rounding) = self.compare(&found.case, found.tolerance);
         let course = &self.course;
-        let explain = |it: Candidate| Explanation::new(it, &fit, course);
+        let explain = |it: Candidate| Explanation::new(it, &fit, found.tolerance, course);
         let explanations: Vec<Explanation> =
             found.candidates.iter().cloned().map(explain).filter(Explanation::convinces).collect();
         // What is not named is not drawn.
@@ -339,10 +339,11 @@ impl Grader {
         let singles = self.singles(&plain, rule);
         let rows = self.widened(&plain, likeliest(&singles, right));
         let bench = self.bench(&rows, rule, display.as_deref());
-        let alone = Search { bench: &bench, right }.alone(self.singles(&bench, rule));
+        let tolerance = found.tolerance;
+        let alone = Search { bench: &bench, right, tolerance }.alone(self.singles(&bench, rule));
         let rows = self.widened(&plain, verdict::best(&alone.better_than(right)));
         let bench = self.bench(&rows, rule, display.as_deref());
-        let search = Search { bench: &bench, right };
+        let search = Search { bench: &bench, right, tolerance };
         let alone = search.again(alone, self.singles(&bench, rule));
         let mut all = alone.better_than(right);
         all.extend(search.pairs(&alone));

@@ -113,7 +113,7 @@ fn row(explanation: &Explanation, has_formulas: bool) -> String {
     let fit = &explanation.fit;
     format!(
         "<tr><td>{}{same}</td>{}<td>{} of {}</td><td>{}</td></tr>",
-        escaped(&explanation.named()),
+        escaped(&explanation.in_a_table()),
         if has_formulas { &formulas } else { "" },
         fit.followed,
         fit.rows,

@@ -12,6 +12,11 @@ const MOST_ROWS_OF_PAIRS: usize = 100_000;
 /// Fraction of all rows by which two causes must agree longer than a single one to be named.
 const WORTH_A_PAIR: f64 = 0.02;
 
+/// Residual of two causes, as a part of that of a single one that follows all rows only because
+/// rounding moves it far, below which they are named. What rounding leaves to two right programs
+/// differs less.
+const MUCH_CLOSER: f64 = 0.1;
+
 /// Change of a number, as a part of it, below which it only fits the rounding of a run.
 const LEAST_CHANGE: f64 = 2e-3;
 
@@ -23,7 +28,7 @@ pub(crate) struct Alone {
     /// Programs with a known mistake, in the order of the list.
     pub mistakes: Vec<Candidate>,
     /// A program with one wrong number for each quantity, where its value can be found; empty if a
-    /// mistake explains all rows.
+    /// mistake explains all rows closely.
     pub numbers: Vec<Option<Candidate>>,
 }
 
@@ -46,12 +51,14 @@ pub(crate) struct Search<'a> {
     pub bench: &'a Bench<'a>,
     /// Comparison with the course's rule, which the run departs from.
     pub right: &'a Fit,
+    /// Allowed error of positions without that by rounding \[m\].
+    pub tolerance: f64,
 }
 
 impl Search<'_> {
     /// Adds the programs with one wrong number to those with one mistake.
     pub fn alone(&self, mistakes: Vec<Candidate>) -> Alone {
-        if mistakes.iter().any(|it| it.fit.is_complete()) {
+        if mistakes.iter().any(|it| self.is_settled(&it.fit)) {
             return Alone { mistakes, numbers: Vec::new() };
         }
         let mut numbers = self.numbers();
@@ -75,20 +82,30 @@ impl Search<'_> {
         Alone { mistakes, numbers: found.numbers.into_iter().map(compared).collect() }
     }
 
-    /// Finds pairs of causes that agree much longer than `alone`, if no single cause explains all.
+    /// Finds pairs of causes that agree much longer than `alone`, or as long and much more closely, if
+    /// no single cause explains all.
     pub fn pairs(&self, alone: &Alone) -> Vec<Candidate> {
         let single = alone.better_than(self.right);
-        let best = single.iter().map(|it| it.fit.followed).max().unwrap_or(0);
-        let rows = self.right.rows;
-        if best == rows || rows > MOST_ROWS_OF_PAIRS {
+        let best = single.iter().reduce(|a, b| if b.fit.is_better_than(&a.fit) { b } else { a });
+        let best = best.map_or(self.right, |it| &it.fit);
+        if self.is_settled(best) || best.rows > MOST_ROWS_OF_PAIRS {
             return Vec::new();
         }
-        let least = best as f64 + WORTH_A_PAIR * rows as f64;
+        let least = best.followed as f64 + WORTH_A_PAIR * best.rows as f64;
+        let is_closer =
+            |it: &Fit| it.followed >= best.followed && it.residual < MUCH_CLOSER * best.residual;
+        let may_be_closer = best.is_complete();
+        let is_worth = |it: &Fit| it.followed as f64 > least || may_be_closer && is_closer(it);
         let mut pairs = self.mistakes_twice(&alone.mistakes);
         pairs.extend(self.mistakes_with_numbers(&alone.mistakes));
         pairs.extend(self.numbers_twice(&alone.numbers));
-        pairs.retain(|it| it.fit.followed as f64 > least && self.is_seen(it));
+        pairs.retain(|it| is_worth(&it.fit) && self.is_seen(it));
         pairs
+    }
+
+    /// Whether a program explains all rows, and not only because rounding moves it far.
+    fn is_settled(&self, fit: &Fit) -> bool {
+        fit.is_complete() && !fit.is_far(self.tolerance)
     }
 
     /// Whether each number of a program is other than that of the course, not only by rounding.

@@ -55,7 +55,7 @@ pub struct Verdict {
     pub digits: Option<i32>,
     /// First departure.
     pub departure: Option<Departure>,
-    /// Whether the first explanation explains the departure.
+    /// Whether the first explanation explains the departure, and is not only the nearest.
     pub explained: bool,
     /// Known mistakes and wrong numbers, the best fit first.
     pub explanations: Vec<Explanation>,
@@ -126,6 +126,9 @@ pub struct Explanation {
     pub fit: Fit,
     /// Fraction of the rows that the cause explains and the course's rule does not.
     pub share: f64,
+    /// Whether the cause is only the nearest: the rows that it explains are far off on average, and
+    /// agree only because rounding moves such a run far. The cause may be another.
+    pub nearest: bool,
     /// Where the run departs from the cause, too.
     pub then: Option<Then>,
 }
@@ -144,12 +147,14 @@ pub struct Then {
 }
 
 impl Explanation {
-    pub(crate) fn new(candidate: Candidate, right: &Fit, course: &Course) -> Self {
+    /// `tolerance`: allowed error \[m\], without that by rounding.
+    pub(crate) fn new(candidate: Candidate, right: &Fit, tolerance: f64, course: &Course) -> Self {
         let Candidate { program, fit } = candidate;
         let gained = fit.followed as f64 - right.followed as f64;
         let share = (gained / (right.rows - right.followed).max(1) as f64).max(0.0);
         let cause = Cause::of(&program, course);
-        Self { cause, same_as: Vec::new(), fit, share, then: None }
+        let nearest = fit.is_far(tolerance);
+        Self { cause, same_as: Vec::new(), fit, share, nearest, then: None }
     }
 
     /// Whether the causes explain so much that they are named.
@@ -226,7 +231,7 @@ impl Verdict {
         if let (Some(best), Some(tracks)) = (explanations.first_mut(), parts.explaining) {
             best.then = best.fit.departure.as_ref().map(|it| then(&parts, tracks, it));
         }
-        let explained = !explanations.is_empty();
+        let explained = explanations.first().is_some_and(|it| !it.nearest);
         let departure = fit.departure.as_ref().map(|it| departure(&parts, it));
         let found = fit.max.is_finite() && fit.followed > 0;
         Self {

@@ -161,9 +161,18 @@ impl Explanation {
         }
     }
 
+    /// Names the explanation in a table, where no heading says what it is.
+    pub fn in_a_table(&self) -> String {
+        if self.nearest { format!("nearest: {}", self.named()) } else { self.named() }
+    }
+
     /// What the named causes are.
     fn heading(&self) -> &'static str {
-        if self.cause.mistakes.is_empty() { "number" } else { "mistake" }
+        match self.cause.mistakes.is_empty() {
+            _ if self.nearest => "nearest",
+            true => "number",
+            false => "mistake",
+        }
     }
 
     /// Names the causes that this run does not distinguish from the best.
@@ -186,12 +195,13 @@ impl Explanation {
 
     fn fit_in_words(&self) -> String {
         let fit = &self.fit;
-        format!("{} of {} rows, residual {}", fit.followed, fit.rows, length(fit.rms))
+        let far = if self.nearest { ", far off: the cause may be another" } else { "" };
+        format!("{} of {} rows, residual {}{far}", fit.followed, fit.rows, length(fit.rms))
     }
 
     fn in_a_line(&self) -> String {
         let other = self.ambiguous().map_or(String::new(), |it| format!(", {it}"));
-        format!("{}{other} ({})", self.named(), self.fit_in_words())
+        format!("{}{other} ({})", self.in_a_table(), self.fit_in_words())
     }
 }
 
@@ -200,18 +210,41 @@ mod tests {
     use super::*;
     use crate::fit::Fit;
 
-    #[test]
-    fn a_run_that_is_compared_in_part_is_called_neither_the_same_nor_wrong() {
-        let fit = Fit {
-            followed: 2,
-            rows: 3,
-            rms: 0.0,
-            max: 0.0,
-            max_relative: 0.0,
+    fn fit(followed: usize, rows: usize, rms: f64) -> Fit {
+        Fit {
+            followed,
+            rows,
+            rms,
+            max: rms,
+            max_relative: rms,
             max_velocity: None,
             departure: None,
-            residual: 0.0,
+            residual: rms,
+        }
+    }
+
+    #[test]
+    fn what_leaves_much_more_than_the_tolerance_is_called_the_nearest() {
+        let scene = carom_scene::Library::new().find("simtest3", &[]).unwrap().0;
+        let course = crate::course::Course::of(&scene).unwrap();
+        let explanation = |rms: f64, tolerance: f64| {
+            let program = crate::mistake::Mistake::NoDrag.into();
+            let candidate = crate::estimate::Candidate { program, fit: fit(90, 90, rms) };
+            Explanation::new(candidate, &fit(10, 90, 0.0), tolerance, &course)
         };
+        // Single precision leaves some millimetres of a right program.
+        let close = explanation(8e-3, 5e-4);
+        assert_eq!((close.heading(), close.in_a_table().as_str()), ("mistake", "no-drag"));
+        let far = explanation(6.1e-2, 5e-4);
+        assert_eq!((far.heading(), far.in_a_table().as_str()), ("nearest", "nearest: no-drag"));
+        assert!(far.fit_in_words().ends_with("residual 6.1 cm, far off: the cause may be another"));
+        // Where positions scatter by centimetres, it is as close as may be.
+        assert_eq!(explanation(6.1e-2, 0.1).heading(), "mistake");
+    }
+
+    #[test]
+    fn a_run_that_is_compared_in_part_is_called_neither_the_same_nor_wrong() {
+        let fit = fit(2, 3, 0.0);
         let verdict = Verdict {
             scene: "long".to_owned(),
             same: fit.is_complete(),

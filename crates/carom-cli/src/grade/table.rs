@@ -44,9 +44,9 @@ fn record(row: &Row) -> [String; COLUMNS.len()] {
     let verdict = row.verdict.as_ref();
     let departure = verdict.and_then(|it| it.departure.as_ref());
     let number = |value: f64| format!("{value:.6e}");
-    let best = verdict.filter(|it| it.explained).and_then(|it| it.explanations.first());
+    let best = verdict.and_then(|it| it.explanations.first());
     let others = verdict.map(|it| &it.explanations).into_iter().flatten();
-    let others: Vec<String> = others.skip(1).map(|it| it.named()).collect();
+    let others: Vec<String> = others.skip(1).map(|it| it.in_a_table()).collect();
     [
         row.run.display().to_string(),
         text(verdict.map(|it| it.scene.clone())),
@@ -58,7 +58,7 @@ fn record(row: &Row) -> [String; COLUMNS.len()] {
         text(departure.map(|it| it.line.to_string())),
         text(departure.and_then(|it| it.distance).map(number)),
         departure.map_or(String::new(), |_| contact(verdict)),
-        text(best.map(|it| it.named())),
+        text(best.map(|it| it.in_a_table())),
         text(best.map(|it| format!("{:.4}", it.share))),
         text(best.map(|it| number(it.fit.rms))),
         others.join("; "),
@@ -71,7 +71,7 @@ fn record(row: &Row) -> [String; COLUMNS.len()] {
 pub fn cells(row: &Row) -> [String; 7] {
     let verdict = row.verdict.as_ref();
     let departure = verdict.and_then(|it| it.departure.as_ref());
-    let best = verdict.filter(|it| it.explained).and_then(|it| it.explanations.first());
+    let best = verdict.and_then(|it| it.explanations.first());
     let fit = best.map(|it| &it.fit).or(verdict.map(|it| &it.fit));
     [
         row.run.display().to_string(),
@@ -82,7 +82,7 @@ pub fn cells(row: &Row) -> [String; 7] {
         },
         departure.map_or(String::new(), |it| format!("{:.2}", it.time)),
         departure.map_or(String::new(), |_| contact(verdict)),
-        best.map_or(String::new(), |it| it.named()),
+        best.map_or(String::new(), |it| it.in_a_table()),
         fit.map_or(String::new(), |it| format!("{:.1} %", 100.0 * it.part())),
     ]
 }
