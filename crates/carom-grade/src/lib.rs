@@ -53,6 +53,7 @@ mod svg;
 mod table;
 mod tracks;
 mod verdict;
+mod wide;
 mod words;
 
 pub use class::{ClassRun, class_page};

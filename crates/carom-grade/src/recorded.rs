@@ -110,20 +110,23 @@ impl Recorded {
     /// # Errors
     /// [`GradeError`] for an invalid line, with its number.
     pub fn parse(path: &Path, bytes: &[u8], reading: &Reading) -> Result<Self, GradeError> {
-        let Table { places, width, records } = Table::find(path, bytes, &reading.columns)?;
+        let Table { places: balls, width, records } = Table::find(path, bytes, &reading.columns)?;
+        let first = &balls[0];
         let is_seen = |place: Option<usize>| f64::from(u8::from(place.is_some()));
-        let seen = DVec3::from_array(places.position.map(is_seen));
-        let length_unit = reading.length_unit(&places);
-        let mut parts =
-            Parts { path, reading, places, width, labels: BTreeMap::new(), decimals: 0 };
+        let seen = DVec3::from_array(first.position.map(is_seen));
+        let length_unit = reading.length_unit(first);
+        let mut parts = Parts { path, reading, width, labels: BTreeMap::new(), decimals: 0 };
         let mut rows = Vec::new();
         for record in records {
             let record = record.map_err(|error| broken(path, &error))?;
-            if rows.len() == MOST_ROWS {
-                return Err(refused(path, "has more than 2,000,000 rows"));
-            }
-            if !parts.is_empty(&record) {
-                rows.push(parts.row(&record)?);
+            for places in &balls {
+                if parts.is_empty(&record, places) {
+                    continue;
+                }
+                if rows.len() == MOST_ROWS {
+                    return Err(refused(path, "has more than 2,000,000 rows"));
+                }
+                rows.push(parts.row(&record, places)?);
             }
         }
         if rows.is_empty() {
@@ -163,7 +166,6 @@ impl Recorded {
 struct Parts<'a> {
     path: &'a Path,
     reading: &'a Reading,
-    places: Places,
     /// Number of fields of the heading.
     width: usize,
     /// Labels, each with its index in the order of lines.
@@ -173,19 +175,19 @@ struct Parts<'a> {
 }
 
 impl Parts<'_> {
-    fn row(&mut self, record: &csv::StringRecord) -> Result<Row, GradeError> {
+    fn row(&mut self, record: &csv::StringRecord, places: &Places) -> Result<Row, GradeError> {
         let line = record.position().map_or(0, csv::Position::line);
-        self.check_width(record, line)?;
+        self.check_width(record, line, places)?;
         let Reading { time_offset, unity, .. } = *self.reading;
-        let length_unit = self.reading.length_unit(&self.places);
-        let time_unit = self.reading.time_unit(&self.places);
+        let length_unit = self.reading.length_unit(places);
+        let time_unit = self.reading.time_unit(places);
         let mirrored = if unity { DVec3::new(1.0, 1.0, -1.0) } else { DVec3::ONE };
-        let time = self.number(record, line, self.places.time)? * time_unit + time_offset;
-        let position = self.position(record, line)? * length_unit * mirrored;
-        for place in self.places.position.into_iter().flatten() {
+        let time = self.number(record, line, places.time)? * time_unit + time_offset;
+        let position = self.position(record, line, places)? * length_unit * mirrored;
+        for place in places.position.into_iter().flatten() {
             self.decimals = self.decimals.max(decimals(record.get(place).unwrap_or_default()));
         }
-        let velocity = self.places.velocity.map(|it| self.vector(record, line, it)).transpose()?;
+        let velocity = places.velocity.map(|it| self.vector(record, line, it)).transpose()?;
         let velocity = velocity.map(|it| it * (length_unit / time_unit) * mirrored);
         if time < 0.0 {
             let problem = format!("the time {time} s is before the start");
@@ -198,7 +200,8 @@ impl Parts<'_> {
         if position.abs().max_element() > FARTHEST {
             return Err(malformed(self.path, line, "the ball is farther than 1e9 m".to_owned()));
         }
-        let label = self.places.ball.and_then(|place| record.get(place)).unwrap_or("0");
+        let name = places.name.as_deref().unwrap_or("0");
+        let label = places.ball.and_then(|place| record.get(place)).unwrap_or(name);
         if label.is_empty() {
             return Err(malformed(self.path, line, "the ball is missing".to_owned()));
         }
@@ -208,16 +211,21 @@ impl Parts<'_> {
     }
 
     /// Whether a record has no position: a blank row, or a frame in which a ball was not seen.
-    fn is_empty(&self, record: &csv::StringRecord) -> bool {
-        let mut own = self.places.position.iter().flatten().map(|place| record.get(*place));
-        let has_time = record.get(self.places.time).is_some_and(|it| !it.is_empty());
+    fn is_empty(&self, record: &csv::StringRecord, places: &Places) -> bool {
+        let mut own = places.position.iter().flatten().map(|place| record.get(*place));
+        let has_time = record.get(places.time).is_some_and(|it| !it.is_empty());
         let is_whole = !has_time || record.len() >= self.width;
         is_whole && own.all(|it| it.is_none_or(str::is_empty))
     }
 
     /// Checks that a record has the columns that are read, and none that the heading does not have.
-    fn check_width(&self, record: &csv::StringRecord, line: u64) -> Result<(), GradeError> {
-        let Places { time, ball, position, velocity, .. } = &self.places;
+    fn check_width(
+        &self,
+        record: &csv::StringRecord,
+        line: u64,
+        places: &Places,
+    ) -> Result<(), GradeError> {
+        let Places { time, ball, position, velocity, .. } = places;
         let velocity = velocity.iter().flatten();
         let last = position.iter().flatten().chain(ball).chain(velocity).chain([time]).max();
         let is_long = record.iter().skip(self.width).any(|it| !it.is_empty());
@@ -230,9 +238,14 @@ impl Parts<'_> {
     }
 
     /// Position in the units of the table; 0 for a coordinate that it does not have.
-    fn position(&self, record: &csv::StringRecord, line: u64) -> Result<DVec3, GradeError> {
+    fn position(
+        &self,
+        record: &csv::StringRecord,
+        line: u64,
+        places: &Places,
+    ) -> Result<DVec3, GradeError> {
         let mut values = [0.0; 3];
-        for (value, place) in values.iter_mut().zip(self.places.position) {
+        for (value, place) in values.iter_mut().zip(places.position) {
             if let Some(place) = place {
                 *value = self.number(record, line, place)?;
             }

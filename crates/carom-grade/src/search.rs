@@ -13,9 +13,8 @@ const MOST_ROWS_OF_PAIRS: usize = 100_000;
 const WORTH_A_PAIR: f64 = 0.02;
 
 /// Residual of two causes, as a part of that of a single one that follows all rows only because
-/// rounding moves it far, below which they are named. What rounding leaves to two right programs
-/// differs less.
-const MUCH_CLOSER: f64 = 0.1;
+/// rounding moves it far, below which they are named. A number more follows chance to some hundredths.
+const MUCH_CLOSER: f64 = 1e-3;
 
 /// Change of a number, as a part of it, below which it only fits the rounding of a run.
 const LEAST_CHANGE: f64 = 2e-3;

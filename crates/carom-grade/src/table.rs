@@ -9,6 +9,7 @@ use crate::error::GradeError;
 use crate::heading::{self, Heading};
 use crate::number::number;
 use crate::spreadsheet::{Sheet, sheets};
+use crate::wide;
 
 /// Most lines before the heading of a table.
 const MOST_BEFORE: usize = 60;
@@ -56,6 +57,8 @@ impl FromStr for Columns {
 pub(crate) struct Places {
     pub time: usize,
     pub ball: Option<usize>,
+    /// Number or name of the ball, if the heading says it.
+    pub name: Option<String>,
     /// Coordinates; a video shows two.
     pub position: [Option<usize>; 3],
     pub velocity: Option<[usize; 3]>,
@@ -107,11 +110,52 @@ impl Places {
         Ok(Self {
             time,
             ball: optional(1)?,
+            name: None,
             position,
             velocity,
             length_unit: position[0].and_then(unit).and_then(heading::length),
             time_unit: unit(time).and_then(heading::time),
         })
+    }
+
+    /// Finds the columns of each ball in a heading that has several side by side; none if it names
+    /// none.
+    fn of_balls(
+        path: &Path,
+        heading: &csv::StringRecord,
+        columns: &Columns,
+    ) -> Result<Vec<Self>, GradeError> {
+        let is_usual = |number: usize, text: &str| {
+            let (key, usual, _) = USUAL[number];
+            match columns.0.get(key) {
+                Some(named) => text == named,
+                None => usual.contains(&Heading::of(text).name.as_str()),
+            }
+        };
+        let has = |number: usize| heading.iter().any(|text| is_usual(number, text));
+        // A column of balls, or names of one's own, say that each row has one ball.
+        let is_of_one = has(1) || columns.0.keys().any(|key| *key != "t");
+        if is_of_one || !has(0) {
+            return Ok(Vec::new());
+        }
+        let coordinates: Vec<_> = USUAL[2..].iter().map(|(key, usual, _)| (*key, *usual)).collect();
+        let refused = |problem| GradeError::Refused { path: path.to_owned(), problem };
+        let balls = wide::balls(heading, &coordinates).map_err(refused)?;
+        let places = |ball: wide::Ball| {
+            // The heading that a table of this ball alone would have.
+            let own = heading.iter().enumerate().map(|(place, text)| {
+                let key = ball.keys.iter().find(|it| it.0 == place).map(|it| it.1);
+                match (key, Heading::of(text).unit) {
+                    (Some(key), Some(unit)) => format!("{key} ({unit})"),
+                    (Some(key), None) => key.to_owned(),
+                    (None, _) if is_usual(0, text) => text.to_owned(),
+                    (None, _) => String::new(),
+                }
+            });
+            let places = Self::of(path, &own.collect(), columns)?;
+            Ok(Self { name: Some(ball.name), ..places })
+        };
+        balls.into_iter().map(places).collect()
     }
 
     /// Takes the units of a row that has nothing else; returns whether it is one.
@@ -129,7 +173,8 @@ impl Places {
 
 /// Records of a table, from the first after the heading on.
 pub(crate) struct Table {
-    pub places: Places,
+    /// Columns of each ball that has its own; those of all balls if a row has one ball.
+    pub places: Vec<Places>,
     /// Number of fields of the heading.
     pub width: usize,
     pub records: Records,
@@ -163,25 +208,38 @@ impl Table {
         for record in records.by_ref().take(MOST_BEFORE) {
             start.push(record.map_err(|error| broken(path, &error))?);
         }
-        let found = start.iter().enumerate().find_map(|(line, record)| {
-            Places::of(path, record, columns).ok().map(|places| (line, places))
-        });
-        let (line, mut places) = match found {
-            Some(found) => found,
-            None => {
-                let usual = csv::StringRecord::new();
-                let line = presumed(&start);
-                (line, Places::of(path, start.get(line).unwrap_or(&usual), columns)?)
-            }
-        };
+        let (line, mut places) = found(path, &start, columns)?;
         let width = start.get(line).map_or(0, csv::StringRecord::len);
         let mut left = start.split_off((line + 1).min(start.len()));
-        if left.first().is_some_and(|units| places.take_units(units)) {
+        if let Some(units) = left.first()
+            && places.iter_mut().fold(false, |is_one, it| it.take_units(units) || is_one)
+        {
             left.remove(0);
         }
         let records = Box::new(left.into_iter().map(Ok).chain(records));
         Ok(Self { places, width, records })
     }
+}
+
+/// Finds the heading in the first records of a file: its index, and the columns.
+fn found(
+    path: &Path,
+    start: &[csv::StringRecord],
+    columns: &Columns,
+) -> Result<(usize, Vec<Places>), GradeError> {
+    let of_one = |(line, record)| Some((line, vec![Places::of(path, record, columns).ok()?]));
+    if let Some(found) = start.iter().enumerate().find_map(of_one) {
+        return Ok(found);
+    }
+    for (line, record) in start.iter().enumerate() {
+        let balls = Places::of_balls(path, record, columns)?;
+        if !balls.is_empty() {
+            return Ok((line, balls));
+        }
+    }
+    let line = presumed(start);
+    let none = csv::StringRecord::new();
+    Ok((line, vec![Places::of(path, start.get(line).unwrap_or(&none), columns)?]))
 }
 
 /// The line that would be the heading: the one before the first with three numbers.

@@ -73,6 +73,64 @@ fn german_tables_have_decimal_commas() {
     passes(&format!("Höhenmessung\nZeit;Ball;x;y;z\n{rows}"));
 }
 
+/// A table of SimTest3 with a line for each time and three columns for each ball, named by `column`.
+fn wide(column: impl Fn(&str, usize) -> String, unit: f64) -> String {
+    let rows = simulate(&scene("simtest3"), &Plan::default(), 4.0);
+    let balls = 1 + rows.iter().map(|row| row.ball).max().unwrap();
+    let names = (0..balls).flat_map(|ball| ["x", "y", "z"].map(|axis| column(axis, ball)));
+    let mut text = format!("t,{}\n", names.collect::<Vec<_>>().join(","));
+    for frame in rows.chunk_by(|a, b| a.frame == b.frame) {
+        let cells = (0..balls).flat_map(|ball| {
+            let row = frame.iter().find(|row| row.ball == ball);
+            // A ball that is not there yet has no place.
+            row.map_or([const { String::new() }; 3], |row| {
+                row.position.map(|it| (it / unit).to_string())
+            })
+        });
+        let cells: Vec<String> = cells.collect();
+        text += &format!("{},{}\n", frame[0].time, cells.join(","));
+    }
+    text
+}
+
+#[test]
+fn several_balls_side_by_side_are_all_read() {
+    let colours = ["red", "green", "blue", "white", "black", "grey", "pink"];
+    let names: [&dyn Fn(&str, usize) -> String; 4] = [
+        &|axis, ball| format!("{axis}{}", ball + 1),
+        &|axis, ball| format!("Ball {ball} {axis}"),
+        &|axis, ball| format!("{}_{axis}", colours[ball]),
+        &|axis, ball| format!("pos_{axis}.{ball}"),
+    ];
+    for name in names {
+        let verdict = graded(wide(name, 1.0).as_bytes());
+        assert!(verdict.same && verdict.balls > 4, "{}", said(&verdict));
+        assert!(!verdict.notes.iter().any(|it| it.contains("not in the table")), "{verdict:?}");
+    }
+    let verdict = graded(wide(|axis, ball| format!("{axis}{ball} (cm)"), 0.01).as_bytes());
+    assert!(verdict.same && verdict.form.is_empty(), "{}", said(&verdict));
+    // The last ball moved by a millimetre.
+    let wrong = wide(|axis, ball| format!("{axis}{ball}"), 1.0);
+    let last = wrong.trim_end().rsplit_once(',').unwrap();
+    let moved = last.1.parse::<f64>().unwrap() + 1e-3;
+    let verdict = graded(format!("{},{moved}\n", last.0).as_bytes());
+    let departure = verdict.departure.unwrap();
+    assert_eq!(departure.ball, (verdict.balls - 1).to_string());
+}
+
+#[test]
+fn two_coordinates_of_several_balls_are_read() {
+    let text = wide(|axis, ball| format!("{axis}{ball}"), 1.0);
+    let is_seen = |place: usize| place == 0 || !place.is_multiple_of(3);
+    let kept = |line: &str| {
+        let cells = line.split(',').enumerate().filter(|it| is_seen(it.0)).map(|it| it.1);
+        cells.collect::<Vec<_>>().join(",") + "\n"
+    };
+    let verdict = graded(text.lines().map(kept).collect::<String>().as_bytes());
+    assert!(verdict.same && verdict.balls > 4, "{}", said(&verdict));
+    assert!(verdict.notes.iter().any(|it| it.contains("no z")), "{:?}", verdict.notes);
+}
+
 #[test]
 fn latin_1_and_utf_16_are_read() {
     let rows = lines(|it| {

@@ -40,6 +40,25 @@ fn a_missing_column_is_named_with_those_that_are_there() {
 }
 
 #[test]
+fn columns_of_several_balls_are_complete_or_named() {
+    for (text, expected) in [
+        ("t,x1,y1,x2\n1,2,3,4\n", "run.csv: ball 2 has a column \"x2\", but none for its y"),
+        ("t,x1,y1,z1,x2,y2\n1,2,3,4,5,6\n", "ball 2 has a column \"x2\", but none for its z"),
+        ("t,red_y,x1,y1\n1,2,3,4\n", "ball red has a column \"red_y\", but none for its x"),
+        ("t,x1,y1,X1\n1,2,3,4\n", "the column \"X1\" is there twice: x of ball 1"),
+        ("t,x1,y1,x2,y2\n1,2,3,4,oops\n", "run.csv:2: \"oops\" is no number, in column 5"),
+        ("t,x1,y1,x2,y2\n1,2,3,4,\n", "run.csv:2: \"\" is no number, in column 5"),
+        ("t,x1,y1,x2,y2\n1,2,3\n", "run.csv:2: 3 fields where the first line has 5"),
+        ("x1,y1,x2,y2\n1,2,3,4\n", "no column \"t\" for the time"),
+        ("t,ball,x1,y1\n1,2,3,4\n", "no column \"x\" for the position"),
+        ("t,x_cm,y_cm\n1,2,3\n", "no column \"x\" for the position"),
+    ] {
+        let error = refusal(text.as_bytes());
+        assert!(error.contains(expected), "{text}: {error}");
+    }
+}
+
+#[test]
 fn columns_of_ones_own_make_sense_or_are_refused() {
     assert!("t=time, y=height".parse::<Columns>().is_ok());
     for (text, expected) in [

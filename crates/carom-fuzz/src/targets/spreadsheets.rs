@@ -15,7 +15,10 @@ pub const TARGET: Target = Target {
     name: "spreadsheets",
     about: "spreadsheets to be graded whose sheet has a few things wrong",
     campaign: 2_000,
-    cases: || mutated(vec![sheet()]).boxed(),
+    cases: || {
+        let balls = sheet(["x1", "y1", "x2", "y2"]);
+        mutated(vec![sheet(["ball", "x", "y", "z"]), balls]).boxed()
+    },
     check,
 };
 
@@ -23,11 +26,11 @@ const KIND: &str = "http://schemas.openxmlformats.org/officeDocument/2006/relati
 const MAIN: &str = "http://schemas.openxmlformats.org/spreadsheetml/2006/main";
 const PACKAGE: &str = "http://schemas.openxmlformats.org/package/2006/relationships";
 
-/// The sheet of a short run.
-fn sheet() -> Vec<u8> {
-    let names = ["t", "ball", "x", "y", "z"];
+/// The sheet of a short run; its columns after the time have these names.
+fn sheet(names: [&str; 4]) -> Vec<u8> {
     let name = |it: &str| format!("<c t=\"inlineStr\"><is><t>{it}</t></is></c>");
-    let mut rows = format!("<row r=\"1\">{}</row>", names.map(name).concat());
+    let names: String = std::iter::once("t").chain(names).map(name).collect();
+    let mut rows = format!("<row r=\"1\">{names}</row>");
     for frame in 1..6 {
         let number = |column: &str, value: f64| {
             let row = frame + 1;
