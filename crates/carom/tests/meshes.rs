@@ -9,6 +9,7 @@ use carom::{
     Collider, Contact, DQuat, DVec3, Exact, Gravity, Mesh, MeshError, Pose, Rule, Shape, Sphere,
     SphereId, World,
 };
+use common::solid_mesh::block;
 use common::{G, Numbers, vec, world};
 
 /// A flat floor of `count` by `count` cells between -2 and 2, cut along either diagonal, with vertices anywhere.
@@ -86,18 +87,6 @@ fn a_flat_floor_of_many_triangles_is_a_half_space() {
             assert_eq!(impacts[0], impacts[1], "{rule:?} {restitution} {friction}");
         }
     }
-}
-
-/// A box as a mesh.
-fn block(size: DVec3) -> Mesh {
-    let corner = |number: u32| {
-        let part = |bit: u32| if number & bit == 0 { -0.5 } else { 0.5 };
-        size * vec(part(1), part(2), part(4))
-    };
-    let sides: [[u32; 4]; 6] =
-        [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
-    let triangles = sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]);
-    Mesh::new((0..8).map(corner).collect(), triangles.collect()).unwrap()
 }
 
 #[test]

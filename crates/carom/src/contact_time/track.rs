@@ -255,7 +255,8 @@ pub(crate) fn track_surface(
         | Form::Rectangle(_)
         | Form::Box(_)
         | Form::Band(_)
-        | Form::Round(_) => {
+        | Form::Round(_)
+        | Form::Closed(_) => {
             let (_, obstacle) = obstacle(form, radius, origin)?;
             search::first_contact(&Turning { flight, turns }, &obstacle, size, horizon)
         }
@@ -287,6 +288,6 @@ fn obstacle(form: &Form, radius: f64, origin: DVec3) -> Option<(DVec3, Obstacle)
             let band = Band { center: band.center - origin, ..band };
             Some((DVec3::ZERO, Obstacle::Band { band, radius }))
         }
-        Form::Box(_) | Form::Round(_) => None,
+        Form::Box(_) | Form::Round(_) | Form::Closed(_) => None,
     }
 }
