@@ -19,18 +19,20 @@ pub fn run() -> Outcome {
     cargo(&[&OPTIMISED[..], &["carom", "--test", "rough_meshes", "--", "--ignored"]].concat())?;
     let grading = ["carom-grade", "--", "--ignored"];
     cargo(&[&OPTIMISED[..], &grading].concat())?;
-    hashes_of_releases()?;
+    tests_of_releases()?;
     // The package of the physics must be complete for publishing: it is built from its content
     // alone.
     cargo(&["package", "--package", "carom", "--allow-dirty", "--offline", "--quiet"])?;
     cargo(&[&["run", "--release"], &PLAIN[..], &["--", "verify", "--full"]].concat())
 }
 
-/// Checks that release builds give the same bits as other builds.
-fn hashes_of_releases() -> Outcome {
-    let tests = ["carom", "--test", "world", "--test", "exact", "--test", "contact_rule"];
-    cargo(&[&OPTIMISED[..], &tests].concat())?;
-    cargo(&[&OPTIMISED[..], &["carom-scene", "--test", "scenes"]].concat())
+/// Runs the tests of the physics as users build it: fully optimised, with threads.
+fn tests_of_releases() -> Outcome {
+    for package in ["carom", "carom-scene"] {
+        let threads = format!("{package}/rayon");
+        cargo(&[&OPTIMISED[..], &[package, "--lib", "--tests", "--features", &threads]].concat())?;
+    }
+    Ok(())
 }
 
 /// Simulates scenes for a number of hours, optimised, and keeps the state after each hour.

@@ -107,7 +107,8 @@ fn check_tolerance(scene: &Scene) -> Result<(), Problem> {
     // It is checked under every rule, because a scene can change its rule in one word.
     check_positive(tolerance, "simulation.bisect.tolerance")?;
     let is_used = scene.simulation.rule == Rule::Bisect;
-    check(!is_used || tolerance <= 0.01 * smallest, "simulation.bisect.tolerance", || {
-        format!("must be at most 1/100 of the smallest radius, {smallest}, not {tolerance}")
+    let most = 0.01 * smallest;
+    check(!is_used || tolerance <= most, "simulation.bisect.tolerance", || {
+        format!("must be at most {most:?}, 1/100 of the smallest radius, not {tolerance:?}")
     })
 }

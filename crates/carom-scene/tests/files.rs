@@ -167,7 +167,7 @@ fn every_mistake_is_told_with_its_line_and_field() {
         (
             "[camera]",
             "[simulation]\nrule = 'bisect'\nbisect = { tolerance = 0.01 }\n[camera]",
-            "32: simulation.bisect.tolerance: must be at most 1/100 of the smallest radius, 0.1",
+            "32: simulation.bisect.tolerance: must be at most 0.001, 1/100 of the smallest radius, not 0.01",
         ),
         ("[camera]", "[colors]\nspheres = [0, 0, 2]\n[camera]", "31: colors.spheres: must have"),
         (

@@ -116,6 +116,29 @@ fn mistakes_in_a_mesh_are_named_by_line_and_number() {
 }
 
 #[test]
+fn spheres_and_emitters_inside_a_closed_mesh_are_refused_as_in_a_box() {
+    let corners = "vertices = [[-1, -1, -1], [3, -1, -1], [-1, 3, -1], [-1, -1, 3]]";
+    let closed = "triangles = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]";
+    let open = "triangles = [[0, 2, 1], [0, 1, 3], [0, 3, 2]]";
+    let sphere = "[[spheres]]\nposition = [0, 0, -0.5]\nradius = 0.1\n";
+    let emitter = "[[emitters]]\nposition = [0, 0, -0.5]\nperiod = 1\nsphere = { radius = 0.1 }\n";
+    let with = |triangles: &str, more: &str| {
+        let rock = scene_of(&format!("mesh = {{ {corners}, {triangles} }}"));
+        format!("{}name = \"rock\"\n{more}", rock)
+    };
+    let problem = problem_of(&with(closed, sphere));
+    let expected = "sphere number 0 overlaps colliders[0] \"rock\" by 6.000e-1 m at the start";
+    assert!(problem.contains(expected), "{problem}");
+    let problem = problem_of(&with(closed, emitter));
+    assert!(problem.contains("emitters[0].position: puts spheres into a collider"), "{problem}");
+    for more in [sphere, emitter] {
+        Scene::from_toml(&with(open, more), "open.toml").unwrap();
+    }
+    let allowed = format!("[simulation]\nallow_overlap = true\n{}", with(closed, sphere));
+    Scene::from_toml(&allowed, "allowed.toml").unwrap();
+}
+
+#[test]
 fn a_link_opens_no_file() {
     let text = SceneText::new(&scene_of("mesh = \"/etc/track.obj\""), "link").unwrap();
     let problem = text.within(Budget::LINK).scene(&[]).unwrap_err().to_string();

@@ -30,6 +30,8 @@
 mod axis_motion;
 mod band;
 mod bodies;
+mod bounds;
+mod bounds_tree;
 mod clock;
 mod collider;
 mod colliders;

@@ -7,7 +7,7 @@ use crate::collider::{Collider, Pose, Shape, Sides};
 use crate::friction::Friction;
 use crate::groups::Groups;
 use crate::id::ColliderId;
-use crate::mesh::{Corner, Edge, Facet, Features, Placement};
+use crate::mesh::{ClosedMesh, Corner, Edge, Facet, Features, Placement};
 use crate::norm::Norm;
 pub(crate) use crate::rectangle::Rectangle;
 use crate::round_solid::{Outline, RoundSolid};
@@ -149,6 +149,7 @@ impl SurfaceMotion {
                 Form::HalfSpace { point: place(point), normal: turn(normal) }
             }
             Form::Rectangle(ref it) => Form::Rectangle(placement.rectangle(it)),
+            Form::Closed(ref it) => Form::Closed(placement.closed_mesh(it)),
             Form::Facet(ref it) => Form::Facet(placement.facet(it)),
             Form::Edge(ref it) => Form::Edge(placement.edge(it)),
             Form::Corner(ref it) => Form::Corner(placement.corner(it)),
@@ -172,7 +173,7 @@ pub(crate) enum Role {
     Deflects,
     /// It reports contact and deflects nothing.
     Reports,
-    /// It only tells whether a sphere is inside: the volume of a box, whose faces deflect.
+    /// It only tells whether a sphere is inside: the volume of a box or a closed mesh, whose faces deflect.
     Encloses,
 }
 
@@ -192,6 +193,8 @@ pub(crate) enum Form {
     Box(SolidBox),
     Band(Band),
     Round(RoundSolid),
+    /// What a closed mesh encloses.
+    Closed(ClosedMesh),
     /// Of a mesh, as the next two.
     Facet(Facet),
     Edge(Edge),
@@ -214,6 +217,7 @@ impl Form {
             Self::Sphere { center, radius } => Self::Sphere { center: center + way, radius },
             Self::HalfSpace { point, normal } => Self::HalfSpace { point: point + way, normal },
             Self::Rectangle(it) => Self::Rectangle(Rectangle { center: it.center + way, ..it }),
+            Self::Closed(ref it) => Self::Closed(placement.closed_mesh(it)),
             Self::Facet(ref it) => Self::Facet(placement.facet(it)),
             Self::Edge(ref it) => Self::Edge(placement.edge(it)),
             Self::Corner(ref it) => Self::Corner(placement.corner(it)),
@@ -231,7 +235,8 @@ impl Form {
             Self::Rectangle(Rectangle { center, half_x, half_z, .. }) => {
                 center.norm() + half_x + half_z
             }
-            Self::Box(SolidBox { center, half, .. }) => center.norm() + half.element_sum(),
+            Self::Box(it) => it.coordinates(),
+            Self::Closed(ref it) => SolidBox::about(it).coordinates(),
             Self::Band(band) => band.coordinates(),
             Self::Round(solid) => solid.coordinates(),
             Self::Facet(Facet { frame: Rectangle { center, half_x, half_z, .. }, .. }) => {
@@ -253,10 +258,8 @@ impl Form {
                 let rise = |axis: DVec3, half: f64| half * axis.dot(normal).abs();
                 height(center) + rise(axis_x, half_x) + rise(axis_z, half_z)
             }
-            Self::Box(SolidBox { center, axes, half }) => {
-                let rises = axes.map(|axis| axis.dot(normal).abs());
-                height(center) + half.dot(DVec3::from_array(rises))
-            }
+            Self::Box(it) => it.height_above([point, normal]),
+            Self::Closed(ref it) => SolidBox::about(it).height_above([point, normal]),
             Self::Band(band) => height(band.center) + band.extent(normal)[1],
             Self::Round(solid) => height(solid.center) + solid.extent(normal)[1],
             Self::Facet(ref facet) => facet.height_above([point, normal]),
@@ -280,7 +283,8 @@ pub(crate) struct SolidBox {
 /// Appends the surfaces of a collider. Those of a solid box are its volume and then its faces, in
 /// the order -x, +x, -y, +y, -z, +z; those of a container its walls in the same order, each facing
 /// outward and then inward. A box or a container that only reports is its volume. A solid of revolution has its volume,
-/// then its side and discs; a hollow one has its walls, each facing outward and then inward.
+/// then its side and discs; a hollow one has its walls, each facing outward and then inward. A closed mesh has what it
+/// encloses before its faces.
 pub(crate) fn place(id: ColliderId, collider: &Collider, surfaces: &mut Vec<Surface>) {
     let Collider { ref shape, pose, restitution, friction, trigger, kick, groups, .. } = *collider;
     let (center, motion) = (pose.position, SurfaceMotion::of(collider));
@@ -334,6 +338,9 @@ pub(crate) fn place(id: ColliderId, collider: &Collider, surfaces: &mut Vec<Surf
         }
         Shape::Mesh(ref mesh) => {
             let placement = Placement { rotation, from: DVec3::ZERO, to: center };
+            if let Some(solid) = ClosedMesh::of(mesh) {
+                add(Form::Closed(placement.closed_mesh(&solid)), Role::Encloses);
+            }
             place_mesh(mesh.features(), &placement, |form| add(form, Role::Deflects));
         }
         Shape::Cylinder { .. }
@@ -382,6 +389,23 @@ fn place_mesh(features: &Features, placement: &Placement, mut add: impl FnMut(Fo
 }
 
 impl SolidBox {
+    /// The smallest one about a closed mesh along the axes of its frame.
+    pub fn about(mesh: &ClosedMesh) -> Self {
+        let (center, axes, half) = mesh.box_about();
+        Self { center, axes, half }
+    }
+
+    /// Size of the coordinates that it is given by \[m\].
+    fn coordinates(&self) -> f64 {
+        self.center.norm() + self.half.element_sum()
+    }
+
+    /// Height of its highest point above a plane, which is given by a point \[m\] and its normal.
+    fn height_above(&self, [point, normal]: [DVec3; 2]) -> f64 {
+        let rises = self.axes.map(|axis| axis.dot(normal).abs());
+        (self.center - point).dot(normal) + self.half.dot(DVec3::from_array(rises))
+    }
+
     /// The faces that are not open, outward.
     fn walls(&self, open: Sides) -> impl Iterator<Item = Rectangle> {
         let faces = self.faces().into_iter().zip(open.to_array());

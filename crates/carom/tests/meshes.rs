@@ -6,9 +6,10 @@ mod common;
 use std::f64::consts::TAU;
 
 use carom::{
-    Collider, Contact, DQuat, DVec3, Exact, Gravity, Mesh, MeshError, Pose, Rule, Shape, Sphere,
-    SphereId, World,
+    Collider, Contact, DQuat, DVec3, Exact, Gravity, Mesh, MeshError, Pose, QuadraticDrag, Rule,
+    Shape, Sphere, SphereId, World,
 };
+use common::solid_mesh::block;
 use common::{G, Numbers, vec, world};
 
 /// A flat floor of `count` by `count` cells between -2 and 2, cut along either diagonal, with vertices anywhere.
@@ -86,18 +87,6 @@ fn a_flat_floor_of_many_triangles_is_a_half_space() {
             assert_eq!(impacts[0], impacts[1], "{rule:?} {restitution} {friction}");
         }
     }
-}
-
-/// A box as a mesh.
-fn block(size: DVec3) -> Mesh {
-    let corner = |number: u32| {
-        let part = |bit: u32| if number & bit == 0 { -0.5 } else { 0.5 };
-        size * vec(part(1), part(2), part(4))
-    };
-    let sides: [[u32; 4]; 6] =
-        [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
-    let triangles = sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]);
-    Mesh::new((0..8).map(corner).collect(), triangles.collect()).unwrap()
 }
 
 #[test]
@@ -196,6 +185,47 @@ fn an_open_mesh_is_met_from_both_sides_unless_it_is_one_sided() {
             let expected = if is_one_sided { 1.0 } else { -1.0 };
             assert_eq!(rising.velocity.y, expected, "{rule:?}");
             assert_eq!(falling.velocity.y, 1.0, "{rule:?}");
+        }
+    }
+}
+
+/// A valley along z that is met from above: its sides go down to x = 0 and up again, at 45 degrees.
+fn valley() -> Shape {
+    Shape::Mesh(fold(-1.0).one_sided())
+}
+
+/// A ball below the left side of a valley, on its way to the right one, both in motion. Returns the velocity of the
+/// ball at the end and the times of its impacts \[s\]. In air its path is a polynomial.
+fn into_valley(motion: DVec3, has_air: bool, frame: f64) -> (DVec3, Vec<f64>) {
+    let mut world = world(Exact::default());
+    if has_air {
+        // So thin that it slows nothing down.
+        world.add_force(QuadraticDrag::new(1e-14)).unwrap();
+    }
+    let valley = Collider::new(valley(), Pose::at(DVec3::ZERO)).moving(motion, DVec3::ZERO);
+    world.add_collider(valley).unwrap();
+    let ball = Sphere::new(vec(-1.0, 0.2, 0.1), 0.5).with_velocity(DVec3::X + motion);
+    let ball = world.add_sphere(ball).unwrap();
+    let (frames, mut times) = ((1.5 / frame).round() as usize, Vec::new());
+    for number in 0..frames {
+        let report = world.step(frame).unwrap();
+        times.extend(report.impacts.iter().map(|impact| number as f64 * frame + impact.time));
+    }
+    (world.sphere(ball).unwrap().velocity, times)
+}
+
+#[test]
+fn a_ball_from_behind_meets_the_other_side_of_a_valley_where_it_comes_over_it() {
+    // It passes the left side from behind at x = -0.2, and is over the right one from there on: that turns it up.
+    for (motion, has_air) in
+        [(DVec3::ZERO, false), (vec(0.5, 0.25, 0.0), false), (vec(0.5, 0.25, 0.0), true)]
+    {
+        for frame in [0.25, 0.0625, 1.5] {
+            let (velocity, times) = into_valley(motion, has_air, frame);
+            let [time] = times[..] else { panic!("{times:?}") };
+            // Places beside a border count within 256 roundings of coordinates up to 6 m, at 1 m/s.
+            assert!((time - 0.8).abs() < 1e-12, "{time}");
+            assert!((velocity - motion - DVec3::Y).length() < 1e-12, "{velocity}");
         }
     }
 }

@@ -29,10 +29,10 @@ pub const PARTS: [Part; 15] = [
     Part { name: "builds", after: &["clippy"], reads: RUST, run: builds },
     Part { name: "tests", after: &["builds"], reads: RUST, run: tests },
     Part {
-        name: "debug",
+        name: "physics",
         after: &["builds"],
         reads: Reads::Some { packages: PHYSICS, paths: &[] },
-        run: debug,
+        run: physics,
     },
     Part { name: "examples", after: &["builds"], reads: RUST, run: examples },
     Part {
@@ -87,6 +87,7 @@ const RUST: Reads = Reads::Some {
     packages: &["carom", "carom-analysis", "carom-c", "carom-fuzz", "carom-js", "carom-py"],
     paths: &["crates/", "docs/"],
 };
+/// What has a part of its own for its tests.
 const PHYSICS: &[&str] = &["carom", "carom-scene"];
 
 /// Installs what all parts need; by itself each part installs what it needs.
@@ -142,20 +143,24 @@ fn builds() -> Outcome {
     check(&["carom-py", "--no-default-features"])
 }
 
+/// All tests but those of the physics.
 fn tests() -> Outcome {
     setup::film_tests()?;
     let chosen = env::var(PACKAGES).ok();
     let is_chosen = |program: &Program| {
         chosen.as_ref().is_none_or(|names| names.split(',').any(|it| it == program.package))
     };
-    let programs: Vec<Program> = programs::build()?.into_iter().filter(is_chosen).collect();
+    let is_physics = |program: &Program| PHYSICS.contains(&program.package.as_str());
+    let mut programs = programs::build()?;
+    programs.retain(|program| is_chosen(program) && !is_physics(program));
     // Graphics libraries need this folder, and complain aloud where a system names none.
     let folder = env::var("XDG_RUNTIME_DIR").unwrap_or_else(|_| "/tmp".to_owned());
     programs::run(&programs, &[], &[("XDG_RUNTIME_DIR", &folder)])
 }
 
-/// The physics with assertions, with checks of overflows, without threads; the bits are the same.
-fn debug() -> Outcome {
+/// The tests of the physics, once: with assertions, with checks of overflows, without threads. The bits
+/// are those of a release on any number of threads, as [`threads`] checks.
+fn physics() -> Outcome {
     let checked = |package: &&str| {
         let setting = |name: &str| format!("profile.{CI}.package.{package}.{name}=true");
         ["debug-assertions", "overflow-checks"].map(setting)

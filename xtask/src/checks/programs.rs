@@ -28,16 +28,26 @@ const AT_A_TIME: usize = 2;
 /// How many of the slowest tests are named.
 const SLOWEST: usize = 30;
 
-/// Builds everything that tests run: the programs of tests, which it returns, examples, the command, the
-/// libraries for C and Python. All at once, since cargo chooses features by what is built together, and
-/// builds anew what has others.
+/// The tests of the physics that run on several numbers of threads.
+const ON_THREADS: [&str; 2] = ["contact_rule", "exact"];
+
+/// Builds what tests run, but for most programs of the physics, which a part of its own builds: the
+/// programs of tests, which it returns, examples, the command, the libraries for C and Python.
+///
+/// Features are those of the whole workspace, since cargo builds anew what has others.
 pub fn build() -> Outcome<Vec<Program>> {
     setup::graphics()?;
-    let arguments = ["build", "--workspace", "--profile", CI, "--quiet"];
     // Not all programs: xtask would be written over while it runs. Those that tests run come along.
-    let targets = ["--lib", "--examples", "--tests"];
+    let mut programs = built(&["--exclude", "carom", "--lib", "--examples", "--tests"])?;
+    let named: Vec<&str> = ON_THREADS.iter().flat_map(|name| ["--test", name]).collect();
+    programs.extend(built(&named)?.into_iter().filter(|program| program.package == "carom"));
+    Ok(programs)
+}
+
+fn built(targets: &[&str]) -> Outcome<Vec<Program>> {
+    let arguments = ["build", "--workspace", "--profile", CI, "--quiet"];
     let format = ["--message-format", "json-render-diagnostics"];
-    let output = cargo_output(&[&arguments[..], &targets, &format].concat())?;
+    let output = cargo_output(&[&arguments[..], targets, &format].concat())?;
     Ok(output.lines().filter_map(program).collect())
 }
 

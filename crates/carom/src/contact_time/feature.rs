@@ -1,16 +1,17 @@
 //! Contact of a sphere and a face, an edge or a corner of a mesh.
 //!
-//! The sphere meets the whole plane, line or point first somewhere. If that is where the feature is not what of the
-//! mesh is nearest, something nearer was met before, and the feature is not met.
+//! The sphere meets the whole plane, line or point first somewhere. If the feature is not what of the mesh is nearest
+//! there, the search goes on ([`super::nearest`]).
 
 use super::half_space::sphere_half_space;
+use super::nearest::{Feature, segment};
 use super::obstacle::Obstacle;
 use super::path::Path;
 use super::roundoff::Magnitudes;
 use super::search;
 use super::sphere_sphere::sphere_point;
 use crate::flight::Flight;
-use crate::mesh::{Edge, Facet};
+use crate::mesh::Facet;
 use crate::surface::{Form, SurfaceMotion};
 use glam::DVec3;
 
@@ -40,7 +41,8 @@ pub(super) fn sphere_feature(
         Form::Corner(corner) => sphere_point(&seen_from(corner.point), radius, size, horizon),
         _ => None,
     };
-    time.filter(|&time| is_nearest(form, motion.carried_back(flight.after(time).0, time)))
+    let feature = Feature { form, origin: DVec3::ZERO, radius, size };
+    feature.first_nearest(&seen_from(DVec3::ZERO), time?, horizon)
 }
 
 /// Time \[s\] at which a sphere comes into contact with a feature that turns: its `path` is seen from that.
@@ -62,7 +64,7 @@ pub(super) fn sphere_turning_feature(
         }
         _ => None,
     };
-    time.filter(|&time| is_nearest(form, origin + path.state_at(time).position))
+    Feature { form, origin, radius, size }.first_nearest(path, time?, horizon)
 }
 
 /// The first contact with one of the triangles of a face, whose places count from an origin \[m\].
@@ -81,19 +83,4 @@ fn meet_triangles(
         meet(&Obstacle::Triangle { corners, normal, radius })
     });
     met.min_by(f64::total_cmp)
-}
-
-pub(super) fn segment(edge: &Edge, origin: DVec3, radius: f64) -> Obstacle {
-    let (center, half) = (edge.center - origin, edge.half * edge.axis);
-    Obstacle::Segment { ends: [center - half, center + half], radius }
-}
-
-/// Whether a feature is what of its mesh is nearest to a centre \[m\], but for rounding.
-pub(super) fn is_nearest(form: &Form, center: DVec3) -> bool {
-    match form {
-        Form::Facet(facet) => facet.is_under(center),
-        Form::Edge(edge) => edge.is_nearest(center),
-        Form::Corner(corner) => corner.is_nearest(center),
-        _ => true,
-    }
 }

@@ -19,6 +19,7 @@ mod bisection;
 mod claims;
 mod feature;
 mod half_space;
+mod nearest;
 mod obstacle;
 #[cfg(test)]
 mod oracle;

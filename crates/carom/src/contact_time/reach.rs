@@ -67,7 +67,7 @@ impl Reach {
                 let near = if view.front < 0.0 { -view.front } else { view.distance - self.radius };
                 near > self.way + margin
             }
-            Form::Box(_) | Form::Round(_) => true,
+            Form::Box(_) | Form::Round(_) | Form::Closed(_) => true,
             Form::Facet(ref facet) => self.misses_rectangle(position, &facet.frame),
             Form::Edge(ref edge) => {
                 let size = edge.center.abs().element_sum() + edge.half + self.radius;

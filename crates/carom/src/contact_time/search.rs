@@ -29,7 +29,7 @@ const MOST_DOUBLINGS: u32 = 64;
 
 /// What is close, as a part of the size of the coordinates: √ε. Up to here a distance has lost
 /// half its digits.
-const CLOSE: f64 = 1.5e-8;
+pub(super) const CLOSE: f64 = 1.5e-8;
 
 /// Halvings that use up the 53 bits of a time and the 11 of its exponent many times over.
 const MAX_HALVINGS: u32 = 128;

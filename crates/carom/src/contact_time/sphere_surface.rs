@@ -55,7 +55,7 @@ pub(crate) fn sphere_surface(
             let obstacle = Obstacle::Band { band, radius };
             search::first_contact(&relative, &obstacle, size, horizon)
         }
-        Form::Box(_) | Form::Round(_) => None,
+        Form::Box(_) | Form::Round(_) | Form::Closed(_) => None,
         Form::Facet(_) | Form::Edge(_) | Form::Corner(_) => {
             sphere_feature(flight, radius, (form, motion), size, horizon)
         }
@@ -96,7 +96,7 @@ fn sphere_turning_surface(
             let obstacle = Obstacle::Band { band, radius };
             search::first_contact(&path, &obstacle, size, horizon)
         }
-        Form::Box(_) | Form::Round(_) => None,
+        Form::Box(_) | Form::Round(_) | Form::Closed(_) => None,
         Form::Facet(_) | Form::Edge(_) | Form::Corner(_) => {
             sphere_turning_feature(&path, radius, (form, motion), size, horizon)
         }

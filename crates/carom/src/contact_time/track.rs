@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use super::feature::{is_nearest, segment, sphere_turning_feature};
+use super::feature::sphere_turning_feature;
+use super::nearest::{Feature, segment};
 use super::obstacle::Obstacle;
 use super::path::{Path, State};
 use super::roundoff::Magnitudes;
@@ -235,9 +236,9 @@ pub(crate) fn track_surface(
     let seen_from = |origin| track.seen_from(origin, velocity);
     if !motion.turns_form(form) {
         let (origin, obstacle) = obstacle(form, radius, DVec3::ZERO)?;
-        let time = search::first_contact(&seen_from(origin), &obstacle, size, horizon);
-        let place = |time| motion.carried_back(track.state_at(time).position, time);
-        return time.filter(|&time| is_nearest(form, place(time)));
+        let path = seen_from(origin);
+        let time = search::first_contact(&path, &obstacle, size, horizon)?;
+        return Feature { form, origin, radius, size }.first_nearest(&path, time, horizon);
     }
     let size = size + Magnitudes::of_length(origin.norm());
     let (flight, turns) = (seen_from(origin), Turns::new(angular_velocity));
@@ -255,7 +256,8 @@ pub(crate) fn track_surface(
         | Form::Rectangle(_)
         | Form::Box(_)
         | Form::Band(_)
-        | Form::Round(_) => {
+        | Form::Round(_)
+        | Form::Closed(_) => {
             let (_, obstacle) = obstacle(form, radius, origin)?;
             search::first_contact(&Turning { flight, turns }, &obstacle, size, horizon)
         }
@@ -287,6 +289,6 @@ fn obstacle(form: &Form, radius: f64, origin: DVec3) -> Option<(DVec3, Obstacle)
             let band = Band { center: band.center - origin, ..band };
             Some((DVec3::ZERO, Obstacle::Band { band, radius }))
         }
-        Form::Box(_) | Form::Round(_) => None,
+        Form::Box(_) | Form::Round(_) | Form::Closed(_) => None,
     }
 }

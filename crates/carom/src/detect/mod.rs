@@ -25,8 +25,8 @@ pub(crate) use sphere_band::{sphere_band, sphere_band_known_in_front, sphere_rou
 pub(crate) use sphere_box::sphere_box;
 pub use sphere_half_space::sphere_half_space;
 pub(crate) use sphere_mesh::{
-    sphere_corner, sphere_corner_point, sphere_edge, sphere_edge_line, sphere_facet,
-    sphere_facet_plane,
+    sphere_closed_mesh, sphere_corner, sphere_corner_point, sphere_edge, sphere_edge_line,
+    sphere_facet, sphere_facet_plane,
 };
 pub(crate) use sphere_rectangle::{sphere_rectangle, sphere_rectangle_known_in_front};
 pub use sphere_sphere::sphere_sphere;
@@ -47,6 +47,7 @@ pub(crate) fn sphere_surface(form: &Form, center: DVec3, radius: f64) -> Option<
         Form::Box(solid) => Some(sphere_box(solid, center, radius)),
         Form::Band(band) => sphere_band(band, center, radius),
         Form::Round(solid) => Some(sphere_round_solid(solid, center, radius)),
+        Form::Closed(mesh) => sphere_closed_mesh(mesh, center, radius),
         Form::Facet(facet) => sphere_facet(facet, center, radius),
         Form::Edge(edge) => sphere_edge(edge, center, radius),
         Form::Corner(corner) => sphere_corner(corner, center, radius),

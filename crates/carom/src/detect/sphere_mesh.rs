@@ -1,7 +1,21 @@
 use super::Separation;
-use crate::mesh::{Corner, Edge, Facet};
+use crate::mesh::{ClosedMesh, Corner, Depth, Edge, Facet};
 use crate::norm::Norm;
 use glam::DVec3;
+
+/// Separation of what a closed mesh encloses and a sphere with its centre inside: minus the distance from the nearest
+/// place of the surface, minus the radius, along the way there. `None` outside, where the faces, edges and corners
+/// count.
+///
+/// - `center`, `radius` \[m\] of the sphere
+pub(crate) fn sphere_closed_mesh(
+    mesh: &ClosedMesh,
+    center: DVec3,
+    radius: f64,
+) -> Option<Separation> {
+    let Depth { depth, normal } = mesh.depth_at(center)?;
+    Some(Separation { distance: -depth - radius, normal, point: center + depth * normal })
+}
 
 /// Separation of a flat face of a mesh and a sphere: `(x - p) · n - r`, where the foot of the centre is inside
 /// the face, by all but rounding. `None` elsewhere, and where the centre is behind it.

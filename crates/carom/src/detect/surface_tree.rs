@@ -2,45 +2,10 @@
 
 use glam::DVec3;
 
+pub(crate) use crate::bounds::Bounds;
 use crate::mesh::Facet;
 use crate::rectangle::Rectangle;
 use crate::surface::{Form, SolidBox, Surface};
-
-/// Axis-aligned bounds \[m\].
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(crate) struct Bounds {
-    pub min: DVec3,
-    pub max: DVec3,
-}
-
-impl Bounds {
-    pub fn around(center: DVec3, half: DVec3) -> Self {
-        Self { min: center - half, max: center + half }
-    }
-
-    /// Farther by `margin` \[m\] on all sides.
-    pub fn widened(&self, margin: f64) -> Self {
-        Self { min: self.min - margin, max: self.max + margin }
-    }
-
-    /// Elsewhere by `shift` \[m\].
-    pub fn moved(&self, shift: DVec3) -> Self {
-        Self { min: self.min + shift, max: self.max + shift }
-    }
-
-    #[inline]
-    pub fn overlap(&self, other: &Self) -> bool {
-        // All comparisons at once: the processor cannot predict which one fails.
-        let along =
-            |axis: usize| (self.min[axis] <= other.max[axis]) & (other.min[axis] <= self.max[axis]);
-        along(0) & along(1) & along(2)
-    }
-
-    pub fn union(self, other: Self) -> Self {
-        Self { min: self.min.min(other.min), max: self.max.max(other.max) }
-    }
-}
 
 /// Bounds of a surface; `None` where it has none.
 pub(crate) fn bounds(form: &Form) -> Option<Bounds> {
@@ -48,11 +13,10 @@ pub(crate) fn bounds(form: &Form) -> Option<Bounds> {
         Form::Sphere { center, radius } => (center, DVec3::splat(radius)),
         Form::Rectangle(r) => (r.center, r.half_x * r.axis_x.abs() + r.half_z * r.axis_z.abs()),
         Form::HalfSpace { .. } => return None,
-        Form::Box(SolidBox { center, axes: [x, y, z], half }) => {
-            (center, half.x * x.abs() + half.y * y.abs() + half.z * z.abs())
-        }
+        Form::Box(solid) => of_box(solid),
         Form::Band(ref band) => within(band.center, |axis| band.extent(axis)),
         Form::Round(ref solid) => within(solid.center, |axis| solid.extent(axis)),
+        Form::Closed(ref solid) => of_box(SolidBox::about(solid)),
         Form::Facet(ref facet) => around(facet),
         Form::Edge(ref edge) => (edge.center, edge.half * edge.axis.abs()),
         Form::Corner(ref corner) => (corner.point, DVec3::ZERO),
@@ -60,6 +24,11 @@ pub(crate) fn bounds(form: &Form) -> Option<Bounds> {
     // Wider by far more than rounding, so that a surface at the very edge is never passed over.
     let slack = 1e-12 * (center.abs() + half).max_element();
     Some(Bounds::around(center, half + slack))
+}
+
+/// Centre and half lengths \[m\] of the bounds of a box.
+fn of_box(SolidBox { center, axes: [x, y, z], half }: SolidBox) -> (DVec3, DVec3) {
+    (center, half.x * x.abs() + half.y * y.abs() + half.z * z.abs())
 }
 
 /// Centre and half lengths of bounds, from the extents along the axes about a point.

@@ -67,6 +67,14 @@ impl Edge {
         (offset - along * self.axis).norm()
     }
 
+    /// How far a centre \[m\] is at least from where the edge is what of the mesh is nearest; 0 there.
+    pub fn distance_beside(&self, center: DVec3) -> f64 {
+        let offset = center - self.center;
+        let past_ends = offset.dot(self.axis).abs() - self.half;
+        let beside = self.outward.iter().map(|outward| -offset.dot(*outward));
+        (beside.fold(past_ends, f64::max) - self.slack(center)).max(0.0)
+    }
+
     fn slack(&self, point: DVec3) -> f64 {
         ROUNDING * (point.norm() + self.center.norm() + self.half)
     }

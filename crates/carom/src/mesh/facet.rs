@@ -102,6 +102,11 @@ impl Facet {
         self.outline.is_within(self.local(point), beside)
     }
 
+    /// How far the foot of a centre \[m\] is outside the outline; 0 where it is inside or outside by rounding.
+    pub fn distance_beside(&self, center: DVec3) -> f64 {
+        (self.outline.distance(self.local(center)) - self.slack(center)).max(0.0)
+    }
+
     /// Rounding of a place beside it \[m\].
     fn slack(&self, point: DVec3) -> f64 {
         let Rectangle { center, half_x, half_z, .. } = self.frame;

@@ -5,12 +5,14 @@
 //! (`facet`, `edge`, `corner`), so a sphere meets nothing twice and nothing inside a flat floor.
 
 mod build;
+mod closed;
 mod corner;
 mod edge;
 mod error;
 mod facet;
 mod faults;
 mod heights;
+mod interior;
 mod outline;
 mod place;
 mod topology;
@@ -21,13 +23,16 @@ use std::sync::{Arc, OnceLock};
 use glam::DVec3;
 
 pub(crate) use build::Features;
+pub(crate) use closed::ClosedMesh;
 pub(crate) use corner::Corner;
 pub(crate) use edge::Edge;
 pub use error::MeshError;
 pub(crate) use facet::Facet;
 pub use faults::MeshFaults;
+pub(crate) use interior::Depth;
 pub(crate) use place::Placement;
 
+use interior::Interior;
 use topology::Topology;
 
 /// A surface of triangles, for [`Shape::Mesh`](crate::Shape::Mesh). Copies share their memory.
@@ -37,7 +42,9 @@ use topology::Topology;
 /// rectangle. Triangles face the side from which their vertices go round against the clock.
 ///
 /// A closed mesh, each of whose edges has two triangles that go round alike, is met from the side that its
-/// triangles face: a solid, or a room. An open one is met from both sides, unless it is [one-sided].
+/// triangles face: a solid, or a room. Where its triangles face outward, it encloses what they go round, and
+/// a sphere whose centre is there overlaps it, as one in a solid box does. An open mesh has no inside and is met
+/// from both sides, unless it is [one-sided].
 ///
 /// [one-sided]: Mesh::one_sided
 ///
@@ -67,6 +74,7 @@ struct Given {
     bounds: [DVec3; 2],
     topology: Topology,
     features: OnceLock<Features>,
+    interior: OnceLock<Interior>,
 }
 
 impl Mesh {
@@ -108,11 +116,11 @@ impl Mesh {
                 triangles: shared.triangles.clone(),
                 topology: shared.topology.clone(),
                 features: OnceLock::new(),
+                interior: OnceLock::new(),
                 ..*shared
             },
         };
-        let (is_one_sided, features) = (true, OnceLock::new());
-        Self(Arc::new(Given { vertices, triangles, is_one_sided, bounds, topology, features }))
+        Self::made_of(vertices, triangles, true, (bounds, topology))
     }
 
     fn with_sides(
@@ -127,8 +135,24 @@ impl Mesh {
         }
         let first = [DVec3::INFINITY, DVec3::NEG_INFINITY];
         let bounds = vertices.iter().fold(first, |[min, max], &it| [min.min(it), max.max(it)]);
-        let features = OnceLock::new();
-        Ok(Self(Arc::new(Given { vertices, triangles, is_one_sided, bounds, topology, features })))
+        Ok(Self::made_of(vertices, triangles, is_one_sided, (bounds, topology)))
+    }
+
+    fn made_of(
+        vertices: Vec<DVec3>,
+        triangles: Vec<[u32; 3]>,
+        is_one_sided: bool,
+        (bounds, topology): ([DVec3; 2], Topology),
+    ) -> Self {
+        Self(Arc::new(Given {
+            vertices,
+            triangles,
+            is_one_sided,
+            bounds,
+            topology,
+            features: OnceLock::new(),
+            interior: OnceLock::new(),
+        }))
     }
 
     /// The vertices as they were given \[m\].
@@ -165,6 +189,13 @@ impl Mesh {
     pub(crate) fn features(&self) -> &Features {
         let Given { topology, is_one_sided, features, .. } = &*self.0;
         features.get_or_init(|| Features::of(topology, *is_one_sided))
+    }
+
+    /// How deep a point \[m\] of its own frame is inside; `None` outside, and of an open mesh.
+    pub(crate) fn depth_at(&self, point: DVec3) -> Option<Depth> {
+        let Given { topology, bounds: [min, max], interior, .. } = &*self.0;
+        let may_be_inside = topology.is_closed && (point.cmpge(*min) & point.cmple(*max)).all();
+        may_be_inside.then(|| interior.get_or_init(|| Interior::of(topology)).depth_at(point))?
     }
 }
 

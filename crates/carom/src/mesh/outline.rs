@@ -82,6 +82,15 @@ impl Outline {
         is_inside
     }
 
+    /// How far outside a point is \[m\]; 0 inside.
+    pub fn distance(&self, point: DVec2) -> f64 {
+        if self.contains(point) {
+            return 0.0;
+        }
+        let squares = self.sides().iter().map(|side| side.distance_squared(point));
+        squares.fold(f64::INFINITY, f64::min).sqrt()
+    }
+
     /// Whether a point \[m\] is inside, or no farther than `slack` \[m\] outside.
     pub fn is_within(&self, point: DVec2, slack: f64) -> bool {
         let is_near = |side: &Side| side.distance_squared(point) <= slack * slack;

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::{Corner, Edge, Facet};
+use super::{ClosedMesh, Corner, Edge, Facet};
 use crate::rectangle::Rectangle;
 
 /// A rotation about a point, which then lies elsewhere: `x' = to + R (x - from)`.
@@ -37,6 +37,14 @@ impl Placement {
 
     pub fn facet(&self, it: &Facet) -> Facet {
         Facet { frame: self.rectangle(&it.frame), outline: it.outline.clone() }
+    }
+
+    pub fn closed_mesh(&self, it: &ClosedMesh) -> ClosedMesh {
+        ClosedMesh {
+            mesh: it.mesh.clone(),
+            position: self.point(it.position),
+            rotation: self.rotation * it.rotation,
+        }
     }
 
     pub fn edge(&self, it: &Edge) -> Edge {

@@ -226,7 +226,7 @@ impl<'a> Queries<'a> {
         for shift in images::shifts(&region, tree.bounds(), self.period) {
             let place = wrapped - shift;
             let mut limit = nearest.map_or(within, |(it, _)| it.distance);
-            let bound = |bounds: &Bounds| distance_below(bounds, place);
+            let bound = |bounds: &Bounds| bounds.distance_below(place);
             tree.search(&bound, &mut limit, &mut |leaf, limit| {
                 let Some(found) = self.near_body(leaf, place, 0.0, shift, filter) else { return };
                 let is_nearer = |(best, item): &(NearBody, Item)| {
@@ -263,7 +263,7 @@ impl<'a> Queries<'a> {
         for shift in images::shifts(&region, tree.bounds(), self.period) {
             let place = wrapped - shift;
             let mut limit = radius;
-            let bound = |bounds: &Bounds| distance_below(bounds, place);
+            let bound = |bounds: &Bounds| bounds.distance_below(place);
             tree.search(&bound, &mut limit, &mut |leaf, _| {
                 let near = self.near_body(leaf, place, radius, shift, filter);
                 let near = near.filter(|near| near.distance <= 0.0);
@@ -412,11 +412,4 @@ fn refused(invalid: InvalidValue) -> Error {
 fn around(point: DVec3, distance: f64) -> Bounds {
     let slack = 1e-9 * (point.abs().max_element() + distance);
     Bounds::around(point, DVec3::splat(distance + slack))
-}
-
-/// A lower bound of the distance of a point from what is within bounds \[m\].
-fn distance_below(bounds: &Bounds, point: DVec3) -> f64 {
-    let outside = (bounds.min - point).max(point - bounds.max).max(DVec3::ZERO);
-    // Less than rounding may add.
-    outside.dot(outside).sqrt() * (1.0 - 1e-12)
 }

@@ -1,8 +1,9 @@
-//! A tree over the bounds of all bodies of a world at one instant, which is searched nearest first.
+//! A tree of all bodies of a world at one instant.
 
 use glam::DVec3;
 
-use crate::detect::surface_tree::Bounds;
+use crate::bounds::Bounds;
+use crate::bounds_tree::{Bounded, BoundsTree};
 
 /// A body by its place in the arrays of the world. Spheres sort before surfaces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -22,117 +23,17 @@ pub(super) struct Leaf {
     pub has_images: bool,
 }
 
-/// Up to this many bodies are looked at one by one; below it a tree saves nothing.
-const LEAF_SIZE: usize = 4;
+impl Bounded for Leaf {
+    type Order = Item;
 
-/// Bodies in a bounding volume hierarchy, split at the median centre.
-#[derive(Debug, Clone)]
-pub(super) struct BodyTree {
-    /// Depth first: the first child of an inner node follows it.
-    nodes: Vec<Node>,
-    /// Bounded bodies, grouped by leaf.
-    leaves: Vec<Leaf>,
-    /// Bodies without bounds, near every place.
-    unbounded: Vec<Leaf>,
-}
-
-#[derive(Debug, Clone, Copy)]
-struct Node {
-    bounds: Bounds,
-    below: Below,
-}
-
-#[derive(Debug, Clone, Copy)]
-enum Below {
-    /// `leaves[first .. last]`.
-    Leaves { first: u32, last: u32 },
-    /// The node after this one, and the one at `second`.
-    Nodes { second: u32 },
-}
-
-impl BodyTree {
-    /// A tree of bodies; one that is not `sorted` costs little to make, and each search looks at all bodies.
-    pub fn of(leaves: Vec<Leaf>, unbounded: Vec<Leaf>, sorted: bool) -> Self {
-        let mut tree = Self { nodes: Vec::new(), leaves, unbounded };
-        let (count, size) = (tree.leaves.len(), if sorted { LEAF_SIZE } else { usize::MAX });
-        if count > 0 {
-            tree.build(0, count, size);
-        }
-        tree
+    fn bounds(&self) -> &Bounds {
+        &self.bounds
     }
 
-    /// Bounds of all bodies that have some; `None` if there are none.
-    pub fn bounds(&self) -> Option<&Bounds> {
-        self.nodes.first().map(|root| &root.bounds)
-    }
-
-    /// Appends the node over `leaves[first .. last]`, and those below it.
-    fn build(&mut self, first: usize, last: usize, leaf_size: usize) {
-        let part = &mut self.leaves[first..last];
-        let Some(bounds) = part.iter().map(|leaf| leaf.bounds).reduce(Bounds::union) else {
-            return;
-        };
-        let node = self.nodes.len();
-        if part.len() <= leaf_size {
-            let below = Below::Leaves { first: first as u32, last: last as u32 };
-            self.nodes.push(Node { bounds, below });
-            return;
-        }
-        let axis = (bounds.max - bounds.min).max_position();
-        let center = |leaf: &Leaf| leaf.bounds.min[axis] + leaf.bounds.max[axis];
-        let middle = part.len() / 2;
-        part.select_nth_unstable_by(middle, |a, b| {
-            center(a).total_cmp(&center(b)).then(a.item.cmp(&b.item))
-        });
-        self.nodes.push(Node { bounds, below: Below::Nodes { second: 0 } });
-        self.build(first, first + middle, leaf_size);
-        let second = self.nodes.len() as u32;
-        self.build(first + middle, last, leaf_size);
-        self.nodes[node].below = Below::Nodes { second };
-    }
-
-    /// Visits bodies for whose bounds `lower_bound` is not above the `limit`, roughly in its order. A visit may
-    /// lower the limit.
-    pub fn search(
-        &self,
-        lower_bound: &impl Fn(&Bounds) -> f64,
-        limit: &mut f64,
-        visit: &mut impl FnMut(&Leaf, &mut f64),
-    ) {
-        self.unbounded.iter().for_each(|leaf| visit(leaf, limit));
-        if let Some(root) = self.nodes.first()
-            && lower_bound(&root.bounds) <= *limit
-        {
-            self.descend(0, lower_bound, limit, visit);
-        }
-    }
-
-    fn descend(
-        &self,
-        node: usize,
-        lower_bound: &impl Fn(&Bounds) -> f64,
-        limit: &mut f64,
-        visit: &mut impl FnMut(&Leaf, &mut f64),
-    ) {
-        let second = match self.nodes[node].below {
-            Below::Nodes { second } => second as usize,
-            Below::Leaves { first, last } => {
-                for leaf in &self.leaves[first as usize..last as usize] {
-                    if lower_bound(&leaf.bounds) <= *limit {
-                        visit(leaf, limit);
-                    }
-                }
-                return;
-            }
-        };
-        let children =
-            [node + 1, second].map(|child| (lower_bound(&self.nodes[child].bounds), child));
-        let is_second_nearer = children[1].0 < children[0].0;
-        let ordered = if is_second_nearer { [children[1], children[0]] } else { children };
-        for (bound, child) in ordered {
-            if bound <= *limit {
-                self.descend(child, lower_bound, limit, visit);
-            }
-        }
+    fn order(&self) -> Item {
+        self.item
     }
 }
+
+/// Bodies by their places.
+pub(super) type BodyTree = BoundsTree<Leaf>;

@@ -64,14 +64,13 @@ fn meet_surfaces(
     let mut next = 0;
     while let Some(&surface) = near.get(next) {
         next += 1;
+        if system.surfaces[surface as usize].role == Role::Encloses {
+            continue;
+        }
         let Some(contact) = overlap(system, motion, sphere, surface) else { continue };
-        match system.surfaces[surface as usize].role {
-            Role::Deflects => {}
-            Role::Reports => {
-                report.triggers.extend(TriggerContact::of(&contact, system));
-                continue;
-            }
-            Role::Encloses => continue,
+        if system.surfaces[surface as usize].role == Role::Reports {
+            report.triggers.extend(TriggerContact::of(&contact, system));
+            continue;
         }
         let Some(impact) = respond::answer(&contact, system, motion, frame.h) else { continue };
         report.impacts.push(impact);

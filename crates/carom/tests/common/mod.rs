@@ -3,6 +3,7 @@
 
 pub mod group;
 pub mod rough_mesh;
+pub mod solid_mesh;
 
 use carom::{Bisect, DVec3, Discrete, Integrator, Rule, Settings, WindBack, World};
 

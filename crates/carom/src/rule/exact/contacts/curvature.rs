@@ -88,9 +88,11 @@ pub(super) fn curvature_of(
         Form::Sphere { center: fixed, .. } => {
             NormalCurvature::RoundFeature((center - *fixed).norm())
         }
-        Form::HalfSpace { .. } | Form::Box(_) | Form::Round(_) | Form::Facet(_) => {
-            NormalCurvature::Flat
-        }
+        Form::HalfSpace { .. }
+        | Form::Box(_)
+        | Form::Round(_)
+        | Form::Closed(_)
+        | Form::Facet(_) => NormalCurvature::Flat,
         Form::Band(band) => curvature_of_band(band, [center, velocity]),
         Form::Edge(edge) => NormalCurvature::Edge(edge.axis, distance),
         Form::Corner(_) => NormalCurvature::RoundFeature(distance),

@@ -1,0 +1,130 @@
+//! A tree over the bounds of things, which is searched nearest first.
+
+use crate::bounds::Bounds;
+
+/// A thing with bounds.
+pub(crate) trait Bounded {
+    /// What decides where things lie at one place.
+    type Order: Ord;
+
+    /// Axis-aligned bounds \[m\].
+    fn bounds(&self) -> &Bounds;
+
+    /// Different for any two things of a tree.
+    fn order(&self) -> Self::Order;
+}
+
+/// Up to this many things are looked at one by one; below it a tree saves nothing.
+const LEAF_SIZE: usize = 4;
+
+/// Things in a bounding volume hierarchy, split at the median centre.
+#[derive(Debug, Clone)]
+pub(crate) struct BoundsTree<L> {
+    /// Depth first: the first child of an inner node follows it.
+    nodes: Vec<Node>,
+    /// Bounded things, grouped by leaf.
+    leaves: Vec<L>,
+    /// Things without bounds, near every place.
+    unbounded: Vec<L>,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Node {
+    bounds: Bounds,
+    below: Below,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Below {
+    /// `leaves[first .. last]`.
+    Leaves { first: u32, last: u32 },
+    /// The node after this one, and the one at `second`.
+    Nodes { second: u32 },
+}
+
+impl<L: Bounded> BoundsTree<L> {
+    /// A tree of things; one that is not `sorted` costs little to make, and each search looks at all of them.
+    pub fn of(leaves: Vec<L>, unbounded: Vec<L>, sorted: bool) -> Self {
+        let mut tree = Self { nodes: Vec::new(), leaves, unbounded };
+        let (count, size) = (tree.leaves.len(), if sorted { LEAF_SIZE } else { usize::MAX });
+        if count > 0 {
+            tree.build(0, count, size);
+        }
+        tree
+    }
+
+    /// Bounds of all things that have some; `None` if there are none.
+    pub fn bounds(&self) -> Option<&Bounds> {
+        self.nodes.first().map(|root| &root.bounds)
+    }
+
+    /// Appends the node over `leaves[first .. last]`, and those below it.
+    fn build(&mut self, first: usize, last: usize, leaf_size: usize) {
+        let part = &mut self.leaves[first..last];
+        let Some(bounds) = part.iter().map(|leaf| *leaf.bounds()).reduce(Bounds::union) else {
+            return;
+        };
+        let node = self.nodes.len();
+        if part.len() <= leaf_size {
+            let below = Below::Leaves { first: first as u32, last: last as u32 };
+            self.nodes.push(Node { bounds, below });
+            return;
+        }
+        let axis = (bounds.max - bounds.min).max_position();
+        let center = |leaf: &L| leaf.bounds().min[axis] + leaf.bounds().max[axis];
+        let middle = part.len() / 2;
+        part.select_nth_unstable_by(middle, |a, b| {
+            center(a).total_cmp(&center(b)).then(a.order().cmp(&b.order()))
+        });
+        self.nodes.push(Node { bounds, below: Below::Nodes { second: 0 } });
+        self.build(first, first + middle, leaf_size);
+        let second = self.nodes.len() as u32;
+        self.build(first + middle, last, leaf_size);
+        self.nodes[node].below = Below::Nodes { second };
+    }
+
+    /// Visits things for whose bounds `lower_bound` is not above the `limit`, roughly in its order. A visit may
+    /// lower the limit.
+    pub fn search(
+        &self,
+        lower_bound: &impl Fn(&Bounds) -> f64,
+        limit: &mut f64,
+        visit: &mut impl FnMut(&L, &mut f64),
+    ) {
+        self.unbounded.iter().for_each(|leaf| visit(leaf, limit));
+        if let Some(root) = self.nodes.first()
+            && lower_bound(&root.bounds) <= *limit
+        {
+            self.descend(0, lower_bound, limit, visit);
+        }
+    }
+
+    fn descend(
+        &self,
+        node: usize,
+        lower_bound: &impl Fn(&Bounds) -> f64,
+        limit: &mut f64,
+        visit: &mut impl FnMut(&L, &mut f64),
+    ) {
+        let second = match self.nodes[node].below {
+            Below::Nodes { second } => second as usize,
+            Below::Leaves { first, last } => {
+                for leaf in &self.leaves[first as usize..last as usize] {
+                    if lower_bound(leaf.bounds()) <= *limit {
+                        visit(leaf, limit);
+                    }
+                }
+                return;
+            }
+        };
+        let children =
+            [node + 1, second].map(|child| (lower_bound(&self.nodes[child].bounds), child));
+        let is_second_nearer = children[1].0 < children[0].0;
+        let ordered = if is_second_nearer { [children[1], children[0]] } else { children };
+        for (bound, child) in ordered {
+            if bound <= *limit {
+                self.descend(child, lower_bound, limit, visit);
+            }
+        }
+    }
+}

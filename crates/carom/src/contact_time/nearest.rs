@@ -1,0 +1,151 @@
+//! The first contact with a feature of a mesh while nothing of the mesh is nearer.
+//!
+//! A sphere that comes to a mesh from outside meets what is nearest first. One that comes from behind a one-sided
+//! mesh, or begins in an overlap, is already within a radius of a feature when that becomes the nearest: that is
+//! where they meet.
+
+use glam::DVec3;
+
+use super::obstacle::Obstacle;
+use super::path::{Path, State};
+use super::roundoff::Magnitudes;
+use super::search;
+use crate::mesh::Edge;
+use crate::norm::Norm;
+use crate::surface::Form;
+
+/// Steps towards the places nearest to a feature, at most. Each step takes a fixed part of what is left of the way;
+/// only a path along a border needs more, which comes to lie beyond it by no more than rounding.
+const MOST_STEPS: u32 = 4096;
+
+/// A face, an edge or a corner of a mesh, for spheres of this radius.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Feature<'a> {
+    pub form: &'a Form,
+    /// From where paths count \[m\].
+    pub origin: DVec3,
+    /// \[m\]
+    pub radius: f64,
+    /// Of the numbers that paths and feature are given by.
+    pub size: Magnitudes,
+}
+
+impl Feature<'_> {
+    /// The time \[s\] up to a horizon of the first contact at which nothing of the mesh is nearer, from the
+    /// `first` of all on, which is a contact with the whole plane, line or point.
+    ///
+    /// Between contacts where something else is nearer, the way to the places where nothing is gives a time in
+    /// which the sphere cannot be there.
+    pub fn first_nearest(&self, path: &impl Path, first: f64, horizon: f64) -> Option<f64> {
+        let center = |t: f64| self.origin + path.state_at(t).position;
+        if is_nearest(self.form, center(first)) {
+            return Some(first);
+        }
+        let obstacle = self.obstacle()?;
+        let mut t = first;
+        for _ in 0..MOST_STEPS {
+            let step = least_time(path, self.beside(center(t)), t, horizon);
+            let from = (t + step).max(t.next_up());
+            if !(from <= horizon && from.is_finite()) {
+                return None;
+            }
+            let later = Later { path, from };
+            let wait = search::first_contact(&later, &obstacle, self.size, horizon - from)?;
+            t = from + wait;
+            if is_nearest(self.form, center(t)) {
+                // What touches by rounding alone touched what was nearest before.
+                return (wait > 0.0 || self.is_deep(&obstacle, &path.state_at(t))).then_some(t);
+            }
+        }
+        None
+    }
+
+    fn obstacle(&self) -> Option<Obstacle> {
+        let Self { origin, radius, .. } = *self;
+        match self.form {
+            Form::Facet(facet) => {
+                let (point, normal) = (facet.frame.center - origin, facet.frame.normal);
+                Some(Obstacle::Plane { point, normal, radius })
+            }
+            Form::Edge(edge) => Some(segment(edge, origin, radius)),
+            Form::Corner(corner) => {
+                Some(Obstacle::Segment { ends: [corner.point - origin; 2], radius })
+            }
+            _ => None,
+        }
+    }
+
+    /// How far a centre \[m\] is at least from where the feature is the nearest.
+    fn beside(&self, center: DVec3) -> f64 {
+        match self.form {
+            Form::Facet(facet) => facet.distance_beside(center),
+            Form::Edge(edge) => edge.distance_beside(center),
+            Form::Corner(corner) => corner.distance_beside(center),
+            _ => 0.0,
+        }
+    }
+
+    /// Whether it is overlapped by more than a search may leave unseen.
+    fn is_deep(&self, obstacle: &Obstacle, state: &State) -> bool {
+        let sight = obstacle.seen_from(state.position, state.velocity);
+        sight.distance < -search::CLOSE * (self.size + state.size).length
+    }
+}
+
+/// The time \[s\] that a centre takes for a way \[m\] from `t` \[s\] on, at least, or the time for which that is known.
+fn least_time(path: &impl Path, way: f64, t: f64, horizon: f64) -> f64 {
+    let known = path.window().min(horizon - t);
+    let speed = path.state_at(t).velocity.norm();
+    let pull = path.max_acceleration_anywhere(t, t + known).max(0.0);
+    // The way is v τ + a τ²/2 at most.
+    let time = 2.0 * way / (speed + (speed * speed + 2.0 * pull * way).sqrt());
+    time.min(known)
+}
+
+/// A path from some time \[s\] on.
+struct Later<'a, P> {
+    path: &'a P,
+    from: f64,
+}
+
+impl<P: Path> Path for Later<'_, P> {
+    fn state_at(&self, t: f64) -> State {
+        self.path.state_at(self.from + t)
+    }
+
+    fn max_acceleration(&self, direction: DVec3, from: f64, to: f64) -> f64 {
+        self.path.max_acceleration(direction, self.from + from, self.from + to)
+    }
+
+    fn max_acceleration_anywhere(&self, from: f64, to: f64) -> f64 {
+        self.path.max_acceleration_anywhere(self.from + from, self.from + to)
+    }
+
+    fn growth(&self, to: f64) -> f64 {
+        self.path.growth(self.from + to)
+    }
+
+    fn decay_rate(&self) -> f64 {
+        self.path.decay_rate()
+    }
+
+    fn window(&self) -> f64 {
+        self.path.window()
+    }
+}
+
+/// An edge for spheres of this radius \[m\], its place from an origin \[m\].
+pub(super) fn segment(edge: &Edge, origin: DVec3, radius: f64) -> Obstacle {
+    let (center, half) = (edge.center - origin, edge.half * edge.axis);
+    Obstacle::Segment { ends: [center - half, center + half], radius }
+}
+
+/// Whether a feature is what of its mesh is nearest to a centre \[m\], but for rounding.
+fn is_nearest(form: &Form, center: DVec3) -> bool {
+    match form {
+        Form::Facet(facet) => facet.is_under(center),
+        Form::Edge(edge) => edge.is_nearest(center),
+        Form::Corner(corner) => corner.is_nearest(center),
+        _ => true,
+    }
+}
