@@ -25,6 +25,7 @@ embed!(
     "granular-column.toml",
     "bowl.toml",
     "drum.toml",
+    "terrain.toml",
     "draw-shot.toml",
     "masse.toml",
     "maze.toml",
