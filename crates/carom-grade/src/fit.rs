@@ -79,7 +79,8 @@ impl Fit {
     /// Whether the rows that agree are far off on average, for an allowed error of `tolerance` \[m\]
     /// without that by rounding. They agree then only because rounding moves such a run far.
     pub(crate) fn is_far(&self, tolerance: f64) -> bool {
-        self.rms > FAR * tolerance
+        // A ball that is kilometres away may be off by much.
+        self.rms > FAR * tolerance && self.max_relative > tolerance
     }
 
     /// Fraction of the rows that agree.

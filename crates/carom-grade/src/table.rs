@@ -211,10 +211,11 @@ impl Table {
         let (line, mut places) = found(path, &start, columns)?;
         let width = start.get(line).map_or(0, csv::StringRecord::len);
         let mut left = start.split_off((line + 1).min(start.len()));
-        if let Some(units) = left.first()
-            && places.iter_mut().fold(false, |is_one, it| it.take_units(units) || is_one)
-        {
-            left.remove(0);
+        if let Some(units) = left.first() {
+            let are_units: Vec<bool> = places.iter_mut().map(|it| it.take_units(units)).collect();
+            if are_units.contains(&true) {
+                left.remove(0);
+            }
         }
         let records = Box::new(left.into_iter().map(Ok).chain(records));
         Ok(Self { places, width, records })

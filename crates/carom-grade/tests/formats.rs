@@ -73,6 +73,9 @@ fn german_tables_have_decimal_commas() {
     passes(&format!("Höhenmessung\nZeit;Ball;x;y;z\n{rows}"));
 }
 
+/// Name of a column, from its axis and its ball.
+type Named<'a> = &'a dyn Fn(&str, usize) -> String;
+
 /// A table of SimTest3 with a line for each time and three columns for each ball, named by `column`.
 fn wide(column: impl Fn(&str, usize) -> String, unit: f64) -> String {
     let rows = simulate(&scene("simtest3"), &Plan::default(), 4.0);
@@ -96,7 +99,7 @@ fn wide(column: impl Fn(&str, usize) -> String, unit: f64) -> String {
 #[test]
 fn several_balls_side_by_side_are_all_read() {
     let colours = ["red", "green", "blue", "white", "black", "grey", "pink"];
-    let names: [&dyn Fn(&str, usize) -> String; 4] = [
+    let names: [Named; 4] = [
         &|axis, ball| format!("{axis}{}", ball + 1),
         &|axis, ball| format!("Ball {ball} {axis}"),
         &|axis, ball| format!("{}_{axis}", colours[ball]),
