@@ -231,9 +231,9 @@ fn a_ball_from_behind_meets_the_other_side_of_a_valley_where_it_comes_over_it() 
         for frame in [0.25, 0.0625, 1.5] {
             let (velocity, times) = into_valley(motions, has_air, frame);
             let [time] = times[..] else { panic!("{times:?}") };
-            // Places beside a border count within 256 roundings of coordinates up to 6 m, at 1 m/s.
-            assert!((time - 0.8).abs() < 1e-12, "{time}");
-            assert!((velocity - motion - DVec3::Y).length() < 1e-12, "{velocity}");
+            // Some roundings of coordinates up to 6 m, at 1 m/s, and what the turning does.
+            assert!((time - 0.8).abs() < 1e-13, "{time}");
+            assert!((velocity - motion - DVec3::Y).length() < 1e-13, "{velocity}");
         }
     }
 }
