@@ -52,9 +52,13 @@ impl Feature<'_> {
             let later = Later { path, from };
             let wait = search::first_contact(&later, &obstacle, self.size, horizon - from)?;
             t = from + wait;
-            if is_nearest(self.form, center(t)) {
+            if wait > 0.0 && is_nearest(self.form, center(t)) {
+                return Some(t);
+            }
+            // The border itself: how far rounding blurs it depends on where the origin is.
+            if wait == 0.0 && self.beside(center(t)) == 0.0 {
                 // What touches by rounding alone touched what was nearest before.
-                return (wait > 0.0 || self.is_deep(&obstacle, &path.state_at(t))).then_some(t);
+                return self.is_deep(&obstacle, &path.state_at(t)).then_some(t);
             }
         }
         None

@@ -49,8 +49,7 @@ impl Corner {
     /// How far a centre \[m\] is at least from where the corner is what of the mesh is nearest; 0 there.
     pub fn distance_beside(&self, center: DVec3) -> f64 {
         let offset = self.rotation.conjugate() * (center - self.point);
-        let ahead = self.rays.iter().map(|ray| offset.dot(*ray)).fold(0.0, f64::max);
-        (ahead - self.slack(center)).max(0.0)
+        self.rays.iter().map(|ray| offset.dot(*ray)).fold(0.0, f64::max)
     }
 
     fn slack(&self, point: DVec3) -> f64 {

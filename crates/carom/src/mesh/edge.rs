@@ -72,7 +72,7 @@ impl Edge {
         let offset = center - self.center;
         let past_ends = offset.dot(self.axis).abs() - self.half;
         let beside = self.outward.iter().map(|outward| -offset.dot(*outward));
-        (beside.fold(past_ends, f64::max) - self.slack(center)).max(0.0)
+        beside.fold(past_ends, f64::max).max(0.0)
     }
 
     fn slack(&self, point: DVec3) -> f64 {

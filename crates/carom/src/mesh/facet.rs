@@ -102,9 +102,9 @@ impl Facet {
         self.outline.is_within(self.local(point), beside)
     }
 
-    /// How far the foot of a centre \[m\] is outside the outline; 0 where it is inside or outside by rounding.
+    /// How far the foot of a centre \[m\] is outside the outline; 0 inside.
     pub fn distance_beside(&self, center: DVec3) -> f64 {
-        (self.outline.distance(self.local(center)) - self.slack(center)).max(0.0)
+        self.outline.distance(self.local(center))
     }
 
     /// Rounding of a place beside it \[m\].
