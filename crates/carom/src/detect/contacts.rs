@@ -7,8 +7,8 @@ use glam::DVec3;
 use super::broad_phase::BroadPhase;
 use super::contact::Contact;
 use super::instant::Instant;
-use super::surface_tree::Bounds;
 use super::{ContactState, sphere_surface};
+use crate::bounds::Bounds;
 use crate::surface::Role;
 use crate::system::System;
 

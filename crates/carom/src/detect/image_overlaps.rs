@@ -6,7 +6,7 @@ use super::broad_phase::BroadPhase;
 use super::contact::Bodies;
 use super::instant::Instant;
 use super::sphere_surface;
-use super::surface_tree::Bounds;
+use crate::bounds::Bounds;
 use crate::settings::nearest_image;
 use crate::surface::{Form, Role, Surface};
 

@@ -3,9 +3,10 @@
 use glam::DVec3;
 
 use super::contact::{Bodies, Contact};
-use super::surface_tree::{Bounds, SurfaceTree};
+use super::surface_tree::SurfaceTree;
 use super::{classify, sphere_sphere, sphere_surface};
 use crate::bodies::Motion;
+use crate::bounds::Bounds;
 use crate::integrate;
 use crate::surface::Role;
 use crate::system::System;

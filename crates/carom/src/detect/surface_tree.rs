@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-pub(crate) use crate::bounds::Bounds;
+use crate::bounds::Bounds;
 use crate::mesh::Facet;
 use crate::rectangle::Rectangle;
 use crate::surface::{Form, SolidBox, Surface};

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
+use crate::bounds::Bounds;
 use crate::contact_time;
-use crate::detect::surface_tree::Bounds;
 use crate::detect::{Separation, known_in_front, sphere_surface};
 use crate::flight::Flight;
 use crate::norm::Norm;

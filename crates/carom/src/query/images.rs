@@ -3,8 +3,9 @@
 use glam::DVec3;
 
 use super::tree::{Item, Leaf};
+use crate::bounds::Bounds;
 use crate::detect::instant::Instant;
-use crate::detect::surface_tree::{self, Bounds};
+use crate::detect::surface_tree;
 use crate::settings::nearest_image;
 
 /// Images are looked at up to this many boxes away. A body counts where its middle is in the box, so that of

@@ -8,9 +8,9 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
+use crate::bounds::Bounds;
 use crate::detect::instant::Instant;
 use crate::detect::sphere_surface;
-use crate::detect::surface_tree::Bounds;
 use crate::error::{Error, InvalidValue, Subject};
 use crate::groups::Groups;
 use crate::id::{ColliderId, SphereId};

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
+use crate::bounds::Bounds;
 use crate::contact_time::{PolynomialTrack, Track};
-use crate::detect::surface_tree::Bounds;
 use crate::flight::Flight;
 use crate::id::SphereId;
 use crate::norm::Norm;

@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use crate::band::Band;
+use crate::bounds::Bounds;
 use crate::detect::sphere_surface;
-use crate::detect::surface_tree::{Bounds, bounds};
+use crate::detect::surface_tree::bounds;
 use crate::round_solid::RoundSolid;
 use crate::rule::periodic::image_shift;
 use crate::surface::{Form, Role, Surface, SurfaceMotion};

@@ -3,7 +3,8 @@
 
 use glam::DVec3;
 
-use crate::detect::surface_tree::{Bounds, bounds};
+use crate::bounds::Bounds;
+use crate::detect::surface_tree::bounds;
 use crate::flight::Flight;
 use crate::surface::Form;
 

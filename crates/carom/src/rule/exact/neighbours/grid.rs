@@ -5,7 +5,7 @@ use std::ops::{Range, RangeInclusive};
 
 use glam::DVec3;
 
-use crate::detect::surface_tree::Bounds;
+use crate::bounds::Bounds;
 
 /// Below this number of spheres, one cell for all of them is faster than any grid.
 const SINGLE_CELL: usize = 24;

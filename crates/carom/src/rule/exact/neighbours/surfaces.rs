@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::contents::Contents;
 use super::grid::Grid;
-use crate::detect::surface_tree::Bounds;
+use crate::bounds::Bounds;
 use crate::rule::periodic::image_shift;
 use crate::surface::{Form, Role, Surface};
 
