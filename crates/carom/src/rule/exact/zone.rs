@@ -49,6 +49,8 @@ pub(crate) struct Zone {
     solver: Solver,
     #[cfg_attr(feature = "serde", serde(skip))]
     scratch: Scratch,
+    /// Where surfaces are at a tick; of use within [`Self::step`] only.
+    #[cfg_attr(feature = "serde", serde(skip))]
     surfaces: Vec<Surface>,
     /// The last tick, and the next one, on the world's clock \[s\]; the next one is infinite while all
     /// sleep.
