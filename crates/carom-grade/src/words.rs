@@ -168,10 +168,10 @@ impl Explanation {
 
     /// What the named causes are.
     fn heading(&self) -> &'static str {
-        match self.cause.mistakes.is_empty() {
-            _ if self.nearest => "nearest",
-            true => "number",
-            false => "mistake",
+        match (self.nearest, self.cause.mistakes.is_empty()) {
+            (true, _) => "nearest",
+            (false, true) => "number",
+            (false, false) => "mistake",
         }
     }
 

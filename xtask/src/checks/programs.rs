@@ -34,7 +34,8 @@ const ON_THREADS: [&str; 2] = ["contact_rule", "exact"];
 /// Builds what tests run, but for most programs of the physics, which a part of its own builds: the
 /// programs of tests, which it returns, examples, the command, the libraries for C and Python.
 ///
-/// Features are those of the whole workspace, since cargo builds anew what has others.
+/// Both builds name the whole workspace: cargo chooses the features of a crate by what is built together,
+/// and builds a crate again if they differ.
 pub fn build() -> Outcome<Vec<Program>> {
     setup::graphics()?;
     // Not all programs: xtask would be written over while it runs. Those that tests run come along.

@@ -22,7 +22,7 @@ const HEADING: &str = "part";
 /// How much more of the processor time of all parts a part may take than the table says.
 const GROWTH: f64 = 1.5;
 /// What a part may take beyond that: a download, another program on the machine.
-const SLACK: Duration = Duration::from_secs(40);
+const SLACK: Duration = Duration::from_secs(20);
 
 /// Where the logs and times of parts are kept.
 pub fn folder() -> PathBuf {
