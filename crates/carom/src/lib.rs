@@ -73,6 +73,7 @@ mod step;
 mod sum;
 mod surface;
 mod system;
+mod tangent;
 mod validate;
 mod work;
 mod world;
@@ -106,6 +107,10 @@ pub use settings::{
     WindBack, Zones,
 };
 pub use sphere::{Mass, SOLID_BALL, Sphere, SphereMotion, THIN_SHELL, volume};
+pub use tangent::{
+    ColliderVariation, DerivativeError, Margin, SphereTangent, SphereVariation, Tangents, Tape,
+    Variation,
+};
 pub use work::StopRequest;
 pub use world::World;
 pub use world::snapshot::Snapshot;

@@ -38,6 +38,7 @@ mod timeline;
 mod watch;
 mod zone;
 
+pub(crate) use contacts::{NormalCurvature, curvature_of};
 pub(crate) use course::{Course, follow};
 pub(crate) use frame::{
     Arrivals, Unheld, adopt, begin, end, persistent_contacts, start, tick_for_springs,

@@ -78,7 +78,7 @@ impl NormalCurvature {
 
 /// How the normal turns where a sphere about `center` \[m\] touches a surface, with a velocity relative to
 /// it \[m/s\].
-pub(super) fn curvature_of(
+pub(crate) fn curvature_of(
     form: &Form,
     [center, velocity]: [DVec3; 2],
     separation: &Separation,

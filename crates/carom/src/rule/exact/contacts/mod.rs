@@ -8,7 +8,7 @@ mod planes;
 mod separation;
 mod touch;
 
-pub(super) use curvature::NormalCurvature;
+pub(crate) use curvature::{NormalCurvature, curvature_of};
 pub(super) use gather::{gather, gather_cluster};
 pub(super) use group::Group;
 pub(super) use member::Member;

@@ -1,0 +1,107 @@
+//! Dual numbers: a value and its derivative in one direction.
+
+use std::ops::{Add, Div, Mul, Sub};
+
+use glam::DVec3;
+
+use crate::real::{Real, Vector};
+
+/// A number, and how fast it changes in a direction: `(v + d ε)` with ε² = 0 (Clifford, Proc. London Math. Soc. 4,
+/// 381 (1873)). Formulas made of such numbers give their own derivatives.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Dual {
+    pub value: f64,
+    pub change: f64,
+}
+
+impl Dual {
+    pub const fn new(value: f64, change: f64) -> Self {
+        Self { value, change }
+    }
+
+    /// One that does not change.
+    pub const fn constant(value: f64) -> Self {
+        Self { value, change: 0.0 }
+    }
+}
+
+impl Add for Dual {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self::new(self.value + other.value, self.change + other.change)
+    }
+}
+
+impl Sub for Dual {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        Self::new(self.value - other.value, self.change - other.change)
+    }
+}
+
+impl Mul for Dual {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        let change = self.change * other.value + self.value * other.change;
+        Self::new(self.value * other.value, change)
+    }
+}
+
+impl Mul<f64> for Dual {
+    type Output = Self;
+
+    fn mul(self, factor: f64) -> Self {
+        Self::new(self.value * factor, self.change * factor)
+    }
+}
+
+impl Div for Dual {
+    type Output = Self;
+
+    fn div(self, other: Self) -> Self {
+        let value = self.value / other.value;
+        Self::new(value, (self.change - value * other.change) / other.value)
+    }
+}
+
+impl Real for Dual {
+    fn sqrt(self) -> Self {
+        let root = self.value.sqrt();
+        Self::new(root, 0.5 * self.change / root)
+    }
+
+    fn max(self, other: Self) -> Self {
+        if other.value > self.value { other } else { self }
+    }
+
+    fn min(self, bound: f64) -> Self {
+        if self.value > bound { Self::constant(bound) } else { self }
+    }
+}
+
+/// A vector and its derivative.
+pub(super) fn vector(value: DVec3, change: DVec3) -> Vector<Dual> {
+    Vector {
+        x: Dual::new(value.x, change.x),
+        y: Dual::new(value.y, change.y),
+        z: Dual::new(value.z, change.z),
+    }
+}
+
+impl Vector<Dual> {
+    pub(super) fn value(self) -> DVec3 {
+        DVec3::new(self.x.value, self.y.value, self.z.value)
+    }
+
+    pub(super) fn change(self) -> DVec3 {
+        DVec3::new(self.x.change, self.y.change, self.z.change)
+    }
+
+    /// The unit vector along it.
+    pub(super) fn direction(self) -> Self {
+        self * (Dual::constant(1.0) / self.length_squared().sqrt())
+    }
+}

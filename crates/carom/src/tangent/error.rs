@@ -1,0 +1,53 @@
+//! Why there are no derivatives.
+
+use thiserror::Error as ThisError;
+
+use crate::error::Error;
+use crate::id::{ColliderId, SphereId};
+
+/// Why derivatives cannot be followed.
+#[derive(Debug, Clone, PartialEq, ThisError)]
+#[non_exhaustive]
+pub enum DerivativeError {
+    /// The step itself was refused.
+    #[error(transparent)]
+    Step(#[from] Error),
+    /// The world has something whose derivatives are not known.
+    #[error("derivatives are not known of {0}")]
+    Unsupported(&'static str),
+    /// A direction changes a sphere that is not in the world.
+    #[error("there is no sphere {0} in this world")]
+    UnknownSphere(SphereId),
+    /// A direction changes a collider that is not in the world.
+    #[error("there is no collider {0} in this world")]
+    UnknownCollider(ColliderId),
+    /// Several impacts came at one instant among bodies that touch: what follows depends on which of them a small
+    /// change lets come first.
+    #[error(
+        "sphere {sphere} has several impacts at {time} s at once: no derivative, since a small change decides \
+         which comes first"
+    )]
+    Simultaneous {
+        /// One of the spheres.
+        sphere: SphereId,
+        /// On the world's clock \[s\].
+        time: f64,
+    },
+    /// A sphere did not fly freely between its impacts: it rests, rolls or slides on something, or is in a stepped
+    /// zone.
+    #[error(
+        "sphere {sphere} was in lasting contact between {from} s and {to} s: derivatives are known of free flight \
+         and impacts only"
+    )]
+    LastingContact {
+        /// The sphere.
+        sphere: SphereId,
+        /// Start of the step \[s\].
+        from: f64,
+        /// End of the step \[s\].
+        to: f64,
+    },
+    /// Spheres, colliders or settings were changed from outside between two steps.
+    #[error("the world was changed since its last step: begin derivatives anew")]
+    Changed,
+}

@@ -1,0 +1,120 @@
+//! The law of one impact in dual numbers: Newton's law along the normal, then Walton's across it.
+
+use super::dual::Dual;
+use crate::real::{Real, Vector};
+
+/// A sphere in an impact.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct StruckSphere {
+    pub velocity: Vector<Dual>,
+    pub angular_velocity: Vector<Dual>,
+    pub radius: Dual,
+    pub mass: Dual,
+    /// Moment of inertia divided by m r².
+    pub inertia_factor: f64,
+}
+
+/// Body 1 of an impact.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum FirstBody {
+    Sphere(StruckSphere),
+    /// A surface with this velocity where it is touched \[m/s\].
+    Surface(Vector<Dual>),
+}
+
+/// Coefficients of the contact.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Coefficients {
+    pub restitution: Dual,
+    /// Of Coulomb's friction.
+    pub sliding: Dual,
+    pub tangential_restitution: f64,
+    /// Speed that the surface adds along the normal \[m/s\].
+    pub kick: f64,
+}
+
+impl StruckSphere {
+    /// Velocity of its surface across the normal by its turning, if the normal pointed away from its centre.
+    fn rim_velocity(&self, normal: Vector<Dual>) -> Vector<Dual> {
+        (self.angular_velocity * self.radius).cross(normal)
+    }
+
+    /// How easily an impulse across the normal moves its surface \[1/kg\].
+    fn mobility(&self) -> Dual {
+        Dual::constant(1.0 + 1.0 / self.inertia_factor) / self.mass
+    }
+
+    /// Changes its motion by an impulse along the normal, and by one across it \[N s\], which turns it by the
+    /// same sense on both bodies.
+    fn push(&mut self, impulse: Vector<Dual>, turning: Vector<Dual>) {
+        let one = Dual::constant(1.0);
+        self.velocity = self.velocity + impulse * (one / self.mass);
+        let moment_per_radius = self.mass * self.radius * self.inertia_factor;
+        self.angular_velocity = self.angular_velocity - turning * (one / moment_per_radius);
+    }
+}
+
+impl FirstBody {
+    fn velocity(&self) -> Vector<Dual> {
+        match self {
+            Self::Sphere(sphere) => sphere.velocity,
+            Self::Surface(velocity) => *velocity,
+        }
+    }
+}
+
+/// Answers the impact of two bodies, whose normal points from body 1 to body 2. The formulas are those of
+/// `docs/physics/impacts.md`, "Impact of two spheres" and "Friction".
+pub(super) fn collide(
+    first: &mut FirstBody,
+    second: &mut StruckSphere,
+    normal: Vector<Dual>,
+    coefficients: &Coefficients,
+) {
+    let one = Dual::constant(1.0);
+    let relative = second.velocity - first.velocity();
+    let closing = relative.dot(normal);
+    let lightness = match first {
+        FirstBody::Sphere(sphere) => one / sphere.mass + one / second.mass,
+        FirstBody::Surface(_) => one / second.mass,
+    };
+    let gained = Dual::constant(coefficients.kick) - (one + coefficients.restitution) * closing;
+    let impulse = gained / lightness;
+    let along = normal * impulse;
+    let across = friction(first, second, normal, (relative, impulse), coefficients);
+    let turning = normal.cross(across);
+    second.push(along + across, turning);
+    if let FirstBody::Sphere(sphere) = first {
+        sphere.push((along + across) * Dual::constant(-1.0), turning);
+    }
+}
+
+/// Returns the impulse of friction on body 2 \[N s\]. `relative` is the velocity of body 2 relative to body 1
+/// \[m/s\], `impulse` that along the normal \[N s\].
+fn friction(
+    first: &FirstBody,
+    second: &StruckSphere,
+    normal: Vector<Dual>,
+    (relative, impulse): (Vector<Dual>, Dual),
+    coefficients: &Coefficients,
+) -> Vector<Dual> {
+    let nothing = normal * Dual::constant(0.0);
+    let limit = coefficients.sliding * impulse;
+    let (rim, mobility) = match first {
+        FirstBody::Sphere(sphere) => (
+            sphere.rim_velocity(normal) + second.rim_velocity(normal),
+            sphere.mobility() + second.mobility(),
+        ),
+        FirstBody::Surface(_) => (second.rim_velocity(normal), second.mobility()),
+    };
+    let slip = relative - normal * relative.dot(normal) - rim;
+    let speed = slip.length_squared();
+    if limit.value <= 0.0 || speed.value == 0.0 {
+        return nothing;
+    }
+    let speed = speed.sqrt();
+    let share = Dual::constant(1.0 + coefficients.tangential_restitution) / mobility;
+    let stops = share * speed;
+    let size = if stops.value <= limit.value { stops } else { limit };
+    slip * (size / speed) * Dual::constant(-1.0)
+}

@@ -1,0 +1,197 @@
+//! Derivatives of a run under the rule `exact` by what it began with: exact through impacts.
+//!
+//! Between impacts the motion is known in closed form, and so is its derivative. An impact maps small changes of
+//! the motion before it linearly to those after it; that it comes sooner or later is a part of the map.
+
+mod dual;
+mod error;
+mod followed;
+mod law;
+mod margin;
+mod replay;
+mod saltation;
+mod state;
+mod tape;
+mod variation;
+
+use glam::DVec3;
+
+pub use error::DerivativeError;
+pub use margin::Margin;
+pub use state::SphereTangent;
+pub use tape::Tape;
+pub use variation::{ColliderVariation, SphereVariation, Variation};
+
+use crate::forces;
+use crate::id::SphereId;
+use crate::world::World;
+use followed::Followed;
+use replay::Piece;
+
+/// Derivatives in some directions, carried along with a world: how the motion of each sphere changes with what the world
+/// started with.
+///
+/// Known of worlds under the rule `exact` whose spheres fly freely, under forces that are linear in the velocity, and
+/// meet each other and surfaces one at a time, with or without friction. What has no derivative is an error, never
+/// a guess. The formulas are in `docs/derivatives.md`.
+///
+/// ```
+/// use carom::{Collider, DVec3, Pose, Shape, Sphere, Tangents, Variation, World};
+///
+/// let mut world = World::default();
+/// world.add_collider(Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO)))?;
+/// let start = Sphere::new(DVec3::new(0.0, 3.0, 0.0), 1.0).with_velocity(DVec3::new(1.0, -2.0, 0.0));
+/// let ball = world.add_sphere(start)?;
+/// let higher = Variation::default().with_position(ball, DVec3::Y);
+/// let mut tangents = Tangents::new(&world, vec![higher])?;
+/// tangents.step(&mut world, 2.0)?;
+/// // A ball that starts higher comes later, and is lower after its bounce.
+/// assert_eq!(tangents.of_sphere(0, ball)?.position, DVec3::NEG_Y);
+/// # Ok::<(), carom::DerivativeError>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Tangents {
+    directions: Vec<Variation>,
+    /// For each direction, one of each sphere in the order of the world's arrays.
+    spheres: Vec<Vec<SphereTangent>>,
+    followed: Followed,
+}
+
+impl Tangents {
+    /// Begins with a world as it is now.
+    ///
+    /// # Errors
+    /// [`DerivativeError::Unsupported`] if the world has something whose derivatives are not known, among them masses
+    /// and radii where forces depend on them; an error that names a sphere or collider that is not in it.
+    pub fn new(world: &World, directions: Vec<Variation>) -> Result<Self, DerivativeError> {
+        let followed = Followed::start(world)?;
+        for direction in &directions {
+            check(world, &followed, direction)?;
+        }
+        let of_direction = |direction: &Variation| {
+            followed.ids.iter().map(|&id| direction.sphere(id).motion()).collect()
+        };
+        let spheres = directions.iter().map(of_direction).collect();
+        Ok(Self { directions, spheres, followed })
+    }
+
+    /// Advances the world by `dt` \[s\], and the derivatives with it. What was changed from outside since the last
+    /// step counts as constant.
+    ///
+    /// # Errors
+    /// Those of [`World::step`], which leave all as it was. [`DerivativeError::Simultaneous`] and
+    /// [`DerivativeError::LastingContact`] where there is no derivative: the world has taken the step, and every later
+    /// call gives that error again.
+    pub fn step(&mut self, world: &mut World, dt: f64) -> Result<(), DerivativeError> {
+        let pieces = self.followed.step(world, dt)?;
+        for (direction, spheres) in self.directions.iter().zip(&mut self.spheres) {
+            pass(&pieces, direction, spheres);
+        }
+        Ok(())
+    }
+
+    /// How the motion of a sphere changes now in a direction, by the number of the direction.
+    ///
+    /// # Errors
+    /// [`DerivativeError::UnknownSphere`] if it is not followed.
+    ///
+    /// # Panics
+    /// If there is no such direction.
+    pub fn of_sphere(
+        &self,
+        direction: usize,
+        sphere: SphereId,
+    ) -> Result<SphereTangent, DerivativeError> {
+        Ok(self.spheres[direction][self.followed.place_of(sphere)?])
+    }
+
+    /// How the motion of all spheres changes now in a direction, in the order of their ids.
+    ///
+    /// # Panics
+    /// If there is no such direction.
+    pub fn of_spheres(&self, direction: usize) -> &[SphereTangent] {
+        &self.spheres[direction]
+    }
+
+    /// How many directions there are.
+    pub fn len(&self) -> usize {
+        self.directions.len()
+    }
+
+    /// Whether there is no direction.
+    pub fn is_empty(&self) -> bool {
+        self.directions.is_empty()
+    }
+
+    /// How near the run came to where derivatives end.
+    pub fn margin(&self) -> Margin {
+        self.followed.margin
+    }
+
+    /// Makes the changes of the motion of all spheres orthogonal, one direction after the other, and each of length
+    /// 1, where a change of `length` \[m\] counts as much as one of `speed` \[m/s\]. Returns how long each was: the
+    /// logarithms, summed over a run and divided by its time, are the Lyapunov exponents (Benettin, Galgani,
+    /// Giorgilli and Strelcyn, Meccanica 15, 9 (1980)). Spins are left out.
+    pub fn orthonormalize(&mut self, length: f64, speed: f64) -> Vec<f64> {
+        let dot = |one: &[SphereTangent], other: &[SphereTangent]| -> f64 {
+            let of_sphere = |(a, b): (&SphereTangent, &SphereTangent)| {
+                a.position.dot(b.position) / (length * length)
+                    + a.velocity.dot(b.velocity) / (speed * speed)
+            };
+            one.iter().zip(other).map(of_sphere).sum()
+        };
+        let mut lengths = Vec::with_capacity(self.spheres.len());
+        for number in 0..self.spheres.len() {
+            let (done, rest) = self.spheres.split_at_mut(number);
+            let this = &mut rest[0];
+            for other in done.iter() {
+                let share = dot(this, other);
+                for (tangent, along) in this.iter_mut().zip(other) {
+                    tangent.position -= share * along.position;
+                    tangent.velocity -= share * along.velocity;
+                }
+            }
+            let size = dot(this, this).sqrt();
+            for tangent in this.iter_mut() {
+                tangent.position /= size;
+                tangent.velocity /= size;
+                tangent.angular_velocity = DVec3::ZERO;
+            }
+            lengths.push(size);
+        }
+        lengths
+    }
+}
+
+/// Takes changes of the motion of spheres through pieces, in a direction.
+fn pass(pieces: &[Piece], direction: &Variation, spheres: &mut [SphereTangent]) {
+    for piece in pieces {
+        match *piece {
+            Piece::Flight { place, time, drag_rate } => {
+                spheres[place].fly(Piece::propagator(time, drag_rate), direction.acceleration);
+            }
+            Piece::Impact(ref saltation) => saltation.pass(direction, spheres),
+        }
+    }
+}
+
+/// Refuses a direction that changes what is not in the world, or what its forces depend on.
+fn check(world: &World, followed: &Followed, direction: &Variation) -> Result<(), DerivativeError> {
+    let system = world.now().system;
+    for (id, change) in direction.spheres() {
+        let place = followed.place_of(id)?;
+        if change.radius == 0.0 && change.mass == 0.0 {
+            continue;
+        }
+        let (radius, mass) = (system.spheres.radius[place], system.spheres.mass[place]);
+        let on = |radius, mass| forces::total_linear(system.forces, radius, mass).0;
+        let here = on(radius, mass);
+        let is_same = here == on(2.0 * radius, mass) && here == on(radius, 2.0 * mass);
+        if !is_same || !system.spheres.applied_force.is_empty() {
+            let what = "radii and masses where forces depend on them";
+            return Err(DerivativeError::Unsupported(what));
+        }
+    }
+    let is_known = |id| world.collider(id).map_err(|_| DerivativeError::UnknownCollider(id));
+    direction.colliders().try_for_each(|(id, _)| is_known(id).map(|_| ()))
+}

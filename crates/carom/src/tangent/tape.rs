@@ -1,0 +1,129 @@
+//! A record of a run, to be gone through backwards.
+
+use super::error::DerivativeError;
+use super::followed::Followed;
+use super::margin::Margin;
+use super::replay::Piece;
+use super::state::SphereTangent;
+use super::variation::Variation;
+use crate::id::SphereId;
+use crate::world::World;
+
+/// A record of the flights and impacts of a run, which gives the gradient of a number by everything that the world
+/// started with, in one go.
+///
+/// Known of the same worlds as [`Tangents`](crate::Tangents). It holds some 500 bytes for an impact, and 24 for a
+/// flight between two.
+///
+/// ```
+/// use carom::{Collider, DVec3, Pose, Shape, Sphere, SphereTangent, Tape, World};
+///
+/// let mut world = World::default();
+/// world.add_collider(Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO)))?;
+/// let start = Sphere::new(DVec3::new(0.0, 3.0, 0.0), 1.0).with_velocity(DVec3::new(1.0, -2.0, 0.0));
+/// let ball = world.add_sphere(start)?;
+/// let mut tape = Tape::start(&world)?;
+/// tape.step(&mut world, 2.0)?;
+/// // By what does the height at the end change?
+/// let height = SphereTangent { position: DVec3::Y, ..SphereTangent::default() };
+/// let gradient = tape.gradient(&[(ball, height)])?;
+/// assert_eq!(gradient.sphere(ball).position, DVec3::NEG_Y);
+/// assert_eq!(gradient.sphere(ball).velocity, DVec3::new(0.0, -2.0, 0.0));
+/// # Ok::<(), carom::DerivativeError>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Tape {
+    pieces: Vec<Piece>,
+    /// For each sphere, its last piece, if that is a flight.
+    last_flights: Vec<Option<usize>>,
+    followed: Followed,
+}
+
+impl Tape {
+    /// Begins with a world as it is now.
+    ///
+    /// # Errors
+    /// [`DerivativeError::Unsupported`] if the world has something whose derivatives are not known.
+    pub fn start(world: &World) -> Result<Self, DerivativeError> {
+        let followed = Followed::start(world)?;
+        let last_flights = vec![None; followed.ids.len()];
+        Ok(Self { pieces: Vec::new(), last_flights, followed })
+    }
+
+    /// Advances the world by `dt` \[s\] and records how. What was changed from outside since the last step counts as
+    /// constant.
+    ///
+    /// # Errors
+    /// Those of [`Tangents::step`](crate::Tangents::step).
+    pub fn step(&mut self, world: &mut World, dt: f64) -> Result<(), DerivativeError> {
+        let pieces = self.followed.step(world, dt)?;
+        pieces.into_iter().for_each(|piece| self.record(piece));
+        Ok(())
+    }
+
+    /// Appends a piece; flights of a sphere that follow each other become one.
+    fn record(&mut self, piece: Piece) {
+        match &piece {
+            Piece::Flight { place, time, drag_rate } => {
+                if let Some(last) = self.last_flights[*place]
+                    && let Piece::Flight { time: so_far, drag_rate: before, .. } =
+                        &mut self.pieces[last]
+                    && before == drag_rate
+                {
+                    *so_far += time;
+                    return;
+                }
+                self.last_flights[*place] = Some(self.pieces.len());
+            }
+            Piece::Impact(saltation) => {
+                for sphere in saltation.spheres() {
+                    self.last_flights[sphere.place] = None;
+                }
+            }
+        }
+        self.pieces.push(piece);
+    }
+
+    /// The gradient of a number by everything that the world started with. `derivatives` are those of the number by the
+    /// motion of spheres at the end; other spheres do not count.
+    ///
+    /// # Errors
+    /// [`DerivativeError::UnknownSphere`] if one of the spheres is not in the record; the error that ended the record.
+    pub fn gradient(
+        &self,
+        derivatives: &[(SphereId, SphereTangent)],
+    ) -> Result<Variation, DerivativeError> {
+        self.followed.check()?;
+        let mut spheres = vec![SphereTangent::default(); self.followed.ids.len()];
+        for &(id, derivative) in derivatives {
+            spheres[self.followed.place_of(id)?] = derivative;
+        }
+        let mut gradient = Variation::default();
+        for piece in self.pieces.iter().rev() {
+            match *piece {
+                Piece::Flight { place, time, drag_rate } => {
+                    let over = Piece::propagator(time, drag_rate);
+                    gradient.acceleration += spheres[place].fly_back(over);
+                }
+                Piece::Impact(ref saltation) => saltation.pass_back(&mut spheres, &mut gradient),
+            }
+        }
+        for (&id, by) in self.followed.ids.iter().zip(&spheres) {
+            let sphere = gradient.sphere_mut(id);
+            sphere.position += by.position;
+            sphere.velocity += by.velocity;
+            sphere.angular_velocity += by.angular_velocity;
+        }
+        Ok(gradient)
+    }
+
+    /// How many impacts are recorded.
+    pub fn impacts(&self) -> usize {
+        self.pieces.iter().filter(|piece| matches!(piece, Piece::Impact(_))).count()
+    }
+
+    /// How near the run came to where derivatives end.
+    pub fn margin(&self) -> Margin {
+        self.followed.margin
+    }
+}
