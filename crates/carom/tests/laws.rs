@@ -338,6 +338,36 @@ fn an_elastic_ball_does_not_stick_to_a_piston_in_long_frames() {
 }
 
 #[test]
+fn a_ball_that_a_closing_corner_pinches_is_not_flung_away() {
+    // The three faces of a corner press it against a slanted wall: no velocity opens all four, and impulses without
+    // bound would be those that rounding asks for.
+    let mut numbers = Numbers(9);
+    for number in 0..30 {
+        let mut world = World::default();
+        let speed = numbers.between(1.0, 30.0);
+        let velocity = vec(0.0, 0.0, speed);
+        for normal in DVec3::AXES {
+            let wall = half_space(normal, DVec3::ZERO).with_restitution(0.5);
+            world.add_collider(wall.moving(velocity, DVec3::ZERO)).unwrap();
+        }
+        let (x, y) = (numbers.between(0.01, 0.3), numbers.between(0.01, 0.3));
+        let slanted = half_space(-vec(x, y, 1.0).normalize(), vec(0.0, 0.0, 2.0));
+        world.add_collider(slanted.with_restitution(0.7)).unwrap();
+        let ball = Sphere::new(vec(0.3, 0.35, 0.32), 0.16).with_restitution(0.7);
+        let ball = world.add_sphere(ball).unwrap();
+        let mut squeezed = 0;
+        for _ in 0..200 {
+            squeezed += world.step(0.02 / speed).unwrap().contact_account.squeezed;
+            let fastest = world.sphere(ball).unwrap().velocity.length();
+            // A wedge that closes drives it out as much faster as it is slender.
+            let most = 4.0 * speed / x.min(y);
+            assert!(fastest < most, "{number}: {fastest} m/s at {speed} m/s");
+        }
+        assert!(squeezed > 0, "{number}: not squeezed");
+    }
+}
+
+#[test]
 fn what_is_squeezed_is_counted() {
     for rule in [Rule::Exact(Exact::default()), Rule::Contact(Contact::default())] {
         let mut world = World::new(Settings::default().with_rule(rule)).unwrap();

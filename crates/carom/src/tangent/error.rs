@@ -36,7 +36,7 @@ pub enum DerivativeError {
     /// A sphere did not fly freely between its impacts: it rests, rolls or slides on something, or is in a stepped
     /// zone.
     #[error(
-        "sphere {sphere} was in lasting contact between {from} s and {to} s: derivatives are known of free flight \
+        "sphere {sphere} did not fly freely between {from} s and {to} s: derivatives are known of free flight \
          and impacts only"
     )]
     LastingContact {

@@ -30,6 +30,10 @@ const UNITS_PER_MEMBER: u64 = 500;
 /// corner: far more than the rounding of places.
 const SAME_NORMAL: f64 = 1e-9;
 
+/// Where no impulses open all contacts of a group, some close at more than this part of the fastest speed in it: far
+/// more than rounding.
+const JAMMED: f64 = 1e-6;
+
 /// Answers what happens at `time` \[s\] among the spheres at `seeds`, the surface they met, if any,
 /// and all that touch them.
 pub(super) fn answer(
@@ -56,6 +60,14 @@ pub(super) fn answer(
         merged.extend(found);
     };
     context.counts.groups += 1;
+    if answer.cut_short && is_jammed(&group) {
+        // Surfaces that move leave a sphere no way out.
+        return refuse(
+            timeline,
+            context,
+            &gather(timeline, context, seeds, surface, &joined, time),
+        );
+    }
     record(context, &group, &answer);
     let struck = answer.struck(&group);
     let found = solve::find(context, &mut group);
@@ -68,11 +80,7 @@ pub(super) fn answer(
         return stepped::make_zone(timeline, context, &group);
     }
     let Ok(supports) = found else {
-        if context.has_zones() {
-            return stepped::make_zone(timeline, context, &group);
-        }
-        context.unanswered = Some(group.members[0].slot);
-        return;
+        return refuse(timeline, context, &group);
     };
     // Impacts by which nothing stays in contact may be many: their number is that of flights.
     let lasting = if supports.is_empty() { 0 } else { group.members.len() as u64 };
@@ -90,6 +98,22 @@ pub(super) fn answer(
     for member in &group.members {
         predict::pass_over(timeline, context, member.slot, &unresolved, group.time);
     }
+}
+
+/// Has a group be stepped that has no answer; without zones, the step has none.
+fn refuse(timeline: &mut Timeline, context: &mut StepContext, group: &Group) {
+    if context.has_zones() {
+        return stepped::make_zone(timeline, context, group);
+    }
+    context.unanswered = Some(group.members[0].slot);
+}
+
+/// Whether contacts close that impacts were to open.
+fn is_jammed(group: &Group) -> bool {
+    let closing = group.touches.iter().map(|touch| -touch.normal_velocity(&group.members));
+    let speeds = group.touches.iter().map(|touch| touch.relative_velocity(&group.members).norm());
+    let fastest = speeds.fold(0.0, f64::max);
+    closing.fold(0.0, f64::max) > JAMMED * fastest
 }
 
 /// What touches at `time` \[s\], as it comes to that.
@@ -189,6 +213,8 @@ struct Answer {
     kicks: Vec<f64>,
     /// What the impacts did to momentum and energy of the spheres.
     account: ImpactGroup,
+    /// Whether an impact law had no answer, or too much work with it.
+    cut_short: bool,
 }
 
 impl Answer {
@@ -211,6 +237,7 @@ fn respond_to_impacts(
     let speeds = group.touches.iter().map(|touch| -touch.normal_velocity(&group.members));
     let approach_speeds: Vec<f64> = speeds.collect();
     let (mut impulses, mut energy_demanded) = (vec![0.0; count], 0.0);
+    let mut cut_short = false;
     if !approach_speeds.iter().any(|&speed| speed > 0.0) {
         return Answer { approach_speeds, impulses, ..Answer::default() };
     }
@@ -239,6 +266,7 @@ fn respond_to_impacts(
             member.velocity = velocity;
         }
         energy_demanded += response.restitution_energy;
+        cut_short |= response.cut_short;
         for (&place, impulse) in places.iter().zip(response.impulses) {
             impulses[place] += impulse;
         }
@@ -265,7 +293,7 @@ fn respond_to_impacts(
     let account = account_of([&before, &velocities_of(group)], &masses);
     let kick_work = kicks.work;
     let account = friction.add_to(ImpactGroup { energy_demanded, kick_work, ..account });
-    Answer { approach_speeds, impulses, friction, kicks: kicks.speeds, account }
+    Answer { approach_speeds, impulses, friction, kicks: kicks.speeds, account, cut_short }
 }
 
 /// What the kicks of surfaces did to a group.
