@@ -16,6 +16,7 @@ from carom._carom import Snapshot
 from carom._pictures.film import Film
 from carom._pictures.picture import Renderer
 from carom._run.batch import Batch
+from carom._run.derivatives import Gradient, Margin, Tangents, Tape
 from carom._run.queries import PredictedPath, QueryFilter
 from carom._run.reports import ContactAccount, EnergyAccount, StageCounts, ZoneAccount
 from carom._run.tables import (
@@ -142,12 +143,14 @@ __all__ = [
     "Force",
     "Funnel",
     "Generator",
+    "Gradient",
     "GraphicsError",
     "Gravity",
     "HalfSpace",
     "HeightField",
     "Lattice",
     "Listed",
+    "Margin",
     "Mesh",
     "MutualGravity",
     "OmissionWarning",
@@ -177,6 +180,8 @@ __all__ = [
     "StaggeredRows",
     "StepError",
     "Sun",
+    "Tangents",
+    "Tape",
     "Torus",
     "Trajectory",
     "UnknownError",

@@ -1,5 +1,6 @@
 //! Errors that become Python exceptions.
 
+use carom::DerivativeError;
 use carom_maze::{EpisodeError, MazeError};
 use carom_scene::SceneError;
 use carom_scene::part::PartError;
@@ -122,6 +123,20 @@ impl From<carom::Error> for Failure {
             _ => (Kind::Step, None),
         };
         Self { field, ..Self::new(kind, error) }
+    }
+}
+
+impl From<DerivativeError> for Failure {
+    fn from(error: DerivativeError) -> Self {
+        let kind = match error {
+            DerivativeError::Step(error) => return error.into(),
+            DerivativeError::UnknownSphere(_) | DerivativeError::UnknownCollider(_) => {
+                Kind::Unknown
+            }
+            DerivativeError::Unsupported(_) => Kind::Value,
+            _ => Kind::Step,
+        };
+        Self::new(kind, error)
     }
 }
 

@@ -20,6 +20,7 @@ mod arguments;
 mod arrays;
 mod batch;
 mod command_line;
+mod derivatives;
 mod describing;
 mod editing;
 mod engine;
@@ -55,6 +56,7 @@ mod threads;
 mod written;
 
 pub use batch::BatchEngine;
+pub use derivatives::{TangentsEngine, TapeEngine};
 pub use engine::Engine;
 pub use maze::MazeEpisodes;
 #[cfg(feature = "pictures")]
@@ -83,6 +85,10 @@ mod _carom {
     use crate::Path;
     #[pymodule_export]
     use crate::Snapshot;
+    #[pymodule_export]
+    use crate::TangentsEngine;
+    #[pymodule_export]
+    use crate::TapeEngine;
     #[pymodule_export]
     use crate::command_line::run_command;
     #[cfg(feature = "pictures")]

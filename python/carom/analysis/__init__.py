@@ -20,6 +20,7 @@ from carom.analysis._collisions import collision_frequency, mean_free_path
 from carom.analysis._contacts import contact_network, coordination_numbers, pairs_in_contact
 from carom.analysis._correlation import green_kubo_diffusion, velocity_autocorrelation
 from carom.analysis._displacement import diffusion_coefficient, mean_square_displacement, unwrap
+from carom.analysis._lyapunov import LyapunovSpectrum, lyapunov_spectrum
 from carom.analysis._percus_yevick import (
     percus_yevick_radial_distribution,
     percus_yevick_structure_factor,
@@ -36,6 +37,7 @@ from carom.analysis._state import carnahan_starling, contact_value, enskog_colli
 from carom.analysis._structure_factor import StructureFactor, structure_factor
 
 __all__ = [
+    "LyapunovSpectrum",
     "RadialDistribution",
     "SpeedHistogram",
     "StructureFactor",
@@ -48,6 +50,7 @@ __all__ = [
     "diffusion_coefficient",
     "enskog_collision_frequency",
     "green_kubo_diffusion",
+    "lyapunov_spectrum",
     "maxwell_speed_density",
     "mean_free_path",
     "mean_square_displacement",

@@ -33,7 +33,7 @@ use replay::Piece;
 ///
 /// Known of worlds under the rule `exact` whose spheres fly freely, under forces that are linear in the velocity, and
 /// meet each other and surfaces one at a time, with or without friction. What has no derivative is an error, never
-/// a guess. The formulas are in `docs/derivatives.md`.
+/// a guess. The formulas are in `docs/physics/derivatives.md`.
 ///
 /// ```
 /// use carom::{Collider, DVec3, Pose, Shape, Sphere, Tangents, Variation, World};

@@ -1,0 +1,122 @@
+"""Derivatives through impacts: against closed forms, differences of runs, and each other."""
+
+import math
+
+import carom
+import numpy as np
+import pytest
+from carom import analysis
+
+
+def shot(angle: float) -> carom.World:
+    """A ball that is shot against a cushion, and then meets another one."""
+    balls = [
+        carom.Sphere(position=(0, 0, 0), radius=0.1, velocity=(math.cos(angle), math.sin(angle), 0)),
+        carom.Sphere(position=(2.1, 0.1, 0), radius=0.1),
+    ]
+    cushion = carom.Collider(
+        shape=carom.HalfSpace(),
+        position=(0, 1, 0),
+        rotation={"euler_degrees": (180, 0, 0)},
+        restitution=0.9,
+    )
+    return carom.Scene(spheres=balls, colliders=[cushion], forces=[]).world()
+
+
+def end(angle: float) -> np.ndarray:
+    world = shot(angle)
+    world.step(dt=4.0)
+    return world.positions.copy()
+
+
+def test_the_gradient_of_a_bank_shot_is_that_of_differences_of_runs() -> None:
+    angle = 0.71
+    tape = carom.Tape(world := shot(angle))
+    tape.step(dt=1.0, frames=4)
+    assert tape.impacts == 2
+    assert world.time == 4.0
+    weights = np.random.default_rng(1).normal(size=(2, 3))
+    gradient = tape.gradient(positions=weights)
+    turning = np.array([[-math.sin(angle), math.cos(angle), 0], [0, 0, 0]])
+    found = (gradient.velocities * turning).sum()
+    h = 1e-5
+    expected = (weights * (end(angle + h) - end(angle - h))).sum() / (2 * h)
+    # Central differences are off by the square of the step times what the impact of balls makes of it.
+    assert found == pytest.approx(expected, rel=1e-6)
+    assert 0 < tape.margin.directness < 1
+    assert tape.margin.closest == 0
+
+
+def test_directions_and_gradient_agree() -> None:
+    weights = np.random.default_rng(2).normal(size=(2, 3))
+    tape = carom.Tape(shot(0.71))
+    tape.step(dt=4.0)
+    gradient = tape.gradient(velocities=weights)
+    directions = np.zeros((6, 2, 3))
+    for row in range(6):
+        directions[row].flat[row] = 1.0
+    tangents = carom.Tangents(shot(0.71), positions=directions)
+    tangents.step(dt=4.0)
+    forwards = (tangents.velocities * weights).sum(axis=(1, 2))
+    assert np.allclose(forwards, gradient.positions.ravel(), rtol=1e-12, atol=1e-12)
+    assert tangents.margin == tape.margin
+
+
+def test_descent_along_the_gradient_finds_a_bank_shot() -> None:
+    target = np.array([2.9, 0.35, 0.0])
+    angle = 0.68
+    for _ in range(20):
+        tape = carom.Tape(world := shot(angle))
+        tape.step(dt=4.0)
+        miss = world.positions[1] - target
+        gradient = tape.gradient(positions=[(0, 0, 0), miss])
+        slope = (gradient.velocities[0] * (-math.sin(angle), math.cos(angle), 0)).sum()
+        change = carom.Tangents(shot(angle), velocities=[turned(angle)])
+        change.step(dt=4.0)
+        # The step of Gauss and Newton.
+        angle -= slope / (change.positions[0, 1] ** 2).sum()
+    assert abs(slope) < 1e-12
+
+
+def turned(angle: float) -> list[tuple[float, float, float]]:
+    return [(-math.sin(angle), math.cos(angle), 0.0), (0.0, 0.0, 0.0)]
+
+
+def test_the_spectrum_of_a_gas_comes_in_pairs() -> None:
+    side = 4.0
+    grid = (np.arange(2) - 0.5) * side / 2
+    places = np.array(np.meshgrid(grid, grid, grid)).reshape(3, -1).T
+    velocities = np.random.default_rng(3).normal(size=places.shape)
+    velocities -= velocities.mean(axis=0)
+    spheres = carom.Points(positions=places, velocities=velocities, radii=0.6)
+    simulation = carom.Simulation(boundary=carom.Periodic(size=(side,) * 3))
+    world = carom.Scene(spheres=spheres, forces=[], simulation=simulation).world()
+    found = analysis.lyapunov_spectrum(world, 60.0, dt=0.25)
+    assert found.exponents.shape == (48,)
+    assert found.history.shape == (240, 48)
+    assert found.exponents[0] > 0.5
+    # Motion without loss keeps volumes.
+    assert abs(found.exponents.sum()) < 1e-10
+    pairs = found.exponents + found.exponents[::-1]
+    # After a run of this length the exponents still fluctuate.
+    assert np.abs(pairs).max() < 0.1 * found.exponents[0]
+
+
+def test_what_has_no_derivative_is_refused() -> None:
+    rest = carom.Sphere(position=(0, 0.5, 0), radius=0.5)
+    floor = carom.Collider(shape=carom.HalfSpace())
+    world = carom.Scene(spheres=[rest], colliders=[floor], forces=[carom.Gravity()]).world()
+    tape = carom.Tape(world)
+    with pytest.raises(carom.StepError, match="sphere 0 did not fly freely"):
+        tape.step()
+    with pytest.raises(carom.StepError, match="did not fly freely"):
+        tape.gradient()
+    world.simulation = carom.Simulation(rule="contact")
+    with pytest.raises(carom.CaromError, match="a rule other than `exact`"):
+        carom.Tape(world)
+    with pytest.raises(carom.CaromError, match=r"positions: must have the shape \(1, 2, 3\)"):
+        carom.Tangents(shot(0.5), positions=np.zeros((1, 3)))
+    with pytest.raises(carom.CaromError, match="at least one"):
+        carom.Tangents(shot(0.5))
+    with pytest.raises(carom.CaromError, match="count: must be from 1 to 12"):
+        analysis.lyapunov_spectrum(shot(0.5), 1.0, count=13)
