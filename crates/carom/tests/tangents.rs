@@ -312,7 +312,7 @@ fn what_has_no_derivative_is_refused_and_stays_refused() {
     let mut tangents = Tangents::new(&world, Vec::new()).unwrap();
     let error = tangents.step(&mut world, 1.0 / 240.0).unwrap_err();
     assert!(
-        matches!(error, DerivativeError::LastingContact { sphere, .. } if sphere == ball),
+        matches!(error, DerivativeError::PersistentContact { sphere, .. } if sphere == ball),
         "{error}"
     );
 

@@ -39,7 +39,7 @@ pub enum DerivativeError {
         "sphere {sphere} did not fly freely between {from} s and {to} s: derivatives are known of free flight \
          and impacts only"
     )]
-    LastingContact {
+    PersistentContact {
         /// The sphere.
         sphere: SphereId,
         /// Start of the step \[s\].
@@ -47,7 +47,7 @@ pub enum DerivativeError {
         /// End of the step \[s\].
         to: f64,
     },
-    /// Spheres, colliders or settings were changed from outside between two steps.
-    #[error("the world was changed since its last step: begin derivatives anew")]
+    /// Spheres were added or removed since the last step.
+    #[error("spheres were added or removed since the last step: begin derivatives anew")]
     Changed,
 }

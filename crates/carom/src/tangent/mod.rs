@@ -80,7 +80,7 @@ impl Tangents {
     ///
     /// # Errors
     /// Those of [`World::step`], which leave all as it was. [`DerivativeError::Simultaneous`] and
-    /// [`DerivativeError::LastingContact`] where there is no derivative: the world has taken the step, and every later
+    /// [`DerivativeError::PersistentContact`] where there is no derivative: the world has taken the step, and every later
     /// call gives that error again.
     pub fn step(&mut self, world: &mut World, dt: f64) -> Result<(), DerivativeError> {
         let pieces = self.followed.step(world, dt)?;

@@ -110,7 +110,7 @@ impl Start {
             }
             let saltation = self.saltation(&system, impact, places, elapsed);
             let Some(saltation) = saltation else {
-                return Err(self.lasting(second_of(impact), end));
+                return Err(self.persistent(second_of(impact), end));
             };
             self.leave(&saltation);
             pieces.push(Piece::Impact(Box::new(saltation)));
@@ -121,7 +121,7 @@ impl Start {
             let period = system.settings.boundary.period();
             let off = periodic::wrapped(motion.position[place] - body.position, period);
             if off.length() > body.tolerance {
-                return Err(self.lasting(self.ids[place], end));
+                return Err(self.persistent(self.ids[place], end));
             }
         }
         Ok(pieces)
@@ -133,13 +133,13 @@ impl Start {
         }
         if report.zone_account.joined > 0 || report.zone_account.spheres > 0 {
             let sphere = self.ids.first().copied();
-            return sphere.map_or(Ok(()), |sphere| Err(self.lasting(sphere, end)));
+            return sphere.map_or(Ok(()), |sphere| Err(self.persistent(sphere, end)));
         }
         Ok(())
     }
 
-    fn lasting(&self, sphere: SphereId, end: f64) -> DerivativeError {
-        DerivativeError::LastingContact { sphere, from: self.time, to: end }
+    fn persistent(&self, sphere: SphereId, end: f64) -> DerivativeError {
+        DerivativeError::PersistentContact { sphere, from: self.time, to: end }
     }
 
     /// The places of the spheres of an impact in the arrays of the world.
