@@ -21,6 +21,8 @@ __all__ = [
     "Painter",
     "Path",
     "Snapshot",
+    "TangentsEngine",
+    "TapeEngine",
     "canonical_toml",
     "film_scene",
     "find_scene",

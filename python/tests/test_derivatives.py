@@ -2,25 +2,28 @@
 
 import math
 
-import carom
 import numpy as np
 import pytest
+
+import carom
 from carom import analysis
 
 
 def shot(angle: float) -> carom.World:
     """A ball that is shot against a cushion, and then meets another one."""
     balls = [
-        carom.Sphere(position=(0, 0, 0), radius=0.1, velocity=(math.cos(angle), math.sin(angle), 0)),
+        carom.Sphere(
+            position=(0, 0, 0), radius=0.1, velocity=(math.cos(angle), math.sin(angle), 0)
+        ),
         carom.Sphere(position=(2.1, 0.1, 0), radius=0.1),
     ]
     cushion = carom.Collider(
         shape=carom.HalfSpace(),
         position=(0, 1, 0),
-        rotation={"euler_degrees": (180, 0, 0)},
+        rotation=(1, 0, 0, 0),
         restitution=0.9,
     )
-    return carom.Scene(spheres=balls, colliders=[cushion], forces=[]).world()
+    return carom.Scene(name="test", spheres=balls, colliders=[cushion]).world()
 
 
 def end(angle: float) -> np.ndarray:
@@ -41,7 +44,7 @@ def test_the_gradient_of_a_bank_shot_is_that_of_differences_of_runs() -> None:
     found = (gradient.velocities * turning).sum()
     h = 1e-5
     expected = (weights * (end(angle + h) - end(angle - h))).sum() / (2 * h)
-    # Central differences are off by the square of the step times what the impact of balls makes of it.
+    # Central differences are off by the square of the step, times what the impact makes of it.
     assert found == pytest.approx(expected, rel=1e-6)
     assert 0 < tape.margin.directness < 1
     assert tape.margin.closest == 0
@@ -90,7 +93,7 @@ def test_the_spectrum_of_a_gas_comes_in_pairs() -> None:
     velocities -= velocities.mean(axis=0)
     spheres = carom.Points(positions=places, velocities=velocities, radii=0.6)
     simulation = carom.Simulation(boundary=carom.Periodic(size=(side,) * 3))
-    world = carom.Scene(spheres=spheres, forces=[], simulation=simulation).world()
+    world = carom.Scene(name="test", spheres=spheres, simulation=simulation).world()
     found = analysis.lyapunov_spectrum(world, 60.0, dt=0.25)
     assert found.exponents.shape == (48,)
     assert found.history.shape == (240, 48)
@@ -105,7 +108,9 @@ def test_the_spectrum_of_a_gas_comes_in_pairs() -> None:
 def test_what_has_no_derivative_is_refused() -> None:
     rest = carom.Sphere(position=(0, 0.5, 0), radius=0.5)
     floor = carom.Collider(shape=carom.HalfSpace())
-    world = carom.Scene(spheres=[rest], colliders=[floor], forces=[carom.Gravity()]).world()
+    gravity = [carom.Gravity()]
+    scene = carom.Scene(name="test", spheres=[rest], colliders=[floor], forces=gravity)
+    world = scene.world()
     tape = carom.Tape(world)
     with pytest.raises(carom.StepError, match="sphere 0 did not fly freely"):
         tape.step()

@@ -81,9 +81,10 @@ class Tape(Strict):
     instant, resting, rolling and sliding.
 
     >>> import carom
-    >>> floor = carom.Collider(shape=carom.HalfSpace())
+    >>> world = carom.World()
+    >>> floor = world.add_collider(carom.Collider(shape=carom.HalfSpace()))
     >>> ball = carom.Sphere(position=(0, 3, 0), radius=1, velocity=(1, -2, 0))
-    >>> world = carom.Scene(spheres=[ball], colliders=[floor], forces=[]).world()
+    >>> ball = world.add_sphere(ball)
     >>> tape = carom.Tape(world)
     >>> tape.step(dt=2.0)
     >>> gradient = tape.gradient(positions=[(0, 1, 0)])  # of the height at the end
@@ -175,11 +176,10 @@ class Tangents(Strict):
     Derivatives are known of the same worlds as with `carom.Tape`.
 
     >>> import carom
-    >>> balls = [
-    ...     carom.Sphere(position=(-2, 0, 0), radius=0.5, velocity=(1, 0, 0)),
-    ...     carom.Sphere(position=(0, 0, 0), radius=0.5),
-    ... ]
-    >>> world = carom.Scene(spheres=balls, forces=[]).world()
+    >>> world = carom.World()
+    >>> for x, speed in [(-2, 1), (0, 0)]:
+    ...     ball = carom.Sphere(position=(x, 0, 0), radius=0.5, velocity=(speed, 0, 0))
+    ...     ball = world.add_sphere(ball)
     >>> first_is_faster = [[(1, 0, 0), (0, 0, 0)]]
     >>> tangents = carom.Tangents(world, velocities=first_is_faster)
     >>> tangents.step(dt=3.0)

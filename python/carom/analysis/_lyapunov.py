@@ -61,7 +61,7 @@ def lyapunov_spectrum(
     ... ]
     >>> box = carom.Periodic(size=(4, 4, 4))
     >>> scene = carom.Scene(
-    ...     spheres=balls, forces=[], simulation=carom.Simulation(boundary=box)
+    ...     name="two", spheres=balls, simulation=carom.Simulation(boundary=box)
     ... )
     >>> found = analysis.lyapunov_spectrum(scene.world(), 20, dt=0.5)
     >>> bool(abs(found.exponents.sum()) < 1e-12)
