@@ -6,10 +6,10 @@
 
 use glam::DVec3;
 
-use super::found::Found;
 use super::landings::Landings;
 use super::places::Places;
 use super::slab::Slab;
+use super::slab_totals::SlabTotals;
 use super::slots::Run;
 use super::solver::{Bounce, Solver, Turn};
 use super::sub_step::SubStep;
@@ -46,7 +46,7 @@ pub(super) fn hold(
     let index = if go_astray { slots.index.clone() } else { Vec::new() };
     let guard = Guard { system, places, index, bounces, landings, common, h, go_astray };
     slabs.each(slots, |mut run, slab| {
-        let Found { energy, squeezed, .. } = guard.hold_all(&mut run, slab);
+        let SlabTotals { energy, squeezed, .. } = guard.hold_all(&mut run, slab);
         (slab.found.energy, slab.found.squeezed) = (energy, squeezed);
     });
     report.energy_account.correction += slabs.list.iter().map(|it| it.found.energy).sum::<f64>();
@@ -73,8 +73,8 @@ struct Guard<'a> {
 
 impl Guard<'_> {
     /// Holds back the spheres of a slab. Finds the work that takes, and how many there were.
-    fn hold_all(&self, run: &mut Run, slab: &Slab) -> Found {
-        let mut found = Found::default();
+    fn hold_all(&self, run: &mut Run, slab: &Slab) -> SlabTotals {
+        let mut found = SlabTotals::default();
         let mut go_to = |run: &mut Run, slot: usize, end: Option<DVec3>| {
             let Some(end) = end else { return };
             let way = end - run.position[slot].vector();

@@ -4,11 +4,11 @@
 use fearless_simd::{Level, Simd, dispatch};
 
 use super::batch::{Batches, FrictionBatch, PairBatch, RollingBatch};
-use super::found::Found;
 use super::gather::{
     TINY, apply, apply_spin, arrays, difference, gathered, is_any, limited, offset, rows_of, shift,
     slip, smaller, sum, turn, vector, xyz,
 };
+use super::slab_totals::SlabTotals;
 use super::slots::Run;
 use super::sub_step::{RELAXATION, SLOP};
 use crate::lanes::Lanes;
@@ -16,7 +16,7 @@ use crate::real::Real;
 
 /// Sweeps over the contacts of a run, forwards or backwards: each gets the impulse that it needs with
 /// the others as they are. Finds the largest change of an impulse, and the largest impulse.
-pub(super) fn sweep(run: &mut Run, batches: &mut Batches, backwards: bool) -> Found {
+pub(super) fn sweep(run: &mut Run, batches: &mut Batches, backwards: bool) -> SlabTotals {
     let level = Level::new();
     macro_rules! sweep {
         ($friction:literal, $rolling:literal) => {
@@ -44,7 +44,7 @@ fn sweep_all<S: Simd, const FRICTION: bool, const ROLLING: bool>(
     run: &mut Run,
     batches: &mut Batches,
     backwards: bool,
-) -> Found {
+) -> SlabTotals {
     let Batches { pairs, frictions, rollings, .. } = batches;
     let [mut largest_change, mut largest_impulse, mut least_room] = [Lanes::all(simd, 0.0); 3];
     let count = pairs.len();
@@ -65,7 +65,7 @@ fn sweep_all<S: Simd, const FRICTION: bool, const ROLLING: bool>(
     }
     let excess = (Lanes::all(simd, 0.0) - least_room).largest();
     let [change, impulse] = [largest_change, largest_impulse].map(Lanes::largest);
-    Found { change, excess, impulse, ..Found::default() }
+    SlabTotals { change, excess, impulse, ..SlabTotals::default() }
 }
 
 /// What solving a batch comes to.

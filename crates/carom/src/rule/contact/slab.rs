@@ -7,8 +7,8 @@
 
 use super::batch::Batches;
 use super::descent::Descent;
-use super::found::Found;
 use super::images::ImagePair;
+use super::slab_totals::SlabTotals;
 use super::slots::{Run, Slots};
 use super::surfaces::SurfaceContact;
 use crate::parallel;
@@ -36,7 +36,7 @@ pub(super) struct Slab {
     /// Whether sweeps pass over it.
     pub is_done: bool,
     /// What a stage found in this slab.
-    pub found: Found,
+    pub found: SlabTotals,
 }
 
 impl Slab {
@@ -132,7 +132,7 @@ impl Slabs {
     }
 
     fn far(&mut self, slots: &mut Slots, stage: impl Fn(&mut Run, &mut Slab)) {
-        self.far.found = Found::default();
+        self.far.found = SlabTotals::default();
         if !self.far.batches.pairs.is_empty() {
             stage(&mut slots.all(), &mut self.far);
         }

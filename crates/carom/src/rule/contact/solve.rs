@@ -2,9 +2,9 @@
 
 use super::aim;
 use super::conjugate;
-use super::found::Found;
 use super::kernel;
 use super::slab::{Direction, Slab, Slabs};
+use super::slab_totals::SlabTotals;
 use super::solver::Solver;
 use super::sub_step::SubStep;
 use super::surfaces;
@@ -107,24 +107,28 @@ fn converge(solver: &mut Solver, report: &mut StepReport) -> f64 {
 }
 
 /// Sweeps over all contacts once, but for those of slabs that are done.
-pub(super) fn sweep_once(solver: &mut Solver, backwards: bool, report: &mut StepReport) -> Found {
+pub(super) fn sweep_once(
+    solver: &mut Solver,
+    backwards: bool,
+    report: &mut StepReport,
+) -> SlabTotals {
     let Solver { slots, slabs, .. } = solver;
     let direction = if backwards { Direction::Backwards } else { Direction::Forwards };
     slabs.each_contact(slots, direction, |run, slab| {
         if slab.is_done {
             return;
         }
-        let Found { change, excess, impulse, .. } = if backwards {
+        let SlabTotals { change, excess, impulse, .. } = if backwards {
             let surfaces = surfaces::sweep(run, &mut slab.surfaces, backwards);
             kernel::sweep(run, &mut slab.batches, backwards).or_larger(surfaces)
         } else {
             let pairs = kernel::sweep(run, &mut slab.batches, backwards);
             surfaces::sweep(run, &mut slab.surfaces, backwards).or_larger(pairs)
         };
-        slab.found = Found { change, excess, impulse, ..slab.found };
+        slab.found = SlabTotals { change, excess, impulse, ..slab.found };
     });
     report.work.sweeps += 1;
-    slabs.iter().fold(Found::default(), |all, slab| all.or_larger(slab.found))
+    slabs.iter().fold(SlabTotals::default(), |all, slab| all.or_larger(slab.found))
 }
 
 /// Has bounces give back only this part of what they would.

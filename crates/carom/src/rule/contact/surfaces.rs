@@ -3,9 +3,9 @@
 use glam::DVec3;
 
 use super::batch::Impulses;
-use super::found::Found;
 use super::materials::ContactMaterial;
 use super::places::{Place, Places};
+use super::slab_totals::SlabTotals;
 use super::slots::Run;
 use super::sub_step::{GROWTH, RELAXATION, SLOP, SubStep};
 use super::swept::{FAR, FREE};
@@ -318,7 +318,7 @@ impl SurfaceContact {
     }
 
     /// Gives the sphere the impulses that it needs.
-    fn solve(&mut self, run: &mut Run) -> Found {
+    fn solve(&mut self, run: &mut Run) -> SlabTotals {
         let slot = self.slot as usize;
         let inverse_mass = run.velocity[slot].number();
         let velocity = run.velocity[slot].vector() - self.velocity;
@@ -327,11 +327,11 @@ impl SurfaceContact {
         let room = speed + self.bias;
         let solved = (impulse - room / inverse_mass).max(0.0);
         let change = solved - impulse;
-        let found = Found {
+        let found = SlabTotals {
             change: change.abs(),
             excess: (-room).max(0.0),
             impulse: solved.max(impulse),
-            ..Found::default()
+            ..SlabTotals::default()
         };
         if solved == 0.0 && impulse == 0.0 {
             return found;
@@ -371,8 +371,8 @@ impl SurfaceContact {
 
 /// Sweeps over the contacts of a run: each gets the impulses that it needs with the others as they are.
 /// Finds the largest change of a normal impulse, and the like.
-pub(super) fn sweep(run: &mut Run, contacts: &mut [SurfaceContact], backwards: bool) -> Found {
-    let mut found = Found::default();
+pub(super) fn sweep(run: &mut Run, contacts: &mut [SurfaceContact], backwards: bool) -> SlabTotals {
+    let mut found = SlabTotals::default();
     let mut solve = |contact: &mut SurfaceContact| found = found.or_larger(contact.solve(run));
     if backwards {
         contacts.iter_mut().rev().for_each(&mut solve);
@@ -384,7 +384,7 @@ pub(super) fn sweep(run: &mut Run, contacts: &mut [SurfaceContact], backwards: b
 
 /// Moves spheres that overlap surfaces out of them; velocities stay as they are. Gives the work against
 /// the forces that are linear \[J\], and the largest overlap as a part of the radius.
-pub(super) fn correct(run: &mut Run, contacts: &[SurfaceContact], places: &Places) -> Found {
+pub(super) fn correct(run: &mut Run, contacts: &[SurfaceContact], places: &Places) -> SlabTotals {
     let (mut work, mut largest) = (0.0, 0.0_f64);
     for contact in contacts {
         let slot = contact.slot as usize;
@@ -398,7 +398,7 @@ pub(super) fn correct(run: &mut Run, contacts: &[SurfaceContact], places: &Place
             largest = largest.max(overlap / radius);
         }
     }
-    Found { energy: work, overlap: largest, ..Found::default() }
+    SlabTotals { energy: work, overlap: largest, ..SlabTotals::default() }
 }
 
 /// Moves a sphere. Returns the work against the forces that are linear \[J\].

@@ -40,7 +40,7 @@ mod zone;
 
 pub(crate) use course::{Course, follow};
 pub(crate) use frame::{
-    Arrivals, Unheld, adopt, begin, end, persistent_contacts, start, tick_for_springs,
+    Arrivals, HoldError, adopt, begin, end, persistent_contacts, start, tick_for_springs,
 };
 pub(crate) use look_along::{begin as begin_watch, end as end_watch};
 pub(crate) use neighbours::MAX_SPHERES;
@@ -196,13 +196,13 @@ fn happen(
         EventTarget::Restart => predict::restart(timeline, context, slot, event.time),
         EventTarget::StepEnd => predict::next_step(timeline, context, slot, event.time),
         EventTarget::Sphere(other) => {
-            impact::of_spheres(timeline, context, [slot, other], event.time);
+            impact::answer_pair(timeline, context, [slot, other], event.time);
         }
         EventTarget::Surface(surface) => {
-            impact::of_sphere(timeline, context, slot, Some(surface), event.time);
+            impact::answer_single(timeline, context, slot, Some(surface), event.time);
         }
         EventTarget::Cluster => {
-            impact::of_sphere(timeline, context, slot, None, event.time);
+            impact::answer_single(timeline, context, slot, None, event.time);
         }
     }
     if let Some(index) = timeline.flights.lost {

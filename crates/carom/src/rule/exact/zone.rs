@@ -13,7 +13,7 @@ use crate::norm::Norm;
 use crate::parallel;
 use crate::persistent_contact::PersistentContact;
 use crate::report::StepReport;
-use crate::rule::contact::{self, Nearness, Scratch, Solver};
+use crate::rule::contact::{self, Proximity, Scratch, Solver};
 use crate::rule::periodic;
 use crate::settings::Contact;
 use crate::surface::Surface;
@@ -197,25 +197,25 @@ impl Zone {
 
     /// Takes out the spheres that are near no other one, or fly freely since some time, at a tick, before
     /// those that wait are taken in; but for those that bear something and would have to come back, as
-    /// `comes_back` tells of an index and a centre \[m\]. Gives their indices, and centres \[m\] and
+    /// `would_rejoin` tells of an index and a centre \[m\]. Gives their indices, and centres \[m\] and
     /// velocities \[m/s\].
     pub fn take_out_free(
         &mut self,
-        comes_back: impl Fn(u32, DVec3) -> bool,
+        would_rejoin: impl Fn(u32, DVec3) -> bool,
     ) -> Vec<(u32, [DVec3; 2])> {
-        let known = contact::nearness(&self.solver);
-        let nearness = |id: &SphereId| {
+        let known = contact::proximity(&self.solver);
+        let proximity = |id: &SphereId| {
             let found = known.binary_search_by_key(id, |sphere| sphere.0);
-            found.map_or(Nearness::Near, |place| known[place].1)
+            found.map_or(Proximity::Near, |place| known[place].1)
         };
         let stays = |(place, id): (usize, &SphereId)| {
             let ticks = self.free_ticks[place];
             let is_bound =
-                || ticks == 0 && comes_back(self.index[place], self.motion.position[place]);
-            match nearness(id) {
-                Nearness::Apart => is_bound(),
-                Nearness::Near => ticks < FREE_TICKS,
-                Nearness::Overlaps => true,
+                || ticks == 0 && would_rejoin(self.index[place], self.motion.position[place]);
+            match proximity(id) {
+                Proximity::Apart => is_bound(),
+                Proximity::Near => ticks < FREE_TICKS,
+                Proximity::Overlaps => true,
             }
         };
         let stays: Vec<bool> = self.properties.id.iter().enumerate().map(stays).collect();

@@ -25,7 +25,7 @@ use crate::rule::periodic;
 pub(super) const NEARBY: f64 = 1e-6;
 
 /// Answers the impact of two spheres at `time` \[s\], and of whatever touches them there.
-pub(crate) fn of_spheres(
+pub(crate) fn answer_pair(
     timeline: &mut Timeline,
     context: &mut StepContext,
     slots: [u32; 2],

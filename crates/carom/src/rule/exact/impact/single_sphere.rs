@@ -24,7 +24,7 @@ use crate::rule::exact::timeline::Timeline;
 
 /// Answers what happens to a sphere at `time` \[s\]: it meets a `surface`, or else the forces of its
 /// persistent contacts have to be found anew. The answer is that of its group, but for rounding.
-pub(crate) fn of_sphere(
+pub(crate) fn answer_single(
     timeline: &mut Timeline,
     context: &mut StepContext,
     slot: u32,

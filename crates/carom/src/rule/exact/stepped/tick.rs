@@ -25,13 +25,13 @@ pub(crate) fn tick(timeline: &mut Timeline, context: &mut StepContext) -> f64 {
     if timeline.zone.is_idle() {
         let resting = timeline.zone.rest();
         fly(timeline, context, &resting, now);
-        look_around(timeline, context);
+        predict_near_zone(timeline, context);
         return now;
     }
     if timeline.zone.is_due_to_leave(tick) {
         let mut zone = take(&mut timeline.zone);
         let free = zone.take_out_free(|index, center| {
-            comes_back(timeline, context, timeline.flights.slot_of[index as usize], center, now)
+            would_rejoin(timeline, context, timeline.flights.slot_of[index as usize], center, now)
         });
         timeline.zone = zone;
         for (index, state) in free {
@@ -46,7 +46,7 @@ pub(crate) fn tick(timeline: &mut Timeline, context: &mut StepContext) -> f64 {
     let time = context.since_start(now);
     context.report.impacts[first..].iter_mut().for_each(|impact| impact.time = time);
     fly(timeline, context, &stepped, now);
-    look_around(timeline, context);
+    predict_near_zone(timeline, context);
     context.report.zone_account.ticks += 1;
     context.work.spend(stepped.len() as u64);
     now
@@ -54,7 +54,7 @@ pub(crate) fn tick(timeline: &mut Timeline, context: &mut StepContext) -> f64 {
 
 /// Whether a sphere about `center` \[m\] that bears something would have to come back to its zone: friction
 /// acts, and it does not lie on one surface at rest only.
-fn comes_back(
+fn would_rejoin(
     timeline: &Timeline,
     context: &StepContext,
     slot: u32,
@@ -142,7 +142,7 @@ fn stay_in_region(
 }
 
 /// Predicts which spheres in a zone those meet that are in none, and have neighbours in one.
-fn look_around(timeline: &mut Timeline, context: &mut StepContext) {
+fn predict_near_zone(timeline: &mut Timeline, context: &mut StepContext) {
     let mut near = take(&mut timeline.zone.near);
     near.sort_unstable();
     near.dedup();

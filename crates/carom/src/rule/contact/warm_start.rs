@@ -11,7 +11,7 @@ const SURFACE: u32 = 1 << 31;
 /// Impulses by the slots that spheres have before the search.
 #[derive(Debug, Clone, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(super) struct Kept {
+pub(super) struct WarmStart {
     /// Sphere and partner of each contact, in no order.
     bodies: Vec<[u32; 2]>,
     /// Impulses on the partner, or of a surface on the sphere.
@@ -22,7 +22,7 @@ pub(super) struct Kept {
     sorted: Vec<[u32; 2]>,
 }
 
-impl Kept {
+impl WarmStart {
     /// Keeps what the contacts that bear something have. `now` tells the slot of now of a sphere that was in
     /// one when the slabs were made, [`GONE`] if it is in the world no more: its contacts are lost.
     pub fn collect(&mut self, slabs: &Slabs, spheres: usize, now: impl Fn(usize) -> u32) {
