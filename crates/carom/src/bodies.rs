@@ -95,7 +95,7 @@ impl Spin {
         self.make_whole(count);
     }
 
-    /// Has both arrays where there is one.
+    /// Extends the shorter of both arrays, so that both have `count` entries.
     fn make_whole(&mut self, count: usize) {
         if self.orientation.len() != self.angular_velocity.len() {
             self.make_room(count);

@@ -93,8 +93,8 @@ impl<'a> Work<'a> {
         self.next_look.set(self.next_look.get().min(limit));
     }
 
-    /// Counts units of work. Tells whether to go on; if not, what is at work ends as soon as it can,
-    /// with any result.
+    /// Counts units of work. Returns whether to go on; if not, what is at work ends as soon as it
+    /// can, with any result.
     #[inline]
     pub fn spend(&self, units: u64) -> bool {
         let done = self.done.get() + units;

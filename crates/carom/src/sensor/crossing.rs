@@ -48,7 +48,7 @@ pub(super) struct Crossing<'a> {
     pub step_start: f64,
 }
 
-/// How a sphere stands to a trigger at one time.
+/// Depth and velocity of a sphere relative to a trigger at one time.
 #[derive(Debug, Clone, Copy)]
 struct TriggerState {
     separation: Separation,

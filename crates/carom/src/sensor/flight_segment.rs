@@ -1,4 +1,4 @@
-//! A segment of a sphere's way, as sensors see it.
+//! A segment of a sphere's flight, which sensors test for crossings.
 
 use glam::DVec3;
 

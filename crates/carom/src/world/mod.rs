@@ -138,7 +138,7 @@ impl World {
         self.state.persistent_contacts()
     }
 
-    /// Has steps end early once a request is made; `None` takes the request back. Under the rule
+    /// Sets the request that ends steps early once it is made; `None` removes it. Under the rule
     /// `exact` a step looks at it every few milliseconds, under the others before it begins. It is no
     /// part of a snapshot; copies of the world have it, too.
     pub fn set_stop_request(&mut self, request: Option<StopRequest>) {

@@ -33,12 +33,12 @@ pub(super) fn accelerate(
     }
     let drift = solver.drift;
     solver.slabs.each(&mut solver.slots, |mut run, slab| {
-        slab.found = dispatch!(Level::new(), simd => accelerate_run(simd, &mut run, h, drift));
+        slab.totals = dispatch!(Level::new(), simd => accelerate_run(simd, &mut run, h, drift));
     });
     solver.energy_before = solver.slabs.energy();
     solver.is_stale |= drift.after(h).is_beyond();
-    solver.is_stale |= solver.slabs.list.iter().any(|slab| slab.found.leaves);
-    let change = solver.slabs.list.iter().map(|slab| slab.found.change).fold(0.0, f64::max);
+    solver.is_stale |= solver.slabs.list.iter().any(|slab| slab.totals.leaves);
+    let change = solver.slabs.list.iter().map(|slab| slab.totals.change).fold(0.0, f64::max);
     SubStep::new(time, h, solver.common_acceleration, change)
 }
 

@@ -227,7 +227,7 @@ fn own_change(slots: &Slots, slot: usize, impulse: DVec3, sub_step: &SubStep) ->
     ((change - own).length_squared() <= most).then_some(own)
 }
 
-/// The last part of a sphere's way in a sub-step, on which no contact waits for it.
+/// The last flight of a sphere in a sub-step, after all its contacts.
 #[derive(Clone, Copy)]
 struct FinalFlight {
     slot: usize,

@@ -90,7 +90,7 @@ fn kinds_of(system: &System) -> ContactKinds {
     }
 }
 
-/// Gives the world where spheres are and how they move, after a time of `h` \[s\].
+/// Writes positions and velocities into the world, after a time of `h` \[s\].
 pub(super) fn end(
     system: &System,
     motion: &mut Motion,
@@ -112,5 +112,5 @@ pub(super) fn end(
     }
     let contacts = solver.slabs.iter().map(|slab| slab.batches.count() + slab.surfaces.len());
     report.work.contacts += contacts.sum::<usize>() as u64;
-    solver.slabs.iter_mut().for_each(|slab| slab.found = SlabTotals::default());
+    solver.slabs.iter_mut().for_each(|slab| slab.totals = SlabTotals::default());
 }

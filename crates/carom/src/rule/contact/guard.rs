@@ -41,16 +41,16 @@ pub(super) fn hold(
     report: &mut StepReport,
 ) {
     let Solver { slots, slabs, places, bounces, landings, drift, .. } = solver;
-    let go_astray = slabs.iter().any(|it| it.found.leaves || it.found.overlap > FAR_APART);
+    let go_astray = slabs.iter().any(|it| it.totals.leaves || it.totals.overlap > FAR_APART);
     let (common, h) = (drift.way, sub_step.h);
     let index = if go_astray { slots.index.clone() } else { Vec::new() };
     let guard = Guard { system, places, index, bounces, landings, common, h, go_astray };
     slabs.each(slots, |mut run, slab| {
         let SlabTotals { energy, squeezed, .. } = guard.hold_all(&mut run, slab);
-        (slab.found.energy, slab.found.squeezed) = (energy, squeezed);
+        (slab.totals.energy, slab.totals.squeezed) = (energy, squeezed);
     });
-    report.energy_account.correction += slabs.list.iter().map(|it| it.found.energy).sum::<f64>();
-    let squeezed = slabs.list.iter().map(|slab| slab.found.squeezed).sum::<u32>();
+    report.energy_account.correction += slabs.list.iter().map(|it| it.totals.energy).sum::<f64>();
+    let squeezed = slabs.list.iter().map(|slab| slab.totals.squeezed).sum::<u32>();
     report.contact_account.squeezed += squeezed;
 }
 

@@ -32,8 +32,8 @@ pub(super) fn sweep(run: &mut Run, batches: &mut Batches, backwards: bool) -> Sl
     }
 }
 
-/// Moves spheres that overlap apart; velocities stay as they are. Gives the largest overlap, as a part of
-/// the sum of radii.
+/// Moves spheres that overlap apart; velocities stay as they are. Returns the largest overlap, as a part
+/// of the sum of radii.
 pub(super) fn correct(run: &mut Run, batches: &Batches) -> f64 {
     dispatch!(Level::new(), simd => correct_all(simd, run, batches))
 }
@@ -76,7 +76,7 @@ struct Solved<S: Simd> {
     room: Lanes<S>,
 }
 
-/// Gives each contact of a batch its normal impulse.
+/// Solves the contacts of a batch without friction: one normal impulse each.
 #[inline(always)]
 fn solve<S: Simd>(simd: S, run: &mut Run, batch: &mut PairBatch) -> Solved<S> {
     let zero = Lanes::all(simd, 0.0);
@@ -93,7 +93,7 @@ fn solve<S: Simd>(simd: S, run: &mut Run, batch: &mut PairBatch) -> Solved<S> {
     Solved { change, room }
 }
 
-/// Gives each contact of a batch its normal and then its tangential impulse, which lies on Coulomb's disc.
+/// Solves the contacts of a batch: a normal impulse each, then a tangential one within Coulomb's disc.
 ///
 /// An impulse along the normal changes no slip, and one across it no normal speed: so both follow in
 /// closed form.
@@ -134,7 +134,7 @@ fn solve_with_friction<S: Simd>(
     Solved { change, room }
 }
 
-/// Gives each contact of a batch its angular impulses against rolling and spinning.
+/// Applies angular impulses against rolling and spinning at each contact of a batch.
 #[inline(always)]
 fn solve_rolling<S: Simd>(simd: S, run: &mut Run, batch: &PairBatch, rolling: &mut RollingBatch) {
     let normal = vector(simd, &batch.normal);

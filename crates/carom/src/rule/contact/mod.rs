@@ -94,7 +94,7 @@ pub(crate) struct Memory<'a> {
     pub tracks: &'a mut Tracks,
 }
 
-/// Advances all spheres by one frame. Tells whether it came to its end, or a request stopped it.
+/// Advances all spheres by one frame. Returns whether it came to its end, or a request stopped it.
 pub(crate) fn step(
     system: &System,
     parameters: Contact,

@@ -1,4 +1,4 @@
-//! Which spheres are near others: a rule that lets single spheres fly takes those that are not.
+//! Proximity of spheres: zones of the rule `exact` release those that are near no other.
 
 use super::dormant::Partner;
 use super::solver::Solver;
@@ -16,7 +16,7 @@ pub(crate) fn bearing(solver: &Solver) -> impl Iterator<Item = (u32, bool)> {
     solver.slots.index.iter().copied().zip(solver.slots.bears.iter().copied())
 }
 
-/// How near a sphere is to the nearest other one.
+/// Proximity of a sphere to the nearest other one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Proximity {
     /// It meets none soon.
@@ -27,7 +27,7 @@ pub(crate) enum Proximity {
     Overlaps,
 }
 
-/// How near each sphere is to others, in order of ids.
+/// Returns the proximity of each sphere to others, in order of ids.
 pub(crate) fn proximity(solver: &Solver) -> Vec<(SphereId, Proximity)> {
     let Solver { slots, slabs, dormant, h, .. } = solver;
     let mut proximity = vec![Proximity::Apart; slots.len()];

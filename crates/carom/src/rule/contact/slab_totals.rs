@@ -1,6 +1,6 @@
-//! What a stage finds in a slab.
+//! Sums and maxima of a stage over one slab.
 
-/// What a stage finds in a slab, to be put together in the order of slabs.
+/// Sums and maxima of a stage over one slab, to be combined in the order of slabs.
 #[derive(Debug, Clone, Copy, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct SlabTotals {

@@ -173,7 +173,7 @@ fn set_frame(timeline: &mut Timeline, system: &System, frame: [f64; 2]) {
     }
 }
 
-/// Why forces cannot be held.
+/// Reason why forces cannot be held.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum HoldError {
     /// Motion on springs has this rate \[1/s\], and no force tick follows it.
@@ -182,8 +182,9 @@ pub(crate) enum HoldError {
     NotFinite(SphereId),
 }
 
-/// Has force ticks fit frames of this length \[s\], and springs, also before there is a sphere that needs
-/// them: it may be emitted within the frame. Tells whether forces that are held now have other ticks.
+/// Fits the force ticks to frames of this length \[s\] and to springs, also before there is a sphere that
+/// needs them: it may be emitted within the frame. Returns whether forces that are held now have other
+/// ticks.
 fn set_force_tick(timeline: &mut Timeline, frame: f64) -> Result<bool, HoldError> {
     let (before, rate) = (timeline.force_tick, timeline.spring_rate);
     let tick = tick_for_springs(rate, timeline.parameters, frame)?;

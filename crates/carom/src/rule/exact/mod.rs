@@ -152,7 +152,7 @@ pub(crate) fn advance(
     Ok(end)
 }
 
-/// Finds forces anew at a force tick \[s\]. Gives the time \[s\].
+/// Computes the held forces at a force tick \[s\]. Returns its time \[s\].
 fn renew_forces(
     timeline: &mut Timeline,
     context: &mut StepContext,
@@ -164,7 +164,7 @@ fn renew_forces(
     if context.work.spend(UNITS_PER_FLIGHT * flights) { Ok(now) } else { Err(Unfinished::Stopped) }
 }
 
-/// Has happen what is next to the sphere at `slot`. Gives the time \[s\].
+/// Answers the next event of the sphere at `slot`. Returns its time \[s\].
 fn happen(
     timeline: &mut Timeline,
     context: &mut StepContext,
@@ -266,7 +266,8 @@ impl WorkSoFar {
     }
 }
 
-/// Has a sphere that takes more work in a frame than the parameters allow be stepped, or refuses it.
+/// Puts a sphere that takes more work in a frame than the parameters allow into a zone, or returns
+/// the error.
 fn check_work(
     timeline: &mut Timeline,
     context: &mut StepContext,

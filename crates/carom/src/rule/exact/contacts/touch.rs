@@ -204,7 +204,7 @@ impl Touch {
     }
 }
 
-/// How two bodies were found to touch.
+/// Origin of a touch: how the search found that two bodies touch.
 #[derive(Clone, Copy)]
 pub(super) struct TouchOrigin {
     /// From where the position of body 2 counts to where that of body 1 does \[m\].

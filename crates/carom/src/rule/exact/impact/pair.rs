@@ -149,7 +149,7 @@ impl PairImpact {
         impact
     }
 
-    /// Gives two spheres that got an impulse along the normal that of friction.
+    /// Applies friction to two spheres that got an impulse along the normal.
     #[inline(never)]
     fn apply_friction(&mut self, timeline: &Timeline, context: &StepContext, slots: [u32; 2]) {
         let Some(impulse) = self.impulse else { return };

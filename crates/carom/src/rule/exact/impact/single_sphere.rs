@@ -83,8 +83,8 @@ pub(crate) fn answer_single(
     predict::pass_over(timeline, context, slot, &unresolved, time);
 }
 
-/// Gives a sphere the impulses of the surfaces that it closes on, by Newton's law, which is what all
-/// impact laws say of contacts that do not feel each other, and writes them down. Tells which surfaces
+/// Applies the impulses of the surfaces that a sphere closes on, by Newton's law, which all impact
+/// laws give for contacts that do not affect each other, and records them. Returns the surfaces that
 /// gave one.
 fn strike(
     timeline: &Timeline,

@@ -39,8 +39,8 @@ impl NearTest {
 }
 
 impl PairSearch {
-    /// Searches, `now` \[s\], for the first meetings of a sphere with its neighbours. Tells whether one
-    /// of those that fly alike is near.
+    /// Searches, `now` \[s\], for the first meetings of a sphere with its neighbours. Returns whether
+    /// one of those that fly alike is near.
     #[inline(always)]
     pub fn search(
         &mut self,
@@ -145,7 +145,7 @@ impl PairSearch {
     }
 
     /// Adds to its next events the meetings of a sphere that is in no zone with neighbours that are in one.
-    /// Tells whether there are such neighbours.
+    /// Returns whether there are such neighbours.
     pub fn add_meetings_with_zone(
         &mut self,
         timeline: &Timeline,
@@ -178,7 +178,7 @@ impl PairSearch {
     }
 }
 
-/// Where a sphere is, and how near to it counts.
+/// Position of a sphere at a time, and the margin within which neighbours count as near.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Neighbourhood {
     /// Centre of the sphere \[m\].

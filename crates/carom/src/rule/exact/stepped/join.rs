@@ -68,8 +68,8 @@ pub(crate) fn meet(timeline: &mut Timeline, context: &mut StepContext, slots: [u
     predict_joined(timeline, context, coming.into_iter(), time);
 }
 
-/// A velocity \[m/s\] without what would take a sphere, with its centre \[m\], into surfaces before the next
-/// tick.
+/// Returns a velocity \[m/s\] without the part that would take a sphere with this centre \[m\] into surfaces
+/// before the next tick.
 fn without_closing(
     timeline: &Timeline,
     context: &StepContext,
@@ -132,7 +132,7 @@ fn under_forces(
     [before + 0.5 * gained, velocity + gained]
 }
 
-/// Has a sphere join a zone with this centre \[m\] and velocity \[m/s\]. Until the next tick it moves with the
+/// Adds a sphere to a zone with this centre \[m\] and velocity \[m/s\]. Until the next tick it moves with the
 /// `common` velocity of others \[m/s\]; if there is none, under its forces.
 fn join(
     timeline: &mut Timeline,
@@ -158,7 +158,7 @@ fn join(
     context.report.zone_account.joined += 1;
 }
 
-/// Predicts what spheres in a zone meet next, and notes the others near them.
+/// Predicts the next events of spheres that joined a zone, and notes the other spheres near them.
 fn predict_joined(
     timeline: &mut Timeline,
     context: &mut StepContext,
