@@ -76,16 +76,26 @@ struct Solved<S: Simd> {
     room: Lanes<S>,
 }
 
+/// Returns the normal impulses of a batch after a sweep \[N s\], from normal speeds \[m/s\].
+#[inline(always)]
+fn solve_along_normal<S: Simd>(
+    simd: S,
+    batch: &PairBatch,
+    speed: Lanes<S>,
+) -> (Lanes<S>, Solved<S>) {
+    let impulse = Lanes::each(simd, batch.impulse);
+    let room = speed + Lanes::each(simd, batch.bias);
+    let zero = Lanes::all(simd, 0.0);
+    let solved = (impulse - Lanes::each(simd, batch.effective_mass) * room).max(zero);
+    (solved, Solved { change: solved - impulse, room })
+}
+
 /// Solves the contacts of a batch without friction: one normal impulse each.
 #[inline(always)]
 fn solve<S: Simd>(simd: S, run: &mut Run, batch: &mut PairBatch) -> Solved<S> {
-    let zero = Lanes::all(simd, 0.0);
     let normal = vector(simd, &batch.normal);
     let speed = xyz(difference(simd, run.velocity, batch)).dot(normal);
-    let impulse = Lanes::each(simd, batch.impulse);
-    let room = speed + Lanes::each(simd, batch.bias);
-    let solved = (impulse - Lanes::each(simd, batch.effective_mass) * room).max(zero);
-    let change = solved - impulse;
+    let (solved, Solved { change, room }) = solve_along_normal(simd, batch, speed);
     if is_any(simd, change) {
         batch.impulse = solved.to_array();
         apply(simd, run.velocity, batch, normal * change);
@@ -105,15 +115,11 @@ fn solve_with_friction<S: Simd>(
     friction: &mut FrictionBatch,
     rolling: Option<&mut RollingBatch>,
 ) -> Solved<S> {
-    let zero = Lanes::all(simd, 0.0);
     let normal = vector(simd, &batch.normal);
     let velocity = xyz(difference(simd, run.velocity, batch));
-    let speed = velocity.dot(normal);
-    let impulse = Lanes::each(simd, batch.impulse);
-    let room = speed + Lanes::each(simd, batch.bias);
-    let solved = (impulse - Lanes::each(simd, batch.effective_mass) * room).max(zero);
-    let change = solved - impulse;
-    if !is_any(simd, solved.max(impulse)) {
+    let before = Lanes::each(simd, batch.impulse);
+    let (solved, Solved { change, room }) = solve_along_normal(simd, batch, velocity.dot(normal));
+    if !is_any(simd, solved.max(before)) {
         return Solved { change, room };
     }
     batch.impulse = solved.to_array();
