@@ -10,6 +10,7 @@ use super::events::{Event, NextEvents, PackedTarget, Prediction, Schedule, Upcom
 use super::flights::{Flights, Species, StepLimits};
 use super::frame_work::FrameWork;
 use super::neighbours::{NeighbourBuffer, Neighbours};
+use super::ticks::{MOST_ZONE_TICKS, tick_for_frames};
 use super::watch::Watch;
 use super::zone::Zone;
 use crate::settings::Exact;
@@ -79,6 +80,13 @@ impl Timeline {
     /// Writes the radii of all spheres at `time` \[s\] if some grow, in metres.
     pub fn write_radii(&self, radii: &mut [f64], time: f64) {
         self.flights.write_radii(radii, time);
+    }
+
+    /// Time between two ticks of zones in the present frame \[s\].
+    pub(super) fn zone_tick(&self) -> f64 {
+        let [start, end] = self.frame;
+        let tick = self.parameters.zone_tick;
+        if end > start { tick_for_frames(tick, end - start, MOST_ZONE_TICKS) } else { tick }
     }
 
     /// Whether friction acts, so that spins change.
