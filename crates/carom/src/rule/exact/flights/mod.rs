@@ -8,6 +8,7 @@ mod curve;
 mod curves;
 mod growth;
 mod lanes;
+mod radii;
 mod rotation;
 mod species;
 mod state;
