@@ -71,7 +71,7 @@ pub struct Sphere {
     /// Speed at which its radius grows \[m/s\], >= 0, while its mass stays: 0 unless given. Under the rule `exact`
     /// alone, among elastic spheres without forces: `docs/physics/growth.md`.
     pub growth_speed: f64,
-    /// Whatever a program wants to find with it; no part of the physics.
+    /// Number of the program's own; no part of the physics.
     pub user_data: u64,
 }
 
@@ -199,7 +199,7 @@ pub fn volume(radius: f64) -> f64 {
     4.0 / 3.0 * PI * (radius * radius * radius)
 }
 
-/// Where a sphere is, and how fast: what [`World::set_motions`](crate::World::set_motions) gives it.
+/// Position and velocity of a sphere, for [`World::set_motions`](crate::World::set_motions).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SphereMotion {
     /// The sphere.

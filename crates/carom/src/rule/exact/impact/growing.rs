@@ -17,7 +17,7 @@ use crate::rule::periodic;
 ///
 /// With the speed G at which the sum of their radii grows, the relative velocity along the normal becomes `2 G - v·n`;
 /// growth does the work `2 m G (G - v·n)`, with m the reduced mass.
-pub(crate) fn of_growing_spheres(
+pub(crate) fn answer_growing_pair(
     timeline: &mut Timeline,
     context: &mut StepContext,
     slots: [u32; 2],
@@ -61,7 +61,7 @@ pub(crate) fn of_growing_spheres(
 }
 
 /// Answers the impact of a sphere on a surface at rest at `time` \[s\].
-pub(crate) fn of_growing_sphere(
+pub(crate) fn answer_growing_single(
     timeline: &mut Timeline,
     context: &mut StepContext,
     slot: u32,

@@ -10,6 +10,6 @@ mod pair;
 mod single_sphere;
 mod surface_contacts;
 
-pub(super) use growing::{of_growing_sphere, of_growing_spheres};
-pub(super) use pair::of_spheres;
-pub(super) use single_sphere::of_sphere;
+pub(super) use growing::{answer_growing_pair, answer_growing_single};
+pub(super) use pair::answer_pair;
+pub(super) use single_sphere::answer_single;
