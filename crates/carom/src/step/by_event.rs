@@ -29,6 +29,7 @@ pub(super) fn step(mut attempt: Attempt, parameters: Exact, until: Until) -> Res
         attempt.end_at(end);
         account_for_contacts(attempt.report, &mut timeline, end);
         place_spheres(attempt, &timeline, end)?;
+        timeline.write_radii(&mut attempt.state.spheres.properties.radius, end);
         if !timeline.has_friction() {
             attempt.state.spheres.motion.spin.advance(attempt.length);
         }
@@ -176,6 +177,7 @@ fn refusal(unfinished: Unfinished, time: f64) -> Error {
         Unfinished::Stopped => Error::Stopped { time },
         Unfinished::NonFiniteForce { sphere } => no_longer_finite(sphere, "velocity", time),
         Unfinished::NoClosedForm { sphere, time: at } => Error::NeedsZone { sphere, at, time },
+        Unfinished::NoRoomToGrow { sphere, time: at } => Error::NoRoomToGrow { sphere, at, time },
         Unfinished::TooManyImpacts { sphere, limit, companions, time: at } => {
             Error::TooManyImpacts { sphere, limit, companions, at, time }
         }
