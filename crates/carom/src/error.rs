@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use crate::id::{ColliderId, EmitterId, ForceId, SphereId, SpringId};
 
-/// Everything the physics can refuse. The world is unchanged after each of them.
+/// Error of the engine. The world is unchanged after each.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -66,6 +66,20 @@ pub enum Error {
         /// A sphere that it acts on.
         sphere: SphereId,
         /// When it was needed \[s\].
+        at: f64,
+        /// Start of the refused step \[s\].
+        time: f64,
+    },
+    /// Growth made a sphere 4096 times as fast as any was at the start of the step.
+    #[error(
+        "sphere {sphere}, at {at} s: growth made it 4096 times as fast as any was at the start of the step, \
+         so there may be no room left to grow; the state before the step, at {time} s, was kept. Shorter \
+         frames with velocities scaled back between them, slower growth or an earlier end may help"
+    )]
+    NoRoomToGrow {
+        /// The sphere.
+        sphere: SphereId,
+        /// When it happened \[s\].
         at: f64,
         /// Start of the refused step \[s\].
         time: f64,
@@ -134,7 +148,7 @@ impl Display for Subject {
     }
 }
 
-/// A field, what it must be, and what it was.
+/// A field with an invalid value, and what it must be.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("`{field}` must be {requirement}, not {value}")]
 pub struct InvalidValue {
@@ -142,7 +156,7 @@ pub struct InvalidValue {
     pub field: &'static str,
     /// What it must be, continuing "must be".
     pub requirement: &'static str,
-    /// What it was.
+    /// The value that was given.
     pub value: String,
 }
 

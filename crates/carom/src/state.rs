@@ -103,7 +103,7 @@ impl State {
         self
     }
 
-    /// Has flights begin anew.
+    /// Drops the flights, so that all begin again.
     fn drop_flights(&mut self) {
         if let Some(timeline) = self.timeline.take() {
             self.zone = timeline.into_zone();
@@ -214,6 +214,19 @@ impl State {
         let smallest = self.settings.boundary.period().min_element();
         let largest = self.spheres.radii().iter().copied().fold(0.0, f64::max);
         let requirement = "at least four times the radius of every sphere along every axis";
+        validate::require(smallest >= 4.0 * largest, "size", requirement, smallest)
+            .map_err(|invalid| invalid.about(Subject::Settings))
+    }
+
+    /// Refuses spheres that would grow too large for a periodic box within `h` \[s\].
+    pub fn check_grown(&self, h: f64) -> Result<(), Error> {
+        let smallest = self.settings.boundary.period().min_element();
+        let spheres = &self.spheres.properties;
+        let grown = |(radius, speed): (&f64, &f64)| radius + speed * h;
+        let largest =
+            spheres.radius.iter().zip(&spheres.growth_speed).map(grown).fold(0.0, f64::max);
+        let requirement =
+            "at least four times what the radius of every sphere grows to along every axis";
         validate::require(smallest >= 4.0 * largest, "size", requirement, smallest)
             .map_err(|invalid| invalid.about(Subject::Settings))
     }

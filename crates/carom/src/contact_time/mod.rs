@@ -18,6 +18,7 @@ mod bisection;
 #[cfg(test)]
 mod claims;
 mod feature;
+mod growing;
 mod half_space;
 mod nearest;
 mod obstacle;
@@ -33,6 +34,8 @@ mod track;
 mod turning;
 
 pub use bisection::{Bisection, Probe, bisect};
+pub use growing::sphere_sphere_growing;
+pub(crate) use growing::{GrowingApproach, growing_sphere_surface};
 pub(crate) use reach::Reach;
 pub(crate) use sphere_sphere::Approach;
 pub use sphere_sphere::{sphere_sphere, sphere_sphere_linear};

@@ -1,6 +1,6 @@
 //! Looking ahead: the path of one sphere, without a step.
 
-use super::by_event;
+use super::{by_event, growth};
 use crate::error::{Error, Subject};
 use crate::path::PredictedPath;
 use crate::rule::exact::{self, Span};
@@ -26,6 +26,7 @@ pub(crate) fn predict(
         .and_then(|()| validate::finite_number("horizon", end))
         .map_err(|invalid| invalid.about(Subject::Query))?;
     by_event::check_room(state)?;
+    growth::check(state, horizon)?;
     by_event::check_closed_form(&now.system, "path").map_err(|it| it.about(Subject::Query))?;
     let parameters = match state.settings.rule {
         Rule::Exact(parameters) => parameters,
@@ -34,7 +35,7 @@ pub(crate) fn predict(
     let begin = || exact::start(&now.system, parameters, now.motion, state.zone.clone(), now.time);
     let mut timeline = state.timeline.clone().unwrap_or_else(begin);
     exact::begin(&mut timeline, &now.system, [now.time, end], f64::INFINITY)
-        .map_err(|unheld| by_event::refused_forces(unheld, now.time))?;
+        .map_err(|error| by_event::refused_forces(error, now.time))?;
     let span = Span { start: now.time, length: horizon, end };
     let work = Work::new(stop_request);
     let course =

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use super::clearance::Clearance;
 use super::context::StepContext;
 use super::events::{Prediction, Schedule};
-use super::flights::{self, Body, Flights, Rotation};
+use super::flights::{self, Body, Flights, Growth, Rotation};
 use super::neighbours::{Contents, Neighbours};
 use super::pair_times::PairSearch;
 use super::persistent::{self, held_forces, piece_end};
@@ -53,7 +53,11 @@ pub(crate) fn start(
     time: f64,
 ) -> Timeline {
     let mut flights = Flights::new(system, motion, |_| Err(time));
-    if parameters.zones == Zones::Never {
+    flights.growth = Growth::of(&flights.species, time);
+    // What is stepped has the radius that it had at the start.
+    let zones = if flights.growth.is_some() { Zones::Never } else { parameters.zones };
+    let parameters = parameters.with_zones(zones);
+    if zones == Zones::Never {
         zone = Zone::default();
     }
     if friction_acts(system) {
@@ -137,9 +141,10 @@ pub(crate) fn begin(
     system: &System,
     frame: [f64; 2],
     next: f64,
-) -> Result<(), Unheld> {
+) -> Result<(), HoldError> {
     set_frame(timeline, system, frame);
     timeline.next_emission = next;
+    timeline.flights.limit_heating();
     let are_applied = !system.spheres.applied_force.is_empty();
     timeline.curves_until = if are_applied { frame[1] } else { f64::INFINITY };
     let is_other_tick = set_force_tick(timeline, frame[1] - frame[0])?;
@@ -148,7 +153,7 @@ pub(crate) fn begin(
     if is_renewed {
         renewed = held_forces::renew(timeline, system, frame[0]);
         timeline.find_curves(system);
-        check_accelerations(timeline, system).map_err(Unheld::NotFinite)?;
+        check_accelerations(timeline, system).map_err(HoldError::NotFinite)?;
     }
     let are_curved = timeline.flights.are_curved();
     if (is_renewed && !are_curved) || are_applied || !timeline.moving_surfaces.is_empty() {
@@ -173,18 +178,19 @@ fn set_frame(timeline: &mut Timeline, system: &System, frame: [f64; 2]) {
     }
 }
 
-/// Why forces cannot be held.
+/// Reason why forces cannot be held.
 #[derive(Debug, Clone, Copy)]
-pub(crate) enum Unheld {
+pub(crate) enum HoldError {
     /// Motion on springs has this rate \[1/s\], and no force tick follows it.
     TooStiff(f64),
     /// The force on this sphere is not finite.
     NotFinite(SphereId),
 }
 
-/// Has force ticks fit frames of this length \[s\], and springs, also before there is a sphere that needs
-/// them: it may be emitted within the frame. Tells whether forces that are held now have other ticks.
-fn set_force_tick(timeline: &mut Timeline, frame: f64) -> Result<bool, Unheld> {
+/// Fits the force ticks to frames of this length \[s\] and to springs, also before there is a sphere that
+/// needs them: it may be emitted within the frame. Returns whether forces that are held now have other
+/// ticks.
+fn set_force_tick(timeline: &mut Timeline, frame: f64) -> Result<bool, HoldError> {
     let (before, rate) = (timeline.force_tick, timeline.spring_rate);
     let tick = tick_for_springs(rate, timeline.parameters, frame)?;
     timeline.force_tick = ticks::part(tick, ticks::halvings_for_springs(rate, tick));
@@ -195,9 +201,9 @@ fn set_force_tick(timeline: &mut Timeline, frame: f64) -> Result<bool, Unheld> {
 ///
 /// # Errors
 /// Springs that no part of it follows.
-pub(crate) fn tick_for_springs(rate: f64, parameters: Exact, frame: f64) -> Result<f64, Unheld> {
+pub(crate) fn tick_for_springs(rate: f64, parameters: Exact, frame: f64) -> Result<f64, HoldError> {
     let tick = ticks::tick_for_frames(parameters.force_tick, frame, ticks::MOST_FORCE_TICKS);
-    if ticks::can_follow_springs(rate, tick) { Ok(tick) } else { Err(Unheld::TooStiff(rate)) }
+    if ticks::can_follow_springs(rate, tick) { Ok(tick) } else { Err(HoldError::TooStiff(rate)) }
 }
 
 /// Whether forces are to be found anew at the start of a frame \[s\]: those that are held over it, and others
@@ -317,6 +323,7 @@ fn arrange(timeline: &mut Timeline, system: &System, time: f64) {
     // What is made anew must not be in memory twice.
     timeline.schedule = Schedule::default();
     timeline.neighbours = Neighbours::default();
+    timeline.flights.make_room_to_grow(time, system.settings.boundary.period());
     let order = contents(&timeline.flights, system, time).curve_order();
     if order.windows(2).any(|pair| pair[0] > pair[1]) {
         timeline.flights.reorder(&order);

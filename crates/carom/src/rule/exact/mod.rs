@@ -41,7 +41,7 @@ mod zone;
 pub(crate) use contacts::{NormalCurvature, curvature_of};
 pub(crate) use course::{Course, follow};
 pub(crate) use frame::{
-    Arrivals, Unheld, adopt, begin, end, persistent_contacts, start, tick_for_springs,
+    Arrivals, HoldError, adopt, begin, end, persistent_contacts, start, tick_for_springs,
 };
 pub(crate) use look_along::{begin as begin_watch, end as end_watch};
 pub(crate) use neighbours::MAX_SPHERES;
@@ -83,6 +83,13 @@ pub(crate) enum Unfinished {
         /// When it happened, on the world's clock \[s\].
         time: f64,
     },
+    /// Growth made a sphere so fast that it has no room left.
+    NoRoomToGrow {
+        /// The sphere.
+        sphere: SphereId,
+        /// When it happened, on the world's clock \[s\].
+        time: f64,
+    },
     /// A force on a sphere is not finite.
     NonFiniteForce {
         /// The sphere.
@@ -120,7 +127,8 @@ pub(crate) fn advance(
     let mut end = span.end;
     loop {
         let (tick, force_tick) = (timeline.zone.next_tick(), timeline.next_force_tick());
-        let now = match timeline.next(end.min(tick).min(force_tick)) {
+        let room_until = timeline.room_until();
+        let now = match timeline.next(end.min(tick).min(force_tick).min(room_until)) {
             Some((slot, next)) => {
                 let now = happen(timeline, &mut context, slot, next)?;
                 if due.is_now(timeline) {
@@ -135,6 +143,12 @@ pub(crate) fn advance(
                 renew_forces(timeline, &mut context, force_tick)?
             }
             None if tick <= end && tick < force_tick => stepped::tick(timeline, &mut context),
+            None if room_until < end => {
+                look_along::follow(timeline, system);
+                before.count_from_zero(timeline);
+                frame::arrange_anew(timeline, system, room_until);
+                room_until
+            }
             None => break,
         };
         look_along::follow(timeline, system);
@@ -153,7 +167,7 @@ pub(crate) fn advance(
     Ok(end)
 }
 
-/// Finds forces anew at a force tick \[s\]. Gives the time \[s\].
+/// Computes the held forces at a force tick \[s\]. Returns its time \[s\].
 fn renew_forces(
     timeline: &mut Timeline,
     context: &mut StepContext,
@@ -165,7 +179,7 @@ fn renew_forces(
     if context.work.spend(UNITS_PER_FLIGHT * flights) { Ok(now) } else { Err(Unfinished::Stopped) }
 }
 
-/// Has happen what is next to the sphere at `slot`. Gives the time \[s\].
+/// Answers the next event of the sphere at `slot`. Returns its time \[s\].
 fn happen(
     timeline: &mut Timeline,
     context: &mut StepContext,
@@ -196,14 +210,22 @@ fn happen(
     match event.target.unpacked() {
         EventTarget::Restart => predict::restart(timeline, context, slot, event.time),
         EventTarget::StepEnd => predict::next_step(timeline, context, slot, event.time),
+        EventTarget::Sphere(other) if timeline.flights.growth.is_some() => {
+            impact::answer_growing_pair(timeline, context, [slot, other], event.time);
+            check_room_to_grow(timeline, context, &[slot, other], event.time)?;
+        }
+        EventTarget::Surface(surface) if timeline.flights.growth.is_some() => {
+            impact::answer_growing_single(timeline, context, slot, surface, event.time);
+            check_room_to_grow(timeline, context, &[slot], event.time)?;
+        }
         EventTarget::Sphere(other) => {
-            impact::of_spheres(timeline, context, [slot, other], event.time);
+            impact::answer_pair(timeline, context, [slot, other], event.time);
         }
         EventTarget::Surface(surface) => {
-            impact::of_sphere(timeline, context, slot, Some(surface), event.time);
+            impact::answer_single(timeline, context, slot, Some(surface), event.time);
         }
         EventTarget::Cluster => {
-            impact::of_sphere(timeline, context, slot, None, event.time);
+            impact::answer_single(timeline, context, slot, None, event.time);
         }
     }
     if let Some(index) = timeline.flights.lost {
@@ -222,6 +244,20 @@ fn happen(
         }
     }
     Ok(event.time)
+}
+
+/// Refuses spheres that growth made so fast, at `time` \[s\], that they have no room left.
+fn check_room_to_grow(
+    timeline: &Timeline,
+    context: &StepContext,
+    slots: &[u32],
+    time: f64,
+) -> Result<(), Unfinished> {
+    let overheated = slots.iter().find(|&&slot| timeline.flights.is_overheated(slot));
+    overheated.map_or(Ok(()), |&slot| {
+        let sphere = context.id_of(timeline, slot);
+        Err(Unfinished::NoRoomToGrow { sphere, time })
+    })
 }
 
 /// Counts a flight that ended before the sphere had moved; with too many of them it is stepped.
@@ -267,7 +303,8 @@ impl WorkSoFar {
     }
 }
 
-/// Has a sphere that takes more work in a frame than the parameters allow be stepped, or refuses it.
+/// Puts a sphere that takes more work in a frame than the parameters allow into a zone, or returns
+/// the error.
 fn check_work(
     timeline: &mut Timeline,
     context: &mut StepContext,

@@ -72,6 +72,16 @@ impl Timeline {
         if self.flights.forces_vary { self.held_until } else { f64::INFINITY }
     }
 
+    /// Until when neighbours are known, as radii grow, on the world's clock \[s\].
+    pub(super) fn room_until(&self) -> f64 {
+        self.flights.room_until()
+    }
+
+    /// Writes the radii of all spheres at `time` \[s\] if some grow, in metres.
+    pub fn write_radii(&self, radii: &mut [f64], time: f64) {
+        self.flights.write_radii(radii, time);
+    }
+
     /// Time between two ticks of zones in the present frame \[s\].
     pub(super) fn zone_tick(&self) -> f64 {
         let [start, end] = self.frame;
@@ -101,7 +111,8 @@ impl Timeline {
         self.flights.bodies.len() > MANY
     }
 
-    /// Until when predictions are of use, on the world's clock \[s\]: until all flights begin anew.
+    /// Time up to which predictions are of use, on the world's clock \[s\]: when all flights begin
+    /// again.
     #[inline]
     pub fn horizon(&self) -> f64 {
         if !self.flights.hold_forces {
@@ -226,7 +237,7 @@ impl Timeline {
         self.flights.restart_contact_work();
     }
 
-    /// Gives a sphere that is at a position \[m\] with a velocity \[m/s\] another neighbour region, and
+    /// Moves a sphere at a position \[m\] with a velocity \[m/s\] to its next neighbour region, and
     /// finds the neighbours that are new there.
     pub(super) fn cross_cell(&mut self, slot: u32, state: [DVec3; 2], found: &mut NeighbourBuffer) {
         let level = self.flights.species_of(slot).level;

@@ -42,7 +42,8 @@ pub(crate) struct Neighbours {
     groups_of_surfaces: Vec<Groups>,
 }
 
-/// A cell, and the side of it where spheres are new, if it is one.
+/// A cell to search, and the side from which a sphere entered it: only spheres near that side are
+/// new.
 #[derive(Clone, Copy)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Arrival {
@@ -56,7 +57,8 @@ impl Neighbours {
         let Contents { flights, period, spheres_collide, .. } = contents;
         let Flights { bodies, species, .. } = flights;
         let Levels { levels, are_crowded } = Levels::new(contents);
-        let nowhere = |body: &Body| Region::nowhere(species[body.species as usize].radius);
+        let nowhere =
+            |body: &Body| Region::nowhere(flights.largest_radius(&species[body.species as usize]));
         // A neighbour is less than three cells away along each axis, of the coarsest grid.
         let images = match levels.first() {
             _ if !period.is_finite_mask().any() => Images::None,
@@ -261,8 +263,9 @@ impl Neighbours {
         (offset.abs() + way).cmple(CROSSING * half_edges).all()
     }
 
-    /// Gives a sphere with this position \[m\] and velocity \[m/s\] another neighbour region, and
-    /// finds those that were not near it before, perhaps with others that were and with itself.
+    /// Moves a sphere with this position \[m\] and velocity \[m/s\] to its next neighbour region,
+    /// and finds the spheres that are new there; some that are not new, and itself, may be among
+    /// them.
     pub fn cross_cell(
         &mut self,
         slot: u32,
