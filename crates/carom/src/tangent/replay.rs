@@ -338,5 +338,8 @@ fn check(world: &World) -> Result<(), DerivativeError> {
     if world.emitters().len() > 0 {
         return refuse("emitters");
     }
+    if system.spheres.growth_speed.iter().any(|&speed| speed > 0.0) {
+        return refuse("spheres that grow");
+    }
     Ok(())
 }

@@ -80,6 +80,16 @@ struct Change {
     surface_velocity: DVec3,
 }
 
+/// Two bodies after an impact.
+struct Collided {
+    /// Centres of the spheres; that of body 2 twice, if body 1 is a surface.
+    places: [Vector<Dual>; 2],
+    first: FirstBody,
+    second: StruckSphere,
+    /// By how much the impact comes later \[s\].
+    later: f64,
+}
+
 impl Colliding {
     /// Acceleration of its flight with this velocity \[m/s²\].
     fn acceleration(&self, velocity: DVec3) -> DVec3 {
@@ -169,13 +179,13 @@ impl Saltation {
 
     /// Velocities and angular velocities after the impact, of body 1 and 2; zero for a surface.
     pub fn outcome(&self) -> [[DVec3; 2]; 2] {
-        let (first, second, ..) = self.collided(&Change::default());
+        let Collided { first, second, .. } = self.collided(&Change::default());
         let motion = |it: &StruckSphere| [it.velocity.value(), it.angular_velocity.value()];
         let of_first = match &first {
-            (_, FirstBody::Sphere(sphere)) => motion(sphere),
-            (_, FirstBody::Surface(_)) => [DVec3::ZERO; 2],
+            FirstBody::Sphere(sphere) => motion(sphere),
+            FirstBody::Surface(_) => [DVec3::ZERO; 2],
         };
-        [of_first, motion(&second.1)]
+        [of_first, motion(&second)]
     }
 
     /// Takes the changes of spheres through the impact, in a direction.
@@ -210,11 +220,11 @@ impl Saltation {
             first.dot(&after[0]) + last.dot(&after[1])
         };
         let mut before = [SphereTangent::default(); 2];
-        for body in 2 - count..2 {
+        for (body, tangent) in before.iter_mut().enumerate().skip(2 - count) {
             for number in 0..NUMBERS {
                 let mut change = Change::default();
                 change.spheres[body] = SphereTangent::unit(number);
-                *before[body].number_mut(number) = by(&change);
+                *tangent.number_mut(number) = by(&change);
             }
         }
         self.add_to_gradient(by, gradient);
@@ -287,14 +297,14 @@ impl Saltation {
 
     /// How the motion after the impact changes.
     fn apply(&self, change: &Change) -> [SphereTangent; 2] {
-        let (first, second, later) = self.collided(change);
-        let of_first = match (&self.first, &first.1) {
+        let Collided { places, first, second, later } = self.collided(change);
+        let of_first = match (&self.first, &first) {
             (First::Sphere(before), FirstBody::Sphere(after)) => {
-                before.after(first.0, after, later)
+                before.after(places[0], after, later)
             }
             _ => SphereTangent::default(),
         };
-        [of_first, self.second.after(second.0, &second.1, later)]
+        [of_first, self.second.after(places[1], &second, later)]
     }
 
     /// By how much the impact comes later \[s\].
@@ -310,11 +320,8 @@ impl Saltation {
         -(opened - change.radii[1]) / closing
     }
 
-    /// The bodies after the impact, with the centres of spheres there, and by how much it comes later \[s\].
-    fn collided(
-        &self,
-        change: &Change,
-    ) -> ((Vector<Dual>, FirstBody), (Vector<Dual>, StruckSphere), f64) {
+    /// The bodies after the impact.
+    fn collided(&self, change: &Change) -> Collided {
         let later = self.delay(change);
         let [of_first, of_second] = &change.spheres;
         let of_body = |body: usize| (change.radii[body], change.masses[body], later);
@@ -343,7 +350,7 @@ impl Saltation {
             kick: self.kick,
         };
         collide(&mut first, &mut second, normal, &coefficients);
-        ((first_place, first), (place, second), later)
+        Collided { places: [first_place, place], first, second, later }
     }
 }
 
