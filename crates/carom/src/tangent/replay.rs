@@ -246,7 +246,7 @@ impl Start {
         Some((number as u32, touched))
     }
 
-    /// Gives the spheres of an impact the motion after it.
+    /// Has the spheres of an impact go on with the motion after it.
     fn leave(&mut self, saltation: &Saltation) {
         let outcome = saltation.outcome();
         let mut set = |place: usize, [velocity, angular_velocity]: [DVec3; 2]| {
