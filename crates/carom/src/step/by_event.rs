@@ -171,7 +171,7 @@ fn place_spheres(attempt: &mut Attempt, timeline: &Timeline, end: f64) -> Result
     )
 }
 
-/// Why a step that starts at `time` \[s\] was not taken to its end.
+/// Returns the error of a step that starts at `time` \[s\] and was not taken to its end.
 fn refusal(unfinished: Unfinished, time: f64) -> Error {
     match unfinished {
         Unfinished::Stopped => Error::Stopped { time },
@@ -216,7 +216,7 @@ fn check_count(state: &State) -> Result<(), Error> {
         .map_err(|invalid| invalid.about(Subject::Step))
 }
 
-/// Why forces cannot be held in a step that starts at `time` \[s\].
+/// Returns the error of a step in which forces cannot be held, and that starts at `time` \[s\].
 pub(super) fn refused_forces(error: HoldError, time: f64) -> Error {
     match error {
         HoldError::NotFinite(sphere) => no_longer_finite(sphere, "velocity", time),
