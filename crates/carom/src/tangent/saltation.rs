@@ -96,11 +96,12 @@ impl Colliding {
         self.linear.acceleration - self.linear.drag_rate * velocity
     }
 
-    /// The sphere at the impact that comes later by this \[s\]: its centre, and how it moves.
+    /// The sphere at the impact that comes `later` \[s\]: its centre, and how it moves; its radius and mass change, too.
     fn at_impact(
         &self,
         change: &SphereTangent,
-        (radius, mass, later): (f64, f64, f64),
+        [radius, mass]: [f64; 2],
+        later: f64,
     ) -> (Vector<Dual>, StruckSphere) {
         let position = vector(self.position, change.position + later * self.velocity);
         let gained = change.velocity + later * self.acceleration(self.velocity);
@@ -324,11 +325,11 @@ impl Saltation {
     fn collided(&self, change: &Change) -> Collided {
         let later = self.delay(change);
         let [of_first, of_second] = &change.spheres;
-        let of_body = |body: usize| (change.radii[body], change.masses[body], later);
-        let (place, mut second) = self.second.at_impact(of_second, of_body(1));
+        let of_body = |body: usize| [change.radii[body], change.masses[body]];
+        let (place, mut second) = self.second.at_impact(of_second, of_body(1), later);
         let (first_place, mut first, normal) = match &self.first {
             First::Sphere(sphere) => {
-                let (first_place, first) = sphere.at_impact(of_first, of_body(0));
+                let (first_place, first) = sphere.at_impact(of_first, of_body(0), later);
                 let normal = (place - first_place).direction();
                 (first_place, FirstBody::Sphere(first), normal)
             }

@@ -8,14 +8,10 @@ pub(crate) mod snapshot;
 #[cfg(feature = "serde")]
 mod written;
 
-use std::sync::Arc;
-
 use glam::DVec3;
 
 use crate::bodies::Spheres;
 use crate::collider::{Collider, Pose};
-use crate::colliders::Colliders;
-use crate::detect::instant::Instant;
 use crate::emitter::{Emitter, EmitterState};
 use crate::error::{Error, Subject};
 use crate::id::{ColliderId, EmitterId, SphereId};
@@ -153,16 +149,6 @@ impl World {
     /// What happened in the last step.
     pub fn report(&self) -> &StepReport {
         &self.report
-    }
-
-    /// All spheres as they are now.
-    pub(crate) fn now(&self) -> Instant<'_> {
-        self.state.now()
-    }
-
-    /// The colliders as they are now, shared with the world until it changes its own.
-    pub(crate) fn shared_colliders(&self) -> Arc<Colliders> {
-        self.state.colliders.clone()
     }
 
     /// Whether spheres were in stepped zones under the rule `exact` so far: if not, every impact was answered

@@ -1,8 +1,12 @@
 //! Queries of a world between steps: rays, what is near, and the path that a sphere will take.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use super::World;
+use crate::colliders::Colliders;
+use crate::detect::instant::Instant;
 use crate::error::Error;
 use crate::id::SphereId;
 use crate::path::PredictedPath;
@@ -13,6 +17,16 @@ use crate::step;
 const FEW: usize = 8;
 
 impl World {
+    /// All spheres as they are now.
+    pub(crate) fn now(&self) -> Instant<'_> {
+        self.state.now()
+    }
+
+    /// The colliders as they are now, shared with the world until it changes its own.
+    pub(crate) fn shared_colliders(&self) -> Arc<Colliders> {
+        self.state.colliders.clone()
+    }
+
     /// Sorts all bodies by place, for many queries of the world as it is now: one of 10,000 spheres then takes
     /// some microseconds.
     pub fn queries(&self) -> Queries<'_> {
