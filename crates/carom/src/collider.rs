@@ -2,6 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
+use crate::collider_motion::{Course, Motion};
 use crate::error::InvalidValue;
 use crate::friction::Friction;
 use crate::groups::Groups;
@@ -235,6 +236,9 @@ pub struct Collider {
     pub velocity: DVec3,
     /// Of the rotation about the origin of the local frame, along its axis \[rad/s\].
     pub angular_velocity: DVec3,
+    /// How it moves, if not steadily. In a world, pose, velocity and angular velocity are then those that the motion has
+    /// now; another pose given to it there moves all of the motion.
+    pub motion: Motion,
     /// Coefficient of restitution in \[0, 1\].
     pub restitution: f64,
     /// Friction at its surface; it says nothing unless given.
@@ -259,6 +263,7 @@ impl Collider {
             pose,
             velocity: DVec3::ZERO,
             angular_velocity: DVec3::ZERO,
+            motion: Motion::default(),
             restitution: 1.0,
             friction: Friction::default(),
             trigger: false,
@@ -282,6 +287,11 @@ impl Collider {
     /// about it. Spheres feel the velocity of the surface where they meet it.
     pub fn moving(self, velocity: DVec3, angular_velocity: DVec3) -> Self {
         Self { velocity, angular_velocity, ..self }
+    }
+
+    /// The same collider, at rest where it is but for this motion: parts that act one after the other.
+    pub fn with_motion(self, motion: impl Into<Motion>) -> Self {
+        Self { motion: motion.into(), velocity: DVec3::ZERO, angular_velocity: DVec3::ZERO, ..self }
     }
 
     /// The same collider with this coefficient of restitution.
@@ -319,9 +329,34 @@ impl Collider {
         self.pose.validate()?;
         validate::finite("velocity", self.velocity)?;
         validate::finite("angular_velocity", self.angular_velocity)?;
+        self.motion.validate()?;
+        self.validate_velocities()?;
         validate::unit_interval("restitution", self.restitution)?;
         validate::non_negative("kick", self.kick)?;
         self.friction.validate()
+    }
+}
+
+impl Collider {
+    /// Refuses velocities beside a motion, which decides them.
+    fn validate_velocities(&self) -> Result<(), InvalidValue> {
+        let are_given = !self.motion.is_empty() && self.motion.rest().is_none();
+        let requirement = "zero where there is a `motion`, which may have a steady part";
+        for (field, value) in
+            [("velocity", self.velocity), ("angular_velocity", self.angular_velocity)]
+        {
+            validate::require(!are_given || value == DVec3::ZERO, field, requirement, value)?;
+        }
+        Ok(())
+    }
+
+    /// Puts it where its motion has it at `time` \[s\]. One that comes to the world is at rest where it is; one that
+    /// was put elsewhere takes its motion along.
+    pub(crate) fn follow_motion(&mut self, time: f64) {
+        let Some(course) = Course::of(self, time) else { return };
+        let (pose, motion) = course.place(0.0);
+        (self.motion, self.pose) = (self.motion.about(course.rest(), pose), pose);
+        (self.velocity, self.angular_velocity) = (motion.velocity, motion.angular_velocity);
     }
 }
 

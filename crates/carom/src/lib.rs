@@ -34,6 +34,7 @@ mod bounds;
 mod bounds_tree;
 mod clock;
 mod collider;
+mod collider_motion;
 mod colliders;
 mod connected;
 pub mod contact_time;
@@ -81,6 +82,7 @@ pub use glam::{DQuat, DVec3};
 
 pub use bodies::Spheres;
 pub use collider::{Collider, Ends, Pose, Shape, Sides};
+pub use collider_motion::{Motion, MotionPart};
 pub use emitter::Emitter;
 pub use error::{Error, InvalidValue, Subject};
 pub use flight::Flight;

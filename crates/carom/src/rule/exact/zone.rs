@@ -381,10 +381,7 @@ impl Zone {
     /// Has surfaces where they are at a time since they are where the system says \[s\].
     fn place_surfaces(&mut self, system: &System, offset: f64) {
         self.surfaces.clear();
-        self.surfaces.extend(system.surfaces.iter().map(|surface| {
-            let (form, motion) = surface.after(offset);
-            Surface { form, motion, ..*surface }
-        }));
+        self.surfaces.extend(system.surfaces.iter().map(|surface| surface.moved(offset)));
     }
 }
 
