@@ -13,6 +13,7 @@ mod dependencies;
 mod documents;
 mod files;
 mod imports;
+mod interface;
 mod js_package;
 mod long_tests;
 mod markdown;
@@ -23,6 +24,7 @@ mod notices;
 mod parts;
 mod python;
 mod release;
+mod samples;
 mod scene_reference;
 mod schema;
 mod scripts;
@@ -59,7 +61,9 @@ Usage: cargo xtask COMMAND
   c         make the shared and the static library of the C interface; `c --test` tests it with
             programs in C, C++ and C#
   header    write crates/carom-c/include/carom.h anew from the C interface
+  interface write crates/carom/interface.txt anew: what the crate carom promises
   notebook  put the viewer for notebooks into the Python package, for `pip install .`
+  words     `words --sample [SEED]` prints doc comments drawn at random, to be read without the code
   lint      the checks that need no build: format, words, links and names in documents, modules of
             any language that use each other in a circle, files and functions that are too long
   documents run the commands that README.md and docs/ show, except those that draw
@@ -107,6 +111,9 @@ fn main() -> ExitCode {
         ["c"] => c_interface::build(),
         ["c", "--test"] => c_interface::test(),
         ["header"] => c_interface::write_header(),
+        ["interface"] => interface::write(),
+        ["words", "--sample"] => samples::print(None),
+        ["words", "--sample", seed] => samples::print(Some(seed)),
         ["notebook"] => web::build_for_notebooks(Purpose::Use),
         ["lint"] => checks::lint(),
         ["documents"] => commands::check_plain(),

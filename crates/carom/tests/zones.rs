@@ -231,3 +231,38 @@ fn a_moving_floor_lifts_a_heap_in_a_zone() {
     // The floor has risen by a metre.
     assert!(lowest > 1.0 + RADIUS * 0.99, "{lowest}");
 }
+
+/// A heap whose motion is so many times slower, with frames of that many times the length.
+fn heap_in_slow_motion(times: f64) -> (World, f64) {
+    let mut world = heap(3, 0.3, Exact::default().with_zone_budget(2000));
+    let gravity = world.forces().next().unwrap().0;
+    world.set_force(gravity, Gravity::new(-G / (times * times) * DVec3::Y)).unwrap();
+    (world, FRAME * times)
+}
+
+#[test]
+fn zones_take_as_few_ticks_in_slow_and_in_fast_motion() {
+    for times in [1.0 / 1024.0, 1.0, 1024.0] {
+        let (mut world, frame) = heap_in_slow_motion(times);
+        let mut most = 0;
+        while world.time() < 2.0 * times {
+            most = most.max(world.step(frame).unwrap().zone_account.ticks);
+        }
+        // As many as a frame holds of them at most.
+        assert!((1..=128).contains(&most), "{times}: {most} ticks in a frame");
+        assert!(deepest_overlap(&world) < 0.02, "{times}: {}", deepest_overlap(&world));
+    }
+}
+
+#[test]
+fn a_heap_stands_while_its_frames_become_longer_and_shorter() {
+    let (mut world, frame) = heap_in_slow_motion(1.0);
+    run_until(&mut world, 4.0, frame);
+    for frame in [FRAME / 1000.0, 4.0, FRAME, 60.0, FRAME / 100.0] {
+        for _ in 0..5 {
+            world.step(frame).unwrap();
+            let overlap = deepest_overlap(&world);
+            assert!(overlap < 0.02, "{frame}: {overlap}");
+        }
+    }
+}

@@ -7,8 +7,9 @@ use super::programs::{self, Program};
 use crate::commands::{self, Programs};
 use crate::shell::{CI, Outcome, cargo, cargo_with, ci_folder, finish, program};
 use crate::{
-    architecture, c_interface, circles, dependencies, documents, js_package, parts as python_parts,
-    python, release, scene_reference, setup, sizes, stages, wasm, web, web_tools, words,
+    architecture, c_interface, circles, dependencies, documents, interface, js_package,
+    parts as python_parts, python, release, scene_reference, setup, sizes, stages, wasm, web,
+    web_tools, words,
 };
 
 /// Names the packages whose tests run, with commas between them; where it is not set, all do.
@@ -108,6 +109,7 @@ pub fn lint() -> Outcome {
     stages::check()?;
     scene_reference::check()?;
     documents::check()?;
+    interface::check()?;
     release::check()
 }
 

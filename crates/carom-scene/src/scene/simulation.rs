@@ -152,7 +152,8 @@ pub struct Exact {
     #[schemars(range(min = 1))]
     #[serde(skip_serializing_if = "is_default_zone_budget")]
     pub zone_budget: u32,
-    /// Time between two ticks, at which zones are stepped, in s, > 0. By default 1/480.
+    /// Time between two ticks, at which zones are stepped, in s, > 0. Small spheres shorten it, and so do short
+    /// frames; long frames lengthen it. By default 1/480.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     #[serde(skip_serializing_if = "is_default_zone_tick")]
     pub zone_tick: f64,

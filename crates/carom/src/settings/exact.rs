@@ -25,7 +25,8 @@ pub struct Exact {
     /// stepped zone of the group.
     pub zone_budget: u32,
     /// Time between two ticks, at which zones are stepped \[s\], > 0. Ticks are at its multiples on the
-    /// world's clock.
+    /// world's clock. In frames of more than 128 of it it is doubled, in those of less than a quarter of it
+    /// halved, until they are no more.
     pub zone_tick: f64,
     /// Time between two force ticks \[s\], > 0: forces between spheres, with all others in such a world, and
     /// forces that are not linear on spheres in persistent contact are held constant from one to the next.

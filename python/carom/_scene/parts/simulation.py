@@ -28,7 +28,8 @@ class Exact(Part):
             ``contact``, until they have come apart.
         zone_budget: Most work of a group of spheres in a tick, in contacts times iterations, >= 1.
             More makes a stepped zone. By default 300,000.
-        zone_tick: Time between two ticks, at which zones are stepped [s], > 0. By default 1/480.
+        zone_tick: Time between two ticks, at which zones are stepped [s], > 0. Small spheres
+            shorten it, and so do short frames; long frames lengthen it. By default 1/480.
         force_tick: Time between two force ticks [s], > 0. Forces between spheres, and those on
             spheres in persistent contact that are not linear, are constant from one to the next.
             Stiff springs shorten it. By default 1/240.

@@ -138,7 +138,8 @@ pub(crate) fn begin(
     frame: [f64; 2],
     next: f64,
 ) -> Result<(), Unheld> {
-    (timeline.frame, timeline.next_emission) = (frame, next);
+    set_frame(timeline, system, frame);
+    timeline.next_emission = next;
     let are_applied = !system.spheres.applied_force.is_empty();
     timeline.curves_until = if are_applied { frame[1] } else { f64::INFINITY };
     let is_other_tick = set_force_tick(timeline, frame[1] - frame[0])?;
@@ -160,6 +161,16 @@ pub(crate) fn begin(
     }
     timeline.work.begin(&timeline.flights.bodies);
     Ok(())
+}
+
+/// Goes on to a frame from and to these times \[s\]. The ticks of zones follow its length.
+fn set_frame(timeline: &mut Timeline, system: &System, frame: [f64; 2]) {
+    let before = timeline.zone_tick();
+    timeline.frame = frame;
+    let tick = timeline.zone_tick();
+    if tick != before {
+        timeline.zone.follow_tick(system, [tick, timeline.spring_rate]);
+    }
 }
 
 /// Why forces cannot be held.
@@ -185,7 +196,7 @@ fn set_force_tick(timeline: &mut Timeline, frame: f64) -> Result<bool, Unheld> {
 /// # Errors
 /// Springs that no part of it follows.
 pub(crate) fn tick_for_springs(rate: f64, parameters: Exact, frame: f64) -> Result<f64, Unheld> {
-    let tick = ticks::tick_for_frames(parameters.force_tick, frame);
+    let tick = ticks::tick_for_frames(parameters.force_tick, frame, ticks::MOST_FORCE_TICKS);
     if ticks::can_follow_springs(rate, tick) { Ok(tick) } else { Err(Unheld::TooStiff(rate)) }
 }
 

@@ -112,7 +112,8 @@ pub(crate) fn advance(
     report: &mut StepReport,
     until: Until,
 ) -> Result<f64, Unfinished> {
-    let mut context = StepContext::new(system, timeline.parameters, span, work, report);
+    let parameters = timeline.parameters.with_zone_tick(timeline.zone_tick());
+    let mut context = StepContext::new(system, parameters, span, work, report);
     let mut before = WorkSoFar::of(timeline, work);
     let due = frame::ArrangementDue::of(timeline, system);
     let mut end = span.end;

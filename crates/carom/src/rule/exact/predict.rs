@@ -267,8 +267,10 @@ fn meet_surfaces(
         let (form, motion) = surface.after(start - timeline.frame[0]);
         let course = surface.course_after(start - timeline.frame[0]);
         let turns = motion.angular_velocity != DVec3::ZERO;
-        // The way of a surface that turns or does not move steadily is searched to the end of the frame.
-        let until = if turns || course.is_some() { timeline.frame[1].min(horizon) } else { horizon };
+        // The way of a surface that turns or does not move steadily is searched to the end of the frame at most.
+        let until = if course.is_some() {
+            timeline.frame[1].min(flight_end)
+        } else if turns { timeline.frame[1].min(horizon) } else { horizon };
         if until < start {
             continue;
         }

@@ -5,10 +5,15 @@
 const MOST_TURN: f64 = 0.5;
 /// For springs a tick is halved so often at most.
 const MOST_HALVINGS: u32 = 12;
-/// Most ticks in a frame, but for springs: of days, say, in the motion of planets.
-const MOST_IN_A_FRAME: f64 = 64.0;
+/// Most force ticks in a frame, but for springs: of days, say, in the motion of planets.
+pub(super) const MOST_FORCE_TICKS: f64 = 64.0;
+/// Most ticks of zones in a frame, but for small spheres.
+pub(super) const MOST_ZONE_TICKS: f64 = 128.0;
 /// Most frames in a tick.
 const MOST_FRAMES: f64 = 4.0;
+/// The length of a frame is the difference of two rounded times. Frames that differ by less than this part
+/// have the same ticks.
+const ROUNDING: f64 = 1e-6;
 
 /// The first tick after a time, both on the world's clock \[s\].
 pub(super) fn first_tick_after(time: f64, tick: f64) -> f64 {
@@ -17,13 +22,13 @@ pub(super) fn first_tick_after(time: f64, tick: f64) -> f64 {
     if first > time { first } else { ((number + 1.0) * tick).max(time.next_up()) }
 }
 
-/// A tick \[s\] in the order of magnitude of frames of this length \[s\]: doubled while there are too many of
-/// them in a frame, halved while there are too many frames in it.
-pub(super) fn tick_for_frames(mut tick: f64, frame: f64) -> f64 {
-    while frame > MOST_IN_A_FRAME * tick {
+/// Returns a tick \[s\] in the order of magnitude of frames of this length \[s\]: doubled while there are more
+/// than `most` in a frame, halved while there are too many frames in it.
+pub(super) fn tick_for_frames(mut tick: f64, frame: f64, most: f64) -> f64 {
+    while frame > most * tick * (1.0 + ROUNDING) {
         tick *= 2.0;
     }
-    while tick > MOST_FRAMES * frame {
+    while tick > MOST_FRAMES * frame * (1.0 + ROUNDING) {
         tick *= 0.5;
     }
     tick

@@ -10,6 +10,7 @@ use super::events::{Event, NextEvents, PackedTarget, Prediction, Schedule, Upcom
 use super::flights::{Flights, Species, StepLimits};
 use super::frame_work::FrameWork;
 use super::neighbours::{NeighbourBuffer, Neighbours};
+use super::ticks::{MOST_ZONE_TICKS, tick_for_frames};
 use super::watch::Watch;
 use super::zone::Zone;
 use crate::settings::Exact;
@@ -69,6 +70,13 @@ impl Timeline {
     /// The next force tick, on the world's clock \[s\]; infinite if no force changes with where spheres are.
     pub(super) fn next_force_tick(&self) -> f64 {
         if self.flights.forces_vary { self.held_until } else { f64::INFINITY }
+    }
+
+    /// Time between two ticks of zones in the present frame \[s\].
+    pub(super) fn zone_tick(&self) -> f64 {
+        let [start, end] = self.frame;
+        let tick = self.parameters.zone_tick;
+        if end > start { tick_for_frames(tick, end - start, MOST_ZONE_TICKS) } else { tick }
     }
 
     /// Whether friction acts, so that spins change.

@@ -118,14 +118,21 @@ impl Zone {
     ) -> f64 {
         let index = index as usize;
         if self.is_empty() {
-            let turning = halvings_for_turning(system.surfaces, tick);
-            self.halvings = halvings_for_springs(spring_rate, tick).max(turning);
+            self.halvings = halvings_for_all(system, [tick, spring_rate]);
         }
         self.halvings = self.halvings.max(halvings_for(system, index, tick));
         if self.is_empty() || self.ticks[1] == f64::INFINITY {
             self.ticks = [time, first_tick_after(time, self.part_of(tick))];
         }
         self.ticks[1]
+    }
+
+    /// Has the ticks after the next one be `tick` \[s\] apart, or parts of that as in [`Self::expect`].
+    pub fn follow_tick(&mut self, system: &System, [tick, spring_rate]: [f64; 2]) {
+        let of_sphere = |index: u32| halvings_for(system, index as usize, tick);
+        let of_spheres = self.indices(&system.spheres.id).into_iter().map(of_sphere);
+        let of_all = halvings_for_all(system, [tick, spring_rate]);
+        self.halvings = of_spheres.fold(of_all, u32::max);
     }
 
     /// Takes in a sphere that was expected. Its velocity changes steadily from that `since` it joined \[s\] to
@@ -394,6 +401,12 @@ fn rotation_between(
     let orientation = *before.orientation.get(place)?;
     let velocities = [before, after].map(|spin| spin.angular_velocity[place]);
     Some(Rotation::between(orientation, velocities, [now, next]))
+}
+
+/// How often a tick \[s\] is to be halved for springs, on which motion has a rate \[1/s\], and for surfaces that
+/// turn.
+fn halvings_for_all(system: &System, [tick, spring_rate]: [f64; 2]) -> u32 {
+    halvings_for_springs(spring_rate, tick).max(halvings_for_turning(system.surfaces, tick))
 }
 
 /// How often a tick \[s\] is to be halved for surfaces that turn.
