@@ -324,6 +324,11 @@ impl Collider {
         Self { user_data, ..self }
     }
 
+    /// Returns the pose that its motion has it in at a time on the world's clock \[s\]; without a motion its pose.
+    pub fn pose_at(&self, time: f64) -> Pose {
+        Course::of(self, time).map_or(self.pose, |course| course.place(0.0).0)
+    }
+
     pub(crate) fn validate(&self) -> Result<(), InvalidValue> {
         self.shape.validate()?;
         self.pose.validate()?;

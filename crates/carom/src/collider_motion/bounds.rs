@@ -50,7 +50,9 @@ impl MotionBounds {
                     bounds.turned((state.offset - pivot).norm(), angle, derivatives)
                 }
             };
-            state = state.carried_by(part, time);
+            if motion.turns() {
+                state = state.carried_by(part, time);
+            }
         }
         bounds
     }
@@ -108,7 +110,8 @@ mod tests {
         let turn = MotionPart::Turn { axis: DVec3::Y, pivot, rate: 1.3 };
         let swing = MotionPart::Swing { axis, pivot, amplitude: 0.6, frequency: 0.2, phase: 1.0 };
         let steady = MotionPart::Steady { velocity: DVec3::new(0.1, 0.2, 0.3) };
-        for parts in [vec![oscillate], vec![turn], vec![steady, turn, swing], vec![swing, oscillate]]
+        for parts in
+            [vec![oscillate], vec![turn], vec![steady, turn, swing], vec![swing, oscillate]]
         {
             let motion = Motion::new(parts);
             let (length, h) = (10.0, 1e-3);
@@ -126,7 +129,8 @@ mod tests {
                     .chain([now.angular_acceleration, spin_jerk]);
                 most.iter_mut().zip(sizes).for_each(|(most, it)| *most = most.max(it.norm()));
             }
-            let MotionBounds { speed, acceleration, jerk, spin, spin_growth, spin_jerk, .. } = bounds;
+            let MotionBounds { speed, acceleration, jerk, spin, spin_growth, spin_jerk, .. } =
+                bounds;
             assert!(way <= bounds.way, "{way} {bounds:?}");
             for (most, bound) in
                 most.into_iter().zip([speed, acceleration, jerk, spin, spin_growth, spin_jerk])

@@ -28,6 +28,8 @@ struct Relative {
     arm: DVec3,
     velocity: DVec3,
     acceleration: DVec3,
+    /// Of the path alone \[m/s²\].
+    own: DVec3,
     size: Magnitudes,
     body: Kinematics,
 }
@@ -36,7 +38,8 @@ impl Relative {
     /// `ξ'' - 2 ω×ξ' + ω×(ω×ξ) - ω'×ξ`
     fn felt(&self) -> DVec3 {
         let (spin, growth) = (self.body.angular_velocity, self.body.angular_acceleration);
-        self.acceleration - spin.cross(2.0 * self.velocity - spin.cross(self.arm))
+        self.acceleration
+            - spin.cross(2.0 * self.velocity - spin.cross(self.arm))
             - growth.cross(self.arm)
     }
 }
@@ -82,6 +85,7 @@ impl<'a, P: Path> Driven<'a, P> {
             arm: position - (body.offset - self.start.offset),
             velocity: velocity - body.velocity,
             acceleration: acceleration - body.acceleration,
+            own: acceleration,
             size,
             body,
         }
@@ -92,12 +96,11 @@ impl<'a, P: Path> Driven<'a, P> {
         self.course.turns().then(|| self.start.rotation * body.rotation.conjugate())
     }
 
-    fn most(&self, from: f64, to: f64) -> Most {
-        let (now, ahead) = (self.relative(from), to - from);
+    fn most(&self, now: &Relative, [from, to]: [f64; 2]) -> Most {
+        let ahead = to - from;
         let body = self.course.bounds(from, ahead);
-        let own = self.path.state_at(from).acceleration.norm();
         let growth = self.path.growth(to);
-        let own = own + growth * ahead;
+        let own = now.own.norm() + growth * ahead;
         let acceleration = own + body.acceleration;
         let speed = now.velocity.norm();
         Most {
@@ -137,7 +140,8 @@ impl<P: Path> Path for Driven<'_, P> {
     }
 
     fn max_acceleration(&self, direction: DVec3, from: f64, to: f64) -> f64 {
-        let (now, most) = (self.relative(from), self.most(from, to));
+        let now = self.relative(from);
+        let most = self.most(&now, [from, to]);
         let direction = self.back(&now.body).map_or(direction, |it| it.conjugate() * direction);
         let by_jerk = direction.dot(now.felt()) + most.felt_jerk() * (to - from);
         let by_size = if self.course.turns() {
@@ -149,11 +153,11 @@ impl<P: Path> Path for Driven<'_, P> {
     }
 
     fn max_acceleration_anywhere(&self, from: f64, to: f64) -> f64 {
-        self.most(from, to).felt()
+        self.most(&self.relative(from), [from, to]).felt()
     }
 
     fn growth(&self, to: f64) -> f64 {
-        self.most(0.0, to).felt_jerk()
+        self.most(&self.relative(0.0), [0.0, to]).felt_jerk()
     }
 
     fn window(&self) -> f64 {

@@ -114,8 +114,7 @@ impl Crossing<'_> {
             let horizon = self.leg.to - from;
             let course = self.course(target, from);
             let course = course.as_ref();
-            let delay =
-                contact_time::track_surface(&track, 0.0, &front, &motion, course, horizon)?;
+            let delay = contact_time::track_surface(&track, 0.0, &front, &motion, course, horizon)?;
             let time = from + delay;
             let (form, _) = self.place(target, time);
             let place = self.leg.flight_from(time).position - target.shift;
@@ -229,8 +228,8 @@ impl Crossing<'_> {
             let (_, motion) = self.place(target, now);
             let SurfaceMotion { origin, velocity, angular_velocity, .. } = motion;
             let bounds = self.course(target, now).map(|course| course.bounds(0.0, h));
-            let (speed, spin) = bounds
-                .map_or((velocity.norm(), angular_velocity.norm()), |it| (it.speed, it.spin));
+            let (speed, spin) =
+                bounds.map_or((velocity.norm(), angular_velocity.norm()), |it| (it.speed, it.spin));
             let reach = (position - target.shift - origin).norm() + h * (own + speed);
             speed + spin * (reach + self.leg.radius)
         };

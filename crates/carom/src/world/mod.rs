@@ -342,8 +342,8 @@ impl World {
         Ok(())
     }
 
-    /// Sets the clock. Only emitters, and forces that depend on time, tell one time from another; but
-    /// times round differently. A run that sets the clock back depends to the bit on nothing before.
+    /// Sets the clock. Only emitters, motions of colliders and forces that depend on time tell one time from another;
+    /// but times round differently. A run that sets the clock back depends to the bit on nothing before.
     ///
     /// # Errors
     /// [`Error::Invalid`] if the time is not finite, or there are emitters, which count it.
@@ -438,7 +438,7 @@ impl World {
         Ok(())
     }
 
-    /// Puts a collider elsewhere, at once: it has no velocity that spheres could feel.
+    /// Puts a collider elsewhere, at once: it has no velocity that spheres could feel. A motion goes along.
     ///
     /// # Errors
     /// As [`Self::set_collider`].

@@ -270,20 +270,18 @@ fn meet_surfaces(
         // The way of a surface that turns or does not move steadily is searched to the end of the frame at most.
         let until = if course.is_some() {
             timeline.frame[1].min(flight_end)
-        } else if turns { timeline.frame[1].min(horizon) } else { horizon };
+        } else if turns {
+            timeline.frame[1].min(horizon)
+        } else {
+            horizon
+        };
         if until < start {
             continue;
         }
         let track = timeline.flights.track_from(slot, start).shifted(-shift);
         let (radius, horizon) = (species.radius, until - start);
-        let delay = contact_time::track_surface(
-            &track,
-            radius,
-            &form,
-            &motion,
-            course.as_ref(),
-            horizon,
-        );
+        let delay =
+            contact_time::track_surface(&track, radius, &form, &motion, course.as_ref(), horizon);
         if let Some(delay) = delay {
             let target = PackedTarget::surface(number);
             events.add(Event::at(start + delay, target));

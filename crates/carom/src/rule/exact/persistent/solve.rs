@@ -156,7 +156,9 @@ fn add_closing(
 /// How far some normal turns in a piece of path of `valid_for` \[s\] at most \[rad\].
 fn most_turned(touches: &[Touch], valid_for: f64) -> f64 {
     let driven = touches.iter().filter(|touch| touch.drive_rate > 0.0);
-    driven.map(|touch| touch.form_spin().norm().max(touch.drive_rate) * valid_for).fold(TURN, f64::max)
+    driven
+        .map(|touch| touch.form_spin().norm().max(touch.drive_rate) * valid_for)
+        .fold(TURN, f64::max)
 }
 
 /// Stops what moves and accelerates by no more than rounding.
