@@ -34,8 +34,8 @@ pub struct Collider {
     /// Angular velocity about its centre, in rad/s.
     #[serde(default, skip_serializing_if = "is_default")]
     pub angular_velocity: Vector,
-    /// Motion about where it is at rest, instead of velocities: one, or a list of parts that act one after the other. By
-    /// default none.
+    /// Motion about where it is at rest, instead of velocities: one, or a list of parts that act one after the other.
+    /// By default none.
     #[schemars(with = "OneOrMore<Motion>")]
     #[serde(default, skip_serializing_if = "Vec::is_empty", with = "motion::one_or_more")]
     pub motion: Vec<Motion>,

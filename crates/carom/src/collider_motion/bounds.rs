@@ -68,8 +68,8 @@ impl MotionBounds {
         }
     }
 
-    /// Carried by a rotation by up to an angle \[rad\], with an arm \[m\] at the start, by the derivatives of its angle: the norms of the terms of
-    /// [`Kinematics`], and of their derivatives.
+    /// Carried by a rotation by up to an angle \[rad\], with an arm \[m\] at the start, by the derivatives of its
+    /// angle: the norms of the terms of [`Kinematics`], and of their derivatives.
     fn turned(self, arm: f64, angle: f64, [rate, growth, jerk]: [f64; 3]) -> Self {
         let Self { way, speed, acceleration, spin, spin_growth, .. } = self;
         // A chord is no longer than its arc, nor than the diameter.
