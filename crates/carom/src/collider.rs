@@ -1,13 +1,13 @@
 //! Fixed colliders: shapes that spheres bounce off.
 
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 
 use crate::collider_motion::{Course, Motion};
 use crate::error::InvalidValue;
 use crate::friction::Friction;
 use crate::groups::Groups;
 use crate::mesh::Mesh;
-use crate::rotation;
+use crate::pose::Pose;
 use crate::validate;
 
 /// Form of a collider in its own frame.
@@ -172,39 +172,6 @@ impl Sides {
     }
 }
 
-/// Where a collider is and how it is turned: `x_world = position + rotation x_local`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Pose {
-    /// Origin of the local frame \[m\].
-    pub position: DVec3,
-    /// Rotation from the local frame to the world; any length but zero.
-    pub rotation: DQuat,
-}
-
-impl Pose {
-    /// At a place \[m\], not turned.
-    pub fn at(position: DVec3) -> Self {
-        Self { position, rotation: DQuat::IDENTITY }
-    }
-
-    /// The same place, turned.
-    pub fn rotated(self, rotation: DQuat) -> Self {
-        Self { rotation, ..self }
-    }
-
-    /// The pose after moving on for `h` \[s\].
-    pub(crate) fn moved(self, velocity: DVec3, angular_velocity: DVec3, h: f64) -> Self {
-        let rotation = rotation::turned(self.rotation, angular_velocity, h);
-        Self { position: self.position + h * velocity, rotation }
-    }
-
-    pub(crate) fn validate(&self) -> Result<(), InvalidValue> {
-        validate::finite("position", self.position)?;
-        validate::rotation("rotation", self.rotation)
-    }
-}
-
 /// A shape somewhere in the world that never gives way, at rest or moved from outside.
 ///
 /// ```
@@ -326,7 +293,7 @@ impl Collider {
 
     /// Returns the pose that its motion has it in at a time on the world's clock \[s\]; without a motion its pose.
     pub fn pose_at(&self, time: f64) -> Pose {
-        Course::of(self, time).map_or(self.pose, |course| course.place(0.0).0)
+        self.course(time).map_or(self.pose, |course| course.place(0.0).0)
     }
 
     pub(crate) fn validate(&self) -> Result<(), InvalidValue> {
@@ -355,10 +322,15 @@ impl Collider {
         Ok(())
     }
 
+    /// Its motion from `time` \[s\] on; `None` if its velocities say how it moves.
+    pub(crate) fn course(&self, time: f64) -> Option<Course> {
+        (!self.motion.is_empty()).then(|| Course::new(self.motion.clone(), self.pose, time))
+    }
+
     /// Puts it where its motion has it at `time` \[s\]. One that comes to the world is at rest where it is; one that
     /// was put elsewhere takes its motion along.
     pub(crate) fn follow_motion(&mut self, time: f64) {
-        let Some(course) = Course::of(self, time) else { return };
+        let Some(course) = self.course(time) else { return };
         let (pose, motion) = course.place(0.0);
         (self.motion, self.pose) = (self.motion.about(course.rest(), pose), pose);
         (self.velocity, self.angular_velocity) = (motion.velocity, motion.angular_velocity);

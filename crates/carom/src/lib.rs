@@ -58,6 +58,7 @@ mod parallel;
 mod path;
 mod persistent_contact;
 mod polynomial_flight;
+mod pose;
 mod query;
 mod real;
 mod rectangle;
@@ -73,6 +74,7 @@ mod state;
 mod step;
 mod sum;
 mod surface;
+mod surface_motion;
 mod system;
 mod validate;
 mod work;
@@ -81,7 +83,7 @@ mod world;
 pub use glam::{DQuat, DVec3};
 
 pub use bodies::Spheres;
-pub use collider::{Collider, Ends, Pose, Shape, Sides};
+pub use collider::{Collider, Ends, Shape, Sides};
 pub use collider_motion::{Motion, MotionPart};
 pub use emitter::Emitter;
 pub use error::{Error, InvalidValue, Subject};
@@ -98,6 +100,7 @@ pub use id::{ColliderId, EmitterId, ForceId, SphereId, SpringId};
 pub use mesh::{Mesh, MeshError, MeshFaults};
 pub use path::{PathEnd, PathLeg, PredictedPath};
 pub use persistent_contact::PersistentContact;
+pub use pose::Pose;
 pub use query::{Body, Hit, NearBody, Queries, QueryFilter};
 pub use report::{
     BodyPair, ContactAccount, EnergyAccount, Impact, ImpactGroup, LedgerEntry, Overlap,

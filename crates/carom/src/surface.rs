@@ -3,15 +3,17 @@
 use glam::{DQuat, DVec2, DVec3};
 
 use crate::band::{Band, Profile};
-use crate::collider::{Collider, Pose, Shape, Sides};
+use crate::collider::{Collider, Shape, Sides};
 use crate::collider_motion::Course;
 use crate::friction::Friction;
 use crate::groups::Groups;
 use crate::id::ColliderId;
 use crate::mesh::{ClosedMesh, Corner, Edge, Facet, Features, Placement};
 use crate::norm::Norm;
+use crate::pose::Pose;
 pub(crate) use crate::rectangle::Rectangle;
 use crate::round_solid::{Outline, RoundSolid};
+pub(crate) use crate::surface_motion::SurfaceMotion;
 
 /// One surface of a collider in world coordinates, with what a contact needs to know of it.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,65 +33,11 @@ pub(crate) struct Surface {
     pub course: Option<Course>,
 }
 
-/// How a surface moves: it turns about `origin`, which moves itself.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(crate) struct SurfaceMotion {
-    /// Now \[m\].
-    pub origin: DVec3,
-    /// \[m/s\]
-    pub velocity: DVec3,
-    /// Along the axis of rotation \[rad/s\].
-    pub angular_velocity: DVec3,
-    /// How that changes, if it does.
-    pub drive: Option<Drive>,
-}
-
-/// How the motion of a surface changes.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(crate) struct Drive {
-    /// Of the origin \[m/s²\].
-    pub acceleration: DVec3,
-    /// \[rad/s²\]
-    pub angular_acceleration: DVec3,
-    /// A bound of the rate at which it repeats or turns \[rad/s\].
-    pub rate: f64,
-    /// Whether it turns at some time.
-    pub turns: bool,
-}
-
 impl SurfaceMotion {
-    /// Of a surface at rest.
-    pub const REST: Self = Self {
-        origin: DVec3::ZERO,
-        velocity: DVec3::ZERO,
-        angular_velocity: DVec3::ZERO,
-        drive: None,
-    };
-
     /// Of the surfaces of a collider, as if that went on steadily.
     pub fn of(collider: &Collider) -> Self {
         let Collider { pose, velocity, angular_velocity, .. } = *collider;
         Self { origin: pose.position, velocity, angular_velocity, drive: None }
-    }
-
-    /// Whether it never moves.
-    pub fn is_at_rest(&self) -> bool {
-        let is_slow = self.velocity == DVec3::ZERO && self.angular_velocity == DVec3::ZERO;
-        is_slow && self.drive.is_none()
-    }
-
-    /// Velocity \[m/s\] of the surface at a point of it.
-    pub fn velocity_at(&self, point: DVec3) -> DVec3 {
-        self.velocity + self.angular_velocity.cross(point - self.origin)
-    }
-}
-
-impl SurfaceMotion {
-    /// Whether directions change with it.
-    pub fn turns(&self) -> bool {
-        self.angular_velocity != DVec3::ZERO || self.drive.is_some_and(|it| it.turns)
     }
 
     /// Whether the place of a surface of this form changes by its turning.
@@ -105,48 +53,6 @@ impl SurfaceMotion {
         } else {
             DVec3::ZERO
         }
-    }
-
-    /// Acceleration \[m/s²\], as seen from the surface, of what flies at a point without forces, with this velocity \[m/s\].
-    pub fn swing(&self, point: DVec3, velocity: DVec3) -> DVec3 {
-        if !self.turns() {
-            return DVec3::ZERO;
-        }
-        let turning = self.angular_velocity;
-        let beside = velocity - self.velocity_at(point);
-        -turning.cross(2.0 * beside + turning.cross(point - self.origin))
-    }
-
-    /// A direction that turns along, after `h` \[s\].
-    pub fn turned(&self, direction: DVec3, h: f64) -> DVec3 {
-        if !self.turns() {
-            return direction;
-        }
-        Pose::at(DVec3::ZERO).moved(DVec3::ZERO, self.angular_velocity, h).rotation * direction
-    }
-
-    /// Where a point \[m\] that moves along is after `h` \[s\].
-    pub fn carried(&self, point: DVec3, h: f64) -> DVec3 {
-        if !self.turns() {
-            return point + h * self.velocity;
-        }
-        self.origin + h * self.velocity + self.turned(point - self.origin, h)
-    }
-
-    /// Where a point \[m\] was that has moved along for `h` \[s\].
-    pub fn carried_back(&self, point: DVec3, h: f64) -> DVec3 {
-        if !self.turns() {
-            return point - h * self.velocity;
-        }
-        self.origin + self.turned(point - h * self.velocity - self.origin, -h)
-    }
-
-    /// Velocity \[m/s\] after `h` \[s\] of the surface at a point that is there then.
-    pub fn velocity_after(&self, point: DVec3, h: f64) -> DVec3 {
-        if !self.turns() {
-            return self.velocity;
-        }
-        self.velocity + self.angular_velocity.cross(point - h * self.velocity - self.origin)
     }
 }
 
@@ -339,7 +245,7 @@ pub(crate) struct SolidBox {
 /// encloses before its faces.
 pub(crate) fn place(id: ColliderId, collider: &Collider, time: f64, surfaces: &mut Vec<Surface>) {
     let Collider { ref shape, pose, restitution, friction, trigger, kick, groups, .. } = *collider;
-    let course = Course::of(collider, time);
+    let course = collider.course(time);
     let motion = match &course {
         Some(course) => course.place(0.0).1,
         None => SurfaceMotion::of(collider),

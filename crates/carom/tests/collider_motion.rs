@@ -489,3 +489,28 @@ fn snapshot_goes_on_with_the_same_bits() {
     assert_eq!(world.state_hash(), other.state_hash());
     assert!(matches!(impacts(&mut world, 1.0 / 60.0, 3.0)[0].between, BodyPair::Collider { .. }));
 }
+
+#[test]
+fn step_takes_a_collider_to_its_next_pose_and_hits_with_the_speed_of_that() {
+    let mut world = world(exact());
+    let size = vec(1.0, 0.1, 0.2);
+    let id = world.add_collider(Collider::new(Shape::Box { size }, Pose::at(DVec3::ZERO))).unwrap();
+    let ball = world.add_sphere(Sphere::new(vec(0.4, 0.2, 0.0), 0.1)).unwrap();
+    let turned = DQuat::from_rotation_z(0.5);
+    let pose = Pose::at(vec(0.0, 0.02, 0.0)).rotated(turned);
+    world.set_next_pose(id, pose, 0.1).unwrap();
+    let report = world.step(0.1).unwrap();
+    let impact = report.impacts[0];
+    let surface = vec(0.0, 0.2, 0.0)
+        + vec(0.0, 0.0, 5.0).cross(impact.point - impact.time * vec(0.0, 0.2, 0.0));
+    assert_close(impact.approach_speed, surface.dot(impact.normal), 1e-12);
+    let there = world.collider(id).unwrap().pose;
+    assert!((there.position - pose.position).length() < 1e-15, "{there:?}");
+    assert!((there.rotation - turned).length() < 1e-15, "{there:?}");
+    assert!(world.sphere(ball).unwrap().velocity.y > 2.0);
+    assert!(world.set_next_pose(id, pose, 0.0).unwrap_err().to_string().contains("dt"));
+    let mut driven = world.collider(id).unwrap().with_motion([oscillate(DVec3::Y, 1.0, 1.0, 0.0)]);
+    driven.restitution = 0.5;
+    world.set_collider(id, driven).unwrap();
+    assert!(world.set_next_pose(id, pose, 0.1).unwrap_err().to_string().contains("motion"));
+}

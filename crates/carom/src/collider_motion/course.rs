@@ -4,8 +4,9 @@ use glam::{DQuat, DVec3};
 
 use super::kinematics::Moment;
 use super::{Kinematics, Motion, MotionBounds};
-use crate::collider::{Collider, Pose};
-use crate::surface::{Drive, SurfaceMotion};
+use crate::pose::Pose;
+use crate::rotation;
+use crate::surface_motion::{Drive, SurfaceMotion};
 
 /// The motion of a collider from some time on.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,18 +19,14 @@ pub(crate) struct Course {
 }
 
 impl Course {
-    /// That of a collider from `time` \[s\] on; `None` if its velocities say how it moves. One that its motion has not
-    /// put where it is now has its pose at rest elsewhere, so that it is there.
-    pub fn of(collider: &Collider, time: f64) -> Option<Self> {
-        let Collider { motion, pose, .. } = collider;
-        if motion.is_empty() {
-            return None;
-        }
-        let rest = motion.rest().unwrap_or(*pose);
-        let course = Self { motion: motion.clone(), rest, time: [time, 0.0] };
-        let is_elsewhere = motion.rest().is_some() && !motion.has_put(*pose);
-        let rest = if is_elsewhere { course.rest_for(*pose) } else { rest };
-        Some(Self { rest, ..course })
+    /// Of a collider that is in a pose now, at `time` \[s\]. If its motion has not put it there, its pose at rest is
+    /// elsewhere, so that it is there.
+    pub fn new(motion: Motion, pose: Pose, time: f64) -> Self {
+        let rest = motion.rest().unwrap_or(pose);
+        let is_elsewhere = motion.rest().is_some() && !motion.has_put(pose);
+        let course = Self { motion, rest, time: [time, 0.0] };
+        let rest = if is_elsewhere { course.rest_for(pose) } else { rest };
+        Self { rest, ..course }
     }
 
     /// The same motion from `h` \[s\] later on.
@@ -85,7 +82,7 @@ impl Course {
         let h = to - from;
         let velocity = (end.position - start.position) / h;
         let angular_velocity = if self.turns() {
-            rotation_vector(end.rotation * start.rotation.conjugate()) / h
+            rotation::vector_of(end.rotation * start.rotation.conjugate()) / h
         } else {
             DVec3::ZERO
         };
@@ -122,15 +119,4 @@ impl Course {
         };
         Pose { position: pose.position - state.offset, rotation }
     }
-}
-
-/// The axis of the shorter way of a rotation, times its angle \[rad\].
-fn rotation_vector(rotation: DQuat) -> DVec3 {
-    let forward = if rotation.w < 0.0 { -rotation } else { rotation };
-    let across = DVec3::new(forward.x, forward.y, forward.z);
-    let sine = across.dot(across).sqrt();
-    if sine == 0.0 {
-        return DVec3::ZERO;
-    }
-    across * (2.0 * libm::atan2(sine, forward.w) / sine)
 }

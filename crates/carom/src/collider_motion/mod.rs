@@ -13,9 +13,9 @@ pub(crate) use bounds::MotionBounds;
 pub(crate) use course::Course;
 pub(crate) use kinematics::Kinematics;
 
-use crate::collider::Pose;
 use crate::error::InvalidValue;
 use crate::norm::Norm;
+use crate::pose::Pose;
 use crate::validate;
 
 /// A part of the motion of a collider.

@@ -2,6 +2,7 @@
 
 mod forces;
 mod measures;
+mod poses;
 mod queries;
 pub(crate) mod snapshot;
 #[cfg(feature = "serde")]
@@ -10,7 +11,7 @@ mod written;
 use glam::DVec3;
 
 use crate::bodies::Spheres;
-use crate::collider::{Collider, Pose};
+use crate::collider::Collider;
 use crate::emitter::{Emitter, EmitterState};
 use crate::error::{Error, Subject};
 use crate::id::{ColliderId, EmitterId, SphereId};
@@ -436,14 +437,6 @@ impl World {
         }
         self.state.colliders_mut().set(changes);
         Ok(())
-    }
-
-    /// Puts a collider elsewhere, at once: it has no velocity that spheres could feel. A motion goes along.
-    ///
-    /// # Errors
-    /// As [`Self::set_collider`].
-    pub fn set_pose(&mut self, id: ColliderId, pose: Pose) -> Result<(), Error> {
-        self.set_collider(id, Collider { pose, ..self.collider(id)? })
     }
 
     /// Takes a collider out of the world and returns it.
