@@ -193,8 +193,9 @@ export type End = "bottom" | "top";
 export type Side = "left" | "right" | "bottom" | "top" | "back" | "front";
 
 /**
- * A part of the motion of a collider, as a function of time. Axes are directions; by default up. A pivot is a point of
- * the axis, from the position of the collider [m]; default: there. Phases are those at the start; default: 0.
+ * A part of the motion of a collider, as a function of time. Axes are directions; default: up. A
+ * pivot is a point of the axis, from the position of the collider [m]; default: there. Phases are
+ * those at the start; default: 0.
  */
 export type Motion =
   | { steady: { velocity: Vector } }
