@@ -14,7 +14,7 @@ motion = { oscillate = { amplitude = '2 mm', frequency = '50 Hz', phase_degrees 
 [[colliders]]
 shape = { box = { size = [1, 0.1, 1] } }
 motion = [
-    { turn = { axis = [0, 0, 1], pivot = [0.5, 0, 0], rate = '30 rpm' } },
+    { turn = { axis = [0, 0, 1], pivot = [0.5, 0, 0], rate = '90 deg/s' } },
     { swing = { axis = [0, 0, 2], amplitude_degrees = 180, frequency = 0.5 } },
     { steady = { velocity = [1, 0, 0] } },
 ]
@@ -38,7 +38,7 @@ fn motions_reach_the_world_in_its_units() {
     // At its highest.
     assert_eq!(colliders[0].pose.position, DVec3::new(0.0, -0.998, 0.0));
     let pivot = DVec3::new(0.5, 0.0, 0.0);
-    let turn = MotionPart::Turn { axis: DVec3::Z, pivot, rate: PI };
+    let turn = MotionPart::Turn { axis: DVec3::Z, pivot, rate: FRAC_PI_2 };
     let swing = MotionPart::Swing {
         axis: 2.0 * DVec3::Z,
         pivot: DVec3::ZERO,
