@@ -9,6 +9,8 @@ use crate::shell::{Outcome, root};
 const WORDS: [&str; 5] = ["whoever", "nobody", "reckoned", "vicinity", "outlook"];
 /// Openings that refer to another comment.
 const OPENINGS: [&str; 3] = ["Likewise", "As there.", "The same."];
+/// Openings of doc comments that say less than "Returns", "Applies" or "Moves".
+const DOC_OPENINGS: [&str; 3] = ["Gives ", "In which ", "Tells "];
 /// Phrases without an actor, or with a wrong term.
 const PHRASES: [&str; 12] = [
     "are asked",
@@ -75,7 +77,9 @@ fn fault_of(line: &str) -> Option<&'static str> {
     }
     let marks = |letter: char| "/!*#\"-| ".contains(letter);
     let text = line.trim_start_matches(marks);
-    OPENINGS.into_iter().find(|opening| text.starts_with(opening))
+    let is_doc = ["/// ", "//! "].iter().any(|mark| line.trim_start().starts_with(mark));
+    let of_docs = DOC_OPENINGS.iter().filter(|_| is_doc);
+    OPENINGS.iter().chain(of_docs).copied().find(|opening| text.starts_with(opening))
 }
 
 /// Returns the refused phrase of a line, if there is one; capitals do not matter.
@@ -109,6 +113,8 @@ mod tests {
         assert_eq!(fault_of("    // Nobody reads it, so"), Some("nobody"));
         assert_eq!(fault_of("the times, reckoned anew"), Some("reckoned"));
         assert_eq!(fault_of("/// The same. For all."), Some("The same."));
+        assert_eq!(fault_of("    /// Gives the time."), Some("Gives "));
+        assert_eq!(fault_of("// Gives the time."), None);
     }
 
     #[test]

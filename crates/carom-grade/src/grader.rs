@@ -122,7 +122,7 @@ impl Grader {
         let plain = self.case(Form::SAME, recorded);
         let (plain_fit, _) = self.compare(&plain, base);
         if plain_fit.departure.is_none() {
-            return self.graded(Found::of(plain, base));
+            return self.graded(Findings::of(plain, base));
         }
         let deviation = scatter::deviation(recorded);
         let measured = deviation.map_or(base, |it| base.max(scatter::tolerance(it)));
@@ -131,21 +131,22 @@ impl Grader {
         let strict = self.compare(&case, base).0;
         let deviation = deviation.filter(|_| measured > base).map(|it| it * case.form.length());
         let Some(deviation) = deviation.filter(|_| strict.departure.is_some()) else {
-            return self.explained(Found::of(case, base), &strict);
+            return self.explained(Findings::of(case, base), &strict);
         };
         let tolerance = scatter::tolerance(deviation).max(base);
         let scatter = Some(Scatter { deviation, tolerance });
-        let wide = self.explained(Found { scatter, ..Found::of(case.clone(), tolerance) }, &fit);
+        let wide =
+            self.explained(Findings { scatter, ..Findings::of(case.clone(), tolerance) }, &fit);
         // What is left must be the scatter: motion that the estimate did not remove is none.
         let left = wide.deviation(tolerance);
         if left.is_some_and(|left| left < OF_SCATTER * deviation && OF_SCATTER * left > deviation) {
             return wide.with_deviation(left);
         }
-        self.explained(Found::of(case, base), &strict)
+        self.explained(Findings::of(case, base), &strict)
     }
 
     /// Searches for the causes of a departure, if there is one.
-    fn explained(&self, mut found: Found, fit: &Fit) -> Graded {
+    fn explained(&self, mut found: Findings, fit: &Fit) -> Graded {
         if fit.departure.is_some() {
             (found.candidates, found.explaining) = self.explanations(&found, fit);
         }
@@ -153,7 +154,7 @@ impl Grader {
     }
 
     /// Makes the verdict.
-    fn graded(&self, found: Found) -> Graded {
+    fn graded(&self, found: Findings) -> Graded {
         let (fit, rounding) = self.compare(&found.case, found.tolerance);
         let course = &self.course;
         let explain = |it: Candidate| Explanation::new(it, &fit, found.tolerance, course);
@@ -329,7 +330,7 @@ impl Grader {
 
     /// Finds what explains a run better than the course's rule does, the best first, and the run of
     /// the best.
-    fn explanations(&self, found: &Found, right: &Fit) -> (Vec<Candidate>, Option<Tracks>) {
+    fn explanations(&self, found: &Findings, right: &Fit) -> (Vec<Candidate>, Option<Tracks>) {
         let rows = self.rows(&found.case, found.tolerance);
         let rule = self.rule(&found.case.recorded);
         let display = display_times(&self.course, &found.case.recorded);
@@ -419,7 +420,7 @@ impl Graded {
 }
 
 /// What was found about a run.
-struct Found {
+struct Findings {
     case: Case,
     /// Allowed error \[m\], without that by rounding.
     tolerance: f64,
@@ -430,7 +431,7 @@ struct Found {
     explaining: Option<Tracks>,
 }
 
-impl Found {
+impl Findings {
     fn of(case: Case, tolerance: f64) -> Self {
         Self { case, tolerance, scatter: None, candidates: Vec::new(), explaining: None }
     }

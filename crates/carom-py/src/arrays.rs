@@ -26,7 +26,7 @@ pub struct Arrays {
 
 /// Arrays of quantities that a script has read, indexed by [`Quantity`].
 #[derive(Debug, Default)]
-pub struct Quantities([Option<Shown>; Quantity::ALL.len()]);
+pub struct Quantities([Option<ArrayView>; Quantity::ALL.len()]);
 
 impl Quantities {
     /// Returns the array of a quantity for Python. If it does not exist, it is made with this shape
@@ -44,7 +44,7 @@ impl Quantities {
         }
         let mut values = vec![0.0; shape.iter().product()];
         fill(&mut values);
-        Ok(place.insert(Shown::new(py, values, shape)?).view(py))
+        Ok(place.insert(ArrayView::new(py, values, shape)?).view(py))
     }
 
     /// Calls `fill` for the existing arrays of these quantities.
@@ -93,13 +93,13 @@ impl Quantities {
 
 /// An array, and the view of it that Python gets.
 #[derive(Debug)]
-struct Shown {
+struct ArrayView {
     own: Py<PyArrayDyn<f64>>,
     /// A view of the same memory. A script can make it read-only, and the world can still write.
     view: Py<PyAny>,
 }
 
-impl Shown {
+impl ArrayView {
     /// Makes an array of these values.
     fn new(py: Python<'_>, values: Vec<f64>, shape: Vec<usize>) -> PyResult<Self> {
         let own = PyArray1::from_vec(py, values).reshape(shape)?;

@@ -56,7 +56,10 @@ impl Engine {
     /// spheres as arrays, then the springs as JSON. In that scene time starts at 0, and emitters
     /// start again.
     #[pyo3(name = "_scene")]
-    fn scene<'py>(&self, py: Python<'py>) -> PyResult<(String, points::Told<'py>, String)> {
+    fn scene<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(String, points::SphereColumns<'py>, String)> {
         let inner = &mut *self.lock(py)?;
         inner.follow_colors();
         let mut scene = (*inner.described).clone();
@@ -69,7 +72,7 @@ impl Engine {
             scene.simulation.allow_overlap = whole.world().is_err();
         }
         let springs = json(&Spring::all_of(&inner.world))?;
-        Ok((scene.to_toml(), points::told(py, &inner.world, &inner.palette)?, springs))
+        Ok((scene.to_toml(), points::columns(py, &inner.world, &inner.palette)?, springs))
     }
 }
 

@@ -14,7 +14,7 @@ use pyo3::prelude::*;
 use crate::arguments;
 use crate::failure::Failure;
 use crate::graphics_failure::raised;
-use crate::look::{Sight, View};
+use crate::picture_settings::{PictureSettings, View};
 use crate::running::whole_frames;
 use crate::scenes;
 use crate::stop::PATIENCE;
@@ -33,22 +33,22 @@ pub fn film_scene(
     frame_rate: &Bound<'_, PyAny>,
     view: View<'_>,
 ) -> PyResult<u64> {
-    let sight = Sight::read(&view)?;
+    let settings = PictureSettings::read(&view)?;
     let seconds = arguments::optional_number("seconds", seconds)?;
     // A rate that does not fit is refused with the message for all invalid rates.
     let fps = u32::try_from(arguments::count("frame_rate", frame_rate)?).unwrap_or(u32::MAX);
     let mut scene = scenes::in_code(text).map_err(Failure::of_part)?;
     let seconds = seconds.unwrap_or(scene.simulation.duration);
-    sight.apply(&mut scene);
+    settings.apply(&mut scene);
     let order = Order { path: &path, fps };
-    py.detach(|| film(scene, order, seconds, sight))
+    py.detach(|| film(scene, order, seconds, settings))
 }
 
 /// Makes the film while other threads of Python run.
-fn film(scene: Scene, order: Order, seconds: f64, sight: Sight) -> PyResult<u64> {
+fn film(scene: Scene, order: Order, seconds: f64, settings: PictureSettings) -> PyResult<u64> {
     let fps = f64::from(order.fps);
     let mut stepped = Stepped::new(scene).map_err(Failure::from)?;
-    let mut studio = Studio::new(sight.look).map_err(|error| raised(error.into()))?;
+    let mut studio = Studio::new(settings.look).map_err(|error| raised(error.into()))?;
     let mut filming = Filming::begin(order, &mut stepped, &mut studio).map_err(raised)?;
     // A film needs at least one frame.
     let frames = whole_frames(seconds, 1.0 / fps)?.max(1);

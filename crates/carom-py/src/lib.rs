@@ -29,8 +29,6 @@ mod film;
 #[cfg(feature = "pictures")]
 mod graphics_failure;
 mod imports;
-#[cfg(feature = "pictures")]
-mod look;
 mod maze;
 mod motion;
 mod next_event;
@@ -38,6 +36,8 @@ mod next_event;
 mod painter;
 mod pairs;
 mod part;
+#[cfg(feature = "pictures")]
+mod picture_settings;
 mod points;
 mod predicted_path;
 mod properties;

@@ -16,7 +16,7 @@ use pyo3::types::PyBytes;
 
 use crate::engine::{Engine, Inner};
 use crate::graphics_failure::raised;
-use crate::look::{Sight, View};
+use crate::picture_settings::{PictureSettings, View};
 
 /// The renderer behind `carom.Renderer`: a graphics device that stays open, and a camera.
 ///
@@ -37,9 +37,9 @@ impl Painter {
     /// Makes a renderer whose camera suits the present world.
     #[new]
     fn new(py: Python<'_>, world: &Engine, view: View<'_>) -> PyResult<Self> {
-        let sight = Sight::read(&view)?;
+        let settings = PictureSettings::read(&view)?;
         let inner = &mut *world.lock(py)?;
-        let easel = py.detach(|| Easel::new(&sight, inner)).map_err(raised)?;
+        let easel = py.detach(|| Easel::new(&settings, inner)).map_err(raised)?;
         Ok(Self(Mutex::new(easel)))
     }
 
@@ -79,11 +79,11 @@ impl Painter {
 }
 
 impl Easel {
-    fn new(sight: &Sight, inner: &mut Inner) -> Result<Self, ShootError> {
-        let mut studio = Studio::new(sight.look.clone())?;
+    fn new(settings: &PictureSettings, inner: &mut Inner) -> Result<Self, ShootError> {
+        let mut studio = Studio::new(settings.look.clone())?;
         inner.follow_colors();
         let mut scene = (*inner.described).clone();
-        sight.apply(&mut scene);
+        settings.apply(&mut scene);
         let mut still = Still { scene: &scene, world: &inner.world, palette: &inner.palette };
         let camera = studio.camera(&mut still, inner.world.time())?;
         Ok(Self { studio, camera })

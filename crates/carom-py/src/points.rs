@@ -24,7 +24,7 @@ pub type Given<'py> = (
 );
 
 /// Quantities, colours, finishes and labels as in [`Given`].
-pub type Told<'py> = (
+pub type SphereColumns<'py> = (
     Vec<Bound<'py, PyArrayDyn<f64>>>,
     Option<Bound<'py, PyArrayDyn<f64>>>,
     Option<Vec<String>>,
@@ -74,7 +74,11 @@ pub fn described((spheres, paints): (Vec<Sphere>, Vec<Paint>)) -> Vec<scene::Sph
 ///
 /// # Errors
 /// If NumPy has no memory for them.
-pub fn told<'py>(py: Python<'py>, world: &World, palette: &Palette) -> PyResult<Told<'py>> {
+pub fn columns<'py>(
+    py: Python<'py>,
+    world: &World,
+    palette: &Palette,
+) -> PyResult<SphereColumns<'py>> {
     let spheres = world.spheres();
     let array = |quantity: Quantity| {
         let shape = quantity.shape(spheres.len());

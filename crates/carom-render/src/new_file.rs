@@ -30,7 +30,7 @@ impl NewFile {
         Ok(Self { file, path, unfinished: Some(unfinished) })
     }
 
-    /// Gives the file its name and replaces a file that had it.
+    /// Renames the file to its final name, and replaces a file of that name.
     pub fn complete(mut self) -> io::Result<()> {
         let Some(unfinished) = &self.unfinished else {
             return self.file.flush();

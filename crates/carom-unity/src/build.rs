@@ -10,7 +10,7 @@ use crate::error::{ImportError, Place};
 use crate::graph::Node;
 use crate::look;
 use crate::mapping::{EmitterFields, ForceFields, SphereFields};
-use crate::material::{self, Look};
+use crate::material::{self, Appearance};
 use crate::parts::Parts;
 use crate::pose::{mirrored, mirrored_rotation};
 use crate::project::Project;
@@ -33,7 +33,7 @@ pub(crate) struct Building<'a> {
     /// Mass of spheres whose script states none \[kg\].
     mass: Option<f64>,
     /// Looks of materials, by guid.
-    looks: BTreeMap<String, Option<Look>>,
+    looks: BTreeMap<String, Option<Appearance>>,
 }
 
 impl<'a> Building<'a> {
@@ -263,11 +263,11 @@ impl<'a> Building<'a> {
         self.placed.push((placed, node.clone()));
     }
 
-    /// Look of an object, by its first material.
-    pub fn look(&mut self, node: &Node, parts: &Parts<'_>) -> Result<Look, ImportError> {
+    /// Appearance of an object, by its first material.
+    pub fn look(&mut self, node: &Node, parts: &Parts<'_>) -> Result<Appearance, ImportError> {
         /// Start of the guids of files that come with Unity.
         const BUILT_IN: &str = "0000000000000000";
-        let plain = |visible| Look { color: None, finish: Finish::default(), visible };
+        let plain = |visible| Appearance { color: None, finish: Finish::default(), visible };
         let Some(renderer) = parts.renderer else { return Ok(plain(false)) };
         let enabled = renderer.fields.get("m_Enabled").and_then(Value::text) != Some("0");
         let materials = renderer.fields.get("m_Materials").map(Value::items).unwrap_or_default();
@@ -294,7 +294,7 @@ impl<'a> Building<'a> {
         }
         self.looks.insert(guid, look.clone());
         let look = look.unwrap_or_else(|| plain(true));
-        Ok(Look { visible: enabled && look.visible, ..look })
+        Ok(Appearance { visible: enabled && look.visible, ..look })
     }
 
     /// Completes the scene: forces, masses, and planes that enclose a box.

@@ -10,7 +10,7 @@ use crate::value::Value;
 
 /// Appearance of an object.
 #[derive(Debug, Clone)]
-pub(crate) struct Look {
+pub(crate) struct Appearance {
     /// Colour; `None` if its material states none.
     pub color: Option<Color>,
     /// How its surface reflects light.
@@ -21,8 +21,8 @@ pub(crate) struct Look {
 
 /// Appearance stated by a material file, and its parts without a counterpart.
 #[derive(Debug, Clone)]
-pub(crate) struct Appearance {
-    pub look: Look,
+pub(crate) struct MaterialFile {
+    pub look: Appearance,
     pub left_out: Vec<&'static str>,
 }
 
@@ -31,7 +31,7 @@ pub(crate) struct Appearance {
 pub(crate) fn appearance(
     reference: &Value,
     project: &Project,
-) -> Result<Option<Appearance>, ImportError> {
+) -> Result<Option<MaterialFile>, ImportError> {
     let Some(fields) = asset(reference, class::MATERIAL, project)? else { return Ok(None) };
     let saved = fields.get("m_SavedProperties");
     // Each entry is a table with one name; in files of Unity 5 and earlier, with `first` and
@@ -68,8 +68,8 @@ pub(crate) fn appearance(
         left_out.push("its glow has no counterpart");
     }
     let color = Some([r, g, b].map(|part| part.clamp(0.0, 1.0)));
-    let look = Look { color, finish, visible: opacity > 0.0 };
-    Ok(Some(Appearance { look, left_out }))
+    let look = Appearance { color, finish, visible: opacity > 0.0 };
+    Ok(Some(MaterialFile { look, left_out }))
 }
 
 /// Restitution and friction of a surface.

@@ -12,7 +12,7 @@ use egui::{
 };
 
 use crate::layout::{is_for_fingers, is_touched, scrolled_within};
-use crate::look::{self, Look, Marks};
+use crate::look::{self, DrawOptions, Marks};
 use crate::orbit::{Orbit, Preset};
 use crate::studio::{Canvas, Studio};
 
@@ -376,7 +376,7 @@ fn drawing_of(scene: &Scene) -> Option<(Drawing, Camera)> {
     let mut view = View::default();
     session.fill(&mut view);
     let mut drawing = Drawing::default();
-    let look = Look { marks: Marks::default(), dark: false, blend: 1.0 };
+    let look = DrawOptions { marks: Marks::default(), dark: false, blend: 1.0 };
     look::draw(&view, &look, &mut drawing);
     let framing = Framing::of_run(Framing::of_scene(scene), &drawing);
     drawing.framing = Some(framing);

@@ -32,7 +32,7 @@ impl Default for Marks {
 
 /// How a view is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Look {
+pub struct DrawOptions {
     /// Marks.
     pub marks: Marks,
     /// Whether the sky is dark.
@@ -51,7 +51,7 @@ const PICKED: Color = [1.0, 0.62, 0.10];
 const NORMAL_LENGTH: f64 = 1.5;
 
 /// Replaces a drawing by that of a view.
-pub fn draw(view: &View, look: &Look, drawing: &mut Drawing) {
+pub fn draw(view: &View, look: &DrawOptions, drawing: &mut Drawing) {
     drawing.clear();
     let light = Light::of_scene(&view.scene);
     drawing.has_grid = true;
@@ -93,7 +93,7 @@ fn add_colliders(view: &View, drawing: &mut Drawing) {
     }
 }
 
-fn add_spheres(view: &View, look: &Look, drawing: &mut Drawing) {
+fn add_spheres(view: &View, look: &DrawOptions, drawing: &mut Drawing) {
     let spheres = &view.spheres;
     let common =
         view.scene.colors.as_ref().and_then(|colors| colors.spheres).unwrap_or(Palette::SPHERE);
@@ -121,7 +121,7 @@ fn add_spheres(view: &View, look: &Look, drawing: &mut Drawing) {
     }
 }
 
-fn add_springs(view: &View, look: &Look, drawing: &mut Drawing) {
+fn add_springs(view: &View, look: &DrawOptions, drawing: &mut Drawing) {
     let center = |id| Some(place(view, view.spheres.index_of(id)?, look.blend));
     let boundary = view.setup.simulation.boundary.into();
     let lines = view.springs.iter();
@@ -194,7 +194,7 @@ mod tests {
             session.step().unwrap();
             let mut view = View::default();
             session.fill(&mut view);
-            let look = Look { marks: Marks::default(), dark: false, blend: 0.5 };
+            let look = DrawOptions { marks: Marks::default(), dark: false, blend: 0.5 };
             let mut drawing = Drawing::default();
             draw(&view, &look, &mut drawing);
             let half_frame = 0.5 * session.frame_time();

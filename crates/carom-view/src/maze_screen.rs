@@ -7,9 +7,9 @@ use carom_scene::Palette;
 use carom_session::{Link, Pace};
 use egui::{Align2, Area, Frame, Id, Image, Key, Pos2, Response, RichText, Sense, Ui, Vec2};
 
-use crate::kept::KeptGame;
 use crate::layout::is_touched;
 use crate::orbit::{Orbit, Preset, zoom_asked};
+use crate::saved::SavedGame;
 use crate::snapshot::Snapshot;
 use crate::studio::{Canvas, Studio};
 
@@ -104,8 +104,8 @@ impl MazeScreen {
     }
 
     /// Returns what is needed to continue the game later.
-    pub fn kept(&self) -> KeptGame {
-        KeptGame {
+    pub fn saved(&self) -> SavedGame {
+        SavedGame {
             maze: self.link.to_string(),
             progress: self.game.progress(),
             rolls: self.rolls(),
@@ -113,10 +113,10 @@ impl MazeScreen {
     }
 
     /// Continues an earlier game, if it was in this maze.
-    pub fn resume(&mut self, kept: &KeptGame) {
-        if kept.maze != self.link.to_string()
-            || self.set_rolls(kept.rolls).is_err()
-            || self.game.resume(&kept.progress).is_err()
+    pub fn resume(&mut self, game: &SavedGame) {
+        if game.maze != self.link.to_string()
+            || self.set_rolls(game.rolls).is_err()
+            || self.game.resume(&game.progress).is_err()
         {
             return;
         }

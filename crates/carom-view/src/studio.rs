@@ -44,10 +44,10 @@ fn listen(device: &wgpu::Device, failure: &Arc<Mutex<Option<String>>>) {
 /// A picture in the interface.
 #[derive(Default)]
 pub struct Canvas {
-    shown: Option<Shown>,
+    shown: Option<Rendered>,
 }
 
-struct Shown {
+struct Rendered {
     target: Target,
     texture: TextureId,
     /// Collects the texture when it is no longer needed.
@@ -57,7 +57,7 @@ struct Shown {
 /// Textures that are shown for the last time in the present frame.
 type Dropped = Arc<Mutex<Vec<TextureId>>>;
 
-impl Drop for Shown {
+impl Drop for Rendered {
     fn drop(&mut self) {
         if let Ok(mut dropped) = self.dropped.lock() {
             dropped.push(self.texture);
@@ -105,16 +105,16 @@ impl Studio {
         let size = [size.x, size.y].map(|edge| (edge.round() as u32).clamp(1, largest));
         let samples = self.renderer.quality().samples;
         let is_fitting =
-            |shown: &Shown| shown.target.size() == size && shown.target.samples() == samples;
+            |shown: &Rendered| shown.target.size() == size && shown.target.samples() == samples;
         if !canvas.shown.as_ref().is_some_and(is_fitting) {
             let target = self.renderer.target(device, size);
             let view = target.picture.create_view(&Default::default());
             let linear = wgpu::FilterMode::Linear;
             let mut interface = self.state.renderer.write();
             let texture = interface.register_native_texture(device, &view, linear);
-            canvas.shown = Some(Shown { target, texture, dropped: Arc::clone(&self.dropped) });
+            canvas.shown = Some(Rendered { target, texture, dropped: Arc::clone(&self.dropped) });
         }
-        if let Some(Shown { target, .. }) = &canvas.shown {
+        if let Some(Rendered { target, .. }) = &canvas.shown {
             self.renderer.draw(device, queue, drawing, camera, target);
         }
     }

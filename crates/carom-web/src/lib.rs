@@ -73,7 +73,7 @@ impl Page {
         let result = Rc::clone(&started);
         let create: eframe::AppCreator<'static> = Box::new(move |host| {
             let start = started_on(host, services, &fragment)?;
-            let app = Box::new(Shown(Rc::clone(&start.app)));
+            let app = Box::new(SharedApp(Rc::clone(&start.app)));
             *result.borrow_mut() = Some(start);
             Ok(app)
         });
@@ -171,9 +171,9 @@ fn follow(app: &mut App, fragment: &str) {
 }
 
 /// The interface, shared with the page, which reads it between two frames.
-struct Shown(Rc<RefCell<App>>);
+struct SharedApp(Rc<RefCell<App>>);
 
-impl eframe::App for Shown {
+impl eframe::App for SharedApp {
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
         self.0.borrow_mut().save(storage);
     }

@@ -45,7 +45,7 @@ pub(crate) enum Profile {
 
 /// The nearest place of a profile, as seen from a point of the half-plane.
 #[derive(Debug, Clone, Copy)]
-struct Foot {
+struct ProfilePoint {
     /// Distance \[m\] of the surface; of the face it is negative behind it.
     distance: f64,
     /// Unit vector in which that grows fastest.
@@ -86,7 +86,7 @@ const ON_AXIS: f64 = 1e-9;
 /// A normal along or across the axis has a smaller component \[1\] in the other direction.
 const LEAST_TILT: f64 = 1e-3;
 
-impl Foot {
+impl ProfilePoint {
     /// From the axis a whole ring is nearest: its normals together are along the axis. A sphere there comes to the
     /// ring more slowly than it moves along that.
     fn over_ring(&self) -> Self {
@@ -148,7 +148,7 @@ impl Band {
         across / across.norm()
     }
 
-    fn view(&self, foot: &Foot, from_axis: f64, radial: DVec3) -> View {
+    fn view(&self, foot: &ProfilePoint, from_axis: f64, radial: DVec3) -> View {
         let world = |vector: DVec2| vector.x * radial + vector.y * self.axis;
         let along = world(DVec2::new(foot.normal.y, -foot.normal.x));
         let is_on_axis = from_axis <= ON_AXIS * self.profile.size();
@@ -301,13 +301,13 @@ impl Profile {
         }
     }
 
-    fn foot(&self, point: DVec2) -> Foot {
+    fn foot(&self, point: DVec2) -> ProfilePoint {
         let face = self.foot_on_face(point);
         if face.room >= 0.0 { face } else { self.foot_on_rim(point, &face) }
     }
 
     /// As if the nearest place were on the face.
-    fn foot_on_face(&self, point: DVec2) -> Foot {
+    fn foot_on_face(&self, point: DVec2) -> ProfilePoint {
         match *self {
             Self::Line { from, direction, length, thickness } => {
                 let offset = point - from;
@@ -322,7 +322,7 @@ impl Profile {
                     if direction.x < 0.0 && is_inner(end) { f64::INFINITY } else { length - along };
                 let about =
                     if normal.x == 0.0 { 0.0 } else { normal.x / point.x.max(f64::MIN_POSITIVE) };
-                Foot {
+                ProfilePoint {
                     distance: front - thickness,
                     normal,
                     curvatures: [0.0, about],
@@ -345,13 +345,13 @@ impl Profile {
                 let curvatures = [along, about];
                 let room = room_on_arc(ends, offset);
                 let (distance, front_normal) = (front, normal);
-                Foot { distance, normal, curvatures, front, front_normal, room }
+                ProfilePoint { distance, normal, curvatures, front, front_normal, room }
             }
         }
     }
 
     /// As if the nearest place were on the nearer end.
-    fn foot_on_rim(&self, point: DVec2, face: &Foot) -> Foot {
+    fn foot_on_rim(&self, point: DVec2, face: &ProfilePoint) -> ProfilePoint {
         let [first, second] = self.ends().map(|end| point - end);
         let [near, far] = [first.dot(first), second.dot(second)];
         let offset = if near <= far { first } else { second };
@@ -362,7 +362,7 @@ impl Profile {
         // A rim on the axis is a point.
         let about =
             if offset.x == point.x { along } else { normal.x / point.x.max(f64::MIN_POSITIVE) };
-        Foot {
+        ProfilePoint {
             distance: from_rim - thickness,
             normal,
             curvatures: [along, about],

@@ -16,7 +16,7 @@ pub(crate) struct Motion {
     pub position: Vec<DVec3>,
     /// Velocities \[m/s\].
     pub velocity: Vec<DVec3>,
-    /// How they turn.
+    /// Orientations and angular velocities.
     pub spin: Spin,
 }
 
@@ -31,7 +31,7 @@ pub(crate) struct Spin {
 }
 
 impl Motion {
-    /// Takes over the states of all spheres, without allocating where there is place already.
+    /// Copies the states of all spheres, without an allocation where the arrays have room.
     pub fn copy_all(&mut self, from: &Self) {
         self.position.clone_from(&from.position);
         self.velocity.clone_from(&from.velocity);
@@ -39,7 +39,7 @@ impl Motion {
         self.spin.angular_velocity.clone_from(&from.spin.angular_velocity);
     }
 
-    /// That of some spheres, by index.
+    /// The states of the spheres at these indices.
     pub fn of_some(&self, indices: &[u32]) -> Self {
         let Spin { orientation, angular_velocity } = &self.spin;
         Self {
@@ -52,7 +52,7 @@ impl Motion {
         }
     }
 
-    /// Takes over place and velocity of one sphere.
+    /// Copies position and velocity of one sphere.
     pub fn copy(&mut self, from: &Self, index: usize) {
         self.position[index] = from.position[index];
         self.velocity[index] = from.velocity[index];
@@ -60,7 +60,7 @@ impl Motion {
 }
 
 impl Spin {
-    /// Makes place for the spin of so many spheres: none is turned, if there was none.
+    /// Grows both arrays to `count` spheres; new entries are not turned and do not turn.
     pub fn make_room(&mut self, count: usize) {
         self.orientation.resize(count, DQuat::IDENTITY);
         self.angular_velocity.resize(count, DVec3::ZERO);
@@ -95,7 +95,7 @@ impl Spin {
         self.make_whole(count);
     }
 
-    /// Has both arrays where there is one.
+    /// Extends the shorter of both arrays, so that both have `count` entries.
     fn make_whole(&mut self, count: usize) {
         if self.orientation.len() != self.angular_velocity.len() {
             self.make_room(count);
@@ -114,7 +114,7 @@ pub(crate) struct Properties {
     /// \[kg\]
     pub mass: Vec<f64>,
     pub restitution: Vec<f64>,
-    /// Empty while no sphere says anything of friction.
+    /// Empty while all spheres leave friction to the other body.
     pub friction: Vec<Friction>,
     /// Moments of inertia divided by m r²; empty while all spheres are solid balls.
     pub inertia_factor: Vec<f64>,
@@ -139,7 +139,7 @@ impl Properties {
         self.applied_force.get(index).map(|&force| force / self.mass[index])
     }
 
-    /// What some of the spheres are, by their indices, ascending.
+    /// The properties of the spheres at these indices, which ascend.
     pub fn of_some(&self, indices: &[u32]) -> Self {
         Self {
             id: some(&self.id, indices),
@@ -154,7 +154,7 @@ impl Properties {
         }
     }
 
-    /// What a sphere says of friction.
+    /// Friction of a sphere; `None` in a field that it leaves to the other body.
     pub fn friction(&self, index: usize) -> Friction {
         self.friction.get(index).copied().unwrap_or_default()
     }
@@ -180,7 +180,7 @@ pub struct Spheres {
 }
 
 impl Spheres {
-    /// How many there are: the length of every array below.
+    /// Number of spheres: the length of every array below.
     pub fn len(&self) -> usize {
         self.ids().len()
     }
@@ -231,7 +231,8 @@ impl Spheres {
         &self.motion.spin.angular_velocity
     }
 
-    /// What each sphere says of friction; empty while none says anything.
+    /// Friction of each sphere, with `None` where it leaves a coefficient to the other body; empty
+    /// while all do.
     pub fn frictions(&self) -> &[Friction] {
         &self.properties.friction
     }
@@ -252,7 +253,7 @@ impl Spheres {
         &self.properties.groups
     }
 
-    /// What programs keep with each sphere; empty while all is 0.
+    /// Number that the program keeps with each sphere; empty while all are 0.
     pub fn user_data(&self) -> &[u64] {
         &self.properties.user_data
     }

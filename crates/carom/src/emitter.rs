@@ -50,9 +50,9 @@ const MAX_PER_FRAME: f64 = 1e6;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Emitter {
-    /// What is emitted, in the emitter's frame: `position` \[m\] is an offset from the emitter's
-    /// origin, `velocity` \[m/s\] and
-    /// `angular_velocity` \[rad/s\] are turned into the world with it.
+    /// The sphere to emit, in the emitter's frame: `position` \[m\] is an offset from the emitter's
+    /// origin, `velocity` \[m/s\] and `angular_velocity` \[rad/s\] are turned into the world with
+    /// it.
     pub sphere: Sphere,
     /// Origin of the emitter's frame in the world \[m\].
     pub position: DVec3,
@@ -62,7 +62,7 @@ pub struct Emitter {
     pub period: f64,
     /// With this many of its spheres alive, the oldest makes place for the next; `None`: no limit.
     pub max_spheres: Option<u32>,
-    /// How many spheres it emits in all, those left out among them; `None`: no end.
+    /// Number of spheres to emit in all, those left out included; `None`: no end.
     pub count: Option<u32>,
     /// Whether a sphere is left out that would overlap another one by more than a thousandth of the sum of
     /// their radii; `None`: under the rule `contact`. Its id is never given to another one.
@@ -102,7 +102,7 @@ impl Emitter {
         Self { needs_room: needs_room.into(), ..self }
     }
 
-    /// The same emitter of other spheres.
+    /// The same emitter with this sphere to emit.
     pub fn with_sphere(self, sphere: Sphere) -> Self {
         Self { sphere, ..self }
     }
@@ -163,8 +163,8 @@ impl EmitterState {
         self.emitter.count.is_some_and(|count| self.emitted >= u64::from(count))
     }
 
-    /// Goes on as another emitter at this time \[s\]: with another period it starts anew, and one that was
-    /// done emits what it has more from now on.
+    /// Replaces the parameters at this time \[s\]: with another period it starts again, and an emitter
+    /// that was done emits what a larger count adds from now on.
     pub fn set(&mut self, emitter: Emitter, time: f64) {
         let was_done = self.is_done();
         if emitter.period != self.emitter.period {

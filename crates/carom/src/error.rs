@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use crate::id::{ColliderId, EmitterId, ForceId, SphereId, SpringId};
 
-/// Everything the physics can refuse. The world is unchanged after each of them.
+/// Error of the engine. The world is unchanged after each.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -134,7 +134,7 @@ impl Display for Subject {
     }
 }
 
-/// A field, what it must be, and what it was.
+/// A field with an invalid value, and what it must be.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("`{field}` must be {requirement}, not {value}")]
 pub struct InvalidValue {
@@ -142,7 +142,7 @@ pub struct InvalidValue {
     pub field: &'static str,
     /// What it must be, continuing "must be".
     pub requirement: &'static str,
-    /// What it was.
+    /// The value that was given.
     pub value: String,
 }
 

@@ -4,8 +4,8 @@ use crate::error::InvalidValue;
 use crate::settings::CombineRule;
 use crate::validate;
 
-/// What a body says of friction at its surface. Where it says nothing, its partner's value counts; where
-/// both are silent, there is none.
+/// Friction at the surface of a body. Where a coefficient is `None`, that of the other body counts; where both
+/// are, it is 0.
 ///
 /// Friction acts under the rules `exact` and `contact`. Rolling friction acts under `exact` where a ball rolls,
 /// under `contact` where it slides, too.
@@ -42,7 +42,7 @@ impl From<f64> for Friction {
 }
 
 impl Friction {
-    /// Coulomb friction with this coefficient; nothing is said of the rest.
+    /// Coulomb friction with this coefficient; the other coefficients are `None`.
     pub fn sliding(coefficient: f64) -> Self {
         Self { sliding: Some(coefficient), ..Self::default() }
     }

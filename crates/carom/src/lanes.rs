@@ -200,7 +200,7 @@ impl<S: Simd> Vector<Lanes<S>> {
         }
     }
 
-    /// The nearest whole numbers, of such as are less than 2^51.
+    /// The nearest whole numbers; the numbers must be less than 2^51.
     #[inline(always)]
     pub fn rounded(self, simd: S) -> Self {
         // From here on there are no fractions.

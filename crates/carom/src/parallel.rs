@@ -56,7 +56,8 @@ pub(crate) fn fill<A: Send, B: Send>(
     f(0, both);
 }
 
-/// Does work on so many items among the threads: what it does side by side then waits for none to wake.
+/// Shares work on a number of `items` among the threads: what it does side by side then waits for none to
+/// wake.
 #[cfg(feature = "rayon")]
 pub(crate) fn among_threads<T: Send>(items: usize, work: impl FnOnce() -> T + Send) -> T {
     if items < 2 * FEW { work() } else { rayon::scope(|_| work()) }

@@ -27,8 +27,8 @@ pub enum PathEnd {
     Horizon,
     /// At the last impact asked for. A leg without length there has the velocity after it.
     Impacts,
-    /// Where the motion has no closed form from then on: a step takes the sphere in a stepped zone, or not at
-    /// all.
+    /// Where the motion has no closed form from then on: a step puts the sphere into a stepped zone, or
+    /// refuses.
     NoClosedForm,
 }
 

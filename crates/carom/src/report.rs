@@ -9,7 +9,7 @@ use crate::id::{ColliderId, SphereId};
 use crate::settings::ImpactLaw;
 use crate::system::System;
 
-/// What happened in one step.
+/// Report of one step: impacts, triggers, emitted spheres, accounts.
 ///
 /// ```
 /// use carom::{BodyPair, DVec3, Sphere, World};
@@ -64,8 +64,8 @@ pub struct StepReport {
 pub struct ZoneAccount {
     /// Spheres in a zone at the end of the step.
     pub spheres: u32,
-    /// Time that these spheres have spent in it by that, of all together \[s\]: one that is in a zone at
-    /// the end of a step counts as in it for the whole of it.
+    /// Time of all spheres in zones together \[s\]: a sphere in a zone at the end of a step counts for
+    /// the whole step.
     pub sphere_seconds: f64,
     /// Ticks at which a zone was stepped.
     pub ticks: u32,
@@ -130,7 +130,7 @@ impl AddAssign for EnergyAccount {
     }
 }
 
-/// How good the solutions of a step are under the rule `contact`, or in the stepped zones of `exact`.
+/// Quality of the solutions of a step under the rule `contact`, or in the stepped zones of `exact`.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[non_exhaustive]
 pub struct ContactAccount {
@@ -171,9 +171,9 @@ pub struct StageCounts {
     /// Impact: iterations of the solvers of these groups, for impulses and for the forces of persistent
     /// contacts, each counted once for every contact.
     pub solver_iterations: u64,
-    /// Search: how often neighbours were found anew, under the rule `contact`.
+    /// Search: number of searches for neighbours, under the rule `contact`.
     pub searches: u64,
-    /// Sweep: how often all contacts were gone through, under the rule `contact`.
+    /// Sweep: number of passes over all contacts, under the rule `contact`.
     pub sweeps: u64,
     /// Sweep: contacts that it goes through at the end of the step, under the rule `contact`.
     pub contacts: u64,

@@ -68,7 +68,7 @@ pub struct Sphere {
     pub inertia_factor: f64,
     /// Which bodies it collides with.
     pub groups: Groups,
-    /// Whatever a program wants to find with it; no part of the physics.
+    /// Number of the program's own; no part of the physics.
     pub user_data: u64,
 }
 
@@ -189,7 +189,7 @@ pub fn volume(radius: f64) -> f64 {
     4.0 / 3.0 * PI * (radius * radius * radius)
 }
 
-/// Where a sphere is, and how fast: what [`World::set_motions`](crate::World::set_motions) gives it.
+/// Position and velocity of a sphere, for [`World::set_motions`](crate::World::set_motions).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SphereMotion {
     /// The sphere.

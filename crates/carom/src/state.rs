@@ -103,7 +103,7 @@ impl State {
         self
     }
 
-    /// Has flights begin anew.
+    /// Drops the flights, so that all begin again.
     fn drop_flights(&mut self) {
         if let Some(timeline) = self.timeline.take() {
             self.zone = timeline.into_zone();

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// Units of work between two looks at a stop request: some milliseconds.
 const UNITS_PER_LOOK: u64 = 50_000;
 
-/// Requests that a step end before it is done: a signal came, a window is closing, time is up.
+/// A request to end a step before it is done: a signal came, a window is closing, time is up.
 ///
 /// A step looks at it every few milliseconds, and ends with [`Error::Stopped`](crate::Error::Stopped)
 /// once it says yes. The world is then as it was before the step.
@@ -85,7 +85,7 @@ impl<'a> Work<'a> {
         self.done.get()
     }
 
-    /// Lets at most so many units be done from here on.
+    /// Limits the work from here on to a number of units.
     pub fn allow(&self, units: u64) {
         let limit = self.done.get().saturating_add(units);
         self.limit.set(limit);
@@ -93,8 +93,8 @@ impl<'a> Work<'a> {
         self.next_look.set(self.next_look.get().min(limit));
     }
 
-    /// Counts units of work. Tells whether to go on; if not, what is at work ends as soon as it can,
-    /// with any result.
+    /// Counts units of work. Returns whether to go on; if not, what is at work ends as soon as it
+    /// can, with any result.
     #[inline]
     pub fn spend(&self, units: u64) -> bool {
         let done = self.done.get() + units;

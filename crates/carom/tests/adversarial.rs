@@ -104,7 +104,7 @@ fn add_spheres(world: &mut World, numbers: &mut Numbers, restitution: f64, pose:
     }
 }
 
-/// Gives the spheres of a world friction, and spin.
+/// Adds friction and spin to the spheres of a world.
 fn roughen(world: &mut World, seed: u64) {
     let mut numbers = Numbers(seed.wrapping_mul(104_729) + 7);
     for id in world.spheres().ids().to_vec() {

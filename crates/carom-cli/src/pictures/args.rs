@@ -12,7 +12,7 @@ use crate::replacing::Replacing;
 
 /// How a scene is seen.
 #[derive(Debug, Clone, clap::Args)]
-pub struct Look {
+pub struct PictureOptions {
     /// In pixels; both even for a film.
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1280x720", value_parser = sides)]
     pub size: [u32; 2],
@@ -45,7 +45,7 @@ pub struct Picture {
     pub at: f64,
     /// Camera, size and quality.
     #[command(flatten)]
-    pub look: Look,
+    pub look: PictureOptions,
     /// The picture, .png.
     #[arg(long, short, value_name = "PATH")]
     pub out: PathBuf,
@@ -75,7 +75,7 @@ pub struct Record {
     pub fps: u32,
     /// Camera, size and quality.
     #[command(flatten)]
-    pub look: Look,
+    pub look: PictureOptions,
     /// Film a recorded run of this scene: a table that `carom run --out` wrote, .csv. Between its
     /// frames, balls move on curves given by their positions and velocities.
     #[arg(long, value_name = "CSV")]

@@ -23,7 +23,7 @@ mod still;
 mod studio;
 mod viewpoint;
 
-pub use args::Look;
+pub use args::PictureOptions;
 pub use error::ShootError;
 pub use film::{Filming, Order};
 pub use footage::{Footage, Words};

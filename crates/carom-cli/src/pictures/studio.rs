@@ -2,14 +2,14 @@
 
 use carom_render::{Camera, Drawing, Framing, GpuError, Offscreen, Picture, caption, stamp};
 
-use super::args::Look;
+use super::args::PictureOptions;
 use super::error::ShootError;
 use super::footage::{Footage, Words};
 
 /// Draws footage with the camera, size and quality that the user chose.
 #[derive(Debug)]
 pub struct Studio {
-    look: Look,
+    look: PictureOptions,
     offscreen: Offscreen,
     drawing: Drawing,
 }
@@ -19,7 +19,7 @@ impl Studio {
     ///
     /// # Errors
     /// [`GpuError`] if there is no device, or the device does not support pictures of this size.
-    pub fn new(look: Look) -> Result<Self, GpuError> {
+    pub fn new(look: PictureOptions) -> Result<Self, GpuError> {
         let offscreen = Offscreen::new(look.size, look.quality)?;
         Ok(Self { look, offscreen, drawing: Drawing::default() })
     }

@@ -21,16 +21,16 @@ pub fn claims() -> Vec<Claim> {
 }
 
 /// Claims about a run that is made once for all of them.
-fn of_runs(place: &str, run: fn(Rule) -> Result<Kept, Fault>) -> [Claim; 5] {
+fn of_runs(place: &str, run: fn(Rule) -> Result<LargestErrors, Fault>) -> [Claim; 5] {
     let shared = Arc::new(OnceLock::new());
-    let claim = |name: &str, bound: f64, reason: &'static str, part: fn(&Kept) -> f64| {
+    let claim = |name: &str, bound: f64, reason: &'static str, part: fn(&LargestErrors) -> f64| {
         let shared = Arc::clone(&shared);
         Claim::new(
             format!("gas of 1,000 {place}, 1,000,000 impacts: {name}"),
             Expected::no_error("conservation laws"),
             Tolerance::absolute(bound, reason),
             move |rule| {
-                let kept: &Result<Kept, Fault> = shared.get_or_init(|| run(rule));
+                let kept: &Result<LargestErrors, Fault> = shared.get_or_init(|| run(rule));
                 let kept = kept.as_ref().map_err(ToString::to_string)?;
                 Ok(Measured { value: part(kept), ..kept.state })
             },
@@ -48,7 +48,7 @@ fn of_runs(place: &str, run: fn(Rule) -> Result<Kept, Fault>) -> [Claim; 5] {
 }
 
 /// Largest errors of a run.
-struct Kept {
+struct LargestErrors {
     /// Relative error of the energy.
     energy: f64,
     /// Error of the momentum, relative to the sum of the magnitudes of the momenta.
@@ -63,11 +63,11 @@ struct Kept {
     state: Measured,
 }
 
-fn periodic(rule: Rule) -> Result<Kept, Fault> {
+fn periodic(rule: Rule) -> Result<LargestErrors, Fault> {
     run(gas(FILLING, Speeds::Equilibrium, rule, 1)?)
 }
 
-fn walled(rule: Rule) -> Result<Kept, Fault> {
+fn walled(rule: Rule) -> Result<LargestErrors, Fault> {
     let mut world = world(rule)?;
     // The edge of the filling is meant for centres.
     add_walls(&mut world, FILLING.edge() + 1.0)?;
@@ -75,7 +75,7 @@ fn walled(rule: Rule) -> Result<Kept, Fault> {
     run(world)
 }
 
-fn run(mut world: World) -> Result<Kept, Fault> {
+fn run(mut world: World) -> Result<LargestErrors, Fault> {
     let energy = world.kinetic_energy();
     let sizes: f64 = world.spheres().velocities().iter().map(|v| v.length()).sum();
     // Momentum at the start, plus what walls have added since.
@@ -107,7 +107,7 @@ fn run(mut world: World) -> Result<Kept, Fault> {
     if entries == 0 {
         (impact_energy, impact_momentum) = (f64::NAN, f64::NAN);
     }
-    Ok(Kept {
+    Ok(LargestErrors {
         energy: (world.kinetic_energy() / energy - 1.0).abs(),
         momentum: (world.momentum() - momentum).length() / sizes,
         overlap,

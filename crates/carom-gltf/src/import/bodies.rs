@@ -6,11 +6,11 @@ use carom::{DVec3, SOLID_BALL};
 use carom_scene::import::omit;
 use carom_scene::scene::{self, CombineRule, Force, Sphere};
 
+use super::appearance::Appearance;
 use super::building::Building;
 use super::error::Malformed;
 use super::form::Form;
 use super::graph::Placed;
-use super::look::Look;
 use super::meshes::Meshes;
 use super::pose::written;
 use super::solid::Solid;
@@ -284,8 +284,9 @@ impl<'a> Bodies<'a> {
         self.shown[index].or_else(below)
     }
 
-    fn look(&self, index: usize) -> Result<Look, Malformed> {
-        self.mesh(index).map_or(Ok(Look::default()), |mesh| Look::of(self.document, mesh))
+    fn look(&self, index: usize) -> Result<Appearance, Malformed> {
+        self.mesh(index)
+            .map_or(Ok(Appearance::default()), |mesh| Appearance::of(self.document, mesh))
     }
 
     /// Sets gravity and combine rules, which hold for the whole scene.
@@ -328,7 +329,7 @@ struct Part {
     double_sided: bool,
     is_trigger: bool,
     material: PhysicsMaterial,
-    look: Look,
+    look: Appearance,
 }
 
 fn shape_form(shape: &crate::rigid_body::Shape) -> Result<(Form, bool), &'static str> {

@@ -1,12 +1,12 @@
 //! Imports a glTF file as a scene.
 
+mod appearance;
 mod bodies;
 mod building;
 mod error;
 mod file;
 mod form;
 mod graph;
-mod look;
 mod meshes;
 mod pose;
 mod solid;
@@ -20,12 +20,12 @@ use carom_scene::scene::{Collider, Rule, Scene, Shape, Sphere};
 
 use crate::document::Document;
 use crate::extensions;
+use appearance::Appearance;
 use bodies::Bodies;
 use building::Building;
 use error::Malformed;
 use file::File;
 use graph::Placed;
-use look::Look;
 use meshes::Meshes;
 use solid::Solid;
 
@@ -89,7 +89,7 @@ fn build(file: &File, building: &mut Building) -> Result<(), Malformed> {
     let mut meshes = Meshes::new(file);
     let mut bodies = Bodies::new(document, &nodes);
     for (i, node) in nodes.iter().enumerate() {
-        look::add(document, node, building)?;
+        appearance::add(document, node, building)?;
         if has_physics {
             bodies.add(i, &mut meshes, building)?;
             if document.nodes[node.index].mesh.is_some() && !bodies.has(i) {
@@ -115,7 +115,7 @@ fn add_mesh(
     meshes: &mut Meshes<'_>,
     building: &mut Building,
 ) -> Result<(), Malformed> {
-    let look = Look::of(document, mesh)?;
+    let look = Appearance::of(document, mesh)?;
     let solid = meshes.form(mesh)?.and_then(|form| Solid::of(&form, &node.pose));
     let solid = match solid {
         Ok(solid) => solid,

@@ -21,7 +21,7 @@ impl App {
         }
         match Watching::replay(link, scene, self.threaded, &self.context) {
             Ok(mut watching) => {
-                watching.set_layout(self.kept.layout);
+                watching.set_layout(self.saved.layout);
                 self.show(Screen::Watching(Box::new(watching)));
             }
             Err(error) => self.refuse_link(&error.to_string()),

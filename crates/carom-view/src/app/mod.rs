@@ -21,12 +21,12 @@ use crate::chooser::{Chooser, Chosen};
 use crate::exports::Exports;
 use crate::help;
 use crate::host::{Host, Inbox, ReadFile};
-use crate::kept::{Kept, Panels};
 use crate::layout::{accept_slow_clicks, suit_fingers};
 use crate::link_dialog::LinkDialog;
 use crate::maze_screen::{MazeScreen, Wish};
 use crate::notices::Notices;
 use crate::orbit::Preset;
+use crate::saved::{Panels, SavedValues};
 use crate::studio::Studio;
 use crate::theme::make_readable;
 use crate::watching::{Manner, Watching};
@@ -83,7 +83,7 @@ pub struct App {
     exports: Exports,
     address: Address,
     link: LinkDialog,
-    kept: Kept,
+    saved: SavedValues,
 }
 
 /// The content of the window.
@@ -101,9 +101,9 @@ impl App {
     pub fn new(host: &CreationContext, setup: Setup) -> Result<Self, String> {
         let state = host.wgpu_render_state.clone();
         let state = state.ok_or("the interface needs a host that draws with wgpu")?;
-        let mut kept = Kept::load(host.storage);
+        let mut saved = SavedValues::load(host.storage);
         if setup.host.is_embedded() {
-            kept.layout.panels = Panels::NONE;
+            saved.layout.panels = Panels::NONE;
         }
         let mut app = Self {
             context: host.egui_ctx.clone(),
@@ -124,7 +124,7 @@ impl App {
             exports: Exports::default(),
             address: Address::default(),
             link: LinkDialog::default(),
-            kept,
+            saved,
         };
         make_readable(&app.context);
         accept_slow_clicks(&app.context);
@@ -169,12 +169,12 @@ impl App {
                 if let Source::File(path) = &watching.source
                     && cfg!(not(target_arch = "wasm32"))
                 {
-                    self.kept.remember(path);
+                    self.saved.remember(path);
                     if let Ok(written) = WrittenScene::from_file(path, Vec::new()) {
                         watching.set_written(written);
                     }
                 }
-                watching.set_layout(self.kept.layout);
+                watching.set_layout(self.saved.layout);
                 self.show(Screen::Watching(Box::new(watching)));
             }
             Err(error) => self.notices.complain(error),
@@ -191,8 +191,8 @@ impl App {
         match MazeScreen::new(maze, link) {
             Ok(mut screen) => {
                 self.keep_game();
-                if let Some(kept) = &self.kept.game {
-                    screen.resume(kept);
+                if let Some(game) = &self.saved.game {
+                    screen.resume(game);
                 }
                 self.host.show_link(screen.link());
                 self.show(Screen::Maze(Box::new(screen)));
@@ -204,7 +204,7 @@ impl App {
     /// Remembers the progress of the present game.
     fn keep_game(&mut self) {
         if let Screen::Maze(screen) = &self.screen {
-            self.kept.game = Some(screen.kept());
+            self.saved.game = Some(screen.saved());
         }
     }
 
@@ -273,7 +273,7 @@ impl App {
     }
 
     fn open_chooser(&mut self) {
-        if let Err(error) = self.chooser.open(&self.library, &self.kept.recent) {
+        if let Err(error) = self.chooser.open(&self.library, &self.saved.recent) {
             self.notices.complain(error);
         }
     }
@@ -374,7 +374,7 @@ impl App {
                     watching.act(action);
                 }
                 wanted = watching.wanted.take();
-                self.kept.layout = watching.layout();
+                self.saved.layout = watching.layout();
                 let studio = &mut self.studio;
                 let shown = egui::CentralPanel::default()
                     .frame(margin)
@@ -434,7 +434,7 @@ fn act_in_maze(screen: &mut MazeScreen, action: Action) {
 impl eframe::App for App {
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
         self.keep_game();
-        self.kept.save(storage);
+        self.saved.save(storage);
     }
 
     fn auto_save_interval(&self) -> std::time::Duration {

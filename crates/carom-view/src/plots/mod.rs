@@ -18,7 +18,7 @@ use crate::studio::Studio;
 /// The plots that are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Shown {
+pub struct PlotChoice {
     /// Kinetic, potential and total energy.
     pub energy: bool,
     /// Components and magnitude of the momentum.
@@ -35,7 +35,7 @@ pub struct Shown {
     pub direction: usize,
 }
 
-impl Default for Shown {
+impl Default for PlotChoice {
     fn default() -> Self {
         Self {
             energy: true,
@@ -59,7 +59,7 @@ pub enum Wanted {
 
 /// Shows the selected plots below each other. From time `left` on \[s\] some balls have left; later
 /// values set no scale. Returns what the user wants to save.
-pub fn show(ui: &mut Ui, view: &View, left: Option<f64>, shown: &mut Shown) -> Option<Wanted> {
+pub fn show(ui: &mut Ui, view: &View, left: Option<f64>, shown: &mut PlotChoice) -> Option<Wanted> {
     let mut wanted = None;
     ui.horizontal_wrapped(|ui| {
         ui.checkbox(&mut shown.energy, "Energy");
@@ -109,7 +109,7 @@ pub fn show(ui: &mut Ui, view: &View, left: Option<f64>, shown: &mut Shown) -> O
 }
 
 /// Returns the selected figures in order.
-fn all(view: &View, left: Option<f64>, shown: &Shown) -> Vec<Figure> {
+fn all(view: &View, left: Option<f64>, shown: &PlotChoice) -> Vec<Figure> {
     let mut figures = over_time(view, shown);
     if shown.gas {
         figures.extend(gas(view));
@@ -163,7 +163,7 @@ pub fn print(figures: &[Figure], heading: &str, context: &Context, studio: &Stud
 const DIRECTIONS: [&str; 3] = ["x", "y", "z"];
 
 /// Returns the figures of all balls together.
-fn over_time(view: &View, shown: &Shown) -> Vec<Figure> {
+fn over_time(view: &View, shown: &PlotChoice) -> Vec<Figure> {
     let mut figures = Vec::new();
     if view.other.is_some() {
         figures.push(distances(view));

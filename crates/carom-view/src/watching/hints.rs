@@ -30,7 +30,7 @@ pub(super) struct Restarted {
 
 /// What the hints depend on.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Told<'a> {
+pub(super) struct HintState<'a> {
     pub way: Option<&'a Way>,
     pub restarted: Option<Restarted>,
     /// How long the physics thread has been computing without a result \[s\].
@@ -99,12 +99,12 @@ pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
     view: &View,
-    told: Told,
+    told: HintState,
     camera: &Camera,
     commands: &mut Vec<Command>,
 ) -> Vec<Action> {
     let mut actions = Vec::new();
-    let Told { way, restarted, seconds_at_work } = told;
+    let HintState { way, restarted, seconds_at_work } = told;
     let aspect = f64::from(rect.width() / rect.height());
     let is_at_start = view.frame == 0 && !view.playback.playing && view.playback.error.is_none();
     let mut button = |ui: &mut Ui, text: &str, action: Action| {

@@ -19,11 +19,11 @@ use web_time::Instant;
 
 use crate::action::Action;
 use crate::inspector::{self, Throw};
-use crate::kept::{Layout, Panels};
 use crate::layout::{Beside, is_narrow};
-use crate::look::{self, Look, Marks};
+use crate::look::{self, DrawOptions, Marks};
 use crate::orbit::Preset;
 use crate::plots;
+use crate::saved::{Layout, Panels};
 use crate::snapshot::Snapshot;
 use crate::studio::{Canvas, Studio};
 use crate::written_scene::WrittenScene;
@@ -75,7 +75,7 @@ pub struct Watching {
 struct Drawn {
     news: u64,
     camera: Camera,
-    look: Look,
+    look: DrawOptions,
     size: Vec2,
 }
 
@@ -399,7 +399,7 @@ impl Watching {
         let camera = orbit.camera.in_picture(f64::from(picture.width() / picture.height()));
         let Self { driver, commands, way, restarted, .. } = self;
         *way = Way::of(driver.view(), *way);
-        let told = hints::Told {
+        let told = hints::HintState {
             way: way.as_ref(),
             restarted: *restarted,
             seconds_at_work: driver.seconds_at_work(),
@@ -407,8 +407,8 @@ impl Watching {
         hints::show(ui, picture, driver.view(), told, &camera, commands)
     }
 
-    fn look(&self, manner: Manner) -> Look {
-        Look { marks: self.layout.marks, dark: manner.dark, blend: self.driver.blend() }
+    fn look(&self, manner: Manner) -> DrawOptions {
+        DrawOptions { marks: self.layout.marks, dark: manner.dark, blend: self.driver.blend() }
     }
 
     /// Draws the picture of one rule, if anything in it has changed.

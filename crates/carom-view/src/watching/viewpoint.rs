@@ -7,7 +7,7 @@ use carom_render::{Camera, Drawing, Framing};
 use carom_scene::Scene;
 use carom_session::{LinkCamera, View};
 
-use crate::look::{self, Look, Marks};
+use crate::look::{self, DrawOptions, Marks};
 use crate::orbit::{Orbit, Preset};
 
 /// The camera of a scene, and what moves it.
@@ -120,7 +120,11 @@ impl Viewpoint {
         let first = self.framing(&view.scene);
         let now = || {
             let mut drawing = Drawing::default();
-            look::draw(view, &Look { marks: Marks::default(), dark: false, blend }, &mut drawing);
+            look::draw(
+                view,
+                &DrawOptions { marks: Marks::default(), dark: false, blend },
+                &mut drawing,
+            );
             drawing
         };
         let of_scene = || Camera::of_scene(&view.scene);

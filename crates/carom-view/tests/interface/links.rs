@@ -14,7 +14,7 @@ use crate::desk::{Desk, desk, go_to, press, scene, setup, watching};
 
 /// Calls that a host received.
 #[derive(Default)]
-struct Told {
+struct Announced {
     links: Vec<String>,
     /// Numbers of the frames of films, and the pictures' bytes.
     frames: Vec<(u32, usize)>,
@@ -24,7 +24,7 @@ struct Told {
 }
 
 /// A host that records its calls.
-struct Listener(Rc<RefCell<Told>>);
+struct Listener(Rc<RefCell<Announced>>);
 
 impl Host for Listener {
     fn save(&mut self, name: &str, ending: &str, _: &[u8]) -> Result<String, String> {
@@ -56,7 +56,7 @@ impl Host for Listener {
 }
 
 struct ListenerFilm {
-    told: Rc<RefCell<Told>>,
+    told: Rc<RefCell<Announced>>,
     name: String,
 }
 
@@ -76,8 +76,8 @@ impl FilmMaker for ListenerFilm {
     }
 }
 
-fn listened(start: Start) -> (Desk, Rc<RefCell<Told>>) {
-    let told = Rc::<RefCell<Told>>::default();
+fn listened(start: Start) -> (Desk, Rc<RefCell<Announced>>) {
+    let told = Rc::<RefCell<Announced>>::default();
     let host = Box::new(Listener(Rc::clone(&told)));
     (desk(Setup { start: Some(start), host, ..setup() }), told)
 }

@@ -2,8 +2,8 @@
 
 use super::topology::Topology;
 
-/// What of a mesh may not be as meant, by the numbers of its triangles and vertices, from 0. A mesh with faults
-/// is met as it is.
+/// Probable mistakes in a mesh, by the numbers of its triangles and vertices, from 0. A mesh with faults is met
+/// as it is.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub struct MeshFaults {

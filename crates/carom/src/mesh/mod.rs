@@ -165,7 +165,7 @@ impl Mesh {
         &self.0.triangles
     }
 
-    /// Whether it is met from one side only because that was asked for.
+    /// Whether [`Self::one_sided`] made it one-sided.
     pub fn is_one_sided(&self) -> bool {
         self.0.is_one_sided
     }
@@ -180,7 +180,7 @@ impl Mesh {
         self.0.bounds
     }
 
-    /// What of it may not be as meant: holes, triangles without an area, and the like.
+    /// Probable mistakes: holes, triangles without an area, and the like.
     pub fn faults(&self) -> MeshFaults {
         MeshFaults::of(&self.0.topology)
     }

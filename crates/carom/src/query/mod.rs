@@ -31,7 +31,7 @@ pub enum Body {
     Collider(ColliderId),
 }
 
-/// What a ray or a sphere on its way meets first.
+/// The first body that a ray or a moving sphere meets.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Hit {
@@ -76,7 +76,7 @@ pub struct QueryFilter {
     pub colliders: bool,
     /// Whether it finds triggers.
     pub triggers: bool,
-    /// A sphere that it passes over: the one that asks.
+    /// A sphere that it passes over, such as the one from which a ray starts.
     pub except: Option<SphereId>,
     /// The groups that it is in and collides with, as if it were a body; by default all of both.
     pub groups: Groups,

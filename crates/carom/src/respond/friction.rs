@@ -100,8 +100,8 @@ impl FrictionContact {
     }
 }
 
-/// Gives contacts that got normal impulses those of friction. Tells what that does to kinetic energy \[J\],
-/// <= 0 but for rounding, measured against the surfaces.
+/// Applies friction to contacts that got normal impulses. Returns the change of kinetic energy \[J\], <= 0
+/// but for rounding, measured against the surfaces.
 ///
 /// The impulses are those of least kinetic energy, each at most the coefficient of friction times the
 /// normal impulse; the tangential restitution of a contact turns part of its slip round. For one contact

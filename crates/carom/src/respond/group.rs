@@ -109,7 +109,7 @@ impl<'a> Group<'a> {
         }))
     }
 
-    /// Gives the bodies these impulses, one per contact.
+    /// Applies these impulses to the bodies, one for each contact.
     pub fn push(&self, impulses: &[f64], velocities: &mut [DVec3]) {
         let (mut steps, mut moved) =
             (vec![Default::default(); self.masses.len()], velocities.to_vec());
@@ -122,7 +122,7 @@ impl<'a> Group<'a> {
 }
 
 impl Motion {
-    /// Adds so many times these impulses.
+    /// Adds a multiple of these impulses.
     pub fn add(&mut self, impulses: &[f64], factor: f64) {
         for (total, impulse) in self.impulses.iter_mut().zip(impulses) {
             *total += factor * impulse;

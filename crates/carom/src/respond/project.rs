@@ -48,7 +48,7 @@ impl Projector {
     /// Moves the velocities, by impulses at `active` contacts, to the nearest ones (in kinetic
     /// energy) whose rates of opening are at least the targets.
     ///
-    /// Gives the worst outcome of a component.
+    /// Projects each component on its own; returns the worst outcome of one.
     pub fn project(
         &mut self,
         group: &Group,

@@ -61,8 +61,8 @@ struct Buffers {
     integrate: integrate::Scratch,
 }
 
-/// Advances all spheres by one frame (`docs/physics/bisect-and-discrete.md`). Tells whether the frame came
-/// to its end, or a request stopped it.
+/// Advances all spheres by one frame (`docs/physics/bisect-and-discrete.md`). Returns whether the frame
+/// came to its end, or a request stopped it.
 ///
 /// Spheres that intersect at the end of the frame form islands, and each island goes through the
 /// frame again by [`settle`]. Where an island then meets a sphere outside, the two join and go

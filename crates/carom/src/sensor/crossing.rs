@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::Leg;
+use super::FlightSegment;
 use crate::collider_motion::Course;
 use crate::contact_time::{self, Probe, bisect};
 use crate::detect::{Separation, sphere_surface};
@@ -15,14 +15,14 @@ use crate::system::System;
 
 /// Distances below this part of the coordinates are rounding.
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
-/// Close to the surface a search steps by this part of the leg at least, and by twice as much each time: a
+/// Close to the surface a search steps by this part of the segment at least, and by twice as much each time: a
 /// way along the surface comes to an end, and what is missed is no deeper than a step is long.
 const LEAST_STEP: f64 = 1e-12;
 /// A search that comes no farther gives up; oblique ways take some hundreds of steps.
 const MOST_STEPS: u32 = 1 << 16;
 /// Halvings that use up the bits of a time.
 const MOST_HALVINGS: u32 = 128;
-/// Crossings of the plane of a rectangle that a search from behind looks at.
+/// Crossings of the plane of a rectangle that a search from behind states at.
 const MOST_PASSES: u32 = 16;
 
 /// A surface of a trigger, or its image.
@@ -40,18 +40,18 @@ impl Target {
     }
 }
 
-/// A sphere on a leg, and one trigger.
+/// A sphere on a segment, and one trigger.
 pub(super) struct Crossing<'a> {
-    pub leg: &'a Leg,
+    pub segment: &'a FlightSegment,
     pub targets: &'a [Target],
     pub system: &'a System<'a>,
     /// When surfaces are where the system says, on the world's clock \[s\].
     pub step_start: f64,
 }
 
-/// How a sphere stands to a trigger at one time.
+/// Depth and velocity of a sphere relative to a trigger at one time.
 #[derive(Debug, Clone, Copy)]
-struct Look {
+struct TriggerState {
     separation: Separation,
     /// How far it has to go to be out \[m\]; negative outside.
     depth: f64,
@@ -65,12 +65,12 @@ impl Crossing<'_> {
     /// Whether the sphere is in the trigger at `time` \[s\], where before it `was_in` or not: at the surface it
     /// stays what it was.
     pub fn is_in_at(&self, time: f64, was_in: bool) -> bool {
-        self.look(time).is_some_and(|look| {
-            if was_in { look.depth >= -look.rounding } else { look.depth > look.rounding }
+        self.state_at(time).is_some_and(|state| {
+            if was_in { state.depth >= -state.rounding } else { state.depth > state.rounding }
         })
     }
 
-    /// When the sphere, which is out at `now` \[s\], comes in, up to the end of the leg.
+    /// When the sphere, which is out at `now` \[s\], comes in, up to the end of the segment.
     pub fn entry(&self, now: f64) -> Option<f64> {
         let times = self.targets.iter().filter_map(|target| self.entry_of(target, now));
         times.min_by(f64::total_cmp)
@@ -78,8 +78,8 @@ impl Crossing<'_> {
 
     fn entry_of(&self, target: &Target, now: f64) -> Option<f64> {
         let (form, motion) = self.place(target, now);
-        let track = self.leg.track_from(now, target.shift);
-        let horizon = self.leg.to - now;
+        let track = self.segment.track_from(now, target.shift);
+        let horizon = self.segment.to - now;
         let course = self.course(target, now);
         let meet = |form: &Form, radius: f64| {
             contact_time::track_surface(&track, radius, form, &motion, course.as_ref(), horizon)
@@ -87,21 +87,21 @@ impl Crossing<'_> {
         let delay = match form {
             Form::Box(solid) => {
                 let faces = solid.faces().into_iter().map(Form::Rectangle);
-                faces.filter_map(|face| meet(&face, self.leg.radius)).min_by(f64::total_cmp)
+                faces.filter_map(|face| meet(&face, self.segment.radius)).min_by(f64::total_cmp)
             }
             Form::Rectangle(rectangle) => {
-                let from_front = meet(&form, self.leg.radius).map(|delay| now + delay);
+                let from_front = meet(&form, self.segment.radius).map(|delay| now + delay);
                 let from_behind = self.entry_from_behind(target, &rectangle, now);
                 return from_front.into_iter().chain(from_behind).min_by(f64::total_cmp);
             }
-            _ => meet(&form, self.leg.radius),
+            _ => meet(&form, self.segment.radius),
         };
         delay.map(|delay| now + delay)
     }
 
     /// When the centre comes from behind a rectangle to its front, so near that the sphere overlaps it.
     fn entry_from_behind(&self, target: &Target, rectangle: &Rectangle, now: f64) -> Option<f64> {
-        let start = self.leg.flight_from(now).position - target.shift - rectangle.center;
+        let start = self.segment.flight_from(now).position - target.shift - rectangle.center;
         let mut from = now;
         if start.dot(rectangle.normal) >= 0.0 {
             return None;
@@ -109,16 +109,16 @@ impl Crossing<'_> {
         for _ in 0..MOST_PASSES {
             let (form, motion) = self.place(target, from);
             let Form::Rectangle(Rectangle { center, normal, .. }) = form else { return None };
-            let track = self.leg.track_from(from, target.shift);
+            let track = self.segment.track_from(from, target.shift);
             let front = Form::HalfSpace { point: center, normal: -normal };
-            let horizon = self.leg.to - from;
+            let horizon = self.segment.to - from;
             let course = self.course(target, from);
             let course = course.as_ref();
             let delay = contact_time::track_surface(&track, 0.0, &front, &motion, course, horizon)?;
             let time = from + delay;
             let (form, _) = self.place(target, time);
-            let place = self.leg.flight_from(time).position - target.shift;
-            let there = crate::detect::known_in_front(&form, place, self.leg.radius);
+            let place = self.segment.flight_from(time).position - target.shift;
+            let there = crate::detect::known_in_front(&form, place, self.segment.radius);
             if there.is_some_and(|it| it.distance < 0.0) {
                 return Some(self.first_in_front(target, time));
             }
@@ -131,40 +131,40 @@ impl Crossing<'_> {
     /// whatever rounding says.
     fn first_in_front(&self, target: &Target, time: f64) -> f64 {
         let (mut time, mut step) = (time, time.next_up() - time);
-        while time < self.leg.to && self.look_at(target, time).is_none() {
-            (time, step) = ((time + step).min(self.leg.to), 2.0 * step);
+        while time < self.segment.to && self.state_in(target, time).is_none() {
+            (time, step) = ((time + step).min(self.segment.to), 2.0 * step);
         }
         time
     }
 
-    /// When the sphere, which is in at `now` \[s\], comes out, up to the end of the leg.
+    /// When the sphere, which is in at `now` \[s\], comes out, up to the end of the segment.
     ///
     /// No way out is shorter than the depth, which bounds a step by the depth over the speed. Where the sphere
     /// comes out for sure within twice the time that it would take at its present rate, halving finds when.
     pub fn exit(&self, now: f64) -> Option<f64> {
-        let to = self.leg.to;
+        let to = self.segment.to;
         let speed = self.fastest(now);
         let mut least = LEAST_STEP * (to - now);
         let (mut before, mut time) = (now, now);
         for _ in 0..MOST_STEPS {
-            let Some(look) = self.look(time) else { return Some(self.pin_down(before, time)) };
-            if look.depth < -look.rounding {
+            let Some(state) = self.state_at(time) else { return Some(self.pin_down(before, time)) };
+            if state.depth < -state.rounding {
                 return Some(self.pin_down(before, time));
             }
             if time >= to || speed == 0.0 {
                 return None;
             }
-            let is_close = look.depth <= look.rounding;
+            let is_close = state.depth <= state.rounding;
             let after = (time + least).max(time.next_up()).min(to);
-            let comes_out = is_close && look.opening > ROUNDING * speed;
+            let comes_out = is_close && state.opening > ROUNDING * speed;
             if comes_out && self.is_out_at(after) {
                 return Some(self.pin_down(time, after));
             }
-            let ahead = (time + 2.0 * look.depth.max(0.0) / look.opening).min(to);
-            if look.opening > 0.0 && !is_close && self.is_out_at(ahead) {
+            let ahead = (time + 2.0 * state.depth.max(0.0) / state.opening).min(to);
+            if state.opening > 0.0 && !is_close && self.is_out_at(ahead) {
                 return Some(self.pin_down(time, ahead));
             }
-            let step = (look.depth / speed).max(least);
+            let step = (state.depth / speed).max(least);
             least = if is_close { 2.0 * least } else { LEAST_STEP * (to - now) };
             (before, time) = (time, (time + step).max(time.next_up()).min(to));
         }
@@ -173,7 +173,7 @@ impl Crossing<'_> {
 
     /// Whether the sphere is out at `time` \[s\], for whatever rounding says.
     fn is_out_at(&self, time: f64) -> bool {
-        self.look(time).is_none_or(|look| look.depth < 0.0)
+        self.state_at(time).is_none_or(|state| state.depth < 0.0)
     }
 
     /// The time \[s\] at which the sphere comes out that is in at one time and out at a later one.
@@ -192,16 +192,16 @@ impl Crossing<'_> {
 
     /// How the sphere stands to the trigger at `time` \[s\], by the surface that it is deepest in; `None` where
     /// it is on the side of all that nothing collides with.
-    fn look(&self, time: f64) -> Option<Look> {
-        let looks = self.targets.iter().filter_map(|target| self.look_at(target, time));
-        looks.max_by(|a, b| a.depth.total_cmp(&b.depth))
+    fn state_at(&self, time: f64) -> Option<TriggerState> {
+        let states = self.targets.iter().filter_map(|target| self.state_in(target, time));
+        states.max_by(|a, b| a.depth.total_cmp(&b.depth))
     }
 
-    fn look_at(&self, target: &Target, time: f64) -> Option<Look> {
+    fn state_in(&self, target: &Target, time: f64) -> Option<TriggerState> {
         let (form, motion) = self.place(target, time);
-        let Flight { position, velocity, .. } = self.leg.flight_from(time);
+        let Flight { position, velocity, .. } = self.segment.flight_from(time);
         let center = position - target.shift;
-        let radius = self.leg.radius;
+        let radius = self.segment.radius;
         let separation = sphere_surface(&form, center, radius)?;
         let relative = velocity - motion.velocity_at(separation.point);
         let (mut depth, mut opening) = (-separation.distance, relative.dot(separation.normal));
@@ -212,18 +212,23 @@ impl Crossing<'_> {
                 (depth, opening) = (height, -relative.dot(it.normal));
             }
         }
-        let flown = self.leg.farthest(time).norm();
-        let size = form.coordinates() + self.leg.flight.position.norm() + target.shift.norm();
+        let flown = self.segment.farthest(time).norm();
+        let size = form.coordinates() + self.segment.flight.position.norm() + target.shift.norm();
         let rounding = ROUNDING * (size + flown + radius);
         let point = separation.point + target.shift;
-        Some(Look { separation: Separation { point, ..separation }, depth, opening, rounding })
+        Some(TriggerState {
+            separation: Separation { point, ..separation },
+            depth,
+            opening,
+            rounding,
+        })
     }
 
-    /// An upper bound of the speed of the sphere relative to the trigger from `now` to the end of the leg \[m/s\].
+    /// An upper bound of the speed of the sphere relative to the trigger from `now` to the end of the segment \[m/s\].
     fn fastest(&self, now: f64) -> f64 {
-        let Flight { position, velocity, .. } = self.leg.flight_from(now);
-        let h = self.leg.to - now;
-        let own = velocity.norm() + h * self.leg.most_acceleration();
+        let Flight { position, velocity, .. } = self.segment.flight_from(now);
+        let h = self.segment.to - now;
+        let own = velocity.norm() + h * self.segment.most_acceleration();
         let of_surface = |target: &Target| {
             let (_, motion) = self.place(target, now);
             let SurfaceMotion { origin, velocity, angular_velocity, .. } = motion;
@@ -231,7 +236,7 @@ impl Crossing<'_> {
             let (speed, spin) =
                 bounds.map_or((velocity.norm(), angular_velocity.norm()), |it| (it.speed, it.spin));
             let reach = (position - target.shift - origin).norm() + h * (own + speed);
-            speed + spin * (reach + self.leg.radius)
+            speed + spin * (reach + self.segment.radius)
         };
         own + self.targets.iter().map(of_surface).fold(0.0, f64::max)
     }
@@ -253,15 +258,15 @@ impl Crossing<'_> {
         enters: bool,
         time: f64,
     ) -> SensorEvent {
-        let flight = self.leg.flight_from(time);
+        let flight = self.segment.flight_from(time);
         let Target { surface, .. } = self.targets[0];
-        let look = self.look(time);
+        let state = self.state_at(time);
         let of_rectangle = || {
             let (form, _) = self.place(&self.targets[0], time);
             let center = flight.position - self.targets[0].shift;
-            crate::detect::known_in_front(&form, center, self.leg.radius)
+            crate::detect::known_in_front(&form, center, self.segment.radius)
         };
-        let separation = look.map(|look| look.separation).or_else(of_rectangle);
+        let separation = state.map(|state| state.separation).or_else(of_rectangle);
         let (point, normal) = separation.map_or((flight.position, DVec3::Y), |separation| {
             (separation.point, separation.normal)
         });

@@ -1,14 +1,14 @@
 //! Sensors: when spheres come into triggers and leave them, along their flights.
 
 mod crossing;
-mod leg;
+mod flight_segment;
 mod tracks;
 
 use std::collections::BTreeSet;
 
 use glam::DVec3;
 
-pub(crate) use leg::Leg;
+pub(crate) use flight_segment::FlightSegment;
 pub(crate) use tracks::Tracks;
 
 use crate::detect::surface_tree;
@@ -41,15 +41,15 @@ impl Sensors {
         Self { presence, ..Self::default() }
     }
 
-    /// Notes when a sphere enters and leaves triggers along a leg. Events count their time from `step_start` \[s\],
+    /// Notes when a sphere enters and leaves triggers along a segment. Events count their time from `step_start` \[s\],
     /// when surfaces are where the system says.
-    pub fn watch(&mut self, leg: &Leg, system: &System, step_start: f64) {
+    pub fn watch(&mut self, segment: &FlightSegment, system: &System, step_start: f64) {
         let period = system.settings.boundary.period();
-        for leg in leg.pieces(period) {
-            self.find_targets(&leg, system, period);
+        for segment in segment.pieces(period) {
+            self.find_targets(&segment, system, period);
             let targets = std::mem::take(&mut self.targets);
             for of_one in targets.chunk_by(|a, b| a.collider == b.collider) {
-                let crossing = Crossing { leg: &leg, targets: of_one, system, step_start };
+                let crossing = Crossing { segment: &segment, targets: of_one, system, step_start };
                 self.pass(&crossing, of_one[0].collider);
             }
             self.targets = targets;
@@ -70,11 +70,11 @@ impl Sensors {
         });
     }
 
-    /// Finds the triggers that a sphere may be in or meet along a leg, sorted by collider.
-    fn find_targets(&mut self, leg: &Leg, system: &System, period: DVec3) {
+    /// Finds the triggers that a sphere may be in or meet along a segment, sorted by collider.
+    fn find_targets(&mut self, segment: &FlightSegment, system: &System, period: DVec3) {
         self.targets.clear();
-        let bounds = leg.bounds();
-        for shift in leg::shifts(period) {
+        let bounds = segment.bounds();
+        for shift in flight_segment::shifts(period) {
             let bounds = bounds.moved(-shift);
             system.trigger_tree.near(&bounds, &mut self.near);
             let repeats = |surface: &u32| {
@@ -86,8 +86,8 @@ impl Sensors {
             self.targets.extend(of_tree.map(|surface| Target::new(surface, shift, system)));
         }
         // What moves may come from anywhere; what the sphere is in may have been put elsewhere.
-        let first = (leg.sphere, ColliderId::from_number(0));
-        let last = (leg.sphere, ColliderId::from_number(u64::MAX));
+        let first = (segment.sphere, ColliderId::from_number(0));
+        let last = (segment.sphere, ColliderId::from_number(u64::MAX));
         let inside: BTreeSet<_> = self.presence.range(first..=last).map(|it| it.1).collect();
         for (number, surface) in (0..).zip(system.surfaces) {
             if surface.role != Role::Reports {
@@ -100,7 +100,7 @@ impl Sensors {
                 self.targets.push(Target::new(number, DVec3::ZERO, system));
             }
         }
-        let groups = system.spheres.groups(leg.index as usize);
+        let groups = system.spheres.groups(segment.index as usize);
         let is_seen = |it: &Target| system.surfaces[it.surface as usize].groups.collides(groups);
         self.targets.retain(is_seen);
         self.targets.sort_by_key(|target| (target.collider, target.surface));
@@ -108,8 +108,8 @@ impl Sensors {
 
     /// Notes when a sphere enters and leaves one trigger.
     fn pass(&mut self, crossing: &Crossing, collider: ColliderId) {
-        let key = (crossing.leg.sphere, collider);
-        let mut now = crossing.leg.from;
+        let key = (crossing.segment.sphere, collider);
+        let mut now = crossing.segment.from;
         // What was put in or out from outside, or came there with a new flight.
         let is_in = self.presence.contains(&key);
         if is_in != crossing.is_in_at(now, is_in) {

@@ -25,12 +25,12 @@ impl Default for Contact {
 }
 
 impl Contact {
-    /// The same parameters with so many sub-steps in a frame.
+    /// The same parameters with this number of sub-steps in a frame.
     pub fn with_sub_steps(self, sub_steps: u32) -> Self {
         Self { sub_steps, ..self }
     }
 
-    /// The same parameters with so many sweeps in a sub-step.
+    /// The same parameters with this number of sweeps in a sub-step.
     pub fn with_sweeps(self, sweeps: u32) -> Self {
         Self { sweeps, ..self }
     }

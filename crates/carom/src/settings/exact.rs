@@ -9,15 +9,15 @@ use crate::validate;
 pub struct Exact {
     /// How impacts at one instant in one group of touching bodies are answered.
     pub impact_law: ImpactLaw,
-    /// How long a contact lasts at least \[s\], > 0. Two bodies that would be back in contact sooner,
-    /// under the forces that press them together, stay in contact; and an impact of two spheres that
-    /// both were hit within that time gives nothing back, unless it is elastic. So no sequence of ever
+    /// Least duration of a contact \[s\], > 0. Two bodies that would be back in contact sooner, under
+    /// the forces that press them together, stay in contact; and an impact of two spheres that both
+    /// were hit within that time gives nothing back, unless it is elastic. So no sequence of ever
     /// shorter bounces stops the clock. A contact lasts longer where bounces of that length cannot be
     /// resolved: `docs/physics/persistent-contacts.md`, "Contact duration".
     pub contact_duration: f64,
     /// Work of one sphere in a frame: its impacts, other events of its flight, and the work of the
-    /// groups it is in, in units of an impact. More makes a stepped zone, or, without zones, is refused
-    /// as an error, so that a step ends.
+    /// groups it is in, in units of an impact. A sphere with more becomes a stepped zone, or, without
+    /// zones, ends the step with an error.
     pub max_impacts: u32,
     /// Whether spheres in contact that take too much work are stepped.
     pub zones: Zones,
@@ -25,14 +25,14 @@ pub struct Exact {
     /// stepped zone of the group.
     pub zone_budget: u32,
     /// Time between two ticks, at which zones are stepped \[s\], > 0. Ticks are at its multiples on the
-    /// world's clock. In frames of more than 128 of it it is doubled, in those of less than a quarter of it
-    /// halved, until they are no more.
+    /// world's clock. The tick adapts to the frame: doubled while a frame holds more than 128 ticks, halved
+    /// while it is longer than four frames.
     pub zone_tick: f64,
-    /// Time between two force ticks \[s\], > 0: forces between spheres, with all others in such a world, and
-    /// forces that are not linear on spheres in persistent contact are held constant from one to the next.
-    /// Spheres in flight under forces that act on each alone do not need it. Ticks are at its multiples on
-    /// the world's clock, whatever the frames; where springs need it, it is halved until they are stable. In frames of
-    /// more than 64 of it it is doubled, in those of less than a quarter of it halved, until they are no more.
+    /// Time between two force ticks \[s\], > 0: forces between spheres, with all others in such a world, and forces
+    /// that are not linear on spheres in persistent contact are held constant from one to the next. Spheres in flight
+    /// under forces that act on each alone do not need it. Ticks are at its multiples on the world's clock, whatever
+    /// the frames; where springs need it, it is halved until they are stable. The tick adapts to the frame: doubled
+    /// while a frame holds more than 64 ticks, halved while it is longer than four frames.
     pub force_tick: f64,
 }
 

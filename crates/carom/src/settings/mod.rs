@@ -27,7 +27,7 @@ pub use zones::Zones;
 use crate::error::InvalidValue;
 use crate::validate;
 
-/// How a world is stepped.
+/// Settings of a world.
 ///
 /// What only one rule reads is a parameter of that [`Rule`]; what is here describes the world itself, or
 /// counts under every rule.

@@ -1,6 +1,6 @@
 use super::{Bisect, Contact, Discrete, Exact};
 
-/// How a frame is taken.
+/// Step rule: how a world goes through a frame.
 ///
 /// ```
 /// use carom::{Bisect, Collider, DVec3, Discrete, Error, Exact, Pose, Rule, Settings, Shape};

@@ -1,4 +1,4 @@
-/// What becomes of spheres in contact whose impacts the rule `exact` cannot answer one after another.
+/// Whether the rule `exact` steps spheres in contact whose single impacts would take too much work.
 ///
 /// ```
 /// use carom::{Collider, DVec3, Error, Exact, Force, Gravity, Pose, Settings, Shape, Sphere, World, Zones};

@@ -7,7 +7,7 @@ use crate::error::{Error, InvalidValue, Subject};
 use crate::forces;
 use crate::id::SphereId;
 use crate::report::StepReport;
-use crate::rule::exact::{self, Arrivals, Span, Timeline, Unfinished, Unheld, Until, Watch};
+use crate::rule::exact::{self, Arrivals, HoldError, Span, Timeline, Unfinished, Until, Watch};
 use crate::settings::Exact;
 use crate::state::State;
 use crate::sum::Sum;
@@ -83,7 +83,7 @@ fn begin(attempt: &mut Attempt, parameters: Exact, end: f64) -> Result<Timeline,
     let mut timeline =
         before.unwrap_or_else(|| exact::start(&system, parameters, motion, zone, time));
     exact::begin(&mut timeline, &system, [time, end], next_emission)
-        .map_err(|unheld| refused_forces(unheld, time))?;
+        .map_err(|error| refused_forces(error, time))?;
     Ok(timeline)
 }
 
@@ -197,7 +197,7 @@ pub(super) fn check(state: &State, parameters: Exact, length: f64) -> Result<(),
     check_room(state)?;
     let now = state.now();
     let tick = exact::tick_for_springs(now.system.fastest_spring_rate(), parameters, length);
-    tick.map(drop).map_err(|unheld| refused_forces(unheld, now.time))
+    tick.map(drop).map_err(|error| refused_forces(error, now.time))
 }
 
 /// Refuses spheres for which there is no room.
@@ -215,10 +215,10 @@ fn check_count(state: &State) -> Result<(), Error> {
 }
 
 /// Why forces cannot be held in a step that starts at `time` \[s\].
-pub(super) fn refused_forces(unheld: Unheld, time: f64) -> Error {
-    match unheld {
-        Unheld::NotFinite(sphere) => no_longer_finite(sphere, "velocity", time),
-        Unheld::TooStiff(rate) => InvalidValue {
+pub(super) fn refused_forces(error: HoldError, time: f64) -> Error {
+    match error {
+        HoldError::NotFinite(sphere) => no_longer_finite(sphere, "velocity", time),
+        HoldError::TooStiff(rate) => InvalidValue {
             field: "stiffness",
             requirement: "of springs, with their damping and the masses of their spheres, such that motion on \
                           them has a rate of at most 2048 divided by the `force_tick` of the rule exact, in 1/s",

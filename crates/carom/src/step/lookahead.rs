@@ -34,7 +34,7 @@ pub(crate) fn predict(
     let begin = || exact::start(&now.system, parameters, now.motion, state.zone.clone(), now.time);
     let mut timeline = state.timeline.clone().unwrap_or_else(begin);
     exact::begin(&mut timeline, &now.system, [now.time, end], f64::INFINITY)
-        .map_err(|unheld| by_event::refused_forces(unheld, now.time))?;
+        .map_err(|error| by_event::refused_forces(error, now.time))?;
     let span = Span { start: now.time, length: horizon, end };
     let work = Work::new(stop_request);
     let course =

@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::attempt::Attempt;
 use crate::flight::Flight;
-use crate::sensor::{Leg, Sensors};
+use crate::sensor::{FlightSegment, Sensors};
 
 /// Reports which triggers the spheres entered and left in a frame, along the tracks that were noted, or straight
 /// to where they are now.
@@ -30,7 +30,7 @@ pub(super) fn report(attempt: &mut Attempt) {
             };
             let flight_start = start + number as f64 * part;
             let end = start + (number + 1) as f64 * part;
-            let leg = Leg {
+            let segment = FlightSegment {
                 sphere,
                 index: index as u32,
                 radius,
@@ -40,7 +40,7 @@ pub(super) fn report(attempt: &mut Attempt) {
                 from: flight_start,
                 to: end,
             };
-            sensors.watch(&leg, &system, start);
+            sensors.watch(&segment, &system, start);
         }
     }
     attempt.report_sensors(Some(sensors));

@@ -60,7 +60,7 @@ impl World {
             || (self.settings().rule.has_friction() && self.is_rough())
     }
 
-    /// Whether friction of some body is above zero. Only some rules have it act:
+    /// Whether friction of some body is above zero. It acts under some rules only:
     /// [`Rule::has_friction`](crate::Rule::has_friction).
     pub fn is_rough(&self) -> bool {
         let colliders = self.colliders().filter(|(_, collider)| !collider.trigger);

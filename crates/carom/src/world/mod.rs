@@ -74,8 +74,8 @@ impl World {
         Ok(report)
     }
 
-    /// Checks what [`Self::step`] by `dt` \[s\] checks first: the length of the step, emitters, and under the rule `exact`
-    /// the periodic box, the number of spheres and how stiff springs are. Forces are not asked for.
+    /// Checks what [`Self::step`] by `dt` \[s\] checks first: the length of the step, emitters, and under the rule
+    /// `exact` the periodic box, the number of spheres and how stiff springs are. Forces are not evaluated.
     ///
     /// # Errors
     /// [`Error::Invalid`], as [`Self::step`], or if springs are too stiff for the rule `exact`.
@@ -109,8 +109,8 @@ impl World {
         Ok(report)
     }
 
-    /// The time of the next impact \[s\], if one comes within so many seconds. Only under the rule
-    /// `exact`; costs as much as a copy of the world and the step to that impact.
+    /// The time of the next impact \[s\], if one comes `within` this time \[s\]. Only under the
+    /// rule `exact`; costs as much as a copy of the world and the step to that impact.
     ///
     /// # Errors
     /// Those of [`Self::step_to_next_event`].
@@ -121,7 +121,7 @@ impl World {
     }
 
     /// The contacts that persist, with their forces, in the order of the ids of spheres, pairs of
-    /// spheres first: what a ball that lies on the floor is in. Known under the rules `exact` and
+    /// spheres first. A ball that lies on the floor is in one. Known under the rules `exact` and
     /// `contact` after a step; none where something was changed since, or under other rules.
     ///
     /// ```
@@ -139,7 +139,7 @@ impl World {
         self.state.persistent_contacts()
     }
 
-    /// Has steps end early once a request is made; `None` takes the request back. Under the rule
+    /// Sets the request that ends steps early once it is made; `None` removes it. Under the rule
     /// `exact` a step looks at it every few milliseconds, under the others before it begins. It is no
     /// part of a snapshot; copies of the world have it, too.
     pub fn set_stop_request(&mut self, request: Option<StopRequest>) {
@@ -162,12 +162,12 @@ impl World {
         self.state.clock.seconds()
     }
 
-    /// How the world is stepped.
+    /// Settings: the step rule, and what holds under every rule.
     pub fn settings(&self) -> &Settings {
         &self.state.settings
     }
 
-    /// Steps the world differently from now on.
+    /// Replaces the settings; later steps use them.
     ///
     /// # Errors
     /// [`Error::Invalid`] for a parameter of the rule that makes no sense, or a periodic box where there is a
@@ -295,7 +295,7 @@ impl World {
         self.set_sphere(id, Sphere { angular_velocity, ..sphere })
     }
 
-    /// Puts spheres elsewhere, with other velocities; their spins stay. Where forces are applied to single
+    /// Sets positions and velocities of spheres; their spins stay. Where forces are applied to single
     /// spheres ([`Self::set_applied_forces`]), the flights of the others go on, which makes this cheap.
     ///
     /// # Errors
@@ -425,8 +425,8 @@ impl World {
         self.set_colliders(&[(id, collider)])
     }
 
-    /// Changes several colliders at once. Surfaces are placed anew once for all of them: to move
-    /// many colliders together costs as much as to move one.
+    /// Changes several colliders at once. Surfaces are placed once for all of them: moving many
+    /// colliders together costs as much as moving one.
     ///
     /// # Errors
     /// As [`Self::set_collider`]; then none is changed.
@@ -465,7 +465,7 @@ impl World {
     }
 
     /// Changes an emitter. It emits the new kind of sphere from the next one on; with another
-    /// period it starts anew, now; one that was done emits what a larger `count` adds from now on.
+    /// period it starts again now; one that was done emits what a larger `count` adds from now on.
     ///
     /// # Errors
     /// [`Error::Unknown`] if there is no such emitter, [`Error::Invalid`] for a number that

@@ -9,7 +9,7 @@ use crate::rotation;
 use crate::validate;
 
 impl World {
-    /// Puts a collider elsewhere, at once: it has no velocity that spheres could feel. A motion goes along.
+    /// Sets the pose of a collider at once: spheres feel no velocity of this motion. A motion in closed form goes along.
     ///
     /// # Errors
     /// As [`Self::set_collider`].

@@ -21,7 +21,7 @@ pub struct Drawn {
     pub emitter: Option<Emitter>,
     pub obstacles: Vec<Obstacle>,
     pub balls: Vec<Ball>,
-    /// In which part of the room they are.
+    /// Part of the room that they fill.
     pub crowding: f64,
     pub springs: Option<Springs>,
 }

@@ -3,8 +3,8 @@
 use fearless_simd::{Level, Simd, SimdMask, dispatch};
 
 use super::drift::Drift;
-use super::found::Found;
 use super::row::{self, BOUNDLESS, Row};
+use super::slab_totals::SlabTotals;
 use super::slots::Run;
 use super::solver::Solver;
 use super::sub_step::SubStep;
@@ -33,19 +33,19 @@ pub(super) fn accelerate(
     }
     let drift = solver.drift;
     solver.slabs.each(&mut solver.slots, |mut run, slab| {
-        slab.found = dispatch!(Level::new(), simd => accelerate_run(simd, &mut run, h, drift));
+        slab.totals = dispatch!(Level::new(), simd => accelerate_run(simd, &mut run, h, drift));
     });
     solver.energy_before = solver.slabs.energy();
     solver.is_stale |= drift.after(h).is_beyond();
-    solver.is_stale |= solver.slabs.list.iter().any(|slab| slab.found.leaves);
-    let change = solver.slabs.list.iter().map(|slab| slab.found.change).fold(0.0, f64::max);
+    solver.is_stale |= solver.slabs.list.iter().any(|slab| slab.totals.leaves);
+    let change = solver.slabs.list.iter().map(|slab| slab.totals.change).fold(0.0, f64::max);
     SubStep::new(time, h, solver.common_acceleration, change)
 }
 
 /// Accelerates the spheres of a run; one that sleeps stays at rest. Finds their kinetic energy, the
 /// largest change of a velocity, and whether one may leave its margin in the sub-step.
 #[inline(always)]
-fn accelerate_run<S: Simd>(simd: S, run: &mut Run, h: f64, drift: Drift) -> Found {
+fn accelerate_run<S: Simd>(simd: S, run: &mut Run, h: f64, drift: Drift) -> SlabTotals {
     run.spin_before.copy_from_slice(run.spin);
     let zero = Lanes::all(simd, 0.0);
     let length = Lanes::all(simd, h);
@@ -77,11 +77,11 @@ fn accelerate_run<S: Simd>(simd: S, run: &mut Run, h: f64, drift: Drift) -> Foun
         leaves |= (reach.is_less(first) | reach.is_less(last)).any_true();
     }
     let of_spin = kinetic_energy(simd, run.spin);
-    Found {
+    SlabTotals {
         energy: 0.5 * energy.sum() + of_spin,
         change: change.largest().sqrt(),
         leaves,
-        ..Found::default()
+        ..SlabTotals::default()
     }
 }
 

@@ -49,7 +49,7 @@ pub(super) fn advance(solver: &mut Solver, sub_step: &SubStep) {
                     .binary_search_by_key(&slot, |it| it.slot)
                     .is_ok_and(|place| landed[place].met_surface)
         };
-        slab.found.leaves =
+        slab.totals.leaves =
             dispatch!(Level::new(), simd => stay_within_margin(simd, run, common, is_free));
         for (turn, spin) in run.turn.iter_mut().zip(&*run.spin) {
             *turn = turn.with_vector(turn.vector() + spin.vector());
@@ -100,7 +100,7 @@ fn place_landed(run: &mut Run, start: usize, landed: &[Landed]) {
 }
 
 /// Keeps spheres that an impact has made faster within their margins beside the common way \[m\], but for
-/// those that are free, by slot. Tells whether one has left its margin.
+/// those that are free, by slot. Returns whether one has left its margin.
 #[inline(always)]
 fn stay_within_margin<S: Simd>(
     simd: S,

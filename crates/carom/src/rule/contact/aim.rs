@@ -159,8 +159,8 @@ impl<S: Simd> Aimed<S> {
         (self.is_hit | self.goes_far).any_true()
     }
 
-    /// The velocities that impacts are to end with. Gives speeds of approach \[m/s\], 0 where there is no
-    /// impact.
+    /// Computes the velocities with which impacts are to end. Returns speeds of approach \[m/s\], 0 where
+    /// there is no impact.
     #[inline(always)]
     fn meet(
         self,

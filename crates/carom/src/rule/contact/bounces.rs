@@ -71,7 +71,7 @@ pub(super) fn entangled(solver: &Solver, bounces: &[OneBounce], sub_step: &SubSt
     let Solver { slots, slabs, places, .. } = solver;
     let is_done = |of_sphere: &[OneBounce]| match of_sphere {
         [bounce] => alone(slots, bounce, sub_step)
-            .is_some_and(|own| own.leg.first_of_free(slots, slabs, places).is_none()),
+            .is_some_and(|own| own.last.first_of_free(slots, slabs, places).is_none()),
         _ => false,
     };
     let spheres = bounces.chunk_by(|first, second| first.slot == second.slot);
@@ -103,14 +103,14 @@ pub(super) fn note(
         }
         let one = OneBounce::of_all(of_sphere);
         if let Some(own) = one.and_then(|bounce| alone(slots, &bounce, sub_step)) {
-            let Way { bounce, leg } = own;
-            let stop = leg.first_met(slots, slabs, places);
-            let stopped = stop.map(|stop| leg.stopped(slots, stop, sub_step, true));
+            let Way { bounce, last } = own;
+            let stop = last.first_met(slots, slabs, places);
+            let stopped = stop.map(|stop| last.stopped(slots, stop, sub_step, true));
             bounces.push(stopped.unwrap_or(bounce));
-        } else if let Some(Way { bounce, leg }) = among_others(slots, of_sphere, sub_step) {
-            let passed = || leg.first_passed(slots, slabs, places);
-            let stop = leg.goes_far(slots, slabs, places).then(passed).flatten();
-            let stopped = stop.map(|stop| leg.stopped(slots, stop, sub_step, false));
+        } else if let Some(Way { bounce, last }) = among_others(slots, of_sphere, sub_step) {
+            let passed = || last.first_passed(slots, slabs, places);
+            let stop = last.goes_far(slots, slabs, places).then(passed).flatten();
+            let stopped = stop.map(|stop| last.stopped(slots, stop, sub_step, false));
             bounces.push(stopped.unwrap_or(bounce));
         }
     }
@@ -122,11 +122,11 @@ pub(super) fn note(
     let stopped: Vec<_> = near_surfaces
         .filter(|&slot| !is_alone(slot) && !has_landed(slot))
         .filter_map(|slot| {
-            let leg = Leg::straight(slots, slot, sub_step);
+            let last = FinalFlight::straight(slots, slot, sub_step);
             let is_pushed = || slots.velocity[slot].vector() != slots.accelerated(slot, sub_step.h);
-            let goes_far = leg.goes_far(slots, slabs, places) && is_pushed();
-            let stop = goes_far.then(|| leg.first_passed(slots, slabs, places))??;
-            Some(leg.stopped(slots, stop, sub_step, false))
+            let goes_far = last.goes_far(slots, slabs, places) && is_pushed();
+            let stop = goes_far.then(|| last.first_passed(slots, slabs, places))??;
+            Some(last.stopped(slots, stop, sub_step, false))
         })
         .collect();
     bounces.extend(stopped);
@@ -163,7 +163,7 @@ fn of_surfaces(slots: &Slots, slab: &Slab, bounces: &mut Vec<OneBounce>) {
 struct Way {
     bounce: Bounce,
     /// Its way from the bounce on.
-    leg: Leg,
+    last: FinalFlight,
 }
 
 /// How a sphere bounces; `None` if something else changed its velocity, or the other sphere's. If it does after
@@ -186,11 +186,11 @@ fn alone(slots: &Slots, bounce: &OneBounce, sub_step: &SubStep) -> Option<Way> {
     };
     let (position, arriving) = start.after(time);
     let flight = Flight { position, velocity: arriving + own, ..start };
-    let leg = Leg { slot, start: time, flight, duration: sub_step.h - time };
+    let last = FinalFlight { slot, start: time, flight, duration: sub_step.h - time };
     let (slot, is_at_surface) = (slot as u32, other.is_none());
     let turn = Some(Turn { time, place: position });
     let bounce = Bounce { slot, shift, velocity, is_alone: true, is_at_surface, turn };
-    Some(Way { bounce, leg })
+    Some(Way { bounce, last })
 }
 
 /// How a sphere bounces off what touches something else, or off several bodies at once; `None` if it bore
@@ -216,7 +216,7 @@ fn among_others(slots: &Slots, bounces: &[OneBounce], sub_step: &SubStep) -> Opt
     let is_at_surface = bounces.iter().any(|bounce| bounce.other.is_none());
     let turn = is_alone.then_some(Turn { time, place: struck });
     let bounce = Bounce { slot: slot as u32, shift, velocity, is_alone, is_at_surface, turn };
-    Some(Way { bounce, leg: Leg { slot, start: time, flight, duration: left } })
+    Some(Way { bounce, last: FinalFlight { slot, start: time, flight, duration: left } })
 }
 
 /// The change of velocity by an impulse \[m/s\]; `None` if something else changed the sphere's, too.
@@ -227,9 +227,9 @@ fn own_change(slots: &Slots, slot: usize, impulse: DVec3, sub_step: &SubStep) ->
     ((change - own).length_squared() <= most).then_some(own)
 }
 
-/// The last part of a sphere's way in a sub-step, on which no contact waits for it.
+/// The last flight of a sphere in a sub-step, after all its contacts.
 #[derive(Clone, Copy)]
-struct Leg {
+struct FinalFlight {
     slot: usize,
     /// When in the sub-step it begins \[s\].
     start: f64,
@@ -238,12 +238,12 @@ struct Leg {
     duration: f64,
 }
 
-/// Where a leg ends at a surface.
+/// Where a final flight ends at a surface.
 #[derive(Clone, Copy)]
 struct Stop {
-    /// Since the leg began \[s\].
+    /// Since the final flight began \[s\].
     time: f64,
-    /// Where the surface, as it moves along its normal, takes the sphere by the end of the leg \[m\].
+    /// Where the surface, as it moves along its normal, takes the sphere by the end of the final flight \[m\].
     end: DVec3,
 }
 
@@ -253,7 +253,7 @@ impl Stop {
     }
 }
 
-impl Leg {
+impl FinalFlight {
     /// The whole way of a sphere that moves by its last velocity.
     fn straight(slots: &Slots, slot: usize, sub_step: &SubStep) -> Self {
         let [position, velocity] = [slots.position[slot], slots.velocity[slot]].map(Row::vector);
@@ -319,7 +319,7 @@ impl Leg {
         Some(self.stop(time?, radius, place))
     }
 
-    /// The stop of the sphere after a time \[s\] of the leg, at a surface.
+    /// The stop of the sphere after a time \[s\] of the final flight, at a surface.
     fn stop(&self, time: f64, radius: f64, (form, motion): &Place) -> Stop {
         let (place, rest) = (self.flight.after(time).0, self.duration - time);
         let end = if motion.is_at_rest() {
@@ -337,7 +337,7 @@ impl Leg {
         Stop { time, end }
     }
 
-    /// What becomes of the sphere if it stops on this leg, and goes along with what it stops at, where nothing
+    /// What becomes of the sphere if it stops on this final flight, and goes along with what it stops at, where nothing
     /// else touches it in the sub-step or something does.
     fn stopped(&self, slots: &Slots, stop: Stop, sub_step: &SubStep, is_alone: bool) -> Bounce {
         let Self { slot, start: start_time, flight, .. } = self;

@@ -21,7 +21,8 @@ const ROUNDING: f64 = 1e-14;
 const ROUNDS: u32 = 12;
 const SOFTENING: u32 = 3;
 
-/// Has impulses add no kinetic energy, and accounts for what they took. Tells whether it changed them.
+/// Limits impulses so that they add no kinetic energy, and accounts for what they took. Returns whether it
+/// changed them.
 ///
 /// Impulses to start from may be too large, and a few sweeps do not take all of that back; more sweeps do.
 /// Restitution in a group of contacts may add energy whatever the sweeps: there, less is given back. As a
@@ -84,9 +85,9 @@ fn change(solver: &mut Solver, h: f64) -> Change {
             let work = work_of_impulses(simd, &run, h);
             (kinetic_energy(simd, run.velocity) + kinetic_energy(simd, run.spin), work)
         });
-        (slab.found.energy, slab.found.work) = (energy, work);
+        (slab.totals.energy, slab.totals.work) = (energy, work);
     });
-    let work = solver.slabs.iter().map(|slab| slab.found.work).sum();
+    let work = solver.slabs.iter().map(|slab| slab.totals.work).sum();
     Change { gain: solver.slabs.energy() - solver.energy_before, work }
 }
 
@@ -95,7 +96,7 @@ fn change(solver: &mut Solver, h: f64) -> Change {
 /// With the velocities v before them and v + d after, the kinetic energy of `v + s d` is a parabola in s
 /// that begins with a descent; s is the largest part that adds nothing. Momentum is kept for any s.
 fn take_less(solver: &mut Solver, gain: f64, h: f64) {
-    solver.slabs.each(&mut solver.slots, |run, slab| slab.found.energy = of_change(&run, h));
+    solver.slabs.each(&mut solver.slots, |run, slab| slab.totals.energy = of_change(&run, h));
     // K(s) = K(0) + s slope + s² change, with the energy of the change alone.
     let change = solver.slabs.energy();
     let slope = gain - change;

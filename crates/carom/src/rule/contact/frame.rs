@@ -2,14 +2,14 @@
 
 use super::batch::ContactKinds;
 use super::dormant;
-use super::found::Found;
-use super::kept::Kept;
 use super::materials::Materials;
 use super::row::Row;
 use super::slab::Slabs;
+use super::slab_totals::SlabTotals;
 use super::sleep;
 use super::solver::Solver;
 use super::wake;
+use super::warm_start::WarmStart;
 use crate::bodies::Motion;
 use crate::friction::Friction;
 use crate::report::StepReport;
@@ -27,12 +27,12 @@ pub(super) fn begin(system: &System, motion: &mut Motion, h: f64, solver: &mut S
     if solver.is_changed || !solver.slots.are_of(ids) || solver.kinds != kinds {
         solver.slots.follow(ids);
         wake::bereft(solver);
-        let mut kept = Kept::default();
+        let mut warm_start = WarmStart::default();
         // They are to be in slots by their index.
         let index_of = |slot: usize| solver.slots.index[slot];
-        kept.collect(&solver.slabs, ids.len(), index_of);
-        kept.collect_dormant(solver.dormant.iter(), ids.len(), index_of);
-        solver.kept = Some(kept);
+        warm_start.collect(&solver.slabs, ids.len(), index_of);
+        warm_start.collect_dormant(solver.dormant.iter(), ids.len(), index_of);
+        solver.warm_start = Some(warm_start);
         dormant::renumber(&mut solver.dormant, index_of);
         solver.slots.arrange(ids);
         // By slot: the search finds them anew.
@@ -90,7 +90,7 @@ fn kinds_of(system: &System) -> ContactKinds {
     }
 }
 
-/// Gives the world where spheres are and how they move, after a time of `h` \[s\].
+/// Writes positions and velocities into the world, after a time of `h` \[s\].
 pub(super) fn end(
     system: &System,
     motion: &mut Motion,
@@ -112,5 +112,5 @@ pub(super) fn end(
     }
     let contacts = solver.slabs.iter().map(|slab| slab.batches.count() + slab.surfaces.len());
     report.work.contacts += contacts.sum::<usize>() as u64;
-    solver.slabs.iter_mut().for_each(|slab| slab.found = Found::default());
+    solver.slabs.iter_mut().for_each(|slab| slab.totals = SlabTotals::default());
 }

@@ -77,7 +77,7 @@ pub(super) fn gathered<S: Simd>(simd: S, all: &[Row], slots: &[u32; LANES]) -> [
     ]
 }
 
-/// Gives spheres 2 impulses, and spheres 1 the opposite ones.
+/// Applies impulses to spheres 2, and the opposite ones to spheres 1.
 #[inline(always)]
 pub(super) fn apply<S: Simd>(
     simd: S,
@@ -112,7 +112,7 @@ pub(super) fn apply_spin<S: Simd>(
     }
 }
 
-/// Gives spheres 2 angular impulses, and spheres 1 the opposite ones.
+/// Applies angular impulses to spheres 2, and the opposite ones to spheres 1.
 #[inline(always)]
 pub(super) fn turn<S: Simd>(
     simd: S,

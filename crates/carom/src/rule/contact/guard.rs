@@ -6,10 +6,10 @@
 
 use glam::DVec3;
 
-use super::found::Found;
 use super::landings::Landings;
 use super::places::Places;
 use super::slab::Slab;
+use super::slab_totals::SlabTotals;
 use super::slots::Run;
 use super::solver::{Bounce, Solver, Turn};
 use super::sub_step::SubStep;
@@ -41,16 +41,16 @@ pub(super) fn hold(
     report: &mut StepReport,
 ) {
     let Solver { slots, slabs, places, bounces, landings, drift, .. } = solver;
-    let go_astray = slabs.iter().any(|it| it.found.leaves || it.found.overlap > FAR_APART);
+    let go_astray = slabs.iter().any(|it| it.totals.leaves || it.totals.overlap > FAR_APART);
     let (common, h) = (drift.way, sub_step.h);
     let index = if go_astray { slots.index.clone() } else { Vec::new() };
     let guard = Guard { system, places, index, bounces, landings, common, h, go_astray };
     slabs.each(slots, |mut run, slab| {
-        let Found { energy, squeezed, .. } = guard.hold_all(&mut run, slab);
-        (slab.found.energy, slab.found.squeezed) = (energy, squeezed);
+        let SlabTotals { energy, squeezed, .. } = guard.hold_all(&mut run, slab);
+        (slab.totals.energy, slab.totals.squeezed) = (energy, squeezed);
     });
-    report.energy_account.correction += slabs.list.iter().map(|it| it.found.energy).sum::<f64>();
-    let squeezed = slabs.list.iter().map(|slab| slab.found.squeezed).sum::<u32>();
+    report.energy_account.correction += slabs.list.iter().map(|it| it.totals.energy).sum::<f64>();
+    let squeezed = slabs.list.iter().map(|slab| slab.totals.squeezed).sum::<u32>();
     report.contact_account.squeezed += squeezed;
 }
 
@@ -73,8 +73,8 @@ struct Guard<'a> {
 
 impl Guard<'_> {
     /// Holds back the spheres of a slab. Finds the work that takes, and how many there were.
-    fn hold_all(&self, run: &mut Run, slab: &Slab) -> Found {
-        let mut found = Found::default();
+    fn hold_all(&self, run: &mut Run, slab: &Slab) -> SlabTotals {
+        let mut found = SlabTotals::default();
         let mut go_to = |run: &mut Run, slot: usize, end: Option<DVec3>| {
             let Some(end) = end else { return };
             let way = end - run.position[slot].vector();

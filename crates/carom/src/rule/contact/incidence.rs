@@ -22,8 +22,8 @@ impl Origin {
         slabs.list.get_mut(number as usize).unwrap_or(&mut slabs.far)
     }
 
-    /// Has the contact be no impact, with these impulses and what its normal velocity is to be at least, with the
-    /// opposite sign \[m/s\].
+    /// Makes the contact no impact, and sets its impulses and minus the least normal velocity that it allows
+    /// \[m/s\].
     pub fn set(self, slabs: &mut Slabs, kept: Impulses, bias: f64) {
         match self {
             Self::Surface { slab, contact } => {

@@ -4,11 +4,11 @@
 use fearless_simd::{Level, Simd, dispatch};
 
 use super::batch::{Batches, FrictionBatch, PairBatch, RollingBatch};
-use super::found::Found;
 use super::gather::{
     TINY, apply, apply_spin, arrays, difference, gathered, is_any, limited, offset, rows_of, shift,
     slip, smaller, sum, turn, vector, xyz,
 };
+use super::slab_totals::SlabTotals;
 use super::slots::Run;
 use super::sub_step::{RELAXATION, SLOP};
 use crate::lanes::Lanes;
@@ -16,7 +16,7 @@ use crate::real::Real;
 
 /// Sweeps over the contacts of a run, forwards or backwards: each gets the impulse that it needs with
 /// the others as they are. Finds the largest change of an impulse, and the largest impulse.
-pub(super) fn sweep(run: &mut Run, batches: &mut Batches, backwards: bool) -> Found {
+pub(super) fn sweep(run: &mut Run, batches: &mut Batches, backwards: bool) -> SlabTotals {
     let level = Level::new();
     macro_rules! sweep {
         ($friction:literal, $rolling:literal) => {
@@ -32,8 +32,8 @@ pub(super) fn sweep(run: &mut Run, batches: &mut Batches, backwards: bool) -> Fo
     }
 }
 
-/// Moves spheres that overlap apart; velocities stay as they are. Gives the largest overlap, as a part of
-/// the sum of radii.
+/// Moves spheres that overlap apart; velocities stay as they are. Returns the largest overlap, as a part
+/// of the sum of radii.
 pub(super) fn correct(run: &mut Run, batches: &Batches) -> f64 {
     dispatch!(Level::new(), simd => correct_all(simd, run, batches))
 }
@@ -44,7 +44,7 @@ fn sweep_all<S: Simd, const FRICTION: bool, const ROLLING: bool>(
     run: &mut Run,
     batches: &mut Batches,
     backwards: bool,
-) -> Found {
+) -> SlabTotals {
     let Batches { pairs, frictions, rollings, .. } = batches;
     let [mut largest_change, mut largest_impulse, mut least_room] = [Lanes::all(simd, 0.0); 3];
     let count = pairs.len();
@@ -65,7 +65,7 @@ fn sweep_all<S: Simd, const FRICTION: bool, const ROLLING: bool>(
     }
     let excess = (Lanes::all(simd, 0.0) - least_room).largest();
     let [change, impulse] = [largest_change, largest_impulse].map(Lanes::largest);
-    Found { change, excess, impulse, ..Found::default() }
+    SlabTotals { change, excess, impulse, ..SlabTotals::default() }
 }
 
 /// What solving a batch comes to.
@@ -76,16 +76,26 @@ struct Solved<S: Simd> {
     room: Lanes<S>,
 }
 
-/// Gives each contact of a batch its normal impulse.
+/// Returns the normal impulses of a batch after a sweep \[N s\], from normal speeds \[m/s\].
 #[inline(always)]
-fn solve<S: Simd>(simd: S, run: &mut Run, batch: &mut PairBatch) -> Solved<S> {
-    let zero = Lanes::all(simd, 0.0);
-    let normal = vector(simd, &batch.normal);
-    let speed = xyz(difference(simd, run.velocity, batch)).dot(normal);
+fn solve_along_normal<S: Simd>(
+    simd: S,
+    batch: &PairBatch,
+    speed: Lanes<S>,
+) -> (Lanes<S>, Solved<S>) {
     let impulse = Lanes::each(simd, batch.impulse);
     let room = speed + Lanes::each(simd, batch.bias);
+    let zero = Lanes::all(simd, 0.0);
     let solved = (impulse - Lanes::each(simd, batch.effective_mass) * room).max(zero);
-    let change = solved - impulse;
+    (solved, Solved { change: solved - impulse, room })
+}
+
+/// Solves the contacts of a batch without friction: one normal impulse each.
+#[inline(always)]
+fn solve<S: Simd>(simd: S, run: &mut Run, batch: &mut PairBatch) -> Solved<S> {
+    let normal = vector(simd, &batch.normal);
+    let speed = xyz(difference(simd, run.velocity, batch)).dot(normal);
+    let (solved, Solved { change, room }) = solve_along_normal(simd, batch, speed);
     if is_any(simd, change) {
         batch.impulse = solved.to_array();
         apply(simd, run.velocity, batch, normal * change);
@@ -93,7 +103,7 @@ fn solve<S: Simd>(simd: S, run: &mut Run, batch: &mut PairBatch) -> Solved<S> {
     Solved { change, room }
 }
 
-/// Gives each contact of a batch its normal and then its tangential impulse, which lies on Coulomb's disc.
+/// Solves the contacts of a batch: a normal impulse each, then a tangential one within Coulomb's disc.
 ///
 /// An impulse along the normal changes no slip, and one across it no normal speed: so both follow in
 /// closed form.
@@ -105,15 +115,11 @@ fn solve_with_friction<S: Simd>(
     friction: &mut FrictionBatch,
     rolling: Option<&mut RollingBatch>,
 ) -> Solved<S> {
-    let zero = Lanes::all(simd, 0.0);
     let normal = vector(simd, &batch.normal);
     let velocity = xyz(difference(simd, run.velocity, batch));
-    let speed = velocity.dot(normal);
-    let impulse = Lanes::each(simd, batch.impulse);
-    let room = speed + Lanes::each(simd, batch.bias);
-    let solved = (impulse - Lanes::each(simd, batch.effective_mass) * room).max(zero);
-    let change = solved - impulse;
-    if !is_any(simd, solved.max(impulse)) {
+    let before = Lanes::each(simd, batch.impulse);
+    let (solved, Solved { change, room }) = solve_along_normal(simd, batch, velocity.dot(normal));
+    if !is_any(simd, solved.max(before)) {
         return Solved { change, room };
     }
     batch.impulse = solved.to_array();
@@ -134,7 +140,7 @@ fn solve_with_friction<S: Simd>(
     Solved { change, room }
 }
 
-/// Gives each contact of a batch its angular impulses against rolling and spinning.
+/// Applies angular impulses against rolling and spinning at each contact of a batch.
 #[inline(always)]
 fn solve_rolling<S: Simd>(simd: S, run: &mut Run, batch: &PairBatch, rolling: &mut RollingBatch) {
     let normal = vector(simd, &batch.normal);

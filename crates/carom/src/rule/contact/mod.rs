@@ -18,7 +18,6 @@
 mod accelerate;
 mod advance;
 mod aim;
-mod apart;
 mod batch;
 mod bounces;
 mod cascade;
@@ -27,14 +26,12 @@ mod descent;
 mod dormant;
 mod drift;
 mod energy;
-mod found;
 mod frame;
 mod gather;
 mod guard;
 mod images;
 mod impacts;
 mod incidence;
-mod kept;
 mod kernel;
 mod landings;
 mod listing;
@@ -42,11 +39,13 @@ mod materials;
 mod neighbours;
 mod order;
 mod places;
+mod proximity;
 mod resolution;
 mod rest;
 mod row;
 mod search;
 mod slab;
+mod slab_totals;
 mod sleep;
 mod slots;
 mod solve;
@@ -55,11 +54,12 @@ mod sub_step;
 mod surfaces;
 mod swept;
 mod wake;
+mod warm_start;
 
-pub(crate) use apart::{Nearness, bearing, nearness};
 pub(crate) use guard::{Passage, held};
 pub(crate) use listing::persistent_contacts;
 pub(crate) use places::turning_rate;
+pub(crate) use proximity::{Proximity, bearing, proximity};
 pub(crate) use resolution::TURN;
 pub(crate) use solver::{Scratch, Solver};
 
@@ -94,7 +94,7 @@ pub(crate) struct Memory<'a> {
     pub tracks: &'a mut Tracks,
 }
 
-/// Advances all spheres by one frame. Tells whether it came to its end, or a request stopped it.
+/// Advances all spheres by one frame. Returns whether it came to its end, or a request stopped it.
 pub(crate) fn step(
     system: &System,
     parameters: Contact,

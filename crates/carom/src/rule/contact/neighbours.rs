@@ -4,7 +4,6 @@ use glam::DVec3;
 
 use super::batch::{ContactKinds, Impulses, Pair};
 use super::dormant;
-use super::kept::Kept;
 use super::materials::{ContactMaterial, Materials};
 use super::places::{Places, offsets};
 use super::search::Search;
@@ -13,6 +12,7 @@ use super::slots::Slots;
 use super::solver::{Scratch, Solver};
 use super::sub_step::SubStep;
 use super::surfaces::SurfaceContact;
+use super::warm_start::WarmStart;
 use crate::bounds::Bounds;
 use crate::detect::contact::Bodies;
 use crate::detect::sphere_surface;
@@ -37,10 +37,10 @@ pub(super) fn search(
     scratch: &mut Scratch,
     report: &mut StepReport,
 ) {
-    let Scratch { search, kept } = scratch;
-    match solver.kept.take() {
-        Some(collected) => *kept = collected,
-        None => collect(solver, kept),
+    let Scratch { search, warm_start } = scratch;
+    match solver.warm_start.take() {
+        Some(collected) => *warm_start = collected,
+        None => collect(solver, warm_start),
     }
     let Solver { slots, slabs, watched, dormant, places, .. } = solver;
     solver.is_stale = false;
@@ -78,7 +78,7 @@ pub(super) fn search(
     let known = Known {
         system,
         slots,
-        kept,
+        warm_start,
         before: search.from(),
         materials: &solver.materials,
         kinds: solver.kinds,
@@ -92,12 +92,12 @@ pub(super) fn search(
 }
 
 /// Keeps the impulses of all contacts that are not to sleep on.
-fn collect(solver: &Solver, kept: &mut Kept) {
+fn collect(solver: &Solver, warm_start: &mut WarmStart) {
     let Solver { slots, slabs, dormant, .. } = solver;
-    kept.collect(slabs, slots.len(), |slot| slot as u32);
+    warm_start.collect(slabs, slots.len(), |slot| slot as u32);
     let mut woken = dormant.iter().filter(|contact| contact.wakes(&slots.sleeps)).peekable();
     if woken.peek().is_some() {
-        kept.collect_dormant(woken, slots.len(), |slot| slot as u32);
+        warm_start.collect_dormant(woken, slots.len(), |slot| slot as u32);
     }
 }
 
@@ -142,7 +142,7 @@ fn watch(slots: &Slots, [first, second]: [u32; 2], watched: &mut Vec<[u32; 2]>) 
 struct Known<'a> {
     system: &'a System<'a>,
     slots: &'a Slots,
-    kept: &'a Kept,
+    warm_start: &'a WarmStart,
     /// The slot of each sphere before the search.
     before: &'a [u32],
     materials: &'a Materials,
@@ -206,7 +206,7 @@ impl Known<'_> {
             inverse_inertias: spins.map(|row| row.map_or(0.0, |row| row.number())),
             material: self.materials.of_pair(indices, self.system),
             impulses: if is_nearest {
-                self.kept.of_pair([self.before[first], self.before[second]])
+                self.warm_start.of_pair([self.before[first], self.before[second]])
             } else {
                 Impulses::default()
             },
@@ -307,7 +307,7 @@ impl Known<'_> {
         let material = ContactMaterial::of(bodies, self.system);
         let mut contact = SurfaceContact::new(relative, surface, material);
         contact.kick = self.system.surfaces[own as usize].kick;
-        contact.impulses = self.kept.of_surface(self.before[slot], surface);
+        contact.impulses = self.warm_start.of_surface(self.before[slot], surface);
         contact
     }
 }

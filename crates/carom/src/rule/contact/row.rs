@@ -85,16 +85,16 @@ pub(super) fn store<S: Simd>(
     }
 }
 
-/// In which lanes something is so, of the items from one on.
+/// Mask of the lanes whose item satisfies the predicate, of the items from `first` on.
 #[inline(always)]
 pub(super) fn flags<S: Simd, T: Copy + Default>(
     simd: S,
     items: &[T],
     first: usize,
-    is_so: impl Fn(T) -> bool,
+    predicate: impl Fn(T) -> bool,
 ) -> mask64x4<S> {
     let [a, b, c, d] = four(items, first, T::default());
-    let number = |item: T| if is_so(item) { 1.0 } else { 0.0 };
+    let number = |item: T| if predicate(item) { 1.0 } else { 0.0 };
     let numbers = Lanes::each(simd, [number(a), number(b), number(c), number(d)]);
     Lanes::all(simd, 0.0).is_less(numbers)
 }

@@ -83,8 +83,8 @@ pub(super) struct Search {
 
 impl Search {
     /// Sorts spheres by space, and notes from where they may go how far, in frames of `frame` and sub-steps
-    /// of `h` \[s\]. Gives the motion that they have in common, beside which they may go so far. Where there
-    /// are surfaces they may turn round, and be hit by those that move.
+    /// of `h` \[s\]. Returns the motion that they have in common, beside which they may go so far. Where
+    /// there are surfaces they may turn round, and be hit by those that move.
     pub fn arrange(
         &mut self,
         slots: &mut Slots,
@@ -297,7 +297,7 @@ struct Cells<'a> {
 
 impl Cells<'_> {
     /// Pairs of spheres none of which is wide, and one of which is awake, in one cell or in neighbouring
-    /// ones, the smaller slot among these. Gives how many were tested.
+    /// ones, the smaller slot among these. Returns how many were tested.
     fn find_pairs(&self, slots: Range<usize>, pairs: &mut Vec<[u32; 2]>) -> u64 {
         let Self { grid, slots: Slots { position, reference, sleeps, .. }, .. } = *self;
         let [layers, rows, columns] = grid.cells;

@@ -7,8 +7,8 @@
 
 use super::batch::Batches;
 use super::descent::Descent;
-use super::found::Found;
 use super::images::ImagePair;
+use super::slab_totals::SlabTotals;
 use super::slots::{Run, Slots};
 use super::surfaces::SurfaceContact;
 use crate::parallel;
@@ -36,7 +36,7 @@ pub(super) struct Slab {
     /// Whether sweeps pass over it.
     pub is_done: bool,
     /// What a stage found in this slab.
-    pub found: Found,
+    pub totals: SlabTotals,
 }
 
 impl Slab {
@@ -47,7 +47,7 @@ impl Slab {
     }
 }
 
-/// How many slabs so many spheres are to have.
+/// Number of slabs for a number of spheres.
 pub(super) fn count(spheres: usize) -> usize {
     let count = (spheres / SPHERES).clamp(1, MOST);
     // The phases are equal in work with as many even as odd slabs.
@@ -63,7 +63,7 @@ pub(super) struct Slabs {
     pub far: Slab,
 }
 
-/// In which order the phases follow.
+/// Order of the phases.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Direction {
     Forwards,
@@ -95,7 +95,7 @@ impl Slabs {
 
     /// Sum of what a stage found.
     pub fn energy(&self) -> f64 {
-        self.iter().map(|slab| slab.found.energy).sum()
+        self.iter().map(|slab| slab.totals.energy).sum()
     }
 
     /// Runs a stage on the own slots of each slab, side by side.
@@ -132,7 +132,7 @@ impl Slabs {
     }
 
     fn far(&mut self, slots: &mut Slots, stage: impl Fn(&mut Run, &mut Slab)) {
-        self.far.found = Found::default();
+        self.far.totals = SlabTotals::default();
         if !self.far.batches.pairs.is_empty() {
             stage(&mut slots.all(), &mut self.far);
         }

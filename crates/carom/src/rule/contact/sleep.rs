@@ -147,18 +147,19 @@ fn near_restless(solver: &Solver) -> Vec<bool> {
     is_near
 }
 
-/// Has what is so of spheres be so of those around them, too, as many contacts far or however far.
-pub(super) fn spread(is_so: &mut Vec<bool>, contacts: &[[usize; 2]], far: Option<u32>) {
+/// Spreads a flag from each sphere to its contacts, up to `far` contacts away, or through all that
+/// are connected.
+pub(super) fn spread(flags: &mut Vec<bool>, contacts: &[[usize; 2]], far: Option<u32>) {
     let mut rounds = 0;
     while far.is_none_or(|most| rounds < most) {
-        let before = is_so.clone();
+        let before = flags.clone();
         for &[first, second] in contacts {
             if before[first] || before[second] {
-                (is_so[first], is_so[second]) = (true, true);
+                (flags[first], flags[second]) = (true, true);
             }
         }
         rounds += 1;
-        if *is_so == before {
+        if *flags == before {
             return;
         }
     }

@@ -165,7 +165,7 @@ impl Slots {
         }
     }
 
-    /// Has each slot take what was in another one: that of the same place in `from`.
+    /// Moves to each slot the sphere of the slot at the same place in `from`.
     pub fn permute(&mut self, from: &[u32], spare: &mut Vec<Row>) {
         for rows in [
             &mut self.position,
@@ -190,8 +190,7 @@ impl Slots {
         permute(&mut self.sleeps, from);
     }
 
-    /// Has the accelerations of the forces of now, as far as they are linear. Tells whether there are
-    /// others.
+    /// Computes the accelerations of the linear forces now. Returns whether there are other forces.
     pub fn read_forces(&mut self, system: &System) -> bool {
         let spheres = system.spheres;
         let mut has_others = system.has_interactions();
@@ -216,7 +215,7 @@ impl Slots {
         has_others
     }
 
-    /// Has the accelerations of all forces, of now and at this time on the world's clock \[s\].
+    /// Adds the accelerations of the other forces, at this time on the world's clock \[s\].
     pub fn add_other_forces(&mut self, system: &System, time: f64) {
         let between = self.forces_between(system, time);
         let period = self.period;
@@ -263,7 +262,7 @@ impl Slots {
         positions
     }
 
-    /// Gives the world where spheres are and how they move at the end of a frame.
+    /// Writes positions and velocities at the end of a frame into the world.
     pub fn write(&self, motion: &mut Motion) {
         for (slot, &index) in self.index.iter().enumerate() {
             motion.position[index as usize] = self.place(slot);

@@ -2,9 +2,9 @@
 
 use super::aim;
 use super::conjugate;
-use super::found::Found;
 use super::kernel;
 use super::slab::{Direction, Slab, Slabs};
+use super::slab_totals::SlabTotals;
 use super::solver::Solver;
 use super::sub_step::SubStep;
 use super::surfaces;
@@ -72,10 +72,10 @@ fn sweep_until_apart(
     }
 }
 
-/// Has sweeps pass over the slabs whose contacts close by no more than this speed \[m/s\], and those beside
-/// them: what presses there comes here next.
+/// Leaves out of sweeps the slabs whose contacts, and those of the slabs beside them, close by no more than
+/// this speed \[m/s\].
 fn pass_over_apart(slabs: &mut Slabs, tolerable: f64) {
-    let is_apart = |slab: &Slab| slab.found.excess <= tolerable;
+    let is_apart = |slab: &Slab| slab.totals.excess <= tolerable;
     let apart: Vec<bool> = slabs.list.iter().map(is_apart).collect();
     for (number, slab) in slabs.list.iter_mut().enumerate() {
         let near = number.saturating_sub(1)..(number + 2).min(apart.len());
@@ -85,7 +85,7 @@ fn pass_over_apart(slabs: &mut Slabs, tolerable: f64) {
 }
 
 /// Sweeps there and back until impulses hardly change; without friction along conjugate directions in
-/// between. Gives the residual.
+/// between. Returns the residual.
 fn converge(solver: &mut Solver, report: &mut StepReport) -> f64 {
     let descends = !solver.kinds.friction;
     if descends {
@@ -107,27 +107,31 @@ fn converge(solver: &mut Solver, report: &mut StepReport) -> f64 {
 }
 
 /// Sweeps over all contacts once, but for those of slabs that are done.
-pub(super) fn sweep_once(solver: &mut Solver, backwards: bool, report: &mut StepReport) -> Found {
+pub(super) fn sweep_once(
+    solver: &mut Solver,
+    backwards: bool,
+    report: &mut StepReport,
+) -> SlabTotals {
     let Solver { slots, slabs, .. } = solver;
     let direction = if backwards { Direction::Backwards } else { Direction::Forwards };
     slabs.each_contact(slots, direction, |run, slab| {
         if slab.is_done {
             return;
         }
-        let Found { change, excess, impulse, .. } = if backwards {
+        let SlabTotals { change, excess, impulse, .. } = if backwards {
             let surfaces = surfaces::sweep(run, &mut slab.surfaces, backwards);
             kernel::sweep(run, &mut slab.batches, backwards).or_larger(surfaces)
         } else {
             let pairs = kernel::sweep(run, &mut slab.batches, backwards);
             surfaces::sweep(run, &mut slab.surfaces, backwards).or_larger(pairs)
         };
-        slab.found = Found { change, excess, impulse, ..slab.found };
+        slab.totals = SlabTotals { change, excess, impulse, ..slab.totals };
     });
     report.work.sweeps += 1;
-    slabs.iter().fold(Found::default(), |all, slab| all.or_larger(slab.found))
+    slabs.iter().fold(SlabTotals::default(), |all, slab| all.or_larger(slab.totals))
 }
 
-/// Has bounces give back only this part of what they would.
+/// Scales the speeds at which bounces separate by this part.
 pub(super) fn soften_bounces(solver: &mut Solver, part: f64) {
     let soften = |bias: &mut f64| {
         if *bias < 0.0 {
@@ -140,17 +144,17 @@ pub(super) fn soften_bounces(solver: &mut Solver, part: f64) {
     }
 }
 
-/// Moves apart what overlaps.
+/// Moves overlapping bodies apart by a part of each overlap; velocities stay as they are.
 pub(super) fn correct(solver: &mut Solver, report: &mut StepReport) {
     let Solver { slots, slabs, places, .. } = solver;
     slabs.each_contact(slots, Direction::Forwards, |run, slab| {
         let overlap = kernel::correct(run, &slab.batches);
         let of_surfaces = surfaces::correct(run, &slab.surfaces, places);
-        slab.found.energy = of_surfaces.energy;
-        slab.found.overlap = overlap.max(of_surfaces.overlap);
+        slab.totals.energy = of_surfaces.energy;
+        slab.totals.overlap = overlap.max(of_surfaces.overlap);
     });
     report.energy_account.correction += slabs.energy();
-    let overlap = slabs.iter().map(|slab| slab.found.overlap).fold(0.0, f64::max);
+    let overlap = slabs.iter().map(|slab| slab.totals.overlap).fold(0.0, f64::max);
     let account = &mut report.contact_account;
     account.largest_overlap = account.largest_overlap.max(overlap);
 }

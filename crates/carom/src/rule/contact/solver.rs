@@ -6,13 +6,13 @@ use super::batch::ContactKinds;
 use super::dormant::Dormant;
 use super::drift::Drift;
 use super::incidence::Incidence;
-use super::kept::Kept;
 use super::landings::Landings;
 use super::materials::Materials;
 use super::places::Places;
 use super::search::Search;
 use super::slab::Slabs;
 use super::slots::Slots;
+use super::warm_start::WarmStart;
 
 /// Spheres in their order of memory, their neighbours, and the impulses of their contacts: part of a
 /// snapshot, but not of the state hash.
@@ -22,7 +22,7 @@ pub(crate) struct Solver {
     pub(super) slots: Slots,
     pub(super) slabs: Slabs,
     /// The impulses of contacts that were taken out of [`Self::slabs`], until the next search.
-    pub(super) kept: Option<Kept>,
+    pub(super) warm_start: Option<WarmStart>,
     /// The spheres that go elsewhere than their last velocity takes them, for they bounce, by slot.
     pub(super) bounces: Vec<Bounce>,
     #[cfg_attr(feature = "serde", serde(skip))]
@@ -94,7 +94,7 @@ pub(super) struct Turn {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Scratch {
     pub(super) search: Search,
-    pub(super) kept: Kept,
+    pub(super) warm_start: WarmStart,
 }
 
 impl Solver {

@@ -3,9 +3,9 @@
 use glam::DVec3;
 
 use super::batch::Impulses;
-use super::found::Found;
 use super::materials::ContactMaterial;
 use super::places::{Place, Places};
+use super::slab_totals::SlabTotals;
 use super::slots::Run;
 use super::sub_step::{GROWTH, RELAXATION, SLOP, SubStep};
 use super::swept::{FAR, FREE};
@@ -217,8 +217,8 @@ impl SurfaceContact {
         }
     }
 
-    /// Has the contact wait for the impact that the sphere comes to within the sub-step, wherever on the
-    /// surface that is; if it comes to none, the contact bears nothing.
+    /// Aims the contact at the impact of the sphere within the sub-step, wherever on the surface that
+    /// is; without an impact the contact bears nothing.
     fn aim_at_impact(&mut self, run: &Run, place: &Place, sub_step: &SubStep) {
         let (form, motion) = place;
         let slot = self.slot as usize;
@@ -252,8 +252,8 @@ impl SurfaceContact {
         }
     }
 
-    /// Has the contact keep a sphere that meets nothing out of the surface near the end of its way, should
-    /// others push it there: unless it has passed the surface by then, and others may send it back.
+    /// Lets the contact keep a sphere that meets nothing out of the surface at the end of its way, should
+    /// others push it there; not if it has passed the surface by then, where others may send it back.
     fn aim_at_end(&mut self, flight: &Flight, radius: f64, place: &Place, sub_step: &SubStep) {
         let (form, motion) = place;
         let h = sub_step.h;
@@ -291,7 +291,7 @@ impl SurfaceContact {
         }
     }
 
-    /// Gives the sphere the impulses to start from.
+    /// Applies the impulses of the warm start to the sphere.
     fn warm_start(&mut self, run: &mut Run, sub_step: &SubStep) {
         self.start(1.0 / run.velocity[self.slot as usize].number(), sub_step);
         let Impulses { normal, tangential, angular, .. } = &mut self.impulses;
@@ -317,8 +317,8 @@ impl SurfaceContact {
         *normal = if self.bias == FREE { 0.0 } else { carried.min(most) };
     }
 
-    /// Gives the sphere the impulses that it needs.
-    fn solve(&mut self, run: &mut Run) -> Found {
+    /// Solves the contact: applies the impulses that it needs.
+    fn solve(&mut self, run: &mut Run) -> SlabTotals {
         let slot = self.slot as usize;
         let inverse_mass = run.velocity[slot].number();
         let velocity = run.velocity[slot].vector() - self.velocity;
@@ -327,11 +327,11 @@ impl SurfaceContact {
         let room = speed + self.bias;
         let solved = (impulse - room / inverse_mass).max(0.0);
         let change = solved - impulse;
-        let found = Found {
+        let found = SlabTotals {
             change: change.abs(),
             excess: (-room).max(0.0),
             impulse: solved.max(impulse),
-            ..Found::default()
+            ..SlabTotals::default()
         };
         if solved == 0.0 && impulse == 0.0 {
             return found;
@@ -354,7 +354,7 @@ impl SurfaceContact {
         found
     }
 
-    /// Gives the sphere the angular impulses against rolling and spinning on the surface.
+    /// Applies the angular impulses against rolling and spinning on the surface.
     fn solve_rolling(&mut self, run: &mut Run, kept: DVec3) {
         let slot = self.slot as usize;
         let (spin, radius) = (run.spin[slot], run.position[slot].number());
@@ -371,8 +371,8 @@ impl SurfaceContact {
 
 /// Sweeps over the contacts of a run: each gets the impulses that it needs with the others as they are.
 /// Finds the largest change of a normal impulse, and the like.
-pub(super) fn sweep(run: &mut Run, contacts: &mut [SurfaceContact], backwards: bool) -> Found {
-    let mut found = Found::default();
+pub(super) fn sweep(run: &mut Run, contacts: &mut [SurfaceContact], backwards: bool) -> SlabTotals {
+    let mut found = SlabTotals::default();
     let mut solve = |contact: &mut SurfaceContact| found = found.or_larger(contact.solve(run));
     if backwards {
         contacts.iter_mut().rev().for_each(&mut solve);
@@ -382,9 +382,9 @@ pub(super) fn sweep(run: &mut Run, contacts: &mut [SurfaceContact], backwards: b
     found
 }
 
-/// Moves spheres that overlap surfaces out of them; velocities stay as they are. Gives the work against
-/// the forces that are linear \[J\], and the largest overlap as a part of the radius.
-pub(super) fn correct(run: &mut Run, contacts: &[SurfaceContact], places: &Places) -> Found {
+/// Moves spheres that overlap surfaces out of them; velocities stay as they are. Returns the work
+/// against the forces that are linear \[J\], and the largest overlap as a part of the radius.
+pub(super) fn correct(run: &mut Run, contacts: &[SurfaceContact], places: &Places) -> SlabTotals {
     let (mut work, mut largest) = (0.0, 0.0_f64);
     for contact in contacts {
         let slot = contact.slot as usize;
@@ -398,7 +398,7 @@ pub(super) fn correct(run: &mut Run, contacts: &[SurfaceContact], places: &Place
             largest = largest.max(overlap / radius);
         }
     }
-    Found { energy: work, overlap: largest, ..Found::default() }
+    SlabTotals { energy: work, overlap: largest, ..SlabTotals::default() }
 }
 
 /// Moves a sphere. Returns the work against the forces that are linear \[J\].
@@ -443,7 +443,7 @@ fn limited(vector: DVec3, most: f64) -> DVec3 {
     if length > most { vector * (most / length) } else { vector }
 }
 
-/// Gives a sphere impulses along the normal and across it.
+/// Applies impulses along the normal and across it to a sphere.
 fn push(run: &mut Run, slot: u32, normal: DVec3, [along, across]: [DVec3; 2]) {
     let velocity = &mut run.velocity[slot as usize];
     let impulse = along + across;
@@ -453,7 +453,7 @@ fn push(run: &mut Run, slot: u32, normal: DVec3, [along, across]: [DVec3; 2]) {
     }
 }
 
-/// Gives a sphere an angular impulse.
+/// Applies an angular impulse to a sphere.
 fn turn(run: &mut Run, slot: u32, angular: DVec3) {
     let radius = run.position[slot as usize].number();
     if let Some(spin) = run.spin.get_mut(slot as usize) {

@@ -25,9 +25,9 @@ pub(super) struct Traits {
     pub shift: DVec3,
 }
 
-/// Has a contact of a batch that bounces, or whose spheres go far, wait for the impact that they come to
-/// within the sub-step, with the normal there; if they come to none, it bears nothing. Gives the speed of
-/// approach \[m/s\], 0 if they come to none; `None` if they overlap already.
+/// Aims a contact of a batch that bounces, or whose spheres go far, at their impact within the sub-step,
+/// with the normal there; without an impact it bears nothing. Returns the speed of approach \[m/s\], 0 if
+/// they come to none; `None` if they overlap already.
 pub(super) fn aim_pair(
     run: &Run,
     batch: &mut PairBatch,

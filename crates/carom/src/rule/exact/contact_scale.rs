@@ -38,7 +38,7 @@ pub(super) struct ContactScale {
 
 impl ContactScale {
     /// The scale of a contact of spheres at `time` \[s\].
-    pub fn of_spheres(flights: &Flights, slots: &[u32], time: f64) -> Self {
+    pub fn from_spheres(flights: &Flights, slots: &[u32], time: f64) -> Self {
         slots.iter().fold(Self::default(), |scale, &slot| {
             let (position, velocity) = flights.state_of(slot, time);
             scale.with(position, velocity, &flights.free_species_at(slot, time))

@@ -100,7 +100,7 @@ impl<'a> StepContext<'a> {
         if restitution == 1.0 || !bodies.iter().all(|body| body.is_struck()) {
             return restitution;
         }
-        let scale = ContactScale::of_spheres(&timeline.flights, &slots, time);
+        let scale = ContactScale::from_spheres(&timeline.flights, &slots, time);
         let velocity = |slot: u32| timeline.flights.state_of(slot, time).1;
         let speed = match slots[..] {
             [first, second] => (velocity(second) - velocity(first)).norm(),

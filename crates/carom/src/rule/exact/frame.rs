@@ -137,7 +137,7 @@ pub(crate) fn begin(
     system: &System,
     frame: [f64; 2],
     next: f64,
-) -> Result<(), Unheld> {
+) -> Result<(), HoldError> {
     set_frame(timeline, system, frame);
     timeline.next_emission = next;
     let are_applied = !system.spheres.applied_force.is_empty();
@@ -148,7 +148,7 @@ pub(crate) fn begin(
     if is_renewed {
         renewed = held_forces::renew(timeline, system, frame[0]);
         timeline.find_curves(system);
-        check_accelerations(timeline, system).map_err(Unheld::NotFinite)?;
+        check_accelerations(timeline, system).map_err(HoldError::NotFinite)?;
     }
     let are_curved = timeline.flights.are_curved();
     if (is_renewed && !are_curved) || are_applied || !timeline.moving_surfaces.is_empty() {
@@ -173,18 +173,19 @@ fn set_frame(timeline: &mut Timeline, system: &System, frame: [f64; 2]) {
     }
 }
 
-/// Why forces cannot be held.
+/// Reason why forces cannot be held.
 #[derive(Debug, Clone, Copy)]
-pub(crate) enum Unheld {
+pub(crate) enum HoldError {
     /// Motion on springs has this rate \[1/s\], and no force tick follows it.
     TooStiff(f64),
     /// The force on this sphere is not finite.
     NotFinite(SphereId),
 }
 
-/// Has force ticks fit frames of this length \[s\], and springs, also before there is a sphere that needs
-/// them: it may be emitted within the frame. Tells whether forces that are held now have other ticks.
-fn set_force_tick(timeline: &mut Timeline, frame: f64) -> Result<bool, Unheld> {
+/// Fits the force ticks to frames of this length \[s\] and to springs, also before there is a sphere that
+/// needs them: it may be emitted within the frame. Returns whether forces that are held now have other
+/// ticks.
+fn set_force_tick(timeline: &mut Timeline, frame: f64) -> Result<bool, HoldError> {
     let (before, rate) = (timeline.force_tick, timeline.spring_rate);
     let tick = tick_for_springs(rate, timeline.parameters, frame)?;
     timeline.force_tick = ticks::part(tick, ticks::halvings_for_springs(rate, tick));
@@ -195,9 +196,9 @@ fn set_force_tick(timeline: &mut Timeline, frame: f64) -> Result<bool, Unheld> {
 ///
 /// # Errors
 /// Springs that no part of it follows.
-pub(crate) fn tick_for_springs(rate: f64, parameters: Exact, frame: f64) -> Result<f64, Unheld> {
+pub(crate) fn tick_for_springs(rate: f64, parameters: Exact, frame: f64) -> Result<f64, HoldError> {
     let tick = ticks::tick_for_frames(parameters.force_tick, frame, ticks::MOST_FORCE_TICKS);
-    if ticks::can_follow_springs(rate, tick) { Ok(tick) } else { Err(Unheld::TooStiff(rate)) }
+    if ticks::can_follow_springs(rate, tick) { Ok(tick) } else { Err(HoldError::TooStiff(rate)) }
 }
 
 /// Whether forces are to be found anew at the start of a frame \[s\]: those that are held over it, and others

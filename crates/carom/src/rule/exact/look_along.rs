@@ -3,7 +3,7 @@
 use super::timeline::Timeline;
 use super::watch::{Seen, Watch};
 use crate::id::SphereId;
-use crate::sensor::Leg;
+use crate::sensor::FlightSegment;
 use crate::system::System;
 
 /// Begins to watch all spheres at `now` \[s\].
@@ -57,9 +57,10 @@ fn look_along(watch: &mut Watch, timeline: &Timeline, system: &System, index: us
     let radius = timeline.flights.species_of(timeline.flights.slot_of[index]).radius;
     let to = to.max(from);
     let index_of = index as u32;
-    let leg = Leg { sphere, index: index_of, radius, flight, curve, flight_start, from, to };
-    watch.sensors.watch(&leg, system, watch.step_start);
-    watch.flights[index].from = leg.to;
+    let segment =
+        FlightSegment { sphere, index: index_of, radius, flight, curve, flight_start, from, to };
+    watch.sensors.watch(&segment, system, watch.step_start);
+    watch.flights[index].from = segment.to;
 }
 
 /// The flight of a sphere, along which sensors have looked up to `from` \[s\].

@@ -40,7 +40,7 @@ mod zone;
 
 pub(crate) use course::{Course, follow};
 pub(crate) use frame::{
-    Arrivals, Unheld, adopt, begin, end, persistent_contacts, start, tick_for_springs,
+    Arrivals, HoldError, adopt, begin, end, persistent_contacts, start, tick_for_springs,
 };
 pub(crate) use look_along::{begin as begin_watch, end as end_watch};
 pub(crate) use neighbours::MAX_SPHERES;
@@ -152,7 +152,7 @@ pub(crate) fn advance(
     Ok(end)
 }
 
-/// Finds forces anew at a force tick \[s\]. Gives the time \[s\].
+/// Computes the held forces at a force tick \[s\]. Returns its time \[s\].
 fn renew_forces(
     timeline: &mut Timeline,
     context: &mut StepContext,
@@ -164,7 +164,7 @@ fn renew_forces(
     if context.work.spend(UNITS_PER_FLIGHT * flights) { Ok(now) } else { Err(Unfinished::Stopped) }
 }
 
-/// Has happen what is next to the sphere at `slot`. Gives the time \[s\].
+/// Answers the next event of the sphere at `slot`. Returns its time \[s\].
 fn happen(
     timeline: &mut Timeline,
     context: &mut StepContext,
@@ -196,13 +196,13 @@ fn happen(
         EventTarget::Restart => predict::restart(timeline, context, slot, event.time),
         EventTarget::StepEnd => predict::next_step(timeline, context, slot, event.time),
         EventTarget::Sphere(other) => {
-            impact::of_spheres(timeline, context, [slot, other], event.time);
+            impact::answer_pair(timeline, context, [slot, other], event.time);
         }
         EventTarget::Surface(surface) => {
-            impact::of_sphere(timeline, context, slot, Some(surface), event.time);
+            impact::answer_single(timeline, context, slot, Some(surface), event.time);
         }
         EventTarget::Cluster => {
-            impact::of_sphere(timeline, context, slot, None, event.time);
+            impact::answer_single(timeline, context, slot, None, event.time);
         }
     }
     if let Some(index) = timeline.flights.lost {
@@ -266,7 +266,8 @@ impl WorkSoFar {
     }
 }
 
-/// Has a sphere that takes more work in a frame than the parameters allow be stepped, or refuses it.
+/// Puts a sphere that takes more work in a frame than the parameters allow into a zone, or returns
+/// the error.
 fn check_work(
     timeline: &mut Timeline,
     context: &mut StepContext,

@@ -211,8 +211,8 @@ pub(super) fn next_step(timeline: &mut Timeline, context: &mut StepContext, slot
     predict(timeline, context, slot, now);
 }
 
-/// Gives a sphere that leaves its neighbour region at `now` \[s\] another one, and searches for what it
-/// may meet there.
+/// Moves a sphere that leaves its neighbour region at `now` \[s\] to the next one, and searches for
+/// what it may meet there.
 pub(super) fn cross_cell(timeline: &mut Timeline, context: &mut StepContext, slot: u32, now: f64) {
     context.counts.predictions += 1;
     let state = timeline.flights.state_of(slot, now);

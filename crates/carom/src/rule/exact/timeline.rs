@@ -101,7 +101,8 @@ impl Timeline {
         self.flights.bodies.len() > MANY
     }
 
-    /// Until when predictions are of use, on the world's clock \[s\]: until all flights begin anew.
+    /// Time up to which predictions are of use, on the world's clock \[s\]: when all flights begin
+    /// again.
     #[inline]
     pub fn horizon(&self) -> f64 {
         if !self.flights.hold_forces {
@@ -226,7 +227,7 @@ impl Timeline {
         self.flights.restart_contact_work();
     }
 
-    /// Gives a sphere that is at a position \[m\] with a velocity \[m/s\] another neighbour region, and
+    /// Moves a sphere at a position \[m\] with a velocity \[m/s\] to its next neighbour region, and
     /// finds the neighbours that are new there.
     pub(super) fn cross_cell(&mut self, slot: u32, state: [DVec3; 2], found: &mut NeighbourBuffer) {
         let level = self.flights.species_of(slot).level;

@@ -13,7 +13,7 @@ use crate::norm::Norm;
 use crate::parallel;
 use crate::persistent_contact::PersistentContact;
 use crate::report::StepReport;
-use crate::rule::contact::{self, Nearness, Scratch, Solver};
+use crate::rule::contact::{self, Proximity, Scratch, Solver};
 use crate::rule::periodic;
 use crate::settings::Contact;
 use crate::surface::Surface;
@@ -127,7 +127,8 @@ impl Zone {
         self.ticks[1]
     }
 
-    /// Has the ticks after the next one be `tick` \[s\] apart, or parts of that as in [`Self::expect`].
+    /// Sets the ticks after the next one to be `tick` \[s\] apart, or parts of that as in
+    /// [`Self::expect`].
     pub fn follow_tick(&mut self, system: &System, [tick, spring_rate]: [f64; 2]) {
         let of_sphere = |index: u32| halvings_for(system, index as usize, tick);
         let of_spheres = self.indices(&system.spheres.id).into_iter().map(of_sphere);
@@ -146,7 +147,7 @@ impl Zone {
         part(tick, self.halvings)
     }
 
-    /// Has all spheres that are still there wait for the first tick after a time \[s\], with these
+    /// Restarts all spheres that are still there at the first tick after a time \[s\], with these
     /// velocities, by index \[m/s\]; ticks are as in [`Self::expect`].
     pub fn restart(&mut self, system: &System, time: f64, tick: [f64; 2], velocities: &[DVec3]) {
         let all = self.indices(&system.spheres.id);
@@ -197,25 +198,25 @@ impl Zone {
 
     /// Takes out the spheres that are near no other one, or fly freely since some time, at a tick, before
     /// those that wait are taken in; but for those that bear something and would have to come back, as
-    /// `comes_back` tells of an index and a centre \[m\]. Gives their indices, and centres \[m\] and
+    /// `would_rejoin` takes an index and a centre \[m\]. Returns their indices, and centres \[m\] and
     /// velocities \[m/s\].
     pub fn take_out_free(
         &mut self,
-        comes_back: impl Fn(u32, DVec3) -> bool,
+        would_rejoin: impl Fn(u32, DVec3) -> bool,
     ) -> Vec<(u32, [DVec3; 2])> {
-        let known = contact::nearness(&self.solver);
-        let nearness = |id: &SphereId| {
+        let known = contact::proximity(&self.solver);
+        let proximity = |id: &SphereId| {
             let found = known.binary_search_by_key(id, |sphere| sphere.0);
-            found.map_or(Nearness::Near, |place| known[place].1)
+            found.map_or(Proximity::Near, |place| known[place].1)
         };
         let stays = |(place, id): (usize, &SphereId)| {
             let ticks = self.free_ticks[place];
             let is_bound =
-                || ticks == 0 && comes_back(self.index[place], self.motion.position[place]);
-            match nearness(id) {
-                Nearness::Apart => is_bound(),
-                Nearness::Near => ticks < FREE_TICKS,
-                Nearness::Overlaps => true,
+                || ticks == 0 && would_rejoin(self.index[place], self.motion.position[place]);
+            match proximity(id) {
+                Proximity::Apart => is_bound(),
+                Proximity::Near => ticks < FREE_TICKS,
+                Proximity::Overlaps => true,
             }
         };
         let stays: Vec<bool> = self.properties.id.iter().enumerate().map(stays).collect();
@@ -231,7 +232,7 @@ impl Zone {
         self.waiting.is_empty() && self.solver.is_idle()
     }
 
-    /// Has no tick come, while all sleep. Gives where they are.
+    /// Stops the ticks while every sphere sleeps. Returns where the spheres are.
     pub fn rest(&mut self) -> Vec<Stepped> {
         self.ticks = [self.ticks[1], f64::INFINITY];
         self.velocity_before.clone_from(&self.motion.velocity);
@@ -325,7 +326,7 @@ impl Zone {
     }
 
     /// Steps all spheres from this tick to the next one. `offset` \[s\] is the time of this tick from when
-    /// surfaces are where the system says. Gives where they were and are to be.
+    /// surfaces are where the system says. Returns where they were and are to be.
     pub fn step(
         &mut self,
         system: &System,
@@ -370,7 +371,7 @@ impl Zone {
         (0..self.index.len()).map(stepped).collect()
     }
 
-    /// Has the forces applied to single spheres act, and those between spheres as they are held.
+    /// Adds the forces applied to single spheres, and the held forces between spheres.
     fn apply_forces(&mut self, system: &System) {
         let applied = &system.spheres.applied_force;
         if applied.is_empty() && self.held_forces.is_empty() {
@@ -385,7 +386,7 @@ impl Zone {
         self.properties.applied_force = self.index.iter().filter_map(force).collect();
     }
 
-    /// Has surfaces where they are at a time since they are where the system says \[s\].
+    /// Moves surfaces to where they are at a time after the poses of the system \[s\].
     fn place_surfaces(&mut self, system: &System, offset: f64) {
         self.surfaces.clear();
         self.surfaces.extend(system.surfaces.iter().map(|surface| surface.moved(offset)));

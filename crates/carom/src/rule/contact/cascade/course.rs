@@ -212,7 +212,7 @@ fn first_meeting(island: &mut Island, places: &[Place], time: f64) -> Option<f64
     (first <= time).then_some(first)
 }
 
-/// Has all bodies be as at the start of the flight.
+/// Resets all bodies to the start of the flight.
 fn restart(island: &mut Island) {
     for body in &mut island.bodies {
         [body.velocity, body.spin] = body.start;

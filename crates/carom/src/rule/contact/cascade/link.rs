@@ -145,7 +145,7 @@ impl Link {
         self.bears = self.carried > 0.0;
     }
 
-    /// Finds normal and gap of now. Tells whether there are any.
+    /// Finds normal and gap now. Returns whether there are any.
     pub fn measure(&mut self, bodies: &[Body], places: &[Place]) -> bool {
         let second = &bodies[self.second];
         let Some(first) = self.first else {
@@ -220,7 +220,7 @@ impl Link {
         self.impulses = Impulses::default();
     }
 
-    /// Has an impact with this speed of approach \[m/s\] end with restitution.
+    /// Makes the link an impact with this speed of approach \[m/s\], which ends with restitution.
     pub fn strike(&mut self, bodies: &[Body], approach: f64) {
         self.set(Role::Bears, -self.restitution * approach);
         self.approach = approach;
@@ -236,7 +236,7 @@ impl Link {
         velocity - self.normal * velocity.dot(self.normal) - spin.cross(self.normal)
     }
 
-    /// Gives both bodies the impulses that they need with the others as they are, if the link bears. Returns the
+    /// Applies the impulses that both bodies need with the others as they are, if the link bears. Returns the
     /// largest change of one \[N s\].
     pub fn solve(&mut self, bodies: &mut [Body]) -> f64 {
         let [mut inverse_mass, mut inverse_inertia] =
@@ -279,7 +279,7 @@ impl Link {
         }
     }
 
-    /// Gives both bodies the angular impulses against rolling and spinning.
+    /// Applies angular impulses against rolling and spinning to both bodies.
     fn solve_rolling(&mut self, bodies: &mut [Body]) {
         let angular_velocity = |body: &Body| body.spin / body.radius;
         let softness = |body: &Body| body.inverse_inertia / (body.radius * body.radius);

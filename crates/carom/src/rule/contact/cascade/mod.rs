@@ -68,7 +68,8 @@ fn withdraw(solver: &mut Solver, island: &Island, last: f64, sub_step: &SubStep)
     }
 }
 
-/// Gives the spheres of cascades their last velocities, and their contacts what they begin the next sub-step with.
+/// Writes the last velocities of the spheres of cascades, and the impulses from which their contacts start the
+/// next sub-step.
 pub(super) fn land(solver: &mut Solver) {
     let Solver { slots, slabs, landings, .. } = solver;
     for landed in &landings.spheres {

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::group::Group;
 use super::member::Member;
 use super::separation::{has_at, holding_mesh, touches_surface, touching_gap};
-use super::touch::{Found, Touch};
+use super::touch::{Touch, TouchOrigin};
 use crate::detect::contact::Bodies;
 use crate::detect::sphere_surface;
 use crate::norm::Norm;
@@ -70,7 +70,7 @@ struct Gathering<'a> {
     time: f64,
     /// By index, so in order.
     members: BTreeMap<u32, Member>,
-    touches: BTreeMap<Bodies, Found>,
+    touches: BTreeMap<Bodies, TouchOrigin>,
     /// Slots of members whose pair_search were not looked at yet.
     frontier: Vec<u32>,
 }
@@ -101,7 +101,7 @@ impl<'a> Gathering<'a> {
         let is_predicted = false;
         let indices = slots.map(|slot| self.timeline.flights.index_of[slot as usize]);
         let shift = if indices[0] < indices[1] { shift } else { -shift };
-        self.touches.entry(Bodies::pair(indices)).or_insert(Found {
+        self.touches.entry(Bodies::pair(indices)).or_insert(TouchOrigin {
             shift,
             is_predicted,
             is_handed_over: false,
@@ -133,7 +133,7 @@ impl<'a> Gathering<'a> {
         let bodies = Bodies::Surface { sphere, surface };
         if !self.has_images() {
             let shift = DVec3::ZERO;
-            let found = Found { shift, is_predicted, is_handed_over };
+            let found = TouchOrigin { shift, is_predicted, is_handed_over };
             self.touches.entry(bodies).or_insert(found);
             return;
         }
@@ -146,7 +146,7 @@ impl<'a> Gathering<'a> {
         let images = self.timeline.surfaces_near(slot).filter(|near| near.0 == surface);
         let nearest = images.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)));
         if let Some((_, shift)) = nearest {
-            let found = Found { shift: -shift, is_predicted, is_handed_over };
+            let found = TouchOrigin { shift: -shift, is_predicted, is_handed_over };
             self.touches.entry(bodies).or_insert(found);
         }
     }
@@ -194,7 +194,7 @@ impl<'a> Gathering<'a> {
             let missed = if is_left { MOST_MISSED * member.species.radius } else { 0.0 };
             if touches_surface(self.context, &member, near, missed, self.time) {
                 let bodies = Bodies::Surface { sphere, surface };
-                let found = Found { shift: -shift, is_predicted: false, is_handed_over };
+                let found = TouchOrigin { shift: -shift, is_predicted: false, is_handed_over };
                 self.touches.entry(bodies).or_insert(found);
             }
         }

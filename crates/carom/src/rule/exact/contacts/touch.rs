@@ -194,7 +194,7 @@ impl Touch {
         bodies: Bodies,
         first: Option<usize>,
         second: usize,
-        Found { shift, is_predicted, .. }: Found,
+        TouchOrigin { shift, is_predicted, .. }: TouchOrigin,
     ) -> Self {
         Self {
             is_predicted,
@@ -218,9 +218,9 @@ impl Touch {
     }
 }
 
-/// How two bodies were found to touch.
+/// Origin of a touch: how the search found that two bodies touch.
 #[derive(Clone, Copy)]
-pub(super) struct Found {
+pub(super) struct TouchOrigin {
     /// From where the position of body 2 counts to where that of body 1 does \[m\].
     pub shift: DVec3,
     /// Predicted, so not in doubt.

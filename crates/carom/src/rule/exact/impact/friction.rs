@@ -37,8 +37,8 @@ impl FrictionImpulses {
     }
 }
 
-/// Gives each touch that got a normal impulse \[N s\] one of friction, which changes how the members move
-/// and turn.
+/// Applies friction to each touch that got a normal impulse \[N s\]; changes how the members move and
+/// turn.
 pub(super) fn in_group(
     context: &StepContext,
     group: &mut Group,
@@ -55,7 +55,7 @@ pub(super) fn in_group(
     apply(context, &mut contacts, &mut group.members)
 }
 
-/// Gives a sphere that gets an impulse \[N s\] along the normal of a surface at rest that of friction.
+/// Applies friction to a sphere that gets an impulse \[N s\] along the normal of a surface at rest.
 pub(super) fn at_surface(
     context: &StepContext,
     member: &mut Member,
@@ -66,7 +66,7 @@ pub(super) fn at_surface(
     apply(context, &mut [contact], std::slice::from_mut(member))
 }
 
-/// Gives two spheres that get an impulse \[N s\] along the normal that of friction.
+/// Applies friction to two spheres that get an impulse \[N s\] along the normal.
 pub(super) fn of_pair(
     context: &StepContext,
     members: &mut [Member; 2],
@@ -96,7 +96,7 @@ fn contact_of(
     }
 }
 
-/// Gives contacts of spheres the impulses of friction.
+/// Applies the impulses of friction to contacts of spheres.
 fn apply(
     context: &StepContext,
     contacts: &mut [FrictionContact],

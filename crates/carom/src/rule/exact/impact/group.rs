@@ -221,8 +221,8 @@ impl Answer {
     }
 }
 
-/// Gives every closing contact its impulse, by the impact law. What of the `merged` contacts still
-/// closes then is answered plastically, together with all others.
+/// Applies the impact law to every closing contact. If one of the `merged` contacts still closes
+/// then, all are answered plastically.
 fn respond_to_impacts(
     timeline: &Timeline,
     context: &StepContext,
@@ -299,7 +299,8 @@ struct Kicks {
     work: f64,
 }
 
-/// Gives spheres that got an impulse of a surface its kick, too; at an edge that faces of a collider share, once.
+/// Adds the kick of a surface to spheres that got an impulse of it; at an edge that faces of a collider share,
+/// once.
 fn kick(context: &StepContext, group: &mut Group, impulses: &mut [f64]) -> Kicks {
     let mut kicks = Kicks { speeds: vec![0.0; impulses.len()], work: 0.0 };
     let mut kicked: Vec<(BodyPair, DVec3)> = Vec::new();

@@ -9,5 +9,5 @@ mod pair;
 mod single_sphere;
 mod surface_contacts;
 
-pub(super) use pair::of_spheres;
-pub(super) use single_sphere::of_sphere;
+pub(super) use pair::answer_pair;
+pub(super) use single_sphere::answer_single;

@@ -25,7 +25,7 @@ use crate::rule::periodic;
 pub(super) const NEARBY: f64 = 1e-6;
 
 /// Answers the impact of two spheres at `time` \[s\], and of whatever touches them there.
-pub(crate) fn of_spheres(
+pub(crate) fn answer_pair(
     timeline: &mut Timeline,
     context: &mut StepContext,
     slots: [u32; 2],
@@ -149,7 +149,7 @@ impl PairImpact {
         impact
     }
 
-    /// Gives two spheres that got an impulse along the normal that of friction.
+    /// Applies friction to two spheres that got an impulse along the normal.
     #[inline(never)]
     fn apply_friction(&mut self, timeline: &Timeline, context: &StepContext, slots: [u32; 2]) {
         let Some(impulse) = self.impulse else { return };

@@ -24,7 +24,7 @@ use crate::rule::exact::timeline::Timeline;
 
 /// Answers what happens to a sphere at `time` \[s\]: it meets a `surface`, or else the forces of its
 /// persistent contacts have to be found anew. The answer is that of its group, but for rounding.
-pub(crate) fn of_sphere(
+pub(crate) fn answer_single(
     timeline: &mut Timeline,
     context: &mut StepContext,
     slot: u32,
@@ -83,8 +83,8 @@ pub(crate) fn of_sphere(
     predict::pass_over(timeline, context, slot, &unresolved, time);
 }
 
-/// Gives a sphere the impulses of the surfaces that it closes on, by Newton's law, which is what all
-/// impact laws say of contacts that do not feel each other, and writes them down. Tells which surfaces
+/// Applies the impulses of the surfaces that a sphere closes on, by Newton's law, which all impact
+/// laws give for contacts that do not affect each other, and records them. Returns the surfaces that
 /// gave one.
 fn strike(
     timeline: &Timeline,

@@ -12,7 +12,7 @@ use crate::respond;
 use crate::rule::exact::contact_scale::ContactScale;
 use crate::rule::exact::contacts::{self, Corner, HoldingMesh, MOST_PLANES, Member, Plane};
 use crate::rule::exact::context::StepContext;
-use crate::rule::exact::pair_times::Nearness;
+use crate::rule::exact::pair_times::Neighbourhood;
 use crate::rule::exact::persistent::{free_acceleration, is_back_within};
 use crate::rule::exact::timeline::Timeline;
 use crate::surface::Form;
@@ -155,8 +155,8 @@ pub(super) fn single_sphere<'a>(
         }
     };
     let search = &mut context.searches[0];
-    let nearness = Nearness { position: member.position, time, margin: NEARBY };
-    let is_alone = is_felt_apart && !search.is_near_any(timeline, slot, nearness);
+    let neighbourhood = Neighbourhood { position: member.position, time, margin: NEARBY };
+    let is_alone = is_felt_apart && !search.is_near_any(timeline, slot, neighbourhood);
     is_alone.then_some(SingleSphere { member, touched })
 }
 

@@ -40,7 +40,7 @@ impl Cells {
         }
     }
 
-    /// Has the first spheres in a cell fetched into the cache.
+    /// Prefetches the first spheres in a cell into the cache.
     #[inline(always)]
     pub fn prefetch(&self, cell: usize) {
         match self {

@@ -42,7 +42,8 @@ pub(crate) struct Neighbours {
     groups_of_surfaces: Vec<Groups>,
 }
 
-/// A cell, and the side of it where spheres are new, if it is one.
+/// A cell to search, and the side from which a sphere entered it: only spheres near that side are
+/// new.
 #[derive(Clone, Copy)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Arrival {
@@ -261,8 +262,9 @@ impl Neighbours {
         (offset.abs() + way).cmple(CROSSING * half_edges).all()
     }
 
-    /// Gives a sphere with this position \[m\] and velocity \[m/s\] another neighbour region, and
-    /// finds those that were not near it before, perhaps with others that were and with itself.
+    /// Moves a sphere with this position \[m\] and velocity \[m/s\] to its next neighbour region,
+    /// and finds the spheres that are new there; some that are not new, and itself, may be among
+    /// them.
     pub fn cross_cell(
         &mut self,
         slot: u32,

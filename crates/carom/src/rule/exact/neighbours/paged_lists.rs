@@ -41,7 +41,7 @@ impl Link {
     }
 }
 
-/// PagedLists by number, their members in no order, in pages of so many (at most 15).
+/// Lists by number, their members in no order, in pages of so many (at most 15).
 #[derive(Debug, Clone, Default)]
 pub(super) struct PagedLists<T, const SIZE: usize> {
     /// The first page of each list, by its number, and behind them the others.
@@ -126,7 +126,7 @@ impl<T: Copy + PartialEq + Default, const SIZE: usize> PagedLists<T, SIZE> {
         &page.members[..page.link.len()]
     }
 
-    /// Has the first page of a list fetched into the cache, from its beginning to its end: that may be
+    /// Prefetches the first page of a list into the cache, from its beginning to its end: that may be
     /// two lines.
     #[inline(always)]
     pub fn prefetch(&self, list: usize) {
@@ -230,7 +230,7 @@ impl<T: Copy + PartialEq + Default, const SIZE: usize> PagedLists<T, SIZE> {
         next
     }
 
-    /// Gives back the pages after one.
+    /// Frees the pages after one.
     fn cut_after(&mut self, number: usize) {
         let mut next = self.pages[number].link.next();
         self.pages[number].link.set_next(None);

@@ -4,4 +4,4 @@ mod kernel;
 mod relative;
 mod search;
 
-pub(super) use search::{NearTest, Nearness, PairSearch};
+pub(super) use search::{NearTest, Neighbourhood, PairSearch};

@@ -39,8 +39,8 @@ impl NearTest {
 }
 
 impl PairSearch {
-    /// Searches, `now` \[s\], for the first meetings of a sphere with its neighbours. Tells whether one
-    /// of those that fly alike is near.
+    /// Searches, `now` \[s\], for the first meetings of a sphere with its neighbours. Returns whether
+    /// one of those that fly alike is near.
     #[inline(always)]
     pub fn search(
         &mut self,
@@ -108,20 +108,25 @@ impl PairSearch {
     pub fn is_near_others(&self, timeline: &Timeline, slot: u32, near_test: NearTest) -> bool {
         let flights = &timeline.flights;
         let (body, species) = (&flights.bodies[slot as usize], flights.species_of(slot));
-        let nearness =
-            Nearness { position: body.position, time: body.time, margin: near_test.margin };
+        let neighbourhood =
+            Neighbourhood { position: body.position, time: body.time, margin: near_test.margin };
         self.near.others(slot).any(|near| {
             near.slot() != near_test.exempt
                 && !flights.species_of(near.slot()).flies_like(species)
-                && nearness.includes(timeline, slot, near)
+                && neighbourhood.includes(timeline, slot, near)
         })
     }
 
     /// Whether any neighbour is that near to a sphere.
-    pub fn is_near_any(&mut self, timeline: &Timeline, slot: u32, nearness: Nearness) -> bool {
+    pub fn is_near_any(
+        &mut self,
+        timeline: &Timeline,
+        slot: u32,
+        neighbourhood: Neighbourhood,
+    ) -> bool {
         let level = timeline.flights.species_of(slot).level;
         timeline.neighbours.find(slot, level, &mut self.near);
-        self.near.others(slot).any(|near| nearness.includes(timeline, slot, near))
+        self.near.others(slot).any(|near| neighbourhood.includes(timeline, slot, near))
     }
 
     /// The first two meetings that the search has found, or that the sphere has with spheres that fly
@@ -140,7 +145,7 @@ impl PairSearch {
     }
 
     /// Adds to its next events the meetings of a sphere that is in no zone with neighbours that are in one.
-    /// Tells whether there are such neighbours.
+    /// Returns whether there are such neighbours.
     pub fn add_meetings_with_zone(
         &mut self,
         timeline: &Timeline,
@@ -173,9 +178,9 @@ impl PairSearch {
     }
 }
 
-/// Where a sphere is, and how near to it counts.
+/// Position of a sphere at a time, and the margin within which neighbours count as near.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Nearness {
+pub(crate) struct Neighbourhood {
     /// Centre of the sphere \[m\].
     pub position: DVec3,
     /// When it is there, on the world's clock \[s\].
@@ -184,7 +189,7 @@ pub(crate) struct Nearness {
     pub margin: f64,
 }
 
-impl Nearness {
+impl Neighbourhood {
     /// Whether a neighbour of the sphere at `slot` is that near.
     fn includes(&self, timeline: &Timeline, slot: u32, neighbour: Neighbour) -> bool {
         let flights = &timeline.flights;

@@ -25,7 +25,7 @@ pub(crate) fn make_zone(timeline: &mut Timeline, context: &mut StepContext, grou
         timeline.flights.rotate(member.slot, [member.angular_velocity, DVec3::ZERO], group.time);
     }
     let slots = group.members.iter().map(|member| member.slot);
-    look_around(timeline, context, slots, group.time);
+    predict_joined(timeline, context, slots, group.time);
 }
 
 /// The mean velocity of a group \[m/s\], without what would take its spheres into surfaces.
@@ -34,7 +34,7 @@ fn common_velocity(timeline: &Timeline, context: &StepContext, group: &Group) ->
     let momenta = group.members.iter().map(|member| member.species.mass * member.velocity);
     let mean = momenta.sum::<DVec3>() / mass;
     group.members.iter().fold(mean, |velocity, member| {
-        free_way(timeline, context, (member.slot, member.position), velocity, group.time)
+        without_closing(timeline, context, (member.slot, member.position), velocity, group.time)
     })
 }
 
@@ -62,15 +62,15 @@ pub(crate) fn meet(timeline: &mut Timeline, context: &mut StepContext, slots: [u
     };
     let states: Vec<_> = coming.iter().map(|&slot| timeline.flights.state_of(slot, time)).collect();
     for (&slot, state) in coming.iter().zip(states) {
-        let common = free_way(timeline, context, (slot, state.0), velocity, time);
+        let common = without_closing(timeline, context, (slot, state.0), velocity, time);
         join(timeline, context, slot, (state.into(), Some(common)), time);
     }
-    look_around(timeline, context, coming.into_iter(), time);
+    predict_joined(timeline, context, coming.into_iter(), time);
 }
 
-/// A velocity \[m/s\] without what would take a sphere, with its centre \[m\], into surfaces before the next
-/// tick.
-fn free_way(
+/// Returns a velocity \[m/s\] without the part that would take a sphere with this centre \[m\] into surfaces
+/// before the next tick.
+fn without_closing(
     timeline: &Timeline,
     context: &StepContext,
     (slot, position): (u32, DVec3),
@@ -127,12 +127,12 @@ fn under_forces(
     let change = species.acceleration - species.drag_rate * velocity;
     let later = velocity + (tick - time) * change;
     let [before, after] =
-        [velocity, later].map(|it| free_way(timeline, context, (slot, position), it, time));
+        [velocity, later].map(|it| without_closing(timeline, context, (slot, position), it, time));
     let gained = after - before;
     [before + 0.5 * gained, velocity + gained]
 }
 
-/// Has a sphere join a zone with this centre \[m\] and velocity \[m/s\]. Until the next tick it moves with the
+/// Adds a sphere to a zone with this centre \[m\] and velocity \[m/s\]. Until the next tick it moves with the
 /// `common` velocity of others \[m/s\]; if there is none, under its forces.
 fn join(
     timeline: &mut Timeline,
@@ -158,8 +158,8 @@ fn join(
     context.report.zone_account.joined += 1;
 }
 
-/// Predicts what spheres in a zone meet next, and notes the others near them.
-fn look_around(
+/// Predicts the next events of spheres that joined a zone, and notes the other spheres near them.
+fn predict_joined(
     timeline: &mut Timeline,
     context: &mut StepContext,
     slots: impl Iterator<Item = u32>,

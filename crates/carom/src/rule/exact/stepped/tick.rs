@@ -19,19 +19,19 @@ use crate::rule::periodic;
 /// A sphere touches surfaces that are nearer than this part of its radius: the solver leaves less.
 const NEAR: f64 = 0.01;
 
-/// Steps the zones from the tick that is now to the next one. Gives the time \[s\].
+/// Steps the zones from the present tick to the next one. Returns the time \[s\].
 pub(crate) fn tick(timeline: &mut Timeline, context: &mut StepContext) -> f64 {
     let (now, tick) = (timeline.zone.next_tick(), context.parameters.zone_tick);
     if timeline.zone.is_idle() {
         let resting = timeline.zone.rest();
         fly(timeline, context, &resting, now);
-        look_around(timeline, context);
+        predict_near_zone(timeline, context);
         return now;
     }
     if timeline.zone.is_due_to_leave(tick) {
         let mut zone = take(&mut timeline.zone);
         let free = zone.take_out_free(|index, center| {
-            comes_back(timeline, context, timeline.flights.slot_of[index as usize], center, now)
+            would_rejoin(timeline, context, timeline.flights.slot_of[index as usize], center, now)
         });
         timeline.zone = zone;
         for (index, state) in free {
@@ -46,15 +46,15 @@ pub(crate) fn tick(timeline: &mut Timeline, context: &mut StepContext) -> f64 {
     let time = context.since_start(now);
     context.report.impacts[first..].iter_mut().for_each(|impact| impact.time = time);
     fly(timeline, context, &stepped, now);
-    look_around(timeline, context);
+    predict_near_zone(timeline, context);
     context.report.zone_account.ticks += 1;
     context.work.spend(stepped.len() as u64);
     now
 }
 
-/// Whether a sphere about `center` \[m\] that bears something would have to come back to its zone: friction
-/// acts, and it does not lie on one surface at rest only.
-fn comes_back(
+/// Whether a sphere about `center` \[m\] that bears something would have to join its zone again at once:
+/// friction acts, and it does not lie on a single surface at rest.
+fn would_rejoin(
     timeline: &Timeline,
     context: &StepContext,
     slot: u32,
@@ -117,8 +117,8 @@ fn fly(timeline: &mut Timeline, context: &StepContext, stepped: &[Stepped], now:
     }
 }
 
-/// Gives a sphere that leaves its neighbour region between two times \[s\] another one, with those that it
-/// finds there. Gives when it leaves that \[s\]; infinite if it stays.
+/// Moves a sphere that leaves its neighbour region between two times \[s\] to the next one, with the
+/// spheres that it finds there. Returns when it leaves that \[s\]; infinite if it stays.
 fn stay_in_region(
     timeline: &mut Timeline,
     slot: u32,
@@ -141,8 +141,8 @@ fn stay_in_region(
     timeline.neighbours.crossing_time(slot, body, timeline.flights.species_of(slot), now)
 }
 
-/// Predicts which spheres in a zone those meet that are in none, and have neighbours in one.
-fn look_around(timeline: &mut Timeline, context: &mut StepContext) {
+/// Predicts the meetings of free spheres with their neighbours in zones.
+fn predict_near_zone(timeline: &mut Timeline, context: &mut StepContext) {
     let mut near = take(&mut timeline.zone.near);
     near.sort_unstable();
     near.dedup();
@@ -161,8 +161,8 @@ fn look_around(timeline: &mut Timeline, context: &mut StepContext) {
     timeline.zone.near = near;
 }
 
-/// Has the sphere at an index of the world's arrays leave a zone at `now` \[s\], with this centre \[m\] and
-/// velocity \[m/s\]. It is lifted out of surfaces that it overlaps.
+/// Takes the sphere at an index of the world's arrays out of its zone at `now` \[s\], with this centre
+/// \[m\] and velocity \[m/s\]. It is lifted out of surfaces that it overlaps.
 fn leave(
     timeline: &mut Timeline,
     context: &mut StepContext,

@@ -72,14 +72,14 @@ pub(super) fn add(
 
 /// Appearance of a mesh.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Look {
+pub(super) struct Appearance {
     pub color: Option<Color>,
     pub finish: Finish,
     /// Whether both sides are visible.
     pub double_sided: bool,
 }
 
-impl Look {
+impl Appearance {
     /// Reads the first material of a mesh.
     ///
     /// # Errors

@@ -1,9 +1,9 @@
-//! What a stage finds in a slab.
+//! Sums and maxima of a stage over one slab.
 
-/// What a stage finds in a slab, to be put together in the order of slabs.
+/// Sums and maxima of a stage over one slab, to be combined in the order of slabs.
 #[derive(Debug, Clone, Copy, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(super) struct Found {
+pub(super) struct SlabTotals {
     /// A sum \[J\].
     pub energy: f64,
     /// Work of impulses \[J\].
@@ -23,7 +23,7 @@ pub(super) struct Found {
     pub leaves: bool,
 }
 
-impl Found {
+impl SlabTotals {
     /// The largest change of an impulse, as a part of the largest impulse.
     pub fn residual(&self) -> f64 {
         if self.impulse > 0.0 { self.change / self.impulse } else { 0.0 }

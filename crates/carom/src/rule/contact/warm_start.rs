@@ -1,4 +1,4 @@
-//! The impulses of contacts, kept over a search for neighbours.
+//! Impulses from which contacts start after a search for neighbours.
 
 use super::batch::Impulses;
 use super::dormant::{Dormant, Partner};
@@ -8,10 +8,10 @@ use super::slots::GONE;
 /// Marks the number of a surface as the partner of a sphere.
 const SURFACE: u32 = 1 << 31;
 
-/// Impulses by the slots that spheres have before the search.
+/// Impulses of contacts, by the slots that their spheres had before the search.
 #[derive(Debug, Clone, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(super) struct Kept {
+pub(super) struct WarmStart {
     /// Sphere and partner of each contact, in no order.
     bodies: Vec<[u32; 2]>,
     /// Impulses on the partner, or of a surface on the sphere.
@@ -22,9 +22,9 @@ pub(super) struct Kept {
     sorted: Vec<[u32; 2]>,
 }
 
-impl Kept {
-    /// Keeps what the contacts that bear something have. `now` tells the slot of now of a sphere that was in
-    /// one when the slabs were made, [`GONE`] if it is in the world no more: its contacts are lost.
+impl WarmStart {
+    /// Collects the impulses of contacts that bear something. `now` maps the slot of a sphere when the slabs
+    /// were made to its present slot, [`GONE`] if the sphere left the world: its contacts are lost.
     pub fn collect(&mut self, slabs: &Slabs, spheres: usize, now: impl Fn(usize) -> u32) {
         self.bodies.clear();
         self.impulses.clear();
@@ -34,8 +34,8 @@ impl Kept {
         self.sort(spheres);
     }
 
-    /// Keeps what the contacts of spheres that sleep have, too; `now` tells the slot of now of a sphere that
-    /// was in one when they fell asleep.
+    /// Adds the impulses of the contacts of sleeping spheres; `now` maps the slot of a sphere when it fell
+    /// asleep to its present slot.
     pub fn collect_dormant<'a>(
         &mut self,
         dormant: impl Iterator<Item = &'a Dormant>,

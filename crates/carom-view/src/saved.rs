@@ -18,18 +18,18 @@ const MOST_RECENT: usize = 6;
 /// Values kept between starts and between scenes.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Kept {
+pub struct SavedValues {
     /// Layout of scenes.
     pub layout: Layout,
     /// Recent scene files, newest first.
     pub recent: Vec<PathBuf>,
     /// The last game.
-    pub game: Option<KeptGame>,
+    pub game: Option<SavedGame>,
 }
 
 /// A game that can be continued.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct KeptGame {
+pub struct SavedGame {
     /// A link to its maze.
     pub maze: String,
     pub progress: Progress,
@@ -42,7 +42,7 @@ pub struct KeptGame {
 #[serde(default)]
 pub struct Layout {
     pub panels: Panels,
-    pub plots: plots::Shown,
+    pub plots: plots::PlotChoice,
     pub marks: Marks,
 }
 
@@ -65,7 +65,7 @@ impl Default for Panels {
     }
 }
 
-impl Kept {
+impl SavedValues {
     /// Reads the values from the storage; returns the defaults if there are none or they cannot be
     /// read.
     pub fn load(storage: Option<&dyn Storage>) -> Self {
@@ -92,7 +92,7 @@ mod tests {
 
     #[test]
     fn a_file_opened_again_is_the_first_and_there_only_once() {
-        let mut kept = Kept::default();
+        let mut kept = SavedValues::default();
         for name in ["/a.toml", "/b.toml", "/a.toml"] {
             kept.remember(Path::new(name));
         }

@@ -1,4 +1,4 @@
-//! Which spheres are near others: a rule that lets single spheres fly takes those that are not.
+//! Proximity of spheres: zones of the rule `exact` release those that are near no other.
 
 use super::dormant::Partner;
 use super::solver::Solver;
@@ -16,9 +16,9 @@ pub(crate) fn bearing(solver: &Solver) -> impl Iterator<Item = (u32, bool)> {
     solver.slots.index.iter().copied().zip(solver.slots.bears.iter().copied())
 }
 
-/// How near a sphere is to the nearest other one.
+/// Proximity of a sphere to the nearest other one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Nearness {
+pub(crate) enum Proximity {
     /// It meets none soon.
     Apart,
     /// It touches one, or may soon.
@@ -27,12 +27,12 @@ pub(crate) enum Nearness {
     Overlaps,
 }
 
-/// How near each sphere is to others, in order of ids.
-pub(crate) fn nearness(solver: &Solver) -> Vec<(SphereId, Nearness)> {
+/// Returns the proximity of each sphere to others, in order of ids.
+pub(crate) fn proximity(solver: &Solver) -> Vec<(SphereId, Proximity)> {
     let Solver { slots, slabs, dormant, h, .. } = solver;
-    let mut nearness = vec![Nearness::Apart; slots.len()];
-    let mut note = |slot: usize, found: Nearness| {
-        if let Some(known) = nearness.get_mut(slot) {
+    let mut proximity = vec![Proximity::Apart; slots.len()];
+    let mut note = |slot: usize, found: Proximity| {
+        if let Some(known) = proximity.get_mut(slot) {
             *known = found.max(*known);
         }
     };
@@ -47,9 +47,9 @@ pub(crate) fn nearness(solver: &Solver) -> Vec<(SphereId, Nearness)> {
             let closing = -velocity.dot(offset) / distance;
             let gap = distance - radius_sum;
             if gap < -2.0 * SLOP * radius_sum {
-                both.into_iter().for_each(|slot| note(slot, Nearness::Overlaps));
+                both.into_iter().for_each(|slot| note(slot, Proximity::Overlaps));
             } else if gap < NEAR * radius_sum || gap < SUB_STEPS * h * closing {
-                both.into_iter().for_each(|slot| note(slot, Nearness::Near));
+                both.into_iter().for_each(|slot| note(slot, Proximity::Near));
             }
         }
     }
@@ -57,13 +57,13 @@ pub(crate) fn nearness(solver: &Solver) -> Vec<(SphereId, Nearness)> {
         match contact.partner {
             Partner::Sphere(other) | Partner::Awake(other) => {
                 for slot in [contact.sphere, other] {
-                    note(slot as usize, Nearness::Near);
+                    note(slot as usize, Proximity::Near);
                 }
             }
             Partner::Surface(_) => {}
         }
     }
-    let mut all: Vec<_> = slots.id.iter().copied().zip(nearness).collect();
+    let mut all: Vec<_> = slots.id.iter().copied().zip(proximity).collect();
     all.sort_unstable_by_key(|sphere| sphere.0);
     all
 }

@@ -1,4 +1,4 @@
-//! A leg of a sphere's way, as sensors see it.
+//! A segment of a sphere's flight, which sensors test for crossings.
 
 use glam::DVec3;
 
@@ -10,12 +10,12 @@ use crate::norm::Norm;
 use crate::polynomial_flight::PolynomialFlight;
 use crate::settings::nearest_image;
 
-/// In a periodic box a leg is cut where it may have crossed this part of the box.
+/// In a periodic box a segment is cut where it may have crossed this part of the box.
 const PART_OF_BOX: f64 = 0.5;
 
 /// A part of the flight of one sphere.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Leg {
+pub(crate) struct FlightSegment {
     pub sphere: SphereId,
     /// Of the sphere in the arrays of the world.
     pub index: u32,
@@ -31,7 +31,7 @@ pub(crate) struct Leg {
     pub to: f64,
 }
 
-impl Leg {
+impl FlightSegment {
     /// Where the sphere is at `time` \[s\] and how it moves there, as a flight.
     pub fn flight_from(&self, time: f64) -> Flight {
         let age = time - self.flight_start;
@@ -73,7 +73,7 @@ impl Leg {
         }
     }
 
-    /// Bounds of the sphere over the leg.
+    /// Bounds of the sphere over the segment.
     pub fn bounds(&self) -> Bounds {
         let (start, way) = match &self.curve {
             Some(curve) => (curve.position, curve.farthest()),
@@ -86,7 +86,7 @@ impl Leg {
         Bounds::around(start, way + (self.radius + slack))
     }
 
-    /// The leg in pieces that are short beside a box with these edges \[m\], each of which begins in it.
+    /// The segment in pieces that are short beside a box with these edges \[m\], each of which begins in it.
     pub fn pieces(self, period: DVec3) -> impl Iterator<Item = Self> {
         let whole = self.to - self.from;
         let way = match &self.curve {
@@ -114,7 +114,7 @@ impl Leg {
     }
 }
 
-/// Shifts \[m\] of images that a piece of a leg may come to in a box with these edges \[m\].
+/// Shifts \[m\] of images that a piece of a segment may come to in a box with these edges \[m\].
 pub(super) fn shifts(period: DVec3) -> impl Iterator<Item = DVec3> {
     let boxes = |axis: usize| if period[axis].is_finite() { -1..=1 } else { 0..=0 };
     let [xs, ys, zs] = [0, 1, 2].map(boxes);

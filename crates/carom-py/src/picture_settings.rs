@@ -1,6 +1,6 @@
 //! Settings of pictures, read from Python.
 
-use carom_cli::pictures::{Look, Viewpoint};
+use carom_cli::pictures::{PictureOptions, Viewpoint};
 use carom_render::{Preset, Quality};
 use carom_scene::Scene;
 use carom_scene::scene::Camera;
@@ -22,13 +22,13 @@ pub struct View<'py> {
 }
 
 /// Settings of a picture, checked.
-pub struct Sight {
-    pub look: Look,
+pub struct PictureSettings {
+    pub look: PictureOptions,
     /// Replaces the scene's own camera.
     camera: Option<Camera>,
 }
 
-impl Sight {
+impl PictureSettings {
     /// Checks the settings.
     ///
     /// # Errors
@@ -37,7 +37,10 @@ impl Sight {
     pub fn read(view: &View) -> PyResult<Self> {
         let (camera, viewpoint) = viewpoint(&view.camera)?;
         let (size, quality) = (size(&view.size)?, quality(&view.quality)?);
-        Ok(Self { look: Look { size, camera: viewpoint, no_stamp: !view.stamp, quality }, camera })
+        Ok(Self {
+            look: PictureOptions { size, camera: viewpoint, no_stamp: !view.stamp, quality },
+            camera,
+        })
     }
 
     /// Sets the chosen camera in a scene.
