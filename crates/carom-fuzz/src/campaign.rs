@@ -22,20 +22,20 @@ const GIVE_UP: Duration = Duration::from_secs(120);
 /// Which cases are drawn.
 #[derive(Debug, Clone, Copy)]
 pub struct Campaign {
-    /// Cases of another seed are others.
+    /// Seed of the cases.
     pub seed: u64,
-    /// Number of the first.
+    /// Number of the first case.
     pub first: u64,
-    /// How many.
+    /// Number of cases.
     pub count: u64,
-    /// When it ends although there are more.
+    /// Time at which the campaign ends even if cases are left.
     pub until: Option<Instant>,
 }
 
-/// What came of a campaign.
+/// Results of a campaign.
 #[derive(Debug, Clone, Default)]
 pub struct Totals {
-    /// Cases that make sense.
+    /// Cases that the reader accepted.
     pub accepted: u64,
     /// Cases that were refused.
     pub refused: u64,
@@ -52,7 +52,7 @@ pub struct Totals {
 pub struct Finding {
     /// Number of the case.
     pub number: u64,
-    /// Which promise.
+    /// The promise that it breaks.
     pub fault: Fault,
     /// The case, made smaller.
     pub case: Vec<u8>,

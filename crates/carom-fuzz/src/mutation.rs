@@ -117,7 +117,7 @@ enum Mutation {
     },
 }
 
-/// Values that readers trip over.
+/// Values on which readers often fail: extreme numbers, and pieces of syntax.
 pub fn values() -> impl Strategy<Value = &'static str> {
     prop_oneof![select(&NUMBERS[..]), select(&PIECES[..])]
 }
@@ -138,7 +138,7 @@ fn mutation() -> impl Strategy<Value = Mutation> {
     ]
 }
 
-/// Texts of a corpus with one to four things wrong; rarely none. A smaller one has fewer.
+/// Texts of a corpus with up to four mutations; smaller cases have fewer.
 pub fn mutated(corpus: Vec<Vec<u8>>) -> impl Strategy<Value = Vec<u8>> {
     let at = (any::<Index>(), vec(mutation(), 0..=4));
     at.prop_map(move |(text, mutations)| {

@@ -149,7 +149,7 @@ pub(crate) struct Motion {
 pub(crate) struct Collider {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub geometry: Option<Geometry>,
-    /// Shape in files that precede `geometry`.
+    /// Number of the shape, in files of a draft of the extension without `geometry`.
     #[serde(skip_serializing)]
     pub shape: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -11,7 +11,8 @@ const CAPTION_PART: f32 = 1.0 / 9.0;
 /// Text smaller than this cannot be read \[px\].
 const SMALLEST: f32 = 12.0;
 
-/// Longer texts are cut before their width is measured: they fit in no picture.
+/// Characters after which a text is cut before its width is measured; a longer one fits in no
+/// picture.
 const LONGEST: usize = 1000;
 
 // Sizes of the backing, in heights of the text.

@@ -122,6 +122,8 @@ pub(crate) struct Properties {
     pub applied_force: Vec<DVec3>,
     /// Empty while all spheres are in the first group and collide with all.
     pub groups: Vec<Groups>,
+    /// \[m/s\]; empty while no radius grows.
+    pub growth_speed: Vec<f64>,
     /// Empty while all are 0.
     pub user_data: Vec<u64>,
 }
@@ -150,8 +152,15 @@ impl Properties {
             inertia_factor: some(&self.inertia_factor, indices),
             applied_force: some(&self.applied_force, indices),
             groups: some(&self.groups, indices),
+            growth_speed: some(&self.growth_speed, indices),
             user_data: some(&self.user_data, indices),
         }
+    }
+
+    /// Speed at which the radius of a sphere grows \[m/s\].
+    #[inline]
+    pub fn growth_speed(&self, index: usize) -> f64 {
+        self.growth_speed.get(index).copied().unwrap_or(0.0)
     }
 
     /// Friction of a sphere; `None` in a field that it leaves to the other body.
@@ -253,6 +262,11 @@ impl Spheres {
         &self.properties.groups
     }
 
+    /// Speeds at which radii grow \[m/s\]; empty while none does.
+    pub fn growth_speeds(&self) -> &[f64] {
+        &self.properties.growth_speed
+    }
+
     /// Number that the program keeps with each sphere; empty while all are 0.
     pub fn user_data(&self) -> &[u64] {
         &self.properties.user_data
@@ -287,6 +301,7 @@ impl Spheres {
             angular_velocity: self.angular_velocities().get(index).copied().unwrap_or_default(),
             inertia_factor: self.properties.inertia_factor(index),
             groups: self.properties.groups(index),
+            growth_speed: self.properties.growth_speed(index),
             user_data: self.user_data().get(index).copied().unwrap_or_default(),
         }
     }
@@ -303,6 +318,7 @@ impl Spheres {
         push(&mut properties.inertia_factor, count, sphere.inertia_factor, SOLID_BALL);
         push(&mut properties.applied_force, count, DVec3::ZERO, DVec3::ZERO);
         push(&mut properties.groups, count, sphere.groups, Groups::DEFAULT);
+        push(&mut properties.growth_speed, count, sphere.growth_speed, 0.0);
         push(&mut properties.user_data, count, sphere.user_data, 0);
         motion.position.push(sphere.position);
         motion.velocity.push(sphere.velocity);
@@ -319,6 +335,7 @@ impl Spheres {
         set(&mut properties.friction, count, index, sphere.friction, Friction::default());
         set(&mut properties.inertia_factor, count, index, sphere.inertia_factor, SOLID_BALL);
         set(&mut properties.groups, count, index, sphere.groups, Groups::DEFAULT);
+        set(&mut properties.growth_speed, count, index, sphere.growth_speed, 0.0);
         set(&mut properties.user_data, count, index, sphere.user_data, 0);
         motion.position[index] = sphere.position;
         motion.velocity[index] = sphere.velocity;
@@ -340,6 +357,7 @@ impl Spheres {
         keep(&mut properties.inertia_factor, &stays);
         keep(&mut properties.applied_force, &stays);
         keep(&mut properties.groups, &stays);
+        keep(&mut properties.growth_speed, &stays);
         keep(&mut properties.user_data, &stays);
         keep(&mut motion.position, &stays);
         keep(&mut motion.velocity, &stays);

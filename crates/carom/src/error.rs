@@ -70,6 +70,20 @@ pub enum Error {
         /// Start of the refused step \[s\].
         time: f64,
     },
+    /// Growth made a sphere 4096 times as fast as any was at the start of the step.
+    #[error(
+        "sphere {sphere}, at {at} s: growth made it 4096 times as fast as any was at the start of the step, \
+         so there may be no room left to grow; the state before the step, at {time} s, was kept. Shorter \
+         frames with velocities scaled back between them, slower growth or an earlier end may help"
+    )]
+    NoRoomToGrow {
+        /// The sphere.
+        sphere: SphereId,
+        /// When it happened \[s\].
+        at: f64,
+        /// Start of the refused step \[s\].
+        time: f64,
+    },
     /// A [`StopRequest`](crate::StopRequest) ended the step.
     #[error("the step that starts at {time} s was stopped; the state before it was kept")]
     Stopped {

@@ -54,6 +54,7 @@ mod lanes;
 mod mesh;
 mod norm;
 mod numbered;
+pub mod packing;
 mod parallel;
 mod path;
 mod persistent_contact;

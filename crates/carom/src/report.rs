@@ -104,7 +104,7 @@ pub struct EnergyAccount {
     pub contacts: f64,
     /// Work of moving colliders \[J\].
     pub colliders: f64,
-    /// Work of the kicks of colliders \[J\].
+    /// Work of the kicks of colliders, and of spheres that grow \[J\].
     pub kicks: f64,
     /// Work of moving spheres out of what they overlap \[J\], against forces that have a potential or
     /// are linear.
@@ -249,11 +249,11 @@ pub struct ImpactGroup {
     pub momentum_scale: f64,
     /// Kinetic energy of its spheres before \[J\].
     pub energy_before: f64,
-    /// Kinetic energy after, less the work of moving colliders and of kicks \[J\].
+    /// Kinetic energy after, less the work of moving colliders, of kicks and of growth \[J\].
     pub energy_after: f64,
     /// Work of moving colliders \[J\].
     pub collider_work: f64,
-    /// Work of the kicks of colliders \[J\].
+    /// Work of the kicks of colliders, and of spheres that grow \[J\].
     pub kick_work: f64,
     /// Change of the kinetic energy that the coefficients of restitution demand \[J\], <= 0.
     pub energy_demanded: f64,

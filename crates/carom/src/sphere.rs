@@ -68,6 +68,9 @@ pub struct Sphere {
     pub inertia_factor: f64,
     /// Which bodies it collides with.
     pub groups: Groups,
+    /// Speed at which its radius grows \[m/s\], >= 0, while its mass stays: 0 unless given. Under the rule `exact`
+    /// alone, among elastic spheres without forces: `docs/physics/growth.md`.
+    pub growth_speed: f64,
     /// Number of the program's own; no part of the physics.
     pub user_data: u64,
 }
@@ -87,6 +90,7 @@ impl Sphere {
             angular_velocity: DVec3::ZERO,
             inertia_factor: SOLID_BALL,
             groups: Groups::DEFAULT,
+            growth_speed: 0.0,
             user_data: 0,
         }
     }
@@ -146,6 +150,11 @@ impl Sphere {
         Self { groups, ..self }
     }
 
+    /// The same sphere with a radius that grows at this speed \[m/s\].
+    pub fn with_growth_speed(self, growth_speed: f64) -> Self {
+        Self { growth_speed, ..self }
+    }
+
     /// The same sphere with this number of the program's own.
     pub fn with_user_data(self, user_data: u64) -> Self {
         Self { user_data, ..self }
@@ -180,7 +189,8 @@ impl Sphere {
         self.friction.validate()?;
         validate::rotation("orientation", self.orientation)?;
         validate::finite("angular_velocity", self.angular_velocity)?;
-        validate::positive("inertia_factor", self.inertia_factor)
+        validate::positive("inertia_factor", self.inertia_factor)?;
+        validate::non_negative("growth_speed", self.growth_speed)
     }
 }
 

@@ -225,6 +225,19 @@ impl State {
             .map_err(|invalid| invalid.about(Subject::Settings))
     }
 
+    /// Refuses spheres that would grow too large for a periodic box within `h` \[s\].
+    pub fn check_grown(&self, h: f64) -> Result<(), Error> {
+        let smallest = self.settings.boundary.period().min_element();
+        let spheres = &self.spheres.properties;
+        let grown = |(radius, speed): (&f64, &f64)| radius + speed * h;
+        let largest =
+            spheres.radius.iter().zip(&spheres.growth_speed).map(grown).fold(0.0, f64::max);
+        let requirement =
+            "at least four times what the radius of every sphere grows to along every axis";
+        validate::require(smallest >= 4.0 * largest, "size", requirement, smallest)
+            .map_err(|invalid| invalid.about(Subject::Settings))
+    }
+
     /// Refuses emitters that would have too many spheres due until `time` \[s\].
     pub fn check_emitters(&self, time: f64) -> Result<(), Error> {
         for (number, emitter) in self.emitters.iter() {

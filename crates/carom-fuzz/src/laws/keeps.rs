@@ -10,33 +10,33 @@ use crate::fault::Fault;
 /// turns in a piece of path along a curve.
 const OPEN_ACCOUNT: f64 = 1e-6;
 
-/// That where surfaces move: nothing restores the energy of a piece of path then.
+/// The same part where surfaces move: there the energy of a piece of path is not restored.
 const OPEN_ACCOUNT_OF_MOVERS: f64 = 1e-5;
 
-/// That of `contact`, besides what a field does in a sub-step to a sphere that meets several bodies in it: that moves by its
-/// last velocity, and its energy in the field is right in first order.
+/// Part of the energy that a frame of `contact` may add, besides the first-order error of the energy in a field of a
+/// sphere that meets several bodies in a sub-step: it moves by its last velocity.
 const CONTACT_GAIN: f64 = 1e-3;
 
-/// Overlap that may be, as a part of the smallest radius; and besides, as one of the largest: by so much a piece of
-/// path along a curve may miss.
+/// Allowed overlap, as a part of the smallest radius, plus a part of the largest one, by which a piece of path
+/// along a curve may miss.
 const OVERLAP: f64 = 1e-6;
 const MISS: f64 = 1e-7;
 
-/// Part of the largest speed of approach in a frame from which on a speed is that of bodies that close.
+/// Part of the largest speed of approach in a frame above which a speed counts as closing.
 const CLOSES: f64 = 1e-6;
 
 /// Part of the impulses of moving colliders, times the speeds of these, by which their work may differ from impulses times
 /// ways: rounding of a sum, and of the places where they are at an impact.
 const OPEN_WORK: f64 = 1e-12;
 
-/// What the rule of a scene keeps in its world, and what was seen of that so far.
+/// Laws that the rule of a scene keeps, with what is needed to check them in the next frame.
 #[derive(Debug, Clone)]
 pub struct Keeps {
     /// Part of the energy by which the account of a frame may be open.
     account: Option<f64>,
     /// Part of the energy that a frame may add.
     gain: Option<f64>,
-    /// By which change of its speed \[m/s\] the energy of a sphere may be wrong besides.
+    /// Change of its speed \[m/s\] that accounts for a further error of the energy of a sphere.
     speed_error: f64,
     no_overlap: bool,
     /// The container that keeps what is inside.
@@ -52,7 +52,7 @@ pub struct Keeps {
     time: f64,
 }
 
-/// Whether surfaces move, which do work, and are where frames take them.
+/// Whether surfaces move; they do work, and their places depend on frames.
 pub fn is_driven(scene: &Scene) -> bool {
     scene.colliders.iter().any(|it| {
         it.velocity != [0.0; 3] || it.angular_velocity != [0.0; 3] || !it.motion.is_empty()

@@ -17,8 +17,8 @@ use crate::wording::SAYS_NOTHING;
 
 /// Most faults in a list: later ones probably follow from earlier ones.
 const MOST: usize = 20;
-/// Each fault costs a reading of the scene; all readings together may take as long as one of a text
-/// of this length.
+/// Bytes of text that are read in all to find faults; each fault costs one more reading of the
+/// scene.
 const BYTES: usize = 4_000_000;
 
 impl Scene {

@@ -19,6 +19,7 @@ mod bisection;
 mod claims;
 mod driven;
 mod feature;
+mod growing;
 mod half_space;
 mod nearest;
 mod obstacle;
@@ -34,6 +35,8 @@ mod track;
 mod turning;
 
 pub use bisection::{Bisection, Probe, bisect};
+pub use growing::sphere_sphere_growing;
+pub(crate) use growing::{GrowingApproach, growing_sphere_surface};
 pub(crate) use reach::Reach;
 pub(crate) use sphere_sphere::Approach;
 pub use sphere_sphere::{sphere_sphere, sphere_sphere_linear};

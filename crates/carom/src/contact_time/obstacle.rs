@@ -62,6 +62,21 @@ pub(super) struct Barrier {
 }
 
 impl Obstacle {
+    /// The same for a radius that is larger \[m\].
+    pub fn widened(self, by: f64) -> Self {
+        let mut wide = self;
+        match &mut wide {
+            Self::Point { radius }
+            | Self::HalfSpace { radius, .. }
+            | Self::Rectangle { radius, .. }
+            | Self::Band { radius, .. }
+            | Self::Segment { radius, .. }
+            | Self::Plane { radius, .. }
+            | Self::Triangle { radius, .. } => *radius += by,
+        }
+        wide
+    }
+
     /// Seen from a centre with a velocity.
     pub fn seen_from(&self, position: DVec3, velocity: DVec3) -> Sight {
         match *self {

@@ -24,6 +24,11 @@ pub(super) trait Path {
         0.0
     }
 
+    /// Speed at which the radius about the centre grows \[m/s\], 0 (the default) where it does not.
+    fn growth_speed(&self) -> f64 {
+        0.0
+    }
+
     /// The rate \[1/s\] at which the acceleration decays, 0 (the default) where it does not.
     fn decay_rate(&self) -> f64 {
         0.0

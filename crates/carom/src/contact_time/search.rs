@@ -169,16 +169,23 @@ struct Look {
     phase: Phase,
     /// Sizes of the numbers involved up to now.
     size: Magnitudes,
+    /// Speed at which the radius grows \[m/s\].
+    growth_speed: f64,
 }
 
 impl Look {
     fn at(path: &impl Path, obstacle: &Obstacle, size: Magnitudes, t: f64) -> Self {
         let state = path.state_at(t);
         let size = size + state.size;
-        let sight = obstacle.seen_from(state.position, state.velocity);
+        let growth_speed = path.growth_speed();
+        let sight = if growth_speed > 0.0 {
+            obstacle.widened(growth_speed * t).seen_from(state.position, state.velocity)
+        } else {
+            obstacle.seen_from(state.position, state.velocity)
+        };
         let gap = Gap {
             distance: sight.distance,
-            speed: sight.normal.dot(state.velocity),
+            speed: sight.normal.dot(state.velocity) - growth_speed,
             acceleration: sight.normal.dot(state.acceleration) + sight.turning,
         };
         let zero = if sight.is_round {
@@ -187,7 +194,7 @@ impl Look {
             Zero::flat(&size)
         };
         let phase = if sight.is_behind { Phase::Apart } else { gap.phase(&zero) };
-        Self { state, sight, gap, zero, phase, size }
+        Self { state, sight, gap, zero, phase, size, growth_speed }
     }
 
     fn is_close(&self) -> bool {
@@ -227,7 +234,10 @@ impl Look {
         }
         let barrier = self.sight.barrier.map_or(0.0, |Barrier { distance, normal }| {
             let aim = if distance > self.zero.distance { aim } else { self.zero.distance.max(aim) };
-            time_to_fall(distance + aim, normal.dot(self.state.velocity), bound(normal))
+            // From behind, it is the centre that has to pass the plane.
+            let growth_speed = if self.sight.is_behind { 0.0 } else { self.growth_speed };
+            let speed = normal.dot(self.state.velocity) - growth_speed;
+            time_to_fall(distance + aim, speed, bound(normal))
         });
         let Gap { distance, speed, .. } = self.gap;
         if distance > self.zero.distance {
@@ -274,6 +284,7 @@ impl Look {
         }
         let (_, speed) = self.most_moved(path, t, window);
         let distance = self.gap.distance.max(0.0) + aim;
+        let speed = speed + self.growth_speed;
         if speed > 0.0 { distance / speed } else { f64::INFINITY }
     }
 
@@ -281,7 +292,8 @@ impl Look {
     fn time_to_hull(&self, path: &impl Path, aim: f64, t: f64, window: f64) -> f64 {
         self.sight.hull.map_or(0.0, |Barrier { distance, normal }| {
             let pull = self.pull(path, normal, t, window);
-            time_to_fall(distance + aim, normal.dot(self.state.velocity), pull)
+            let speed = normal.dot(self.state.velocity) - self.growth_speed;
+            time_to_fall(distance + aim, speed, pull)
         })
     }
 

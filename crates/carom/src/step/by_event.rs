@@ -29,6 +29,7 @@ pub(super) fn step(mut attempt: Attempt, parameters: Exact, until: Until) -> Res
         attempt.end_at(end);
         account_for_contacts(attempt.report, &mut timeline, end);
         place_spheres(attempt, &timeline, end)?;
+        timeline.write_radii(&mut attempt.state.spheres.properties.radius, end);
         if !timeline.has_friction() {
             attempt.state.spheres.motion.spin.advance(attempt.length);
         }
@@ -170,12 +171,13 @@ fn place_spheres(attempt: &mut Attempt, timeline: &Timeline, end: f64) -> Result
     )
 }
 
-/// Why a step that starts at `time` \[s\] was not taken to its end.
+/// Returns the error of a step that starts at `time` \[s\] and was not taken to its end.
 fn refusal(unfinished: Unfinished, time: f64) -> Error {
     match unfinished {
         Unfinished::Stopped => Error::Stopped { time },
         Unfinished::NonFiniteForce { sphere } => no_longer_finite(sphere, "velocity", time),
         Unfinished::NoClosedForm { sphere, time: at } => Error::NeedsZone { sphere, at, time },
+        Unfinished::NoRoomToGrow { sphere, time: at } => Error::NoRoomToGrow { sphere, at, time },
         Unfinished::TooManyImpacts { sphere, limit, companions, time: at } => {
             Error::TooManyImpacts { sphere, limit, companions, at, time }
         }
@@ -214,7 +216,7 @@ fn check_count(state: &State) -> Result<(), Error> {
         .map_err(|invalid| invalid.about(Subject::Step))
 }
 
-/// Why forces cannot be held in a step that starts at `time` \[s\].
+/// Returns the error of a step in which forces cannot be held, and that starts at `time` \[s\].
 pub(super) fn refused_forces(error: HoldError, time: f64) -> Error {
     match error {
         HoldError::NotFinite(sphere) => no_longer_finite(sphere, "velocity", time),

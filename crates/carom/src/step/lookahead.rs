@@ -1,6 +1,6 @@
 //! Looking ahead: the path of one sphere, without a step.
 
-use super::by_event;
+use super::{by_event, growth};
 use crate::error::{Error, Subject};
 use crate::path::PredictedPath;
 use crate::rule::exact::{self, Span};
@@ -26,6 +26,7 @@ pub(crate) fn predict(
         .and_then(|()| validate::finite_number("horizon", end))
         .map_err(|invalid| invalid.about(Subject::Query))?;
     by_event::check_room(state)?;
+    growth::check(state, horizon)?;
     by_event::check_closed_form(&now.system, "path").map_err(|it| it.about(Subject::Query))?;
     let parameters = match state.settings.rule {
         Rule::Exact(parameters) => parameters,

@@ -4,6 +4,7 @@
 mod attempt;
 mod by_event;
 mod by_frame;
+mod growth;
 mod lookahead;
 mod sweep;
 
@@ -28,6 +29,7 @@ use crate::work::{StopRequest, Work};
 /// [`Error::Invalid`]
 pub(crate) fn check(state: &State, dt: f64) -> Result<(), Error> {
     check_length(state, dt)?;
+    growth::check(state, dt)?;
     state.check_emitters(state.clock.after(dt).seconds())?;
     match state.settings.rule {
         Rule::Exact(parameters) => by_event::check(state, parameters, dt),
@@ -59,6 +61,7 @@ pub(crate) fn step(
     until: Until,
 ) -> Result<(), Error> {
     check_length(state, dt)?;
+    growth::check(state, dt)?;
     report.clear();
     if stop_request.is_some_and(StopRequest::is_made) {
         return Err(Error::Stopped { time: state.clock.seconds() });

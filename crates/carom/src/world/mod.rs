@@ -1,6 +1,7 @@
 //! The world: everything that persists, and the step that moves it on.
 
 mod forces;
+mod growth;
 mod measures;
 mod poses;
 mod queries;

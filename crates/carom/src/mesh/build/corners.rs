@@ -8,12 +8,14 @@ use crate::mesh::Corner;
 use crate::mesh::topology::Topology;
 use crate::norm::Norm;
 
-/// What is ahead of a unit vector by less than this is beside it.
+/// Dot product up to which a unit vector does not point along another one.
 const BESIDE: f64 = 1e-9;
-/// Of more rays it is not asked whether something is nearest to their corner: it may be.
+/// Rays of a corner up to which it is tested whether a point can be nearest to the corner; with
+/// more it is kept.
 const MANY_RAYS: usize = 16;
 
-/// The corners that spheres meet: vertices where borders end, if something is nearer to them than to those.
+/// Returns the corners that spheres can meet: vertices at the ends of borders, to which some point is
+/// nearer than to the borders.
 pub(super) fn corners(
     topology: &Topology,
     faces: &Faces,
@@ -44,14 +46,15 @@ pub(super) fn corners(
         if rays.len() <= MANY_RAYS && !is_met(&rays, normal) {
             return None;
         }
-        // Behind faces that are met from one side, nothing is nearest to it.
+        // Points behind one-sided faces are never nearest to the corner.
         rays.extend(normal.map(|normal| -normal));
         Some(Corner { point, rotation: DQuat::IDENTITY, rays: rays.into() })
     };
     around.filter_map(corner).collect()
 }
 
-/// Whether something is behind all rays, and in front of what has this normal.
+/// Whether some direction points along none of the rays, and to the front of faces with this mean
+/// normal.
 fn is_met(rays: &[DVec3], normal: Option<DVec3>) -> bool {
     let (mut sum, mut count) = (DVec3::ZERO, 0);
     let is_behind = |way: DVec3| rays.iter().all(|ray| way.dot(*ray) <= BESIDE);

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use super::clearance::Clearance;
 use super::context::StepContext;
 use super::events::{Prediction, Schedule};
-use super::flights::{self, Body, Flights, Rotation};
+use super::flights::{self, Body, Flights, Growth, Rotation};
 use super::neighbours::{Contents, Neighbours};
 use super::pair_times::PairSearch;
 use super::persistent::{self, held_forces, piece_end};
@@ -53,7 +53,11 @@ pub(crate) fn start(
     time: f64,
 ) -> Timeline {
     let mut flights = Flights::new(system, motion, |_| Err(time));
-    if parameters.zones == Zones::Never {
+    flights.growth = Growth::of(&flights.species, time);
+    // What is stepped has the radius that it had at the start.
+    let zones = if flights.growth.is_some() { Zones::Never } else { parameters.zones };
+    let parameters = parameters.with_zones(zones);
+    if zones == Zones::Never {
         zone = Zone::default();
     }
     if friction_acts(system) {
@@ -140,6 +144,7 @@ pub(crate) fn begin(
 ) -> Result<(), HoldError> {
     set_frame(timeline, system, frame);
     timeline.next_emission = next;
+    timeline.flights.limit_heating();
     let are_applied = !system.spheres.applied_force.is_empty();
     timeline.curves_until = if are_applied { frame[1] } else { f64::INFINITY };
     let is_other_tick = set_force_tick(timeline, frame[1] - frame[0])?;
@@ -318,6 +323,7 @@ fn arrange(timeline: &mut Timeline, system: &System, time: f64) {
     // What is made anew must not be in memory twice.
     timeline.schedule = Schedule::default();
     timeline.neighbours = Neighbours::default();
+    timeline.flights.make_room_to_grow(time, system.settings.boundary.period());
     let order = contents(&timeline.flights, system, time).curve_order();
     if order.windows(2).any(|pair| pair[0] > pair[1]) {
         timeline.flights.reorder(&order);

@@ -82,6 +82,13 @@ pub(crate) enum Unfinished {
         /// When it happened, on the world's clock \[s\].
         time: f64,
     },
+    /// Growth made a sphere so fast that it has no room left.
+    NoRoomToGrow {
+        /// The sphere.
+        sphere: SphereId,
+        /// When it happened, on the world's clock \[s\].
+        time: f64,
+    },
     /// A force on a sphere is not finite.
     NonFiniteForce {
         /// The sphere.
@@ -119,7 +126,8 @@ pub(crate) fn advance(
     let mut end = span.end;
     loop {
         let (tick, force_tick) = (timeline.zone.next_tick(), timeline.next_force_tick());
-        let now = match timeline.next(end.min(tick).min(force_tick)) {
+        let room_until = timeline.room_until();
+        let now = match timeline.next(end.min(tick).min(force_tick).min(room_until)) {
             Some((slot, next)) => {
                 let now = happen(timeline, &mut context, slot, next)?;
                 if due.is_now(timeline) {
@@ -134,6 +142,12 @@ pub(crate) fn advance(
                 renew_forces(timeline, &mut context, force_tick)?
             }
             None if tick <= end && tick < force_tick => stepped::tick(timeline, &mut context),
+            None if room_until < end => {
+                look_along::follow(timeline, system);
+                before.count_from_zero(timeline);
+                frame::arrange_anew(timeline, system, room_until);
+                room_until
+            }
             None => break,
         };
         look_along::follow(timeline, system);
@@ -195,6 +209,14 @@ fn happen(
     match event.target.unpacked() {
         EventTarget::Restart => predict::restart(timeline, context, slot, event.time),
         EventTarget::StepEnd => predict::next_step(timeline, context, slot, event.time),
+        EventTarget::Sphere(other) if timeline.flights.growth.is_some() => {
+            impact::answer_growing_pair(timeline, context, [slot, other], event.time);
+            check_room_to_grow(timeline, context, &[slot, other], event.time)?;
+        }
+        EventTarget::Surface(surface) if timeline.flights.growth.is_some() => {
+            impact::answer_growing_single(timeline, context, slot, surface, event.time);
+            check_room_to_grow(timeline, context, &[slot], event.time)?;
+        }
         EventTarget::Sphere(other) => {
             impact::answer_pair(timeline, context, [slot, other], event.time);
         }
@@ -221,6 +243,20 @@ fn happen(
         }
     }
     Ok(event.time)
+}
+
+/// Refuses spheres that growth made so fast, at `time` \[s\], that they have no room left.
+fn check_room_to_grow(
+    timeline: &Timeline,
+    context: &StepContext,
+    slots: &[u32],
+    time: f64,
+) -> Result<(), Unfinished> {
+    let overheated = slots.iter().find(|&&slot| timeline.flights.is_overheated(slot));
+    overheated.map_or(Ok(()), |&slot| {
+        let sphere = context.id_of(timeline, slot);
+        Err(Unfinished::NoRoomToGrow { sphere, time })
+    })
 }
 
 /// Counts a flight that ended before the sphere had moved; with too many of them it is stepped.

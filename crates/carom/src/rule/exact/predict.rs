@@ -245,6 +245,9 @@ fn meet_surfaces(
         None => (flight_end < f64::INFINITY)
             .then(|| Reach::of(body.flight(species), species.radius, flight_end - body.time)),
     };
+    if timeline.flights.growth.is_some() {
+        return meet_surfaces_growing(timeline, system, slot, events);
+    }
     let center = body.position;
     let planes = planes_that_hold(timeline, system, slot);
     for (number, shift) in timeline.surfaces_near(slot) {
@@ -285,6 +288,23 @@ fn meet_surfaces(
         if let Some(delay) = delay {
             let target = PackedTarget::surface(number);
             events.add(Event::at(start + delay, target));
+        }
+    }
+}
+
+/// Adds the surfaces near it that a sphere meets as it grows to its next events.
+fn meet_surfaces_growing(timeline: &Timeline, system: &System, slot: u32, events: &mut NextEvents) {
+    let body = &timeline.flights.bodies[slot as usize];
+    let species = timeline.flights.species_of(slot);
+    let radius = timeline.flights.radius_at(slot, body.time);
+    for (number, shift) in timeline.surfaces_near(slot) {
+        let mut flight = body.flight(species);
+        flight.position -= shift;
+        let growing = [radius, species.growth_speed];
+        let form = &system.surfaces[number as usize].form;
+        let delay = contact_time::growing_sphere_surface(&flight, growing, form, f64::INFINITY);
+        if let Some(delay) = delay {
+            events.add(Event::at(body.time + delay, PackedTarget::surface(number)));
         }
     }
 }

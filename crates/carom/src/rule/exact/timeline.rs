@@ -72,6 +72,16 @@ impl Timeline {
         if self.flights.forces_vary { self.held_until } else { f64::INFINITY }
     }
 
+    /// Until when neighbours are known, as radii grow, on the world's clock \[s\].
+    pub(super) fn room_until(&self) -> f64 {
+        self.flights.room_until()
+    }
+
+    /// Writes the radii of all spheres at `time` \[s\] if some grow, in metres.
+    pub fn write_radii(&self, radii: &mut [f64], time: f64) {
+        self.flights.write_radii(radii, time);
+    }
+
     /// Time between two ticks of zones in the present frame \[s\].
     pub(super) fn zone_tick(&self) -> f64 {
         let [start, end] = self.frame;

@@ -17,8 +17,10 @@ const MAX_LEVELS: usize = 24;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Species {
-    /// \[m\]
+    /// \[m\]; of growing spheres, when [`Growth`](super::Growth) began.
     pub radius: f64,
+    /// Speed at which the radius grows \[m/s\].
+    pub growth_speed: f64,
     /// \[kg\]
     pub mass: f64,
     pub restitution: f64,
@@ -87,13 +89,15 @@ impl SpeciesOfSpheres {
             let (force, is_all) = forces::total_linear(system.forces, radius, mass);
             forces_vary |= !is_all;
             let own = if is_all && !has_own_forces { 0 } else { index + 1 };
-            let key = ([radius, mass, restitution].map(f64::to_bits), own);
+            let growth_speed = spheres.growth_speed(index);
+            let key = ([radius, growth_speed, mass, restitution].map(f64::to_bits), own);
             let next = species.len() as u32;
             let number = *known.entry(key).or_insert(next);
             if number == next {
                 let (acceleration, drag_rate) = (force.acceleration, force.drag_rate);
                 species.push(Species {
                     radius,
+                    growth_speed,
                     mass,
                     restitution,
                     acceleration,

@@ -8,6 +8,7 @@ use super::body::Body;
 use super::clusters::{Cluster, Clusters, Support, Supported};
 use super::contact_work::{ContactWork, WorkDone};
 use super::curve::Curve;
+use super::growth::Growth;
 use super::rotation::Rotation;
 use super::species::{Species, SpeciesOfSpheres};
 use crate::bodies::Motion;
@@ -34,6 +35,8 @@ pub(crate) struct Flights {
     pub rotations: Vec<Rotation>,
     /// By index, the curves of spheres whose flights are such; empty where none is.
     pub curves: Vec<Curve>,
+    /// How radii grow; `None` where none does.
+    pub growth: Option<Growth>,
     /// A sphere, by index, on which a force was not finite.
     pub lost: Option<u32>,
     /// Whether some forces are held constant for a time.
@@ -75,6 +78,7 @@ impl Flights {
             clusters: Clusters::default(),
             rotations: Vec::new(),
             curves: if are_curved { vec![Curve::default(); count] } else { Vec::new() },
+            growth: None,
             lost: None,
             hold_forces,
             forces_vary,

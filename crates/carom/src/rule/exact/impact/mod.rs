@@ -4,10 +4,12 @@ mod account;
 mod follow_up;
 mod friction;
 mod group;
+mod growing;
 mod kick;
 mod pair;
 mod single_sphere;
 mod surface_contacts;
 
+pub(super) use growing::{answer_growing_pair, answer_growing_single};
 pub(super) use pair::answer_pair;
 pub(super) use single_sphere::answer_single;

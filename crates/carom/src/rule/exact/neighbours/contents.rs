@@ -68,11 +68,11 @@ impl Contents<'_> {
         self.flights.species.iter().map(|species| species.level + 1).max().unwrap_or(0)
     }
 
-    /// The largest radius of a level \[m\].
+    /// The largest radius of a level, or of one of smaller spheres, which may outgrow it \[m\].
     pub(super) fn radius_of(&self, level: u32) -> f64 {
-        let has_level = |species: &&Species| species.level == level;
+        let has_level = |species: &&Species| species.level >= level;
         let of_level = self.flights.species.iter().filter(has_level);
-        of_level.map(|species| species.radius).fold(0.0, f64::max)
+        of_level.map(|it| self.flights.largest_radius(it)).fold(0.0, f64::max)
     }
 
     /// The grid of each level.

@@ -57,7 +57,8 @@ impl Neighbours {
         let Contents { flights, period, spheres_collide, .. } = contents;
         let Flights { bodies, species, .. } = flights;
         let Levels { levels, are_crowded } = Levels::new(contents);
-        let nowhere = |body: &Body| Region::nowhere(species[body.species as usize].radius);
+        let nowhere =
+            |body: &Body| Region::nowhere(flights.largest_radius(&species[body.species as usize]));
         // A neighbour is less than three cells away along each axis, of the coarsest grid.
         let images = match levels.first() {
             _ if !period.is_finite_mask().any() => Images::None,

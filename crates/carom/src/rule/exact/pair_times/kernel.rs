@@ -10,7 +10,7 @@ use fearless_simd::{Level, Simd, SimdMask, dispatch, mask64x4};
 use glam::DVec3;
 
 use super::relative::Relative;
-use crate::contact_time::{self, Approach};
+use crate::contact_time::{self, Approach, GrowingApproach};
 use crate::lanes::{LANES, Lanes};
 use crate::norm::Norm;
 use crate::real::{Real, Vector};
@@ -72,6 +72,9 @@ impl PairQuery<'_> {
                 dispatch!(level, simd => PairKernel::<{ 0 $(| $case)* }>::of(self).result(simd))
             };
         }
+        if self.timeline.flights.growth.is_some() {
+            return run!(IMAGES, ITSELF, SPECIES, GROWS);
+        }
         match (falls, neighbours.finds_itself(), neighbours.images()) {
             (Some(false), false, _) if !self.has_images => run!(),
             (Some(false), false, Images::ByPlace) => run!(NEAREST),
@@ -99,6 +102,8 @@ const FALLS: u8 = 4;
 const SPECIES: u8 = 8;
 /// Images are recognised by the positions of their spheres, none of which falls.
 const NEAREST: u8 = 16;
+/// Radii grow.
+const GROWS: u8 = 32;
 
 /// A query where only these `CASES` occur.
 struct PairKernel<'a, const CASES: u8> {
@@ -195,6 +200,12 @@ impl<'a, const CASES: u8> PairKernel<'a, CASES> {
             let alike = theirs.map(|other| f64::from(species.flies_like(other)));
             is_alike = is_there & all(0.0).is_less(Lanes::each(simd, alike));
         }
+        if covers::<CASES>(GROWS) {
+            let theirs = others.map(|other| self.species_of(other).growth_speed);
+            let growth_speed = all(species.growth_speed) + Lanes::each(simd, theirs);
+            let grown = Relative { start, offset, velocity };
+            return self.test_growing(simd, four, is_alike, grown, [radius_sum, growth_speed]);
+        }
         let approach = Approach::of(offset, velocity, radius_sum);
         let comes = approach.closing.is_less(all(0.0));
         let meets = is_alike & comes & all(0.0).is_at_most(approach.discriminant);
@@ -212,6 +223,44 @@ impl<'a, const CASES: u8> PairKernel<'a, CASES> {
         }
         let reach = radius_sum * (1.0 + margin);
         LaneResult { time, is_near: is_alike & distance_squared.is_at_most(reach * reach) }
+    }
+
+    /// Tests four whose radii grow: the sums of radii \[m\] and of the speeds at which they grow \[m/s\] are given. The
+    /// answer of impacts does not ask which of them are near.
+    #[inline(always)]
+    fn test_growing<S: Simd>(
+        &self,
+        simd: S,
+        four: &[Neighbour; LANES],
+        is_alike: mask64x4<S>,
+        relative: Relative<Lanes<S>>,
+        [radius_sum, growth_speed]: [Lanes<S>; 2],
+    ) -> LaneResult<S> {
+        let all = |number: f64| Lanes::all(simd, number);
+        let Relative { start, offset, velocity } = relative;
+        let radius_sum = radius_sum + growth_speed * (start - all(self.growing_since()));
+        let approach = GrowingApproach::of(offset, velocity, radius_sum, growth_speed);
+        let distance_squared = offset.length_squared();
+        let distance = distance_squared.sqrt();
+        let is_real = is_alike & all(0.0).is_at_most(approach.discriminant);
+        let closes = is_real & approach.closing.is_less(all(0.0));
+        let is_overtaken =
+            is_real & all(0.0).is_at_most(approach.closing) & approach.curvature.is_less(all(0.0));
+        let soon = approach.time(distance - radius_sum, distance + radius_sum);
+        let late = start + approach.late_time();
+        let mut time = (start + soon).select(closes, late.select(is_overtaken, all(f64::INFINITY)));
+        let square = radius_sum * radius_sum;
+        let is_close = is_alike & (distance_squared - square).is_at_most(square * NEARLY_TOUCHING);
+        if is_close.any_true() {
+            let times = self.close_meetings(four, time.to_array(), is_close.to_bitmask());
+            time = Lanes::each(simd, times);
+        }
+        LaneResult { time, is_near: all(1.0).is_less(all(0.0)) }
+    }
+
+    /// When radii were those of the species, on the world's clock \[s\].
+    fn growing_since(&self) -> f64 {
+        self.query.timeline.flights.growth.map_or(0.0, |growth| growth.since)
     }
 
     /// Replaces the times \[s\] of neighbours that nearly touch, given by bits.
@@ -239,12 +288,23 @@ impl<'a, const CASES: u8> PairKernel<'a, CASES> {
         let image_shift = covers::<CASES>(IMAGES | NEAREST).then(shift);
         let acceleration = covers::<CASES>(FALLS).then(|| self.species.acceleration.into());
         let relative = Relative::between(&own, &theirs, image_shift, acceleration);
-        let radius_sum = self.species.radius + self.species_of(other).radius;
-        if only_touch([self.body, other], &relative, radius_sum) {
+        let mut radius_sum = self.species.radius + self.species_of(other).radius;
+        let Relative { start, offset, velocity } = relative;
+        let mut growth_speed = 0.0;
+        if covers::<CASES>(GROWS) {
+            growth_speed = self.species.growth_speed + self.species_of(other).growth_speed;
+            radius_sum += growth_speed * (start - self.growing_since());
+        }
+        if only_touch([self.body, other], &relative, [radius_sum, growth_speed]) {
             return f64::INFINITY;
         }
-        let Relative { start, offset, velocity } = relative;
-        match contact_time::sphere_sphere_linear(offset.into(), velocity.into(), radius_sum) {
+        let [offset, velocity] = [offset, velocity].map(DVec3::from);
+        let delay = if covers::<CASES>(GROWS) {
+            contact_time::sphere_sphere_growing(offset, velocity, radius_sum, growth_speed)
+        } else {
+            contact_time::sphere_sphere_linear(offset, velocity, radius_sum)
+        };
+        match delay {
             Some(delay) => start + delay,
             None => f64::INFINITY,
         }
@@ -304,15 +364,19 @@ impl<S: Simd> FirstTwo<S> {
 }
 
 /// Whether two spheres touch or overlap a little, and close by no more than the rounding of their
-/// speeds.
-fn only_touch(bodies: [&Body; 2], relative: &Relative<f64>, radius_sum: f64) -> bool {
+/// speeds. Their radii have a sum \[m\], which grows at a speed \[m/s\].
+fn only_touch(
+    bodies: [&Body; 2],
+    relative: &Relative<f64>,
+    [radius_sum, growth_speed]: [f64; 2],
+) -> bool {
     let (offset, velocity) = (DVec3::from(relative.offset), DVec3::from(relative.velocity));
     let gap = offset.length_squared() - radius_sum * radius_sum;
-    let speed: f64 = bodies.iter().map(|body| body.velocity.norm()).sum();
+    let speed = bodies.iter().map(|body| body.velocity.norm()).sum::<f64>() + growth_speed;
     let place: f64 = bodies.iter().map(|body| body.position.norm()).sum();
     // How far they move in the rounding of the clock is in doubt, too.
     let size = radius_sum + place + speed * relative.start.abs();
     gap.abs() <= NEARLY_TOUCHING * radius_sum * radius_sum
         && gap <= TOUCH_ROUNDING * radius_sum * size
-        && -offset.dot(velocity) <= TOUCH_ROUNDING * radius_sum * speed
+        && radius_sum * growth_speed - offset.dot(velocity) <= TOUCH_ROUNDING * radius_sum * speed
 }

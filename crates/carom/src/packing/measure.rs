@@ -1,0 +1,140 @@
+//! What a fluid of hard spheres is measured by: packing fraction, pressure and rate of collisions.
+
+use crate::error::{Error, Subject};
+use crate::report::BodyPair;
+use crate::settings::Boundary;
+use crate::sphere::volume;
+use crate::sum::Sum;
+use crate::validate;
+use crate::world::World;
+
+/// What a fluid or a packing is like.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[non_exhaustive]
+pub struct Fluid {
+    /// Volume of the spheres, in parts of that which they are in.
+    pub packing_fraction: f64,
+    /// Reduced pressure `P V / N k T` by the virial of collisions, 1 of an ideal gas.
+    pub pressure: f64,
+    /// Collisions of a sphere with others in the time in which the thermal speed `√(k T / m)` takes it through its mean
+    /// diameter.
+    pub collision_rate: f64,
+}
+
+/// Volume of the spheres, in parts of the box that they are in.
+///
+/// # Errors
+/// [`Error::Invalid`] for a world whose box is not periodic along all axes: there `volume` has to be given \[m³\].
+pub fn packing_fraction(world: &World, volume: Option<f64>) -> Result<f64, Error> {
+    Ok(volume_of_spheres(world) / volume_around(world, volume)?)
+}
+
+pub(super) fn volume_of_spheres(world: &World) -> f64 {
+    world.spheres().radii().iter().map(|&radius| volume(radius)).collect::<Sum>().value()
+}
+
+/// The volume that spheres are in \[m³\].
+pub(super) fn volume_around(world: &World, given: Option<f64>) -> Result<f64, Error> {
+    let of_box = match world.settings().boundary {
+        Boundary::Periodic { size } => size.element_product(),
+        Boundary::Open => f64::INFINITY,
+    };
+    let volume = given.unwrap_or(of_box);
+    let requirement =
+        "positive and finite; outside of a periodic box that is closed it has to be given";
+    validate::require(volume > 0.0 && volume.is_finite(), "volume", requirement, volume)
+        .map_err(|invalid| invalid.about(Subject::Settings))?;
+    Ok(volume)
+}
+
+/// Mean squares and means of spheres: what their temperature makes of them.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Thermal {
+    pub count: f64,
+    /// Two thirds of the kinetic energy of a sphere \[J\].
+    pub temperature: f64,
+    /// \[m/s\]
+    pub speed: f64,
+    /// \[m\]
+    pub mean_radius: f64,
+}
+
+impl Thermal {
+    pub fn of(world: &World) -> Self {
+        let spheres = world.spheres();
+        let count = spheres.len() as f64;
+        let temperature = 2.0 / 3.0 * world.kinetic_energy() / count;
+        let mean_mass = spheres.masses().iter().copied().collect::<Sum>().value() / count;
+        let mean_radius = spheres.radii().iter().copied().collect::<Sum>().value() / count;
+        Self { count, temperature, speed: (temperature / mean_mass).sqrt(), mean_radius }
+    }
+
+    /// Collisions of a sphere in a second at a packing fraction p, of spheres of one size, by Enskog's theory with the
+    /// contact value of Carnahan and Starling:
+    ///
+    /// ```text
+    /// rate = 24/√π p χ v/d        χ = (1 - p/2)/(1 - p)³
+    /// ```
+    pub fn enskog_rate(&self, packing_fraction: f64) -> f64 {
+        let free = 1.0 - packing_fraction.min(0.9);
+        let contact_value = (1.0 - 0.5 * packing_fraction) / (free * free * free);
+        let per_crossing = 24.0 / std::f64::consts::PI.sqrt() * packing_fraction * contact_value;
+        per_crossing * self.speed / (2.0 * self.mean_radius)
+    }
+}
+
+/// Sums over the frames of a measurement.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Tally {
+    /// Σ j R / (3 N k T) over time, in seconds.
+    virial: f64,
+    /// Collisions of spheres with each other.
+    pub collisions: u64,
+    /// Collisions of a sphere, in parts of the time in which it goes through its diameter, over time.
+    rates: f64,
+    /// \[s\]
+    time: f64,
+}
+
+impl Tally {
+    /// Counts the impacts of the last frame, of a length \[s\], which began with `before`.
+    pub fn add_frame(&mut self, world: &World, before: Thermal, length: f64) {
+        let (spheres, impacts) = (world.spheres(), &world.report().impacts);
+        let radius_at = |id, time: f64| {
+            let index = spheres.index_of(id).unwrap_or_default();
+            let speed = spheres.growth_speeds().get(index).copied().unwrap_or(0.0);
+            spheres.radii()[index] - speed * (length - time)
+        };
+        let (mut virial, mut count) = (Sum::default(), 0u64);
+        for impact in impacts {
+            if let BodyPair::Spheres(first, second) = impact.between {
+                let distance = radius_at(first, impact.time) + radius_at(second, impact.time);
+                virial.add(impact.impulse * distance);
+                count += 1;
+            }
+        }
+        let after = Thermal::of(world);
+        let temperature = 0.5 * (before.temperature + after.temperature);
+        let crossing =
+            (before.mean_radius + after.mean_radius) / (0.5 * (before.speed + after.speed));
+        self.virial += virial.value() / (3.0 * after.count * temperature);
+        self.rates += 2.0 * count as f64 / after.count * crossing;
+        self.collisions += count;
+        self.time += length;
+    }
+
+    /// What the fluid was like in that time, with a packing fraction.
+    pub fn fluid(&self, packing_fraction: f64) -> Fluid {
+        let time = self.time.max(f64::MIN_POSITIVE);
+        Fluid {
+            packing_fraction,
+            pressure: 1.0 + self.virial / time,
+            collision_rate: self.rates / time,
+        }
+    }
+
+    /// Collisions of a sphere in a second.
+    pub fn rate(&self, count: f64) -> f64 {
+        2.0 * self.collisions as f64 / count / self.time.max(f64::MIN_POSITIVE)
+    }
+}

@@ -1,0 +1,62 @@
+//! Rattlers: spheres of a jammed packing that nothing holds.
+
+use crate::error::{Error, Subject};
+use crate::report::BodyPair;
+use crate::validate;
+use crate::world::World;
+
+/// A sphere that is held has at least so many contacts: one more than there are dimensions.
+const FEWEST_CONTACTS: usize = 4;
+
+/// How many spheres of a packing are rattlers: have fewer than four contacts with spheres that are none, or with
+/// colliders. A gap of less than `gap` times the sum of radii counts as a contact. Near jamming gaps are about the
+/// inverse of the reduced pressure p, and larger where the force is small: 100/p suits, with p a million or more.
+///
+/// Source: Torquato and Stillinger, Rev. Mod. Phys. 82, 2633 (2010), section III.
+///
+/// # Errors
+/// [`Error::Invalid`] for a gap that is negative or not finite.
+pub fn rattlers(world: &World, gap: f64) -> Result<usize, Error> {
+    validate::non_negative("gap", gap).map_err(|invalid| invalid.about(Subject::Query))?;
+    let spheres = world.spheres();
+    // Spheres that are larger by the gap overlap where these touch.
+    let mut swollen = World::new(*world.settings())?;
+    for (_, collider) in world.colliders() {
+        swollen.add_collider(collider.clone())?;
+    }
+    for index in 0..spheres.len() {
+        let sphere = spheres.get(index);
+        swollen
+            .add_sphere(sphere.with_radius(sphere.radius * (1.0 + gap)).with_growth_speed(0.0))?;
+    }
+    let mut neighbours = vec![Vec::new(); spheres.len()];
+    let mut held_by_colliders = vec![0; spheres.len()];
+    let index_of = |id| swollen.spheres().index_of(id).unwrap_or_default();
+    for overlap in swollen.overlaps(0.0) {
+        match overlap.between {
+            BodyPair::Spheres(first, second) => {
+                let [first, second] = [first, second].map(index_of);
+                neighbours[first].push(second);
+                neighbours[second].push(first);
+            }
+            BodyPair::Collider { sphere, .. } => held_by_colliders[index_of(sphere)] += 1,
+        }
+    }
+    let mut contacts: Vec<usize> =
+        neighbours.iter().zip(&held_by_colliders).map(|(near, walls)| near.len() + walls).collect();
+    let mut is_rattler = vec![false; spheres.len()];
+    let mut loose: Vec<usize> =
+        (0..spheres.len()).filter(|&index| contacts[index] < FEWEST_CONTACTS).collect();
+    while let Some(index) = loose.pop() {
+        if std::mem::replace(&mut is_rattler[index], true) {
+            continue;
+        }
+        for &other in &neighbours[index] {
+            contacts[other] -= 1;
+            if contacts[other] < FEWEST_CONTACTS && !is_rattler[other] {
+                loose.push(other);
+            }
+        }
+    }
+    Ok(is_rattler.iter().filter(|is| **is).count())
+}

@@ -1,0 +1,48 @@
+//! Growth: radii that change at steady speeds while spheres fly.
+
+use glam::DVec3;
+
+use super::species::Species;
+
+/// Neighbours are found for radii that are larger by this part. A larger one makes for wider cells with more
+/// spheres in them, a smaller one for more searches of all neighbours.
+const ROOM_TO_GROW: f64 = 1.0 / 16.0;
+
+/// Since when radii grow, and until when neighbours are known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct Growth {
+    /// When radii were those of the species, on the world's clock \[s\].
+    pub since: f64,
+    /// Until when no radius is larger than neighbours were found for, on the world's clock \[s\].
+    pub until: f64,
+    /// No sphere may become faster \[m/s\].
+    pub speed_limit: f64,
+}
+
+impl Growth {
+    /// The growth of spheres that have the radii of their species at `time` \[s\]; `None` if none grows.
+    pub fn of(species: &[Species], time: f64) -> Option<Self> {
+        let grows = species.iter().any(|it| it.growth_speed > 0.0);
+        grows.then_some(Self { since: time, until: time, speed_limit: f64::INFINITY })
+    }
+
+    /// Radius of spheres of a species at `time` \[s\], in metres.
+    #[inline]
+    pub fn radius_at(&self, species: &Species, time: f64) -> f64 {
+        species.radius + species.growth_speed * (time - self.since)
+    }
+
+    /// When a sphere is larger than at `time` \[s\] by the room that neighbours leave, or so large that a periodic
+    /// box with these edges \[m\] holds no larger one.
+    pub fn room_ends(&self, species: &[Species], time: f64, period: DVec3) -> f64 {
+        let largest = 0.25 * period.min_element();
+        let mut end = f64::INFINITY;
+        for it in species.iter().filter(|it| it.growth_speed > 0.0) {
+            let doubtful = time + ROOM_TO_GROW * self.radius_at(it, time) / it.growth_speed;
+            let full = self.since + (largest - it.radius) / it.growth_speed;
+            end = end.min(if full > time { doubtful.min(full) } else { doubtful });
+        }
+        end.max(time.next_up())
+    }
+}

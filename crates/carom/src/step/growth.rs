@@ -1,0 +1,62 @@
+//! What growing spheres can be together with.
+
+use crate::error::{Error, Subject};
+use crate::id::SphereId;
+use crate::settings::Rule;
+use crate::state::State;
+use crate::surface::{Form, Role, Surface};
+use crate::validate;
+
+/// Refuses growing spheres together with what a step of `h` \[s\] cannot take beside them.
+///
+/// # Errors
+/// [`Error::Invalid`] with the first sphere that grows, or if a periodic box becomes too small.
+pub(super) fn check(state: &State, h: f64) -> Result<(), Error> {
+    let spheres = &state.spheres.properties;
+    let Some(index) = spheres.growth_speed.iter().position(|&speed| speed > 0.0) else {
+        return Ok(());
+    };
+    let sphere: SphereId = spheres.id[index];
+    let requirement = obstacle(state);
+    validate::require(
+        requirement.is_none(),
+        "growth_speed",
+        requirement.unwrap_or_default(),
+        spheres.growth_speed[index],
+    )
+    .map_err(|invalid| invalid.about(Subject::Sphere(sphere)))?;
+    state.check_grown(h)
+}
+
+/// What stands in the way of growth.
+fn obstacle(state: &State) -> Option<&'static str> {
+    let surfaces = || state.colliders.surfaces().iter();
+    let is_inelastic = |restitution: &f64| *restitution != 1.0;
+    let is_of_mesh = |it: &Surface| {
+        matches!(it.form, Form::Facet(_) | Form::Edge(_) | Form::Corner(_) | Form::Closed(_))
+    };
+    let now = state.now();
+    let spheres = &state.spheres;
+    let is_under_force = state.forces.iter().len() > 0
+        || now.system.has_interactions()
+        || !spheres.applied_forces().is_empty();
+    let has_friction = now.system.frictions().any(|friction| friction.acts());
+    let turns = spheres.angular_velocities().iter().any(|it| it.length_squared() > 0.0);
+    let has_inelastic = spheres.restitutions().iter().any(is_inelastic)
+        || surfaces().any(|it| is_inelastic(&it.restitution));
+    let moves = |it: &Surface| !it.motion.is_at_rest() || it.kick != 0.0;
+    let reports = |it: &Surface| it.role == Role::Reports;
+    [
+        (!matches!(state.settings.rule, Rule::Exact(_)), "zero under rules other than `exact`"),
+        (is_under_force, "zero where forces act on spheres"),
+        (has_friction, "zero where friction acts"),
+        (turns, "zero where spheres turn"),
+        (has_inelastic, "zero where the restitution of a sphere or a collider is not 1"),
+        (state.emitters.iter().len() > 0, "zero in a world with emitters"),
+        (surfaces().any(moves), "zero beside colliders that move or kick"),
+        (surfaces().any(reports), "zero beside triggers"),
+        (surfaces().any(is_of_mesh), "zero beside meshes"),
+    ]
+    .into_iter()
+    .find_map(|(stands, requirement)| stands.then_some(requirement))
+}
