@@ -17,8 +17,8 @@ impl World {
         self.set_collider(id, Collider { pose, ..self.collider(id)? })
     }
 
-    /// Gives a collider the velocities that bring it to a pose within `dt` \[s\], by the shorter way round: a step of
-    /// this length takes it there, and spheres feel how fast it moves. It moves on until it gets another velocity.
+    /// Sets the velocities of a collider that bring it to a pose within `dt` \[s\], by the shorter way round: a step
+    /// of this length takes it there, and spheres feel how fast it moves. It moves on until it gets another velocity.
     ///
     /// ```
     /// use carom::{Collider, DVec3, Pose, Shape, World};
