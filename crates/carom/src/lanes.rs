@@ -65,7 +65,7 @@ impl<S: Simd> Lanes<S> {
         self.0[0]
     }
 
-    /// Each so many lanes farther to the front, the foremost behind.
+    /// Rotates the lanes to the front by a number of places; the foremost come behind.
     #[inline(always)]
     pub fn rotated<const BY: usize>(self) -> Self {
         Self(self.0.rotate_elements_left::<BY>())

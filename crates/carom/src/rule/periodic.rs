@@ -47,7 +47,7 @@ pub(super) fn image_offset_of(position: DVec3, period: DVec3) -> [i32; 3] {
     })
 }
 
-/// The way across so many boxes along each periodic axis \[m\]; nothing along open ones.
+/// The way across numbers of boxes along the periodic axes \[m\]; zero along open ones.
 #[inline]
 pub(super) fn image_shift(offset: [i32; 3], period: DVec3) -> DVec3 {
     DVec3::from_array([0, 1, 2].map(|axis| match offset[axis] {

@@ -9,7 +9,8 @@ use crate::state::State;
 use crate::validate;
 use crate::work::{StopRequest, Work};
 
-/// Predicts the path of the sphere at an index of the arrays over `horizon` \[s\], or up to so many impacts.
+/// Predicts the path of the sphere at an index of the arrays over `horizon` \[s\], or up to a number of
+/// impacts.
 ///
 /// # Errors
 /// Those of [`World::predict`](crate::World::predict).

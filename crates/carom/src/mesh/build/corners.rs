@@ -14,8 +14,8 @@ const BESIDE: f64 = 1e-9;
 /// more it is kept.
 const MANY_RAYS: usize = 16;
 
-/// Returns the corners that spheres can meet: vertices at the ends of borders, to which some point is
-/// nearer than to the borders.
+/// Returns the corners that spheres can meet: vertices at ends of borders that are nearest to some
+/// point.
 pub(super) fn corners(
     topology: &Topology,
     faces: &Faces,

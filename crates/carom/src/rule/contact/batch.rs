@@ -155,7 +155,7 @@ pub(super) struct Batches {
 }
 
 impl Batches {
-    /// Makes ready for the pairs of a run of so many slots.
+    /// Prepares for the pairs of a run with this number of slots.
     pub fn clear(&mut self, slots: usize) {
         self.pairs.clear();
         self.approaches.clear();

@@ -7,7 +7,7 @@ use crate::id::SphereId;
 
 /// A sphere is near another one whose gap is below this part of the sum of radii.
 const NEAR: f64 = 0.05;
-/// Or one that it meets within so many sub-steps.
+/// A sphere is also near another one that it meets within this number of sub-steps.
 const SUB_STEPS: f64 = 16.0;
 
 /// By index, whether something but forces and lone bounces changed the velocity of each sphere in the last

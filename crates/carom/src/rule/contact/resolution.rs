@@ -15,7 +15,8 @@ const OF_BOX: f64 = 0.125;
 /// Sub-steps are halved so often at most.
 const MOST_HALVINGS: u32 = 6;
 
-/// Finds in how many sub-steps a frame of this length \[s\] is cut: so many, or twice, four times, ... as many.
+/// Returns the number of sub-steps of a frame of this length \[s\]: that of the parameters, or twice, four
+/// times, ... as many.
 pub(super) fn sub_steps(solver: &Solver, least: u32, frame: f64) -> u32 {
     let slots = &solver.slots;
     let both = slots.acceleration.iter().zip(&slots.position);

@@ -28,7 +28,7 @@ const MEAN_MARGIN: f64 = 0.15;
 /// In a periodic box, spheres may go at most this part of its shortest edge, unless they go farther in a sub-step:
 /// so two never reach images of each other that are farther than the next box.
 const MOST_OF_BOX: f64 = 0.25;
-/// A search is to last so many frames at least and at most, at the speeds of now.
+/// Least and most frames that a search is to last at the present speeds.
 const LASTING: [f64; 2] = [1.5, 16.0];
 /// Speeds may grow by this factor meanwhile.
 const FASTER: f64 = 1.1;
@@ -159,7 +159,7 @@ impl Search {
         Drift::begin(velocity, lasting.min(within))
     }
 
-    /// First slots of so many runs of whole layers, and the end of the last: about as many spheres in each.
+    /// First slots of runs of whole layers with about equal numbers of spheres, and the end of the last.
     pub fn runs(&self, wanted: usize) -> Vec<usize> {
         let [layers, rows, columns] = self.grid.cells;
         let count = self.from.len();

@@ -71,7 +71,7 @@ pub(super) enum Direction {
 }
 
 impl Slabs {
-    /// One slab of so many slots, without contacts.
+    /// One slab with this number of slots, without contacts.
     pub fn of_one(slots: usize) -> Self {
         Self { list: vec![Slab { end: slots, ..Slab::default() }], far: Slab::default() }
     }

@@ -27,7 +27,8 @@ pub(super) const PATIENCE: f64 = 5.0;
 const DEEP: f64 = 4.0 * SLOP;
 /// How many contacts far a sphere that moves keeps others awake.
 pub(super) const NEAR: u32 = 2;
-/// It is looked for what may sleep once in so many frames: that costs as much as a sweep.
+/// Frames from one search for spheres that may sleep to the next: a search costs as much as a
+/// sweep.
 const FRAMES: u32 = 16;
 
 /// Puts spheres to sleep that have been calm for long enough, at the end of a frame of this length \[s\].

@@ -337,7 +337,7 @@ impl Run<'_> {
 }
 
 impl<'a> Run<'a> {
-    /// Takes a run of so many slots from the front.
+    /// Takes a run of this number of slots from the front.
     fn take_front(&mut self, count: usize) -> Self {
         Run {
             position: front_mut(&mut self.position, count),
@@ -354,7 +354,7 @@ impl<'a> Run<'a> {
     }
 }
 
-/// Takes so many items from the front; an array that is not kept is empty, and stays so.
+/// Takes this number of items from the front; an array that is not kept stays empty.
 fn front_mut<'a, T>(rest: &mut &'a mut [T], count: usize) -> &'a mut [T] {
     let count = count.min(rest.len());
     let (front, behind) = std::mem::take(rest).split_at_mut(count);

@@ -21,7 +21,7 @@ const MOST_IN_REACH: usize = 48;
 /// A sphere wakes where the force on it by those that are awake has changed by this part of that force and of its
 /// weight.
 const LOAD_CHANGE: f64 = 0.3;
-/// It is looked for that once in so many frames.
+/// Frames from one search for such changes to the next.
 const FRAMES: u32 = 8;
 /// A sphere bears another one that bears this part of its weight.
 const BORNE: f64 = 0.1;

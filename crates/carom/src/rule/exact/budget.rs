@@ -6,9 +6,9 @@ use crate::settings::Exact;
 
 /// A sphere may begin a new flight before it has moved as often as its budget holds this.
 const UNITS_OF_A_SHORT_FLIGHT: u64 = 60;
-/// All groups together may spend the budget of one in so many ticks, for as long as it may be.
+/// Ticks in which all groups together may spend the budget of one group.
 const TICKS_OF_A_BUDGET: f64 = 4.0;
-/// And they may be so many budgets ahead of that.
+/// Budgets of one group by which all groups together may be ahead of that.
 const AHEAD: u64 = 8;
 /// Each time that all groups together have spent the budget of one, the budget of each is halved, so that
 /// many cost hardly more than a few; so often at most.

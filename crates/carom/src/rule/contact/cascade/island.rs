@@ -39,7 +39,7 @@ enum Seen {
 }
 
 impl Gathering {
-    /// Among so many spheres.
+    /// Starts a search among this number of spheres.
     pub fn among(spheres: usize) -> Self {
         Self { seen: vec![Seen::Never; spheres] }
     }

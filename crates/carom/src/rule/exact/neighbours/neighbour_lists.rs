@@ -38,7 +38,7 @@ pub(super) struct Crowd<'a> {
 }
 
 impl NeighbourLists {
-    /// Empty lists of so many spheres.
+    /// Empty lists for this number of spheres.
     pub fn new(count: usize) -> Self {
         let (before, after) = Default::default();
         Self { lists: buffer::NeighbourLists::new(count), before, after }

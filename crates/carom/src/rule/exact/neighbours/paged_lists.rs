@@ -65,7 +65,7 @@ impl<T: Copy + PartialEq + Default, const SIZE: usize> PagedLists<T, SIZE> {
         Self { pages, spare: Vec::new() }
     }
 
-    /// For how many members there has to be room to copy the first pages of so many lists.
+    /// Number of members that the first pages of a number of lists hold.
     #[inline(always)]
     pub fn room(&self, lists: usize) -> usize {
         lists * SIZE
