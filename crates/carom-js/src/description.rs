@@ -74,7 +74,7 @@ impl World {
         let (world, members) = (&self.world, &self.description.members);
         let mut scene = self.described().clone();
         let colliders = colliders_now(world, &scene);
-        scene.colliders = colliders.iter().map(|it| it.from_time(world.time())).collect();
+        scene.colliders = colliders.iter().map(|it| it.beginning_at(world.time())).collect();
         scene.spheres = (0..world.spheres().len()).map(|i| sphere(world, members, i)).collect();
         scene.springs = Spring::all_of(world);
         // Rules that detect contacts late let spheres overlap, which a scene must allow.

@@ -64,7 +64,7 @@ impl Engine {
         inner.follow_colors();
         let mut scene = (*inner.described).clone();
         let time = inner.world.time();
-        scene.colliders = colliders_now(inner).iter().map(|it| it.from_time(time)).collect();
+        scene.colliders = colliders_now(inner).iter().map(|it| it.beginning_at(time)).collect();
         // Rules that detect contacts late let spheres overlap, which a scene must allow.
         if !scene.simulation.allow_overlap {
             let (spheres, springs) = (spheres_now(inner), Spring::all_of(&inner.world));

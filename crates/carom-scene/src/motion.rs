@@ -78,12 +78,12 @@ impl Collider {
     }
 
     /// Returns the same description for a scene that begins at `time` \[s\] of this one.
-    pub fn from_time(&self, time: f64) -> Self {
+    pub fn beginning_at(&self, time: f64) -> Self {
         if self.motion.is_empty() || time == 0.0 {
             return self.clone();
         }
         let parts: Vec<MotionPart> = self.motion.iter().map(Motion::physical).collect();
-        let later = carom::Motion::new(parts).from_time(time);
+        let later = carom::Motion::new(parts).beginning_at(time);
         Self { motion: later.parts().iter().filter_map(Motion::of).collect(), ..self.clone() }
     }
 }

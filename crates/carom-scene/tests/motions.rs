@@ -66,7 +66,7 @@ fn a_scene_that_begins_later_goes_on_with_the_motion() {
     world.set_time(0.7).unwrap();
     let now =
         |(described, (_, collider)): (&carom_scene::scene::Collider, (_, &carom::Collider))| {
-            described.now(collider).from_time(0.7)
+            described.now(collider).beginning_at(0.7)
         };
     let colliders = scene.colliders.iter().zip(world.colliders()).map(now).collect();
     let later = Scene { colliders, ..scene.clone() }.world().unwrap();

@@ -184,7 +184,7 @@ impl View {
                 collider.position = pose.position.to_array();
                 collider.rotation = pose.rotation.to_array();
             } else {
-                *collider = collider.from_time(self.time);
+                *collider = collider.beginning_at(self.time);
             }
         }
         scene.spheres.extend((0..self.spheres.ids.len()).map(|i| self.spheres.described(i)));

@@ -418,7 +418,7 @@ fn motion_is_a_function_of_the_clock() {
     assert!((a.pose.position - expected).length() < 1e-14, "{:?} {expected}", a.pose);
     // The same on a clock that begins then.
     let mut later = world(exact());
-    let again = gate().with_motion(gate().motion.from_time(1.5));
+    let again = gate().with_motion(gate().motion.beginning_at(1.5));
     later.add_collider(again).unwrap();
     let same = later.collider(id).unwrap().pose;
     assert!((same.position - a.pose.position).length() < 1e-14);

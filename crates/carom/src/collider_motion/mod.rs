@@ -104,8 +104,8 @@ impl Motion {
     }
 
     /// The same motion on a clock that shows 0 when the clock of this one shows `time` \[s\].
-    pub fn from_time(&self, time: f64) -> Self {
-        let parts = self.parts.iter().flat_map(|part| part.from_time(time));
+    pub fn beginning_at(&self, time: f64) -> Self {
+        let parts = self.parts.iter().flat_map(|part| part.beginning_at(time));
         Self { parts: parts.collect(), poses: self.poses }
     }
 
@@ -155,7 +155,7 @@ impl<I: IntoIterator<Item = MotionPart>> From<I> for Motion {
 
 impl MotionPart {
     /// The same part on a clock that begins at `time` \[s\], with a constant one for what it has done by then.
-    fn from_time(&self, time: f64) -> impl Iterator<Item = Self> + use<> {
+    fn beginning_at(&self, time: f64) -> impl Iterator<Item = Self> + use<> {
         // A sine of frequency 0 and phase π/2 is 1.
         let (frequency, phase) = (0.0, FRAC_PI_2);
         let at_start = match *self {
