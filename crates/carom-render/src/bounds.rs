@@ -22,7 +22,7 @@ impl Bounds {
     }
 
     /// Returns the box around a sphere.
-    pub fn of_sphere(center: DVec3, radius: f64) -> Self {
+    pub fn from_sphere(center: DVec3, radius: f64) -> Self {
         Self { min: center - radius, max: center + radius }
     }
 
@@ -30,7 +30,7 @@ impl Bounds {
     pub fn of_shape(shape: Shape, pose: Pose) -> Option<Self> {
         let mut middle = DVec3::ZERO;
         let half = match shape {
-            Shape::Sphere { radius } => return Some(Self::of_sphere(pose.position, radius)),
+            Shape::Sphere { radius } => return Some(Self::from_sphere(pose.position, radius)),
             Shape::Rectangle { size_x, size_z } => 0.5 * DVec3::new(size_x, 0.0, size_z),
             Shape::Box { size } | Shape::Container { size, .. } => 0.5 * size,
             Shape::Mesh(mesh) => {

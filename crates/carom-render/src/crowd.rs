@@ -51,5 +51,5 @@ fn crowd(drawing: &Drawing) -> Option<Bounds> {
     let reach =
         median(balls.iter().map(|ball| ball.center.distance(middle) + ball.radius).collect())?;
     let near = balls.iter().filter(|ball| ball.center.distance(middle) <= NEAR * reach);
-    Bounds::around(near.map(|ball| Bounds::of_sphere(ball.center, ball.radius)))
+    Bounds::around(near.map(|ball| Bounds::from_sphere(ball.center, ball.radius)))
 }

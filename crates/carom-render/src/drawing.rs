@@ -67,7 +67,7 @@ pub struct Ball {
 impl Ball {
     /// Returns a sphere at `center` \[m\] with this radius \[m\] and coat: banded if it has an
     /// orientation, else plain.
-    pub fn of_sphere(
+    pub fn from_sphere(
         center: DVec3,
         radius: f64,
         coat: impl Into<Coat>,
@@ -197,7 +197,7 @@ impl Panel {
 impl Drawing {
     /// Returns the box around all balls and finite panels; `None` if there are none.
     pub fn bounds(&self) -> Option<Bounds> {
-        let balls = self.balls.iter().map(|ball| Bounds::of_sphere(ball.center, ball.radius));
+        let balls = self.balls.iter().map(|ball| Bounds::from_sphere(ball.center, ball.radius));
         Bounds::around(balls.chain(self.panels.iter().filter_map(Panel::bounds)))
     }
 

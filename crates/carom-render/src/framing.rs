@@ -75,7 +75,7 @@ impl Framing {
 fn spheres(world: &World) -> impl Iterator<Item = (u64, Bounds)> {
     let spheres = world.spheres();
     let places = spheres.positions().iter().zip(spheres.radii());
-    let boxes = places.map(|(center, radius)| Bounds::of_sphere(*center, *radius));
+    let boxes = places.map(|(center, radius)| Bounds::from_sphere(*center, *radius));
     spheres.ids().iter().map(|id| id.number()).zip(boxes)
 }
 
@@ -84,7 +84,7 @@ fn emitters(scene: &Scene) -> impl Iterator<Item = Bounds> {
     scene.emitters.iter().map(|emitter| {
         let sphere = &emitter.sphere;
         let radius = sphere.radius.or(sphere.diameter.map(|it| 0.5 * it)).unwrap_or(0.5);
-        Bounds::of_sphere(emitter.position.into(), radius)
+        Bounds::from_sphere(emitter.position.into(), radius)
     })
 }
 

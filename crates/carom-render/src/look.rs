@@ -34,7 +34,7 @@ pub fn draw_world(
         let (radius, mass) = (spheres.radii()[i], spheres.masses()[i]);
         let coat = palette.sphere(id.number(), radius, mass);
         let orientation = has_spin.then(|| spheres.get(i).orientation);
-        let ball = Ball::of_sphere(spheres.positions()[i], radius, coat, orientation);
+        let ball = Ball::from_sphere(spheres.positions()[i], radius, coat, orientation);
         drawing.balls.push(match rotation(id.number()) {
             Some(rotation) => Ball { rotation, pattern: Pattern::Striped, ..ball },
             None => ball,

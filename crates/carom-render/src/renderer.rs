@@ -308,7 +308,7 @@ fn shadowed(drawing: &Drawing, camera: &Camera, framing: &Framing) -> (DVec3, f6
     let focus = framing.whole.center();
     let reach = REACH * (focus - camera.position).length().max(framing.whole.radius());
     let near = drawing.balls.iter().filter(|ball| ball.center.distance(focus) < reach);
-    let near = near.map(|ball| Bounds::of_sphere(ball.center, ball.radius));
+    let near = near.map(|ball| Bounds::from_sphere(ball.center, ball.radius));
     let seen = Bounds::around(near.chain([framing.whole])).unwrap_or(framing.whole);
     (seen.center(), seen.radius().min(2.0 * reach))
 }

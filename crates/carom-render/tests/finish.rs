@@ -14,7 +14,7 @@ const RED: Color = [0.8, 0.1, 0.1];
 const GREEN: Color = [0.1, 0.7, 0.2];
 
 fn ball(center: DVec3, color: Color, finish: Finish) -> Ball {
-    Ball::of_sphere(center, 0.5, Coat { color, finish }, None)
+    Ball::from_sphere(center, 0.5, Coat { color, finish }, None)
 }
 
 /// Draws balls in front of the sky in every quality.

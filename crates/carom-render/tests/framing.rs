@@ -84,7 +84,7 @@ fn every_built_in_scene_has_all_of_its_balls_in_its_framing() {
         let world = scene.world().expect("a world");
         let spheres = world.spheres();
         for (center, radius) in spheres.positions().iter().zip(spheres.radii()) {
-            let ball = Bounds::of_sphere(*center, *radius);
+            let ball = Bounds::from_sphere(*center, *radius);
             assert!(framing.whole.holds(&ball), "{}: {ball:?} in {framing:?}", scene.name);
         }
         assert!(framing.whole.radius() < 1e3, "{}: {framing:?}", scene.name);

@@ -104,7 +104,7 @@ fn add_spheres(view: &View, look: &DrawOptions, drawing: &mut Drawing) {
         let color = if picked == Some(i) { PICKED } else { paint.color.unwrap_or(common) };
         let coat = Coat { color, finish: paint.finish };
         let orientation = spheres.orientation(i, look.blend);
-        drawing.balls.push(Ball::of_sphere(center, spheres.radii[i], coat, orientation));
+        drawing.balls.push(Ball::from_sphere(center, spheres.radii[i], coat, orientation));
         if look.marks.velocities {
             let way = look.marks.velocity_scale * spheres.velocities[i];
             let Some(ahead) = way.try_normalize() else { continue };

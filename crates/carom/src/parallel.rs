@@ -33,7 +33,7 @@ fn map_in_order<M: Default, T>(count: usize, f: impl Fn(&mut M, usize) -> T) -> 
     (0..count).map(|number| f(&mut memory, number)).collect()
 }
 
-/// Has two arrays of one length filled, run by run: `f` is given the number of the first in a run.
+/// Fills two arrays of one length, run by run: `f` is given the number of the first in a run.
 #[cfg(feature = "rayon")]
 pub(crate) fn fill<A: Send, B: Send>(
     (first, second): (&mut [A], &mut [B]),
@@ -47,7 +47,7 @@ pub(crate) fn fill<A: Send, B: Send>(
     runs.for_each(|(number, run)| f(number * FEW, run));
 }
 
-/// Has two arrays of one length filled, in one run.
+/// Fills two arrays of one length, in one run.
 #[cfg(not(feature = "rayon"))]
 pub(crate) fn fill<A: Send, B: Send>(
     both: (&mut [A], &mut [B]),

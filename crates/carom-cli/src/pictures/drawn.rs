@@ -34,6 +34,6 @@ pub fn draw(
     drawing.arrows.extend(springs.iter().filter_map(|it| spring_line(it, boundary, place)));
     drawing.balls.extend(spheres.iter().map(|seen| {
         let coat = palette.sphere(seen.number, seen.radius, seen.mass);
-        Ball::of_sphere(seen.position, seen.radius, coat, seen.orientation)
+        Ball::from_sphere(seen.position, seen.radius, coat, seen.orientation)
     }));
 }

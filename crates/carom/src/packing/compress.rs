@@ -96,7 +96,7 @@ pub struct Compressed {
     pub energy_gained: f64,
 }
 
-/// Has elastic spheres grow, all at one rate, until they are as dense, or press as hard, as they are to. Velocities are
+/// Grows elastic spheres, all at one rate, to a packing fraction, a pressure or a collision rate. Velocities are
 /// scaled back to the kinetic energy of the start whenever it has doubled. At the end the spheres do not grow.
 ///
 /// # Errors

@@ -5,8 +5,7 @@ use crate::error::{Error, Subject};
 use crate::validate;
 
 impl World {
-    /// Has the radii of all spheres grow, each at `rate` \[1/s\] times what it is now: steadily, as `r (1 + rate t)`.
-    /// 0 ends the growth.
+    /// Lets the radii r of all spheres grow at a `rate` \[1/s\], steadily as `r (1 + rate t)`. 0 ends the growth.
     ///
     /// # Errors
     /// [`Error::Invalid`] for a rate that is negative or not finite.
