@@ -96,7 +96,7 @@ impl<T> fmt::Debug for Made<T> {
 }
 
 impl<T> PartialEq for Made<T> {
-    /// It follows from the description.
+    /// Returns true: the made value follows from the description, which is compared by itself.
     fn eq(&self, _: &Self) -> bool {
         true
     }

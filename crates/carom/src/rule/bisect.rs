@@ -257,7 +257,8 @@ impl Buffers {
         }
     }
 
-    /// Counts the contacts just answered; tells whether any two bodies are over the bound.
+    /// Counts the contacts just answered; returns whether two bodies met as often as the bound
+    /// allows.
     fn met_too_often(&mut self, max_impacts: u32) -> bool {
         let mut too_often = false;
         for contact in &self.trial_contacts {
@@ -270,7 +271,7 @@ impl Buffers {
 }
 
 impl<'a> Frame<'a> {
-    /// The instant at its end, with all spheres in the states `end`.
+    /// Returns the instant at the end of the frame, with all spheres in the states `end`.
     fn end<'b>(&'b self, end: &'b Motion) -> Instant<'b>
     where
         'a: 'b,

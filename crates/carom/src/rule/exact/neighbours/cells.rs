@@ -8,14 +8,14 @@ use super::paged_lists::PagedLists;
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) enum Cells {
-    /// As a rule, at most three are in a cell.
+    /// Pages of three spheres, for cells that rarely have more.
     Sparse(PagedLists<Neighbour, 3>),
-    /// As a rule, at most five are.
+    /// Pages of five spheres, for cells that rarely have more.
     Crowded(PagedLists<Neighbour, 5>),
 }
 
 impl Cells {
-    /// So many empty cells.
+    /// Creates a number of empty cells.
     pub fn new(count: usize, are_crowded: bool) -> Self {
         if are_crowded {
             Self::Crowded(PagedLists::new(count))
@@ -49,7 +49,7 @@ impl Cells {
         }
     }
 
-    /// The first spheres in a cell: as a rule, all.
+    /// Returns the spheres on the first page of a cell, in most cells all.
     #[inline(always)]
     pub fn first(&self, cell: usize) -> &[Neighbour] {
         match self {
@@ -58,8 +58,8 @@ impl Cells {
         }
     }
 
-    /// Puts the spheres of some cells into `found`, from `len` on, and gives where they end. What is
-    /// there behind that has no meaning.
+    /// Writes the spheres of a block of cells into `found` from `len` on, and returns their end;
+    /// entries after that have no meaning.
     #[inline(always)]
     pub fn gather(&self, block: &Block, found: &mut Vec<Neighbour>, len: usize) -> usize {
         match self {

@@ -16,7 +16,7 @@ use crate::rule::exact::contacts::{Corner, Group, Member, Plane, Touch};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::flights::{ContactWork, Support, Supported};
 
-/// Normals that differ by less are one \[rad\]: rounding.
+/// Angle \[rad\] below which two normals count as one: they differ by rounding.
 const SAME_NORMAL: f64 = 1e-9;
 
 /// What flies leans on other spheres where their normals are across the acceleration of all but for this part;
