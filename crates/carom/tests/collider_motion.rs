@@ -1,5 +1,8 @@
 //! Colliders that oscillate, turn and swing: spheres meet them where they are, and ride them.
 
+// Sines as each machine has them: tolerances are above their rounding.
+#![allow(clippy::disallowed_methods)]
+
 mod common;
 
 use std::f64::consts::{PI, TAU};
