@@ -11,6 +11,7 @@ use crate::failure::Failure;
 use crate::grade::Grade;
 use crate::length::{Length, positive};
 use crate::link::Link;
+use crate::pack::Pack;
 #[cfg(feature = "pictures")]
 use crate::pictures::args::{Maze, Picture, Record};
 use crate::replacing::Replacing;
@@ -110,6 +111,9 @@ pub enum Command {
     /// Make a scene file from a scene of Unity, a glTF file, or the last frame of a particle file (extended XYZ,
     /// dump of LAMMPS); list the parts without a counterpart.
     Import(Import),
+    /// Make a dense packing or a dense fluid in a periodic box, by spheres that grow (Lubachevsky and Stillinger). Ends
+    /// with code 1 if they jam before they are as dense as they are to be.
+    Pack(Pack),
     /// Check scenes; print each error with its line.
     Check {
         /// Scene files, or names of scenes; `-` is the standard input.

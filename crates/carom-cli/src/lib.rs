@@ -24,6 +24,7 @@ mod machine;
 mod manual;
 mod new;
 mod numbers;
+mod pack;
 #[cfg(feature = "pictures")]
 pub mod pictures;
 mod progress;
@@ -88,6 +89,7 @@ fn obey(args: Args, registered: Vec<Scene>) -> Result<(), Failure> {
         Command::Scenes { json } => scenes::list(&library()?, *json),
         Command::New(new) => new::new(new),
         Command::Import(it) => import::import(it),
+        Command::Pack(it) => pack::pack(it),
         Command::Check { files } => {
             scenes::check(&library()?, files, sources.budget(Budget::FILE, &config)?)
         }

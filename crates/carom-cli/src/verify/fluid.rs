@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use carom::{BodyPair, Rule, World};
 
 use super::claim::{Claim, Expected, Measured, Outcome, Tolerance};
+use super::dense;
 use crate::gas::{COLLISIONS_TO_EQUILIBRIUM, Filling, Speeds, gas, run_collisions};
 
 /// Number of spheres: fills a face-centred cubic lattice of 10 cells along an edge.
@@ -38,6 +39,7 @@ pub fn claims() -> Vec<Claim> {
             fourth_moment,
         ),
     ]);
+    claims.extend(dense::fluids());
     claims
 }
 

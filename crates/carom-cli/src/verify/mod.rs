@@ -10,6 +10,7 @@ mod conservation;
 mod convergence;
 mod course;
 mod curved_flights;
+mod dense;
 mod fluid;
 mod forces;
 mod friction;

@@ -4,6 +4,7 @@
 use carom::{BodyPair, Contact, DVec3, Error, Rule, World};
 
 use super::claim::{Claim, Expected, Measured, Outcome, Tolerance};
+use super::dense;
 use super::grains::{add_floor, add_shaft, empty, fill, grain, settle, top};
 
 /// Diameter of a ball \[m\]. It is large, so that sub-steps are short compared with the fall by a
@@ -57,7 +58,8 @@ pub fn claims() -> Vec<Claim> {
         )
         .slow(),
     ];
-    claims.into_iter().map(|claim| claim.about(Rule::Contact(Contact::default()))).collect()
+    let settled = claims.into_iter().map(|claim| claim.about(Rule::Contact(Contact::default())));
+    settled.chain(dense::packings()).collect()
 }
 
 /// Lets balls settle in a box of this width \[diameters\].

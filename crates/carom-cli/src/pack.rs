@@ -1,0 +1,194 @@
+//! The command `pack`: makes dense packings and dense fluids by growth.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use carom::packing::{self, Compressed, Compression, Start, Until};
+use carom::{Boundary, Error, StopRequest, World};
+use carom_scene::Scene;
+use carom_scene::import::plain_name;
+use carom_scene::recording::Trajectory;
+use carom_scene::scene::{self, Sphere};
+use carom_scene::unfinished::create_folders_of;
+
+use crate::failure::Failure;
+use crate::interruption::interruption;
+use crate::length::positive;
+use crate::numbers::Numbers;
+use crate::replacing::Replacing;
+
+/// Contacts of a packing are gaps of up to so many times the inverse of its reduced pressure.
+const CONTACT: f64 = 100.0;
+/// Below this reduced pressure spheres have gaps all around, and rattlers are not counted.
+const JAMMED: f64 = 1e6;
+
+/// Make a dense packing or a dense fluid.
+#[derive(Debug, clap::Args)]
+pub struct Pack {
+    /// How many spheres.
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
+    pub spheres: u32,
+    /// Part of the periodic box that they are to fill.
+    #[arg(long, value_name = "P", default_value_t = 0.64, value_parser = positive)]
+    pub packing_fraction: f64,
+    /// End at this reduced pressure P V / N k T instead: 1e6 and more of a jammed packing.
+    #[arg(long, value_name = "Z", value_parser = positive, conflicts_with = "equilibrate")]
+    pub pressure: Option<f64>,
+    /// Radii in m at the packing fraction, with their shares: `0.5`, `0.5:2,0.7:1` (two of one for one of the other) or
+    /// `0.4-0.6` (evenly between).
+    #[arg(long, value_name = "RADII", default_value = "0.5")]
+    pub sizes: Sizes,
+    /// Seed of the random places, sizes and velocities.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub seed: u64,
+    /// Speed at which the mean diameter grows, in parts of the thermal speed. Slower growth packs denser.
+    #[arg(long, value_name = "G", default_value_t = 0.01, value_parser = positive)]
+    pub growth: f64,
+    /// Then let each sphere collide so often without growth, and measure the pressure of the fluid.
+    #[arg(long, value_name = "COLLISIONS", value_parser = positive)]
+    pub equilibrate: Option<f64>,
+    /// The file to write: a scene (.toml), or places, radii, masses and velocities (.xyz, .lammpstrj, .npz, .csv).
+    #[arg(long, short, value_name = "PATH")]
+    pub out: Option<PathBuf>,
+    /// Whether an existing file is replaced.
+    #[command(flatten)]
+    pub replacing: Replacing,
+}
+
+/// Radii, with their shares.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sizes(Vec<Size>);
+
+/// Radii between two \[m\], and how large their share is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Size {
+    radii: [f64; 2],
+    share: f64,
+}
+
+impl FromStr for Sizes {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let size = |part: &str| {
+            let (radii, share) = part.split_once(':').unwrap_or((part, "1"));
+            let (low, high) = radii.split_once('-').unwrap_or((radii, radii));
+            let number =
+                |text: &str| positive(text).map_err(|problem| format!("{part}: {problem}"));
+            let radii = [number(low)?, number(high)?];
+            if radii[0] > radii[1] {
+                return Err(format!("{part}: the smaller radius comes first"));
+            }
+            Ok(Size { radii, share: number(share)? })
+        };
+        text.split(',').map(size).collect::<Result<_, _>>().map(Self)
+    }
+}
+
+impl Sizes {
+    /// Returns so many radii \[m\]: as many of each size as its share says, in places of their own.
+    fn radii(&self, count: usize, numbers: &mut Numbers) -> Vec<f64> {
+        let total: f64 = self.0.iter().map(|size| size.share).sum();
+        let (mut radii, mut share) = (Vec::with_capacity(count), 0.0);
+        for size in &self.0 {
+            share += size.share;
+            let until = (count as f64 * share / total).round() as usize;
+            let [low, high] = size.radii;
+            radii.extend((radii.len()..until.min(count)).map(|_| numbers.between(low, high)));
+        }
+        radii
+    }
+}
+
+/// Makes a packing, writes it and prints what it is like.
+pub fn pack(pack: &Pack) -> Result<(), Failure> {
+    pack.replacing.check(pack.out.as_deref())?;
+    let interrupted = interruption()?;
+    let radii = pack.sizes.radii(pack.spheres as usize, &mut Numbers::new(pack.seed));
+    let start = Start::of(radii, pack.seed).with_packing_fraction(pack.packing_fraction);
+    let mut world = packing::start(&start).map_err(|error| Failure::Usage(error.to_string()))?;
+    world.set_stop_request(Some(StopRequest::from(interrupted)));
+    let until = match pack.pressure {
+        Some(pressure) => Until::Pressure(pressure),
+        None => Until::PackingFraction(pack.packing_fraction),
+    };
+    let compression = Compression::until(until).with_growth(pack.growth);
+    let compressed = packing::compress(&mut world, &compression).map_err(refused)?;
+    let mut fluid = compressed.fluid;
+    if let Some(collisions) = pack.equilibrate.filter(|_| compressed.is_reached) {
+        fluid = packing::equilibrate(&mut world, collisions, None).map_err(refused)?;
+    }
+    let out = &mut io::stdout().lock();
+    writeln!(out, "spheres           {}", world.spheres().len())?;
+    writeln!(out, "packing fraction  {:.6}", compressed.packing_fraction)?;
+    writeln!(out, "reduced pressure  {:.6}", fluid.pressure)?;
+    writeln!(
+        out,
+        "collision rate    {:.6} in the time of a thermal diameter",
+        fluid.collision_rate
+    )?;
+    writeln!(out, "collisions        {}", compressed.collisions)?;
+    if fluid.pressure >= JAMMED {
+        let rattlers = packing::rattlers(&world, CONTACT / fluid.pressure).map_err(refused)?;
+        writeln!(out, "rattlers          {rattlers}")?;
+    }
+    writeln!(out, "state hash        {}", world.state_hash())?;
+    check_reached(pack, &compressed)?;
+    match &pack.out {
+        Some(file) => write(file, &world),
+        None => Ok(()),
+    }
+}
+
+/// Refuses spheres that jammed before they were as dense as they were to be.
+fn check_reached(pack: &Pack, compressed: &Compressed) -> Result<(), Failure> {
+    if compressed.is_reached {
+        return Ok(());
+    }
+    let Compressed { packing_fraction, .. } = compressed;
+    let advice = "a smaller --growth packs denser";
+    let wanted = pack.packing_fraction;
+    Err(Failure::Fault(format!(
+        "jammed at a packing fraction of {packing_fraction:.4}, not {wanted}: {advice}"
+    )))
+}
+
+/// Writes a scene, or a trajectory of one frame.
+fn write(file: &Path, world: &World) -> Result<(), Failure> {
+    if file.extension().is_some_and(|it| it.eq_ignore_ascii_case("toml")) {
+        let text = scene_of(file, world).to_toml();
+        let written = create_folders_of(file).and_then(|()| std::fs::write(file, text));
+        return written
+            .map_err(|error| Failure::Fault(format!("cannot write {}: {error}", file.display())));
+    }
+    let mut trajectory = Trajectory::create(file)?;
+    trajectory.write(world)?;
+    Ok(trajectory.finish()?)
+}
+
+/// Returns a scene of the spheres of a periodic box.
+fn scene_of(file: &Path, world: &World) -> Scene {
+    let name = file.file_stem().unwrap_or_default().to_string_lossy();
+    let mut scene = Scene::new(plain_name(&name));
+    if let Boundary::Periodic { size } = world.settings().boundary {
+        scene.simulation.boundary = scene::Boundary::Periodic { size: size.to_array() };
+    }
+    let spheres = world.spheres();
+    let sphere = |index: usize| {
+        let place = spheres.positions()[index].to_array();
+        let mut sphere = Sphere::at(place, spheres.radii()[index]);
+        sphere.velocity = spheres.velocities()[index].to_array();
+        sphere.mass = Some(spheres.masses()[index]);
+        sphere
+    };
+    scene.spheres = (0..spheres.len()).map(sphere).collect();
+    scene
+}
+
+fn refused(error: Error) -> Failure {
+    match error {
+        Error::Stopped { .. } => Failure::Interrupted,
+        error => Failure::Fault(error.to_string()),
+    }
+}
