@@ -3,9 +3,9 @@
 mod common;
 
 use carom::{
-    Boundary, Collider, DVec3, DerivativeError, Friction, Gravity, Pose, Settings, Shape, Sides,
-    Sphere, SphereId, SphereTangent, SphereVariation, Spring, Tangents, Tape, Variation,
-    ViscousDrag, World,
+    Boundary, Collider, DVec3, DerivativeError, Friction, Gravity, MotionPart, Pose, Settings,
+    Shape, Sides, Sphere, SphereId, SphereTangent, SphereVariation, Spring, Tangents, Tape,
+    Variation, ViscousDrag, World,
 };
 use common::{G, Numbers, vec};
 
@@ -316,7 +316,13 @@ fn what_has_no_derivative_is_refused_and_stays_refused() {
         "{error}"
     );
 
-    // Springs, a ball that is not there, masses under drag.
+    // A wall that oscillates, springs, a ball that is not there, masses under drag.
+    let mut world = World::default();
+    let wall = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO));
+    let (axis, amplitude, frequency, phase) = (DVec3::Y, 0.1, 1.0, 0.0);
+    let shaken = MotionPart::Oscillate { axis, amplitude, frequency, phase };
+    world.add_collider(wall.with_motion(shaken)).unwrap();
+    assert!(matches!(Tape::start(&world).unwrap_err(), DerivativeError::Unsupported(_)));
     let mut world = World::default();
     let ball = world.add_sphere(Sphere::new(DVec3::ZERO, 0.5)).unwrap();
     let other = world.add_sphere(Sphere::new(vec(3.0, 0.0, 0.0), 0.5)).unwrap();

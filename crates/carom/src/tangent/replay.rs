@@ -338,6 +338,9 @@ fn check(world: &World) -> Result<(), DerivativeError> {
     if world.emitters().len() > 0 {
         return refuse("emitters");
     }
+    if world.colliders().any(|(_, collider)| !collider.motion.is_empty()) {
+        return refuse("colliders that do not move steadily");
+    }
     if system.spheres.growth_speed.iter().any(|&speed| speed > 0.0) {
         return refuse("spheres that grow");
     }
