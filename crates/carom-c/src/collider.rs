@@ -1,6 +1,6 @@
 //! Colliders, the surfaces that spheres bounce off.
 
-use carom::{Collider, ColliderId, DQuat, DVec3, Pose, Shape, Sides};
+use carom::{Collider, ColliderId, DQuat, DVec3, Motion, Pose, Shape, Sides};
 use carom_scene::scene;
 
 use crate::pointer::{Out, Plain, read, tell};
@@ -192,6 +192,11 @@ impl CaromCollider {
     }
 }
 
+/// Returns the collider with the motion that it has in the world, which only text can describe.
+fn with_motion(collider: Collider, motion: Motion) -> Collider {
+    if motion.is_empty() { collider } else { collider.with_motion(motion) }
+}
+
 /// Writes a collider into a description, which keeps its name, colour and finish.
 fn describe(collider: &Collider, described: &mut scene::Collider) {
     match collider.shape {
@@ -209,10 +214,13 @@ fn describe(collider: &Collider, described: &mut scene::Collider) {
         // A shape that only text can describe is in the description already.
         _ => {}
     }
-    described.position = collider.pose.position.to_array();
-    described.rotation = collider.pose.rotation.to_array();
-    described.velocity = collider.velocity.to_array();
-    described.angular_velocity = collider.angular_velocity.to_array();
+    let pose = collider.motion.rest().unwrap_or(collider.pose);
+    described.position = pose.position.to_array();
+    described.rotation = pose.rotation.to_array();
+    if collider.motion.is_empty() {
+        described.velocity = collider.velocity.to_array();
+        described.angular_velocity = collider.angular_velocity.to_array();
+    }
     described.restitution = collider.restitution;
     described.trigger = collider.trigger;
     described.set_surface_friction(collider.friction);
@@ -292,7 +300,8 @@ pub unsafe extern "C" fn carom_world_set_collider(
             let (kick, groups, user_data) = (before.kick, before.groups, before.user_data);
             let collider = collider.physical(Some(before.shape))?;
             let collider = collider.with_kick(kick).with_groups(groups).with_user_data(user_data);
-            inner.world.set_collider(own, collider.clone())?;
+            inner.world.set_collider(own, with_motion(collider, before.motion))?;
+            let collider = inner.world.collider(own)?;
             let place = inner.world.colliders().position(|(other, _)| other == own);
             inner.described.change_colliders(|all| {
                 let described = place.and_then(|place| all.get_mut(place));

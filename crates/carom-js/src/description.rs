@@ -73,7 +73,8 @@ impl World {
     pub fn to_toml(&self) -> String {
         let (world, members) = (&self.world, &self.description.members);
         let mut scene = self.described().clone();
-        scene.colliders = colliders_now(world, &scene);
+        let colliders = colliders_now(world, &scene);
+        scene.colliders = colliders.iter().map(|it| it.beginning_at(world.time())).collect();
         scene.spheres = (0..world.spheres().len()).map(|i| sphere(world, members, i)).collect();
         scene.springs = Spring::all_of(world);
         // Rules that detect contacts late let spheres overlap, which a scene must allow.
@@ -86,13 +87,8 @@ impl World {
 
 /// Returns the colliders of a scene with their present poses in its world.
 fn colliders_now(world: &Physics, scene: &Scene) -> Vec<Collider> {
-    let poses = world.colliders().map(|(_, collider)| collider.pose);
-    let moved = |(collider, pose): (&Collider, carom::Pose)| Collider {
-        position: pose.position.to_array(),
-        rotation: pose.rotation.to_array(),
-        ..collider.clone()
-    };
-    scene.colliders.iter().zip(poses).map(moved).collect()
+    let described = scene.colliders.iter().zip(world.colliders());
+    described.map(|(described, (_, collider))| described.now(collider)).collect()
 }
 
 /// Returns a sphere in the form of scene files.

@@ -63,7 +63,8 @@ impl Engine {
         let inner = &mut *self.lock(py)?;
         inner.follow_colors();
         let mut scene = (*inner.described).clone();
-        scene.colliders = colliders_now(inner);
+        let time = inner.world.time();
+        scene.colliders = colliders_now(inner).iter().map(|it| it.beginning_at(time)).collect();
         // Rules that detect contacts late let spheres overlap, which a scene must allow.
         if !scene.simulation.allow_overlap {
             let (spheres, springs) = (spheres_now(inner), Spring::all_of(&inner.world));
@@ -82,13 +83,9 @@ pub fn json(it: &impl serde::Serialize) -> PyResult<String> {
 
 /// Returns the colliders of a world with their present poses.
 fn colliders_now(inner: &Inner) -> Vec<Collider> {
-    let poses = inner.world.colliders().map(|(_, collider)| collider.pose);
-    let moved = |(collider, pose): (&Collider, carom::Pose)| Collider {
-        position: pose.position.to_array(),
-        rotation: pose.rotation.to_array(),
-        ..collider.clone()
-    };
-    inner.described.colliders.iter().zip(poses).map(moved).collect()
+    let Inner { world, described, .. } = inner;
+    let described = described.colliders.iter().zip(world.colliders());
+    described.map(|(described, (_, collider))| described.now(collider)).collect()
 }
 
 /// Returns the spheres of a world, each with its own colour if it has one.

@@ -182,7 +182,7 @@ fn sides(sides: &[Side]) -> Sides {
     }
 }
 
-/// Converts a collider; its numbers are not yet checked. The error says what is wrong with a mesh.
+/// Converts a collider without its motion; its numbers are not yet checked. The error says what is wrong with a mesh.
 pub(crate) fn collider(collider: &Collider) -> Result<carom::Collider, String> {
     let shape = collider.shape.physical()?;
     let pose = Pose::at(vector(collider.position)).rotated(quaternion(collider.rotation));

@@ -36,6 +36,7 @@ mod library;
 mod load;
 mod mesh_file;
 mod meshes;
+mod motion;
 mod origin;
 pub mod outline;
 mod overlap;

@@ -10,7 +10,7 @@ use crate::wording::{DECIMAL_POINT, quoted};
 /// round once: 7 cm is exactly the number 0.07.
 type Unit = (&'static str, &'static str, [f64; 2]);
 
-const UNITS: [Unit; 48] = [
+const UNITS: [Unit; 51] = [
     ("m", "m", [1.0, 1.0]),
     ("km", "m", [1000.0, 1.0]),
     ("cm", "m", [1.0, 100.0]),
@@ -51,6 +51,9 @@ const UNITS: [Unit; 48] = [
     ("mPa s", "Pa s", [1.0, 1e3]),
     ("kg/s", "kg/s", [1.0, 1.0]),
     ("g/s", "kg/s", [1.0, 1e3]),
+    ("Hz", "Hz", [1.0, 1.0]),
+    ("kHz", "Hz", [1e3, 1.0]),
+    ("mHz", "Hz", [1.0, 1e3]),
     ("rad/s", "rad/s", [1.0, 1.0]),
     ("deg/s", "rad/s", [PI, 180.0]),
     ("°/s", "rad/s", [PI, 180.0]),
@@ -66,8 +69,10 @@ const DEGREES: &str = "degrees";
 const RADIANS: &str = "rad";
 
 /// Unit of each field that has one.
-const FIELDS: [(&str, &str); 55] = [
+const FIELDS: [(&str, &str); 61] = [
     ("acceleration", "m/s²"),
+    ("amplitude", "m"),
+    ("amplitude_degrees", DEGREES),
     ("anchor", "m"),
     ("angular_velocity", "rad/s"),
     ("bottom_radius", "m"),
@@ -85,6 +90,7 @@ const FIELDS: [(&str, &str); 55] = [
     ("force", "N"),
     ("force_tick", "s"),
     ("frame_time", "s"),
+    ("frequency", "Hz"),
     ("gravity", "m/s²"),
     ("height", "m"),
     ("heights", "m"),
@@ -97,9 +103,12 @@ const FIELDS: [(&str, &str); 55] = [
     ("near", "m"),
     ("opening_degrees", DEGREES),
     ("period", "s"),
+    ("phase_degrees", DEGREES),
+    ("pivot", "m"),
     ("position", "m"),
     ("radius", "m"),
     ("radius_range", "m"),
+    ("rate", "rad/s"),
     ("rest_length", "m"),
     ("ring_radius", "m"),
     ("row_step", "m"),

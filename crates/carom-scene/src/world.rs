@@ -8,6 +8,7 @@ use crate::check::{check_numbers, check_texts};
 use crate::error::Problem;
 use crate::generate;
 use crate::meshes;
+use crate::motion;
 use crate::overlap;
 use crate::requirement::check;
 use crate::scene::{Collider, Emitter, Force, Scene, Shape, Simulation};
@@ -111,6 +112,19 @@ fn add_collider(world: &mut World, collider: &Collider, path: &str) -> Result<()
             format!("must be at least 0 and less than 180, not {opening_degrees}")
         })?;
     }
+    let motion = motion::motion(collider, path)?;
+    let physical = if motion.is_empty() {
+        physical
+    } else {
+        for (field, value) in
+            [("velocity", collider.velocity), ("angular_velocity", collider.angular_velocity)]
+        {
+            check(value == [0.0; 3], &format!("{path}.{field}"), || {
+                "must be left out beside `motion`, which may have a steady part".into()
+            })?;
+        }
+        physical.with_motion(motion)
+    };
     let added = world.add_collider(physical);
     added.map(drop).map_err(|error| collider_problem(path, &collider.shape, error))
 }

@@ -180,8 +180,12 @@ impl View {
     pub fn scene_now(&self) -> Scene {
         let mut scene = self.setup.scene(&self.scene);
         for (collider, pose) in scene.colliders.iter_mut().zip(&self.poses) {
-            collider.position = pose.position.to_array();
-            collider.rotation = pose.rotation.to_array();
+            if collider.motion.is_empty() {
+                collider.position = pose.position.to_array();
+                collider.rotation = pose.rotation.to_array();
+            } else {
+                *collider = collider.beginning_at(self.time);
+            }
         }
         scene.spheres.extend((0..self.spheres.ids.len()).map(|i| self.spheres.described(i)));
         let springs = self.springs.iter();

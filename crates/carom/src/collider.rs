@@ -1,12 +1,13 @@
 //! Fixed colliders: shapes that spheres bounce off.
 
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 
+use crate::collider_motion::{Course, Motion};
 use crate::error::InvalidValue;
 use crate::friction::Friction;
 use crate::groups::Groups;
 use crate::mesh::Mesh;
-use crate::rotation;
+use crate::pose::Pose;
 use crate::validate;
 
 /// Form of a collider in its own frame.
@@ -171,39 +172,6 @@ impl Sides {
     }
 }
 
-/// Where a collider is and how it is turned: `x_world = position + rotation x_local`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Pose {
-    /// Origin of the local frame \[m\].
-    pub position: DVec3,
-    /// Rotation from the local frame to the world; any length but zero.
-    pub rotation: DQuat,
-}
-
-impl Pose {
-    /// At a place \[m\], not turned.
-    pub fn at(position: DVec3) -> Self {
-        Self { position, rotation: DQuat::IDENTITY }
-    }
-
-    /// The same place, turned.
-    pub fn rotated(self, rotation: DQuat) -> Self {
-        Self { rotation, ..self }
-    }
-
-    /// The pose after moving on for `h` \[s\].
-    pub(crate) fn moved(self, velocity: DVec3, angular_velocity: DVec3, h: f64) -> Self {
-        let rotation = rotation::turned(self.rotation, angular_velocity, h);
-        Self { position: self.position + h * velocity, rotation }
-    }
-
-    pub(crate) fn validate(&self) -> Result<(), InvalidValue> {
-        validate::finite("position", self.position)?;
-        validate::rotation("rotation", self.rotation)
-    }
-}
-
 /// A shape somewhere in the world that never gives way, at rest or moved from outside.
 ///
 /// ```
@@ -235,6 +203,9 @@ pub struct Collider {
     pub velocity: DVec3,
     /// Of the rotation about the origin of the local frame, along its axis \[rad/s\].
     pub angular_velocity: DVec3,
+    /// How it moves, if not steadily. In a world, pose, velocity and angular velocity are then those that the motion has
+    /// now; another pose given to it there moves all of the motion.
+    pub motion: Motion,
     /// Coefficient of restitution in \[0, 1\].
     pub restitution: f64,
     /// Friction at its surface; it says nothing unless given.
@@ -259,6 +230,7 @@ impl Collider {
             pose,
             velocity: DVec3::ZERO,
             angular_velocity: DVec3::ZERO,
+            motion: Motion::default(),
             restitution: 1.0,
             friction: Friction::default(),
             trigger: false,
@@ -282,6 +254,11 @@ impl Collider {
     /// about it. Spheres feel the velocity of the surface where they meet it.
     pub fn moving(self, velocity: DVec3, angular_velocity: DVec3) -> Self {
         Self { velocity, angular_velocity, ..self }
+    }
+
+    /// The same collider, at rest where it is but for this motion: parts that act one after the other.
+    pub fn with_motion(self, motion: impl Into<Motion>) -> Self {
+        Self { motion: motion.into(), velocity: DVec3::ZERO, angular_velocity: DVec3::ZERO, ..self }
     }
 
     /// The same collider with this coefficient of restitution.
@@ -314,14 +291,49 @@ impl Collider {
         Self { user_data, ..self }
     }
 
+    /// Returns the pose that its motion has it in at a time on the world's clock \[s\]; without a motion its pose.
+    pub fn pose_at(&self, time: f64) -> Pose {
+        self.course(time).map_or(self.pose, |course| course.place(0.0).0)
+    }
+
     pub(crate) fn validate(&self) -> Result<(), InvalidValue> {
         self.shape.validate()?;
         self.pose.validate()?;
         validate::finite("velocity", self.velocity)?;
         validate::finite("angular_velocity", self.angular_velocity)?;
+        self.motion.validate()?;
+        self.validate_velocities()?;
         validate::unit_interval("restitution", self.restitution)?;
         validate::non_negative("kick", self.kick)?;
         self.friction.validate()
+    }
+}
+
+impl Collider {
+    /// Refuses velocities beside a motion, which decides them.
+    fn validate_velocities(&self) -> Result<(), InvalidValue> {
+        let are_given = !self.motion.is_empty() && self.motion.rest().is_none();
+        let requirement = "zero where there is a `motion`, which may have a steady part";
+        for (field, value) in
+            [("velocity", self.velocity), ("angular_velocity", self.angular_velocity)]
+        {
+            validate::require(!are_given || value == DVec3::ZERO, field, requirement, value)?;
+        }
+        Ok(())
+    }
+
+    /// Its motion from `time` \[s\] on; `None` if its velocities say how it moves.
+    pub(crate) fn course(&self, time: f64) -> Option<Course> {
+        (!self.motion.is_empty()).then(|| Course::new(self.motion.clone(), self.pose, time))
+    }
+
+    /// Puts it where its motion has it at `time` \[s\]. One that comes to the world is at rest where it is; one that
+    /// was put elsewhere takes its motion along.
+    pub(crate) fn follow_motion(&mut self, time: f64) {
+        let Some(course) = self.course(time) else { return };
+        let (pose, motion) = course.place(0.0);
+        (self.motion, self.pose) = (self.motion.about(course.rest(), pose), pose);
+        (self.velocity, self.angular_velocity) = (motion.velocity, motion.angular_velocity);
     }
 }
 

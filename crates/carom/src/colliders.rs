@@ -12,6 +12,8 @@ use crate::surface::{self, Role, Surface};
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Colliders {
     list: Numbered<Collider>,
+    /// When they are where they are, on the world's clock \[s\].
+    time: f64,
     surfaces: Vec<Surface>,
     /// Made when first needed after a change.
     tree: OnceLock<SurfaceTree>,
@@ -45,8 +47,10 @@ impl Colliders {
         self.trigger_tree.take();
     }
 
-    pub fn push(&mut self, collider: Collider) {
-        surface::place(ColliderId(self.list.next_number()), &collider, &mut self.surfaces);
+    pub fn push(&mut self, mut collider: Collider) {
+        collider.follow_motion(self.time);
+        let id = ColliderId(self.list.next_number());
+        surface::place(id, &collider, self.time, &mut self.surfaces);
         self.list.push(collider);
         self.forget_trees();
     }
@@ -56,6 +60,7 @@ impl Colliders {
         for (id, collider) in changes {
             if let Some(place) = self.list.get_mut(id.0) {
                 place.clone_from(collider);
+                place.follow_motion(self.time);
             }
         }
         self.place_all();
@@ -72,18 +77,36 @@ impl Colliders {
         self.surfaces.iter().any(|surface| !surface.motion.is_at_rest())
     }
 
-    /// Moves on by `h` \[s\] what moves.
-    pub fn advance(&mut self, h: f64) {
+    /// Moves on by `h` \[s\], to `time` \[s\], what moves.
+    pub fn advance(&mut self, h: f64, time: f64) {
         for collider in self.list.values_mut() {
-            collider.pose = collider.pose.moved(collider.velocity, collider.angular_velocity, h);
+            if collider.motion.is_empty() {
+                let Collider { velocity, angular_velocity, .. } = *collider;
+                collider.pose = collider.pose.moved(velocity, angular_velocity, h);
+            }
         }
+        self.set_time(time);
         self.place_all();
+    }
+
+    /// Has motions be where they are at `time` \[s\]. Surfaces are placed anew where some are elsewhere then.
+    pub fn be_at(&mut self, time: f64) {
+        if self.time != time && self.list.iter().any(|(_, it)| !it.motion.is_empty()) {
+            self.set_time(time);
+            self.place_all();
+        }
+        self.time = time;
+    }
+
+    fn set_time(&mut self, time: f64) {
+        self.time = time;
+        self.list.values_mut().for_each(|collider| collider.follow_motion(time));
     }
 
     fn place_all(&mut self) {
         self.surfaces.clear();
         for (number, collider) in self.list.iter() {
-            surface::place(ColliderId(number), collider, &mut self.surfaces);
+            surface::place(ColliderId(number), collider, self.time, &mut self.surfaces);
         }
         self.forget_trees();
     }
@@ -98,14 +121,14 @@ mod written {
 
     impl Serialize for Colliders {
         fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-            self.list.serialize(serializer)
+            (self.time, &self.list).serialize(serializer)
         }
     }
 
     impl<'de> Deserialize<'de> for Colliders {
         fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-            let list = Numbered::deserialize(deserializer)?;
-            let mut colliders = Self { list, ..Self::default() };
+            let (time, list) = <(f64, Numbered<_>)>::deserialize(deserializer)?;
+            let mut colliders = Self { time, list, ..Self::default() };
             colliders.place_all();
             Ok(colliders)
         }

@@ -15,3 +15,14 @@ pub(crate) fn turned(rotation: DQuat, angular_velocity: DVec3, h: f64) -> DQuat 
         rotation
     }
 }
+
+/// The axis of the shorter way of a rotation of length 1, times its angle \[rad\].
+pub(crate) fn vector_of(rotation: DQuat) -> DVec3 {
+    let forward = if rotation.w < 0.0 { -rotation } else { rotation };
+    let across = DVec3::new(forward.x, forward.y, forward.z);
+    let sine = across.dot(across).sqrt();
+    if sine == 0.0 {
+        return DVec3::ZERO;
+    }
+    across * (2.0 * libm::atan2(sine, forward.w) / sine)
+}

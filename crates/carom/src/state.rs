@@ -138,7 +138,10 @@ impl State {
 
     /// The colliders, to be changed from outside.
     pub fn colliders_mut(&mut self) -> &mut Colliders {
-        Arc::make_mut(&mut self.changed().colliders)
+        let time = self.clock.seconds();
+        let colliders = Arc::make_mut(&mut self.changed().colliders);
+        colliders.be_at(time);
+        colliders
     }
 
     /// Whether nothing happens in a step of `h` \[s\] by the rule `contact` that begins at `time` \[s\].
@@ -150,7 +153,8 @@ impl State {
     /// Moves on by `h` \[s\] the colliders that move.
     pub fn advance_colliders(&mut self, h: f64) {
         if self.colliders.any_moving() {
-            Arc::make_mut(&mut self.colliders).advance(h);
+            let time = self.clock.seconds();
+            Arc::make_mut(&mut self.colliders).advance(h, time);
         }
     }
 
@@ -172,6 +176,9 @@ impl State {
             timeline.set_time(now, seconds);
         }
         self.clock = Clock::at(seconds);
+        if self.colliders.any_moving() {
+            Arc::make_mut(&mut self.colliders).be_at(seconds);
+        }
     }
 
     /// The flights, if all begin anew in each frame: then a change from outside to some of them leaves

@@ -3,14 +3,17 @@
 use glam::{DQuat, DVec2, DVec3};
 
 use crate::band::{Band, Profile};
-use crate::collider::{Collider, Pose, Shape, Sides};
+use crate::collider::{Collider, Shape, Sides};
+use crate::collider_motion::Course;
 use crate::friction::Friction;
 use crate::groups::Groups;
 use crate::id::ColliderId;
 use crate::mesh::{ClosedMesh, Corner, Edge, Facet, Features, Placement};
 use crate::norm::Norm;
+use crate::pose::Pose;
 pub(crate) use crate::rectangle::Rectangle;
 use crate::round_solid::{Outline, RoundSolid};
+pub(crate) use crate::surface_motion::SurfaceMotion;
 
 /// One surface of a collider in world coordinates, with what a contact needs to know of it.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,51 +27,22 @@ pub(crate) struct Surface {
     pub kick: f64,
     pub groups: Groups,
     pub role: Role,
+    /// Now.
     pub motion: SurfaceMotion,
-}
-
-/// How a surface moves: it turns about `origin`, which moves itself.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(crate) struct SurfaceMotion {
-    /// Now \[m\].
-    pub origin: DVec3,
-    /// \[m/s\]
-    pub velocity: DVec3,
-    /// Along the axis of rotation \[rad/s\].
-    pub angular_velocity: DVec3,
+    /// From now on, if it is not steady.
+    pub course: Option<Course>,
 }
 
 impl SurfaceMotion {
-    /// Of a surface at rest.
-    pub const REST: Self =
-        Self { origin: DVec3::ZERO, velocity: DVec3::ZERO, angular_velocity: DVec3::ZERO };
-
-    /// Of the surfaces of a collider.
+    /// Of the surfaces of a collider, as if that went on steadily.
     pub fn of(collider: &Collider) -> Self {
         let Collider { pose, velocity, angular_velocity, .. } = *collider;
-        Self { origin: pose.position, velocity, angular_velocity }
-    }
-
-    pub fn is_at_rest(&self) -> bool {
-        self.velocity == DVec3::ZERO && self.angular_velocity == DVec3::ZERO
-    }
-
-    /// Velocity \[m/s\] of the surface at a point of it.
-    pub fn velocity_at(&self, point: DVec3) -> DVec3 {
-        self.velocity + self.angular_velocity.cross(point - self.origin)
-    }
-}
-
-impl SurfaceMotion {
-    /// Whether directions change with it.
-    pub fn turns(&self) -> bool {
-        self.angular_velocity != DVec3::ZERO
+        Self { origin: pose.position, velocity, angular_velocity, drive: None }
     }
 
     /// Whether the place of a surface of this form changes by its turning.
     pub fn turns_form(&self, form: &Form) -> bool {
-        self.turns() && !form.is_turned_in_place_by(self)
+        self.turns() && (self.drive.is_some() || !form.is_turned_in_place_by(self))
     }
 
     /// Velocity \[m/s\] at a point, if turning leaves a surface of this form as it is, less the velocity of its
@@ -80,54 +54,34 @@ impl SurfaceMotion {
             DVec3::ZERO
         }
     }
-
-    /// Acceleration \[m/s²\], as seen from the surface, of what flies at a point without forces, with this velocity \[m/s\].
-    pub fn swing(&self, point: DVec3, velocity: DVec3) -> DVec3 {
-        if !self.turns() {
-            return DVec3::ZERO;
-        }
-        let turning = self.angular_velocity;
-        let beside = velocity - self.velocity_at(point);
-        -turning.cross(2.0 * beside + turning.cross(point - self.origin))
-    }
-
-    /// A direction that turns along, after `h` \[s\].
-    pub fn turned(&self, direction: DVec3, h: f64) -> DVec3 {
-        if !self.turns() {
-            return direction;
-        }
-        Pose::at(DVec3::ZERO).moved(DVec3::ZERO, self.angular_velocity, h).rotation * direction
-    }
-
-    /// Where a point \[m\] that moves along is after `h` \[s\].
-    pub fn carried(&self, point: DVec3, h: f64) -> DVec3 {
-        if !self.turns() {
-            return point + h * self.velocity;
-        }
-        self.origin + h * self.velocity + self.turned(point - self.origin, h)
-    }
-
-    /// Where a point \[m\] was that has moved along for `h` \[s\].
-    pub fn carried_back(&self, point: DVec3, h: f64) -> DVec3 {
-        if !self.turns() {
-            return point - h * self.velocity;
-        }
-        self.origin + self.turned(point - h * self.velocity - self.origin, -h)
-    }
-
-    /// Velocity \[m/s\] after `h` \[s\] of the surface at a point that is there then.
-    pub fn velocity_after(&self, point: DVec3, h: f64) -> DVec3 {
-        if !self.turns() {
-            return self.velocity;
-        }
-        self.velocity + self.angular_velocity.cross(point - h * self.velocity - self.origin)
-    }
 }
 
 impl Surface {
     /// Geometry and motion of the surface after `h` \[s\].
     pub fn after(&self, h: f64) -> (Form, SurfaceMotion) {
-        self.motion.carry(&self.form, h)
+        let Some(course) = &self.course else { return self.motion.carry(&self.form, h) };
+        let (pose, motion) = course.place(h);
+        let (from, to) = (self.motion.origin, pose.position);
+        if !course.turns() {
+            return (self.form.shifted(to - from), motion);
+        }
+        (self.form.placed(&Placement { rotation: course.turn(h), from, to }), motion)
+    }
+
+    /// The surface as it is after `h` \[s\].
+    pub fn moved(&self, h: f64) -> Self {
+        let (form, motion) = self.after(h);
+        Self { form, motion, course: self.course_after(h), ..self.clone() }
+    }
+
+    /// Its motion from `h` \[s\] later on, if it is not steady.
+    pub fn course_after(&self, h: f64) -> Option<Course> {
+        self.course.as_ref().map(|course| course.after(h))
+    }
+
+    /// Its motion between two times from now \[s\], as if that were steady.
+    pub fn mean_motion(&self, times: [f64; 2]) -> Option<SurfaceMotion> {
+        self.course.as_ref().map(|course| course.mean_motion(times))
     }
 }
 
@@ -137,31 +91,11 @@ impl SurfaceMotion {
         if self.is_at_rest() {
             return (form.clone(), *self);
         }
-        let Self { origin, velocity, angular_velocity } = *self;
+        let Self { origin, velocity, angular_velocity, .. } = *self;
         let turning = if self.turns_form(form) { angular_velocity } else { DVec3::ZERO };
         let pose = Pose::at(origin).moved(velocity, turning, h);
         let placement = Placement { rotation: pose.rotation, from: origin, to: pose.position };
-        let place = |point: DVec3| placement.point(point);
-        let turn = |direction: DVec3| placement.direction(direction);
-        let form = match *form {
-            Form::Sphere { center, radius } => Form::Sphere { center: place(center), radius },
-            Form::HalfSpace { point, normal } => {
-                Form::HalfSpace { point: place(point), normal: turn(normal) }
-            }
-            Form::Rectangle(ref it) => Form::Rectangle(placement.rectangle(it)),
-            Form::Closed(ref it) => Form::Closed(placement.closed_mesh(it)),
-            Form::Facet(ref it) => Form::Facet(placement.facet(it)),
-            Form::Edge(ref it) => Form::Edge(placement.edge(it)),
-            Form::Corner(ref it) => Form::Corner(placement.corner(it)),
-            Form::Box(b) => {
-                Form::Box(SolidBox { center: place(b.center), axes: b.axes.map(turn), ..b })
-            }
-            Form::Band(b) => Form::Band(Band { center: place(b.center), axis: turn(b.axis), ..b }),
-            Form::Round(s) => {
-                Form::Round(RoundSolid { center: place(s.center), axis: turn(s.axis), ..s })
-            }
-        };
-        (form, Self { origin: pose.position, ..*self })
+        (form.placed(&placement), Self { origin: pose.position, ..*self })
     }
 }
 
@@ -207,6 +141,30 @@ impl Form {
         match self {
             Self::Band(band) => band.is_turned_in_place_by(motion.origin, motion.angular_velocity),
             _ => false,
+        }
+    }
+
+    /// The same form carried along.
+    fn placed(&self, placement: &Placement) -> Self {
+        let place = |point: DVec3| placement.point(point);
+        let turn = |direction: DVec3| placement.direction(direction);
+        match *self {
+            Self::Sphere { center, radius } => Self::Sphere { center: place(center), radius },
+            Self::HalfSpace { point, normal } => {
+                Self::HalfSpace { point: place(point), normal: turn(normal) }
+            }
+            Self::Rectangle(ref it) => Self::Rectangle(placement.rectangle(it)),
+            Self::Closed(ref it) => Self::Closed(placement.closed_mesh(it)),
+            Self::Facet(ref it) => Self::Facet(placement.facet(it)),
+            Self::Edge(ref it) => Self::Edge(placement.edge(it)),
+            Self::Corner(ref it) => Self::Corner(placement.corner(it)),
+            Self::Box(b) => {
+                Self::Box(SolidBox { center: place(b.center), axes: b.axes.map(turn), ..b })
+            }
+            Self::Band(b) => Self::Band(Band { center: place(b.center), axis: turn(b.axis), ..b }),
+            Self::Round(s) => {
+                Self::Round(RoundSolid { center: place(s.center), axis: turn(s.axis), ..s })
+            }
         }
     }
 
@@ -280,14 +238,19 @@ pub(crate) struct SolidBox {
     pub half: DVec3,
 }
 
-/// Appends the surfaces of a collider. Those of a solid box are its volume and then its faces, in
+/// Appends the surfaces of a collider at `time` \[s\]. Those of a solid box are its volume and then its faces, in
 /// the order -x, +x, -y, +y, -z, +z; those of a container its walls in the same order, each facing
 /// outward and then inward. A box or a container that only reports is its volume. A solid of revolution has its volume,
 /// then its side and discs; a hollow one has its walls, each facing outward and then inward. A closed mesh has what it
 /// encloses before its faces.
-pub(crate) fn place(id: ColliderId, collider: &Collider, surfaces: &mut Vec<Surface>) {
+pub(crate) fn place(id: ColliderId, collider: &Collider, time: f64, surfaces: &mut Vec<Surface>) {
     let Collider { ref shape, pose, restitution, friction, trigger, kick, groups, .. } = *collider;
-    let (center, motion) = (pose.position, SurfaceMotion::of(collider));
+    let course = collider.course(time);
+    let motion = match &course {
+        Some(course) => course.place(0.0).1,
+        None => SurfaceMotion::of(collider),
+    };
+    let center = pose.position;
     let rotation = pose.rotation.normalize();
     let axes @ [x, y, z] = [rotation * DVec3::X, rotation * DVec3::Y, rotation * DVec3::Z];
     let mut add = |form, role| {
@@ -302,6 +265,7 @@ pub(crate) fn place(id: ColliderId, collider: &Collider, surfaces: &mut Vec<Surf
             groups,
             role,
             motion,
+            course: course.clone(),
         });
     };
     match *shape {

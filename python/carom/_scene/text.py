@@ -99,6 +99,7 @@ _CHOICES: dict[str, tuple[type[parts.Part], ...]] = {
     "boundary": (parts.Periodic,),
     "forces": parts.FORCES,
     "generators": get_args(parts.Generator),
+    "motion": get_args(parts.Motion),
     "shape": get_args(parts.Shape),
 }
 """What may be described under a name; tags distinguish the variants."""

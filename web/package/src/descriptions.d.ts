@@ -192,6 +192,28 @@ export type End = "bottom" | "top";
 /** A side of a box in its own frame: towards -x, +x, -y, +y, -z, +z. */
 export type Side = "left" | "right" | "bottom" | "top" | "back" | "front";
 
+/**
+ * A part of the motion of a collider, as a function of time. Axes are directions; default: up. A
+ * pivot is a point of the axis, from the position of the collider [m]; default: there. Phases are
+ * those at the start; default: 0.
+ */
+export type Motion =
+  | { steady: { velocity: Vector } }
+  /** To and fro along the axis: amplitude [m], frequency [Hz]. */
+  | { oscillate: { axis?: Vector; amplitude: number; frequency: number; phaseDegrees?: number } }
+  /** Steadily about the axis: rate [rad/s]. */
+  | { turn: { axis?: Vector; pivot?: Vector; rate: number } }
+  /** To and fro about the axis. */
+  | {
+      swing: {
+        axis?: Vector;
+        pivot?: Vector;
+        amplitudeDegrees: number;
+        frequency: number;
+        phaseDegrees?: number;
+      };
+    };
+
 /** Properties of a new collider. */
 export interface ColliderDescription {
   shape: Shape;
@@ -205,6 +227,8 @@ export interface ColliderDescription {
   velocity?: Vector;
   /** Angular velocity about its centre [rad/s]. */
   angularVelocity?: Vector;
+  /** Motion about the place where it is at rest: one, or parts that act one after the other. */
+  motion?: Motion | Motion[];
   /** Coefficient of restitution in [0, 1]; default: 1. */
   restitution?: number;
   /**
@@ -249,6 +273,8 @@ export interface Collider {
   velocity: [number, number, number];
   /** Angular velocity [rad/s]. */
   angularVelocity: [number, number, number];
+  /** Motion about the place where it is at rest, which `position` and `rotation` then say. */
+  motion?: Motion | Motion[];
   restitution: number;
   /**
    * Coulomb's coefficient of friction, >= 0, under `exact` and `contact`; if missing, that of the

@@ -1,6 +1,6 @@
 //! A world that is stepped by frames and drawn at any time.
 
-use carom::{Boundary, DQuat, DVec3, Pose, SphereId, StopRequest, World};
+use carom::{Boundary, Collider, ColliderId, DQuat, DVec3, Pose, SphereId, StopRequest, World};
 use carom_scene::{Scene, SceneError};
 
 /// Largest difference of times that count as equal \[s\]: sums of frame times and k / rate differ
@@ -111,15 +111,19 @@ impl Running {
 
     /// Poses of the colliders at `time` \[s\], which must have been reached.
     pub fn poses(&self, time: f64) -> Vec<Pose> {
-        let now = self.world.colliders().map(|(_, collider)| collider.pose);
         let Some(part) = self.part(time) else {
-            return now.collect();
+            return self.world.colliders().map(|(_, collider)| collider.pose).collect();
         };
-        let between = |(before, now): (&Pose, Pose)| Pose {
-            position: before.position.lerp(now.position, part),
-            rotation: before.rotation.slerp(now.rotation, part),
+        let between = |(before, (_, now)): (&Pose, (ColliderId, &Collider))| {
+            if !now.motion.is_empty() {
+                return now.pose_at(time);
+            }
+            Pose {
+                position: before.position.lerp(now.pose.position, part),
+                rotation: before.rotation.slerp(now.pose.rotation, part),
+            }
         };
-        self.before.poses.iter().zip(now).map(between).collect()
+        self.before.poses.iter().zip(self.world.colliders()).map(between).collect()
     }
 }
 

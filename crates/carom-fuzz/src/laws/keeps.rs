@@ -54,7 +54,9 @@ pub struct Keeps {
 
 /// Whether surfaces move; they do work, and their places depend on frames.
 pub fn is_driven(scene: &Scene) -> bool {
-    scene.colliders.iter().any(|it| it.velocity != [0.0; 3] || it.angular_velocity != [0.0; 3])
+    scene.colliders.iter().any(|it| {
+        it.velocity != [0.0; 3] || it.angular_velocity != [0.0; 3] || !it.motion.is_empty()
+    })
 }
 
 impl Keeps {
@@ -154,6 +156,11 @@ impl Keeps {
             for impact in &report.impacts[group.first..group.first + group.count] {
                 let BodyPair::Collider { collider, .. } = impact.between else { continue };
                 let Ok(collider) = world.collider(collider) else { continue };
+                if !collider.motion.is_empty() {
+                    // How fast it was then does not follow from how fast it is.
+                    (work, scale) = (group.collider_work, 0.0);
+                    break;
+                }
                 // Colliders are where the frame ends.
                 let left = world.time() - (self.time + impact.time);
                 let arm = impact.point - (collider.pose.position - left * collider.velocity);

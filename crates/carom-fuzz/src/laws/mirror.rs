@@ -1,7 +1,7 @@
 //! The mirror image of a world, with left and right interchanged: nothing prefers a side.
 
 use carom_scene::Scene;
-use carom_scene::scene::{Collider, Force, Rule, Shape, Side, Sphere};
+use carom_scene::scene::{Collider, Force, Motion, Rule, Shape, Side, Sphere};
 
 use super::pair::{Agreement, Law, Pair};
 use super::trace::Trace;
@@ -69,6 +69,15 @@ fn mirror_collider(collider: &mut Collider) {
     mirror(&mut collider.velocity);
     mirror_turn(&mut collider.rotation);
     mirror_axis(&mut collider.angular_velocity);
+    for motion in &mut collider.motion {
+        match motion {
+            Motion::Steady { velocity: it } | Motion::Oscillate { axis: it, .. } => mirror(it),
+            Motion::Turn { axis, pivot, .. } | Motion::Swing { axis, pivot, .. } => {
+                mirror_axis(axis);
+                mirror(pivot);
+            }
+        }
+    }
     // Shapes of revolution are their own mirror images.
     match &mut collider.shape {
         Shape::Container { open, .. } => {

@@ -2,7 +2,7 @@
 
 use carom::DVec3;
 use carom_scene::Scene;
-use carom_scene::scene::{Boundary, Force, Rule};
+use carom_scene::scene::{Boundary, Force, Motion, Rule};
 
 use super::pair::{Agreement, Law, Pair};
 use super::trace::Trace;
@@ -60,7 +60,13 @@ fn moving(scene: &Scene) -> Scene {
         *velocity = (DVec3::from_array(*velocity) + VELOCITY).to_array();
     };
     scene.spheres.iter_mut().for_each(|it| add(&mut it.velocity));
-    scene.colliders.iter_mut().for_each(|it| add(&mut it.velocity));
+    for collider in &mut scene.colliders {
+        if collider.motion.is_empty() {
+            add(&mut collider.velocity);
+        } else {
+            collider.motion.push(Motion::Steady { velocity: VELOCITY.to_array() });
+        }
+    }
     for force in &mut scene.forces {
         match force {
             Force::Wind { velocity, .. } | Force::QuadraticDrag { wind: velocity, .. } => {

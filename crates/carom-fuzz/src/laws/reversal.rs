@@ -37,6 +37,7 @@ fn is_reversible(scene: &Scene) -> bool {
                 && it.kick == 0.0
                 && is_smooth(it.friction)
                 && it.angular_velocity == [0.0; 3]
+                && it.motion.is_empty()
         })
         && scene
             .forces

@@ -3,7 +3,7 @@
 
 use carom::DVec3;
 use carom_scene::Scene;
-use carom_scene::scene::{Boundary, Collider, Emitter, Force, Shape, Sphere, Spring};
+use carom_scene::scene::{Boundary, Collider, Emitter, Force, Motion, Shape, Sphere, Spring};
 
 use super::pair::{Agreement, Law, Pair};
 use super::trace::Frame;
@@ -109,6 +109,7 @@ fn scale_collider(collider: &mut Collider, scale: Scale) {
     scale_vector(&mut collider.position, length);
     scale_vector(&mut collider.velocity, scale.of(1, 0, -1));
     scale_vector(&mut collider.angular_velocity, scale.of(0, 0, -1));
+    collider.motion.iter_mut().for_each(|it| scale_motion(it, scale));
     match &mut collider.shape {
         Shape::Sphere { radius } => *radius *= length,
         Shape::Rectangle { size_x, size_z } => {
@@ -136,6 +137,25 @@ fn scale_collider(collider: &mut Collider, scale: Scale) {
             *bottom_radius *= length;
             *top_radius *= length;
             *height *= length;
+        }
+    }
+}
+
+fn scale_motion(motion: &mut Motion, scale: Scale) {
+    let (length, rate) = (scale.of(1, 0, 0), scale.of(0, 0, -1));
+    match motion {
+        Motion::Steady { velocity } => scale_vector(velocity, scale.of(1, 0, -1)),
+        Motion::Oscillate { amplitude, frequency, .. } => {
+            *amplitude *= length;
+            *frequency *= rate;
+        }
+        Motion::Turn { pivot, rate: it, .. } => {
+            scale_vector(pivot, length);
+            *it *= rate;
+        }
+        Motion::Swing { pivot, frequency, .. } => {
+            scale_vector(pivot, length);
+            *frequency *= rate;
         }
     }
 }

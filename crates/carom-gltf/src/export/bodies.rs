@@ -71,7 +71,10 @@ impl Bodies {
         };
         let mut body = shape.map_or_else(NodeBody::default, |it| self.fixed(it, collider));
         let Collider { velocity, angular_velocity, pose, .. } = *collider;
-        if velocity != DVec3::ZERO || angular_velocity != DVec3::ZERO {
+        if !collider.motion.is_empty() {
+            // Its animation says how it moves.
+            body.motion = Some(Motion { is_kinematic: true, ..Motion::default() });
+        } else if velocity != DVec3::ZERO || angular_velocity != DVec3::ZERO {
             let motion = moving(velocity, angular_velocity, pose.rotation);
             body.motion = Some(Motion { is_kinematic: true, ..motion });
         }

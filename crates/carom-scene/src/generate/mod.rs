@@ -82,6 +82,7 @@ fn turned(collider: &Collider, turn: DQuat) -> Collider {
         rotation: (turn * rotation).to_array(),
         velocity: turned(collider.velocity),
         angular_velocity: turned(collider.angular_velocity),
+        motion: collider.motion.iter().map(|part| part.turned(&turned)).collect(),
         ..collider.clone()
     }
 }

@@ -5,13 +5,14 @@ use serde::{Deserialize, Serialize};
 
 use super::finish::Finish;
 use super::mesh::{self, HeightField, Mesh};
+use super::motion::{self, Motion};
 use super::rotation;
 use super::values::{
     Color, Quaternion, Vector, all_groups, are_all_groups, first_group, is_default, is_first_group,
     one, unturned,
 };
 
-/// A fixed or steadily moving shape that spheres bounce off.
+/// A fixed or moving shape that spheres bounce off.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Collider {
@@ -33,6 +34,11 @@ pub struct Collider {
     /// Angular velocity about its centre, in rad/s.
     #[serde(default, skip_serializing_if = "is_default")]
     pub angular_velocity: Vector,
+    /// Motion about where it is at rest, instead of velocities: one, or a list of parts that act one after the other.
+    /// By default none.
+    #[schemars(with = "OneOrMore<Motion>")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty", with = "motion::one_or_more")]
+    pub motion: Vec<Motion>,
     /// Coefficient of restitution in [0, 1].
     #[schemars(range(min = 0.0, max = 1.0))]
     #[serde(default = "one")]
@@ -92,6 +98,7 @@ impl Collider {
             rotation: unturned(),
             velocity: [0.0; 3],
             angular_velocity: [0.0; 3],
+            motion: Vec::new(),
             restitution: 1.0,
             friction: None,
             rolling_friction: None,

@@ -9,6 +9,7 @@ mod force;
 mod generator;
 mod look;
 mod mesh;
+mod motion;
 mod rotation;
 mod simulation;
 mod sphere;
@@ -25,6 +26,7 @@ pub use force::Force;
 pub use generator::{Generator, Lattice, Ring, Row, Stacking, StaggeredRows};
 pub use look::{Camera, Colors, DensityColor, Sun};
 pub use mesh::{HeightField, Mesh};
+pub use motion::Motion;
 pub use simulation::{
     Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, Rule,
     Simulation, WindBack, Zones,

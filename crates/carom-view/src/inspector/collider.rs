@@ -1,6 +1,7 @@
 //! Restitution and friction of colliders.
 
-use carom::{CombineRule, SphereId};
+use carom::{CombineRule, DVec3, SphereId};
+use carom_scene::scene::{Collider, Motion};
 use carom_session::{Command, Edit, View};
 use egui::accesskit::Action;
 use egui::{Slider, Ui};
@@ -38,6 +39,9 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
         if is_changed {
             commands.push(Command::Edit(Edit::ColliderRestitution(*id, restitution)));
         }
+        if !collider.motion.is_empty() {
+            ui.weak(format!("{title}: {}", motion_of(collider)));
+        }
         if let Some((ball, of_contact)) = with_picked(view, restitution) {
             ui.weak(format!("with ball {ball}: {of_contact:.2}"));
         }
@@ -50,6 +54,23 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
             commands.push(Command::Edit(Edit::ColliderFriction(*id, said)));
         }
     }
+}
+
+/// Returns the parts of the motion of a collider in words.
+fn motion_of(collider: &Collider) -> String {
+    let part = |motion: &Motion| match *motion {
+        Motion::Steady { velocity } => {
+            format!("moves with {:.3} m/s", DVec3::from_array(velocity).length())
+        }
+        Motion::Oscillate { amplitude, frequency, .. } => {
+            format!("oscillates by {amplitude} m at {frequency} Hz")
+        }
+        Motion::Turn { rate, .. } => format!("turns with {rate} rad/s"),
+        Motion::Swing { amplitude_degrees, frequency, .. } => {
+            format!("swings by {amplitude_degrees}° at {frequency} Hz")
+        }
+    };
+    collider.motion.iter().map(part).collect::<Vec<_>>().join(", ")
 }
 
 /// Returns the picked ball and the restitution of its contact with a surface of this restitution.

@@ -17,6 +17,7 @@
 mod bisection;
 #[cfg(test)]
 mod claims;
+mod driven;
 mod feature;
 mod growing;
 mod half_space;

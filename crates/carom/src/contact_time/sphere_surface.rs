@@ -69,7 +69,7 @@ fn sphere_turning_surface(
     motion: &SurfaceMotion,
     horizon: f64,
 ) -> Option<f64> {
-    let SurfaceMotion { origin, velocity, angular_velocity } = *motion;
+    let SurfaceMotion { origin, velocity, angular_velocity, .. } = *motion;
     let from_origin = flight.seen_from(origin, velocity);
     let turns = Turns::new(angular_velocity);
     let drift = Magnitudes { speed: velocity.norm(), ..size_of(form, radius) };

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::driven::Driven;
 use super::feature::sphere_turning_feature;
 use super::nearest::{Feature, segment};
 use super::obstacle::Obstacle;
@@ -11,6 +12,7 @@ use super::search;
 use super::sphere_surface::{size_of, sphere_surface};
 use super::turning::{Orbit, Turning, Turns};
 use crate::band::Band;
+use crate::collider_motion::Course;
 use crate::flight::Flight;
 use crate::norm::Norm;
 use crate::polynomial_flight::{ORDERS, PolynomialFlight, TERMS, upper_bound};
@@ -216,7 +218,8 @@ pub(crate) fn tracks(first: &Track, second: &Track, radius_sum: f64, horizon: f6
     search::first_contact(&path, &Obstacle::Point { radius: radius_sum }, size, horizon)
 }
 
-/// Time \[s\] at which a sphere comes into contact with a surface: [`sphere_surface`] for any track.
+/// Time \[s\] at which a sphere comes into contact with a surface: [`sphere_surface`] for any track, and for any
+/// `course` of a surface that does not move steadily, which needs a finite horizon.
 ///
 /// - `radius` of the sphere \[m\], > 0; `horizon` \[s\], not after the end of the track
 /// - returns \[s\] in `[0, horizon]`; `None` if there is no contact
@@ -225,12 +228,16 @@ pub(crate) fn track_surface(
     radius: f64,
     form: &Form,
     motion: &SurfaceMotion,
+    course: Option<&Course>,
     horizon: f64,
 ) -> Option<f64> {
+    if let Some(course) = course {
+        return track_driven_surface(track, radius, (form, motion), course, horizon);
+    }
     if let Track::Flight(flight) = track {
         return sphere_surface(flight, radius, form, motion, horizon);
     }
-    let SurfaceMotion { origin, velocity, angular_velocity } = *motion;
+    let SurfaceMotion { origin, velocity, angular_velocity, .. } = *motion;
     let drift = Magnitudes { speed: velocity.norm(), ..size_of(form, radius) };
     let size = track.size() + drift;
     let seen_from = |origin| track.seen_from(origin, velocity);
@@ -260,6 +267,35 @@ pub(crate) fn track_surface(
         | Form::Closed(_) => {
             let (_, obstacle) = obstacle(form, radius, origin)?;
             search::first_contact(&Turning { flight, turns }, &obstacle, size, horizon)
+        }
+    }
+}
+
+/// Time \[s\] at which a sphere comes into contact with a surface that moves by this course.
+fn track_driven_surface(
+    track: &Track,
+    radius: f64,
+    (form, motion): (&Form, &SurfaceMotion),
+    course: &Course,
+    horizon: f64,
+) -> Option<f64> {
+    debug_assert!(horizon.is_finite(), "a surface that moves unsteadily needs a finite horizon");
+    let origin = motion.origin;
+    let drift = Magnitudes { speed: motion.velocity.norm(), ..size_of(form, radius) };
+    let size = track.size() + drift + Magnitudes::of_length(origin.norm());
+    let seen_from = |about: DVec3| Driven::new(track.seen_from(origin, DVec3::ZERO), course, about);
+    match form {
+        Form::Sphere { center, radius: own } => {
+            let obstacle = Obstacle::Point { radius: own + radius };
+            search::first_contact(&seen_from(*center - origin), &obstacle, size, horizon)
+        }
+        Form::Facet(_) | Form::Edge(_) | Form::Corner(_) => {
+            let path = seen_from(DVec3::ZERO);
+            sphere_turning_feature(&path, radius, (form, motion), size, horizon)
+        }
+        _ => {
+            let (_, obstacle) = obstacle(form, radius, origin)?;
+            search::first_contact(&seen_from(DVec3::ZERO), &obstacle, size, horizon)
         }
     }
 }

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::FlightSegment;
+use crate::collider_motion::Course;
 use crate::contact_time::{self, Probe, bisect};
 use crate::detect::{Separation, sphere_surface};
 use crate::flight::Flight;
@@ -79,8 +80,9 @@ impl Crossing<'_> {
         let (form, motion) = self.place(target, now);
         let track = self.segment.track_from(now, target.shift);
         let horizon = self.segment.to - now;
+        let course = self.course(target, now);
         let meet = |form: &Form, radius: f64| {
-            contact_time::track_surface(&track, radius, form, &motion, horizon)
+            contact_time::track_surface(&track, radius, form, &motion, course.as_ref(), horizon)
         };
         let delay = match form {
             Form::Box(solid) => {
@@ -110,7 +112,9 @@ impl Crossing<'_> {
             let track = self.segment.track_from(from, target.shift);
             let front = Form::HalfSpace { point: center, normal: -normal };
             let horizon = self.segment.to - from;
-            let delay = contact_time::track_surface(&track, 0.0, &front, &motion, horizon)?;
+            let course = self.course(target, from);
+            let course = course.as_ref();
+            let delay = contact_time::track_surface(&track, 0.0, &front, &motion, course, horizon)?;
             let time = from + delay;
             let (form, _) = self.place(target, time);
             let place = self.segment.flight_from(time).position - target.shift;
@@ -227,11 +231,19 @@ impl Crossing<'_> {
         let own = velocity.norm() + h * self.segment.most_acceleration();
         let of_surface = |target: &Target| {
             let (_, motion) = self.place(target, now);
-            let SurfaceMotion { origin, velocity, angular_velocity } = motion;
-            let reach = (position - target.shift - origin).norm() + h * (own + velocity.norm());
-            velocity.norm() + angular_velocity.norm() * (reach + self.segment.radius)
+            let SurfaceMotion { origin, velocity, angular_velocity, .. } = motion;
+            let bounds = self.course(target, now).map(|course| course.bounds(0.0, h));
+            let (speed, spin) =
+                bounds.map_or((velocity.norm(), angular_velocity.norm()), |it| (it.speed, it.spin));
+            let reach = (position - target.shift - origin).norm() + h * (own + speed);
+            speed + spin * (reach + self.segment.radius)
         };
         own + self.targets.iter().map(of_surface).fold(0.0, f64::max)
+    }
+
+    /// How a surface moves from `time` \[s\] on, if not steadily.
+    fn course(&self, target: &Target, time: f64) -> Option<Course> {
+        self.system.surfaces[target.surface as usize].course_after(time - self.step_start)
     }
 
     /// Geometry and motion of a surface at `time` \[s\].

@@ -3,6 +3,7 @@
 mod forces;
 mod growth;
 mod measures;
+mod poses;
 mod queries;
 pub(crate) mod snapshot;
 #[cfg(feature = "serde")]
@@ -11,7 +12,7 @@ mod written;
 use glam::DVec3;
 
 use crate::bodies::Spheres;
-use crate::collider::{Collider, Pose};
+use crate::collider::Collider;
 use crate::emitter::{Emitter, EmitterState};
 use crate::error::{Error, Subject};
 use crate::id::{ColliderId, EmitterId, SphereId};
@@ -343,8 +344,8 @@ impl World {
         Ok(())
     }
 
-    /// Sets the clock. Only emitters, and forces that depend on time, tell one time from another; but
-    /// times round differently. A run that sets the clock back depends to the bit on nothing before.
+    /// Sets the clock. Only emitters, motions of colliders and forces that depend on time tell one time from another;
+    /// but times round differently. A run that sets the clock back depends to the bit on nothing before.
     ///
     /// # Errors
     /// [`Error::Invalid`] if the time is not finite, or there are emitters, which count it.
@@ -437,14 +438,6 @@ impl World {
         }
         self.state.colliders_mut().set(changes);
         Ok(())
-    }
-
-    /// Sets the pose of a collider at once: spheres feel no velocity of this motion.
-    ///
-    /// # Errors
-    /// As [`Self::set_collider`].
-    pub fn set_pose(&mut self, id: ColliderId, pose: Pose) -> Result<(), Error> {
-        self.set_collider(id, Collider { pose, ..self.collider(id)? })
     }
 
     /// Takes a collider out of the world and returns it.

@@ -14,6 +14,8 @@ from carom._scene.parts.kinds import (
     ORIGIN,
     UNTURNED,
     Color,
+    Direction,
+    Finite,
     Heights,
     LargeNumber,
     Lengths,
@@ -27,7 +29,7 @@ from carom._scene.parts.kinds import (
     Vertices,
 )
 from carom._scene.parts.part import Part
-from carom._scene.parts.together import simplify_closed, simplify_open
+from carom._scene.parts.together import simplify_closed, simplify_motion, simplify_open
 
 
 @dataclass(frozen=True)
@@ -285,8 +287,80 @@ Shape: TypeAlias = (
 
 
 @dataclass(frozen=True)
+class Steady(Part):
+    """Moves steadily.
+
+    Attributes:
+        velocity: Velocity [m/s].
+    """
+
+    tag: ClassVar[str] = "steady"
+    velocity: Vector
+
+
+@dataclass(frozen=True)
+class Oscillate(Part):
+    """Moves to and fro along an axis: amplitude times the sine of the phase.
+
+    Attributes:
+        amplitude: How far it comes to each side [m].
+        frequency: Periods per second, in Hz, >= 0.
+        axis: Direction of the axis, of any length but zero. By default up.
+        phase_degrees: Phase at the start [degrees]. By default 0: it begins in the middle, on its
+            way along the axis.
+    """
+
+    tag: ClassVar[str] = "oscillate"
+    amplitude: Finite
+    frequency: NonNegative
+    axis: Direction = (0.0, 1.0, 0.0)
+    phase_degrees: Finite = 0.0
+
+
+@dataclass(frozen=True)
+class Turn(Part):
+    """Turns steadily about an axis through a pivot.
+
+    Attributes:
+        rate: Angular velocity [rad/s].
+        axis: Direction of the axis, of any length but zero. By default up.
+        pivot: A point of the axis, from the position of the collider [m]. By default there.
+    """
+
+    tag: ClassVar[str] = "turn"
+    rate: Finite
+    axis: Direction = (0.0, 1.0, 0.0)
+    pivot: Vector = ORIGIN
+
+
+@dataclass(frozen=True)
+class Swing(Part):
+    """Turns to and fro about an axis through a pivot: amplitude times the sine of the phase.
+
+    Attributes:
+        amplitude_degrees: How far it turns to each side [degrees].
+        frequency: Periods per second, in Hz, >= 0.
+        axis: Direction of the axis, of any length but zero. By default up.
+        pivot: A point of the axis, from the position of the collider [m]. By default there.
+        phase_degrees: Phase at the start [degrees]. By default 0: it begins in the middle, on its
+            way by the right-hand rule.
+    """
+
+    tag: ClassVar[str] = "swing"
+    amplitude_degrees: Finite
+    frequency: NonNegative
+    axis: Direction = (0.0, 1.0, 0.0)
+    pivot: Vector = ORIGIN
+    phase_degrees: Finite = 0.0
+
+
+Motion: TypeAlias = Steady | Oscillate | Turn | Swing
+"""A part of the motion of a collider, as a function of time."""
+
+
+@dataclass(frozen=True)
 class Collider(Part):
-    """A shape that spheres bounce off, at rest or moved from outside.
+    """A shape that spheres bounce off, at rest or moving.
 
     Attributes:
         shape: Shape.
@@ -315,6 +389,8 @@ class Collider(Part):
         collides_with: Groups that it collides with, one bit for each; by default all. Two bodies
             collide if each is in a group that the other collides with.
         user_data: A number for programs to find it by; no part of the physics.
+        motion: Motion about where it is at rest, instead of velocities: one, or a list of parts
+            that act one after the other. By default none.
     """
 
     shape: Shape
@@ -336,3 +412,8 @@ class Collider(Part):
     groups: Number = 1
     collides_with: Number = 0xFFFFFFFF
     user_data: LargeNumber = 0
+    motion: Motion | Sequence[Motion] = ()
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        simplify_motion(self)

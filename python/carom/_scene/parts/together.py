@@ -51,6 +51,12 @@ def simplify_open(container: Any) -> None:
         object.__setattr__(container, "open", container.open[0])
 
 
+def simplify_motion(collider: Any) -> None:
+    """Has one part of a motion be itself, as it comes back from text."""
+    if isinstance(collider.motion, (list, tuple)) and len(collider.motion) == 1:
+        object.__setattr__(collider, "motion", collider.motion[0])
+
+
 def simplify_closed(pipe: Any) -> None:
     """Has one closed end be itself, as it comes back from text."""
     if len(pipe.closed) == 1:

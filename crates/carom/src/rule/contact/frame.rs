@@ -16,8 +16,8 @@ use crate::report::StepReport;
 use crate::rotation;
 use crate::system::System;
 
-/// Takes over spheres, forces and surfaces from the world.
-pub(super) fn begin(system: &System, motion: &mut Motion, solver: &mut Solver) {
+/// Takes over spheres, forces and surfaces from the world, for a frame of `h` \[s\].
+pub(super) fn begin(system: &System, motion: &mut Motion, h: f64, solver: &mut Solver) {
     let ids = &system.spheres.id;
     let kinds = kinds_of(system);
     solver.has_moving_surfaces = system.surfaces.iter().any(|it| !it.motion.is_at_rest());
@@ -61,12 +61,12 @@ pub(super) fn begin(system: &System, motion: &mut Motion, solver: &mut Solver) {
         && system.spheres.applied_force.is_empty();
     // The bounds of moving surfaces are those of now.
     solver.is_stale |= solver.has_moving_surfaces;
-    solver.places.begin_frame(system.surfaces);
+    solver.places.begin_frame(system.surfaces, h);
 }
 
 /// Takes over from the world what the solver does not know from the frame before, which gave it to the
 /// world.
-pub(super) fn go_on(system: &System, motion: &mut Motion, solver: &mut Solver) {
+pub(super) fn go_on(system: &System, motion: &mut Motion, h: f64, solver: &mut Solver) {
     let is_known = !(solver.is_stale
         || solver.is_changed
         || solver.has_moving_surfaces
@@ -75,7 +75,7 @@ pub(super) fn go_on(system: &System, motion: &mut Motion, solver: &mut Solver) {
     if is_known && solver.slots.are_of(&system.spheres.id) {
         solver.slots.turn.fill(Row::default());
     } else {
-        begin(system, motion, solver);
+        begin(system, motion, h, solver);
     }
 }
 

@@ -107,7 +107,7 @@ pub(crate) fn step(
     let Memory { solver, scratch, tracks } = memory;
     let work = Work::new(stop_request);
     solver.sleep_speed = parameters.sleep_speed;
-    frame::begin(system, motion, solver);
+    frame::begin(system, motion, frame.h, solver);
     let sub_steps = resolution::sub_steps(solver, parameters.sub_steps, frame.h);
     let parameters = parameters.with_sub_steps(sub_steps);
     for number in 0..sub_steps {
@@ -132,7 +132,7 @@ pub(crate) fn tick(
     report: &mut StepReport,
 ) {
     solver.sleep_speed = parameters.sleep_speed;
-    frame::go_on(system, motion, solver);
+    frame::go_on(system, motion, frame.h, solver);
     sub_step(system, parameters, (frame, 0), (solver, scratch), report);
     frame::end(system, motion, solver.h, solver, report);
 }
@@ -147,7 +147,8 @@ fn sub_step(
 ) {
     let h = frame.h / f64::from(parameters.sub_steps);
     wake::touched(system, solver, h);
-    solver.places.begin_sub_step(system.surfaces, f64::from(number) * h + h);
+    let start = f64::from(number) * h;
+    solver.places.begin_sub_step(system.surfaces, [start, start + h]);
     let sub_step = accelerate::accelerate(system, frame.time, h, number, solver);
     if solver.is_stale {
         neighbours::search(system, frame, &sub_step, solver, scratch, report);

@@ -282,8 +282,7 @@ impl Known<'_> {
         let (form, motion) = self.places.at_start(surface);
         if !motion.is_at_rest() {
             let arm = (center - motion.origin).length() + radius + margin;
-            let speed = motion.velocity.length() + motion.angular_velocity.length() * arm;
-            margin += speed * self.left;
+            margin += self.places.fastest_within(surface, arm, self.left) * self.left;
         }
         match (sphere_surface(form, center, radius), form) {
             (Some(separation), _) => separation.distance <= margin,

@@ -32,6 +32,10 @@ pub(super) struct Places {
     ends: Vec<Place>,
     /// The numbers of those that move and deflect.
     moving: Vec<u32>,
+    /// Of those of them that do not move steadily, their number and bounds for the frame of the speed of their origin
+    /// \[m/s\] and of their angular velocity \[rad/s\]; ascending.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    fastest: Vec<(u32, [f64; 2])>,
     /// The images that spheres may touch.
     images: Vec<(ImageKey, DVec3)>,
     /// Their numbers.
@@ -41,8 +45,8 @@ pub(super) struct Places {
 }
 
 impl Places {
-    /// Takes over the surfaces of a frame that begins.
-    pub fn begin_frame(&mut self, surfaces: &[Surface]) {
+    /// Takes over the surfaces of a frame of `h` \[s\] that begins.
+    pub fn begin_frame(&mut self, surfaces: &[Surface], h: f64) {
         place_all(surfaces, 0.0, &mut self.starts);
         place_images(surfaces, &self.images, &mut self.starts);
         self.ends.clear();
@@ -50,13 +54,24 @@ impl Places {
             |(_, it): &(u32, &Surface)| it.role == Role::Deflects && !it.motion.is_at_rest();
         self.moving.clear();
         self.moving.extend((0..).zip(surfaces).filter(moves).map(|(number, _)| number));
+        self.fastest.clear();
+        self.fastest.extend(self.moving.iter().filter_map(|&number| {
+            let bounds = surfaces[number as usize].course.as_ref()?.bounds(0.0, h);
+            Some((number, [bounds.speed, bounds.spin]))
+        }));
     }
 
-    /// Finds where surfaces that move are when a sub-step ends, at a time of the frame \[s\].
-    pub fn begin_sub_step(&mut self, surfaces: &[Surface], end: f64) {
+    /// Finds where surfaces that move are when a sub-step ends, between two times of the frame \[s\]. Those that do not
+    /// move steadily do so over the sub-step, to where they are at its end.
+    pub fn begin_sub_step(&mut self, surfaces: &[Surface], times: [f64; 2]) {
         if !self.moving.is_empty() {
-            place_all(surfaces, end, &mut self.ends);
+            place_all(surfaces, times[1], &mut self.ends);
             place_images(surfaces, &self.images, &mut self.ends);
+            for &number in &self.moving {
+                let mean = surfaces[number as usize].mean_motion(times);
+                let (_, motion) = &mut self.starts[number as usize];
+                *motion = mean.unwrap_or(*motion);
+            }
         }
     }
 
@@ -155,14 +170,35 @@ impl Places {
         places.map(|(form, motion)| turning_rate(form, motion)).fold(0.0, f64::max)
     }
 
+    /// Bounds for the frame of the speed of the origin of a surface \[m/s\] and of its angular velocity \[rad/s\], if
+    /// it does not move steadily.
+    fn fastest_of(&self, number: u32) -> Option<[f64; 2]> {
+        let place = self.fastest.binary_search_by_key(&number, |it| it.0).ok()?;
+        Some(self.fastest[place].1)
+    }
+
+    /// A bound of the speed \[m/s\] of a surface up to a distance `arm` \[m\] from its origin, in `left` \[s\].
+    pub fn fastest_within(&self, number: u32, arm: f64, left: f64) -> f64 {
+        let (_, motion) = self.at_start(number);
+        match self.fastest_of(number) {
+            Some([speed, spin]) => speed + spin * (arm + speed * left),
+            None => motion.velocity.length() + motion.angular_velocity.length() * arm,
+        }
+    }
+
     /// The highest speed \[m/s\] at which a moving surface may come to a sphere with this centre \[m\], radius \[m\]
     /// and velocity \[m/s\] within a time \[s\].
     pub fn approach(&self, (center, radius): (DVec3, f64), velocity: DVec3, time: f64) -> f64 {
         let speed = |&number: &u32| {
             let (form, motion) = self.at_start(number);
             let arm = (center - motion.origin).length() + radius;
-            let turning = motion.angular_velocity.length() * arm;
-            let speed = (motion.velocity - velocity).length() + turning;
+            let speed = match self.fastest_of(number) {
+                Some([speed, spin]) => speed + velocity.length() + spin * (arm + speed * time),
+                None => {
+                    let turning = motion.angular_velocity.length() * arm;
+                    (motion.velocity - velocity).length() + turning
+                }
+            };
             let separation = sphere_surface(form, center, radius)?;
             (separation.distance <= speed * time).then_some(speed)
         };
@@ -193,8 +229,11 @@ fn place_all(surfaces: &[Surface], time: f64, places: &mut Vec<Place>) {
     places.extend(surfaces.iter().map(|surface| surface.after(time)));
 }
 
-/// How fast a surface changes by turning \[rad/s\].
+/// How fast a surface changes by turning, or how fast its motion does \[rad/s\].
 pub(crate) fn turning_rate(form: &Form, motion: &SurfaceMotion) -> f64 {
+    if let Some(drive) = motion.drive {
+        return drive.rate;
+    }
     match form {
         // Of a collider of its own, about its centre.
         Form::Sphere { .. } => 0.0,

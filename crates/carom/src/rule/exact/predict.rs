@@ -268,15 +268,23 @@ fn meet_surfaces(
         // A surface that moves is given as it is at the start of the frame.
         let start = if is_at_rest { body.time } else { body.time.max(timeline.frame[0]) };
         let (form, motion) = surface.after(start - timeline.frame[0]);
+        let course = surface.course_after(start - timeline.frame[0]);
         let turns = motion.angular_velocity != DVec3::ZERO;
-        // Where a turning surface will be is known until the end of the frame.
-        let until = if turns { timeline.frame[1].min(horizon) } else { horizon };
+        // The way of a surface that turns or does not move steadily is searched to the end of the frame at most.
+        let until = if course.is_some() {
+            timeline.frame[1].min(flight_end)
+        } else if turns {
+            timeline.frame[1].min(horizon)
+        } else {
+            horizon
+        };
         if until < start {
             continue;
         }
         let track = timeline.flights.track_from(slot, start).shifted(-shift);
+        let (radius, horizon) = (species.radius, until - start);
         let delay =
-            contact_time::track_surface(&track, species.radius, &form, &motion, until - start);
+            contact_time::track_surface(&track, radius, &form, &motion, course.as_ref(), horizon);
         if let Some(delay) = delay {
             let target = PackedTarget::surface(number);
             events.add(Event::at(start + delay, target));

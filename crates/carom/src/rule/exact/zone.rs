@@ -389,10 +389,7 @@ impl Zone {
     /// Moves surfaces to where they are at a time after the poses of the system \[s\].
     fn place_surfaces(&mut self, system: &System, offset: f64) {
         self.surfaces.clear();
-        self.surfaces.extend(system.surfaces.iter().map(|surface| {
-            let (form, motion) = surface.after(offset);
-            Surface { form, motion, ..*surface }
-        }));
+        self.surfaces.extend(system.surfaces.iter().map(|surface| surface.moved(offset)));
     }
 }
 

@@ -37,6 +37,11 @@ pub(crate) struct Touch {
     /// Acceleration of the gap from the turning of the surface, without sliding, is its part along
     /// the normal \[m/s²\].
     pub surface_pull: DVec3,
+    /// Acceleration of the surface, where it does not move steadily, were it to reach as far as the centre of body 2
+    /// \[m/s²\].
+    pub drive: DVec3,
+    /// A bound of the rate at which that changes \[rad/s\].
+    pub drive_rate: f64,
     /// From where the position of body 2 counts to where that of body 1 does \[m\].
     pub shift: DVec3,
     /// Predicted, so not in doubt.
@@ -94,14 +99,17 @@ impl Touch {
         self.curvature.turning(tangential).map_or(DVec3::ZERO, |(velocity, _)| velocity)
     }
 
-    /// Whether its normal turns, because bodies slide along each other or the surface turns.
+    /// Whether it is followed in pieces: its normal turns, because bodies slide along each other or the surface turns,
+    /// or the surface does not move steadily.
     pub fn is_curved(&self) -> bool {
-        self.curvature != NormalCurvature::Flat || self.form_spin() != DVec3::ZERO
+        let turns = self.curvature != NormalCurvature::Flat || self.form_spin() != DVec3::ZERO;
+        turns || self.drive_rate > 0.0
     }
 
     /// Whether the surface moves, and so does work on the sphere.
     pub fn does_work(&self) -> bool {
-        self.surface_velocity != DVec3::ZERO || self.surface_spin != DVec3::ZERO
+        let moves = self.surface_velocity != DVec3::ZERO || self.surface_spin != DVec3::ZERO;
+        moves || self.drive_rate > 0.0
     }
 
     /// As the impact laws take it, restitution 0.
@@ -174,7 +182,11 @@ impl Touch {
         let spin = motion.angular_velocity;
         // What turns with the surface is drawn towards the axis.
         let surface_pull = -spin.cross(spin.cross(center - motion.origin));
-        Self { surface_velocity, surface_spin: spin, surface_pull, ..self }
+        let (drive, drive_rate) = motion.drive.map_or((DVec3::ZERO, 0.0), |drive| {
+            let arm = center - motion.origin;
+            (drive.acceleration + drive.angular_acceleration.cross(arm), drive.rate)
+        });
+        Self { surface_velocity, surface_spin: spin, surface_pull, drive, drive_rate, ..self }
     }
 
     /// The bodies, not yet measured.
@@ -200,6 +212,8 @@ impl Touch {
             turning_in_place: DVec3::ZERO,
             surface_spin: DVec3::ZERO,
             surface_pull: DVec3::ZERO,
+            drive: DVec3::ZERO,
+            drive_rate: 0.0,
         }
     }
 }

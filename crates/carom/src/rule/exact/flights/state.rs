@@ -211,6 +211,11 @@ impl Flights {
         }
     }
 
+    /// Counts work of colliders that is done at once \[J\].
+    pub fn add_collider_work(&mut self, work: f64) {
+        self.contact_work.colliders += work;
+    }
+
     /// Returns the work that persistent contacts have done up to `time` \[s\] since it was taken last: that of
     /// friction and that of colliders that move \[J\].
     pub fn take_contact_work(&mut self, time: f64) -> [f64; 2] {

@@ -44,11 +44,12 @@ pub(super) fn answer(
     let mut allowance = None;
     let (mut merged, mut joined) = (Vec::new(), Vec::new());
     let (mut group, answer) = loop {
-        let mut group = gather(timeline, context, seeds, surface, &joined, time);
+        let (mut group, work) = gather(timeline, context, seeds, surface, &joined, time);
         let allowed = *allowance.get_or_insert_with(|| allow_work(timeline, context, &group));
         let answer = respond_to_impacts(timeline, context, &mut group, &merged);
         let found = follow_up::follow_ups(timeline, context, &group, &answer.struck(&group));
         if found.is_empty() || allowed == 0 || !context.work.spend(group.members.len() as u64) {
+            timeline.flights.add_collider_work(work);
             break (group, answer);
         }
         joined.extend(follow_up::impacts_beside(timeline, &group, &found));
@@ -58,13 +59,14 @@ pub(super) fn answer(
     context.counts.groups += 1;
     record(context, &group, &answer);
     let struck = answer.struck(&group);
+    let before = states_of(&group);
     let found = solve::find(context, &mut group);
     let spent = context.work.done() - work_before;
     context.work.allow(u64::MAX);
     if context.has_zones() && allowance.is_some_and(|allowed| spent >= allowed) {
         context.report.impacts.truncate(recorded[0]);
         context.report.groups.truncate(recorded[1]);
-        let group = gather(timeline, context, seeds, surface, &joined, time);
+        let (group, _) = gather(timeline, context, seeds, surface, &joined, time);
         return stepped::make_zone(timeline, context, &group);
     }
     let Ok(supports) = found else {
@@ -74,6 +76,7 @@ pub(super) fn answer(
         context.unanswered = Some(group.members[0].slot);
         return;
     };
+    timeline.flights.add_collider_work(work_of_corrections(&group, &before));
     // Impacts by which nothing stays in contact may be many: their number is that of flights.
     let lasting = if supports.is_empty() { 0 } else { group.members.len() as u64 };
     timeline.budget.charge(&indices_of(&group), spent, UNITS_PER_MEMBER * lasting);
@@ -92,7 +95,7 @@ pub(super) fn answer(
     }
 }
 
-/// What touches at `time` \[s\], as it comes to that.
+/// What touches at `time` \[s\], as it comes to that, and the work of surfaces that move in what settles \[J\].
 fn gather(
     timeline: &Timeline,
     context: &StepContext,
@@ -100,10 +103,29 @@ fn gather(
     surface: Option<u32>,
     joined: &[Bodies],
     time: f64,
-) -> Group {
+) -> (Group, f64) {
     let mut group = contacts::gather(timeline, context, seeds, surface, joined, time);
+    let before = states_of(&group);
     piece_end::settle(timeline, context, &mut group);
-    group
+    let work = work_of_corrections(&group, &before);
+    (group, work)
+}
+
+/// Centre and velocity of each member, where a surface that moves touches one; else nothing.
+fn states_of(group: &Group) -> Vec<[DVec3; 2]> {
+    let gets_work = group.touches.iter().any(Touch::does_work);
+    let states = || group.members.iter().map(Member::state).collect();
+    if gets_work { states() } else { Vec::new() }
+}
+
+/// The work \[J\] of surfaces that move where persistent contacts were brought to where these are, from these states.
+fn work_of_corrections(group: &Group, before: &[[DVec3; 2]]) -> f64 {
+    let gained = |(member, &[position, velocity]): (&Member, &[DVec3; 2])| {
+        let change = 0.5 * (member.velocity - velocity).dot(member.velocity + velocity);
+        let fallen = member.species.acceleration.dot(member.position - position);
+        member.species.mass * (change - fallen)
+    };
+    group.members.iter().zip(before).map(gained).sum()
 }
 
 /// Lets solvers do no more work than a group may take; tells how much.

@@ -41,10 +41,13 @@ pub(crate) fn free_acceleration(member: &Member) -> DVec3 {
 }
 
 /// Acceleration of the gap \[m/s²\] that comes from the turning of the normal: `v²/R` where the
-/// bodies slide along a curve, and the swing of a surface that turns.
+/// bodies slide along a curve, and the swing of a surface that turns; and from the acceleration of a surface.
 pub(super) fn bias(touch: &Touch, members: &[Member]) -> f64 {
     let tangential = touch.across(touch.relative_velocity(members));
-    let curve = touch.curvature.acceleration(tangential);
+    let mut curve = touch.curvature.acceleration(tangential);
+    if touch.drive_rate > 0.0 {
+        curve -= touch.drive.dot(touch.normal);
+    }
     let spin = touch.form_spin();
     if spin == DVec3::ZERO {
         return curve;

@@ -18,6 +18,9 @@ pub(super) const TURN: f64 = 1e-3;
 /// The same where a surface of revolution turns the normal: there a sphere may stay for a long time, and the errors of
 /// many pieces add up.
 const TURN_ON_BAND: f64 = 0.2 * TURN;
+/// The same as a part of the phase of a surface that does not move steadily: shorter where the gap of the middle says
+/// so.
+const TURN_OF_DRIVE: f64 = 0.03;
 /// Part of a radius by which a piece of path may close the gap of a persistent contact: more than what
 /// rounding opens.
 const MOST_CLOSED: f64 = 1e-10;
@@ -40,7 +43,9 @@ pub(super) fn turning_time(
     let mut time = f64::INFINITY;
     for touch in touches {
         let spin = touch.form_spin().norm();
-        if spin > 0.0 {
+        if touch.drive_rate > 0.0 {
+            time = time.min(TURN_OF_DRIVE / touch.drive_rate);
+        } else if spin > 0.0 {
             time = time.min(TURN / spin).min(frame_left);
         }
         let acceleration = |place: usize| {

@@ -28,7 +28,7 @@ pub(super) fn sliding_time(
         let center = member.position + touch.shift;
         let velocity = member.velocity - touch.form_velocity();
         let (acceleration, drag_rate) =
-            (accelerations.each[touch.second], member.species.drag_rate);
+            (accelerations.each[touch.second] - touch.drive, member.species.drag_rate);
         let motion = |axis: DVec3| AxisMotion {
             velocity: velocity.dot(axis),
             acceleration: acceleration.dot(axis),

@@ -83,7 +83,8 @@ fn find_smooth(
             }
         };
         if valid_for < f64::INFINITY {
-            add_closing(&group.members, &candidates, &accelerations, &mut persistent);
+            let turn = most_turned(&persistent, valid_for);
+            add_closing(&group.members, &candidates, (&accelerations, turn), &mut persistent);
         }
         let valid_for = valid_for.min(sliding_time(context, group, &persistent, &accelerations));
         // What holds for less than a contact's duration is in doubt only by rounding.
@@ -133,23 +134,31 @@ fn pressing(work: &Work, members: &[Member], candidates: &[Touch]) -> (Vec<Touch
 }
 
 /// Adds touches that may persist, that open now and would close under the accelerations of the middle of
-/// a turn: for this piece of the path their bodies rest on each other without a force, and the gap that
+/// a `turn` \[rad\]: for this piece of the path their bodies rest on each other without a force, and the gap that
 /// is missing is of the third order in the turn, like that of the piece.
 fn add_closing(
     members: &[Member],
     candidates: &[Touch],
-    accelerations: &Accelerations,
+    (accelerations, turn): (&Accelerations, f64),
     persistent: &mut Vec<Touch>,
 ) {
     let closes = |touch: &&Touch| {
         let closing = -accelerations.along(touch, members);
         closing > 0.0
-            && closing <= TURN * accelerations.scale_at(touch, members)
+            && closing <= turn * accelerations.scale_at(touch, members)
             && !persistent.iter().any(|known| known.bodies == touch.bodies)
     };
     let closing: Vec<Touch> = candidates.iter().filter(closes).copied().collect();
     persistent.extend(closing);
     persistent.sort_unstable_by_key(|touch| touch.bodies);
+}
+
+/// How far some normal turns in a piece of path of `valid_for` \[s\] at most \[rad\].
+fn most_turned(touches: &[Touch], valid_for: f64) -> f64 {
+    let driven = touches.iter().filter(|touch| touch.drive_rate > 0.0);
+    driven
+        .map(|touch| touch.form_spin().norm().max(touch.drive_rate) * valid_for)
+        .fold(TURN, f64::max)
 }
 
 /// Stops what moves and accelerates by no more than rounding.

@@ -1,0 +1,112 @@
+//! Converts motions of colliders.
+
+use carom::{MotionPart, Pose, World};
+
+use crate::error::Problem;
+use crate::scene::values::vector;
+use crate::scene::{Collider, Motion, Vector};
+
+impl Motion {
+    /// Converts the motion without checking its numbers.
+    pub(crate) fn physical(&self) -> MotionPart {
+        match *self {
+            Self::Steady { velocity } => MotionPart::Steady { velocity: vector(velocity) },
+            Self::Oscillate { axis, amplitude, frequency, phase_degrees } => {
+                let phase = phase_degrees.to_radians();
+                MotionPart::Oscillate { axis: vector(axis), amplitude, frequency, phase }
+            }
+            Self::Turn { axis, pivot, rate } => {
+                MotionPart::Turn { axis: vector(axis), pivot: vector(pivot), rate }
+            }
+            Self::Swing { axis, pivot, amplitude_degrees, frequency, phase_degrees } => {
+                MotionPart::Swing {
+                    axis: vector(axis),
+                    pivot: vector(pivot),
+                    amplitude: amplitude_degrees.to_radians(),
+                    frequency,
+                    phase: phase_degrees.to_radians(),
+                }
+            }
+        }
+    }
+
+    /// Returns the same motion with every vector turned.
+    pub(crate) fn turned(&self, turn: &impl Fn(Vector) -> Vector) -> Self {
+        let mut part = self.clone();
+        match &mut part {
+            Self::Steady { velocity } => *velocity = turn(*velocity),
+            Self::Oscillate { axis, .. } => *axis = turn(*axis),
+            Self::Turn { axis, pivot, .. } | Self::Swing { axis, pivot, .. } => {
+                (*axis, *pivot) = (turn(*axis), turn(*pivot));
+            }
+        }
+        part
+    }
+
+    /// Converts a part of a motion of `carom` to the fields of a scene file; `None` for one that they cannot say.
+    fn of(part: &MotionPart) -> Option<Self> {
+        Some(match *part {
+            MotionPart::Steady { velocity } => Self::Steady { velocity: velocity.to_array() },
+            MotionPart::Oscillate { axis, amplitude, frequency, phase } => Self::Oscillate {
+                axis: axis.to_array(),
+                amplitude,
+                frequency,
+                phase_degrees: phase.to_degrees(),
+            },
+            MotionPart::Turn { axis, pivot, rate } => {
+                Self::Turn { axis: axis.to_array(), pivot: pivot.to_array(), rate }
+            }
+            MotionPart::Swing { axis, pivot, amplitude, frequency, phase } => Self::Swing {
+                axis: axis.to_array(),
+                pivot: pivot.to_array(),
+                amplitude_degrees: amplitude.to_degrees(),
+                frequency,
+                phase_degrees: phase.to_degrees(),
+            },
+            _ => return None,
+        })
+    }
+}
+
+impl Collider {
+    /// Returns the description of the collider in the pose that it has in a world now; of one with a motion, in the pose
+    /// at rest.
+    pub fn now(&self, collider: &carom::Collider) -> Self {
+        let Pose { position, rotation } = collider.motion.rest().unwrap_or(collider.pose);
+        let (position, rotation) = (position.to_array(), rotation.to_array());
+        Self { position, rotation, ..self.clone() }
+    }
+
+    /// Returns the same description for a scene that begins at `time` \[s\] of this one.
+    pub fn beginning_at(&self, time: f64) -> Self {
+        if self.motion.is_empty() || time == 0.0 {
+            return self.clone();
+        }
+        let parts: Vec<MotionPart> = self.motion.iter().map(Motion::physical).collect();
+        let later = carom::Motion::new(parts).beginning_at(time);
+        Self { motion: later.parts().iter().filter_map(Motion::of).collect(), ..self.clone() }
+    }
+}
+
+/// Converts the motion of the collider at `path`, and checks its numbers.
+pub(crate) fn motion(collider: &Collider, path: &str) -> Result<carom::Motion, Problem> {
+    for (i, part) in collider.motion.iter().enumerate() {
+        let number = if collider.motion.len() == 1 { String::new() } else { format!("[{i}]") };
+        // Adding it to an empty world checks it.
+        let alone = carom::Collider::new(carom::Shape::HalfSpace, Pose::at(carom::DVec3::ZERO));
+        let added = World::default().add_collider(alone.with_motion([part.physical()]));
+        let path = format!("{path}.motion{number}.{}", part.kind());
+        added.map_err(|error| in_degrees(part, Problem::of_physics(&path, error)))?;
+    }
+    Ok(collider.motion.iter().map(Motion::physical).collect::<Vec<_>>().into())
+}
+
+/// Names the fields that scene files have in degrees.
+fn in_degrees(part: &Motion, mut problem: Problem) -> Problem {
+    let is_angle = problem.field.ends_with(".phase")
+        || (matches!(part, Motion::Swing { .. }) && problem.field.ends_with(".amplitude"));
+    if is_angle {
+        problem.field.push_str("_degrees");
+    }
+    problem
+}

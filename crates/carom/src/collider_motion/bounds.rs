@@ -1,0 +1,145 @@
+//! Upper bounds of how a motion changes over some time.
+
+use std::f64::consts::TAU;
+
+use super::kinematics::Moment;
+use super::{Kinematics, Motion, MotionPart};
+use crate::norm::Norm;
+
+/// Upper bounds of the derivatives of a motion over some time, whichever way.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct MotionBounds {
+    /// How far the origin comes from where it is at the start \[m\].
+    pub way: f64,
+    /// Of the origin \[m/s\].
+    pub speed: f64,
+    /// \[m/s²\]
+    pub acceleration: f64,
+    /// \[m/s³\]
+    pub jerk: f64,
+    /// \[rad/s\]
+    pub spin: f64,
+    /// \[rad/s²\]
+    pub spin_growth: f64,
+    /// \[rad/s³\]
+    pub spin_jerk: f64,
+}
+
+impl MotionBounds {
+    /// Of a motion from a time on, for `length` \[s\].
+    pub fn of(motion: &Motion, time: Moment, length: f64) -> Self {
+        let (mut state, mut bounds) = (Kinematics::REST, Self::default());
+        for part in motion.parts() {
+            bounds = match *part {
+                MotionPart::Steady { velocity } => {
+                    let speed = velocity.norm();
+                    bounds.shifted(speed * length, [speed, 0.0, 0.0])
+                }
+                MotionPart::Oscillate { amplitude, frequency, .. } => {
+                    let derivatives = sine(amplitude, frequency);
+                    let way = (derivatives[0] * length).min(2.0 * amplitude.abs());
+                    bounds.shifted(way, derivatives)
+                }
+                MotionPart::Turn { pivot, rate, .. } => {
+                    let (arm, angle) = ((state.offset - pivot).norm(), rate.abs() * length);
+                    bounds.turned(arm, angle, [rate.abs(), 0.0, 0.0])
+                }
+                MotionPart::Swing { pivot, amplitude, frequency, .. } => {
+                    let derivatives = sine(amplitude, frequency);
+                    let angle = (derivatives[0] * length).min(2.0 * amplitude.abs());
+                    bounds.turned((state.offset - pivot).norm(), angle, derivatives)
+                }
+            };
+            if motion.turns() {
+                state = state.carried_by(part, time);
+            }
+        }
+        bounds
+    }
+
+    /// Carried by a way, by its derivatives.
+    fn shifted(self, way: f64, [speed, acceleration, jerk]: [f64; 3]) -> Self {
+        Self {
+            way: self.way + way,
+            speed: self.speed + speed,
+            acceleration: self.acceleration + acceleration,
+            jerk: self.jerk + jerk,
+            ..self
+        }
+    }
+
+    /// Carried by a rotation by up to an angle \[rad\], with an arm \[m\] at the start, by the derivatives of its
+    /// angle: the norms of the terms of [`Kinematics`], and of their derivatives.
+    fn turned(self, arm: f64, angle: f64, [rate, growth, jerk]: [f64; 3]) -> Self {
+        let Self { way, speed, acceleration, spin, spin_growth, .. } = self;
+        // A chord is no longer than its arc, nor than the diameter.
+        let (swept, arm) = (angle.min(2.0) * arm, arm + way);
+        Self {
+            way: way + swept,
+            speed: speed + rate * arm,
+            acceleration: acceleration + 2.0 * rate * speed + (growth + rate * rate) * arm,
+            jerk: self.jerk
+                + 3.0 * (rate * acceleration + (growth + rate * rate) * speed)
+                + (jerk + 3.0 * rate * growth + rate * rate * rate) * arm,
+            spin: spin + rate,
+            spin_growth: spin_growth + rate * spin + growth,
+            spin_jerk: self.spin_jerk
+                + 2.0 * rate * spin_growth
+                + (growth + rate * rate) * spin
+                + jerk,
+        }
+    }
+}
+
+/// The largest derivatives of `A sin(2π f t + φ)`.
+fn sine(amplitude: f64, frequency: f64) -> [f64; 3] {
+    let (size, rate) = (amplitude.abs(), TAU * frequency);
+    [size * rate, size * rate * rate, size * rate * rate * rate]
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+
+    #[test]
+    fn no_derivative_is_above_its_bound_and_some_come_near() {
+        let (axis, pivot) = (DVec3::new(1.0, 2.0, -0.5), DVec3::new(0.3, -1.0, 0.7));
+        let oscillate = MotionPart::Oscillate { axis, amplitude: 0.4, frequency: 0.3, phase: 0.2 };
+        let turn = MotionPart::Turn { axis: DVec3::Y, pivot, rate: 1.3 };
+        let swing = MotionPart::Swing { axis, pivot, amplitude: 0.6, frequency: 0.2, phase: 1.0 };
+        let steady = MotionPart::Steady { velocity: DVec3::new(0.1, 0.2, 0.3) };
+        for parts in
+            [vec![oscillate], vec![turn], vec![steady, turn, swing], vec![swing, oscillate]]
+        {
+            let motion = Motion::new(parts);
+            let (length, h) = (10.0, 1e-3);
+            let bounds = MotionBounds::of(&motion, [2.0, 0.0], length);
+            let (mut most, mut way) = ([0.0f64; 6], 0.0f64);
+            let start = Kinematics::of(&motion, [2.0, 0.0]).offset;
+            for step in 0..10_000 {
+                let [now, next] =
+                    [0.0, h].map(|t| Kinematics::of(&motion, [2.0, f64::from(step) * h + t]));
+                let jerk = (next.acceleration - now.acceleration) / h;
+                let spin_jerk = (next.angular_acceleration - now.angular_acceleration) / h;
+                way = way.max((now.offset - start).norm());
+                let sizes = [now.velocity, now.acceleration, jerk, now.angular_velocity]
+                    .into_iter()
+                    .chain([now.angular_acceleration, spin_jerk]);
+                most.iter_mut().zip(sizes).for_each(|(most, it)| *most = most.max(it.norm()));
+            }
+            let MotionBounds { speed, acceleration, jerk, spin, spin_growth, spin_jerk, .. } =
+                bounds;
+            assert!(way <= bounds.way, "{way} {bounds:?}");
+            for (most, bound) in
+                most.into_iter().zip([speed, acceleration, jerk, spin, spin_growth, spin_jerk])
+            {
+                // Differences carry the rounding of 1e-16 over h.
+                assert!(most <= bound + 1e-11, "{most} {bounds:?}");
+            }
+            // The bound of a speed is that of a sum of speeds.
+            assert!(most[0] >= 0.2 * speed, "{most:?} {bounds:?}");
+        }
+    }
+}

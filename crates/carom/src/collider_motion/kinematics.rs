@@ -1,0 +1,143 @@
+//! Where a motion has brought a collider, and how fast that changes.
+
+use std::f64::consts::TAU;
+
+use glam::{DQuat, DVec3};
+
+use super::{Motion, MotionPart};
+
+/// Time as a start on the world's clock, and what has gone since \[s\]: phases of a long run keep the digits of the
+/// second.
+pub(crate) type Moment = [f64; 2];
+
+/// Where a motion has brought a collider from rest, with derivatives in time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Kinematics {
+    /// From the origin at rest to the origin \[m\].
+    pub offset: DVec3,
+    /// \[m/s\]
+    pub velocity: DVec3,
+    /// \[m/s²\]
+    pub acceleration: DVec3,
+    /// From the directions at rest.
+    pub rotation: DQuat,
+    /// \[rad/s\]
+    pub angular_velocity: DVec3,
+    /// \[rad/s²\]
+    pub angular_acceleration: DVec3,
+}
+
+impl Kinematics {
+    /// Of a collider at rest.
+    pub(super) const REST: Self = Self {
+        offset: DVec3::ZERO,
+        velocity: DVec3::ZERO,
+        acceleration: DVec3::ZERO,
+        rotation: DQuat::IDENTITY,
+        angular_velocity: DVec3::ZERO,
+        angular_acceleration: DVec3::ZERO,
+    };
+
+    /// Of a motion at some time.
+    pub fn of(motion: &Motion, time: Moment) -> Self {
+        motion.parts().iter().fold(Self::REST, |state, part| state.carried_by(part, time))
+    }
+
+    /// The same, carried along by one more part.
+    pub(super) fn carried_by(self, part: &MotionPart, time: Moment) -> Self {
+        match *part {
+            MotionPart::Steady { velocity } => {
+                self.shifted([velocity * time[0] + velocity * time[1], velocity, DVec3::ZERO])
+            }
+            MotionPart::Oscillate { axis, amplitude, frequency, phase } => {
+                let axis = axis.normalize();
+                self.shifted(sine(amplitude, frequency, phase, time).map(|it| it * axis))
+            }
+            MotionPart::Turn { axis, pivot, rate } => {
+                let cycles = rate * time[0] / TAU;
+                let angle = TAU * (cycles - libm::floor(cycles)) + rate * time[1];
+                self.turned(axis.normalize(), pivot, [angle, rate, 0.0])
+            }
+            MotionPart::Swing { axis, pivot, amplitude, frequency, phase } => {
+                self.turned(axis.normalize(), pivot, sine(amplitude, frequency, phase, time))
+            }
+        }
+    }
+
+    /// Carried by a way and its derivatives.
+    fn shifted(self, [way, velocity, acceleration]: [DVec3; 3]) -> Self {
+        Self {
+            offset: self.offset + way,
+            velocity: self.velocity + velocity,
+            acceleration: self.acceleration + acceleration,
+            ..self
+        }
+    }
+
+    /// Carried by a rotation Q about an axis k through a pivot, by an angle θ with its derivatives. With r from the
+    /// pivot and `w = θ' k`,
+    ///
+    /// ```text
+    /// x'' = Q r'' + 2 w × Q r' + θ'' k × Q r + w × (w × Q r)        ω = Q ω₀ + w        ω' = Q ω₀' + w × Q ω₀ + θ'' k
+    /// ```
+    fn turned(self, axis: DVec3, pivot: DVec3, [angle, rate, change]: [f64; 3]) -> Self {
+        let (sine, cosine) = libm::sincos(0.5 * angle);
+        let turn = DQuat::from_xyzw(axis.x * sine, axis.y * sine, axis.z * sine, cosine);
+        let (spin, growth) = (rate * axis, change * axis);
+        let arm = turn * (self.offset - pivot);
+        let (velocity, own) = (turn * self.velocity, turn * self.angular_velocity);
+        let swept = spin.cross(arm);
+        Self {
+            offset: pivot + arm,
+            velocity: velocity + swept,
+            acceleration: turn * self.acceleration
+                + 2.0 * spin.cross(velocity)
+                + growth.cross(arm)
+                + spin.cross(swept),
+            rotation: turn * self.rotation,
+            angular_velocity: own + spin,
+            angular_acceleration: turn * self.angular_acceleration + spin.cross(own) + growth,
+        }
+    }
+}
+
+/// `A sin(2π f t + φ)` and its two derivatives.
+fn sine(amplitude: f64, frequency: f64, phase: f64, [start, gone]: Moment) -> [f64; 3] {
+    let cycles = frequency * start;
+    let rate = TAU * frequency;
+    let angle = TAU * (cycles - libm::floor(cycles)) + phase + rate * gone;
+    let (sine, cosine) = libm::sincos(angle);
+    [amplitude * sine, amplitude * rate * cosine, -amplitude * rate * rate * sine]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn derivatives_of_a_sum_are_those_of_its_places() {
+        let axis = DVec3::new(1.0, 2.0, -0.5);
+        let pivot = DVec3::new(0.3, -1.0, 0.7);
+        let motion = Motion::new([
+            MotionPart::Oscillate { axis, amplitude: 0.4, frequency: 0.3, phase: 0.2 },
+            MotionPart::Turn { axis: DVec3::new(0.0, 1.0, 0.4), pivot, rate: 1.3 },
+            MotionPart::Swing { axis, pivot, amplitude: 0.6, frequency: 0.2, phase: 1.0 },
+            MotionPart::Steady { velocity: DVec3::new(0.1, 0.2, 0.3) },
+        ]);
+        let h = 1e-4;
+        for time in [0.0, 0.7, 5.3] {
+            let [before, now, after] = [-h, 0.0, h].map(|t| Kinematics::of(&motion, [time, t]));
+            // Differences in the middle are off by h²/6 of third derivatives of some 10, and by rounding over h.
+            let slope = |a: DVec3, b: DVec3| (b - a) / (2.0 * h);
+            assert!((slope(before.offset, after.offset) - now.velocity).length() < 1e-6);
+            assert!((slope(before.velocity, after.velocity) - now.acceleration).length() < 1e-6);
+            let growth = slope(before.angular_velocity, after.angular_velocity);
+            assert!((growth - now.angular_acceleration).length() < 1e-6);
+            // q' = ω q / 2
+            let w = now.angular_velocity;
+            let spun = DQuat::from_xyzw(w.x, w.y, w.z, 0.0) * now.rotation;
+            let change = (after.rotation - before.rotation) * (1.0 / h);
+            assert!((change - spun).length() < 1e-6);
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! How surfaces move.
+
+use glam::DVec3;
+
+use crate::pose::Pose;
+
+/// How a surface moves: it turns about `origin`, which moves itself.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct SurfaceMotion {
+    /// Now \[m\].
+    pub origin: DVec3,
+    /// \[m/s\]
+    pub velocity: DVec3,
+    /// Along the axis of rotation \[rad/s\].
+    pub angular_velocity: DVec3,
+    /// How that changes, if it does.
+    pub drive: Option<Drive>,
+}
+
+/// How the motion of a surface changes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct Drive {
+    /// Of the origin \[m/s²\].
+    pub acceleration: DVec3,
+    /// \[rad/s²\]
+    pub angular_acceleration: DVec3,
+    /// A bound of the rate at which it repeats or turns \[rad/s\].
+    pub rate: f64,
+    /// Whether it turns at some time.
+    pub turns: bool,
+}
+
+impl SurfaceMotion {
+    /// Of a surface at rest.
+    pub const REST: Self = Self {
+        origin: DVec3::ZERO,
+        velocity: DVec3::ZERO,
+        angular_velocity: DVec3::ZERO,
+        drive: None,
+    };
+
+    /// Whether it never moves.
+    pub fn is_at_rest(&self) -> bool {
+        let is_slow = self.velocity == DVec3::ZERO && self.angular_velocity == DVec3::ZERO;
+        is_slow && self.drive.is_none()
+    }
+
+    /// Velocity \[m/s\] of the surface at a point of it.
+    pub fn velocity_at(&self, point: DVec3) -> DVec3 {
+        self.velocity + self.angular_velocity.cross(point - self.origin)
+    }
+
+    /// Whether directions change with it.
+    pub fn turns(&self) -> bool {
+        self.angular_velocity != DVec3::ZERO || self.drive.is_some_and(|it| it.turns)
+    }
+
+    /// Acceleration \[m/s²\], as seen from the surface, of what flies at a point without forces, with this velocity \[m/s\].
+    pub fn swing(&self, point: DVec3, velocity: DVec3) -> DVec3 {
+        if !self.turns() {
+            return DVec3::ZERO;
+        }
+        let turning = self.angular_velocity;
+        let beside = velocity - self.velocity_at(point);
+        -turning.cross(2.0 * beside + turning.cross(point - self.origin))
+    }
+
+    /// A direction that turns along, after `h` \[s\].
+    pub fn turned(&self, direction: DVec3, h: f64) -> DVec3 {
+        if !self.turns() {
+            return direction;
+        }
+        Pose::at(DVec3::ZERO).moved(DVec3::ZERO, self.angular_velocity, h).rotation * direction
+    }
+
+    /// Where a point \[m\] that moves along is after `h` \[s\].
+    pub fn carried(&self, point: DVec3, h: f64) -> DVec3 {
+        if !self.turns() {
+            return point + h * self.velocity;
+        }
+        self.origin + h * self.velocity + self.turned(point - self.origin, h)
+    }
+
+    /// Where a point \[m\] was that has moved along for `h` \[s\].
+    pub fn carried_back(&self, point: DVec3, h: f64) -> DVec3 {
+        if !self.turns() {
+            return point - h * self.velocity;
+        }
+        self.origin + self.turned(point - h * self.velocity - self.origin, -h)
+    }
+
+    /// Velocity \[m/s\] after `h` \[s\] of the surface at a point that is there then.
+    pub fn velocity_after(&self, point: DVec3, h: f64) -> DVec3 {
+        if !self.turns() {
+            return self.velocity;
+        }
+        self.velocity + self.angular_velocity.cross(point - h * self.velocity - self.origin)
+    }
+}
