@@ -91,6 +91,13 @@ impl PolynomialAcceleration {
         self.length * self.length * way
     }
 
+    /// The same from a time \[s\] within its length on.
+    pub fn from(&self, time: f64) -> Self {
+        let length = self.length - time;
+        let rest = shifted(self.coefficients, time / self.length);
+        Self { length, coefficients: scaled(rest, length / self.length) }
+    }
+
     /// Whether all its numbers are finite.
     pub fn is_finite(&self) -> bool {
         self.coefficients.iter().all(|c| c.is_finite())
@@ -100,13 +107,7 @@ impl PolynomialAcceleration {
     ///
     /// With `q` the ratio of the lengths, `Σ c_k (1 + q s)^k`.
     pub fn continued(&self, length: f64) -> [DVec3; TERMS] {
-        let shifted = shifted(self.coefficients, 1.0);
-        let (ratio, mut power) = (length / self.length, 1.0);
-        shifted.map(|c| {
-            let scaled = c * power;
-            power *= ratio;
-            scaled
-        })
+        scaled(shifted(self.coefficients, 1.0), length / self.length)
     }
 }
 
@@ -124,6 +125,16 @@ where
         }
     }
     coefficients
+}
+
+/// Coefficients in `q s` of a polynomial in s, as those of one in s.
+fn scaled(coefficients: [DVec3; TERMS], ratio: f64) -> [DVec3; TERMS] {
+    let mut power = 1.0;
+    coefficients.map(|c| {
+        let scaled = c * power;
+        power *= ratio;
+        scaled
+    })
 }
 
 /// The largest value of a polynomial for `s` in `[from, to]`, or a little more: the largest of its Bernstein

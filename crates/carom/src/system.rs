@@ -61,6 +61,16 @@ impl<'a> System<'a> {
         self.interactions.is_some()
     }
 
+    /// The springs, in the order in which they entered the world.
+    pub fn springs(&self) -> impl Iterator<Item = &'a Spring> {
+        self.interactions.into_iter().flat_map(|interactions| interactions.springs())
+    }
+
+    /// Whether forces act between all spheres, not on springs only.
+    pub fn couples_all(&self) -> bool {
+        self.interactions.is_some_and(|interactions| !interactions.are_springs())
+    }
+
     /// Whether a force between spheres depends on how they move.
     pub fn has_damped_interactions(&self) -> bool {
         self.interactions.is_some_and(|it| it.depend_on_velocity())

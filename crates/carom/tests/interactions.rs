@@ -77,6 +77,11 @@ fn two_spheres_on_a_damped_spring_oscillate_with_their_reduced_mass() {
                 let length = position(&world, heavy).x - position(&world, light).x;
                 (length - 2.0 - stretch).abs()
             };
+            if matches!(rule, Rule::Exact(_)) {
+                // Rounding of some tens of steps of 15th order.
+                assert!(error(4) < 1e-13);
+                continue;
+            }
             let (coarse, fine) = (error(512), error(1024));
             assert!(fine < 0.1, "{rule:?}: {fine}");
             let measured = (coarse / fine).log2();

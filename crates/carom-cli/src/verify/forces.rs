@@ -8,6 +8,7 @@ use carom::{
 };
 
 use super::claim::{Claim, Expected, Measured, Outcome, Tolerance};
+use super::coupled_flights;
 use super::curved_flights;
 use super::setup::{FRAME, G, run_until, world, world_with};
 
@@ -16,7 +17,6 @@ pub fn claims() -> Vec<Claim> {
     // Force ticks at the ends of frames, for comparison with an integrator.
     let exact = |h| Exact::default().with_force_tick(h).into();
     let mut claims = vec![
-        frames_of_oscillator("exact", exact(FRAME)),
         frames_of_oscillator("velocity Verlet", verlet.into()),
         energy_of_two_bodies("exact", exact(ORBIT_FRAME)),
         energy_of_two_bodies("velocity Verlet", verlet.into()),
@@ -33,6 +33,11 @@ pub fn claims() -> Vec<Claim> {
         curved_flights::quadratic_drag(),
         curved_flights::energy_of_hits(),
         curved_flights::bits_of_frames(),
+        coupled_flights::pair_on_spring(),
+        coupled_flights::energy_of_impacts(),
+        coupled_flights::bungee(),
+        coupled_flights::normal_modes(),
+        coupled_flights::bits_of_frames(),
         chain(100, "energy of a chain of 100 spheres on springs over 100,000 frames [start]"),
         chain(1000, "energy of a chain of 1,000 spheres on springs over 100,000 frames [start]")
             .slow(),

@@ -8,6 +8,7 @@ mod claim;
 mod collapse;
 mod conservation;
 mod convergence;
+mod coupled_flights;
 mod course;
 mod curved_flights;
 mod dense;

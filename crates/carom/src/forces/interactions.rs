@@ -25,6 +25,16 @@ impl<'a> Interactions<'a> {
         self.forces.iter().filter_map(|(_, force)| force.interaction())
     }
 
+    /// The springs, in the order in which they entered the world.
+    pub fn springs(&self) -> impl Iterator<Item = &'a Spring> + use<'a> {
+        self.springs.iter().map(|(_, spring)| spring)
+    }
+
+    /// Whether there are none but springs.
+    pub fn are_springs(&self) -> bool {
+        self.list().next().is_none()
+    }
+
     /// Adds the forces \[N\] on all spheres: those among the forces in the order in which they entered the
     /// world, then springs in theirs.
     pub fn add_forces(&self, spheres: &SphereStates, time: f64, forces: &mut [DVec3]) {

@@ -105,18 +105,31 @@ impl Spring {
 
     /// Adds the force on each of its spheres \[N\].
     pub(super) fn add_forces(&self, spheres: &SphereStates, forces: &mut [DVec3]) {
-        let Some(state) = self.state(spheres) else { return };
-        let along = state.tension(self) * state.direction;
-        forces[state.first] += along;
-        if let Some(second) = state.second {
+        let Some(ends) = self.ends(spheres) else { return };
+        let along = self.pull(ends.offset, ends.velocity);
+        forces[ends.first] += along;
+        if let Some(second) = ends.second {
             forces[second] -= along;
         }
     }
 
+    /// The force on its first end \[N\], over the offset to the second \[m\], which moves with this velocity as seen
+    /// from the first \[m/s\].
+    pub(crate) fn pull(&self, offset: DVec3, velocity: DVec3) -> DVec3 {
+        let stretch = Stretch::of(offset, velocity);
+        stretch.tension(self) * stretch.direction
+    }
+
+    /// [`Self::pull`] of a thread as if it pushed, too.
+    pub(crate) fn pull_or_push(&self, offset: DVec3, velocity: DVec3) -> DVec3 {
+        let stretch = Stretch::of(offset, velocity);
+        stretch.elastic_tension(self) * stretch.direction
+    }
+
     /// `k (l - l0)² / 2` \[J\]; none where it is slack.
     pub(super) fn potential_energy(&self, spheres: &SphereStates) -> f64 {
-        let Some(state) = self.state(spheres) else { return 0.0 };
-        let stretch = state.length - self.rest_length;
+        let Some(ends) = self.ends(spheres) else { return 0.0 };
+        let stretch = ends.offset.norm() - self.rest_length;
         if self.only_pulls && stretch <= 0.0 {
             return 0.0;
         }
@@ -124,7 +137,7 @@ impl Spring {
     }
 
     /// `None` if one of its spheres is not in the world.
-    fn state(&self, spheres: &SphereStates) -> Option<SpringState> {
+    fn ends(&self, spheres: &SphereStates) -> Option<Ends> {
         let first = spheres.index_of(self.sphere)?;
         let (second, position, velocity) = match self.to {
             SpringEnd::Point(point) => (None, point, DVec3::ZERO),
@@ -134,19 +147,23 @@ impl Spring {
             }
         };
         let offset = spheres.offset_between(spheres.positions[first], position);
-        let length = offset.norm();
-        // Of no length it has no direction, and pulls nowhere.
-        let direction = if length > 0.0 { offset / length } else { DVec3::ZERO };
-        let lengthening = (velocity - spheres.velocities[first]).dot(direction);
-        Some(SpringState { first, second, length, direction, lengthening })
+        Some(Ends { first, second, offset, velocity: velocity - spheres.velocities[first] })
     }
 }
 
-/// How a spring is stretched.
-struct SpringState {
+/// The ends of a spring.
+struct Ends {
     /// Indices of its spheres.
     first: usize,
     second: Option<usize>,
+    /// From the first end to the second \[m\].
+    offset: DVec3,
+    /// Of the second end as seen from the first \[m/s\].
+    velocity: DVec3,
+}
+
+/// How a spring is stretched.
+struct Stretch {
     /// \[m\]
     length: f64,
     /// From the first end to the second.
@@ -155,15 +172,27 @@ struct SpringState {
     lengthening: f64,
 }
 
-impl SpringState {
+impl Stretch {
+    fn of(offset: DVec3, velocity: DVec3) -> Self {
+        let length = offset.norm();
+        // Of no length it has no direction, and pulls nowhere.
+        let direction = if length > 0.0 { offset / length } else { DVec3::ZERO };
+        Self { length, direction, lengthening: velocity.dot(direction) }
+    }
+
     /// The force with which it pulls its ends together \[N\].
     fn tension(&self, spring: &Spring) -> f64 {
-        let stretch = self.length - spring.rest_length;
-        let tension = spring.stiffness * stretch + spring.damping * self.lengthening;
+        let tension = self.elastic_tension(spring);
         match spring.only_pulls {
-            true if stretch <= 0.0 => 0.0,
+            true if self.length <= spring.rest_length => 0.0,
             true => tension.max(0.0),
             false => tension,
         }
+    }
+
+    /// `k (l - l0) + c dl/dt` \[N\]
+    fn elastic_tension(&self, spring: &Spring) -> f64 {
+        let stretch = self.length - spring.rest_length;
+        spring.stiffness * stretch + spring.damping * self.lengthening
     }
 }

@@ -123,7 +123,8 @@ pub(crate) struct Values {
 }
 
 impl Values {
-    fn of(count: usize) -> Self {
+    /// Of so many spheres.
+    pub fn of(count: usize) -> Self {
         Self { accelerations: vec![DVec3::ZERO; count], sizes: vec![0.0; count] }
     }
 }

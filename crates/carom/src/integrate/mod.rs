@@ -5,6 +5,7 @@
 //! there they go through the stages of the scheme side by side (`together`).
 
 mod acceleration;
+pub(crate) mod crossing;
 mod explicit_euler;
 pub(crate) mod gauss_radau;
 mod kinematics;

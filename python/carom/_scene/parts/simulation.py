@@ -30,9 +30,9 @@ class Exact(Part):
             More makes a stepped zone. By default 300,000.
         zone_tick: Time between two ticks, at which zones are stepped [s], > 0. Small spheres
             shorten it, and so do short frames; long frames lengthen it. By default 1/480.
-        force_tick: Time between two force ticks [s], > 0. Forces between spheres, and those on
-            spheres in persistent contact that are not linear, are constant from one to the next.
-            Stiff springs shorten it. By default 1/240.
+        force_tick: Time between two force ticks [s], > 0. Forces on spheres in persistent contact
+            that are not linear, and all in a world with mutual gravity, are constant from one to
+            the next. Stiff springs shorten it. By default 1/240.
     """
 
     impact_law: ImpactLaw = "reflection"

@@ -71,9 +71,11 @@ pub(crate) fn start(
     let mut timeline = Timeline { parameters, flights, frame, zone, ..Timeline::default() };
     (timeline.spring_rate, timeline.held_until) = (spring_rate, time);
     timeline.curves_until = f64::INFINITY;
+    hold_until_ticks(&mut timeline, parameters.force_tick);
     arrange(&mut timeline, system, time);
     timeline.work.begin(&timeline.flights.bodies);
     timeline.find_curves(system);
+    timeline.restarted.clear();
     predict_all(&mut timeline, system, time);
     timeline
 }
@@ -118,11 +120,13 @@ pub(crate) fn adopt<F: Fn(SphereId) -> f64>(
     arrange(&mut timeline, system, time);
     timeline.work.begin(&timeline.flights.bodies);
     (timeline.force_tick, timeline.spring_rate) = (before.force_tick, before.spring_rate);
+    timeline.work_tick = before.work_tick;
     (timeline.next_emission, timeline.curves_until) = (arrivals.next, before.curves_until);
     if timeline.flights.hold_forces {
         held_forces::renew(&mut timeline, system, time);
     }
     timeline.find_curves(system);
+    timeline.restarted.clear();
     predict_all(&mut timeline, system, time);
     timeline
 }
@@ -152,7 +156,7 @@ pub(crate) fn begin(
     let mut renewed = Vec::new();
     if is_renewed {
         renewed = held_forces::renew(timeline, system, frame[0]);
-        timeline.find_curves(system);
+        find_curves(timeline, system, &mut renewed);
         check_accelerations(timeline, system).map_err(HoldError::NotFinite)?;
     }
     let are_curved = timeline.flights.are_curved();
@@ -193,8 +197,15 @@ pub(crate) enum HoldError {
 fn set_force_tick(timeline: &mut Timeline, frame: f64) -> Result<bool, HoldError> {
     let (before, rate) = (timeline.force_tick, timeline.spring_rate);
     let tick = tick_for_springs(rate, timeline.parameters, frame)?;
-    timeline.force_tick = ticks::part(tick, ticks::halvings_for_springs(rate, tick));
+    hold_until_ticks(timeline, tick);
     Ok(timeline.flights.forces_vary && timeline.force_tick != before)
+}
+
+/// Has forces be held for a tick \[s\], or as much shorter as springs need it.
+fn hold_until_ticks(timeline: &mut Timeline, tick: f64) {
+    timeline.work_tick = tick;
+    timeline.force_tick =
+        ticks::part(tick, ticks::halvings_for_springs(timeline.spring_rate, tick));
 }
 
 /// The force tick \[s\] in frames of this length \[s\], before springs of this rate \[1/s\] make it shorter.
@@ -224,16 +235,24 @@ pub(super) fn force_tick(
     now: f64,
 ) -> Result<u64, SphereId> {
     let before: Vec<u32> = timeline.flights.bodies.iter().map(|body| body.generation).collect();
-    let renewed = held_forces::renew(timeline, system, now);
-    timeline.find_curves(system);
-    check_accelerations(timeline, system)?;
+    let mut renewed = held_forces::renew(timeline, system, now);
     timeline.work.pass_over(&before, &timeline.flights.bodies);
+    find_curves(timeline, system, &mut renewed);
+    check_accelerations(timeline, system)?;
     if timeline.flights.are_curved() {
         predict_each(timeline, system, &renewed, now);
     } else {
         predict_all(timeline, system, now);
     }
     Ok(renewed.len() as u64)
+}
+
+/// Finds all flights that are not known, and those of companions of spheres that began others; adds them to the
+/// slots to be predicted.
+fn find_curves(timeline: &mut Timeline, system: &System, begun: &mut Vec<u32>) {
+    timeline.find_curves(system);
+    timeline.restart_companions(system);
+    begun.append(&mut timeline.restarted);
 }
 
 /// Predicts the next events of some spheres, as of `time` \[s\].

@@ -8,6 +8,12 @@ use crate::report::StageCounts;
 /// Units of work that count as much as one flight of a sphere.
 pub(super) const UNITS_PER_FLIGHT: u64 = 32;
 
+/// By how much the generation grew but for impacts: of a flight that an impact began it adds but one, which counts with
+/// that.
+fn flights_between(before: u32, now: u32) -> u32 {
+    now.wrapping_sub(before) & !1
+}
+
 /// Work in the frame, by slot, in flights.
 #[derive(Debug, Clone, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -44,8 +50,14 @@ impl FrameWork {
     pub fn pass_over(&mut self, before: &[u32], bodies: &[Body]) {
         let generations = before.iter().zip(bodies).map(|(before, body)| (before, body.generation));
         for (counted, (before, now)) in self.generations_before.iter_mut().zip(generations) {
-            // Of a flight that an impact began it adds but one, which counts with that.
-            *counted = counted.wrapping_add(now.wrapping_sub(*before) & !1);
+            *counted = counted.wrapping_add(flights_between(*before, now));
+        }
+    }
+
+    /// Does not count the flights of a sphere since one of a generation, up to that of another.
+    pub fn pass_over_step(&mut self, slot: u32, [before, now]: [u32; 2]) {
+        if let Some(counted) = self.generations_before.get_mut(slot as usize) {
+            *counted = counted.wrapping_add(flights_between(before, now));
         }
     }
 

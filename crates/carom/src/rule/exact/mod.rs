@@ -56,6 +56,7 @@ use context::StepContext;
 use events::{EventTarget, PackedTarget, UpcomingEvent};
 use frame_work::UNITS_PER_FLIGHT;
 use pair_times::PairSearch;
+use persistent::held_forces;
 
 use crate::id::SphereId;
 use crate::report::{StageCounts, StepReport};
@@ -142,7 +143,11 @@ pub(crate) fn advance(
             None if force_tick < end && force_tick <= tick => {
                 renew_forces(timeline, &mut context, force_tick)?
             }
-            None if tick <= end && tick < force_tick => stepped::tick(timeline, &mut context),
+            None if tick <= end && tick < force_tick => {
+                let now = stepped::tick(timeline, &mut context);
+                predict::restart_companions(timeline, &mut context, now);
+                now
+            }
             None if room_until < end => {
                 look_along::follow(timeline, system);
                 before.count_from_zero(timeline);
@@ -201,6 +206,9 @@ fn happen(
         predict::fall_back(timeline, context, slot, event.time);
         return Ok(event.time);
     }
+    if matches!(event.target.unpacked(), EventTarget::Sphere(_) | EventTarget::Surface(_)) {
+        held_forces::prepare(timeline, context.system, event.time);
+    }
     // Between impacts with a light one a heavy sphere hardly moves.
     let involved = [Some(slot), event.target.slot()];
     let has_moved = |slot: &u32| !timeline.is_unresolved(*slot, event.time);
@@ -228,6 +236,7 @@ fn happen(
             impact::answer_single(timeline, context, slot, None, event.time);
         }
     }
+    predict::restart_companions(timeline, context, event.time);
     if let Some(index) = timeline.flights.lost {
         return Err(Unfinished::NonFiniteForce {
             sphere: context.system.spheres.id[index as usize],

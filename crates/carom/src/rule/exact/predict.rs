@@ -6,6 +6,7 @@ use super::contacts::{MOST_PLANES, Plane};
 use super::context::StepContext;
 use super::events::{Event, EventTarget, NextEvents, PackedTarget, Prediction};
 use super::flights::{Body, Species};
+use super::frame_work::UNITS_PER_FLIGHT;
 use super::pair_times::{NearTest, PairSearch};
 use super::timeline::Timeline;
 use crate::contact_time::{self, Reach};
@@ -27,10 +28,41 @@ pub(crate) struct Unresolved {
 
 /// Predicts what a sphere meets next as of `now` \[s\], and enters it into the schedule.
 pub(super) fn predict(timeline: &mut Timeline, context: &mut StepContext, slot: u32, now: f64) {
-    context.counts.predictions += 1;
     timeline.find_curve(context.system, slot);
+    enter(timeline, context, slot, now);
+    predict_restarted(timeline, context, now);
+}
+
+/// Predicts what spheres meet next whose companions began other flights `now` \[s\], so that they did, too.
+pub(super) fn predict_restarted(timeline: &mut Timeline, context: &mut StepContext, now: f64) {
+    if timeline.restarted.is_empty() {
+        return;
+    }
+    let mut restarted = std::mem::take(&mut timeline.restarted);
+    for &slot in &restarted {
+        timeline.find_clearance(context.system, slot);
+        enter(timeline, context, slot, now);
+    }
+    context.renewed += restarted.len() as u64;
+    context.work.spend(UNITS_PER_FLIGHT * restarted.len() as u64);
+    restarted.clear();
+    timeline.restarted = restarted;
+}
+
+/// Enters what a sphere meets next as of `now` \[s\] into the schedule.
+fn enter(timeline: &mut Timeline, context: &mut StepContext, slot: u32, now: f64) {
+    context.counts.predictions += 1;
     let prediction = prediction(timeline, context.system, slot, &mut context.searches[0], now);
     timeline.enter(slot, prediction);
+}
+
+/// Begins the flights of the companions of spheres that began others `now` \[s\].
+#[inline]
+pub(super) fn restart_companions(timeline: &mut Timeline, context: &mut StepContext, now: f64) {
+    if timeline.flights.are_curved() {
+        timeline.restart_companions(context.system);
+        predict_restarted(timeline, context, now);
+    }
 }
 
 /// Lets a sphere go on to what it meets next, where the other one of a meeting that is due `now` \[s\]
@@ -204,8 +236,7 @@ pub(super) fn restart(timeline: &mut Timeline, context: &mut StepContext, slot: 
 
 /// Begins the next step of the curve of a sphere, where one ends `now` \[s\].
 pub(super) fn next_step(timeline: &mut Timeline, context: &mut StepContext, slot: u32, now: f64) {
-    let (position, velocity) = timeline.flights.state_of(slot, now);
-    timeline.begin_flight(slot, position, velocity, now);
+    timeline.go_on(slot, now);
     timeline.find_curve(context.system, slot);
     timeline.find_clearance(context.system, slot);
     predict(timeline, context, slot, now);

@@ -7,7 +7,7 @@ use super::clearance::{Clearance, Obstacle};
 use super::contact_scale::RESOLVED_PATH;
 use super::contacts::Member;
 use super::events::{Event, NextEvents, PackedTarget, Prediction, Schedule, UpcomingEvent};
-use super::flights::{Flights, Species, StepLimits};
+use super::flights::{Flights, JointStep, Species, StepLimits, Support};
 use super::frame_work::FrameWork;
 use super::neighbours::{NeighbourBuffer, Neighbours};
 use super::ticks::{MOST_ZONE_TICKS, tick_for_frames};
@@ -44,6 +44,8 @@ pub(crate) struct Timeline {
     pub(super) frame: [f64; 2],
     /// Time between two force ticks \[s\].
     pub(super) force_tick: f64,
+    /// The same before springs made it shorter: the work of curves is bounded in each.
+    pub(super) work_tick: f64,
     /// A bound for the rate of motion on springs \[1/s\].
     pub(super) spring_rate: f64,
     /// Until when forces are held as they are, on the world's clock \[s\].
@@ -52,6 +54,8 @@ pub(crate) struct Timeline {
     pub(super) curves_until: f64,
     /// When the next spheres are emitted, on the world's clock \[s\].
     pub(super) next_emission: f64,
+    /// Slots of spheres whose flights began anew as those of companions did, and are not predicted yet.
+    pub(super) restarted: Vec<u32>,
     /// The watch over sensors during a step, where there are some.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) watch: Option<Box<Watch>>,
@@ -69,7 +73,18 @@ impl Timeline {
 
     /// The next force tick, on the world's clock \[s\]; infinite if no force changes with where spheres are.
     pub(super) fn next_force_tick(&self) -> f64 {
-        if self.flights.forces_vary { self.held_until } else { f64::INFINITY }
+        if self.flights.forces_vary && self.holds_forces() {
+            self.held_until
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    /// Whether forces are held on some spheres: on all where none flies on a curve, else on those in persistent
+    /// contact and in zones.
+    pub(super) fn holds_forces(&self) -> bool {
+        let is_free = self.flights.clusters.is_empty() && self.zone.is_empty();
+        !(is_free && self.flights.are_curved())
     }
 
     /// Until when neighbours are known, as radii grow, on the world's clock \[s\].
@@ -152,12 +167,13 @@ impl Timeline {
     }
 
     /// Finds the flight of a sphere from its beginning to the end of a step, if forces without a closed form act on
-    /// it and it is not known yet.
+    /// it and it is not known yet. The companions of its component begin theirs anew.
     #[inline]
     pub(super) fn find_curve(&mut self, system: &System, slot: u32) {
-        if self.flights.are_curved() && self.flights.is_unknown(slot) {
-            let curve = self.flights.step_from_start(system, slot, self.step_limits());
-            self.flights.set_curve(slot, curve);
+        if self.flights.are_curved()
+            && let Some(number) = self.flights.unknown_component_of(slot)
+        {
+            self.take_step(system, number);
         }
     }
 
@@ -172,15 +188,83 @@ impl Timeline {
         }
     }
 
-    fn step_limits(&self) -> StepLimits {
-        StepLimits { until: self.curves_until, tick: self.parameters.force_tick }
+    /// Begins the flights anew of the components of which one did, and lists them as `restarted`.
+    #[inline]
+    pub(super) fn restart_companions(&mut self, system: &System) {
+        while let Some(number) = self.flights.components.next_due() {
+            self.take_step(system, number);
+        }
+    }
+
+    /// Takes the next step of a component, by its number, from where its spheres are when the last of their flights
+    /// begins.
+    #[inline(never)]
+    fn take_step(&mut self, system: &System, number: u32) {
+        let members = self.flights.components.get(number).members.clone();
+        let slots: Vec<u32> =
+            members.iter().map(|&index| self.flights.slot_of[index as usize]).collect();
+        let begun = |&slot: &u32| self.flights.bodies[slot as usize].time;
+        let now = slots.iter().map(begun).fold(f64::NEG_INFINITY, f64::max);
+        for &slot in &slots {
+            if self.flights.curve_of(slot).is_some() {
+                self.go_on(slot, now);
+                self.restarted.push(slot);
+            }
+        }
+        let given = slots.iter().filter(|&&slot| !self.flights.species_of(slot).is_curved);
+        let ends = given.map(|&slot| self.flight_end(slot, self.flights.species_of(slot)));
+        let until = ends.fold(self.curves_until, f64::min);
+        let is_rough = self.flights.components.begin_step(number, (now / self.work_tick).floor());
+        let tick = match self.spring_rate > 0.0 {
+            true => self.force_tick,
+            false => self.parameters.force_tick,
+        };
+        let limits = StepLimits { until, tick, is_rough };
+        let JointStep { curves, evaluations } =
+            self.flights.step_from_start(system, number, limits);
+        curves.into_iter().for_each(|(slot, curve)| self.flights.set_curve(slot, curve));
+        self.flights.components.charge(number, evaluations);
+    }
+
+    /// Begins another flight of a sphere, which goes on from where it is at `time` \[s\]: no work of events.
+    pub(super) fn go_on(&mut self, slot: u32, time: f64) {
+        let (position, velocity) = self.flights.state_of(slot, time);
+        let body = &mut self.flights.bodies[slot as usize];
+        let before = body.generation;
+        body.begin_flight(position, velocity, time);
+        self.work.pass_over_step(slot, [before, body.generation]);
+        self.note_flight(slot);
+        self.wrap(slot);
     }
 
     /// Begins another flight of a sphere from this state at `time` \[s\].
     pub(super) fn begin_flight(&mut self, slot: u32, position: DVec3, velocity: DVec3, time: f64) {
+        let rest = match self.flights.has_companions(slot) {
+            true => self.flights.rest_of_step(slot, [position, velocity], time),
+            false => None,
+        };
         self.flights.bodies[slot as usize].begin_flight(position, velocity, time);
+        match rest {
+            // Companions need not know of it.
+            Some(rest) => self.flights.set_rest_of_step(slot, rest),
+            None => self.note_for_companions(slot),
+        }
         self.note_flight(slot);
         self.wrap(slot);
+    }
+
+    /// Notes for the companions of a sphere that they have to begin their flights anew.
+    #[inline]
+    pub(super) fn note_for_companions(&mut self, slot: u32) {
+        if self.flights.are_curved() {
+            self.flights.components.note(self.flights.index_of[slot as usize]);
+        }
+    }
+
+    /// Makes spheres that are free a cluster from `time` \[s\] on.
+    pub(super) fn set_supported(&mut self, support: Support, time: f64) {
+        support.members.iter().for_each(|member| self.note_for_companions(member.slot));
+        self.flights.set_supported(support, time);
     }
 
     /// Notes for sensors that a sphere begins another flight.
@@ -222,6 +306,7 @@ impl Timeline {
         self.set_free(slot, time);
         let position = self.neighbours.wrapped(position);
         self.flights.bodies[slot as usize].begin_flight(position, velocity, time);
+        self.note_for_companions(slot);
         self.cross_cell(slot, [position, velocity], &mut NeighbourBuffer::default());
         self.wrap(slot);
     }

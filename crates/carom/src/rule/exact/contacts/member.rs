@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::flight::Flight;
 use crate::rule::exact::contact_scale::ContactScale;
-use crate::rule::exact::flights::{Flights, FreeField, Species};
+use crate::rule::exact::flights::{Flights, Species};
 use crate::system::System;
 
 /// A sphere of a group.
@@ -41,8 +41,7 @@ impl Member {
         if !flights.are_curved() || !self.species.is_curved {
             return;
         }
-        let field = FreeField::of(system, self.index as usize);
-        let acceleration = field.acceleration_at(time, self.position, self.velocity);
+        let acceleration = flights.acceleration_of(system, self.slot, self.state(), time);
         // Drag in closed form is no part of the acceleration of a species.
         self.species.acceleration = acceleration + self.species.drag_rate * self.velocity;
     }

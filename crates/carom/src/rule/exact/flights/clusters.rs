@@ -87,6 +87,11 @@ impl Clusters {
         }
     }
 
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.clusters.len() == self.free.len()
+    }
+
     /// The clusters that there are.
     pub fn iter(&self) -> impl Iterator<Item = &Cluster> {
         self.clusters.iter().filter(|cluster| !cluster.members.is_empty())

@@ -3,6 +3,9 @@
 use crate::integrate::gauss_radau::Pace;
 use crate::polynomial_flight::PolynomialAcceleration;
 
+/// A step tells nothing of what follows for more than so many times its length.
+const LONGEST_GUESS: f64 = 64.0;
+
 /// One step of the flight of a sphere.
 #[derive(Debug, Clone, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -16,8 +19,18 @@ pub(super) struct CurveStep {
     pub acceleration: PolynomialAcceleration,
     /// When it ends, on the world's clock \[s\].
     pub end: f64,
+    /// Whether forces go on there as they are; else a spring changes how it acts.
+    pub is_smooth: bool,
     /// What is to be expected of the step after it.
     pub pace: Pace,
+}
+
+impl CurveStep {
+    /// Whether what follows at a time \[s\] is likely to go on as the step does.
+    pub fn leads_to(&self, time: f64) -> bool {
+        let is_long = self.pace.trial <= LONGEST_GUESS * self.acceleration.length;
+        self.end == time && self.is_smooth && is_long
+    }
 }
 
 impl Curve {

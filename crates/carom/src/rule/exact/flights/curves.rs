@@ -3,14 +3,17 @@
 use glam::DVec3;
 
 use super::body::Body;
+use super::components::{Component, PlacedSpring};
 use super::curve::{Curve, CurveStep};
 use super::species::Species;
 use super::state::Flights;
+use super::tie::{Tie, TieEnd, TiePath};
 use crate::contact_time::{PolynomialTrack, Track};
-use crate::forces::{self, Force, SphereState};
-use crate::integrate::gauss_radau::{self, Field, Pace, Start, Values};
+use crate::forces::{self, Force, SphereState, SpringEnd};
+use crate::integrate::gauss_radau::{self, Field, Pace, Start, Step, Values};
 use crate::norm::Norm;
 use crate::polynomial_flight::{PolynomialAcceleration, PolynomialFlight};
+use crate::settings::nearest_image;
 use crate::system::System;
 
 /// Where forces are steady, a step is no longer than so many times the time in which a sphere moves by its
@@ -24,6 +27,16 @@ pub(crate) struct StepLimits {
     pub until: f64,
     /// How long they are at most where nothing can be said of a force \[s\].
     pub tick: f64,
+    /// Whether a step is as long as that, whatever its error, and changes of springs come within it.
+    pub is_rough: bool,
+}
+
+/// Steps of the spheres of a component that nothing bears.
+pub(crate) struct JointStep {
+    /// Of each sphere, by slot.
+    pub curves: Vec<(u32, Curve)>,
+    /// How often the forces on a sphere were evaluated.
+    pub evaluations: u64,
 }
 
 impl Flights {
@@ -51,10 +64,21 @@ impl Flights {
         step.filter(|step| step.generation == body.generation)
     }
 
-    /// Whether the flight of a sphere has to be found before it can be predicted.
-    pub fn is_unknown(&self, slot: u32) -> bool {
+    /// The component of a sphere, by its number, if its step has to be found before the sphere can be predicted.
+    pub fn unknown_component_of(&self, slot: u32) -> Option<u32> {
         let body = &self.bodies[slot as usize];
-        self.species[body.species as usize].is_curved && self.step_of(slot, body).is_none()
+        if !self.species[body.species as usize].is_curved {
+            return None;
+        }
+        let number = self.components.of_sphere(self.index_of[slot as usize])?;
+        let is_known = self.step_of(slot, body).is_some() && !self.components.is_due(number);
+        (!is_known).then_some(number)
+    }
+
+    /// Whether a sphere takes its steps together with others.
+    #[inline]
+    pub fn has_companions(&self, slot: u32) -> bool {
+        self.are_curved() && self.components.has_companions(self.index_of[slot as usize])
     }
 
     /// Centre \[m\] and velocity \[m/s\] of a sphere on a curve at `time` \[s\].
@@ -94,36 +118,113 @@ impl Flights {
         }
     }
 
-    /// The step of a sphere from the beginning of its flight on.
-    pub fn step_from_start(&self, system: &System, slot: u32, limits: StepLimits) -> Curve {
-        let body = &self.bodies[slot as usize];
-        let index = self.index_of[slot as usize] as usize;
-        let before = self.curves[index].0.as_ref();
-        let mut field = FreeField::of(system, index);
-        let (positions, velocities) = ([body.position], [body.velocity]);
-        let acceleration = field.acceleration_at(body.time, body.position, body.velocity);
-        let brief = time_of_a_radius(system.spheres.radius[index], body.velocity, acceleration);
-        let brief = if brief.is_finite() && brief > 0.0 { brief } else { limits.tick };
+    /// Without the forces of its contacts, the acceleration \[m/s²\] of the sphere at a slot at `time` \[s\] in this state
+    /// \[m\], \[m/s\], the others being where they are.
+    pub fn acceleration_of(
+        &self,
+        system: &System,
+        slot: u32,
+        [position, velocity]: [DVec3; 2],
+        time: f64,
+    ) -> DVec3 {
+        let index = self.index_of[slot as usize];
+        let field = FreeField::of(system, index as usize);
+        let alone = field.acceleration_and_size(time, position, velocity).0;
+        let Some(number) = self.components.of_sphere(index) else { return alone };
+        let Component { members, springs, .. } = self.components.get(number);
+        let state_of = |place: u32| match members[place as usize] {
+            this if this == index => [position, velocity],
+            other => self.state_of(self.slot_of[other as usize], time).into(),
+        };
+        let period = system.settings.boundary.period();
+        springs.iter().fold(alone, |sum, placed| {
+            let ends = [Some(placed.first), placed.second];
+            let is_at = |end: Option<u32>| end.is_some_and(|it| members[it as usize] == index);
+            if !ends.into_iter().any(is_at) {
+                return sum;
+            }
+            let states = [state_of(placed.first), placed.state_of_second(state_of)];
+            let [[from, velocity], [to, other]] = states;
+            let offset = nearest_image(to - from, period);
+            let sign = if is_at(ends[0]) { 1.0 } else { -1.0 };
+            sum + sign * placed.spring.pull(offset, other - velocity) / field.mass
+        })
+    }
+
+    /// The step of a component, by its number, from the beginning of the flights of its members on.
+    pub fn step_from_start(&self, system: &System, number: u32, limits: StepLimits) -> JointStep {
+        let component = self.components.get(number);
+        let mut field = JointField::of(system, self, component);
+        let slots = std::mem::take(&mut field.flying);
+        let Some(&first) = slots.first() else {
+            return JointStep { curves: Vec::new(), evaluations: 0 };
+        };
+        let bodies: Vec<&Body> = slots.iter().map(|&slot| &self.bodies[slot as usize]).collect();
+        let positions: Vec<DVec3> = bodies.iter().map(|body| body.position).collect();
+        let velocities: Vec<DVec3> = bodies.iter().map(|body| body.velocity).collect();
+        let time = self.bodies[first as usize].time;
+        field.begin(component, [&positions, &velocities], time);
+        if limits.is_rough {
+            field.ties.iter_mut().for_each(|tie| *tie = tie.with_changes());
+        }
+        let brief = field.brief([&positions, &velocities], time).unwrap_or(limits.tick);
         let start = Start {
             positions: &positions,
             velocities: &velocities,
-            time: body.time,
+            time,
             until: limits.until,
             steady: STEADY_RADII * brief,
             rough: limits.tick,
         };
-        let pace = before.map_or(Pace::of(brief), |step| step.pace);
+        let before: Option<Vec<&CurveStep>> =
+            slots.iter().map(|&slot| self.last_step(slot)).collect();
+        let paces = before.iter().flatten().map(|step| step.pace);
+        let shorter = |a: Pace, b: Pace| if b.trial < a.trial { b } else { a };
+        let mut pace = paces.reduce(shorter).unwrap_or(Pace::of(brief));
+        if limits.is_rough {
+            pace = Pace { trial: pace.trial.max(limits.tick), shortest: limits.tick };
+        }
         // What was before is the beginning of what comes only if no event was between.
-        let continues = before.filter(|step| step.end == body.time);
-        let before = continues.map(|step| [step.acceleration]);
-        let before = before.as_ref().map(|it| &it[..]);
-        let step = gauss_radau::step(&start, before, pace, &mut field);
-        Curve(Some(CurveStep {
+        let continues = before.filter(|steps| steps.iter().all(|step| step.leads_to(time)));
+        let before: Option<Vec<PolynomialAcceleration>> =
+            continues.map(|steps| steps.iter().map(|step| step.acceleration).collect());
+        let step = gauss_radau::step(&start, before.as_deref(), pace, &mut field);
+        let change = field.first_change(&start, &step);
+        let end =
+            change.map_or(step.end, |change| (time + change).max(time.next_up()).min(step.end));
+        let curve_of = |(body, acceleration): (&&Body, PolynomialAcceleration)| CurveStep {
             generation: body.generation,
-            acceleration: step.accelerations[0],
-            end: step.end,
+            acceleration,
+            end,
+            is_smooth: change.is_none(),
             pace: step.pace,
-        }))
+        };
+        let steps = bodies.iter().zip(step.accelerations).map(curve_of);
+        let curves = slots.iter().copied().zip(steps.map(|step| Curve(Some(step)))).collect();
+        JointStep { curves, evaluations: field.evaluations }
+    }
+
+    /// The last step of a sphere on a curve, whatever came after it.
+    fn last_step(&self, slot: u32) -> Option<&CurveStep> {
+        self.curves[self.index_of[slot as usize] as usize].0.as_ref()
+    }
+
+    /// What is left of the step of a sphere that begins another flight at `time` \[s\] in this state \[m\], \[m/s\], if
+    /// that is the one that it has there.
+    pub fn rest_of_step(&self, slot: u32, state: [DVec3; 2], time: f64) -> Option<Curve> {
+        let body = &self.bodies[slot as usize];
+        let step = self.step_of(slot, body).filter(|step| time < step.end)?;
+        let goes_on = <[DVec3; 2]>::from(self.state_on_curve(slot, time)) == state;
+        let acceleration = step.acceleration.from(time - body.time);
+        goes_on.then(|| Curve(Some(CurveStep { acceleration, ..step.clone() })))
+    }
+
+    /// Lets a sphere go on along the rest of a step, in the flight that it has begun.
+    pub fn set_rest_of_step(&mut self, slot: u32, mut rest: Curve) {
+        if let Some(step) = &mut rest.0 {
+            step.generation = self.bodies[slot as usize].generation;
+        }
+        self.curves[self.index_of[slot as usize] as usize] = rest;
     }
 
     /// Puts the step of a sphere in its place. One whose forces are not finite is noted as lost.
@@ -172,11 +273,6 @@ impl<'a> FreeField<'a> {
         }
     }
 
-    /// Acceleration \[m/s²\] at a time \[s\] of the sphere at a place \[m\] with a velocity \[m/s\].
-    pub fn acceleration_at(&self, time: f64, position: DVec3, velocity: DVec3) -> DVec3 {
-        self.acceleration_and_size(time, position, velocity).0
-    }
-
     fn acceleration_and_size(&self, time: f64, position: DVec3, velocity: DVec3) -> (DVec3, f64) {
         let Self { uniform, drag_rate, radius, mass, .. } = *self;
         let state = SphereState { position, velocity, radius, mass };
@@ -188,9 +284,146 @@ impl<'a> FreeField<'a> {
     }
 }
 
-impl Field for FreeField<'_> {
+/// The forces on the spheres of a component that nothing bears.
+struct JointField<'a> {
+    flights: &'a Flights,
+    /// Slots of the spheres that it acts on.
+    flying: Vec<u32>,
+    /// What acts on each by itself.
+    alone: Vec<FreeField<'a>>,
+    /// Slots of the others, which move as they do.
+    others: Vec<u32>,
+    /// By place among the members, that in `flying` and then `others`.
+    place_of: Vec<usize>,
+    /// Spheres at their ends are by those places.
+    ties: Vec<Tie<'a>>,
+    period: DVec3,
+    /// How often the forces on a sphere were evaluated.
+    evaluations: u64,
+}
+
+impl<'a> JointField<'a> {
+    /// Without its ties.
+    fn of(system: &System<'a>, flights: &'a Flights, component: &Component) -> Self {
+        let slot_of = |&index: &u32| flights.slot_of[index as usize];
+        let slots: Vec<u32> = component.members.iter().map(slot_of).collect();
+        let flies = |slot: &u32| flights.species_of(*slot).is_curved;
+        let (flying, others): (Vec<u32>, Vec<u32>) = slots.iter().partition(|slot| flies(slot));
+        let (mut next, mut next_other) = (0, flying.len());
+        let place = |slot| {
+            let place = if flies(slot) { &mut next } else { &mut next_other };
+            *place += 1;
+            *place - 1
+        };
+        let place_of = slots.iter().map(place).collect();
+        let field = |&slot: &u32| FreeField::of(system, flights.index_of[slot as usize] as usize);
+        Self {
+            flights,
+            alone: flying.iter().map(field).collect(),
+            flying,
+            others,
+            place_of,
+            ties: Vec::new(),
+            period: system.settings.boundary.period(),
+            evaluations: 0,
+        }
+    }
+
+    /// Begins a step with the spheres in these states \[m\], \[m/s\] at a time \[s\].
+    fn begin(&mut self, component: &'a Component, states: [&[DVec3]; 2], time: f64) {
+        let tie = |placed: &'a PlacedSpring| {
+            let first = self.place_of[placed.first as usize];
+            let second = match (placed.second, placed.spring.to) {
+                (Some(second), _) => TieEnd::Sphere(self.place_of[second as usize]),
+                (None, SpringEnd::Point(point)) => TieEnd::Point(point),
+                (None, SpringEnd::Sphere(_)) => return None,
+            };
+            let ends = [self.state_of(first, states, time), self.state_at(second, states, time)];
+            Some(Tie::begin(&placed.spring, (first, second), ends, self.period))
+        };
+        self.ties = component.springs.iter().filter_map(tie).collect();
+    }
+
+    /// Centre \[m\] and velocity \[m/s\] of the sphere at a place.
+    fn state_of(
+        &self,
+        place: usize,
+        [positions, velocities]: [&[DVec3]; 2],
+        time: f64,
+    ) -> [DVec3; 2] {
+        match self.others.get(place.wrapping_sub(positions.len())) {
+            Some(&other) => self.flights.state_of(other, time).into(),
+            None => [positions[place], velocities[place]],
+        }
+    }
+
+    /// The same of the second end of a tie.
+    fn state_at(&self, end: TieEnd, states: [&[DVec3]; 2], time: f64) -> [DVec3; 2] {
+        match end {
+            TieEnd::Sphere(place) => self.state_of(place, states, time),
+            TieEnd::Point(point) => [point, DVec3::ZERO],
+        }
+    }
+
+    /// The shortest time in which one of its spheres moves by its radius \[s\]; `None` if none does.
+    fn brief(&mut self, [positions, velocities]: [&[DVec3]; 2], time: f64) -> Option<f64> {
+        let mut values = Values::of(positions.len());
+        self.evaluate(time, positions, velocities, &mut values);
+        let of_each = self.alone.iter().zip(velocities).zip(values.accelerations);
+        let times = of_each.map(|((alone, &velocity), acceleration)| {
+            time_of_a_radius(alone.radius, velocity, acceleration)
+        });
+        times.reduce(f64::min).filter(|time| time.is_finite() && *time > 0.0)
+    }
+
+    /// When a spring changes how it acts in a step, from its start \[s\]; `None` if none does.
+    fn first_change(&self, start: &Start, step: &Step) -> Option<f64> {
+        let path = |place: usize| match self.others.get(place.wrapping_sub(self.alone.len())) {
+            Some(&other) => {
+                let body = &self.flights.bodies[other as usize];
+                TiePath::Flight(body.flight_from(self.flights.species_of(other), start.time))
+            }
+            None => TiePath::Polynomial(PolynomialFlight {
+                position: start.positions[place],
+                velocity: start.velocities[place],
+                acceleration: step.accelerations[place],
+            }),
+        };
+        let changes = self.ties.iter().filter_map(|tie| {
+            let second = match tie.second {
+                TieEnd::Sphere(place) => path(place),
+                TieEnd::Point(point) => TiePath::Point(point),
+            };
+            tie.change([path(tie.first), second], self.period, step.end - start.time)
+        });
+        changes.reduce(f64::min)
+    }
+}
+
+impl Field for JointField<'_> {
     fn evaluate(&mut self, time: f64, positions: &[DVec3], velocities: &[DVec3], at: &mut Values) {
-        let (acceleration, size) = self.acceleration_and_size(time, positions[0], velocities[0]);
-        (at.accelerations[0], at.sizes[0]) = (acceleration, size);
+        self.evaluations += self.alone.len() as u64;
+        for (place, alone) in self.alone.iter().enumerate() {
+            let (position, velocity) = (positions[place], velocities[place]);
+            let (acceleration, size) = alone.acceleration_and_size(time, position, velocity);
+            (at.accelerations[place], at.sizes[place]) = (acceleration, size);
+        }
+        let states = [positions, velocities];
+        for tie in &self.ties {
+            let [from, velocity] = self.state_of(tie.first, states, time);
+            let [to, other] = self.state_at(tie.second, states, time);
+            let pull = tie.pull([from, to], [velocity, other]);
+            let second = match tie.second {
+                TieEnd::Sphere(place) => Some((place, -pull)),
+                TieEnd::Point(_) => None,
+            };
+            for (place, force) in [(tie.first, pull)].into_iter().chain(second) {
+                if let Some(alone) = self.alone.get(place) {
+                    let own = force / alone.mass;
+                    at.accelerations[place] += own;
+                    at.sizes[place] += own.norm();
+                }
+            }
+        }
     }
 }

@@ -3,6 +3,7 @@
 mod at_time;
 mod body;
 mod clusters;
+mod components;
 mod contact_work;
 mod curve;
 mod curves;
@@ -12,12 +13,13 @@ mod radii;
 mod rotation;
 mod species;
 mod state;
+mod tie;
 
 pub(super) use at_time::{first_lost, write_motion};
 pub(super) use body::Body;
 pub(super) use clusters::{Cluster, Support, Supported};
 pub(super) use contact_work::ContactWork;
-pub(super) use curves::{FreeField, StepLimits};
+pub(super) use curves::{JointStep, StepLimits};
 pub(super) use growth::Growth;
 pub(super) use lanes::FlightLanes;
 pub(super) use rotation::{Rotation, write_spin};

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::contact_work::ContactWork;
-use crate::forces;
+use crate::forces::{self, Spring};
 use crate::system::System;
 
 /// Radii within this factor share a level.
@@ -80,6 +80,7 @@ impl SpeciesOfSpheres {
         let levels = levels_of(&spheres.radius);
         let mut forces_vary = system.has_interactions();
         let has_own_forces = !spheres.applied_force.is_empty() || forces_vary;
+        let is_on_spring = on_springs(system);
         let mut species: Vec<Species> = Vec::new();
         let mut known = BTreeMap::new();
         let mut number_of = Vec::with_capacity(levels.len());
@@ -107,7 +108,7 @@ impl SpeciesOfSpheres {
                     contact_work: ContactWork::None,
                     free: number,
                     is_stepped: false,
-                    is_curved: !is_all && !system.has_interactions(),
+                    is_curved: (!is_all || is_on_spring[index]) && !system.couples_all(),
                 });
             }
             number_of.push(number);
@@ -115,6 +116,18 @@ impl SpeciesOfSpheres {
         let hold_forces = has_own_forces || forces_vary;
         Self { species, number_of, hold_forces, forces_vary }
     }
+}
+
+/// Whether each sphere, by index, is at an end of a spring.
+fn on_springs(system: &System) -> Vec<bool> {
+    let ids = &system.spheres.id;
+    let mut is_on_spring = vec![false; ids.len()];
+    for id in system.springs().flat_map(Spring::spheres) {
+        if let Ok(index) = ids.binary_search(&id) {
+            is_on_spring[index] = true;
+        }
+    }
+    is_on_spring
 }
 
 /// Level of each radius, from 0 for the largest, with no empty level between.

@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::body::Body;
 use super::clusters::{Cluster, Clusters, Support, Supported};
+use super::components::Components;
 use super::contact_work::{ContactWork, WorkDone};
 use super::curve::Curve;
 use super::growth::Growth;
@@ -35,6 +36,8 @@ pub(crate) struct Flights {
     pub rotations: Vec<Rotation>,
     /// By index, the curves of spheres whose flights are such; empty where none is.
     pub curves: Vec<Curve>,
+    /// Which of them take their steps together.
+    pub components: Components,
     /// How radii grow; `None` where none does.
     pub growth: Option<Growth>,
     /// A sphere, by index, on which a force was not finite.
@@ -59,6 +62,8 @@ impl Flights {
             SpeciesOfSpheres::of(system);
         let count = number_of.len();
         let are_curved = species.iter().any(|species| species.is_curved);
+        let components =
+            Components::of(system, |index| species[number_of[index] as usize].is_curved);
         let period = system.settings.boundary.period();
         let body = |index: usize| {
             let position = periodic::wrapped(motion.position[index], period);
@@ -78,6 +83,7 @@ impl Flights {
             clusters: Clusters::default(),
             rotations: Vec::new(),
             curves: if are_curved { vec![Curve::default(); count] } else { Vec::new() },
+            components,
             growth: None,
             lost: None,
             hold_forces,

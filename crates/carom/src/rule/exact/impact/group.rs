@@ -89,6 +89,8 @@ pub(super) fn answer(
     let held: Vec<Bodies> =
         supports.iter().flat_map(|support| &support.contacts).copied().collect();
     begin_flights(timeline, &group, &struck, supports);
+    // All flights before any prediction.
+    group.members.iter().for_each(|member| timeline.find_curve(context.system, member.slot));
     for member in &group.members {
         predict::predict(timeline, context, member.slot, group.time);
     }
@@ -446,5 +448,5 @@ fn begin_flights(
     for index in struck.iter().flat_map(|bodies| bodies.spheres()) {
         timeline.flights.bodies[timeline.flights.slot_of[index as usize] as usize].strike();
     }
-    supports.into_iter().for_each(|support| timeline.flights.set_supported(support, group.time));
+    supports.into_iter().for_each(|support| timeline.set_supported(support, group.time));
 }

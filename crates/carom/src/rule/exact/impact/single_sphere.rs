@@ -65,7 +65,7 @@ pub(crate) fn answer_single(
         let contacts = lasting.map(|surface| Bodies::Surface { sphere, surface }).collect();
         let members = vec![planar.supported(slot)];
         let support = Support { members, contacts, renewal: time + valid_for };
-        timeline.flights.set_supported(support, time);
+        timeline.set_supported(support, time);
     }
     predict::predict(timeline, context, slot, time);
     let is_answered = |timeline: &Timeline, surface: u32| {

@@ -27,6 +27,22 @@ fn held_until(timeline: &Timeline, system: &System, now: f64) -> f64 {
     others.into_iter().filter(|&other| other > now).fold(next_tick, f64::min)
 }
 
+/// Begins to count force ticks at an event at `now` \[s\], where no forces were held up to now.
+#[inline]
+pub(crate) fn prepare(timeline: &mut Timeline, system: &System, now: f64) {
+    if timeline.flights.are_curved() && timeline.held_until <= now && !timeline.holds_forces() {
+        timeline.held_until = held_until(timeline, system, now);
+    }
+}
+
+/// Finds the forces between spheres at `now` \[s\] for a zone that begins, where none are held on free ones.
+pub(crate) fn prepare_zone(timeline: &mut Timeline, system: &System, now: f64) {
+    prepare(timeline, system, now);
+    if timeline.flights.are_curved() && timeline.zone.is_empty() {
+        timeline.zone.held_forces = forces_between(timeline, system, [now, timeline.held_until]);
+    }
+}
+
 /// Begins a new flight `now` \[s\] of every sphere whose forces are held: of those in persistent contact, and of all
 /// others if none flies on a curve. Returns their slots.
 ///
@@ -39,7 +55,10 @@ fn held_until(timeline: &Timeline, system: &System, now: f64) -> f64 {
 pub(crate) fn renew(timeline: &mut Timeline, system: &System, start: f64) -> Vec<u32> {
     let end = held_until(timeline, system, start);
     timeline.held_until = end;
-    let between = forces_between(timeline, system, [start, end]);
+    let between = match timeline.holds_forces() {
+        true => forces_between(timeline, system, [start, end]),
+        false => Vec::new(),
+    };
     timeline.zone.held_forces.clone_from(&between);
     let are_curved = timeline.flights.are_curved();
     // Forces applied over a frame are others in each.
@@ -50,8 +69,7 @@ pub(crate) fn renew(timeline: &mut Timeline, system: &System, start: f64) -> Vec
         let is_free = timeline.flights.species_of(slot).cluster.is_none();
         if are_curved && is_free && !timeline.flights.is_stepped(slot) {
             if are_restarted {
-                let (position, velocity) = timeline.flights.state_of(slot, start);
-                timeline.begin_flight(slot, position, velocity, start);
+                begin_free(timeline, system, slot, start);
                 renewed.push(slot);
             }
             continue;
@@ -76,6 +94,19 @@ pub(crate) fn renew(timeline: &mut Timeline, system: &System, start: f64) -> Vec
         renewed.push(slot);
     }
     renewed
+}
+
+/// Begins the flight of a sphere that nothing bears at `start` \[s\], where forces are applied that are others now.
+fn begin_free(timeline: &mut Timeline, system: &System, slot: u32, start: f64) {
+    let species = *timeline.flights.species_of(slot);
+    let (position, velocity) = timeline.flights.state_of(slot, start);
+    if !species.is_curved {
+        let index = timeline.flights.index_of[slot as usize] as usize;
+        let applied = system.spheres.applied_acceleration(index).unwrap_or(DVec3::ZERO);
+        let (linear, _) = forces::total_linear(system.forces, species.radius, species.mass);
+        timeline.flights.set_free_acceleration(slot, linear.acceleration + applied);
+    }
+    timeline.begin_flight(slot, position, velocity, start);
 }
 
 /// The forces between spheres in the middle of an interval \[N\], by index; empty where there are none.

@@ -7,6 +7,7 @@ use crate::norm::Norm;
 use crate::rule::contact::{self, Passage};
 use crate::rule::exact::contacts::{self, Group};
 use crate::rule::exact::context::StepContext;
+use crate::rule::exact::persistent::held_forces;
 use crate::rule::exact::predict;
 use crate::rule::exact::timeline::Timeline;
 
@@ -21,6 +22,7 @@ pub(crate) fn make_zone(timeline: &mut Timeline, context: &mut StepContext, grou
     };
     for member in &group.members {
         let state = [member.position, member.velocity];
+        let common = common.filter(|_| !is_on_spring(timeline, member.slot));
         join(timeline, context, member.slot, (state, common), group.time);
         timeline.flights.rotate(member.slot, [member.angular_velocity, DVec3::ZERO], group.time);
     }
@@ -62,10 +64,18 @@ pub(crate) fn meet(timeline: &mut Timeline, context: &mut StepContext, slots: [u
     };
     let states: Vec<_> = coming.iter().map(|&slot| timeline.flights.state_of(slot, time)).collect();
     for (&slot, state) in coming.iter().zip(states) {
-        let common = without_closing(timeline, context, (slot, state.0), velocity, time);
-        join(timeline, context, slot, (state.into(), Some(common)), time);
+        let common = match is_on_spring(timeline, slot) {
+            true => None,
+            false => Some(without_closing(timeline, context, (slot, state.0), velocity, time)),
+        };
+        join(timeline, context, slot, (state.into(), common), time);
     }
     predict_joined(timeline, context, coming.into_iter(), time);
+}
+
+/// Whether a spring pulls a sphere. Within a tick it goes its own way then: a stiff one would do much work on another.
+fn is_on_spring(timeline: &Timeline, slot: u32) -> bool {
+    timeline.flights.components.have_springs(timeline.flights.index_of[slot as usize])
 }
 
 /// Returns a velocity \[m/s\] without the part that would take a sphere with this centre \[m\] into surfaces
@@ -142,6 +152,11 @@ fn join(
     time: f64,
 ) {
     let [position, velocity] = state;
+    held_forces::prepare_zone(timeline, context.system, time);
+    if timeline.flights.species_of(slot).is_curved {
+        let species = timeline.flights.free_species_at(slot, time);
+        timeline.flights.set_free_acceleration(slot, species.acceleration);
+    }
     timeline.set_free(slot, time);
     let index = timeline.flights.index_of[slot as usize];
     let tick = [context.parameters.zone_tick, timeline.spring_rate];
@@ -155,6 +170,7 @@ fn join(
     let mean = in_front(timeline, context, slot, [position, mean], time);
     timeline.flights.enter_zone(slot, [position, mean], time);
     timeline.note_flight(slot);
+    timeline.note_for_companions(slot);
     context.report.zone_account.joined += 1;
 }
 

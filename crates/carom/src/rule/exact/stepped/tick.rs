@@ -185,6 +185,7 @@ fn leave(
     }
     timeline.flights.leave_zone(slot, [position, velocity], now);
     timeline.note_flight(slot);
+    timeline.note_for_companions(slot);
     timeline.wrap(slot);
     timeline.flights.let_go(slot, now);
     predict::predict(timeline, context, slot, now);

@@ -1,0 +1,169 @@
+//! Components: spheres on curves that springs connect, whose steps are taken together.
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+
+use crate::connected::Connected;
+use crate::forces::{Spring, SpringEnd};
+use crate::system::System;
+
+/// How often the forces on a sphere of a component may be evaluated in a tick, summed over its spheres: so often, or so
+/// often for each. What takes more is taken in rough steps to the end of the tick.
+const MOST_EVALUATIONS: u64 = 1 << 16;
+const MOST_FOR_EACH: u64 = 1 << 8;
+
+/// A sphere that is in no component.
+const NONE: u32 = u32::MAX;
+
+/// Spheres that springs connect, directly or through others; one alone if it has none, or to fixed points only.
+#[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct Component {
+    /// By index, ascending.
+    pub members: Vec<u32>,
+    /// In the order in which they entered the world.
+    pub springs: Vec<PlacedSpring>,
+    /// Whether the flight of a member began anew since the last step.
+    is_due: bool,
+    /// The number of the tick of the last step.
+    tick: f64,
+    /// Evaluations of the forces on a sphere in this tick.
+    evaluations: u64,
+}
+
+/// A spring, with the places of its ends among the members.
+#[derive(Debug, Clone, Copy)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct PlacedSpring {
+    pub spring: Spring,
+    pub first: u32,
+    /// `None` at a fixed point.
+    pub second: Option<u32>,
+}
+
+impl PlacedSpring {
+    /// Place \[m\] and velocity \[m/s\] of its second end, where `state_of` tells those of a sphere by its place.
+    pub fn state_of_second(&self, state_of: impl Fn(u32) -> [DVec3; 2]) -> [DVec3; 2] {
+        match (self.second, self.spring.to) {
+            (Some(place), _) => state_of(place),
+            (None, SpringEnd::Point(point)) => [point, DVec3::ZERO],
+            (None, SpringEnd::Sphere(_)) => state_of(self.first),
+        }
+    }
+}
+
+/// The components of all spheres that fly on curves when nothing bears them.
+#[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct Components {
+    /// By index of the sphere, the number of its component.
+    of_spheres: Vec<u32>,
+    components: Vec<Component>,
+    /// Numbers of those that are due.
+    due: Vec<u32>,
+}
+
+impl Components {
+    /// Those of the spheres on curves, as `is_curved` tells of an index.
+    pub fn of(system: &System, is_curved: impl Fn(usize) -> bool) -> Self {
+        let ids = &system.spheres.id;
+        let place = |id| ids.binary_search(&id).ok();
+        let springs: Vec<(Spring, usize, Option<usize>)> = system
+            .springs()
+            .filter_map(|spring| {
+                let second = match spring.to {
+                    SpringEnd::Sphere(id) => Some(place(id)?),
+                    SpringEnd::Point(_) => None,
+                };
+                Some((*spring, place(spring.sphere)?, second))
+            })
+            .collect();
+        let mut connected = Connected::new(ids.len());
+        for &(_, first, second) in &springs {
+            connected.join(first, second.unwrap_or(first));
+        }
+        let mut components: BTreeMap<usize, Component> = BTreeMap::new();
+        let mut place_of = vec![NONE; ids.len()];
+        for index in (0..ids.len()).filter(|&index| is_curved(index)) {
+            let component = components.entry(connected.root_of(index)).or_default();
+            place_of[index] = component.members.len() as u32;
+            component.members.push(index as u32);
+        }
+        for (spring, first, second) in springs {
+            if let Some(component) = components.get_mut(&connected.root_of(first)) {
+                let [first, second] = [Some(first), second].map(|it| it.map(|it| place_of[it]));
+                let first = first.unwrap_or(NONE);
+                component.springs.push(PlacedSpring { spring, first, second });
+            }
+        }
+        let components: Vec<Component> = components.into_values().collect();
+        let mut of_spheres = if components.is_empty() { Vec::new() } else { place_of };
+        for (number, component) in (0u32..).zip(&components) {
+            component.members.iter().for_each(|&index| of_spheres[index as usize] = number);
+        }
+        Self { of_spheres, components, due: Vec::new() }
+    }
+
+    pub fn get(&self, number: u32) -> &Component {
+        &self.components[number as usize]
+    }
+
+    /// The number of the component of a sphere, by its index.
+    pub fn of_sphere(&self, index: u32) -> Option<u32> {
+        let number = self.of_spheres.get(index as usize).copied();
+        number.filter(|&number| number != NONE)
+    }
+
+    /// Whether the steps of a sphere, by its index, are also those of others.
+    #[inline]
+    pub fn has_companions(&self, index: u32) -> bool {
+        self.of_sphere(index).is_some_and(|number| self.get(number).members.len() > 1)
+    }
+
+    /// Whether there are springs in the component of a sphere, by its index.
+    pub fn have_springs(&self, index: u32) -> bool {
+        self.of_sphere(index).is_some_and(|number| !self.get(number).springs.is_empty())
+    }
+
+    /// Notes that the flight of a sphere, by its index, began anew, so that its companions have to.
+    pub fn note(&mut self, index: u32) {
+        let Some(number) = self.of_sphere(index) else { return };
+        let component = &mut self.components[number as usize];
+        if component.members.len() > 1 && !component.is_due {
+            component.is_due = true;
+            self.due.push(number);
+        }
+    }
+
+    /// Whether the flight of a member began anew since the last step.
+    pub fn is_due(&self, number: u32) -> bool {
+        self.get(number).is_due
+    }
+
+    /// A component that is due, if there is one.
+    #[inline]
+    pub fn next_due(&self) -> Option<u32> {
+        self.due.first().copied()
+    }
+
+    /// Notes that a step of a component begins, in the tick with this number. Returns whether it is to be a rough one,
+    /// as the work of this tick is spent.
+    pub fn begin_step(&mut self, number: u32, tick: f64) -> bool {
+        let component = &mut self.components[number as usize];
+        if component.is_due {
+            component.is_due = false;
+            self.due.retain(|&other| other != number);
+        }
+        if component.tick != tick {
+            (component.tick, component.evaluations) = (tick, 0);
+        }
+        let members = component.members.len() as u64;
+        component.evaluations > MOST_EVALUATIONS.max(MOST_FOR_EACH * members)
+    }
+
+    /// Counts evaluations of the forces on spheres of a component.
+    pub fn charge(&mut self, number: u32, evaluations: u64) {
+        self.components[number as usize].evaluations += evaluations;
+    }
+}
