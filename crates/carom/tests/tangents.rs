@@ -321,7 +321,7 @@ fn what_has_no_derivative_is_refused_and_stays_refused() {
     let wall = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO));
     let (axis, amplitude, frequency, phase) = (DVec3::Y, 0.1, 1.0, 0.0);
     let shaken = MotionPart::Oscillate { axis, amplitude, frequency, phase };
-    world.add_collider(wall.with_motion(shaken)).unwrap();
+    world.add_collider(wall.with_motion([shaken])).unwrap();
     assert!(matches!(Tape::start(&world).unwrap_err(), DerivativeError::Unsupported(_)));
     let mut world = World::default();
     let ball = world.add_sphere(Sphere::new(DVec3::ZERO, 0.5)).unwrap();
