@@ -61,7 +61,9 @@ pub(super) fn answer(
         merged.extend(found);
     };
     context.counts.groups += 1;
-    if answer.cut_short && is_jammed(&group) {
+    let is_over = context.work.is_stopped()
+        || allowance.is_some_and(|allowed| context.work.done() - work_before >= allowed);
+    if answer.cut_short && !is_over && is_jammed(&group) {
         // Surfaces that move leave a sphere no way out.
         context.work.allow(u64::MAX);
         let (group, _) = gather(timeline, context, seeds, surface, &joined, time);
