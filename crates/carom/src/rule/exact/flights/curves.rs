@@ -184,8 +184,10 @@ impl Flights {
         if limits.is_rough {
             pace = Pace { trial: pace.trial.max(limits.tick), shortest: limits.tick };
         }
-        // What was before is the beginning of what comes only if no event was between.
-        let continues = before.filter(|steps| steps.iter().all(|step| step.leads_to(time)));
+        // What was before is the beginning of what comes only if no event was between, and not of a rough step, which
+        // may be any times as long.
+        let leads_here = |step: &&CurveStep| !limits.is_rough && step.leads_to(time);
+        let continues = before.filter(|steps| steps.iter().all(leads_here));
         let before: Option<Vec<PolynomialAcceleration>> =
             continues.map(|steps| steps.iter().map(|step| step.acceleration).collect());
         let step = gauss_radau::step(&start, before.as_deref(), pace, &mut field);
