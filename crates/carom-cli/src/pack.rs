@@ -18,7 +18,7 @@ use crate::length::positive;
 use crate::numbers::Numbers;
 use crate::replacing::Replacing;
 
-/// Contacts of a packing are gaps of up to so many times the inverse of its reduced pressure.
+/// The largest gap of a contact of a packing, times its reduced pressure.
 const CONTACT: f64 = 100.0;
 /// Below this reduced pressure spheres have gaps all around, and rattlers are not counted.
 const JAMMED: f64 = 1e6;
@@ -45,7 +45,7 @@ pub struct Pack {
     /// Speed at which the mean diameter grows, in parts of the thermal speed. Slower growth packs denser.
     #[arg(long, value_name = "G", default_value_t = 0.01, value_parser = positive)]
     pub growth: f64,
-    /// Then let each sphere collide so often without growth, and measure the pressure of the fluid.
+    /// Collisions of each sphere after that, without growth, in which the pressure of the fluid is measured.
     #[arg(long, value_name = "COLLISIONS", value_parser = positive)]
     pub equilibrate: Option<f64>,
     /// The file to write: a scene (.toml), or places, radii, masses and velocities (.xyz, .lammpstrj, .npz, .csv).
@@ -87,7 +87,7 @@ impl FromStr for Sizes {
 }
 
 impl Sizes {
-    /// Returns so many radii \[m\]: as many of each size as its share says, in places of their own.
+    /// Returns the radii of `count` spheres \[m\]: as many of each size as its share says, in places of their own.
     fn radii(&self, count: usize, numbers: &mut Numbers) -> Vec<f64> {
         let total: f64 = self.0.iter().map(|size| size.share).sum();
         let (mut radii, mut share) = (Vec::with_capacity(count), 0.0);

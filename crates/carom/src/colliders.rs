@@ -89,7 +89,7 @@ impl Colliders {
         self.place_all();
     }
 
-    /// Has motions be where they are at `time` \[s\]. Surfaces are placed anew where some are elsewhere then.
+    /// Moves colliders with a motion, and their surfaces, to where they are at `time` \[s\].
     pub fn be_at(&mut self, time: f64) {
         if self.time != time && self.list.iter().any(|(_, it)| !it.motion.is_empty()) {
             self.set_time(time);

@@ -2,14 +2,11 @@
 
 use std::f64::consts::PI;
 
-use carom::{DVec3, Exact, Gravity, Rule, Sphere, Spring, StateHash, World};
+use carom::{DVec3, Gravity, Rule, Sphere, Spring, World};
 
 use super::claim::{Claim, Expected, Measured, Tolerance};
+use super::runs::{change_of_energy, exact, other_states};
 use super::setup::{G, world};
-
-fn exact() -> Rule {
-    Exact::default().into()
-}
 
 /// Creates two balls of 1 and 3 kg, which touch at 1 m, on a spring of 2 m and 6 N/m, let go at a length \[m\].
 fn pair(rule: Rule, length: f64) -> Result<World, carom::Error> {
@@ -57,16 +54,7 @@ pub fn energy_of_impacts() -> Claim {
         "two balls on a spring by exact: elastic impacts between keep the energy for 40 s [start]",
         Expected::no_error("conservation of energy"),
         Tolerance::absolute(1e-12, "rounding of some thousand steps, and of the places of impacts"),
-        |rule| {
-            let mut world = pair(rule, 3.5)?;
-            let before = world.total_energy();
-            let mut largest = 0.0_f64;
-            for _ in 0..2400 {
-                world.step(1.0 / 60.0)?;
-                largest = largest.max((world.total_energy() / before - 1.0).abs());
-            }
-            Ok(Measured::in_world(&world, largest))
-        },
+        |rule| change_of_energy(pair(rule, 3.5)?, 2400, 1.0 / 60.0),
     );
     claim.about(exact())
 }
@@ -167,19 +155,7 @@ pub fn bits_of_frames() -> Claim {
         "a ball falls into its thread by exact: bits in frames of 1/32, 1/64, 1/256 s [other]",
         Expected::no_error("flights follow from their events alone"),
         Tolerance::none("whole numbers"),
-        |rule| {
-            let mut states: Vec<StateHash> = Vec::new();
-            let mut last = on_thread(rule)?;
-            for frames in [32, 64, 256] {
-                last = on_thread(rule)?;
-                for _ in 0..10 * frames {
-                    last.step(1.0 / f64::from(frames))?;
-                }
-                states.push(last.state_hash());
-            }
-            let others = states.iter().filter(|&&state| state != states[0]).count();
-            Ok(Measured::in_world(&last, others as f64))
-        },
+        |rule| other_states(|| on_thread(rule)),
     );
     claim.about(exact())
 }

@@ -3,16 +3,12 @@
 use std::f64::consts::{PI, TAU};
 
 use carom::{
-    Collider, DVec3, Exact, Gravity, PointAttractor, Pose, QuadraticDrag, Rule, Shape, Sphere,
-    StateHash, World,
+    Collider, DVec3, Gravity, PointAttractor, Pose, QuadraticDrag, Rule, Shape, Sphere, World,
 };
 
 use super::claim::{Claim, Expected, Measured, Tolerance};
+use super::runs::{change_of_energy, exact, other_states};
 use super::setup::{G, world};
-
-fn exact() -> Rule {
-    Exact::default().into()
-}
 
 /// Eccentricity of the ellipse of the claims, with a semi-major axis of 1 m and 1 m³/s² in its focus.
 const ECCENTRICITY: f64 = 0.9;
@@ -34,16 +30,7 @@ pub fn kepler_energy() -> Claim {
         "Kepler, e = 0.9, by exact: energy over 200 periods [start]",
         Expected::no_error("conservation of energy"),
         Tolerance::absolute(1e-12, "rounding of 20,000 steps, at random"),
-        |rule| {
-            let mut world = in_apocentre(rule)?;
-            let before = world.total_energy();
-            let mut largest = 0.0_f64;
-            for _ in 0..PERIODS * 4 {
-                world.step(TAU / 4.0)?;
-                largest = largest.max((world.total_energy() / before - 1.0).abs());
-            }
-            Ok(Measured::in_world(&world, largest))
-        },
+        |rule| change_of_energy(in_apocentre(rule)?, PERIODS * 4, TAU / 4.0),
     );
     claim.about(exact())
 }
@@ -111,16 +98,7 @@ pub fn energy_of_hits() -> Claim {
         "elastic hits about an attractor by exact: the energy is kept for 20 s [start]",
         Expected::no_error("conservation of energy"),
         Tolerance::absolute(1e-12, "rounding of some hundred steps, and of the places of hits"),
-        |rule| {
-            let mut world = with_hits(rule)?;
-            let before = world.total_energy();
-            let mut largest = 0.0_f64;
-            for _ in 0..1200 {
-                world.step(1.0 / 60.0)?;
-                largest = largest.max((world.total_energy() / before - 1.0).abs());
-            }
-            Ok(Measured::in_world(&world, largest))
-        },
+        |rule| change_of_energy(with_hits(rule)?, 1200, 1.0 / 60.0),
     );
     claim.about(exact())
 }
@@ -130,19 +108,7 @@ pub fn bits_of_frames() -> Claim {
         "elastic hits about an attractor by exact: bits in frames of 1/32, 1/64, 1/256 s [other]",
         Expected::no_error("flights follow from their events alone"),
         Tolerance::none("whole numbers"),
-        |rule| {
-            let mut states: Vec<StateHash> = Vec::new();
-            let mut last = with_hits(rule)?;
-            for frames in [32, 64, 256] {
-                last = with_hits(rule)?;
-                for _ in 0..10 * frames {
-                    last.step(1.0 / f64::from(frames))?;
-                }
-                states.push(last.state_hash());
-            }
-            let others = states.iter().filter(|&&state| state != states[0]).count();
-            Ok(Measured::in_world(&last, others as f64))
-        },
+        |rule| other_states(|| with_hits(rule)),
     );
     claim.about(exact())
 }

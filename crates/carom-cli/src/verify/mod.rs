@@ -22,6 +22,7 @@ mod packing;
 mod report;
 mod resting;
 mod rolling;
+mod runs;
 mod setup;
 mod silo;
 mod simultaneous;

@@ -11,7 +11,7 @@ use crate::world::World;
 const COLLISIONS_PER_FRAME: f64 = 8.0;
 /// Radii grow by at most this part in a frame.
 const GROWTH_PER_FRAME: f64 = 1.0 / 32.0;
-/// Velocities are scaled back when the kinetic energy is so many times that at the start.
+/// Kinetic energy at which velocities are scaled back, as a multiple of that at the start.
 const MOST_HEATED: f64 = 2.0;
 
 /// When a compression ends.
@@ -231,10 +231,11 @@ impl Course {
     }
 }
 
-/// A frame in which spheres have too little room is halved at most so often.
+/// Most halvings of a frame in which spheres have too little room.
 const MOST_HALVINGS: u32 = 60;
 
-/// Lets spheres collide, each so often on the mean, and measures them over the second half of that time.
+/// Runs until each sphere has had this mean number of collisions, and measures the fluid over the second half of that
+/// time.
 ///
 /// # Errors
 /// Those of [`World::step`]; [`Error::Invalid`] where the volume is not known, for spheres at rest, or for a number of

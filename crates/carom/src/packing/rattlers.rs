@@ -5,7 +5,7 @@ use crate::report::BodyPair;
 use crate::validate;
 use crate::world::World;
 
-/// A sphere that is held has at least so many contacts: one more than there are dimensions.
+/// The fewest contacts of a sphere that is held: one more than there are dimensions.
 const FEWEST_CONTACTS: usize = 4;
 
 /// How many spheres of a packing are rattlers: have fewer than four contacts with spheres that are none, or with

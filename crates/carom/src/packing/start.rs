@@ -88,7 +88,7 @@ pub fn start(start: &Start) -> Result<World, Error> {
     Ok(world)
 }
 
-/// The smallest cube of places that holds so many.
+/// The edge of the smallest cube of places that holds this many, in places.
 fn places_along_an_edge(count: usize) -> usize {
     let mut side = 1;
     while side * side * side < count {
