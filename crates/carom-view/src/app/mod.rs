@@ -72,6 +72,8 @@ pub struct App {
     chooser: Chooser,
     notices: Notices,
     help: bool,
+    /// Whether the scene plays on once the chooser is closed.
+    resumes: bool,
     /// Processor time for the last frame of the interface \[s\].
     cpu_seconds: Option<f32>,
     /// The last error of the physics that has a notice.
@@ -117,6 +119,7 @@ impl App {
             chooser: Chooser::default(),
             notices: Notices::default(),
             help: false,
+            resumes: false,
             cpu_seconds: None,
             told: None,
             tilts_device: false,
@@ -140,14 +143,14 @@ impl App {
         Ok(app)
     }
 
-    /// Plays a scene behind the chooser.
+    /// Opens the chooser over a scene, which plays once the chooser is closed.
     fn welcome(&mut self) {
         let entries = self.library.entries().unwrap_or_default();
         if let Some((scene, source)) =
             entries.into_iter().find_map(|it| Some((it.scene.ok()?, it.source)))
         {
             self.watch(scene, source);
-            self.command(Command::Play);
+            self.resumes = true;
         }
         self.open_chooser();
     }
@@ -213,6 +216,7 @@ impl App {
         self.keep_game();
         self.notices.clear();
         self.chooser.close();
+        self.resumes = false;
         self.exports.end_film();
         self.screen = screen;
     }
@@ -236,6 +240,12 @@ impl App {
     /// `picture`.
     pub fn place_of(&self, index: usize, picture: Rect) -> Option<Pos2> {
         self.watching()?.place_of(index, picture)
+    }
+
+    /// Returns the radius on the screen of the sphere at an index, in points, for a picture that
+    /// fills `picture`.
+    pub fn radius_of(&self, index: usize, picture: Rect) -> Option<f32> {
+        self.watching()?.radius_of(index, picture)
     }
 
     /// Returns the game, if a maze is played.
@@ -273,6 +283,11 @@ impl App {
     }
 
     fn open_chooser(&mut self) {
+        // Nothing runs unseen.
+        if self.watching().is_some_and(|it| it.view().playback.playing) {
+            self.resumes = true;
+            self.command(Command::Pause);
+        }
         if let Err(error) = self.chooser.open(&self.library, &self.saved.recent) {
             self.notices.complain(error);
         }
@@ -465,10 +480,17 @@ impl eframe::App for App {
             self.act(action);
         }
         match self.chooser.show(&context, &mut self.studio) {
-            Some(Chosen::Scene(scene, source)) => self.open(*scene, source),
+            Some(Chosen::Scene(scene, source)) => {
+                self.open(*scene, source);
+                self.command(Command::Play);
+            }
             Some(Chosen::File(path)) => self.inbox.put(ReadFile::from_disk(&path)),
             Some(Chosen::AnyFile) => self.host.open_file(&self.inbox),
             None => {}
+        }
+        if self.resumes && !self.chooser.is_open() {
+            self.resumes = false;
+            self.command(Command::Play);
         }
         let is_maze = self.maze().is_some();
         help::show(&context, &mut self.help, is_maze);
