@@ -13,7 +13,7 @@ use crate::rule::exact::contacts::{Member, Touch};
 /// at work: rounding.
 const STRAIGHT: f64 = 1e-13;
 /// A direction turns over a piece by the angle that moves a sphere aside by this part of its radius, but by at
-/// least a thousandth and at most [`TURN`] \[rad\]: slips that end turn fast.
+/// least a thousandth and at most the next constant \[rad\]: slips that end turn fast.
 const MOST_ASIDE: f64 = 1e-10;
 const LARGEST_TURN: f64 = 0.05;
 /// Part of the time to its end for which a velocity that also turns is followed in one piece.
