@@ -14,6 +14,9 @@ use crate::watching::PRESETS;
 /// Space around the texts of the menus, in points.
 const LARGE: Vec2 = Vec2::new(9.0, 5.0);
 
+/// Space between the controls of a narrow bar, in points.
+const CLOSE: f32 = 4.0;
+
 /// Shows the contents of a menu; returns the actions of the pressed entries.
 type Menu = fn(&mut App, &mut Ui) -> Vec<Action>;
 
@@ -84,6 +87,9 @@ impl App {
         let mut actions = Vec::new();
         if has_one_menu(ui) {
             ui.horizontal_wrapped(|ui| {
+                if !is_for_fingers(ui.ctx()) {
+                    ui.spacing_mut().item_spacing.x = CLOSE;
+                }
                 self.scenes(ui, "Scenes", &mut actions);
                 if let Some((name, _)) = self.shown() {
                     ui.strong(name);

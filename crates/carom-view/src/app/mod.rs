@@ -1,6 +1,7 @@
 //! The whole interface.
 
 mod bar;
+mod choosing;
 mod files;
 mod links;
 mod saving;
@@ -17,10 +18,10 @@ use egui::{Context, Pos2, Rect, Theme, Ui};
 
 use crate::action::{self, Action};
 use crate::address::Address;
-use crate::chooser::{Chooser, Chosen};
+use crate::chooser::Chooser;
 use crate::exports::Exports;
 use crate::help;
-use crate::host::{Host, Inbox, ReadFile};
+use crate::host::{Host, Inbox};
 use crate::layout::{accept_slow_clicks, suit_fingers};
 use crate::link_dialog::LinkDialog;
 use crate::maze_screen::{MazeScreen, Wish};
@@ -141,18 +142,6 @@ impl App {
             None => app.welcome(),
         }
         Ok(app)
-    }
-
-    /// Opens the chooser over a scene, which plays once the chooser is closed.
-    fn welcome(&mut self) {
-        let entries = self.library.entries().unwrap_or_default();
-        if let Some((scene, source)) =
-            entries.into_iter().find_map(|it| Some((it.scene.ok()?, it.source)))
-        {
-            self.watch(scene, source);
-            self.resumes = true;
-        }
-        self.open_chooser();
     }
 
     /// Opens a scene: plays a maze, watches any other scene.
@@ -280,17 +269,6 @@ impl App {
     /// Returns the messages for the user.
     pub fn notices(&self) -> &Notices {
         &self.notices
-    }
-
-    fn open_chooser(&mut self) {
-        // Nothing runs unseen.
-        if self.watching().is_some_and(|it| it.view().playback.playing) {
-            self.resumes = true;
-            self.command(Command::Pause);
-        }
-        if let Err(error) = self.chooser.open(&self.library, &self.saved.recent) {
-            self.notices.complain(error);
-        }
     }
 
     /// Performs the action of a key or button.
@@ -479,19 +457,7 @@ impl eframe::App for App {
         for action in asked {
             self.act(action);
         }
-        match self.chooser.show(&context, &mut self.studio) {
-            Some(Chosen::Scene(scene, source)) => {
-                self.open(*scene, source);
-                self.command(Command::Play);
-            }
-            Some(Chosen::File(path)) => self.inbox.put(ReadFile::from_disk(&path)),
-            Some(Chosen::AnyFile) => self.host.open_file(&self.inbox),
-            None => {}
-        }
-        if self.resumes && !self.chooser.is_open() {
-            self.resumes = false;
-            self.command(Command::Play);
-        }
+        self.choose(&context);
         let is_maze = self.maze().is_some();
         help::show(&context, &mut self.help, is_maze);
         self.links();

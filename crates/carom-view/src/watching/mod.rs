@@ -1,6 +1,7 @@
 //! The screen of a watched scene: its picture and panels.
 
 mod departures;
+mod entries;
 mod hand;
 mod hints;
 mod marker;
@@ -22,8 +23,7 @@ use web_time::Instant;
 use crate::action::Action;
 use crate::inspector::{self, Throw};
 use crate::layout::{Beside, has_sheets};
-use crate::look::{self, DrawOptions, Marks};
-use crate::menu::Entry;
+use crate::look::{self, DrawOptions};
 use crate::orbit::Preset;
 use crate::plots;
 use crate::saved::{Layout, Panels};
@@ -32,6 +32,7 @@ use crate::studio::{Canvas, Studio};
 use crate::written_scene::WrittenScene;
 use crate::{impact_list, transport};
 use departures::Departures;
+pub use entries::PRESETS;
 use hints::{Restarted, Way};
 use sides::side_of;
 use viewpoint::Viewpoint;
@@ -93,13 +94,6 @@ pub struct Manner {
 
 const INSPECTOR: Beside = Beside { title: "Inspector", is_right: true, widths: [300.0; 3] };
 const PLOTS: Beside = Beside { title: "Plots", is_right: false, widths: [200.0, 330.0, 700.0] };
-
-/// The cameras of every screen.
-pub const PRESETS: [Entry; 3] = [
-    Entry::once("Scene's camera", Action::SceneCamera),
-    Entry::once("Front", Action::FrontCamera),
-    Entry::once("Top", Action::TopCamera),
-];
 
 /// Longest time for physics in a frame if both share a thread \[s\].
 const INLINE_BUDGET: f64 = 0.02;
@@ -343,40 +337,6 @@ impl Watching {
             self.set_parameter(&parameter);
         }
         transport.inner
-    }
-
-    /// Returns whether the inspector is open.
-    pub fn shows_inspector(&self) -> bool {
-        self.open_panels().inspector
-    }
-
-    fn open_panels(&self) -> Panels {
-        if self.has_sheets { self.sheet } else { self.layout.panels }
-    }
-
-    /// Returns the entries for the camera.
-    pub fn cameras(&self) -> Vec<Entry> {
-        let mut entries = PRESETS.to_vec();
-        entries.extend([
-            Entry::switch("Fit all", Action::Fit, self.viewpoint.fits()),
-            Entry::switch("Follow the picked ball", Action::Follow, self.viewpoint.follows()),
-            Entry::switch("Inspector", Action::Inspector, self.shows_inspector()),
-        ]);
-        entries
-    }
-
-    /// Returns the entries for panels with measurements, marks and comparisons.
-    pub fn measures(&self) -> Vec<Entry> {
-        let Panels { plots, impacts, .. } = self.open_panels();
-        let Marks { velocities, contacts, forces, .. } = self.layout.marks;
-        vec![
-            Entry::switch("Plots", Action::Plots, plots),
-            Entry::switch("Impacts", Action::Impacts, impacts),
-            Entry::switch("Velocities", Action::Velocities, velocities),
-            Entry::switch("Contacts", Action::Contacts, contacts),
-            Entry::switch("Contact forces", Action::Forces, forces),
-            Entry::switch("Two rules", Action::Compare, self.view().other.is_some()),
-        ]
     }
 
     /// Returns the camera for the next picture with this ratio of width to height, `seconds` after
