@@ -107,7 +107,9 @@ test("buttons have their names and states, and do what those of the canvas do", 
 
 test("a slider is set by its number", async () => {
   const viewer = await mirrored("#scene=simtest1");
-  const slider = viewer.page.getByRole("slider", { name: "Bounciness (restitution) of PlaneCollider" });
+  const slider = viewer.page.getByRole("slider", {
+    name: "Bounciness (restitution) of PlaneCollider",
+  });
   await slider.first().evaluate((element) => {
     /** @type {HTMLInputElement} */ (element).value = "0.25";
     element.dispatchEvent(new Event("input"));
