@@ -97,7 +97,7 @@ test("a restitution that is changed while the scene runs stays changed", async (
   const viewer = await desk.watch("simtest1");
   await viewer.page.keyboard.press("p");
   const { watching: before } = await viewer.until(({ watching }) => watching.frame > 5);
-  await viewer.click("Bounciness (restitution) of PlaneCollider", { role: "Slider", part: 0.25 });
+  await viewer.click("Bounciness (restitution) of PlaneCollider", { role: "Slider", part: 0.1 });
   const { watching: changed } = await viewer.until(
     ({ watching }) => watching.restitutions[0] < 0.5 && watching.playing,
   );
