@@ -98,6 +98,13 @@ impl PolynomialAcceleration {
         Self { length, coefficients: scaled(rest, length / self.length) }
     }
 
+    /// What it is as seen from another one over the same time.
+    pub fn minus(&self, other: &Self) -> Self {
+        let mut coefficients = self.coefficients;
+        coefficients.iter_mut().zip(&other.coefficients).for_each(|(c, other)| *c -= *other);
+        Self { length: self.length, coefficients }
+    }
+
     /// Whether all its numbers are finite.
     pub fn is_finite(&self) -> bool {
         self.coefficients.iter().all(|c| c.is_finite())

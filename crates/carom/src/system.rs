@@ -13,6 +13,10 @@ use crate::numbered::Numbered;
 use crate::settings::Settings;
 use crate::surface::Surface;
 
+/// Up to so many spheres between all of which forces act take their steps of high order together under the rule
+/// `exact`. An impact of one begins new steps of all, for which the forces on each are summed some tens of times.
+const MOST_TOGETHER: usize = 64;
+
 /// The world during one step, but for the motion of its spheres.
 #[derive(Clone, Copy)]
 pub(crate) struct System<'a> {
@@ -69,6 +73,16 @@ impl<'a> System<'a> {
     /// Whether forces act between all spheres, not on springs only.
     pub fn couples_all(&self) -> bool {
         self.interactions.is_some_and(|interactions| !interactions.are_springs())
+    }
+
+    /// Whether all spheres take their steps together, as forces act between them all and they are few.
+    pub fn moves_all_together(&self) -> bool {
+        self.couples_all() && self.spheres.id.len() <= MOST_TOGETHER
+    }
+
+    /// Whether forces act between all spheres, which are too many to take their steps together.
+    pub fn holds_forces_of_all(&self) -> bool {
+        self.couples_all() && !self.moves_all_together()
     }
 
     /// Whether a force between spheres depends on how they move.

@@ -156,7 +156,7 @@ pub(crate) fn step(
             if error == f64::INFINITY {
                 attempt.hold();
             }
-            let is_cut = end == start.until;
+            let is_cut = end >= start.until;
             let ratio = growth(error).min(MOST_GROWTH);
             let mut trial = if is_good { ratio * length } else { length };
             if attempt.is_steady() {

@@ -1,4 +1,4 @@
-//! Components: spheres on curves that springs connect, whose steps are taken together.
+//! Components: spheres on curves that forces connect, whose steps are taken together.
 
 use std::collections::BTreeMap;
 
@@ -16,7 +16,8 @@ const MOST_FOR_EACH: u64 = 1 << 8;
 /// A sphere that is in no component.
 const NONE: u32 = u32::MAX;
 
-/// Spheres that springs connect, directly or through others; one alone if it has none, or to fixed points only.
+/// Spheres that springs connect, directly or through others, or all where forces act between all; one alone if nothing
+/// connects it.
 #[derive(Debug, Clone, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Component {
@@ -82,6 +83,9 @@ impl Components {
         let mut connected = Connected::new(ids.len());
         for &(_, first, second) in &springs {
             connected.join(first, second.unwrap_or(first));
+        }
+        if system.moves_all_together() {
+            (0..ids.len()).for_each(|index| connected.join(0, index));
         }
         let mut components: BTreeMap<usize, Component> = BTreeMap::new();
         let mut place_of = vec![NONE; ids.len()];

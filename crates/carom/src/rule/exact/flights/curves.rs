@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::between::ForcesBetween;
 use super::body::Body;
 use super::components::{Component, PlacedSpring};
 use super::curve::{Curve, CurveStep};
@@ -130,6 +131,10 @@ impl Flights {
         let index = self.index_of[slot as usize];
         let field = FreeField::of(system, index as usize);
         let alone = field.acceleration_and_size(time, position, velocity).0;
+        if system.moves_all_together() {
+            let state = [position, velocity];
+            return alone + self.force_between(system, index, state, time) / field.mass;
+        }
         let Some(number) = self.components.of_sphere(index) else { return alone };
         let Component { members, springs, .. } = self.components.get(number);
         let state_of = |place: u32| match members[place as usize] {
@@ -149,6 +154,23 @@ impl Flights {
             let sign = if is_at(ends[0]) { 1.0 } else { -1.0 };
             sum + sign * placed.spring.pull(offset, other - velocity) / field.mass
         })
+    }
+
+    /// The force \[N\] between a sphere, by its index, and all others at `time` \[s\], with it in this state \[m\],
+    /// \[m/s\] and the others where they are.
+    fn force_between(
+        &self,
+        system: &System,
+        index: u32,
+        [position, velocity]: [DVec3; 2],
+        time: f64,
+    ) -> DVec3 {
+        let states = self.slot_of.iter().map(|&slot| self.state_of(slot, time));
+        let (mut positions, mut velocities): (Vec<DVec3>, Vec<DVec3>) = states.unzip();
+        (positions[index as usize], velocities[index as usize]) = (position, velocity);
+        let mut forces = Vec::new();
+        system.forces_between([&positions, &velocities], time, &mut forces);
+        forces[index as usize]
     }
 
     /// The step of a component, by its number, from the beginning of the flights of its members on.
@@ -299,6 +321,8 @@ struct JointField<'a> {
     place_of: Vec<usize>,
     /// Spheres at their ends are by those places.
     ties: Vec<Tie<'a>>,
+    /// Forces between all spheres, which are its members then.
+    between: Option<ForcesBetween<'a>>,
     period: DVec3,
     /// How often the forces on a sphere were evaluated.
     evaluations: u64,
@@ -326,6 +350,7 @@ impl<'a> JointField<'a> {
             others,
             place_of,
             ties: Vec::new(),
+            between: ForcesBetween::of(system),
             period: system.settings.boundary.period(),
             evaluations: 0,
         }
@@ -365,6 +390,30 @@ impl<'a> JointField<'a> {
             TieEnd::Sphere(place) => self.state_of(place, states, time),
             TieEnd::Point(point) => [point, DVec3::ZERO],
         }
+    }
+
+    /// Adds the accelerations by forces between all spheres, with those that fly in these states \[m\], \[m/s\] at a time
+    /// \[s\].
+    fn add_between(&mut self, states: [&[DVec3]; 2], time: f64, at: &mut Values) {
+        let Some(mut between) = self.between.take() else { return };
+        if self.others.is_empty() {
+            // Those that fly are all spheres, in their order.
+            between.add(time, states, at);
+        } else {
+            let state = |&place: &usize| self.state_of(place, states, time).into();
+            let (positions, velocities): (Vec<DVec3>, Vec<DVec3>) =
+                self.place_of.iter().map(state).unzip();
+            let mut of_all = Values::of(positions.len());
+            between.add(time, [&positions, &velocities], &mut of_all);
+            for (index, &place) in self.place_of.iter().enumerate() {
+                if place < self.alone.len() {
+                    at.accelerations[place] += of_all.accelerations[index];
+                    at.sizes[place] += of_all.sizes[index];
+                }
+            }
+        }
+        self.evaluations += between.cost();
+        self.between = Some(between);
     }
 
     /// The shortest time in which one of its spheres moves by its radius \[s\]; `None` if none does.
@@ -411,6 +460,7 @@ impl Field for JointField<'_> {
             (at.accelerations[place], at.sizes[place]) = (acceleration, size);
         }
         let states = [positions, velocities];
+        self.add_between(states, time, at);
         for tie in &self.ties {
             let [from, velocity] = self.state_of(tie.first, states, time);
             let [to, other] = self.state_at(tie.second, states, time);
