@@ -1,4 +1,4 @@
-//! What a step reads and never changes.
+//! The input of a step, which it never changes.
 
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ use crate::surface::Surface;
 /// `exact`. An impact of one begins new steps of all, for which the forces on each are summed some tens of times.
 const MOST_TOGETHER: usize = 64;
 
-/// The world during one step, but for the motion of its spheres.
+/// The world during one step, without the motion of its spheres.
 #[derive(Clone, Copy)]
 pub(crate) struct System<'a> {
     pub settings: &'a Settings,
@@ -132,7 +132,7 @@ impl<'a> System<'a> {
         self.interactions.map_or(0.0, |interactions| interactions.fastest_spring_rate(id, mass))
     }
 
-    /// What all bodies say of friction, as far as they say something.
+    /// The friction of all bodies that have some.
     pub fn frictions(&self) -> impl Iterator<Item = Friction> {
         let of_surfaces = self.surfaces.iter().map(|surface| surface.friction);
         self.spheres.friction.iter().copied().chain(of_surfaces)

@@ -11,7 +11,7 @@ use crate::parallel;
 use crate::sum::Sum;
 use crate::validate;
 
-/// Up to so many spheres every pair is summed: a tree gains little there.
+/// Up to this many spheres every pair is summed: a tree gains little there.
 const FEW: usize = 1000;
 
 /// Gravity between spheres: on each the sum of `G m1 m2 r / (r² + e²)^(3/2)`, with r to each of the others.
@@ -58,8 +58,7 @@ impl MutualGravity {
         count <= FEW || self.opening_angle == 0.0
     }
 
-    /// What all other spheres add up to at each of a few: the same sums in the same order, but each pair is looked at
-    /// once.
+    /// The same sums, in the same order, by one look at each pair: faster for a few spheres.
     fn sums_of_few<T: FieldSum>(&self, spheres: &SphereStates) -> Vec<T> {
         let softening = self.softening * self.softening;
         let mut sums = vec![T::default(); spheres.len()];
@@ -74,7 +73,7 @@ impl MutualGravity {
         sums
     }
 
-    /// What all other spheres add up to at each sphere, in the order of the arrays.
+    /// The sum over all other spheres at each sphere, in the order of the arrays.
     fn sums<T: FieldSum>(&self, spheres: &SphereStates) -> Vec<T> {
         if spheres.len() <= FEW {
             return self.sums_of_few(spheres);
@@ -147,7 +146,7 @@ impl Interaction for MutualGravity {
     }
 }
 
-/// What masses add up to at a place.
+/// A sum over masses at a place.
 trait FieldSum: Default + Clone + Send {
     /// What a mass at an offset \[m\] is divided by, with the square of the softening length \[m²\].
     fn divisor(offset: DVec3, softening: f64) -> f64;
@@ -168,7 +167,7 @@ impl FieldSum for Field {
     #[inline]
     fn divisor(offset: DVec3, softening: f64) -> f64 {
         let square = offset.length_squared() + softening;
-        // Two spheres in one point pull each other nowhere.
+        // Two spheres in one point exert no force.
         if square > 0.0 { square * square.sqrt() } else { f64::INFINITY }
     }
 
