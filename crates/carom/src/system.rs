@@ -13,9 +13,10 @@ use crate::numbered::Numbered;
 use crate::settings::Settings;
 use crate::surface::Surface;
 
-/// Up to so many spheres between all of which forces act take their steps of high order together under the rule
-/// `exact`. An impact of one begins new steps of all, for which the forces on each are summed some tens of times.
-const MOST_TOGETHER: usize = 64;
+/// Largest number of spheres with forces between them all that take steps of high order together under the rule
+/// `exact`. Each impact restarts all of them, and each step evaluates all forces some tens of times, so that the cost of
+/// a cloud that collides grows with the cube of its number.
+const MOST_TOGETHER: usize = 32;
 
 /// The world during one step, without the motion of its spheres.
 #[derive(Clone, Copy)]

@@ -246,6 +246,11 @@ fn a_double_star_comes_round_after_its_period() {
             let off = position(&world, light) - vec(2.0 / 3.0, 0.0, 0.0);
             off.length() + (position(&world, heavy) - vec(-1.0 / 3.0, 0.0, 0.0)).length()
         };
+        if matches!(rule, Rule::Exact(_)) {
+            // Rounding of some tens of steps of 15th order.
+            assert!(error(4) < 1e-12);
+            continue;
+        }
         let (coarse, fine) = (error(2000), error(4000));
         assert!(fine < 0.2, "{rule:?}: {fine}");
         let measured = (coarse / fine).log2();

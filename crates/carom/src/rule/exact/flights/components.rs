@@ -12,6 +12,8 @@ use crate::system::System;
 /// many for each sphere if that is more. Beyond it, rough steps lead to the end of the tick.
 const MOST_EVALUATIONS: u64 = 1 << 16;
 const MOST_FOR_EACH: u64 = 1 << 8;
+/// The same bound where forces act between all spheres: close passages take many short steps.
+const MOST_BETWEEN_ALL: u64 = 1 << 18;
 
 /// A sphere that is in no component.
 const NONE: u32 = u32::MAX;
@@ -63,6 +65,8 @@ pub(crate) struct Components {
     components: Vec<Component>,
     /// Numbers of those that are due.
     due: Vec<u32>,
+    /// Bound of the evaluations of a component in a tick, if that of its spheres is not larger.
+    most_evaluations: u64,
 }
 
 impl Components {
@@ -106,7 +110,9 @@ impl Components {
         for (number, component) in (0u32..).zip(&components) {
             component.members.iter().for_each(|&index| of_spheres[index as usize] = number);
         }
-        Self { of_spheres, components, due: Vec::new() }
+        let most_evaluations =
+            if system.moves_all_together() { MOST_BETWEEN_ALL } else { MOST_EVALUATIONS };
+        Self { of_spheres, components, due: Vec::new(), most_evaluations }
     }
 
     pub fn get(&self, number: u32) -> &Component {
@@ -163,7 +169,7 @@ impl Components {
             (component.tick, component.evaluations) = (tick, 0);
         }
         let members = component.members.len() as u64;
-        component.evaluations > MOST_EVALUATIONS.max(MOST_FOR_EACH * members)
+        component.evaluations > self.most_evaluations.max(MOST_FOR_EACH * members)
     }
 
     /// Counts evaluations of the forces on spheres of a component.
