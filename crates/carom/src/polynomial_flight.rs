@@ -32,7 +32,7 @@ pub(crate) struct PolynomialAcceleration {
     pub length: f64,
     /// c_k \[m/s²\]
     pub coefficients: [DVec3; TERMS],
-    /// What rounding left of the position \[m\] and of the velocity \[m/s\] at time 0.
+    /// Parts of the position \[m\] and of the velocity \[m/s\] at time 0 below their rounding.
     pub carried: [DVec3; 2],
 }
 
@@ -43,8 +43,8 @@ impl PolynomialFlight {
         (self.position + (t * self.velocity + way), self.velocity + change)
     }
 
-    /// What rounding leaves of the position \[m\] and of the velocity \[m/s\] at a time \[s\] (Knuth, *The Art of Computer
-    /// Programming* 2, 4.2.2, theorem B).
+    /// Parts of the position \[m\] and of the velocity \[m/s\] at a time \[s\] below their rounding (Knuth, *The Art of
+    /// Computer Programming* 2, 4.2.2, theorem B).
     pub fn left_after(&self, t: f64) -> [DVec3; 2] {
         let (way, change) = self.acceleration.gained_until(t);
         let left = |first: DVec3, second: DVec3| {
@@ -114,7 +114,7 @@ impl PolynomialAcceleration {
         Self { length, coefficients, carried: [DVec3::ZERO; 2] }
     }
 
-    /// What it is as seen from another one over the same time.
+    /// Difference from another polynomial over the same time.
     pub fn minus(&self, other: &Self) -> Self {
         let mut coefficients = self.coefficients;
         coefficients.iter_mut().zip(&other.coefficients).for_each(|(c, other)| *c -= *other);
@@ -235,7 +235,8 @@ mod tests {
     #[test]
     fn velocity_and_position_are_integrals_of_the_acceleration() {
         let coefficients = SOME.map(|c| DVec3::new(c, 0.0, -c));
-        let acceleration = PolynomialAcceleration { length: 2.0, coefficients, carried: [DVec3::ZERO; 2] };
+        let acceleration =
+            PolynomialAcceleration { length: 2.0, coefficients, carried: [DVec3::ZERO; 2] };
         let flight = PolynomialFlight { position: DVec3::Y, velocity: DVec3::X, acceleration };
         let h = 1e-3;
         for t in [0.2, 1.0, 1.9] {

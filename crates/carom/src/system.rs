@@ -76,12 +76,12 @@ impl<'a> System<'a> {
         self.interactions.is_some_and(|interactions| !interactions.are_springs())
     }
 
-    /// Whether all spheres take their steps together, as forces act between them all and they are few.
+    /// Whether forces act between all spheres, and they are few enough to take their steps together.
     pub fn moves_all_together(&self) -> bool {
         self.couples_all() && self.spheres.id.len() <= MOST_TOGETHER
     }
 
-    /// Whether forces act between all spheres, which are too many to take their steps together.
+    /// Whether forces act between all spheres, and they are too many to take their steps together.
     pub fn holds_forces_of_all(&self) -> bool {
         self.couples_all() && !self.moves_all_together()
     }

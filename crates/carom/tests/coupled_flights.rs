@@ -343,8 +343,7 @@ fn threads_at_exactly_their_length_in_free_fall_take_the_steps_of_no_threads() {
         for scale in [1e-6, 1.0, 1e6] {
             let mut world = in_free_fall(damping, is_ring, scale);
             let events: u64 = (0..128).map(|_| world.step(FRAME).unwrap().work.events).sum();
-            // A step of a ball is as long as it takes for 16 radii, and its neighbour region is as small as that: some
-            // tens of each in 2 s. At every rounding it would be 10⁵.
+            // Steps of 16 radii, and as many neighbour regions: some tens in 2 s. Changes at each rounding make 10⁵.
             assert!(events < 1000, "{damping} {is_ring} {scale}: {events}");
         }
     }

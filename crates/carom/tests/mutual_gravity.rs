@@ -10,8 +10,8 @@ use std::f64::consts::TAU;
 
 use carom::{
     Boundary, Collider, DVec3, Emitter, Exact, Force, Gravity, Interaction, MutualGravity,
-    PointAttractor, Pose, QuadraticDrag, Settings, Shape, Sphere, SphereState, SphereStates, Spring,
-    World,
+    PointAttractor, Pose, QuadraticDrag, Settings, Shape, Sphere, SphereState, SphereStates,
+    Spring, World,
 };
 use common::{G, Numbers, assert_close, vec, world};
 
@@ -71,8 +71,8 @@ fn the_pythagorean_problem_ends_with_the_ejection_of_the_lightest_body() {
     let mut world = pythagorean();
     let energy = world.total_energy();
     run(&mut world, 70.0, 0.25);
-    // Rounding of some thousand steps, which a close passage multiplies.
-    assert_close(world.total_energy(), energy, 1e-10 * energy.abs());
+    // Close passages multiply the rounding of places. IAS15 of REBOUND leaves 3e-11.
+    assert_close(world.total_energy(), energy, 2e-10 * energy.abs());
     let (places, velocities) = (world.spheres().positions(), world.spheres().velocities());
     let (pair_place, pair_velocity) = (
         (4.0 * places[1] + 5.0 * places[2]) / 9.0,

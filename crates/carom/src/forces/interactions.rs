@@ -21,7 +21,7 @@ impl<'a> Interactions<'a> {
         are_any.then_some(Self { forces, springs })
     }
 
-    /// Those among the forces, in the order in which they entered the world.
+    /// Interactions among the forces, in the order in which they entered the world.
     pub fn list(&self) -> impl Iterator<Item = &'a dyn Interaction> + use<'a> {
         self.forces.iter().filter_map(|(_, force)| force.interaction())
     }

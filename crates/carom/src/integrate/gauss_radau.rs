@@ -88,7 +88,7 @@ pub(crate) struct Start<'a> {
     pub positions: &'a [DVec3],
     /// \[m/s\]
     pub velocities: &'a [DVec3],
-    /// What rounding left of both.
+    /// Parts of both below their rounding.
     pub carried: &'a [[DVec3; 2]],
     /// On the world's clock \[s\].
     pub time: f64,
@@ -349,7 +349,8 @@ impl<'a> Attempt<'a> {
 
     fn into_accelerations(self) -> Vec<PolynomialAcceleration> {
         let length = self.length;
-        let of = |(coefficients, &carried)| PolynomialAcceleration { length, coefficients, carried };
+        let of =
+            |(coefficients, &carried)| PolynomialAcceleration { length, coefficients, carried };
         self.powers.into_iter().zip(self.start.carried).map(of).collect()
     }
 }

@@ -58,7 +58,7 @@ impl MutualGravity {
         count <= FEW || self.opening_angle == 0.0
     }
 
-    /// The same sums, in the same order, by one look at each pair: faster for a few spheres.
+    /// Computes [`Self::sums`] to the same bits with one evaluation of each pair: faster for a few spheres.
     fn sums_of_few<T: FieldSum>(&self, spheres: &SphereStates) -> Vec<T> {
         let softening = self.softening * self.softening;
         let mut sums = vec![T::default(); spheres.len()];
@@ -148,7 +148,7 @@ impl Interaction for MutualGravity {
 
 /// A sum over masses at a place.
 trait FieldSum: Default + Clone + Send {
-    /// What a mass at an offset \[m\] is divided by, with the square of the softening length \[m²\].
+    /// Divisor of a mass at an offset \[m\], with the square of the softening length \[m²\].
     fn divisor(offset: DVec3, softening: f64) -> f64;
 
     /// Adds a mass \[kg\] at an offset \[m\] by its divisor.

@@ -8,8 +8,8 @@ use crate::integrate::gauss_radau::Values;
 use crate::norm::Norm;
 use crate::system::System;
 
-/// Terms of a force may cancel, and leave their rounding: this part of the largest force of all counts as its size, too.
-/// The terms of a step multiply rounding by less than 10⁴.
+/// Part of the largest force of all that counts as a size of each force: its terms may cancel and leave their rounding,
+/// which the terms of a step multiply by less than 10⁴.
 const CANCELLED: f64 = 1e-3;
 
 /// Forces between all spheres, and where they are evaluated.
@@ -18,12 +18,12 @@ pub(super) struct ForcesBetween<'a> {
     spheres: &'a Properties,
     /// Edges of the periodic box \[m\].
     period: DVec3,
-    /// On each sphere, by index \[N\].
+    /// Forces on the spheres, by index \[N\].
     forces: Vec<DVec3>,
 }
 
 impl<'a> ForcesBetween<'a> {
-    /// Those of a world; `None` where its spheres do not move together.
+    /// Forces of a world; `None` where its spheres do not move together.
     pub fn of(system: &System<'a>) -> Option<Self> {
         let interactions = system.interactions.filter(|_| system.moves_all_together())?;
         Some(Self {
@@ -34,8 +34,7 @@ impl<'a> ForcesBetween<'a> {
         })
     }
 
-    /// Adds the accelerations of all spheres at a time \[s\], by index, which are here \[m\] and move with these
-    /// velocities \[m/s\].
+    /// Adds the accelerations of all spheres, by index, at a time \[s\] with these positions \[m\] and velocities \[m/s\].
     pub fn add(&mut self, time: f64, [positions, velocities]: [&[DVec3]; 2], at: &mut Values) {
         let Properties { id, radius, mass, .. } = self.spheres;
         let period = self.period;
@@ -53,12 +52,12 @@ impl<'a> ForcesBetween<'a> {
         }
     }
 
-    /// How much an evaluation of them takes, by that of the forces on one sphere.
+    /// Cost of an evaluation, in evaluations of the forces on one sphere.
     pub fn cost(&self) -> u64 {
         let count = self.forces.len() as u64;
         count * count / PAIRS_PER_SPHERE
     }
 }
 
-/// So many pairs of spheres take as long as the forces on one sphere by itself.
+/// Pairs of spheres that cost as much as the forces on one sphere by itself.
 const PAIRS_PER_SPHERE: u64 = 32;

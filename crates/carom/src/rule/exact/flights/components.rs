@@ -12,14 +12,14 @@ use crate::system::System;
 /// many for each sphere if that is more. Beyond it, rough steps lead to the end of the tick.
 const MOST_EVALUATIONS: u64 = 1 << 16;
 const MOST_FOR_EACH: u64 = 1 << 8;
-/// The same bound where forces act between all spheres: close passages take many short steps.
+/// Allowed evaluations in a tick where forces act between all spheres: close passages take many short steps.
 const MOST_BETWEEN_ALL: u64 = 1 << 18;
 
 /// A sphere that is in no component.
 const NONE: u32 = u32::MAX;
 
-/// Spheres that springs connect, directly or through others, or all where forces act between all; one alone if nothing
-/// connects it.
+/// Spheres connected by springs, directly or through others, or all spheres where forces act between all; a single
+/// sphere if nothing connects it.
 #[derive(Debug, Clone, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Component {
@@ -65,7 +65,7 @@ pub(crate) struct Components {
     components: Vec<Component>,
     /// Numbers of those that are due.
     due: Vec<u32>,
-    /// Bound of the evaluations of a component in a tick, if that of its spheres is not larger.
+    /// Allowed evaluations of a component in a tick, or `MOST_FOR_EACH` times its spheres if that is more.
     most_evaluations: u64,
 }
 

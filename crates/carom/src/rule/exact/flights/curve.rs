@@ -25,7 +25,7 @@ pub(super) struct CurveStep {
     pub is_smooth: bool,
     /// Estimate for the next step.
     pub pace: Pace,
-    /// What rounding leaves of the position \[m\] and of the velocity \[m/s\] at its end.
+    /// Parts of the position \[m\] and of the velocity \[m/s\] at its end below their rounding.
     pub left: [DVec3; 2],
 }
 

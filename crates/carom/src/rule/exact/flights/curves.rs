@@ -156,8 +156,8 @@ impl Flights {
         })
     }
 
-    /// The force \[N\] between a sphere, by its index, and all others at `time` \[s\], with it in this state \[m\],
-    /// \[m/s\] and the others where they are.
+    /// Force \[N\] between a sphere, by its index, and all others at `time` \[s\], with this sphere in a given state \[m\],
+    /// \[m/s\].
     fn force_between(
         &self,
         system: &System,
@@ -329,7 +329,7 @@ struct JointField<'a> {
     place_of: Vec<usize>,
     /// Springs between those places.
     ties: Vec<Tie<'a>>,
-    /// Forces between all spheres, which are its members then.
+    /// Forces between all spheres of the world, where all are members.
     between: Option<ForcesBetween<'a>>,
     period: DVec3,
     /// How often the forces on a sphere were evaluated.
@@ -400,12 +400,12 @@ impl<'a> JointField<'a> {
         }
     }
 
-    /// Adds the accelerations by forces between all spheres, with those that fly in these states \[m\], \[m/s\] at a time
-    /// \[s\].
+    /// Adds the accelerations by forces between all spheres, with the flying ones in these states \[m\], \[m/s\] at a
+    /// time \[s\].
     fn add_between(&mut self, states: [&[DVec3]; 2], time: f64, at: &mut Values) {
         let Some(mut between) = self.between.take() else { return };
         if self.others.is_empty() {
-            // Those that fly are all spheres, in their order.
+            // All spheres fly, in the order of the world.
             between.add(time, states, at);
         } else {
             let state = |&place: &usize| self.state_of(place, states, time).into();

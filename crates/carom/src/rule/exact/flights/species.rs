@@ -119,7 +119,7 @@ impl SpeciesOfSpheres {
     }
 }
 
-/// Whether forces act between each sphere, by index, and others, or a fixed point at the other end of a spring.
+/// Whether a force between spheres or a spring acts on each sphere, by index.
 fn coupled(system: &System) -> Vec<bool> {
     let ids = &system.spheres.id;
     let mut is_coupled = vec![system.couples_all(); ids.len()];

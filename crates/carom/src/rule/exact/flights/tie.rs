@@ -11,7 +11,7 @@ use crate::settings::nearest_image;
 
 /// In a periodic box a spring changes its image this part of an edge beyond half of it.
 const BEYOND: f64 = 1e-13;
-/// Places and velocities are good to this part of their sizes: some roundings of a step, and of those before it.
+/// Relative error of positions and velocities: some roundings of this step and of earlier ones.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// A spring from the beginning of a step on, between bodies at two places.
@@ -27,7 +27,7 @@ pub(super) struct Tie<'a> {
     resolution: Resolution,
 }
 
-/// How well rounding lets a thread at its rest length be known; less counts as nothing.
+/// Rounding of a thread at its rest length: a smaller stretch or tension counts as none.
 #[derive(Debug, Clone, Copy)]
 struct Resolution {
     /// Of `l² - l0²` \[m²\].
@@ -104,7 +104,7 @@ impl<'a> Tie<'a> {
     pub fn change(&self, ends: [TiePath; 2], period: DVec3, length: f64) -> Option<f64> {
         let apart = Apart { ends: relative(ends), shift: self.shift, length };
         let (rest, Resolution { length, tension }) = (self.spring.rest_length, self.resolution);
-        // From its next phase it does not come back at once: that begins in the middle of what rounding leaves.
+        // The next phase begins at half of this, so that rounding does not end it at once.
         let (longer, more) = (2.0 * length, 2.0 * tension);
         let of_image = (period != DVec3::INFINITY).then(|| apart.leaves_image(period)).flatten();
         let of_thread = match self.phase {
@@ -126,7 +126,7 @@ fn earlier(first: Option<f64>, second: Option<f64>) -> Option<f64> {
 }
 
 impl Resolution {
-    /// That of a spring whose ends have these centres \[m\] and velocities \[m/s\]; the second counts at a shift \[m\].
+    /// Resolution of a spring whose ends have these centres \[m\] and velocities \[m/s\], the second at a shift \[m\].
     fn of(spring: &Spring, [first, second]: [[DVec3; 2]; 2], shift: DVec3) -> Self {
         let rest = spring.rest_length;
         let place = ROUNDING * (first[0].norm() + second[0].norm() + shift.norm() + rest);
