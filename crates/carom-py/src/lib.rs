@@ -33,6 +33,7 @@ mod imports;
 mod maze;
 mod motion;
 mod next_event;
+mod packing;
 #[cfg(feature = "pictures")]
 mod painter;
 mod pairs;
@@ -96,6 +97,8 @@ mod _carom {
     use crate::film::film_scene;
     #[pymodule_export]
     use crate::imports::{import_gltf, import_unity};
+    #[pymodule_export]
+    use crate::packing::{pack_spheres, radii_of_sizes};
     #[pymodule_export]
     use crate::pairs::{pair_histogram, pairs_within};
     #[pymodule_export]
