@@ -20,6 +20,7 @@ from carom._run.derivatives import Gradient, Margin, Tangents, Tape
 from carom._run.packing import Packing, pack
 from carom._run.queries import PredictedPath, QueryFilter
 from carom._run.reports import ContactAccount, EnergyAccount, StageCounts, ZoneAccount
+from carom._run.stress import Stress, StressMeter
 from carom._run.tables import (
     CONTACT,
     HIT,
@@ -191,6 +192,8 @@ __all__ = [
     "StaggeredRows",
     "Steady",
     "StepError",
+    "Stress",
+    "StressMeter",
     "Sun",
     "Swing",
     "Tangents",

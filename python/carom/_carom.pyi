@@ -178,6 +178,16 @@ class TapeEngine:
     def gradient(self, motion: Sequence[NDArray[np.float64]]) -> list[NDArray[np.float64]]: ...
 
 @final
+class StressEngine:
+    """What `carom.StressMeter` stands on."""
+
+    def __new__(cls, world: Engine) -> Self: ...
+    def step(self, world: Engine, dt: float | None, frames: int) -> None: ...
+    @property
+    def time(self) -> float: ...
+    def stress(self, volume: float | None) -> list[list[list[float]]]: ...
+
+@final
 class TangentsEngine:
     """What `carom.Tangents` stands on."""
 

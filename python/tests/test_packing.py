@@ -12,11 +12,27 @@ import carom
 
 
 def test_pack_has_the_bits_of_the_command() -> None:
-    fluid = carom.pack(
-        60, 0.4, sizes="0.5:2,0.6-0.7:1", seed=3, growth=0.1, equilibrate=5
-    )
-    command = [sys.executable, "-m", "carom", "pack", "--spheres", "60", "--packing-fraction", "0.4"]
-    command += ["--sizes", "0.5:2,0.6-0.7:1", "--seed", "3", "--growth", "0.1", "--equilibrate", "5"]
+    fluid = carom.pack(60, 0.4, sizes="0.5:2,0.6-0.7:1", seed=3, growth=0.1, equilibrate=5)
+    command = [
+        sys.executable,
+        "-m",
+        "carom",
+        "pack",
+        "--spheres",
+        "60",
+        "--packing-fraction",
+        "0.4",
+    ]
+    command += [
+        "--sizes",
+        "0.5:2,0.6-0.7:1",
+        "--seed",
+        "3",
+        "--growth",
+        "0.1",
+        "--equilibrate",
+        "5",
+    ]
     said = subprocess.run(command, check=True, capture_output=True, text=True).stdout
     figures = dict(line.rsplit(maxsplit=1) for line in said.splitlines() if "rate" not in line)
     assert figures["state hash"] == fluid.state_hash
@@ -76,7 +92,10 @@ REFUSALS: list[tuple[Callable[[], object], str]] = [
     (lambda: carom.pack(100, 0.4, seed=-1), "seed: must be in"),
     (lambda: carom.pack(100, 0.4, growth=0), "growth"),
     (lambda: carom.pack(100, 0.4, pressure=9, equilibrate=5), "equilibrate: "),
-    (lambda: carom.pack(40, 0.72, growth=1), "packing_fraction: jammed at a packing fraction of 0."),
+    (
+        lambda: carom.pack(40, 0.72, growth=1),
+        "packing_fraction: jammed at a packing fraction of 0.",
+    ),
     (
         lambda: carom.DenseFluid(9, 1, 1, carom.Sphere()),
         "DenseFluid.sphere: needs `radius` or `diameter`, or give `radius_range` or",

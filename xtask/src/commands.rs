@@ -27,6 +27,7 @@ const DOCUMENTS: [&str; 15] = [
     "docs/physics/persistent-contacts.md",
     "docs/physics/exact.md",
     "docs/physics/growth.md",
+    "docs/physics/stress.md",
     "docs/physics/zones.md",
     "docs/physics/contact.md",
     "docs/physics/bisect-and-discrete.md",

@@ -191,12 +191,15 @@ impl TangentsEngine {
 
 impl Engine {
     /// Takes frames of `dt` \[s\], or of the scene's own, by a function that follows them, and updates the arrays.
-    fn follow(
+    pub(crate) fn follow<E: Send>(
         &self,
         py: Python<'_>,
         (dt, frames): (Option<&Bound<'_, PyAny>>, &Bound<'_, PyAny>),
-        mut step: impl FnMut(&mut World, f64) -> Result<(), DerivativeError> + Send,
-    ) -> PyResult<()> {
+        mut step: impl FnMut(&mut World, f64) -> Result<(), E> + Send,
+    ) -> PyResult<()>
+    where
+        Failure: From<E>,
+    {
         let dt = arguments::optional_number("dt", dt)?;
         let frames = arguments::count("frames", frames)?;
         let mut guard = self.lock(py)?;

@@ -52,6 +52,7 @@ mod setting;
 mod snapshot;
 mod springs;
 mod stop;
+mod stress;
 mod tables;
 mod threads;
 mod written;
@@ -64,6 +65,7 @@ pub use maze::MazeEpisodes;
 pub use painter::Painter;
 pub use predicted_path::Path;
 pub use snapshot::Snapshot;
+pub use stress::StressEngine;
 
 /// The same allocator as in the program `carom`. NumPy uses its own.
 #[cfg(target_os = "linux")]
@@ -86,6 +88,8 @@ mod _carom {
     use crate::Path;
     #[pymodule_export]
     use crate::Snapshot;
+    #[pymodule_export]
+    use crate::StressEngine;
     #[pymodule_export]
     use crate::TangentsEngine;
     #[pymodule_export]

@@ -20,22 +20,22 @@ use crate::world::World;
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Stress {
-    /// That of motion: Σ m v v / V, mean over the ends of frames. Along periodic axes v is relative to the centre of
+    /// Stress of motion: Σ m v v / V, mean over the ends of frames. Along periodic axes v is relative to the centre of
     /// mass.
     pub kinetic: DMat3,
-    /// That of impacts: Σ j l / (V t), with impulses j and the vectors l between the centres of the bodies.
+    /// Stress of impacts: Σ j l / (V t), with impulses j and the vectors l between the centres of the bodies.
     pub collisional: DMat3,
-    /// That of persistent contacts: Σ F l / V, with the forces F at the ends of frames.
+    /// Stress of persistent contacts: Σ F l / V, with the forces F at the ends of frames.
     pub contact: DMat3,
 }
 
 impl Stress {
-    /// The sum of all parts \[Pa\].
+    /// Sum of all parts \[Pa\].
     pub fn total(&self) -> DMat3 {
         self.kinetic + self.collisional + self.contact
     }
 
-    /// The pressure \[Pa\]: a third of the trace.
+    /// Pressure \[Pa\]: a third of the trace.
     pub fn pressure(&self) -> f64 {
         let total = self.total();
         (total.x_axis.x + total.y_axis.y + total.z_axis.z) / 3.0
@@ -92,7 +92,7 @@ impl StressMeter {
         }
     }
 
-    /// Adds the last step of the world. To be called after each.
+    /// Adds the last step of the world. Call it after each step.
     pub fn add_frame(&mut self, world: &World) {
         let length = world.time() - self.last;
         let kinetic = kinetic(world);
@@ -103,13 +103,17 @@ impl StressMeter {
         self.time += length;
     }
 
-    /// The time measured so far \[s\].
+    /// Time measured so far \[s\].
     pub fn time(&self) -> f64 {
         self.time
     }
 
-    /// Returns the mean stress in a volume \[m³\]; unless given, that of the periodic box, or of the first closed
-    /// container.
+    /// Volume of the periodic box, or of the first closed container \[m³\]; `None` without such a box.
+    pub fn volume(&self) -> Option<f64> {
+        self.volume
+    }
+
+    /// Returns the mean stress in a volume \[m³\]: by default the periodic box, or the first closed container.
     ///
     /// # Errors
     /// [`Error::Invalid`] if no frame was added, or where the volume is not known.
@@ -158,7 +162,7 @@ impl Tensor {
     }
 }
 
-/// The tensor a b, whose column k is a times part k of b.
+/// Tensor a b, whose column k is a times part k of b.
 fn outer(a: DVec3, b: DVec3) -> DMat3 {
     DMat3::from_cols(b.x * a, b.y * a, b.z * a)
 }

@@ -100,7 +100,9 @@ fn column_at_rest_bears_its_weight() {
         world.add_force(Gravity::new(DVec3::new(0.0, -10.0, 0.0))).unwrap();
         for number in 0..3 {
             let height = -4.0 + 0.5 + f64::from(number);
-            world.add_sphere(Sphere::new(DVec3::new(0.0, height, 0.0), 0.5).with_mass(2.0)).unwrap();
+            world
+                .add_sphere(Sphere::new(DVec3::new(0.0, height, 0.0), 0.5).with_mass(2.0))
+                .unwrap();
         }
         // It comes to rest first, for `contact` knows forces after sub-steps.
         measured(&mut world, 60, 1.0 / 60.0);

@@ -56,9 +56,7 @@ class Packing:
 
     def scene(self, name: str = "packing") -> Scene:
         """A scene of these spheres in their box, under the rule ``exact``."""
-        points = Points(
-            self.positions, self.radii, velocities=self.velocities, masses=self.masses
-        )
+        points = Points(self.positions, self.radii, velocities=self.velocities, masses=self.masses)
         box = parts.Periodic(size=tuple(self.box))
         return Scene(name=name, spheres=points, simulation=parts.Simulation(boundary=box))
 

@@ -71,12 +71,12 @@ impl Start {
         Self { packing_fraction, ..self }
     }
 
-    /// The same with these masses \[kg\], one for each radius.
+    /// Replaces the masses \[kg\], one for each radius.
     pub fn with_masses(self, masses: Vec<f64>) -> Self {
         Self { masses: Some(masses), ..self }
     }
 
-    /// The same in a box of a given size. Its volume and the radii decide the packing fraction.
+    /// Replaces the box. The volume of a given one and the radii decide the packing fraction.
     pub fn within(self, enclosure: Enclosure) -> Self {
         Self { enclosure, ..self }
     }
