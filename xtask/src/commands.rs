@@ -14,7 +14,7 @@ use crate::markdown::{Block, Markdown};
 use crate::shell::{CI, Outcome, cargo, ci_folder, succeeds, target_folder};
 
 /// Documents whose commands are run.
-const DOCUMENTS: [&str; 15] = [
+const DOCUMENTS: [&str; 16] = [
     "README.md",
     "docs/tutorial.md",
     "docs/command-line.md",

@@ -220,9 +220,10 @@ class RandomFill(Part):
 
 @dataclass(frozen=True)
 class DenseFluid(Part):
-    """A dense fluid in equilibrium, or beyond freezing a disordered packing: small spheres that fly, collide and grow to their radii.
+    """A dense fluid in equilibrium; beyond freezing, a disordered packing.
 
-    It fills the periodic box of the simulation, or a box of its own, which nothing else may be in.
+    Small spheres fly, collide and grow to their radii. They fill the periodic box of the
+    simulation, or a box of their own, which nothing else may be in.
 
     Attributes:
         count: How many, from 1 to 100,000.
