@@ -6,8 +6,8 @@
 use std::sync::{Mutex, MutexGuard};
 
 use carom::{
-    ColliderId, ColliderVariation, DVec3, DerivativeError, Margin, SphereId, SphereTangent,
-    SphereVariation, Variation, World,
+    ColliderId, ColliderVariation, DVec3, Margin, SphereId, SphereTangent, SphereVariation,
+    Variation, World,
 };
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::PyRuntimeError;
