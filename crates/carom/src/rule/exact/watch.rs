@@ -1,10 +1,10 @@
-//! The watch over sensors: which flights spheres were last seen on.
+//! The watch over sensors: the flight of each sphere up to which sensors have looked.
 
 use crate::flight::Flight;
 use crate::polynomial_flight::PolynomialFlight;
 use crate::sensor::{Presence, Sensors};
 
-/// The flight of each sphere as it was last seen, and what sensors saw along those before.
+/// The flight of each sphere that sensors look along next, and what they saw before.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Watch {
     pub sensors: Sensors,
@@ -16,14 +16,14 @@ pub(crate) struct Watch {
     pub(super) step_start: f64,
 }
 
-/// The flight that a sphere was seen on.
+/// A flight that sensors look along.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Seen {
     pub flight: Flight,
     pub curve: Option<PolynomialFlight>,
     pub flight_start: f64,
     pub generation: u32,
-    /// Up to when sensors have looked along it, on the world's clock \[s\].
+    /// Up to when sensors have looked along the flight, on the world's clock \[s\].
     pub from: f64,
 }
 

@@ -24,13 +24,13 @@ pub struct Body {
     pub start: [DVec3; 2],
     /// Centre at the start of the flight before \[m\].
     pub from: DVec3,
-    /// Whether contacts bore it in the flight before.
+    /// Whether the sphere pressed on something in the flight before.
     pub bears: bool,
     pub met_surface: bool,
 }
 
 impl Body {
-    /// The sphere in a slot, as the sub-step begins.
+    /// The sphere in a slot at the start of the sub-step.
     pub fn of(slots: &Slots, slot: usize) -> Self {
         let [position, before] = [slots.position[slot], slots.before[slot]];
         let zero = Row::default();
@@ -61,7 +61,7 @@ impl Body {
         slots::accelerated(Row::new(self.start[0], 0.0), force, h)
     }
 
-    /// What forces alone do to it: nothing where contacts bear it.
+    /// Acceleration by forces alone; zero for a supported sphere.
     pub fn free_acceleration(&self) -> DVec3 {
         if self.bears { DVec3::ZERO } else { self.acceleration }
     }

@@ -74,7 +74,7 @@ struct Gathering<'a> {
     /// By index, so in order.
     members: BTreeMap<u32, Member>,
     touches: BTreeMap<Bodies, TouchOrigin>,
-    /// Slots of members whose pair_search were not looked at yet.
+    /// Slots of members whose neighbours were not searched yet.
     frontier: Vec<u32>,
 }
 
@@ -98,8 +98,7 @@ impl<'a> Gathering<'a> {
         self.context.period != DVec3::INFINITY
     }
 
-    /// Notes that two spheres touch, with the shift from where the second one counts to where the
-    /// first does.
+    /// Notes that two spheres touch, with the shift from the second one's position to its image beside the first.
     fn connect(&mut self, slots: [u32; 2], shift: DVec3) {
         let is_predicted = false;
         let indices = slots.map(|slot| self.timeline.flights.index_of[slot as usize]);
@@ -111,8 +110,8 @@ impl<'a> Gathering<'a> {
         });
     }
 
-    /// Two spheres touch, whatever rounding says: those that were predicted to meet now, or stay in
-    /// contact. In a periodic box, the nearest images do.
+    /// Connects two spheres that touch by prediction or persistent contact, whatever rounding says. In a periodic
+    /// box their nearest images touch.
     fn connect_nearest(&mut self, first: u32, second: u32) {
         let shift = if self.has_images() {
             let place = |slot| self.timeline.flights.state_of(slot, self.time).0;
@@ -230,8 +229,8 @@ impl<'a> Gathering<'a> {
         }
     }
 
-    /// Notes that a sphere meets a surface as predicted; unless that is a part of the mesh that holds it, to which
-    /// it is only about to come.
+    /// Notes that a sphere meets a surface as predicted. A part of the mesh that the sphere lies on does not count
+    /// before the sphere reaches it.
     fn connect_predicted(&mut self, slot: u32, surface: u32) {
         let mesh = holding_mesh(self.timeline, self.context, slot, self.time);
         let whole = self.context.system.surfaces[surface as usize].whole;
@@ -285,24 +284,20 @@ fn leave_out_doubles(context: &StepContext, members: &[Member], touches: &mut Ve
         let is_under = surface(touch).is_some_and(|it| has(&it.form, state));
         (!is_under, !touch.has_persisted, touch.bodies)
     };
-    let mut first = 0;
-    let mut left: Vec<Touch> = Vec::new();
-    while let Some(&touch) = touches.get(first) {
-        first += 1;
-        let flush = left.iter_mut().rev().take_while(|it| it.second == touch.second);
-        let double =
-            surface(&touch).and_then(|_| flush.into_iter().find(|it| are_flush(it, &touch)));
-        match double {
-            Some(other) if rank(&touch) < rank(other) => *other = touch,
+    let mut left: Vec<Touch> = Vec::with_capacity(touches.len());
+    for touch in touches.iter() {
+        let of_sphere = left.iter_mut().rev().take_while(|it| it.second == touch.second);
+        let is_surface = surface(touch).is_some();
+        match of_sphere.into_iter().find(|it| is_surface && are_flush(it, touch)) {
+            Some(other) if rank(touch) < rank(other) => *other = *touch,
             Some(_) => {}
-            None => left.push(touch),
+            None => left.push(*touch),
         }
     }
     *touches = left;
 }
 
-/// Leaves out edges that spheres touch where they touch a plane, but for rounding: there two faces meet that
-/// make one.
+/// Removes edges that spheres touch together with a plane, up to rounding: two coplanar faces meet there.
 fn leave_out_seams(context: &StepContext, members: &[Member], touches: &mut Vec<Touch>) {
     let is_at_rest = |touch: &Touch| touch.first.is_none() && !touch.does_work();
     if !touches.iter().any(|touch| is_at_rest(touch) && touch.is_curved()) {
