@@ -181,7 +181,7 @@ fn are_flush(forms: [&Form; 2]) -> bool {
         Form::HalfSpace { normal, .. } => *normal,
         _ => DVec3::ZERO,
     };
-    // Most are told apart by their normals.
+    // Most pairs differ in their normals.
     if normal(forms[0]).dot(normal(forms[1])) < 0.5 {
         return false;
     }
