@@ -1,10 +1,10 @@
 //! The course of one sphere: its next impacts and flights, while the others keep their flights.
 
-use super::Unfinished;
 use super::context::StepContext;
 use super::events::{Event, EventTarget, NextEvents, UpcomingEvent};
 use super::span::Span;
 use super::timeline::Timeline;
+use super::unfinished::Unfinished;
 use crate::flight::Flight;
 use crate::id::SphereId;
 use crate::path::{PathEnd, PathLeg};
@@ -89,7 +89,7 @@ fn answer(
         meet_only(timeline, context, at_work, followed, event.time);
         return Ok(event.time);
     }
-    super::happen(timeline, context, at_work, next)
+    super::answer::event(timeline, context, at_work, next)
 }
 
 /// Whether an event of the sphere at work is one of the sphere that is followed, or of its cluster.
