@@ -197,10 +197,10 @@ impl Force for Bonds {
 
 impl Interaction for Bonds {
     fn add_forces(&self, spheres: &SphereStates, _time: f64, forces: &mut [DVec3]) {
-        for i in 0..spheres.len() {
+        for (i, force) in forces.iter_mut().enumerate() {
             for j in 0..spheres.len() {
                 let velocity = spheres.velocities[j] - spheres.velocities[i];
-                forces[i] += self.stiffness * spheres.offset(i, j) + self.damping * velocity;
+                *force += self.stiffness * spheres.offset(i, j) + self.damping * velocity;
             }
         }
     }
