@@ -9,6 +9,7 @@ use crate::forces::Spring;
 use crate::numbered::Numbered;
 use crate::report::{StepReport, TriggerContact};
 use crate::rule::contact::{self, Solver};
+use crate::rule::exact::SupportChange;
 use crate::rule::{bisect, discrete};
 use crate::sensor::{Sensors, Tracks};
 use crate::settings::Rule;
@@ -24,6 +25,8 @@ pub(crate) struct Scratch {
     pub contact: contact::Scratch,
     pub search: Search,
     pub tracks: Tracks,
+    /// Log of persistent contacts under the rule `exact`; `None` in a step that keeps none.
+    pub support_log: Option<Vec<SupportChange>>,
     /// Motion at the start of the step, which a failed step restores.
     pub start: Motion,
 }

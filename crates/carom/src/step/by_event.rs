@@ -24,9 +24,15 @@ pub(super) fn step(mut attempt: Attempt, parameters: Exact, until: Until) -> Res
             check_closed_form(&system, "next event").map_err(|it| it.about(Subject::Step))?;
         }
         let mut timeline = begin(attempt, parameters, end)?;
+        if attempt.scratch.support_log.is_some() {
+            timeline.begin_support_log(attempt.start);
+        }
         let mut watch = watch_over(attempt);
         let end = advance(attempt, &mut timeline, &mut watch, end, until)?;
         attempt.end_at(end);
+        if let Some(log) = &mut attempt.scratch.support_log {
+            *log = timeline.end_support_log();
+        }
         account_for_contacts(attempt.report, &mut timeline, end);
         place_spheres(attempt, &timeline, end)?;
         timeline.write_radii(&mut attempt.state.spheres.properties.radius, end);

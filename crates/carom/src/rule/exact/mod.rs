@@ -41,6 +41,7 @@ mod zone;
 
 pub(crate) use contacts::{NormalCurvature, curvature_of};
 pub(crate) use course::{Course, follow};
+pub(crate) use flights::{HeldMotion, SupportChange};
 pub(crate) use frame::{
     Arrivals, HoldError, adopt, begin, end, persistent_contacts, start, tick_for_springs,
 };

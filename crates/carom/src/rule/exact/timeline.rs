@@ -7,7 +7,7 @@ use super::clearance::{Clearance, Obstacle};
 use super::contact_scale::RESOLVED_PATH;
 use super::contacts::Member;
 use super::events::{Event, NextEvents, PackedTarget, Prediction, Schedule, UpcomingEvent};
-use super::flights::{Flights, JointStep, Species, StepLimits, Support};
+use super::flights::{Flights, JointStep, Species, StepLimits, Support, SupportChange};
 use super::frame_work::FrameWork;
 use super::neighbours::{NeighbourBuffer, Neighbours};
 use super::ticks::{MOST_ZONE_TICKS, tick_for_frames};
@@ -113,6 +113,16 @@ impl Timeline {
     /// friction and that of colliders that move \[J\].
     pub fn take_contact_work(&mut self, time: f64) -> [f64; 2] {
         self.flights.take_contact_work(time)
+    }
+
+    /// Starts a log of persistent contacts at `now` \[s\].
+    pub fn begin_support_log(&mut self, now: f64) {
+        self.flights.begin_support_log(now);
+    }
+
+    /// Ends the log of persistent contacts. Returns its changes in order of time.
+    pub fn end_support_log(&mut self) -> Vec<SupportChange> {
+        self.flights.end_support_log()
     }
 
     /// The zone, for a timeline that is made again.
