@@ -36,8 +36,8 @@ fn large_ball_rises_through_the_small_ones_on_a_vibrated_plate() {
 fn balls_pass_the_lift_the_turnstile_and_the_bridge() {
     let mut world = world("gates.toml");
     let (mut on_the_lift, mut on_the_deck, mut on_the_bridge) = (false, false, false);
-    for _ in 0..20 {
-        run(&mut world, 1.0);
+    for _ in 0..1200 {
+        run(&mut world, FRAME);
         for ball in world.spheres().positions() {
             // Above the ends of the ramp, of the deck, and of the bridge at its lowest.
             on_the_lift |= ball.x > -1.8 && ball.x < -0.8 && ball.y > 1.5;
