@@ -18,8 +18,10 @@ from carom._pictures.picture import Renderer
 from carom._run.batch import Batch
 from carom._run.derivatives import Gradient, Margin, Tangents, Tape
 from carom._run.gradients import RunEnd, value_and_grad
+from carom._run.packing import Packing, pack
 from carom._run.queries import PredictedPath, QueryFilter
 from carom._run.reports import ContactAccount, EnergyAccount, StageCounts, ZoneAccount
+from carom._run.stress import Stress, StressMeter
 from carom._run.tables import (
     CONTACT,
     HIT,
@@ -52,6 +54,7 @@ from carom._scene.parts import (
     Contact,
     Container,
     Cylinder,
+    DenseFluid,
     DensityColor,
     Disc,
     Discrete,
@@ -136,6 +139,7 @@ __all__ = [
     "ContactAccount",
     "Container",
     "Cylinder",
+    "DenseFluid",
     "DensityColor",
     "Disc",
     "Discrete",
@@ -162,6 +166,7 @@ __all__ = [
     "MutualGravity",
     "OmissionWarning",
     "Oscillate",
+    "Packing",
     "Periodic",
     "Pipe",
     "PointAttractor",
@@ -189,6 +194,8 @@ __all__ = [
     "StaggeredRows",
     "Steady",
     "StepError",
+    "Stress",
+    "StressMeter",
     "Sun",
     "Swing",
     "Tangents",
@@ -206,6 +213,7 @@ __all__ = [
     "__version__",
     "analysis",
     "load",
+    "pack",
     "scene",
     "scenes",
     "sweep",

@@ -68,11 +68,13 @@ pub mod respond;
 mod rotation;
 mod round_solid;
 mod rule;
+mod seams;
 mod sensor;
 mod settings;
 mod sphere;
 mod state;
 mod step;
+mod stress;
 mod sum;
 mod surface;
 mod surface_motion;
@@ -82,7 +84,7 @@ mod validate;
 mod work;
 mod world;
 
-pub use glam::{DQuat, DVec3};
+pub use glam::{DMat3, DQuat, DVec3};
 
 pub use bodies::Spheres;
 pub use collider::{Collider, Ends, Shape, Sides};
@@ -113,6 +115,7 @@ pub use settings::{
     WindBack, Zones,
 };
 pub use sphere::{Mass, SOLID_BALL, Sphere, SphereMotion, THIN_SHELL, volume};
+pub use stress::{Stress, StressMeter};
 pub use tangent::{
     ColliderVariation, DerivativeError, Margin, SphereTangent, SphereVariation, Tangents, Tape,
     Variation,
