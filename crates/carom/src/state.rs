@@ -85,6 +85,16 @@ impl State {
         invariants::kinetic_energy(&self.spheres) + self.potential_energy(time)
     }
 
+    /// Potential energy \[J\] in forces that do other work, too, at `time` \[s\].
+    pub fn nonconservative_potential(&self, time: f64) -> f64 {
+        let Instant { system, motion, .. } = self.now();
+        if system.has_nonconservative_forces() {
+            system.nonconservative_potential([&motion.position, &motion.velocity], time)
+        } else {
+            0.0
+        }
+    }
+
     /// The contacts that persist, as far as flights are known.
     pub fn persistent_contacts(&self) -> Vec<PersistentContact> {
         let Instant { system, time, .. } = self.now();

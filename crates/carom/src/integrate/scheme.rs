@@ -12,6 +12,10 @@ pub(super) const MOST_STAGES: usize = 4;
 pub(super) trait Scheme {
     /// How often a step asks for the acceleration, up to [`MOST_STAGES`].
     const STAGES: usize;
+    /// The order of its error over a given time.
+    const ORDER: u32;
+    /// Parts of the step for which the accelerations of its stages count in the change of the velocity.
+    const WEIGHTS: [f64; MOST_STAGES];
 
     /// The time from the start \[s\] and the state at which the next acceleration is due, after those that
     /// are `known` \[m/s²\].

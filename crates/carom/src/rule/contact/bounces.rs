@@ -21,9 +21,9 @@ const ROUNDING: f64 = 1e-9;
 /// A bounce of a sphere off one body, or off the walls of a corner at once.
 #[derive(Clone, Copy)]
 pub(super) struct OneBounce {
-    slot: usize,
+    pub slot: usize,
     /// The other sphere, if it is one.
-    other: Option<usize>,
+    pub other: Option<usize>,
     /// On the sphere \[N s\].
     impulse: DVec3,
     /// When in the sub-step \[s\].
@@ -40,6 +40,12 @@ impl OneBounce {
         }
         let impulse = others.iter().fold(first.impulse, |sum, it| sum + it.impulse);
         Some(Self { impulse, ..first })
+    }
+
+    /// How much farther the sphere comes than by the mean of its velocities at both ends of the sub-step \[m\], as
+    /// it bounces at its own time, not in the middle.
+    pub fn way_beyond_mean(&self, slots: &Slots, sub_step: &SubStep) -> DVec3 {
+        (0.5 * sub_step.h - self.time) * slots.velocity[self.slot].number() * self.impulse
     }
 
     /// What the work of its impulse is more \[J\] at its own time than in the middle of the sub-step: forces

@@ -16,6 +16,10 @@ pub(super) struct Landed {
     pub spin: DVec3,
     /// Centre at the start of the last flight \[m\].
     pub from: DVec3,
+    /// Sum of the products of the times of its flights with the means of their first and last velocities \[m\].
+    pub way: DVec3,
+    /// The same of the products with the velocity that drag acts on \[m²/s\].
+    pub against_drag: f64,
     /// Whether contacts bear it in the end.
     pub bears: bool,
     /// Whether it has met a surface.

@@ -26,6 +26,7 @@ mod descent;
 mod dormant;
 mod drift;
 mod energy;
+mod force_work;
 mod frame;
 mod gather;
 mod guard;
@@ -153,6 +154,7 @@ fn sub_step(
     if solver.is_stale {
         neighbours::search(system, frame, &sub_step, solver, scratch, report);
     }
+    force_work::find(system, solver, frame.time + start);
     solve::prepare(solver, &sub_step);
     solve::sweep(solver, &sub_step, parameters, report);
     let first = report.impacts.len();
@@ -164,6 +166,7 @@ fn sub_step(
     }
     cascade::land(solver);
     impacts::report(system, solver, &sub_step, first, report);
+    force_work::account(solver, &bounces, &sub_step, report);
     bounces::note(solver, bounces, &sub_step, report);
     advance::advance(solver, &sub_step);
     solve::correct(solver, report);

@@ -22,6 +22,7 @@ mod context;
 mod course;
 mod events;
 mod flights;
+mod force_work;
 mod frame;
 mod frame_work;
 mod impact;

@@ -1,13 +1,20 @@
-//! The watch over sensors: which flights spheres were last seen on.
+//! The watch over spheres: which flights they were last seen on.
 
+use glam::DVec3;
+
+use super::force_work::ForceTally;
 use crate::flight::Flight;
+use crate::force_work::ForceWork;
 use crate::polynomial_flight::PolynomialFlight;
 use crate::sensor::{Presence, Sensors};
 
-/// The flight of each sphere as it was last seen, and what sensors saw along those before.
+/// The flight of each sphere as it was last seen, and what was found along those before.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Watch {
-    pub sensors: Sensors,
+    /// What sensors saw; `None` where there are none.
+    pub sensors: Option<Sensors>,
+    /// What forces did whose work no potential accounts for; `None` where there are none.
+    pub(super) tally: Option<ForceTally>,
     /// By index.
     pub(super) flights: Vec<Seen>,
     /// Slots of spheres that began a flight since.
@@ -23,13 +30,36 @@ pub(super) struct Seen {
     pub curve: Option<PolynomialFlight>,
     pub flight_start: f64,
     pub generation: u32,
-    /// Up to when sensors have looked along it, on the world's clock \[s\].
+    /// Whether the sphere is in a zone.
+    pub is_stepped: bool,
+    /// Forces of nonconservative interactions, held over the flight \[N\].
+    pub held_force: DVec3,
+    /// Up to when it was looked along it, on the world's clock \[s\].
     pub from: f64,
 }
 
+impl Seen {
+    /// Centre \[m\] and velocity \[m/s\] at a time on the world's clock \[s\].
+    pub fn state_at(&self, time: f64) -> (DVec3, DVec3) {
+        let age = time - self.flight_start;
+        match &self.curve {
+            Some(curve) => curve.after(age),
+            None => self.flight.after(age),
+        }
+    }
+}
+
 impl Watch {
-    /// A watch over a step that starts at a time \[s\].
-    pub fn new(presence: Presence, step_start: f64) -> Self {
-        Self { sensors: Sensors::with(presence), step_start, ..Self::default() }
+    /// A watch over a step that starts at a time \[s\]: for sensors, if it is known what is in them, and for the work
+    /// of forces, if that is measured.
+    pub fn new(presence: Option<Presence>, measures_work: bool, step_start: f64) -> Self {
+        let sensors = presence.map(Sensors::with);
+        let tally = measures_work.then(ForceTally::default);
+        Self { sensors, tally, step_start, ..Self::default() }
+    }
+
+    /// Takes the work that was measured since it was taken last.
+    pub fn take_work(&mut self) -> ForceWork {
+        self.tally.as_mut().map(|tally| std::mem::take(&mut tally.work)).unwrap_or_default()
     }
 }

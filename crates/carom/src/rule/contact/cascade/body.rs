@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use crate::rule::contact::landings::Landed;
 use crate::rule::contact::row::Row;
 use crate::rule::contact::slots::{self, Slots};
 
@@ -24,6 +25,9 @@ pub struct Body {
     pub start: [DVec3; 2],
     /// Centre at the start of the flight before \[m\].
     pub from: DVec3,
+    /// As in [`Landed`], of the flights so far.
+    pub way: DVec3,
+    pub against_drag: f64,
     /// Whether contacts bore it in the flight before.
     pub bears: bool,
     pub met_surface: bool,
@@ -50,6 +54,8 @@ impl Body {
             drag_rate: acceleration.number(),
             start,
             from: position.vector(),
+            way: DVec3::ZERO,
+            against_drag: 0.0,
             bears: slots.bears[slot],
             met_surface: false,
         }
@@ -59,6 +65,20 @@ impl Body {
     pub fn accelerated(&self, h: f64) -> DVec3 {
         let force = Row::new(self.acceleration, self.drag_rate);
         slots::accelerated(Row::new(self.start[0], 0.0), force, h)
+    }
+
+    /// Adds a flight of `h` \[s\] that has come to its end, to what forces do work along.
+    pub fn add_way(&mut self, h: f64) {
+        let mean = 0.5 * (self.start[0] + self.velocity);
+        self.way += h * mean;
+        self.against_drag += h * self.accelerated(h).dot(mean);
+    }
+
+    /// Where it has come to.
+    pub fn landed(&self) -> Landed {
+        let Self { slot, position, velocity, spin, from, way, against_drag, bears, met_surface, .. } =
+            *self;
+        Landed { slot, position, velocity, spin, from, way, against_drag, bears, met_surface }
     }
 
     /// What forces alone do to it: nothing where contacts bear it.

@@ -1,0 +1,100 @@
+//! Work of forces that no potential accounts for, in a sub-step.
+
+use glam::DVec3;
+
+use super::bounces::OneBounce;
+use super::row::Row;
+use super::slots::Slots;
+use super::solver::Solver;
+use super::sub_step::SubStep;
+use crate::force_work::ForceWork;
+use crate::forces::{self, SphereState};
+use crate::report::StepReport;
+use crate::rule::periodic;
+use crate::system::System;
+
+/// Finds what the nonconservative forces do to each sphere in a sub-step that starts at `time` \[s\] on the world's
+/// clock; nothing where there are none.
+pub(super) fn find(system: &System, solver: &mut Solver, time: f64) {
+    let Solver { slots, held_forces, has_other_forces, .. } = solver;
+    slots.working.clear();
+    slots.applied.clear();
+    if !system.has_nonconservative_forces() {
+        return;
+    }
+    let between = forces_between(system, slots, time);
+    for slot in 0..slots.len() {
+        let index = slots.index[slot] as usize;
+        let inverse_mass = slots.velocity[slot].number();
+        let of = |forces: &[DVec3]| forces.get(index).copied().unwrap_or(DVec3::ZERO);
+        let (radius, mass) = (system.spheres.radius[index], system.spheres.mass[index]);
+        let (linear, _) = forces::nonconservative_linear(system.forces, radius, mass);
+        let mut force = of(&between);
+        if *has_other_forces {
+            let position = periodic::wrapped(slots.position[slot].vector(), slots.period);
+            let velocity = slots.before[slot].vector();
+            let state = SphereState { position, velocity, radius, mass };
+            force += forces::nonconservative_others(system.forces, &state, time);
+        }
+        let applied = inverse_mass * (of(&system.spheres.applied_force) - of(held_forces));
+        let own = linear.acceleration + inverse_mass * force;
+        slots.working.push(Row::new(own + applied, linear.drag_rate));
+        slots.applied.push(applied);
+    }
+}
+
+/// The nonconservative forces between spheres at the start of a sub-step \[N\], by index; empty where there are none.
+fn forces_between(system: &System, slots: &Slots, time: f64) -> Vec<DVec3> {
+    let mut forces = Vec::new();
+    if system.has_interactions() {
+        let mut states = [(); 2].map(|()| vec![DVec3::ZERO; slots.len()]);
+        for (slot, &index) in slots.index.iter().enumerate() {
+            states[0][index as usize] = slots.position[slot].vector();
+            states[1][index as usize] = slots.before[slot].vector();
+        }
+        let [positions, velocities] = &states;
+        system.nonconservative_forces_between([positions, velocities], time, &mut forces);
+    }
+    forces
+}
+
+/// Accounts for the work of the forces that [`find`] found, `F·(v + v')/2 h` from the velocity v at the start to v'
+/// at the end.
+///
+/// What [bounces](super::bounces) at its own time goes another way, and cascades go through the sub-step in
+/// several flights.
+pub(super) fn account(
+    solver: &Solver,
+    bounces: &[OneBounce],
+    sub_step: &SubStep,
+    report: &mut StepReport,
+) {
+    let slots = &solver.slots;
+    if slots.working.is_empty() {
+        return;
+    }
+    let mut work = ForceWork::default();
+    let mut add = |slot: usize, way: DVec3, against_drag: f64| {
+        let (mass, applied) = (1.0 / slots.velocity[slot].number(), slots.applied[slot]);
+        let own = slots.working[slot].vector() - applied;
+        work.forces += mass * (own.dot(way) - slots.working[slot].number() * against_drag);
+        work.applied += mass * applied.dot(way);
+    };
+    for slot in (0..slots.len()).filter(|&slot| !slots.sleeps[slot]) {
+        if let Some(landed) = solver.landings.of(slot) {
+            add(slot, landed.way, landed.against_drag);
+        } else {
+            let mean = 0.5 * (slots.before[slot].vector() + slots.velocity[slot].vector());
+            let free = slots.accelerated(slot, sub_step.h);
+            add(slot, sub_step.h * mean, sub_step.h * free.dot(mean));
+        }
+    }
+    let has_landed = |slot: usize| solver.landings.has(slot);
+    for bounce in bounces {
+        let is_done = has_landed(bounce.slot) || bounce.other.is_some_and(has_landed);
+        if !is_done && !slots.sleeps[bounce.slot] {
+            add(bounce.slot, bounce.way_beyond_mean(slots, sub_step), 0.0);
+        }
+    }
+    report.energy_account.add_force_work(work);
+}
