@@ -9,8 +9,8 @@ pub(crate) struct AxisMotion {
 }
 
 impl AxisMotion {
-    /// A time \[s\] before which the motion stays between `low` < 0 and `high` > 0 \[m\] from
-    /// where it is. Without drag it is when it gets there.
+    /// A lower bound of the time \[s\] at which the motion leaves the interval from `low` < 0 to `high` > 0 \[m\]
+    /// about its start. Without drag it is the time itself.
     #[inline(always)]
     pub fn leaves(&self, low: f64, high: f64) -> f64 {
         if self.acceleration == 0.0 && self.drag_rate == 0.0 {
@@ -20,13 +20,13 @@ impl AxisMotion {
         self.reaches(high, 1.0).min(self.reaches(-low, -1.0))
     }
 
-    /// How far it goes in a time \[m\], if there is no drag.
+    /// Displacement in a time \[m\], without drag.
     pub fn way(&self, time: f64) -> f64 {
         time * (self.velocity + 0.5 * self.acceleration * time)
     }
 
-    /// A time \[s\] before which the motion does not reach one side, `distance` \[m\] away in the
-    /// direction of `sign`.
+    /// A lower bound of the time \[s\] at which the motion reaches one side, `distance` \[m\] away in the direction
+    /// of `sign`.
     #[inline(never)]
     fn reaches(&self, distance: f64, sign: f64) -> f64 {
         let (velocity, acceleration) = (sign * self.velocity, sign * self.acceleration);
@@ -34,8 +34,8 @@ impl AxisMotion {
         if distance == f64::INFINITY {
             return f64::INFINITY;
         }
-        // Drag slows down: with it the sphere is never ahead of where it would be without, nor of
-        // where its terminal velocity would take it if that is faster.
+        // Drag only slows down: the sphere is never ahead of its motion without drag, nor of a motion at its
+        // terminal velocity if that is faster.
         let without_drag = first_passage(distance, velocity, acceleration);
         if self.drag_rate == 0.0 {
             return without_drag;
@@ -45,7 +45,7 @@ impl AxisMotion {
         let bound = if velocity >= 0.0 {
             without_drag
         } else {
-            // On its way back drag pulls, too, never more than now.
+            // On its way back drag adds to the acceleration, never by more than now.
             first_passage(distance, velocity, acceleration - self.drag_rate * velocity)
         };
         bound.max(at_fastest)

@@ -43,7 +43,7 @@ pub(crate) enum Profile {
     },
 }
 
-/// The nearest place of a profile, as seen from a point of the half-plane.
+/// The nearest place of a profile to a point of the half-plane.
 #[derive(Debug, Clone, Copy)]
 struct ProfilePoint {
     /// Distance \[m\] of the surface; of the face it is negative behind it.
@@ -60,7 +60,7 @@ struct ProfilePoint {
     room: f64,
 }
 
-/// A band as seen from a point.
+/// Distance of a band from a point, with its derivatives.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct View {
     /// From the surface \[m\]; of the face it is negative behind it.
@@ -81,14 +81,14 @@ pub(crate) struct View {
     pub from_axis: f64,
 }
 
-/// On the axis of a band are points that are no farther from it than this part of the size of the band.
+/// Points count as on the axis of a band within this part of the size of the band.
 const ON_AXIS: f64 = 1e-9;
 /// A normal along or across the axis has a smaller component \[1\] in the other direction.
 const LEAST_TILT: f64 = 1e-3;
 
 impl ProfilePoint {
-    /// From the axis a whole ring is nearest: its normals together are along the axis. A sphere there comes to the
-    /// ring more slowly than it moves along that.
+    /// The view from the axis, where a whole ring is nearest and its mean normal is along the axis. A sphere there
+    /// approaches the ring more slowly than it moves along the axis.
     fn over_ring(&self) -> Self {
         let normal = DVec2::new(0.0, 1f64.copysign(self.normal.y));
         Self { normal, curvatures: [0.0; 2], ..*self }

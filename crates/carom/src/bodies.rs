@@ -1,4 +1,4 @@
-//! Spheres as they are stored: an array for each quantity.
+//! Storage of spheres: an array for each quantity.
 
 use glam::{DQuat, DVec3};
 
@@ -8,7 +8,7 @@ use crate::id::SphereId;
 use crate::rotation;
 use crate::sphere::{Mass, SOLID_BALL, Sphere};
 
-/// Where spheres are and how they move: what a step changes.
+/// The state of spheres, which a step changes.
 #[derive(Debug, Clone, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Motion {
@@ -20,7 +20,7 @@ pub(crate) struct Motion {
     pub spin: Spin,
 }
 
-/// How spheres are turned, and how they turn. Both arrays are empty while no sphere was ever turned.
+/// Orientations and angular velocities. Both arrays are empty while no sphere was ever rotated.
 #[derive(Debug, Clone, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Spin {
@@ -60,19 +60,19 @@ impl Motion {
 }
 
 impl Spin {
-    /// Grows both arrays to `count` spheres; new entries are not turned and do not turn.
+    /// Grows both arrays to `count` spheres; new entries have no rotation.
     pub fn make_room(&mut self, count: usize) {
         self.orientation.resize(count, DQuat::IDENTITY);
         self.angular_velocity.resize(count, DVec3::ZERO);
     }
 
-    /// Whether a sphere is turned, or turns.
+    /// Whether a sphere is rotated or rotates.
     pub fn is_any(&self) -> bool {
         self.orientation.iter().any(|&it| it != DQuat::IDENTITY)
             || self.angular_velocity.iter().any(|&it| it != DVec3::ZERO)
     }
 
-    /// Turns all spheres on for `h` \[s\]: no torque acts in free flight.
+    /// Advances all rotations by `h` \[s\]: no torque acts in free flight.
     pub fn advance(&mut self, h: f64) {
         for (orientation, &angular_velocity) in
             self.orientation.iter_mut().zip(&self.angular_velocity)
@@ -81,14 +81,14 @@ impl Spin {
         }
     }
 
-    /// Appends how a sphere is turned and turns, as number `count`.
+    /// Appends the rotation of a sphere, as number `count`.
     fn push(&mut self, count: usize, sphere: &Sphere) {
         push(&mut self.orientation, count, sphere.orientation.normalize(), DQuat::IDENTITY);
         push(&mut self.angular_velocity, count, sphere.angular_velocity, DVec3::ZERO);
         self.make_whole(count + 1);
     }
 
-    /// Overwrites how one of `count` spheres is turned and turns.
+    /// Overwrites the rotation of one of `count` spheres.
     fn set(&mut self, count: usize, index: usize, sphere: &Sphere) {
         set(&mut self.orientation, count, index, sphere.orientation.normalize(), DQuat::IDENTITY);
         set(&mut self.angular_velocity, count, index, sphere.angular_velocity, DVec3::ZERO);
@@ -103,7 +103,7 @@ impl Spin {
     }
 }
 
-/// What spheres are: what a step reads.
+/// Properties of spheres, which a step reads.
 #[derive(Debug, Clone, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Properties {
@@ -267,7 +267,7 @@ impl Spheres {
         &self.properties.growth_speed
     }
 
-    /// Number that the program keeps with each sphere; empty while all are 0.
+    /// A number of the program for each sphere; empty while all are 0.
     pub fn user_data(&self) -> &[u64] {
         &self.properties.user_data
     }
@@ -342,7 +342,7 @@ impl Spheres {
         motion.spin.set(count, index, sphere);
     }
 
-    /// Takes spheres out; those after them move up, so that ids stay ascending.
+    /// Removes spheres; later ones move up, so that ids stay ascending.
     pub(crate) fn remove_all(&mut self, ids: &[SphereId]) {
         let mut going = ids.to_vec();
         going.sort_unstable();
@@ -366,7 +366,7 @@ impl Spheres {
     }
 }
 
-/// Appends the value of sphere number `count` to an array that is empty while all values are usual.
+/// Appends the value of sphere number `count` to an array that is empty while all values are the default.
 fn push<T: Copy + PartialEq>(values: &mut Vec<T>, count: usize, value: T, usual: T) {
     if !values.is_empty() || value != usual {
         values.resize(count, usual);
@@ -374,7 +374,7 @@ fn push<T: Copy + PartialEq>(values: &mut Vec<T>, count: usize, value: T, usual:
     }
 }
 
-/// Sets one of `count` values in an array that is empty while all values are usual.
+/// Sets one of `count` values in an array that is empty while all values are the default.
 fn set<T: Copy + PartialEq>(values: &mut Vec<T>, count: usize, index: usize, value: T, usual: T) {
     if !values.is_empty() || value != usual {
         values.resize(count, usual);
@@ -388,7 +388,7 @@ fn some<T: Copy>(items: &[T], indices: &[u32]) -> Vec<T> {
     of_all.flatten().collect()
 }
 
-/// Keeps the items that stay.
+/// Keeps the items whose flag is set.
 fn keep<T>(items: &mut Vec<T>, stays: &[bool]) {
     let mut stays = stays.iter();
     items.retain(|_| stays.next().is_some_and(|stays| *stays));

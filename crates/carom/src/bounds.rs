@@ -15,12 +15,12 @@ impl Bounds {
         Self { min: center - half, max: center + half }
     }
 
-    /// Farther by `margin` \[m\] on all sides.
+    /// The bounds, wider by `margin` \[m\] on all sides.
     pub fn widened(&self, margin: f64) -> Self {
         Self { min: self.min - margin, max: self.max + margin }
     }
 
-    /// Elsewhere by `shift` \[m\].
+    /// The bounds, moved by `shift` \[m\].
     pub fn moved(&self, shift: DVec3) -> Self {
         Self { min: self.min + shift, max: self.max + shift }
     }

@@ -1,30 +1,30 @@
-//! A tree over the bounds of things, which is searched nearest first.
+//! A tree over the bounds of items, which is searched nearest first.
 
 use crate::bounds::Bounds;
 
-/// A thing with bounds.
+/// An item with bounds.
 pub(crate) trait Bounded {
-    /// What decides where things lie at one place.
+    /// Key that decides between items at one place.
     type Order: Ord;
 
     /// Axis-aligned bounds \[m\].
     fn bounds(&self) -> &Bounds;
 
-    /// Different for any two things of a tree.
+    /// The key, different for any two items of a tree.
     fn order(&self) -> Self::Order;
 }
 
-/// Up to this many things are looked at one by one; below it a tree saves nothing.
+/// Up to this many items are tested one by one; a tree would save nothing.
 const LEAF_SIZE: usize = 4;
 
-/// Things in a bounding volume hierarchy, split at the median centre.
+/// Items in a bounding volume hierarchy, split at the median centre.
 #[derive(Debug, Clone)]
 pub(crate) struct BoundsTree<L> {
     /// Depth first: the first child of an inner node follows it.
     nodes: Vec<Node>,
-    /// Bounded things, grouped by leaf.
+    /// Items with bounds, grouped by leaf.
     leaves: Vec<L>,
-    /// Things without bounds, near every place.
+    /// Items without bounds, near every place.
     unbounded: Vec<L>,
 }
 
@@ -43,7 +43,7 @@ enum Below {
 }
 
 impl<L: Bounded> BoundsTree<L> {
-    /// A tree of things; one that is not `sorted` costs little to make, and each search looks at all of them.
+    /// A tree of items. One that is not `sorted` costs little to make, and each search tests all of its items.
     pub fn of(leaves: Vec<L>, unbounded: Vec<L>, sorted: bool) -> Self {
         let mut tree = Self { nodes: Vec::new(), leaves, unbounded };
         let (count, size) = (tree.leaves.len(), if sorted { LEAF_SIZE } else { usize::MAX });
@@ -53,7 +53,7 @@ impl<L: Bounded> BoundsTree<L> {
         tree
     }
 
-    /// Bounds of all things that have some; `None` if there are none.
+    /// Bounds of all items that have some; `None` without any.
     pub fn bounds(&self) -> Option<&Bounds> {
         self.nodes.first().map(|root| &root.bounds)
     }
@@ -83,8 +83,8 @@ impl<L: Bounded> BoundsTree<L> {
         self.nodes[node].below = Below::Nodes { second };
     }
 
-    /// Visits things for whose bounds `lower_bound` is not above the `limit`, roughly in its order. A visit may
-    /// lower the limit.
+    /// Visits items whose `lower_bound` is not above the `limit`, roughly in its order. A visit may lower the
+    /// limit.
     pub fn search(
         &self,
         lower_bound: &impl Fn(&Bounds) -> f64,

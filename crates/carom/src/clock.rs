@@ -22,7 +22,7 @@ impl Clock {
         self
     }
 
-    /// All that its future depends on.
+    /// The state of the clock.
     pub fn parts(&self) -> [f64; 2] {
         self.0.parts()
     }

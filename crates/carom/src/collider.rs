@@ -172,7 +172,7 @@ impl Sides {
     }
 }
 
-/// A shape somewhere in the world that never gives way, at rest or moved from outside.
+/// A shape in the world that no impact moves, at rest or moved by a program.
 ///
 /// ```
 /// use carom::{Collider, DQuat, DVec3, Pose, Shape, Sphere, World};
@@ -203,12 +203,12 @@ pub struct Collider {
     pub velocity: DVec3,
     /// Of the rotation about the origin of the local frame, along its axis \[rad/s\].
     pub angular_velocity: DVec3,
-    /// How it moves, if not steadily. In a world, pose, velocity and angular velocity are then those that the motion has
-    /// now; another pose given to it there moves all of the motion.
+    /// Motion, if it is not steady. In a world, pose, velocity and angular velocity are then those of the motion at
+    /// the present time; a new pose there moves the whole motion.
     pub motion: Motion,
     /// Coefficient of restitution in \[0, 1\].
     pub restitution: f64,
-    /// Friction at its surface; it says nothing unless given.
+    /// Friction at its surface; `None` in each coefficient unless given.
     pub friction: Friction,
     /// A trigger reports contact and deflects nothing.
     pub trigger: bool,
@@ -216,9 +216,9 @@ pub struct Collider {
     /// that comes with v leaves with `e v + kick`. Its energy is in
     /// [`EnergyAccount::kicks`](crate::EnergyAccount::kicks).
     pub kick: f64,
-    /// Which spheres it collides with; of a trigger, which it sees.
+    /// Groups of spheres with which it collides, or which a trigger reports.
     pub groups: Groups,
-    /// Whatever a program wants to find with it; no part of the physics.
+    /// A number for the program; the physics does not use it.
     pub user_data: u64,
 }
 
@@ -256,7 +256,7 @@ impl Collider {
         Self { velocity, angular_velocity, ..self }
     }
 
-    /// The same collider, at rest where it is but for this motion: parts that act one after the other.
+    /// The same collider with this motion; several motions act one after the other.
     pub fn with_motion(self, motion: impl Into<Motion>) -> Self {
         Self { motion: motion.into(), velocity: DVec3::ZERO, angular_velocity: DVec3::ZERO, ..self }
     }
@@ -291,7 +291,7 @@ impl Collider {
         Self { user_data, ..self }
     }
 
-    /// Returns the pose that its motion has it in at a time on the world's clock \[s\]; without a motion its pose.
+    /// Returns its pose at a time on the world's clock \[s\], by its motion; without a motion its present pose.
     pub fn pose_at(&self, time: f64) -> Pose {
         self.course(time).map_or(self.pose, |course| course.place(0.0).0)
     }
@@ -310,7 +310,7 @@ impl Collider {
 }
 
 impl Collider {
-    /// Refuses velocities beside a motion, which decides them.
+    /// Returns an error for velocities beside a motion, which sets them.
     fn validate_velocities(&self) -> Result<(), InvalidValue> {
         let are_given = !self.motion.is_empty() && self.motion.rest().is_none();
         let requirement = "zero where there is a `motion`, which may have a steady part";
@@ -322,13 +322,13 @@ impl Collider {
         Ok(())
     }
 
-    /// Its motion from `time` \[s\] on; `None` if its velocities say how it moves.
+    /// Its motion from `time` \[s\] on; `None` if it moves by its velocities.
     pub(crate) fn course(&self, time: f64) -> Option<Course> {
         (!self.motion.is_empty()).then(|| Course::new(self.motion.clone(), self.pose, time))
     }
 
-    /// Puts it where its motion has it at `time` \[s\]. One that comes to the world is at rest where it is; one that
-    /// was put elsewhere takes its motion along.
+    /// Moves the collider to its place at `time` \[s\] by its motion. A new collider rests at its pose; one with a
+    /// new pose takes its motion along.
     pub(crate) fn follow_motion(&mut self, time: f64) {
         let Some(course) = self.course(time) else { return };
         let (pose, motion) = course.place(0.0);

@@ -1,4 +1,4 @@
-//! All colliders of a world, and what follows from them.
+//! All colliders of a world, with the surfaces and trees made of them.
 
 use std::sync::OnceLock;
 
@@ -12,7 +12,7 @@ use crate::surface::{self, Role, Surface};
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Colliders {
     list: Numbered<Collider>,
-    /// When they are where they are, on the world's clock \[s\].
+    /// Time of their present places, on the world's clock \[s\].
     time: f64,
     surfaces: Vec<Surface>,
     /// Made when first needed after a change.
@@ -55,7 +55,7 @@ impl Colliders {
         self.forget_trees();
     }
 
-    /// Puts colliders in the places of some that are there.
+    /// Replaces some of the colliders.
     pub fn set(&mut self, changes: &[(ColliderId, Collider)]) {
         for (id, collider) in changes {
             if let Some(place) = self.list.get_mut(id.0) {
@@ -77,7 +77,7 @@ impl Colliders {
         self.surfaces.iter().any(|surface| !surface.motion.is_at_rest())
     }
 
-    /// Moves on by `h` \[s\], to `time` \[s\], what moves.
+    /// Advances moving colliders by `h` \[s\], to `time` \[s\].
     pub fn advance(&mut self, h: f64, time: f64) {
         for collider in self.list.values_mut() {
             if collider.motion.is_empty() {
@@ -89,7 +89,7 @@ impl Colliders {
         self.place_all();
     }
 
-    /// Moves colliders with a motion, and their surfaces, to where they are at `time` \[s\].
+    /// Moves colliders with a motion, and their surfaces, to their places at `time` \[s\].
     pub fn be_at(&mut self, time: f64) {
         if self.time != time && self.list.iter().any(|(_, it)| !it.motion.is_empty()) {
             self.set_time(time);
@@ -112,7 +112,7 @@ impl Colliders {
     }
 }
 
-/// Colliders as they are written: surfaces and trees follow from them.
+/// Serialized colliders: surfaces and trees follow from them.
 #[cfg(feature = "serde")]
 mod written {
     use serde::{Deserialize, Deserializer, Serialize, Serializer};

@@ -1,6 +1,6 @@
-//! Connected sets of things that are numbered from 0.
+//! Connected sets of items that are numbered from 0.
 
-/// Sets of numbers; each set goes by its smallest one.
+/// Sets of numbers; the smallest number of a set names it.
 #[derive(Debug, Clone)]
 pub(crate) struct Connected {
     /// A smaller number of the same set; the smallest one has itself.

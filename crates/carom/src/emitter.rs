@@ -17,7 +17,7 @@ use crate::validate;
 /// (`docs/physics/motion.md`, "Emission").
 const DUE_TOLERANCE: f64 = 1e-7;
 
-/// When what is emitted with a frame is due at the latest \[s\]: one that begins at `time` and is `h` long \[s\].
+/// Latest due time \[s\] of spheres that are emitted with a frame that begins at `time` and lasts `h` \[s\].
 pub(crate) fn due_with_frame(time: f64, h: f64) -> f64 {
     time + DUE_TOLERANCE * h
 }
@@ -25,13 +25,13 @@ pub(crate) fn due_with_frame(time: f64, h: f64) -> f64 {
 /// Spheres that overlap by no more than this part of the sum of their radii have room.
 const OVERLAP: f64 = 1e-3;
 
-/// More spheres than this in one frame are a mistake in `period`, not a wish.
+/// More spheres than this in one frame are a mistake in `period`.
 const MAX_PER_FRAME: f64 = 1e6;
 
 /// Emits a sphere at the times 0, period, 2 period, ... after it entered the world, [`Self::count`] in all.
 ///
-/// When it emits depends on no sphere. One that is in the way is overlapped, or has the sphere that is due left
-/// out: [`Self::needs_room`].
+/// The times depend on no sphere. Where a sphere is in the way, the new one overlaps it or is left out:
+/// [`Self::needs_room`].
 ///
 /// ```
 /// use carom::{DVec3, Emitter, Sphere, World};
@@ -60,7 +60,8 @@ pub struct Emitter {
     pub rotation: DQuat,
     /// Time between two spheres \[s\], > 0.
     pub period: f64,
-    /// With this many of its spheres alive, the oldest makes place for the next; `None`: no limit.
+    /// Largest number of its spheres in the world, beyond which the oldest is removed for the next; `None`: no
+    /// limit.
     pub max_spheres: Option<u32>,
     /// Number of spheres to emit in all, those left out included; `None`: no end.
     pub count: Option<u32>,
@@ -138,7 +139,7 @@ impl Emitter {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct EmitterState {
     pub emitter: Emitter,
-    /// When it entered the world, and so emits first \[s\].
+    /// When it was added to the world, and so emits first \[s\].
     pub start: f64,
     /// Number of spheres emitted or left out so far.
     pub emitted: u64,
@@ -185,7 +186,7 @@ impl EmitterState {
         self.due() <= time
     }
 
-    /// Refuses a period so short that one frame would have to emit spheres without end.
+    /// Returns an error for a period so short that one frame would emit spheres without end.
     pub fn validate_at(&self, time: f64) -> Result<(), InvalidValue> {
         let due = (time - self.start) / self.emitter.period - self.emitted as f64;
         let left = self.emitter.count.map(|count| f64::from(count) - self.emitted as f64);
@@ -195,7 +196,7 @@ impl EmitterState {
     }
 }
 
-/// What came into the world and what left it for that.
+/// Spheres that an emission added and removed.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Emission {
     /// Ascending.
@@ -208,17 +209,17 @@ pub(crate) struct Emission {
     pub left_out: Vec<SphereId>,
 }
 
-/// What counts as overlapping where spheres are emitted.
+/// The room that an emitted sphere needs.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Room {
-    /// Whether emitters that say nothing need room.
+    /// Whether emitters need room by default.
     pub is_needed: bool,
     /// Edges of the periodic box \[m\], infinite along open axes.
     pub period: DVec3,
 }
 
 impl Room {
-    /// Whether a sphere overlaps none of these, one of them apart.
+    /// Whether a sphere overlaps none of these, `apart` from one.
     fn is_there(self, sphere: &Sphere, spheres: &Spheres, apart: Option<SphereId>) -> bool {
         let apart = apart.and_then(|id| spheres.index_of(id));
         let places = spheres.positions().iter().zip(spheres.radii()).enumerate();
@@ -251,7 +252,7 @@ pub(crate) fn emit(
 ) -> Emission {
     let mut emission = Emission::default();
     for state in emitters.values_mut() {
-        // Spheres that were removed by hand no longer count.
+        // Spheres that the program removed no longer count.
         state.ring.retain(|id| spheres.index_of(*id).is_some());
         let sphere = state.emitter.emitted();
         let max = state.emitter.max_spheres.map(|max| max as usize);

@@ -1,4 +1,4 @@
-//! What can go wrong, said so that a user can mend it.
+//! Errors, in words by which a user can fix them.
 
 use std::fmt::{self, Display};
 
@@ -10,12 +10,12 @@ use crate::id::{ColliderId, EmitterId, ForceId, SphereId, SpringId};
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// A number that makes no sense where it was given.
+    /// A number is invalid.
     #[error("{subject}: {source}")]
     Invalid {
-        /// What the number was given for.
+        /// The object with the number.
         subject: Subject,
-        /// Which number, and why not.
+        /// The number, and its requirement.
         source: InvalidValue,
     },
     /// The id names nothing in this world (any more).
@@ -36,7 +36,7 @@ pub enum Error {
         /// The longest frame in which motion on springs is stable \[s\], if the step was longer.
         stable_frame: Option<f64>,
     },
-    /// More work in a step than [`Exact::max_impacts`](crate::Exact::max_impacts) allows.
+    /// A step took more work than [`Exact::max_impacts`](crate::Exact::max_impacts) allows.
     #[error(
         "sphere {sphere}{}, at {at} s: more impacts and other work than the {limit} per sphere and \
          frame that `max_impacts` allows; the state before the step, at {time} s, was kept. Shorter \
@@ -102,7 +102,7 @@ fn for_springs(stable_frame: Option<f64>) -> String {
     stable_frame.map(text).unwrap_or_default()
 }
 
-/// What a sphere is in contact with, for a message.
+/// The number of contacts, for a message.
 fn in_contact_with(companions: usize) -> String {
     match companions {
         0 => String::new(),

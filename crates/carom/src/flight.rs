@@ -67,7 +67,7 @@ impl Flight {
         (position, velocity)
     }
 
-    /// How far it goes at most along each axis within a time \[s\] \[m\]: drag only slows it down.
+    /// Largest displacement along each axis within a time \[s\] \[m\]: drag only slows the sphere down.
     #[inline]
     pub(crate) fn farthest(&self, t: f64) -> DVec3 {
         t * (self.velocity.abs() + 0.5 * t * self.acceleration.abs())
@@ -114,8 +114,7 @@ pub(crate) fn without_drag<N: Real>(
     (position + (velocity * t + acceleration * fall), velocity + acceleration * t)
 }
 
-/// What a stretch of time does to a flight:
-/// `x = x0 + drift v0 + fall a`, `v = decay v0 + drift a`.
+/// The effect of a time on a flight: `x = x0 + drift v0 + fall a`, `v = decay v0 + drift a`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Propagator {
     /// e^-γt, dimensionless.

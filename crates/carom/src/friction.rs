@@ -4,8 +4,8 @@ use crate::error::InvalidValue;
 use crate::settings::CombineRule;
 use crate::validate;
 
-/// Friction at the surface of a body. Where a coefficient is `None`, that of the other body counts; where both
-/// are, it is 0.
+/// Friction at the surface of a body. A coefficient that is `None` is taken from the other body; if both are
+/// `None`, it is 0.
 ///
 /// Friction acts under the rules `exact` and `contact`. Rolling friction acts under `exact` where a ball rolls,
 /// under `contact` where it slides, too.
@@ -29,8 +29,8 @@ pub struct Friction {
     /// Coefficient of spinning friction, >= 0: the torque about the normal is at most this part of the
     /// normal force, times the radius.
     pub spinning: Option<f64>,
-    /// Coefficient of tangential restitution in \[0, 1\]: where friction suffices, an impact turns
-    /// this part of the tangential speed round. 1 for a superball.
+    /// Coefficient of tangential restitution in [0, 1]: where friction suffices, an impact reverses this part of
+    /// the tangential speed. 1 for a superball.
     pub tangential_restitution: Option<f64>,
 }
 

@@ -2,8 +2,8 @@
 
 /// The groups that a body is in, and those that it collides with: one bit for each of 32 groups.
 ///
-/// Two bodies collide if each is in a group that the other collides with. Unless given, a body is in the
-/// first group, and collides with all.
+/// Two bodies collide if each is in a group that the other collides with. By default a body is in the first group
+/// and collides with all.
 ///
 /// ```
 /// use carom::{DVec3, Groups, Sphere, World};

@@ -1,4 +1,4 @@
-//! The state hash: one number that tells whether two worlds are in the same state, to the bit.
+//! The state hash: one number to compare the states of two worlds, to the bit.
 
 use std::fmt::{self, Display};
 
@@ -7,7 +7,7 @@ use xxhash_rust::xxh3::Xxh3Default;
 
 use crate::state::State;
 
-/// Hash of a world's state: XXH3 (64 bits) over the bits of what steps change.
+/// Hash of a world's state: XXH3 (64 bits) over the bits of all quantities that steps change.
 ///
 /// It covers the time; of every sphere id, position, velocity, radius, mass and restitution; the
 /// places of colliders; what each emitter has emitted; and how spheres are turned and turn, if one

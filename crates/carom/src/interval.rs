@@ -8,7 +8,7 @@ pub(crate) struct Interval {
 }
 
 impl Interval {
-    /// What is left after a part \[s\] of it.
+    /// The rest after a part \[s\] of it.
     pub fn after(self, elapsed: f64) -> Self {
         Self { time: self.time + elapsed, h: self.h - elapsed }
     }

@@ -1,4 +1,4 @@
-//! Sums over all spheres that physics keeps: energies and momenta.
+//! Invariants: sums over all spheres, the energies and momenta.
 
 use std::sync::Arc;
 

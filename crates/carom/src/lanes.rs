@@ -1,4 +1,4 @@
-//! Numbers side by side, in the vectors of the processor at hand.
+//! Lanes: several numbers in a vector of the processor.
 //!
 //! Which vectors it has is found out when the program runs. Each lane is rounded as a number alone, so
 //! no bit depends on it.
@@ -53,7 +53,7 @@ impl<S: Simd> Lanes<S> {
         Self(self.0.abs())
     }
 
-    /// By how much each goes beyond a bound, either way; none is NaN.
+    /// By how much the size of each exceeds a bound; none is NaN.
     #[inline(always)]
     pub fn beyond(self, bound: Self) -> Self {
         Self((self.0.abs() - bound.0).max(0.0))

@@ -6,8 +6,8 @@ use glam::DVec3;
 pub(crate) trait Norm {
     /// `|v|`, by the processor's own square root.
     ///
-    /// The same bits as glam's `length`. That calls `libm`, as all of glam does here; but in
-    /// WebAssembly `libm` works square roots out in whole numbers: a sixth of the time of a frame.
+    /// It has the bits of glam's `length`, which calls `libm` here. In WebAssembly `libm` computes square roots in
+    /// integers, which took a sixth of the time of a frame.
     fn norm(self) -> f64;
 }
 

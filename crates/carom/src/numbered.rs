@@ -1,6 +1,6 @@
 //! Numbers of colliders, forces, springs and emitters.
 
-/// Things that keep the number they were given, in the order in which they came.
+/// Items that keep their numbers, in the order in which they were added.
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Numbered<T> {
@@ -51,7 +51,7 @@ impl<T> Numbered<T> {
         self.items.iter_mut().map(|(_, item)| item)
     }
 
-    /// Things made of these, with the same numbers.
+    /// Items made of these, with the same numbers.
     #[cfg(feature = "serde")]
     pub fn try_map<U, E>(&self, make: impl Fn(&T) -> Result<U, E>) -> Result<Numbered<U>, E> {
         let made = |(number, item)| Ok((number, make(item)?));

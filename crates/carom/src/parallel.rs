@@ -1,12 +1,11 @@
-//! Work on many spheres that do not depend on each other: on all threads with the feature `rayon`,
-//! on one without it. What comes out is the same to the last bit.
+//! Independent work on many spheres: on all threads with the feature `rayon`, on one without it. The results are
+//! the same to the last bit.
 
 /// Below this number threads cost more than they help.
 #[cfg(feature = "rayon")]
 const FEW: usize = 512;
 
-/// The results of `f` for 0, 1, ... below `count`, in this order. `f` is given working memory, in
-/// which it may find anything.
+/// The results of `f` for 0, 1, ... below `count`, in this order. `f` gets working memory with arbitrary content.
 #[cfg(feature = "rayon")]
 pub(crate) fn map<M: Default, T: Send>(
     count: usize,
@@ -33,7 +32,7 @@ fn map_in_order<M: Default, T>(count: usize, f: impl Fn(&mut M, usize) -> T) -> 
     (0..count).map(|number| f(&mut memory, number)).collect()
 }
 
-/// Fills two arrays of one length, run by run: `f` is given the number of the first in a run.
+/// Fills two arrays of one length, run by run; `f` gets the number of the first item of a run.
 #[cfg(feature = "rayon")]
 pub(crate) fn fill<A: Send, B: Send>(
     (first, second): (&mut [A], &mut [B]),
@@ -56,20 +55,19 @@ pub(crate) fn fill<A: Send, B: Send>(
     f(0, both);
 }
 
-/// Shares work on a number of `items` among the threads: what it does side by side then waits for none to
-/// wake.
+/// Runs `work` on a number of `items` within the thread pool, so that its parallel parts need not wake threads.
 #[cfg(feature = "rayon")]
 pub(crate) fn among_threads<T: Send>(items: usize, work: impl FnOnce() -> T + Send) -> T {
     if items < 2 * FEW { work() } else { rayon::scope(|_| work()) }
 }
 
-/// Does work where it is.
+/// Runs work on this thread.
 #[cfg(not(feature = "rayon"))]
 pub(crate) fn among_threads<T: Send>(_: usize, work: impl FnOnce() -> T + Send) -> T {
     work()
 }
 
-/// Does tasks that do not depend on each other, side by side.
+/// Runs independent tasks in parallel.
 #[cfg(feature = "rayon")]
 pub(crate) fn for_each<T: Send>(tasks: Vec<T>, f: impl Fn(T) + Sync + Send) {
     use rayon::prelude::*;
@@ -80,7 +78,7 @@ pub(crate) fn for_each<T: Send>(tasks: Vec<T>, f: impl Fn(T) + Sync + Send) {
     }
 }
 
-/// Does tasks in their order.
+/// Runs tasks in their order.
 #[cfg(not(feature = "rayon"))]
 pub(crate) fn for_each<T: Send>(tasks: Vec<T>, f: impl Fn(T) + Sync + Send) {
     tasks.into_iter().for_each(f);

@@ -1,4 +1,4 @@
-//! The path that a sphere will take, as it is predicted.
+//! Predicted paths of spheres.
 
 use glam::DVec3;
 
@@ -27,8 +27,7 @@ pub enum PathEnd {
     Horizon,
     /// At the last impact asked for. A leg without length there has the velocity after it.
     Impacts,
-    /// Where the motion has no closed form from then on: a step puts the sphere into a stepped zone, or
-    /// refuses.
+    /// Where the motion has no closed form any more: a step would put the sphere into a stepped zone, or fail.
     NoClosedForm,
 }
 

@@ -41,7 +41,7 @@ impl PolynomialFlight {
         (self.position + (t * self.velocity + way), self.velocity + change)
     }
 
-    /// How far it goes at most along each axis in its time \[m\].
+    /// Largest displacement along each axis in its time \[m\].
     pub fn farthest(&self) -> DVec3 {
         let h = self.acceleration.length;
         h * (self.velocity.abs() + h * self.acceleration.most_way())
@@ -84,7 +84,7 @@ impl PolynomialAcceleration {
         terms.map(|(c, k)| c.abs() / ((k + 1.0) * (k + 2.0))).sum()
     }
 
-    /// How much farther it brings a sphere in all its time, at most, than its first value alone would \[m\].
+    /// Largest distance in its time from the parabola of its first acceleration \[m\].
     pub fn beyond_parabola(&self) -> f64 {
         let terms = self.coefficients.iter().zip(ORDERS).skip(1);
         let way: f64 = terms.map(|(c, k)| c.norm() / ((k + 1.0) * (k + 2.0))).sum();

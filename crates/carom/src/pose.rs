@@ -1,4 +1,4 @@
-//! Poses: where something is and how it is turned.
+//! Poses: place and rotation.
 
 use glam::{DQuat, DVec3};
 
@@ -6,7 +6,7 @@ use crate::error::InvalidValue;
 use crate::rotation;
 use crate::validate;
 
-/// Where a collider is and how it is turned: `x_world = position + rotation x_local`.
+/// Place and rotation of a collider: `x_world = position + rotation x_local`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pose {
@@ -17,12 +17,12 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// At a place \[m\], not turned.
+    /// A pose at a place \[m\], without rotation.
     pub fn at(position: DVec3) -> Self {
         Self { position, rotation: DQuat::IDENTITY }
     }
 
-    /// The same place, turned.
+    /// The pose with this rotation.
     pub fn rotated(self, rotation: DQuat) -> Self {
         Self { rotation, ..self }
     }

@@ -1,5 +1,5 @@
-//! What formulas are made of that hold for one number, and for several side by side
-//! ([`Lanes`](crate::lanes::Lanes)) with the same bits.
+//! Numbers for formulas that hold for one number and for several lanes ([`Lanes`](crate::lanes::Lanes)), with the
+//! same bits.
 
 use std::ops::{Add, Div, Mul, Sub};
 

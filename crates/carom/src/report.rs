@@ -1,4 +1,4 @@
-//! What a step reports.
+//! The report of a step.
 
 use std::ops::AddAssign;
 
@@ -37,15 +37,15 @@ pub struct StepReport {
     pub triggers: Vec<TriggerContact>,
     /// When spheres entered and left triggers, in order of time, then of sphere and collider.
     pub sensor_events: Vec<SensorEvent>,
-    /// Spheres that emitters put into the world, ascending.
+    /// Spheres that emitters added, ascending.
     pub emitted: Vec<SphereId>,
-    /// Spheres that emitters took out again to make place.
+    /// Spheres that emitters removed for new ones.
     pub retired: Vec<SphereId>,
-    /// Ids of spheres that emitters left out, for there was no room: no sphere ever has them.
+    /// Ids of spheres that emitters left out for want of room: no sphere ever has them.
     pub left_out: Vec<SphereId>,
-    /// Groups of spheres in which, under the rule `bisect`, two bodies met as often as they may in a
-    /// frame: they count as come to rest, the rest of it was taken in one piece, and what then
-    /// overlapped was answered as in `discrete`.
+    /// Under the rule `bisect`, groups of spheres in which two bodies met as often as allowed in a frame. They
+    /// count as at rest: the rest of the frame was taken in one piece, and remaining overlaps were answered as in
+    /// `discrete`.
     pub unfinished_islands: u32,
     /// The work of the step, by stage.
     pub work: StageCounts,
@@ -53,13 +53,13 @@ pub struct StepReport {
     pub energy_account: EnergyAccount,
     /// Under the rule `contact`, and in the stepped zones of `exact`, how good the solution is.
     pub contact_account: ContactAccount,
-    /// Under the rule `exact`, which spheres were not moved from impact to impact, but stepped.
+    /// Under the rule `exact`, the spheres that were stepped and not moved from impact to impact.
     pub zone_account: ZoneAccount,
 }
 
-/// What was stepped under the rule `exact`: spheres whose contacts took more work than
-/// [`Exact::zone_budget`](crate::Exact::zone_budget). How good their motion is,
-/// [`StepReport::contact_account`] tells.
+/// Zones of the rule `exact`: spheres were stepped whose contacts took more work than
+/// [`Exact::zone_budget`](crate::Exact::zone_budget). [`StepReport::contact_account`] has the accuracy of their
+/// motion.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[non_exhaustive]
 pub struct ZoneAccount {
@@ -70,7 +70,7 @@ pub struct ZoneAccount {
     pub sphere_seconds: f64,
     /// Ticks at which a zone was stepped.
     pub ticks: u32,
-    /// Spheres that came into a zone.
+    /// Spheres that joined a zone.
     pub joined: u32,
     /// Spheres that left one.
     pub left: u32,
@@ -168,13 +168,12 @@ impl AddAssign for EnergyAccount {
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[non_exhaustive]
 pub struct ContactAccount {
-    /// Sub-steps in which less of all impulses was taken, for them not to add kinetic energy.
+    /// Sub-steps in which all impulses were reduced so that they add no kinetic energy.
     pub limited_sub_steps: u32,
-    /// Largest change of a normal impulse in the last sweep of a sub-step, as a part of the largest impulse
-    /// before or after it, 0 to 1: how far the solution is from the one that more sweeps would come to.
+    /// Largest change of a normal impulse in the last sweep of a sub-step, as a part of the largest impulse before
+    /// or after it, 0 to 1: a measure of the distance from the converged solution.
     pub residual: f64,
-    /// Largest overlap before it was corrected, beyond what is left as it is, as a part of the sum of
-    /// radii.
+    /// Largest overlap before its correction, beyond the slop, as a part of the sum of radii.
     pub largest_overlap: f64,
     /// Spheres that sleep at the end of the step: at rest, with all that they touch, until something comes
     /// near or changes.
@@ -191,14 +190,14 @@ pub struct ContactAccount {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct StageCounts {
-    /// Predict: how often the next events of a sphere were predicted, under the rule `exact`.
+    /// Predict: number of predictions of the next events of a sphere, under the rule `exact`.
     pub predictions: u64,
     /// Predict: pairs of spheres that were tested for a meeting; under the other rules, pairs that were
     /// tested for a contact.
     pub pair_tests: u64,
-    /// Queue: events that were taken from it, void ones among them, under the rule `exact`.
+    /// Queue: number of events taken from it, with void ones, under the rule `exact`.
     pub events: u64,
-    /// Cell crossing: how many of these events were one.
+    /// Cell crossing: number of such events.
     pub cell_crossings: u64,
     /// Impact: groups of touching bodies that were answered as a whole, under the rule `exact`.
     pub groups: u64,
@@ -278,8 +277,8 @@ pub struct ImpactGroup {
     /// Momentum after, less what colliders gave \[kg m/s\]: it differs from that before by
     /// rounding only.
     pub momentum_after: DVec3,
-    /// Sum of the sizes of the momenta before, to compare their errors with \[kg m/s\]; with more than two
-    /// spheres or with colliders, of those after where that is more.
+    /// Sum of the magnitudes of the momenta before, for the relative error; with more than two spheres or with
+    /// colliders, of those after if that is more \[kg m/s\].
     pub momentum_scale: f64,
     /// Kinetic energy of its spheres before \[J\].
     pub energy_before: f64,
@@ -350,8 +349,8 @@ pub struct Impact {
     pub point: DVec3,
     /// Unit normal from body 1 to body 2.
     pub normal: DVec3,
-    /// Speed of approach along the normal before the impact \[m/s\], > 0; in a group of several,
-    /// before all of them: there a contact may be hit that was not closing by itself.
+    /// Speed of approach along the normal before the impact \[m/s\], > 0. In a group of several impacts it is that
+    /// before all of them: a contact that was not closing by itself may be hit.
     pub approach_speed: f64,
     /// Speed of separation along the normal after the impact \[m/s\], and after all others at the
     /// same instant in its group; > 0 where the bodies part.
@@ -380,10 +379,10 @@ pub struct TriggerContact {
 
 /// A sphere that enters a trigger, or leaves it.
 ///
-/// A sphere is in a trigger while their surfaces touch or overlap. Under the rule `exact` the time is that of
-/// the flight, to rounding, however small the trigger and however fast the sphere. Under the other rules
-/// the way of a sphere is straight within a frame, under `contact` within a sub-step. What is in a trigger when
-/// a step begins, though it was not when the last one ended, enters at time 0.
+/// A sphere is in a trigger while their surfaces touch or overlap. Under the rule `exact` the time is that of the
+/// flight, to rounding, however small the trigger and however fast the sphere. Under the other rules the path of a
+/// sphere is straight within a frame, under `contact` within a sub-step. A sphere that is in a trigger at the start
+/// of a step, but was not at the end of the last one, enters at time 0.
 ///
 /// ```
 /// use carom::{Collider, DVec3, Pose, Shape, Sphere, World};
@@ -419,7 +418,7 @@ pub struct SensorEvent {
 }
 
 impl TriggerContact {
-    /// What a contact with a trigger reports; `None` for a contact between spheres.
+    /// The report of a contact with a trigger; `None` for a contact between spheres.
     pub(crate) fn of(contact: &Contact, system: &System) -> Option<Self> {
         let Bodies::Surface { sphere, surface } = contact.bodies else { return None };
         Some(Self {

@@ -1,9 +1,8 @@
-//! Rotations that go on.
+//! Continued rotations.
 
 use glam::{DQuat, DVec3};
 
-/// A rotation after it has gone on for `h` \[s\] with an angular velocity \[rad/s\]:
-/// `exp(h w / 2) q`, of length 1 where something turns.
+/// A rotation after `h` \[s\] with an angular velocity \[rad/s\]: `exp(h w / 2) q`, of length 1 where it turns.
 pub(crate) fn turned(rotation: DQuat, angular_velocity: DVec3, h: f64) -> DQuat {
     let turn = angular_velocity * h;
     let angle = turn.dot(turn).sqrt();

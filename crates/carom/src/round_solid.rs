@@ -1,4 +1,4 @@
-//! Shapes made of surfaces of revolution: what bands they have, and what they enclose.
+//! Shapes made of surfaces of revolution: their bands, and the volumes that they enclose.
 
 use glam::{DVec2, DVec3};
 

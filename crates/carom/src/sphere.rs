@@ -53,13 +53,13 @@ pub struct Sphere {
     pub velocity: DVec3,
     /// Radius \[m\], > 0.
     pub radius: f64,
-    /// Mass or density; a world answers with [`Mass::Kilograms`].
+    /// Mass or density; a world returns [`Mass::Kilograms`].
     pub mass: Mass,
     /// Coefficient of restitution in \[0, 1\].
     pub restitution: f64,
-    /// Friction at its surface; it says nothing unless given.
+    /// Friction at its surface; `None` in each coefficient unless given.
     pub friction: Friction,
-    /// How it is turned, from its own coordinate system to the world's; any length but zero.
+    /// Rotation from its own coordinate system to the world's; any length but zero.
     pub orientation: DQuat,
     /// Angular velocity, along the axis of rotation \[rad/s\].
     pub angular_velocity: DVec3,

@@ -1,4 +1,4 @@
-//! What a step reads and never changes.
+//! The input of a step, which it never changes.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use crate::settings::Settings;
 use crate::sum::Sum;
 use crate::surface::Surface;
 
-/// The world during one step, but for the motion of its spheres.
+/// The world during one step, without the motion of its spheres.
 #[derive(Clone, Copy)]
 pub(crate) struct System<'a> {
     pub settings: &'a Settings,
@@ -169,7 +169,7 @@ impl<'a> System<'a> {
         self.interactions.map_or(0.0, |interactions| interactions.fastest_spring_rate(id, mass))
     }
 
-    /// What all bodies say of friction, as far as they say something.
+    /// The friction of all bodies that have some.
     pub fn frictions(&self) -> impl Iterator<Item = Friction> {
         let of_surfaces = self.surfaces.iter().map(|surface| surface.friction);
         self.spheres.friction.iter().copied().chain(of_surfaces)

@@ -1,4 +1,4 @@
-//! Requirements on single numbers, checked where they enter.
+//! Requirements on single numbers, checked when they are set.
 
 use std::fmt::Display;
 

@@ -5,13 +5,13 @@ use std::fmt::{self, Debug};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Units of work between two looks at a stop request: some milliseconds.
+/// Units of work between two readings of a stop request: some milliseconds.
 const UNITS_PER_LOOK: u64 = 50_000;
 
-/// A request to end a step before it is done: a signal came, a window is closing, time is up.
+/// A request to end a step early: a signal came, a window closes, time is up.
 ///
-/// A step looks at it every few milliseconds, and ends with [`Error::Stopped`](crate::Error::Stopped)
-/// once it says yes. The world is then as it was before the step.
+/// A step reads it every few milliseconds, and ends with [`Error::Stopped`](crate::Error::Stopped) once it is made.
+/// The world then keeps the state before the step.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -31,19 +31,19 @@ const UNITS_PER_LOOK: u64 = 50_000;
 pub struct StopRequest(Arc<dyn Fn() -> bool + Send + Sync>);
 
 impl StopRequest {
-    /// A request that stands whenever `is_made` says so. It is called often, and should be quick.
+    /// A request that is made whenever `is_made` returns true. It is called often and should be quick.
     pub fn new(is_made: impl Fn() -> bool + Send + Sync + 'static) -> Self {
         Self(Arc::new(is_made))
     }
 
-    /// Whether a step is to end.
+    /// Whether the step should end.
     pub fn is_made(&self) -> bool {
         (self.0)()
     }
 }
 
 impl From<Arc<AtomicBool>> for StopRequest {
-    /// A request that stands while the flag is set.
+    /// A request that is made while the flag is set.
     fn from(flag: Arc<AtomicBool>) -> Self {
         Self::new(move || flag.load(Ordering::Relaxed))
     }
@@ -55,16 +55,16 @@ impl Debug for StopRequest {
     }
 }
 
-/// The work done in a step so far. A unit is what one contact costs in one iteration of a solver, some
-/// tens of nanoseconds.
+/// The work done in a step so far. A unit is the cost of one contact in one iteration of a solver, some tens of
+/// nanoseconds.
 #[derive(Debug, Default)]
 pub(crate) struct Work<'a> {
     stop: Option<&'a StopRequest>,
     /// Units done.
     done: Cell<u64>,
-    /// Units up to which the stop request need not be looked at.
+    /// Units at which the stop request is read next.
     next_look: Cell<u64>,
-    /// Units after which it ends in any case.
+    /// Units after which the work ends in any case.
     limit: Cell<u64>,
     is_stopped: Cell<bool>,
 }
@@ -75,7 +75,7 @@ impl<'a> Work<'a> {
         Self { stop, limit: Cell::new(u64::MAX), ..Self::default() }
     }
 
-    /// Work that goes on to its end.
+    /// Work without a limit.
     pub fn unlimited() -> Self {
         Self::new(None)
     }
@@ -89,12 +89,11 @@ impl<'a> Work<'a> {
     pub fn allow(&self, units: u64) {
         let limit = self.done.get().saturating_add(units);
         self.limit.set(limit);
-        // Not later: where the work ends may decide what becomes of it.
+        // Not later, since the end of the work may decide its result.
         self.next_look.set(self.next_look.get().min(limit));
     }
 
-    /// Counts units of work. Returns whether to go on; if not, what is at work ends as soon as it
-    /// can, with any result.
+    /// Counts units of work. Returns whether to continue; if not, solvers end as soon as they can, with any result.
     #[inline]
     pub fn spend(&self, units: u64) -> bool {
         let done = self.done.get() + units;

@@ -1,6 +1,6 @@
 //! When a contact begins, by bisection.
 
-/// What a bisection sees at one instant.
+/// Result of a probe of a bisection at one instant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Probe {
     /// No contact yet: it begins later.
@@ -11,12 +11,12 @@ pub enum Probe {
     After,
 }
 
-/// Where a bisection ended.
+/// Result of a bisection.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bisection {
     /// The instant probed last \[s\].
     pub time: f64,
-    /// What was seen there. Unless it is [`Probe::At`], the contact is at most `h / 2^n` away.
+    /// Result of the last probe. Unless it is [`Probe::At`], the contact is at most `h / 2^n` away.
     pub last: Probe,
 }
 
@@ -34,7 +34,7 @@ pub fn bisect(h: f64, max_halvings: u32, mut probe: impl FnMut(f64) -> Probe) ->
     for _ in 0..max_halvings {
         let time = floor + 0.5 * (ceiling - floor);
         if time == floor || time == ceiling {
-            // Numbers are not dense enough for another halving.
+            // The interval has no number inside.
             break;
         }
         found = Bisection { time, last: probe(time) };

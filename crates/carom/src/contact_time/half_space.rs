@@ -56,8 +56,8 @@ struct Height {
 }
 
 impl Height {
-    /// With zero put for what is zero but for rounding, so that what parts begins at the surface
-    /// and what rests begins at rest.
+    /// The height with values set to zero that are zero up to rounding, so that a parting sphere starts at the
+    /// surface and a resting one starts at rest.
     fn settled(self, gap: &Gap, zero: &Zero) -> Self {
         let distance = if gap.distance < -zero.distance { gap.distance } else { 0.0 };
         let speed = if gap.is_at_rest(zero) { 0.0 } else { self.speed };
@@ -79,8 +79,8 @@ impl Height {
         decay * self.speed + drift * self.acceleration
     }
 
-    /// First time \[s\] at which the height is <= 0 and about to fall, of one that does not so at
-    /// the beginning: the distance is > 0, or the speed is >= 0.
+    /// First time \[s\] at which the height is <= 0 and about to fall, for a height that is not so at the start:
+    /// the distance is > 0, or the speed is >= 0.
     fn first_fall(&self) -> Option<f64> {
         if self.drag_rate == 0.0 {
             return self.ballistic_fall();

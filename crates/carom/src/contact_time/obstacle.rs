@@ -1,5 +1,4 @@
-//! What a sphere may meet, as a core: the surfaces touch where the centre is at the distance of a
-//! radius from it.
+//! An obstacle as a core: the surfaces touch where the centre is at the distance of a radius from the core.
 
 use glam::DVec3;
 
@@ -27,7 +26,7 @@ pub(super) enum Obstacle {
     Triangle { corners: [DVec3; 3], normal: DVec3, radius: f64 },
 }
 
-/// An obstacle as seen from one point.
+/// Distance of an obstacle from one point, with its derivatives.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Sight {
     /// From the core \[m\].
@@ -38,21 +37,21 @@ pub(super) struct Sight {
     pub normal: DVec3,
     /// Whether the normal changes from place to place.
     pub is_round: bool,
-    /// How far \[m\] the centre may go without a change of the normal.
+    /// Distance \[m\] that the centre may move without a change of the normal.
     pub flat_within: f64,
     /// Second derivative \[m/s²\] of the distance for a point that moves at a constant velocity.
     pub turning: f64,
     /// A plane that the centre must pass before there can be contact.
     pub barrier: Option<Barrier>,
-    /// Whether nothing is met from here, whatever the distance: the centre is behind.
+    /// Whether the centre is behind the obstacle, where there is no contact at any distance.
     pub is_behind: bool,
-    /// How fast the distance may fall by the curvature of the core; `None` of a convex one.
+    /// Bound of the fall of the distance by the curvature of the core; `None` for a convex core.
     pub concavity: Option<Concavity>,
-    /// A half-space that holds every place of contact, whatever the way goes past before.
+    /// A half-space that contains every place of contact.
     pub hull: Option<Barrier>,
 }
 
-/// A half-space that holds every place of contact.
+/// A half-space that the centre must enter before a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Barrier {
     /// From the half-space \[m\].

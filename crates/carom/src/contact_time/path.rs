@@ -1,4 +1,4 @@
-//! How a centre moves relative to what it may meet.
+//! Paths of a centre relative to an obstacle.
 
 use glam::DVec3;
 
@@ -8,7 +8,7 @@ use crate::norm::Norm;
 
 /// A path relative to an obstacle at rest.
 pub(super) trait Path {
-    /// Where the centre is at a time \[s\] >= 0, and how it moves there.
+    /// State of the centre at a time \[s\] >= 0.
     fn state_at(&self, t: f64) -> State;
 
     /// An upper bound of the acceleration along a unit vector \[m/s²\] over `[from, to]` \[s\];
@@ -83,7 +83,7 @@ impl Path for Flight {
     }
 }
 
-/// The second of two flights as seen from the first, whatever their drag rates.
+/// The second of two flights relative to the first, for any drag rates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct FlightPair {
     pub first: Flight,
@@ -92,7 +92,7 @@ pub(super) struct FlightPair {
 
 impl Path for FlightPair {
     fn state_at(&self, t: f64) -> State {
-        // Ways before places: the difference of the starting points is rounded once.
+        // Paths are subtracted before places: the difference of the starting points is rounded once.
         let way = |flight: &Flight| Flight { position: DVec3::ZERO, ..*flight }.state_at(t);
         let (first, second) = (way(&self.first), way(&self.second));
         let offset = self.second.position - self.first.position;

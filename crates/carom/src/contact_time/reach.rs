@@ -1,4 +1,4 @@
-//! What a sphere cannot come to within a short time, by bounds alone.
+//! Reach: what a sphere cannot meet within a short time, by bounds alone.
 
 use glam::DVec3;
 
@@ -11,7 +11,7 @@ use crate::surface::{Form, Rectangle};
 /// far less than what the comparison saves.
 const MARGIN: f64 = 1e-9;
 
-/// How far a sphere comes within some time.
+/// Bounds of the path of a sphere within some time.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Reach {
     flight: Flight,
@@ -19,21 +19,21 @@ pub(crate) struct Reach {
     radius: f64,
     /// \[s\]
     horizon: f64,
-    /// How far it goes at most, whichever way \[m\].
+    /// Longest path in any direction \[m\].
     way: f64,
-    /// How far from the flight its path may be \[m\].
+    /// Largest deviation of the path from the flight \[m\].
     beside: f64,
 }
 
 impl Reach {
-    /// That of a sphere of this `radius` \[m\], > 0, within `horizon` \[s\].
+    /// The reach of a sphere of this `radius` \[m\], > 0, within `horizon` \[s\].
     #[inline]
     pub fn of(flight: Flight, radius: f64, horizon: f64) -> Self {
         let way = flight.farthest(horizon).norm() * (1.0 + MARGIN);
         Self { flight, radius, horizon, way, beside: 0.0 }
     }
 
-    /// That of a sphere of this `radius` \[m\], > 0, in all the time of a polynomial flight.
+    /// The reach of a sphere of this `radius` \[m\], > 0, over a whole polynomial flight.
     pub fn of_polynomial(flight: &PolynomialFlight, radius: f64) -> Self {
         let PolynomialFlight { position, velocity, acceleration } = *flight;
         let [first, ..] = acceleration.coefficients;
@@ -43,8 +43,7 @@ impl Reach {
         Self { way: reach.way + beside, beside, ..reach }
     }
 
-    /// Whether the sphere certainly meets no surface of this `form`, at rest, with all of it shifted by
-    /// this \[m\].
+    /// Whether the sphere cannot meet a surface of this `form` at rest, at the offset `shift` \[m\].
     #[inline]
     pub fn misses(&self, form: &Form, shift: DVec3) -> bool {
         let position = self.flight.position - shift;
@@ -82,8 +81,7 @@ impl Reach {
         }
     }
 
-    /// Whether the sphere certainly does not meet another one within their horizons, shifted by this
-    /// \[m\].
+    /// Whether the sphere cannot meet another one at the offset `shift` \[m\] within their horizons.
     #[inline]
     pub fn misses_sphere(&self, other: &Self, shift: DVec3) -> bool {
         let offset = other.flight.position + shift - self.flight.position;
@@ -114,8 +112,8 @@ impl Reach {
             || stays_beside(axis_z, half_z)
     }
 
-    /// How far the sphere goes at most against a direction \[m\]: each part of `v t + a t²/2` that leads
-    /// there, for all of the time. Drag makes both smaller.
+    /// Largest displacement of the sphere against a direction \[m\]: each part of `v t + a t²/2` in that direction,
+    /// for the whole time. Drag makes both smaller.
     #[inline]
     fn approach(&self, direction: DVec3) -> f64 {
         let velocity = (-self.flight.velocity.dot(direction)).max(0.0);

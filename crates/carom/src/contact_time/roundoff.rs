@@ -1,4 +1,4 @@
-//! What counts as zero.
+//! Rounding: which distances, speeds and accelerations count as zero.
 
 use std::ops::Add;
 
@@ -69,7 +69,7 @@ pub(super) struct Gap {
     pub acceleration: f64,
 }
 
-/// Where two bodies are on their way into contact.
+/// Phase of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Phase {
     /// Not touching.
@@ -81,7 +81,7 @@ pub(super) enum Phase {
 }
 
 impl Gap {
-    /// What this is, where less than `zero` counts as zero.
+    /// The phase, where values below `zero` count as zero.
     pub fn phase(&self, zero: &Zero) -> Phase {
         if self.distance > zero.distance {
             Phase::Apart
@@ -102,7 +102,7 @@ impl Gap {
     }
 }
 
-/// What a distance and its derivatives may be and still be zero, up to rounding.
+/// Bounds below which a distance and its derivatives count as zero: their rounding.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Zero {
     /// \[m\]

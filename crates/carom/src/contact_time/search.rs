@@ -16,18 +16,17 @@ const EXACT_STEPS: u32 = 128;
 /// normal, and a step gains only a part of what is left.
 const EXACT_STEPS_INSIDE: u32 = 4096;
 
-/// After so many more steps close to the obstacle the search looks half as closely.
+/// Number of further steps close to the obstacle after which the search halves its accuracy.
 const STEPS_OF_A_DEPTH: u32 = 16;
 
-/// Past this a search gives up. Flights take a handful of steps, seldom hundreds, and turning
-/// surfaces some tens per turn; this is for numbers whose squares overflow, and for a horizon of
-/// more turns than a user waits for.
+/// Largest number of steps of a search. Flights take a handful, seldom hundreds, and turning surfaces some tens per
+/// turn. The bound is for numbers whose squares overflow, and for a horizon of more turns than a user waits for.
 const MAX_STEPS: u32 = 1 << 20;
 
 /// Doublings of a rounding error that make it larger than anything it is the rounding of.
 const MOST_DOUBLINGS: u32 = 64;
 
-/// What is close, as a part of the size of the coordinates: √ε. Up to here a distance has lost
+/// Distance that counts as close, as a part of the size of the coordinates: √ε. Up to there a distance has lost
 /// half its digits.
 pub(super) const CLOSE: f64 = 1.5e-8;
 
@@ -91,7 +90,7 @@ pub(super) fn first_contact(
     None
 }
 
-/// The time of a contact that was seen at `t`, but not at `before`, to full precision.
+/// The time of a contact that is present at `t`, but not at `before`, to full precision.
 fn pin_down(now: &Look, look: impl Fn(f64) -> Look, before: f64, t: f64) -> f64 {
     let mut earliest = t;
     if now.is_overlap() {
@@ -160,7 +159,7 @@ fn longest_step(
     longest.max(far)
 }
 
-/// What there is to see at one instant.
+/// Gap and sizes at one instant of the search.
 struct Look {
     state: State,
     sight: Sight,
@@ -210,7 +209,7 @@ impl Look {
         self.gap.distance < -self.zero.distance
     }
 
-    /// How far \[m\] below the surface to aim, after so many steps close to it.
+    /// Depth \[m\] below the surface at which a step aims, after this many steps close to it.
     fn aim(&self, close_steps: u32) -> f64 {
         let exact_steps = if self.is_overlap() { EXACT_STEPS_INSIDE } else { EXACT_STEPS };
         if close_steps <= exact_steps {
@@ -288,7 +287,7 @@ impl Look {
         if speed > 0.0 { distance / speed } else { f64::INFINITY }
     }
 
-    /// A step \[s\] before which the sphere does not come to the half-space that holds every place of contact.
+    /// A step \[s\] within which the sphere cannot reach the half-space that contains every place of contact.
     fn time_to_hull(&self, path: &impl Path, aim: f64, t: f64, window: f64) -> f64 {
         self.sight.hull.map_or(0.0, |Barrier { distance, normal }| {
             let pull = self.pull(path, normal, t, window);
@@ -297,8 +296,8 @@ impl Look {
         })
     }
 
-    /// How far ahead \[s\] to look from here: over a core that is not convex, bounds of the curvature hold for a
-    /// part of its radius.
+    /// Length of the next window \[s\]: over a core that is not convex, bounds of the curvature hold for a part of
+    /// its radius.
     fn window(&self, path: &impl Path, aim: f64, t: f64, horizon: f64) -> f64 {
         let concavity = self.sight.concavity.filter(|it| !it.is_none());
         let Some(concavity) = concavity else { return f64::INFINITY };

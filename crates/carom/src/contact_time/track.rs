@@ -18,7 +18,7 @@ use crate::norm::Norm;
 use crate::polynomial_flight::{ORDERS, PolynomialFlight, TERMS, upper_bound};
 use crate::surface::{Form, Rectangle, SurfaceMotion};
 
-/// How a sphere moves from some time on.
+/// The path of a sphere from some time on.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Track {
     /// In closed form, for ever.
@@ -175,9 +175,9 @@ impl Path for Track {
     }
 }
 
-/// The second of two tracks as seen from the first.
+/// The second of two tracks relative to the first.
 struct TrackPair {
-    /// From where the first began to where the second did \[m\].
+    /// Offset from the start of the first to that of the second \[m\].
     offset: DVec3,
     /// Both from the origin.
     first: Track,

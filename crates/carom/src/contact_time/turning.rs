@@ -118,7 +118,7 @@ impl<P: Path> Path for Turning<P> {
     }
 }
 
-/// A flight as seen from a point that circles the origin, in a coordinate system that does not turn.
+/// A flight relative to a point that circles the origin, in a coordinate system that does not turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Orbit<P> {
     pub flight: P,

@@ -1,4 +1,4 @@
-//! Which spheres may be near each other: a hierarchy of uniform grids.
+//! Broad phase: pairs of spheres that may be near each other, by a hierarchy of uniform grids.
 //!
 //! A level holds the spheres of one size class (within a factor of two), in cubic cells as wide
 //! as the largest sphere it may hold. Two spheres of one level that touch lie in the same or in
@@ -21,7 +21,7 @@ const MAX_LEVELS: usize = 41;
 /// Cells of a block that lie together in the table.
 const BLOCK_CELLS: usize = 64;
 
-/// Where spheres are, arranged to find near ones.
+/// Spheres sorted by place to find near pairs.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct BroadPhase {
     levels: Vec<Level>,
@@ -101,7 +101,7 @@ impl BroadPhase {
         debug_assert!(every.is_continue());
     }
 
-    /// As [`Self::for_each_pair`], until a visit breaks off.
+    /// Calls `visit` once for each pair of spheres within reach of each other, until a visit breaks off.
     pub fn try_for_each_pair<B>(
         &self,
         mut visit: impl FnMut(u32, u32) -> ControlFlow<B>,
@@ -152,7 +152,7 @@ impl Level {
         self.starts.clear();
         let Some(&any) = self.unsorted.first() else { return };
         let buckets = (2 * self.unsorted.len()).next_power_of_two().max(BLOCK_CELLS);
-        // One place further than the starts will be, which makes room to count on while sorting.
+        // Shifted by one place, which leaves room to count while sorting.
         self.starts.resize(buckets + 2, 0);
         for entry in &mut self.unsorted {
             entry.cell = cell_of(entry.center, self.cells_per_metre);
@@ -199,8 +199,8 @@ impl Level {
         ControlFlow::Continue(())
     }
 
-    /// Whether all spheres of `other` find their partners here with less work than the other way
-    /// round: few spheres look into many cells, or many into few.
+    /// Whether searching here for all spheres of `other` costs less than the reverse: a few spheres search many
+    /// cells, or many search few.
     fn is_cheaper_to_look_into(&self, other: &Self) -> bool {
         let cost = |seeking: &Self, sought: &Self| {
             let span = 2.0 * (seeking.largest_reach + sought.largest_reach);

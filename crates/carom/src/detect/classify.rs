@@ -1,4 +1,4 @@
-/// How two bodies stand to each other at one instant.
+/// State of two bodies at one instant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ContactState {
     /// Apart, or leaving each other: no collision.

@@ -28,7 +28,7 @@ impl Bodies {
     }
 }
 
-/// Two bodies and how they stand to each other.
+/// Two bodies and their contact state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Contact {
     pub bodies: Bodies,

@@ -12,11 +12,11 @@ use crate::bounds::Bounds;
 use crate::surface::Role;
 use crate::system::System;
 
-/// Up to this many spheres all pairs are looked at: too few to be worth arranging.
+/// Up to this many spheres all pairs are tested: sorting would not pay off.
 const FEW: usize = 16;
 
-/// Working memory of the searches below; holds nothing between them but the arrangement that
-/// [`of_everyone`] makes and [`of_moved`] looks into.
+/// Working memory of the searches below; only the sorted spheres that [`of_everyone`] leaves are kept for
+/// [`of_moved`].
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Search {
     everyone: BroadPhase,
@@ -27,7 +27,7 @@ pub(crate) struct Search {
 }
 
 impl Search {
-    /// Takes the number of pairs of spheres that were tested since this was last done.
+    /// Returns the number of pairs of spheres tested since the last call.
     pub fn take_pair_tests(&mut self) -> u64 {
         std::mem::take(&mut self.pair_tests)
     }
@@ -174,7 +174,7 @@ fn for_each_candidate(
     }
 }
 
-/// Spheres that are elsewhere than [`of_everyone`] last saw them.
+/// Spheres that moved since [`of_everyone`].
 pub(crate) struct Moved<'a> {
     pub list: &'a [u32],
     pub contains: &'a dyn Fn(u32) -> bool,

@@ -19,8 +19,8 @@ struct Image {
     is_own: bool,
 }
 
-/// Visits what overlaps by more than `tolerance` \[m\] in a box with these edges \[m\], infinite along open
-/// axes, and by how much; the same bodies perhaps several times.
+/// Visits overlaps of more than `tolerance` \[m\] in a box with these edges \[m\], infinite along open axes, with
+/// their depths; the same bodies perhaps several times.
 pub(crate) fn visit(
     instant: &Instant,
     period: DVec3,

@@ -1,4 +1,4 @@
-//! All spheres at one instant, and how any two bodies stand to each other there.
+//! All spheres at one instant, and the contact state of any two bodies.
 
 use glam::DVec3;
 

@@ -1,4 +1,4 @@
-//! Which bodies touch, and how.
+//! Detection: which bodies touch, and how.
 //!
 //! The broad phase proposes, one file per pair of shapes measures, `classify` decides.
 

@@ -1,6 +1,6 @@
 use glam::DVec3;
 
-/// How far two bodies are apart, and along which direction.
+/// Distance and direction between two bodies.
 ///
 /// Body 1 is the collider, or the first sphere of a pair; body 2 is a sphere.
 #[derive(Debug, Clone, Copy, PartialEq)]

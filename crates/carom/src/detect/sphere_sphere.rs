@@ -2,7 +2,7 @@ use glam::DVec3;
 
 use super::Separation;
 
-/// Normal of two spheres whose centres coincide: any would do, but it must be the same always.
+/// Normal of two spheres with coincident centres: any direction will do, if it is always the same.
 const NORMAL_OF_COINCIDENT_CENTERS: DVec3 = DVec3::Y;
 
 /// Separation of two spheres, `|x2 - x1| - (r1 + r2)`; also of a fixed sphere 1 and a sphere 2.

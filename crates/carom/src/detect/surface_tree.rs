@@ -1,4 +1,4 @@
-//! Which surfaces may be near a place: a tree of bounds.
+//! Surfaces that may be near a place: a tree of bounds.
 
 use glam::DVec3;
 
@@ -75,7 +75,7 @@ struct Node {
     surfaces: [u32; 2],
 }
 
-/// Up to this many surfaces are looked at one by one; below it a tree saves nothing.
+/// Up to this many surfaces are tested one by one; a tree would save nothing.
 const LEAF_SIZE: usize = 4;
 
 impl SurfaceTree {

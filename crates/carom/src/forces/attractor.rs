@@ -4,15 +4,15 @@ use super::{Force, SphereState};
 use crate::error::InvalidValue;
 use crate::validate;
 
-/// Gravity of a point mass that stays where it is: `F = -m mu r / (r² + e²)^(3/2)`, with r from the
-/// point to the centre of the sphere.
+/// Gravity of a fixed point mass: `F = -m mu r / (r² + e²)^(3/2)`, with r from the point to the centre of the
+/// sphere.
 ///
 /// With a softening e the force stays finite at the point: it is that of a Plummer sphere (Plummer,
 /// Monthly Notices of the Royal Astronomical Society 71, 460 (1911)). A negative parameter repels.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PointAttractor {
-    /// Where the mass is \[m\].
+    /// Position of the mass \[m\].
     pub position: DVec3,
     /// Gravitational parameter mu = G M \[m³/s²\].
     pub gravitational_parameter: f64,
@@ -41,7 +41,7 @@ impl Force for PointAttractor {
     fn on(&self, sphere: &SphereState, _time: f64) -> DVec3 {
         let square = self.softened_square(sphere.position);
         if square == 0.0 {
-            // In the point itself no direction is before another.
+            // At the point itself no direction is preferred.
             return DVec3::ZERO;
         }
         let per_mass = self.gravitational_parameter / (square * square.sqrt());

@@ -19,8 +19,8 @@ pub struct Buoyancy {
     pub density: f64,
     /// Height of the surface above the origin, against g \[m\].
     pub surface_height: f64,
-    /// Acceleration g of gravity \[m/s²\], not zero: it says how heavy the fluid is, and where up is. Spheres
-    /// have their weight from a force [`Gravity`](crate::Gravity).
+    /// Acceleration g of gravity \[m/s²\], not zero. It sets the weight of the fluid and the direction of up. The
+    /// weight of spheres comes from a force [`Gravity`](crate::Gravity).
     pub gravity: DVec3,
 }
 

@@ -5,8 +5,8 @@ use glam::DVec3;
 use crate::id::SphereId;
 use crate::settings::nearest_image;
 
-/// A force between spheres: what acts on one depends on where others are. A
-/// [`Force`](crate::Force) that is one says so by [`Force::interaction`](crate::Force::interaction).
+/// A force between spheres: the force on one depends on the states of others.
+/// [`Force::interaction`](crate::Force::interaction) of a [`Force`](crate::Force) returns it.
 ///
 /// Every rule evaluates it for all spheres at one instant. For reproducible bits sums need a fixed order.
 ///
@@ -63,8 +63,8 @@ pub trait Interaction: Debug + Send + Sync {
         true
     }
 
-    /// Whether it is meaningful in a periodic box, where each sphere is met in its nearest image (the
-    /// default). A world refuses one that is not.
+    /// Whether it is meaningful in a periodic box, where spheres act by their nearest images (the default). A world
+    /// with such a box refuses it otherwise.
     fn suits_periodic_box(&self) -> bool {
         true
     }

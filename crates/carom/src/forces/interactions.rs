@@ -14,7 +14,7 @@ pub(crate) struct Interactions<'a> {
 }
 
 impl<'a> Interactions<'a> {
-    /// Those among all forces, and springs; `None` if there are none.
+    /// The interactions among all forces, with the springs; `None` if there are none.
     pub fn of(forces: &'a Numbered<Arc<dyn Force>>, springs: &'a Numbered<Spring>) -> Option<Self> {
         let are_any = springs.iter().len() > 0
             || forces.iter().any(|(_, force)| force.interaction().is_some());

@@ -1,4 +1,4 @@
-//! What accelerates spheres.
+//! Forces on spheres.
 
 mod attractor;
 mod buoyancy;
@@ -42,10 +42,10 @@ pub use wind::Wind;
 use crate::error::InvalidValue;
 use crate::numbered::Numbered;
 
-/// A force that acts on every sphere. Several add up.
+/// A force that acts on every sphere. Forces add up.
 ///
-/// Forces are values without memory: to change one, put another in its place
-/// ([`World::set_force`](crate::World::set_force)); the next evaluation uses it.
+/// Forces are values without state: to change one, replace it ([`World::set_force`](crate::World::set_force)); the
+/// next evaluation uses the new one.
 ///
 /// For reproducible bits an implementation must use no function whose result depends on the
 /// platform (`sin`, `exp`, ... of the standard library; take those of the `libm` crate).
@@ -113,13 +113,12 @@ pub trait Force: Any + Debug + Send + Sync {
         false
     }
 
-    /// What this force does between spheres, besides what it does on each by itself; `None` (the default)
-    /// for nothing.
+    /// The forces between spheres, besides the force on each by itself; `None` (the default) for none.
     fn interaction(&self) -> Option<&dyn Interaction> {
         None
     }
 
-    /// Refuses parameters that make no sense; called once, when the force enters a world.
+    /// Checks the parameters; called once, when the force is added to a world.
     ///
     /// # Errors
     /// The field, what it must be and what it is.
@@ -137,7 +136,7 @@ pub struct LinearForce {
     pub drag_rate: f64,
 }
 
-/// What a force may depend on.
+/// State of a sphere, on which a force may depend.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SphereState {
     /// Centre \[m\].

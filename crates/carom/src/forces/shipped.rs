@@ -1,4 +1,4 @@
-//! The forces of this crate in writing. A force of another crate is code, which has no written form.
+//! Serialization of the forces of this crate. A force of another crate is code and cannot be written.
 
 use std::any::Any;
 use std::sync::Arc;

@@ -28,7 +28,7 @@ use crate::validate;
 pub struct Spring {
     /// The sphere at its first end.
     pub sphere: SphereId,
-    /// What is at its second end.
+    /// The second end.
     pub to: SpringEnd,
     /// Length without force l0 \[m\], >= 0.
     pub rest_length: f64,
@@ -40,7 +40,7 @@ pub struct Spring {
     pub only_pulls: bool,
 }
 
-/// What a spring ends at.
+/// The second end of a spring.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum SpringEnd {
@@ -89,7 +89,7 @@ impl Spring {
         [self.sphere].into_iter().chain(second)
     }
 
-    /// Refuses numbers that make no sense, and both ends at one sphere.
+    /// Returns an error for invalid numbers, or for both ends at one sphere.
     pub(crate) fn validate(&self) -> Result<(), InvalidValue> {
         validate::non_negative("rest_length", self.rest_length)?;
         validate::non_negative("stiffness", self.stiffness)?;
@@ -175,11 +175,11 @@ struct Ends {
     second: Option<usize>,
     /// From the first end to the second \[m\].
     offset: DVec3,
-    /// Of the second end as seen from the first \[m/s\].
+    /// Velocity of the second end relative to the first \[m/s\].
     velocity: DVec3,
 }
 
-/// How a spring is stretched.
+/// The stretch of a spring.
 struct Stretch {
     /// \[m\]
     length: f64,
@@ -192,12 +192,12 @@ struct Stretch {
 impl Stretch {
     fn of(offset: DVec3, velocity: DVec3) -> Self {
         let length = offset.norm();
-        // Of no length it has no direction, and pulls nowhere.
+        // A spring of no length has no direction and exerts no force.
         let direction = if length > 0.0 { offset / length } else { DVec3::ZERO };
         Self { length, direction, lengthening: velocity.dot(direction) }
     }
 
-    /// The force with which it pulls its ends together \[N\].
+    /// The force that pulls its ends together \[N\].
     fn tension(&self, spring: &Spring) -> f64 {
         let tension = self.elastic_tension(spring);
         match spring.only_pulls {

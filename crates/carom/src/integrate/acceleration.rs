@@ -1,4 +1,4 @@
-//! What accelerates one sphere.
+//! Acceleration of one sphere.
 
 use glam::DVec3;
 

@@ -1,8 +1,8 @@
 //! The first time at which a function becomes positive whose second derivative is bounded.
 
-/// Where the bound allows no progress, time goes on by at least this part of the interval.
+/// Least step, as a part of the interval, where the bound allows none.
 const LEAST: f64 = 1e-12;
-/// Steps towards a root at most; each one is a bound that holds, so the search may end anywhere.
+/// Largest number of steps towards a root; each step is a valid bound, so the search may end anywhere.
 const MOST_STEPS: u32 = 1000;
 
 /// First time in `(0, length]` at which a function is positive, to rounding. None is stepped over: up to the next
@@ -35,14 +35,14 @@ pub(crate) fn first_positive(
     Some(time)
 }
 
-/// How long `value + slope t + curvature t²/2` stays below 0; the value is not above it.
+/// How long `value + slope t + curvature t²/2` stays below 0, from a value that is not above it.
 fn time_below(value: f64, slope: f64, curvature: f64) -> f64 {
     let root = (slope * slope - 2.0 * curvature * value).max(0.0).sqrt();
     let time = if slope > 0.0 { -2.0 * value / (slope + root) } else { (root - slope) / curvature };
     if time.is_nan() { 0.0 } else { time }
 }
 
-/// The first number in an interval at which a function is positive that is so at its end.
+/// The first number in an interval at which a function is positive, which it is at the end.
 fn bisected(function: &impl Fn(f64) -> [f64; 2], [mut before, mut after]: [f64; 2]) -> f64 {
     loop {
         let middle = before + 0.5 * (after - before);

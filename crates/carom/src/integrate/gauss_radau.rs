@@ -27,31 +27,32 @@ const NEWTON: [[f64; TERMS]; TERMS] = newton_basis();
 /// The highest term of the acceleration is at most this part of it. The path between the nodes is then good to
 /// rounding: their polynomial leaves less than 1e-4 of the term after the highest.
 const TOLERANCE: f64 = 1e-9;
-/// A term that changes a velocity by less than this part is of no account, for a path off by a ten-thousandth of it.
+/// A term is negligible if it changes a velocity by less than this part, since it moves the path by a
+/// ten-thousandth of that.
 const VELOCITY_PART: f64 = 1e-3;
-/// Nor is one that changes a position by less than the rounding of forces at rounded places makes of it.
+/// A term is negligible if it changes a position by less than this part of the effect of rounding on forces.
 const POSITION_PART: f64 = 2e-3;
 /// Largest accepted ratio of the highest term of a step to the tolerance; a step above it is tried again.
 const ACCEPTED: f64 = 8.0;
-/// Part of the step that the estimate allows, to spare.
+/// Part of the estimated step that is taken, for safety.
 const SAFETY: f64 = 0.9;
-/// From step to step the length changes at most by these factors.
+/// Largest factor by which the length changes from step to step, up or down.
 const MOST_GROWTH: f64 = 4.0;
 const MOST_SHRINKAGE: f64 = 0.1;
-/// Iterations for the values at the nodes, at most. Steps that are short enough take three to eight.
+/// Largest number of iterations for the values at the nodes. Steps that are short enough take three to eight.
 const MAX_ITERATIONS: u32 = 12;
 /// The iteration has converged when the highest term changes by less than this part.
 const CONVERGED: f64 = 1e-16;
-/// An iteration that comes no nearer than this has not converged.
+/// An iteration whose changes stay above this part has not converged.
 const DIVERGED: f64 = 1e-10;
-/// Forces vary by less than this part over a step where nothing can be said of how fast they do.
+/// Variation of forces over a step, as a part of them, below which nothing is known of their rate of change.
 const STEADY: f64 = 1e-12;
-/// Where no step is short enough, the force jumps: a step of this part of the last good one crosses that.
+/// Where no step is short enough, the force jumps: a step of this part of the last accurate one crosses the jump.
 const SHORTEST: f64 = 1e-12;
-/// Growth of a step over the one before, where both cross a jump of the force.
+/// Growth of a step over the last one, where both cross a jump of the force.
 const LEAP: f64 = 8.0;
 
-/// What to expect of the steps of some spheres.
+/// Estimates for the next step of some spheres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Pace {
@@ -62,16 +63,16 @@ pub(crate) struct Pace {
 }
 
 impl Pace {
-    /// Where nothing is known but a time \[s\] in which the spheres hardly move.
+    /// The estimate where only a time \[s\] is known in which the spheres hardly move.
     pub fn of(time: f64) -> Self {
         Self { trial: time, shortest: SHORTEST * time }
     }
 
-    /// After a step of this length \[s\], a good one or one across a jump. Where there are jumps all along, steps
-    /// become as long as `rough` \[s\].
+    /// The estimate after a step of this length \[s\], an accurate one or one across a jump. With jumps everywhere,
+    /// steps grow up to `rough` \[s\].
     fn after(self, length: f64, is_good: bool, rough: f64) -> Self {
         let shortest = if is_good {
-            // It becomes shorter only slowly: towards a jump good steps become ever shorter.
+            // It shrinks slowly: towards a jump accurate steps become ever shorter.
             (SHORTEST * length).max(0.5 * self.shortest)
         } else {
             (LEAP * length).min(rough)

@@ -1,4 +1,4 @@
-//! What a sphere on a straight way meets, and when.
+//! The first contact of a sphere on a straight path.
 
 use glam::DVec3;
 
@@ -9,18 +9,18 @@ use crate::flight::Flight;
 use crate::norm::Norm;
 use crate::surface::{Form, SurfaceMotion};
 
-/// Distances below this part of the coordinates are rounding, as where contact times are found.
+/// Distances below this part of the coordinates are rounding, as in the search for contact times.
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
 /// Bounds are widened by this part of the coordinates: more than rounding.
 const SLACK: f64 = 1e-9;
-/// A ray is looked at first as a sphere with this part of the coordinates as its radius. Rectangles have a
-/// front only, and rounding would put a point that has come to one behind it.
+/// A ray is first treated as a sphere with this part of the coordinates as its radius. Rectangles have a front
+/// only, and rounding might put a point on one behind it.
 const THIN: f64 = 1e-9;
-/// Newton's method on a convex function doubles its digits, from [`THIN`] to all of them in one or two steps;
-/// on a way past an edge it may take as many as there are bits.
+/// Newton's method on a convex function doubles its digits, from [`THIN`] to all of them in one or two steps; on a
+/// path past an edge it may take as many as there are bits.
 const MOST_STEPS: u32 = 64;
 
-/// A sphere on a straight way; a ray has the radius 0.
+/// A sphere on a straight path; a ray has the radius 0.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sweep {
     /// \[m\]
@@ -52,7 +52,7 @@ impl Sweep {
         Bounds { min: self.start.min(end), max: self.start.max(end) }.widened(self.margin)
     }
 
-    /// A lower bound of the part of the way before it reaches these bounds; infinite if it never does.
+    /// A lower bound of the part of the path before these bounds; infinite if it never reaches them.
     #[inline]
     pub fn reaches(&self, bounds: &Bounds) -> f64 {
         let one = (bounds.min - self.margin - self.start) * self.inverse;
@@ -72,8 +72,8 @@ impl Sweep {
         if enter <= leave { enter } else { f64::INFINITY }
     }
 
-    /// Part of the way before the sphere comes into contact with a form, and how they stand there. Of a volume
-    /// that only `encloses`, what is outside meets the faces, which are forms of their own.
+    /// Part of the path before the sphere touches a form, and their separation there. For a volume that only
+    /// `encloses`, a sphere outside meets the faces, which are forms of their own.
     pub fn meet(&self, form: &Form, encloses: bool) -> Option<(f64, Separation)> {
         let rounding = ROUNDING * (form.coordinates() + self.start.norm() + self.radius);
         let start = sphere_surface(form, self.start, self.radius);
@@ -97,9 +97,9 @@ impl Sweep {
         }
     }
 
-    /// Where the sphere comes into contact with a form that it does not overlap at the start.
+    /// Contact with a form that the sphere does not overlap at the start.
     fn come_to(&self, form: &Form) -> Option<(f64, Separation)> {
-        // These have an inside, which rounding may put a point in.
+        // These have an inside, where rounding may put a point.
         let is_solid = matches!(form, Form::Sphere { .. } | Form::HalfSpace { .. });
         if self.radius > 0.0 || is_solid {
             let fraction = self.contact_at(form, self.radius)?;
@@ -122,7 +122,7 @@ impl Sweep {
         None
     }
 
-    /// Part of the way before a sphere with this radius \[m\] comes into contact with a form.
+    /// Part of the path before a sphere with this radius \[m\] touches a form.
     fn contact_at(&self, form: &Form, radius: f64) -> Option<f64> {
         let flight = Flight {
             position: self.start,

@@ -1,4 +1,4 @@
-//! Bodies and their images in a periodic box, as queries see them.
+//! Bodies and their images in a periodic box, for queries.
 
 use glam::DVec3;
 
@@ -8,12 +8,12 @@ use crate::detect::instant::Instant;
 use crate::detect::surface_tree;
 use crate::settings::nearest_image;
 
-/// Images are looked at up to this many boxes away. A body counts where its middle is in the box, so that of
-/// one that is larger another image is nearer than those beyond.
+/// Images are tested up to this many boxes away. A body counts where its middle is in the box, so that a larger
+/// body has an image that is nearer than those beyond.
 const FARTHEST_IMAGE: f64 = 2.0;
 
-/// The bodies of an instant, those with bounds and those without, in a box with these edges \[m\]. Where there are
-/// no images, surfaces outside of a `region` may be left out.
+/// The bodies of an instant, with and without bounds, in a box with these edges \[m\]. Where there are no images,
+/// surfaces outside of a `region` may be left out.
 pub(super) fn bodies(
     now: &Instant,
     period: DVec3,
@@ -32,7 +32,7 @@ pub(super) fn bodies(
             Some(bounds) if surface.motion.is_at_rest() => {
                 bounded.push(in_box(item, bounds, period));
             }
-            // As in a step, a periodic box does not repeat what moves.
+            // As in a step, moving surfaces have no images.
             Some(bounds) => {
                 bounded.push(Leaf { bounds, item, shift: DVec3::ZERO, has_images: false });
             }
@@ -53,7 +53,7 @@ fn surfaces(now: &Instant, region: Option<&Bounds>) -> Vec<u32> {
     near
 }
 
-/// A body whose middle is brought into the box.
+/// A body with its middle wrapped into the box.
 fn in_box(item: Item, bounds: Bounds, period: DVec3) -> Leaf {
     let middle = 0.5 * (bounds.min + bounds.max);
     let shift = wrapped(middle, period) - middle;
@@ -66,27 +66,27 @@ pub(super) fn wrapped(place: DVec3, period: DVec3) -> DVec3 {
     if period == DVec3::INFINITY { place } else { nearest_image(place, period) }
 }
 
-/// A piece of a way, not longer than the box along any axis.
+/// A piece of a path, not longer than the box along any axis.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Piece {
     /// Where it starts, in the box \[m\].
     pub start: DVec3,
     /// \[m\]
     pub way: DVec3,
-    /// From there to where it is on the whole way \[m\].
+    /// Offset from there to its place on the whole path \[m\].
     pub unwrapped: DVec3,
     number: u32,
     count: u32,
 }
 
 impl Piece {
-    /// Part of the whole way at a part of this piece, both from 0 to 1.
+    /// Part of the whole path at a part of this piece, both from 0 to 1.
     pub fn fraction_at(&self, part: f64) -> f64 {
         (f64::from(self.number) + part) / f64::from(self.count)
     }
 }
 
-/// The pieces of a way that starts at a place, all \[m\].
+/// The pieces of a path from a place, all \[m\].
 pub(super) fn pieces(start: DVec3, way: DVec3, period: DVec3) -> impl Iterator<Item = Piece> {
     let count = (way.abs() / period).max_element().ceil().max(1.0) as u32;
     (0..count).map(move |number| {
@@ -96,13 +96,13 @@ pub(super) fn pieces(start: DVec3, way: DVec3, period: DVec3) -> impl Iterator<I
     })
 }
 
-/// Shifts \[m\] by which images of what is within `bodies` may come into a region.
+/// Offsets \[m\] of images of `bodies` that may reach a region.
 pub(super) fn shifts(
     region: &Bounds,
     bodies: Option<&Bounds>,
     period: DVec3,
 ) -> impl Iterator<Item = DVec3> {
-    // Bodies without bounds are looked at once.
+    // Bodies without bounds are tested once.
     let own = Bounds { min: region.min, max: region.max };
     let bodies = bodies.copied().unwrap_or(own);
     let numbers = |axis: usize| {

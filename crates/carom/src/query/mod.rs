@@ -1,4 +1,4 @@
-//! Queries: what a ray or a sphere on its way meets first, and what is near a place, as the world is now.
+//! Queries of the present world: the first body on the path of a ray or a sphere, and bodies near a place.
 
 mod cast;
 mod images;
@@ -19,7 +19,7 @@ use crate::validate;
 use cast::Sweep;
 use tree::{BodyTree, Item, Leaf};
 
-/// A way in a periodic box crosses at most this many boxes: each costs a search.
+/// A path in a periodic box crosses at most this many boxes: each costs a search.
 const MOST_BOXES: f64 = 65_536.0;
 
 /// A sphere or a collider.
@@ -37,11 +37,12 @@ pub enum Body {
 pub struct Hit {
     /// The body that is met.
     pub body: Body,
-    /// Where on the surface of that body \[m\]; in a periodic box where the way comes to, which may be outside.
+    /// The contact point on the surface of that body \[m\]; in a periodic box at the end of the unwrapped path,
+    /// which may be outside.
     pub point: DVec3,
     /// Unit normal of that body there, out of it.
     pub normal: DVec3,
-    /// Part of the way before the contact, 0 to 1; 0 where the body is overlapped at the start.
+    /// Part of the path before the contact, 0 to 1; 0 where the body is overlapped at the start.
     pub fraction: f64,
 }
 
@@ -124,7 +125,7 @@ impl QueryFilter {
     }
 }
 
-/// Queries of a world as it is now, with its bodies sorted once: for many between two steps.
+/// Queries of the present state of a world, with its bodies sorted once, for many queries between two steps.
 ///
 /// ```
 /// use carom::{Body, DVec3, QueryFilter, Sphere, World};
@@ -141,14 +142,14 @@ impl QueryFilter {
 #[derive(Clone)]
 pub struct Queries<'a> {
     now: Instant<'a>,
-    /// All bodies sorted by place; `None` where each query looks at those near it one by one.
+    /// All bodies sorted by place; `None` where each query tests those near it one by one.
     sorted: Option<BodyTree>,
     /// Edges of the periodic box \[m\]; infinite along an open axis.
     period: DVec3,
 }
 
 impl<'a> Queries<'a> {
-    /// Of a world at one instant; the bodies are `sorted` by place, or looked at one by one.
+    /// Queries of a world at one instant; the bodies are `sorted` by place, or tested one by one.
     pub(crate) fn of(now: Instant<'a>, sorted: bool) -> Self {
         let period = now.system.settings.boundary.period();
         let tree = || {
@@ -167,13 +168,12 @@ impl<'a> Queries<'a> {
         self.sorted.as_ref().map_or_else(of_query, Cow::Borrowed)
     }
 
-    /// What a ray meets first that starts at `origin` \[m\] and leads along `way` to its end \[m\].
+    /// The first body that a ray meets from `origin` \[m\] along `way` to its end \[m\].
     ///
-    /// A rectangle is met from its front. Of several bodies at one place it is a sphere before a collider, and
-    /// the one with the smallest id.
+    /// A rectangle is met from its front. Of several bodies at one place, a sphere comes before a collider, and a
+    /// smaller id before a larger one.
     ///
-    /// # Errors
-    /// [`Error::Invalid`] if a number is not finite, or the way crosses more than 65,536 periodic boxes.
+    /// # Errors [`Error::Invalid`] if a number is not finite, or the path crosses more than 65,536 periodic boxes.
     pub fn cast_ray(
         &self,
         origin: DVec3,
@@ -184,8 +184,8 @@ impl<'a> Queries<'a> {
         Ok(self.first_on_way(origin, 0.0, way, filter))
     }
 
-    /// What a sphere meets first that moves straight from `center` along `way` to its end, with this
-    /// `radius` \[m\].
+    /// The first body that a sphere with this `radius` \[m\] meets on a straight path from `center` along `way` to
+    /// its end \[m\].
     ///
     /// # Errors
     /// As [`Self::cast_ray`], and if the radius is not positive or, in a periodic box, larger than its
@@ -202,9 +202,9 @@ impl<'a> Queries<'a> {
         Ok(self.first_on_way(center, radius, way, filter))
     }
 
-    /// The body nearest to a point \[m\], if its surface is not farther away than `within` \[m\], which may
-    /// be infinite. A body that the point is in has a negative distance. A rectangle is not there for points
-    /// behind it.
+    /// The body nearest to a point \[m\], if its surface is not farther away than `within` \[m\], which may be
+    /// infinite. The distance of a body that contains the point is negative. Points behind a rectangle do not find
+    /// it.
     ///
     /// # Errors
     /// [`Error::Invalid`] if the point is not finite, or `within` negative or no number.
@@ -270,7 +270,8 @@ impl<'a> Queries<'a> {
                 found.extend(near.map(|near| (near, leaf.item)));
             });
         }
-        // Of surfaces of one body at one distance the first: the order of the search depends on the tree.
+        // Of surfaces of one body at one distance the first is kept, since the order of the search depends on the
+        // tree.
         found.sort_by(|(a, of_a), (b, of_b)| {
             a.body.cmp(&b.body).then(a.distance.total_cmp(&b.distance)).then(of_a.cmp(of_b))
         });
@@ -279,7 +280,7 @@ impl<'a> Queries<'a> {
         Ok(found.into_iter().map(|(near, _)| moved(near)).collect())
     }
 
-    /// How a body stands to a sphere at `place` as seen from an image that is shifted by `shift` \[m\].
+    /// The separation of a body from a sphere at `place`, relative to the image at the offset `shift` \[m\].
     fn near_body(
         &self,
         leaf: &Leaf,
@@ -300,7 +301,7 @@ impl<'a> Queries<'a> {
         })
     }
 
-    /// What a sphere meets first on its way; a ray has no radius.
+    /// The first body on the path of a sphere; a ray has no radius.
     fn first_on_way(
         &self,
         center: DVec3,
@@ -343,7 +344,7 @@ impl<'a> Queries<'a> {
         None
     }
 
-    /// Whether a filter lets a body through, or its image with this shift \[m\].
+    /// Whether a filter accepts a body, or its image at this offset \[m\].
     fn is_found(&self, leaf: &Leaf, shift: DVec3, filter: &QueryFilter) -> bool {
         if !leaf.has_images && shift != DVec3::ZERO {
             return false;

@@ -17,7 +17,7 @@ pub(super) enum Item {
 pub(super) struct Leaf {
     pub bounds: Bounds,
     pub item: Item,
-    /// From where the world has the body to where it counts here \[m\]: in a periodic box, into the box.
+    /// Offset from the body in the world to its wrapped place \[m\].
     pub shift: DVec3,
     /// Whether a periodic box repeats it.
     pub has_images: bool,

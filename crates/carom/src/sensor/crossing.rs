@@ -15,10 +15,10 @@ use crate::system::System;
 
 /// Distances below this part of the coordinates are rounding.
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
-/// Close to the surface a search steps by this part of the segment at least, and by twice as much each time: a
-/// way along the surface comes to an end, and what is missed is no deeper than a step is long.
+/// Close to the surface a search steps by at least this part of the segment, and by twice as much each time, so
+/// that a path along the surface ends. What it misses is no deeper than a step is long.
 const LEAST_STEP: f64 = 1e-12;
-/// A search that comes no farther gives up; oblique ways take some hundreds of steps.
+/// Largest number of steps of a search; oblique paths take some hundreds.
 const MOST_STEPS: u32 = 1 << 16;
 /// Halvings that use up the bits of a time.
 const MOST_HALVINGS: u32 = 128;
@@ -45,7 +45,7 @@ pub(super) struct Crossing<'a> {
     pub segment: &'a FlightSegment,
     pub targets: &'a [Target],
     pub system: &'a System<'a>,
-    /// When surfaces are where the system says, on the world's clock \[s\].
+    /// Time for which the system has the surfaces, on the world's clock \[s\].
     pub step_start: f64,
 }
 
@@ -53,24 +53,23 @@ pub(super) struct Crossing<'a> {
 #[derive(Debug, Clone, Copy)]
 struct TriggerState {
     separation: Separation,
-    /// How far it has to go to be out \[m\]; negative outside.
+    /// Distance to the outside \[m\]; negative outside.
     depth: f64,
-    /// How fast it comes out \[m/s\].
+    /// Speed towards the outside \[m/s\].
     opening: f64,
-    /// What counts as no distance \[m\].
+    /// Distance that counts as zero \[m\].
     rounding: f64,
 }
 
 impl Crossing<'_> {
-    /// Whether the sphere is in the trigger at `time` \[s\], where before it `was_in` or not: at the surface it
-    /// stays what it was.
+    /// Whether the sphere is in the trigger at `time` \[s\]; at the surface it keeps the state `was_in`.
     pub fn is_in_at(&self, time: f64, was_in: bool) -> bool {
         self.state_at(time).is_some_and(|state| {
             if was_in { state.depth >= -state.rounding } else { state.depth > state.rounding }
         })
     }
 
-    /// When the sphere, which is out at `now` \[s\], comes in, up to the end of the segment.
+    /// Time at which the sphere, outside at `now` \[s\], enters, up to the end of the segment.
     pub fn entry(&self, now: f64) -> Option<f64> {
         let times = self.targets.iter().filter_map(|target| self.entry_of(target, now));
         times.min_by(f64::total_cmp)
@@ -99,7 +98,7 @@ impl Crossing<'_> {
         delay.map(|delay| now + delay)
     }
 
-    /// When the centre comes from behind a rectangle to its front, so near that the sphere overlaps it.
+    /// Time at which the centre moves from behind a rectangle to its front, so near that the sphere overlaps it.
     fn entry_from_behind(&self, target: &Target, rectangle: &Rectangle, now: f64) -> Option<f64> {
         let start = self.segment.flight_from(now).position - target.shift - rectangle.center;
         let mut from = now;
@@ -127,8 +126,8 @@ impl Crossing<'_> {
         None
     }
 
-    /// The first time from `time` \[s\] on at which the centre, which comes to the front of a rectangle then, is there,
-    /// whatever rounding says.
+    /// The first time from `time` \[s\] on at which the centre, about to reach the front of a rectangle, is in
+    /// front in rounded numbers, too.
     fn first_in_front(&self, target: &Target, time: f64) -> f64 {
         let (mut time, mut step) = (time, time.next_up() - time);
         while time < self.segment.to && self.state_in(target, time).is_none() {
@@ -137,7 +136,7 @@ impl Crossing<'_> {
         time
     }
 
-    /// When the sphere, which is in at `now` \[s\], comes out, up to the end of the segment.
+    /// Time at which the sphere, inside at `now` \[s\], leaves, up to the end of the segment.
     ///
     /// No way out is shorter than the depth, which bounds a step by the depth over the speed. Where the sphere
     /// comes out for sure within twice the time that it would take at its present rate, halving finds when.
@@ -171,12 +170,12 @@ impl Crossing<'_> {
         None
     }
 
-    /// Whether the sphere is out at `time` \[s\], for whatever rounding says.
+    /// Whether the sphere is outside at `time` \[s\], beyond rounding.
     fn is_out_at(&self, time: f64) -> bool {
         self.state_at(time).is_none_or(|state| state.depth < 0.0)
     }
 
-    /// The time \[s\] at which the sphere comes out that is in at one time and out at a later one.
+    /// The time \[s\] at which the sphere leaves, for a time when it is inside and a later one when it is outside.
     fn pin_down(&self, before: f64, after: f64) -> f64 {
         let mut latest = after;
         bisect(after - before, MOST_HALVINGS, |elapsed| {
@@ -190,8 +189,8 @@ impl Crossing<'_> {
         latest
     }
 
-    /// How the sphere stands to the trigger at `time` \[s\], by the surface that it is deepest in; `None` where
-    /// it is on the side of all that nothing collides with.
+    /// Depth and velocity of the sphere at `time` \[s\], by the surface in which it is deepest; `None` where it is
+    /// on the side of all surfaces that nothing collides with.
     fn state_at(&self, time: f64) -> Option<TriggerState> {
         let states = self.targets.iter().filter_map(|target| self.state_in(target, time));
         states.max_by(|a, b| a.depth.total_cmp(&b.depth))
@@ -251,7 +250,7 @@ impl Crossing<'_> {
         self.system.surfaces[target.surface as usize].after(time - self.step_start)
     }
 
-    /// What is reported of an entry or an exit at `time` \[s\].
+    /// The event of an entry or an exit at `time` \[s\].
     pub fn event(
         &self,
         (sphere, collider): (SphereId, ColliderId),

@@ -22,9 +22,9 @@ pub(crate) struct FlightSegment {
     /// \[m\]
     pub radius: f64,
     pub flight: Flight,
-    /// Where forces have no closed form, what is flown instead.
+    /// The polynomial flight where forces have no closed form.
     pub curve: Option<PolynomialFlight>,
-    /// When the flight's own time is 0, on the world's clock \[s\].
+    /// Start of the flight on the world's clock \[s\].
     pub flight_start: f64,
     /// Beginning and end of the part, on the world's clock \[s\].
     pub from: f64,
@@ -32,7 +32,7 @@ pub(crate) struct FlightSegment {
 }
 
 impl FlightSegment {
-    /// Where the sphere is at `time` \[s\] and how it moves there, as a flight.
+    /// The flight of the sphere from `time` \[s\] on.
     pub fn flight_from(&self, time: f64) -> Flight {
         let age = time - self.flight_start;
         let (position, velocity) = match &self.curve {
@@ -42,7 +42,7 @@ impl FlightSegment {
         Flight { position, velocity, ..self.flight }
     }
 
-    /// How the sphere moves from `time` \[s\] on, as seen from a place \[m\].
+    /// The path of the sphere from `time` \[s\] on, relative to a place \[m\].
     pub fn track_from(&self, time: f64, place: DVec3) -> Track {
         let track = match self.curve {
             Some(curve) => {
@@ -54,7 +54,7 @@ impl FlightSegment {
         track.shifted(-place)
     }
 
-    /// How far the flight comes up to `time` \[s\] at most, along each axis \[m\].
+    /// Largest distance of the flight up to `time` \[s\], along each axis \[m\].
     pub fn farthest(&self, time: f64) -> DVec3 {
         match &self.curve {
             Some(curve) => curve.farthest(),
@@ -62,7 +62,8 @@ impl FlightSegment {
         }
     }
 
-    /// An upper bound of the acceleration from `time` \[s\] on \[m/s²\], but for drag, which only slows down.
+    /// An upper bound of the acceleration from `time` \[s\] on \[m/s²\], without drag, which only slows the sphere
+    /// down.
     pub fn most_acceleration(&self) -> f64 {
         match &self.curve {
             Some(curve) => {
@@ -114,7 +115,7 @@ impl FlightSegment {
     }
 }
 
-/// Shifts \[m\] of images that a piece of a segment may come to in a box with these edges \[m\].
+/// Offsets \[m\] of images that a piece of a segment may reach in a box with these edges \[m\].
 pub(super) fn shifts(period: DVec3) -> impl Iterator<Item = DVec3> {
     let boxes = |axis: usize| if period[axis].is_finite() { -1..=1 } else { 0..=0 };
     let [xs, ys, zs] = [0, 1, 2].map(boxes);

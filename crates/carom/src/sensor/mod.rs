@@ -1,4 +1,4 @@
-//! Sensors: when spheres come into triggers and leave them, along their flights.
+//! Sensors: when spheres enter and leave triggers, along their flights.
 
 mod crossing;
 mod flight_segment;
@@ -18,25 +18,25 @@ use crate::surface::Role;
 use crate::system::System;
 use crossing::{Crossing, Target};
 
-/// A flight enters and leaves a trigger at most so often: only one that turns over a long frame comes near it.
+/// Largest number of crossings of a trigger by a flight; only one with many turns in a long frame gets near it.
 const MOST_CROSSINGS: usize = 100_000;
 
-/// Which spheres are in which triggers.
+/// Pairs of a trigger and a sphere inside.
 pub(crate) type Presence = BTreeSet<(SphereId, ColliderId)>;
 
-/// What sensors know: who is in them, and what they saw in the step.
+/// State of the sensors: spheres inside triggers, and the events of the step.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Sensors {
-    /// Who is in which trigger now.
+    /// Spheres inside triggers now.
     pub presence: Presence,
-    /// What was seen, in order of spheres.
+    /// Events in the order of spheres.
     pub events: Vec<SensorEvent>,
     near: Vec<u32>,
     targets: Vec<Target>,
 }
 
 impl Sensors {
-    /// Those with this presence, which have seen nothing yet.
+    /// Sensors with these spheres inside and no events.
     pub fn with(presence: Presence) -> Self {
         Self { presence, ..Self::default() }
     }
@@ -85,7 +85,7 @@ impl Sensors {
             let of_tree = self.near.iter().copied().filter(repeats);
             self.targets.extend(of_tree.map(|surface| Target::new(surface, shift, system)));
         }
-        // What moves may come from anywhere; what the sphere is in may have been put elsewhere.
+        // Moving triggers may come from anywhere; a sphere inside one may have been moved by a program.
         let first = (segment.sphere, ColliderId::from_number(0));
         let last = (segment.sphere, ColliderId::from_number(u64::MAX));
         let inside: BTreeSet<_> = self.presence.range(first..=last).map(|it| it.1).collect();
@@ -110,7 +110,7 @@ impl Sensors {
     fn pass(&mut self, crossing: &Crossing, collider: ColliderId) {
         let key = (crossing.segment.sphere, collider);
         let mut now = crossing.segment.from;
-        // What was put in or out from outside, or came there with a new flight.
+        // Changes by a program, or by the start of a new flight.
         let is_in = self.presence.contains(&key);
         if is_in != crossing.is_in_at(now, is_in) {
             self.note(crossing, key, now);

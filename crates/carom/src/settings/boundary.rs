@@ -3,7 +3,7 @@ use glam::DVec3;
 use crate::error::InvalidValue;
 use crate::validate;
 
-/// What is around the spheres, besides colliders.
+/// The boundary of space, besides colliders.
 ///
 /// ```
 /// use carom::{Boundary, DVec3, Settings, Sphere, World};
@@ -21,11 +21,11 @@ use crate::validate;
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Boundary {
-    /// Nothing: space without end.
+    /// No boundary: space without end.
     #[default]
     Open,
-    /// A box about the origin that repeats itself: what leaves through a face comes in through the
-    /// opposite one, and spheres meet across faces. Only under the rules `exact` and `contact`.
+    /// A box about the origin that repeats itself: a sphere that leaves through a face enters through the opposite
+    /// one, and spheres meet across faces. Only under the rules `exact` and `contact`.
     Periodic {
         /// Edges \[m\], each > 0; infinite along an axis that is open.
         size: DVec3,

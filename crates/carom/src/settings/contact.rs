@@ -6,15 +6,15 @@ use crate::validate;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Contact {
-    /// Sub-steps of a frame, at least 1; more are taken where spheres are small or surfaces turn fast. Overlaps fall
-    /// with the square of their length.
+    /// Sub-steps of a frame, at least 1; more are taken where spheres are small or surfaces turn fast. Overlaps
+    /// fall with the square of the length of sub-steps.
     pub sub_steps: u32,
     /// Sweeps over all contacts in a sub-step, at least 1.
     pub sweeps: u32,
-    /// Whether sweeps go on until the residual is at most 1e-10: slow, to compare with.
+    /// Whether sweeps continue until the residual is at most 1e-10: slow, for comparison.
     pub converged: bool,
-    /// Speed below which a sphere that bears or is borne counts as at rest and may fall asleep, as a part of
-    /// `sqrt(a r)`, the speed after falling through half its radius r, >= 0. With 0 none sleeps.
+    /// Speed below which a sphere with pressing contacts counts as at rest and may fall asleep, as a part of
+    /// `sqrt(a r)`, the speed after falling through half its radius r, >= 0. With 0 no sphere sleeps.
     pub sleep_speed: f64,
 }
 

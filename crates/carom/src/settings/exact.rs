@@ -9,20 +9,20 @@ use crate::validate;
 pub struct Exact {
     /// How impacts at one instant in one group of touching bodies are answered.
     pub impact_law: ImpactLaw,
-    /// Least duration of a contact \[s\], > 0. Two bodies that would be back in contact sooner, under
-    /// the forces that press them together, stay in contact; and an impact of two spheres that both
-    /// were hit within that time gives nothing back, unless it is elastic. So no sequence of ever
-    /// shorter bounces stops the clock. A contact lasts longer where bounces of that length cannot be
-    /// resolved: `docs/physics/persistent-contacts.md`, "Contact duration".
+    /// Least duration of a contact \[s\], > 0. Two bodies that would be back in contact sooner, under the forces
+    /// that press them together, stay in contact. An impact of two spheres that were both hit within that time is
+    /// answered with the restitution 0, unless it is elastic. So no sequence of ever shorter bounces stops the
+    /// clock. A contact lasts longer where bounces of that length cannot be resolved:
+    /// `docs/physics/persistent-contacts.md`, "Contact duration".
     pub contact_duration: f64,
-    /// Work of one sphere in a frame: its impacts, other events of its flight, and the work of the
-    /// groups it is in, in units of an impact. A sphere with more becomes a stepped zone, or, without
-    /// zones, ends the step with an error.
+    /// Largest work of one sphere in a frame: its impacts, other events of its flight, and the work of its groups,
+    /// in units of an impact. A sphere with more joins a stepped zone, or, without zones, ends the step with an
+    /// error.
     pub max_impacts: u32,
     /// Whether spheres in contact that take too much work are stepped.
     pub zones: Zones,
-    /// Work of the groups of one sphere in a tick, in contacts times iterations of a solver: more makes a
-    /// stepped zone of the group.
+    /// Largest work of the groups of one sphere in a tick, in contacts times iterations of a solver. A group with
+    /// more joins a stepped zone.
     pub zone_budget: u32,
     /// Time between two ticks, at which zones are stepped \[s\], > 0. Ticks are at its multiples on the
     /// world's clock. The tick adapts to the frame: doubled while a frame holds more than 128 ticks, halved

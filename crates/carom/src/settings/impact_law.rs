@@ -2,9 +2,8 @@ use std::fmt::{self, Display};
 
 /// How the impacts of one instant are answered where several bodies touch.
 ///
-/// All of them keep momentum, never gain energy, only push, and leave no contact closing. For a
-/// single contact they are one and the same. `docs/physics/impacts.md`, "Impacts at one instant",
-/// compares them.
+/// All laws conserve momentum, never gain energy, only push, and leave no contact closing. For a single contact
+/// they agree. `docs/physics/impacts.md`, "Impacts at one instant", compares them.
 ///
 /// ```
 /// use carom::{DVec3, Error, Exact, ImpactLaw, Settings, Sphere, World};

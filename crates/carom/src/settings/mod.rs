@@ -1,5 +1,5 @@
-//! How a world is stepped: plain values, chosen for each scene. What they do is in `rule`,
-//! `integrate` and `respond`.
+//! How a world is stepped: plain values, chosen for each scene. `rule`, `integrate` and `respond` have their
+//! effects.
 
 mod bisect;
 mod boundary;
@@ -29,8 +29,8 @@ use crate::validate;
 
 /// Settings of a world.
 ///
-/// What only one rule reads is a parameter of that [`Rule`]; what is here describes the world itself, or
-/// counts under every rule.
+/// Values that only one rule reads are parameters of that [`Rule`]. The others describe the world itself, or hold
+/// under every rule.
 ///
 /// ```
 /// use carom::{CombineRule, Exact, Rule, Settings, World};
@@ -51,12 +51,12 @@ pub struct Settings {
     pub rule: Rule,
     /// Restitution of a contact, from that of its two bodies.
     pub combine_rule: CombineRule,
-    /// Friction of a contact, from what both of its bodies say; each coefficient of its own.
+    /// Friction of a contact, from that of its two bodies; each coefficient separately.
     pub friction_combine_rule: CombineRule,
-    /// Whether spheres collide with one another; colliders they always collide with.
+    /// Whether spheres collide with one another. They always collide with colliders.
     pub spheres_collide: bool,
-    /// What is around the spheres: part of the world, as its colliders are, and not of the rule, even
-    /// though `discrete` and `bisect` know no periodic box.
+    /// The boundary of space. It is part of the world, as its colliders are, and not of the rule, although
+    /// `discrete` and `bisect` have no periodic box.
     pub boundary: Boundary,
 }
 
@@ -94,12 +94,12 @@ impl Settings {
         Self { spheres_collide, ..self }
     }
 
-    /// The same settings with this around the spheres.
+    /// The same settings with this boundary.
     pub fn with_boundary(self, boundary: Boundary) -> Self {
         Self { boundary, ..self }
     }
 
-    /// Refuses parameters of the rule that make no sense, and a boundary that it does not know.
+    /// Returns an error for invalid parameters of the rule, or a boundary that the rule does not have.
     pub(crate) fn validate(&self) -> Result<(), InvalidValue> {
         self.boundary.validate()?;
         if self.boundary != Boundary::Open {

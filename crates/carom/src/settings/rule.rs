@@ -1,6 +1,6 @@
 use super::{Bisect, Contact, Discrete, Exact};
 
-/// Step rule: how a world goes through a frame.
+/// Step rule: how a world advances by a frame.
 ///
 /// ```
 /// use carom::{Bisect, Collider, DVec3, Discrete, Error, Exact, Pose, Rule, Settings, Shape};
@@ -37,9 +37,8 @@ pub enum Rule {
     ///
     /// A contact that begins and ends within a frame is still missed.
     Bisect(Bisect),
-    /// Carom's own rule: spheres fly in closed form from one event to the next, and every impact
-    /// happens at its own time, however many there are in a frame and however fast they are. A
-    /// frame only says when to look.
+    /// Carom's own rule: spheres fly in closed form from one event to the next, and every impact happens at its own
+    /// time, however many there are in a frame and however fast they are. A frame only sets when results are read.
     Exact(Exact),
     /// The rule for heaps, friction and games: frames are cut into sub-steps, and in each the contacts
     /// of all spheres are solved together. Its cost does not depend on how many impacts there are.

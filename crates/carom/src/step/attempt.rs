@@ -1,4 +1,4 @@
-//! A step at work: it emits, and leaves nothing behind if it fails.
+//! An attempt at a step: it emits spheres, and undoes everything if the step fails.
 
 use crate::bodies::{Motion, Spheres};
 use crate::clock::Clock;
@@ -16,7 +16,7 @@ use crate::state::State;
 use crate::surface::{Role, Surface};
 use crate::work::Work;
 
-/// Working memory of steps, kept from one to the next only to spare its allocation.
+/// Working memory of steps, kept to avoid allocating it again.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Scratch {
     pub discrete: discrete::Scratch,
@@ -24,11 +24,11 @@ pub(crate) struct Scratch {
     pub contact: contact::Scratch,
     pub search: Search,
     pub tracks: Tracks,
-    /// Motion at the start of the step, to return to if it fails.
+    /// Motion at the start of the step, which a failed step restores.
     pub start: Motion,
 }
 
-/// A step at work.
+/// An attempt at a step.
 pub(super) struct Attempt<'a> {
     pub state: &'a mut State,
     pub scratch: &'a mut Scratch,
@@ -45,7 +45,7 @@ pub(super) struct Attempt<'a> {
 }
 
 impl<'a> Attempt<'a> {
-    /// A step of `length` \[s\], of which nothing is done yet.
+    /// A step of `length` \[s\] that has not begun.
     pub fn new(
         state: &'a mut State,
         scratch: &'a mut Scratch,
@@ -64,8 +64,8 @@ impl<'a> Attempt<'a> {
         }
     }
 
-    /// Moves the spheres by `advance`, then the clock and the colliders to the end of the step. If
-    /// `advance` fails, what was emitted is taken back, and flights begin anew.
+    /// Moves the spheres by `advance`, then the clock and the colliders to the end of the step. If `advance` fails,
+    /// emitted spheres are removed, and flights restart.
     pub fn take(
         &mut self,
         advance: impl FnOnce(&mut Self) -> Result<(), Error>,
@@ -103,8 +103,8 @@ impl<'a> Attempt<'a> {
         self.scratch.tracks.begin(is_wanted, self.state.spheres.positions());
     }
 
-    /// Reports the spheres that are inside triggers now, if one of those moves: the rules `discrete` and `bisect` look
-    /// before it does.
+    /// Reports the spheres inside triggers before a trigger moves: the rules `discrete` and `bisect` test them
+    /// then.
     pub fn report_moved_triggers(&mut self) {
         let is_moving = |it: &Surface| it.role == Role::Reports && !it.motion.is_at_rest();
         if self.state.colliders.surfaces().iter().any(is_moving) {
@@ -113,7 +113,7 @@ impl<'a> Attempt<'a> {
         }
     }
 
-    /// Reports what sensors saw, and keeps which spheres are in which triggers; `None` where there are no triggers.
+    /// Reports the events of sensors, and keeps the spheres in triggers; `None` where there are no triggers.
     pub fn report_sensors(&mut self, sensors: Option<Sensors>) {
         let Some(mut sensors) = sensors else { return self.state.presence.clear() };
         let (system, _) = self.state.split();
@@ -122,20 +122,20 @@ impl<'a> Attempt<'a> {
         self.state.presence = sensors.presence;
     }
 
-    /// Notes what there is before an emission, to return to if the step fails.
+    /// Saves the state before an emission, which a failed step restores.
     pub fn expect_emission(&mut self) {
         self.before_emission.get_or_insert_with(|| BeforeEmission::of(self.state));
     }
 
-    /// What emitters take for room.
+    /// The room for emitted spheres.
     pub fn room(&self) -> Room {
         let settings = &self.state.settings;
         let is_needed = matches!(settings.rule, Rule::Contact(_)) && settings.spheres_collide;
         Room { is_needed, period: settings.boundary.period() }
     }
 
-    /// Emits the spheres that are due at `time` \[s\], when all others are where the arrays say; notes what was
-    /// before, the first time.
+    /// Emits the spheres that are due at `time` \[s\], with all others in the places of the arrays; the first time
+    /// it saves the state before.
     pub fn emit(&mut self, time: f64) -> Emission {
         if !emitter::any_due(&self.state.emitters, time) {
             return Emission::default();
@@ -159,7 +159,7 @@ impl<'a> Attempt<'a> {
     }
 }
 
-/// What an emission changes, to return to if the step fails.
+/// The state that an emission changes, which a failed step restores.
 struct BeforeEmission {
     emitters: Numbered<EmitterState>,
     spheres: Spheres,

@@ -1,5 +1,5 @@
-//! Steps by the rule `exact`: flights go on from step to step, and what is due within a step is
-//! emitted at its own time.
+//! Steps by the rule `exact`: flights continue from step to step, and spheres due within a step are emitted at
+//! their own times.
 
 use super::attempt::Attempt;
 use crate::emitter;
@@ -81,8 +81,8 @@ fn account_for_persistent_contacts(report: &mut StepReport, timeline: &mut Timel
     report.energy_account.colliders += colliders;
 }
 
-/// The flights of all spheres at the start of the step, which ends at `end` \[s\]: those of the step
-/// before go on.
+/// The flights of all spheres at the start of the step, which ends at `end` \[s\]: flights of the step before
+/// continue.
 ///
 /// # Errors
 /// [`Error::NonFiniteState`] if a force is not finite, [`Error::Invalid`] if a periodic box is too small
@@ -100,7 +100,7 @@ fn begin(attempt: &mut Attempt, parameters: Exact, end: f64) -> Result<Timeline,
     Ok(timeline)
 }
 
-/// Refuses forces that have no closed form, for `what` needs one.
+/// Returns an error if forces have no closed form, since `what` needs one.
 ///
 /// # Errors
 /// The field that it is.
@@ -111,8 +111,7 @@ pub(super) fn check_closed_form(system: &System, what: &'static str) -> Result<(
     validate::require(!varies, what, requirement, forces)
 }
 
-/// Takes flights and emissions to `end` \[s\], or to the next impact; gives the time that they come to
-/// \[s\].
+/// Advances flights and emissions to `end` \[s\], or to the next impact. Returns the time reached \[s\].
 fn advance(
     attempt: &mut Attempt,
     timeline: &mut Timeline,
@@ -143,7 +142,7 @@ fn advance(
     }
 }
 
-/// Emits the spheres that are due at `time` \[s\]; those that are there fly on.
+/// Emits the spheres that are due at `time` \[s\]; the others fly on.
 ///
 /// # Errors
 /// [`Error::NonFiniteState`] if a sphere is nowhere.
@@ -151,7 +150,7 @@ fn emit(attempt: &mut Attempt, timeline: &mut Timeline, time: f64) -> Result<(),
     if !emitter::any_due(&attempt.state.emitters, time) {
         return Ok(());
     }
-    // Those that are there may be in the way, and their energy counts.
+    // The present spheres may be in the way, and their energy counts.
     attempt.expect_emission();
     place_spheres(attempt, timeline, time)?;
     account_for_persistent_contacts(attempt.report, timeline, time);
@@ -168,7 +167,7 @@ fn emit(attempt: &mut Attempt, timeline: &mut Timeline, time: f64) -> Result<(),
     Ok(())
 }
 
-/// Puts all spheres where their flights are at `end` \[s\].
+/// Moves all spheres to the ends of their flights at `end` \[s\].
 ///
 /// # Errors
 /// [`Error::NonFiniteState`] if one is nowhere; then none is moved.
@@ -196,13 +195,13 @@ fn refusal(unfinished: Unfinished, time: f64) -> Error {
     }
 }
 
-/// What is said of a sphere with a quantity that grew past what numbers hold, in a step that starts at `time`
-/// \[s\]: springs are stable in frames of any length.
+/// The error for a sphere with a quantity that exceeded the range of numbers, in a step that starts at `time`
+/// \[s\]. Springs are stable in frames of any length.
 fn no_longer_finite(sphere: SphereId, quantity: &'static str, time: f64) -> Error {
     Error::NonFiniteState { sphere, quantity, time, stable_frame: None }
 }
 
-/// Refuses what a step of this length \[s\] would whatever forces act.
+/// Returns the errors of a step of this length \[s\] that do not depend on forces.
 ///
 /// # Errors
 /// [`Error::Invalid`] if a periodic box is too small for the spheres, if there are too many of them, or if springs
@@ -214,13 +213,13 @@ pub(super) fn check(state: &State, parameters: Exact, length: f64) -> Result<(),
     tick.map(drop).map_err(|error| refused_forces(error, now.time))
 }
 
-/// Refuses spheres for which there is no room.
+/// Returns an error for spheres without room.
 pub(super) fn check_room(state: &State) -> Result<(), Error> {
     check_count(state)?;
     state.check_box()
 }
 
-/// Refuses more spheres than the rule `exact` can tell apart.
+/// Returns an error for more spheres than the rule `exact` can distinguish.
 fn check_count(state: &State) -> Result<(), Error> {
     let (count, most) = (state.spheres.ids().len(), exact::MAX_SPHERES);
     let requirement = "few enough for the rule exact: at most 2^27 spheres";

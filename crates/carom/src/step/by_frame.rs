@@ -1,4 +1,4 @@
-//! Steps by a rule that knows nothing but frames: what is due is emitted at the start.
+//! Steps by a rule with frames only: spheres that are due are emitted at the start.
 
 use super::attempt::{Attempt, Scratch};
 use super::sweep;
@@ -10,8 +10,8 @@ use crate::state::State;
 use crate::sum::Sum;
 use crate::surface::SurfaceMotion;
 
-/// Takes a step in which `advance` moves the spheres over the frame, and tells whether to its end. If that
-/// fails, the spheres are where they were.
+/// Takes a step in which `advance` moves the spheres over the frame and returns whether it was completed. If it
+/// fails, the spheres keep their places.
 pub(super) fn step(
     attempt: &mut Attempt,
     advance: impl FnOnce(&mut State, Interval, &mut Scratch, &mut StepReport) -> bool,

@@ -1,4 +1,4 @@
-//! What growing spheres can be together with.
+//! What growing spheres can be combined with.
 
 use crate::error::{Error, Subject};
 use crate::id::SphereId;
@@ -7,7 +7,7 @@ use crate::state::State;
 use crate::surface::{Form, Role, Surface};
 use crate::validate;
 
-/// Refuses growing spheres together with what a step of `h` \[s\] cannot take beside them.
+/// Returns an error for growing spheres in a world that a step of `h` \[s\] cannot combine with growth.
 ///
 /// # Errors
 /// [`Error::Invalid`] with the first sphere that grows, or if a periodic box becomes too small.
@@ -28,7 +28,7 @@ pub(super) fn check(state: &State, h: f64) -> Result<(), Error> {
     state.check_grown(h)
 }
 
-/// What stands in the way of growth.
+/// What prevents growth.
 fn obstacle(state: &State) -> Option<&'static str> {
     let surfaces = || state.colliders.surfaces().iter();
     let is_inelastic = |restitution: &f64| *restitution != 1.0;

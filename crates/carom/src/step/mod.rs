@@ -1,5 +1,5 @@
-//! A step of a world: what is due is emitted, the rule moves the spheres, and a step that fails
-//! leaves the world as it was.
+//! A step of a world: spheres that are due are emitted, the rule moves all spheres, and a failed step leaves the
+//! world as it was.
 
 mod attempt;
 mod by_event;
@@ -23,7 +23,7 @@ use crate::state::State;
 use crate::validate;
 use crate::work::{StopRequest, Work};
 
-/// Refuses what a step by `dt` \[s\] would refuse whatever forces act.
+/// Checks `dt` \[s\] and the state; returns the error that a step would return, whatever forces act.
 ///
 /// # Errors
 /// [`Error::Invalid`]
@@ -38,7 +38,7 @@ pub(crate) fn check(state: &State, dt: f64) -> Result<(), Error> {
     }
 }
 
-/// Refuses lengths \[s\] that no step has.
+/// Returns an error for a length \[s\] that no step can have.
 fn check_length(state: &State, dt: f64) -> Result<(), Error> {
     let end = state.clock.after(dt).seconds();
     let requirement = "so short that the time stays finite";
@@ -50,8 +50,7 @@ fn check_length(state: &State, dt: f64) -> Result<(), Error> {
 /// Advances a world by `dt` \[s\], or until something happens in it, by the rule of its settings, and
 /// writes the report.
 ///
-/// # Errors
-/// Those of [`World::step`](crate::World::step). The state before the step is kept.
+/// # Errors Those of [`World::step`](crate::World::step). The world then keeps the state before the step.
 pub(crate) fn step(
     state: &mut State,
     dt: f64,

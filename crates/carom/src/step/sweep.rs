@@ -1,5 +1,4 @@
-//! Sensors under rules that know nothing but frames: the ways of spheres are straight from one known place to
-//! the next.
+//! Sensors under rules with frames only: paths of spheres are straight between known places.
 
 use glam::DVec3;
 

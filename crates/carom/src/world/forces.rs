@@ -1,4 +1,4 @@
-//! What accelerates the spheres of a world: forces, and springs.
+//! Forces and springs of a world.
 
 use std::sync::Arc;
 
@@ -11,8 +11,7 @@ use crate::state::State;
 impl World {
     /// Adds a force on every sphere.
     ///
-    /// # Errors
-    /// [`Error::Invalid`] if the force refuses its own parameters, or makes no sense in a periodic box.
+    /// # Errors [`Error::Invalid`] if the parameters of the force are invalid, or it does not suit a periodic box.
     pub fn add_force(&mut self, force: impl Force + 'static) -> Result<ForceId, Error> {
         let id = ForceId(self.state.forces.next_number());
         self.check_force(id, &force)?;
@@ -25,11 +24,10 @@ impl World {
         self.state.forces.iter().map(|(number, force)| (ForceId(number), &**force))
     }
 
-    /// Puts a force in the place of another; the next evaluation uses it.
+    /// Replaces a force; the next evaluation uses the new one.
     ///
-    /// # Errors
-    /// [`Error::Unknown`] if there is no such force, [`Error::Invalid`] if the new one refuses
-    /// its own parameters.
+    /// # Errors [`Error::Unknown`] if there is no such force, [`Error::Invalid`] if the parameters of the new one
+    /// are invalid.
     pub fn set_force(&mut self, id: ForceId, force: impl Force + 'static) -> Result<(), Error> {
         let unknown = Error::Unknown(Subject::Force(id));
         self.check_force(id, &force)?;
@@ -39,7 +37,7 @@ impl World {
         Ok(())
     }
 
-    /// Takes a force out of the world.
+    /// Removes a force from the world.
     ///
     /// # Errors
     /// [`Error::Unknown`] if there is no such force.
@@ -48,7 +46,7 @@ impl World {
         removed.map(drop).ok_or(Error::Unknown(Subject::Force(id)))
     }
 
-    /// Refuses a force with parameters, or in a box, that make no sense.
+    /// Returns an error for a force whose parameters are invalid or that does not suit the boundary.
     fn check_force(&self, id: ForceId, force: &dyn Force) -> Result<(), Error> {
         force
             .validate()
@@ -56,11 +54,10 @@ impl World {
             .map_err(|invalid| invalid.about(Subject::Force(id)))
     }
 
-    /// Adds a spring between two spheres, or from one to a fixed point. It goes with either sphere.
+    /// Adds a spring between two spheres, or from one to a fixed point. Removing either sphere removes the spring.
     ///
-    /// # Errors
-    /// [`Error::Unknown`] if a sphere is not in the world, [`Error::Invalid`] for a number that makes no
-    /// sense, or both ends at one sphere.
+    /// # Errors [`Error::Unknown`] if a sphere is not in the world, [`Error::Invalid`] for an invalid number, or
+    /// both ends at one sphere.
     pub fn add_spring(&mut self, spring: Spring) -> Result<SpringId, Error> {
         let id = SpringId(self.state.springs.next_number());
         self.check_spring(id, &spring)?;
@@ -81,7 +78,7 @@ impl World {
         self.state.springs.get(id.0).copied().ok_or(Error::Unknown(Subject::Spring(id)))
     }
 
-    /// Puts a spring in the place of another; the next evaluation uses it.
+    /// Replaces a spring; the next evaluation uses the new one.
     ///
     /// # Errors
     /// [`Error::Unknown`] if there is no such spring; else as [`Self::add_spring`].
@@ -94,7 +91,7 @@ impl World {
         Ok(())
     }
 
-    /// Takes a spring out of the world and returns it.
+    /// Removes a spring from the world and returns it.
     ///
     /// # Errors
     /// [`Error::Unknown`] if there is no such spring.
@@ -104,7 +101,7 @@ impl World {
         Ok(spring)
     }
 
-    /// Refuses a spring with numbers that make no sense, or at spheres that are not in the world.
+    /// Returns an error for a spring with invalid numbers, or at spheres that are not in the world.
     fn check_spring(&self, id: SpringId, spring: &Spring) -> Result<(), Error> {
         spring.validate().map_err(|invalid| invalid.about(Subject::Spring(id)))?;
         spring.spheres().try_for_each(|sphere| self.index_of(sphere).map(drop))

@@ -1,4 +1,4 @@
-//! What is measured of a world: energies, momenta, overlaps.
+//! Measures of a world: energies, momenta, overlaps.
 
 use glam::DVec3;
 
@@ -11,7 +11,7 @@ use crate::invariants;
 use crate::report::{BodyPair, Overlap};
 
 impl World {
-    /// Kinetic energy \[J\], that of rotation included.
+    /// Kinetic energy \[J\] of translation and rotation.
     pub fn kinetic_energy(&self) -> f64 {
         invariants::kinetic_energy(self.spheres())
     }
@@ -36,14 +36,14 @@ impl World {
         invariants::momentum(self.spheres())
     }
 
-    /// Angular momentum about the origin \[kg m²/s\], that of spin included.
+    /// Angular momentum about the origin \[kg m²/s\], with that of spin.
     pub fn angular_momentum(&self) -> DVec3 {
         invariants::angular_momentum(self.spheres())
     }
 
-    /// The longest frame \[s\] in which motion on springs is sure to be stable; infinite without springs, and
-    /// under the rule `exact`, which shortens its force ticks for them. In longer ones it may grow without
-    /// bound. By explicit Euler it grows in all, without damping.
+    /// The longest frame \[s\] in which motion on springs is certainly stable. It is infinite without springs, and
+    /// under the rule `exact`, which shortens its force ticks for them. In longer frames the motion may grow
+    /// without bound; by explicit Euler it grows in all, unless it is damped.
     ///
     /// A frame, or a sub-step under the rule `contact`, has to be shorter than `2 / w`, with the fastest
     /// frequency w (Hairer, Lubich, Wanner, *Geometric Numerical Integration*, I.5.2).
@@ -51,8 +51,8 @@ impl World {
         self.state.longest_stable_frame()
     }
 
-    /// Whether spheres are turned or turn, or may come to: an emitter emits such, or friction of a sphere,
-    /// an emitter or a solid collider acts, which it does under the rules `exact` and `contact`.
+    /// Whether spheres are rotated or rotate, or may begin to: an emitter emits such spheres, or a sphere, an
+    /// emitter or a solid collider has friction under the rules `exact` or `contact`.
     pub fn has_spin(&self) -> bool {
         let emitted = || self.emitters().map(|(_, emitter)| emitter.sphere);
         self.state.spheres.motion.spin.is_any()
@@ -84,9 +84,9 @@ impl World {
         overlaps
     }
 
-    /// Two bodies as [`Self::overlaps`] lists them for which `is_sought` holds, or none. It stops at the first
-    /// pair of spheres, and keeps no list of them: many spheres in one place have more pairs than there is
-    /// memory. Of several, which one is found is the same each time.
+    /// The first overlap, as [`Self::overlaps`] lists it, for which `is_sought` holds; `None` without one. The
+    /// search stops at the first pair of spheres and keeps no list of them: many spheres in one place have more
+    /// pairs than there is memory. Of several overlaps, the same one is found each time.
     pub fn find_overlap(&self, mut is_sought: impl FnMut(&Overlap) -> bool) -> Option<Overlap> {
         let now = self.state.now();
         let mut search = Search::default();
@@ -104,7 +104,7 @@ impl World {
         overlaps.into_iter().find(is_sought)
     }
 
-    /// Adds what overlaps across the faces of a periodic box.
+    /// Adds the overlaps across the faces of a periodic box.
     fn add_overlaps_of_images(&self, now: &Instant, tolerance: f64, overlaps: &mut Vec<Overlap>) {
         let period = now.system.settings.boundary.period();
         if period.is_finite_mask().any() {

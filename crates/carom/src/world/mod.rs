@@ -1,4 +1,4 @@
-//! The world: everything that persists, and the step that moves it on.
+//! The world: all persistent state, and the step that advances it.
 
 mod forces;
 mod growth;
@@ -25,7 +25,7 @@ use crate::step::{self, Scratch, Until};
 use crate::validate;
 use crate::work::StopRequest;
 
-/// Spheres, what acts on them, and what they bounce off.
+/// Spheres, the forces on them, and the colliders off which they bounce.
 ///
 /// ```
 /// use carom::{Collider, DVec3, Gravity, Pose, Settings, Shape, Sphere, World};
@@ -47,36 +47,34 @@ pub struct World {
     state: State,
     report: StepReport,
     scratch: Scratch,
-    /// Looked at while a step is at work.
+    /// Read while a step runs.
     stop_request: Option<StopRequest>,
 }
 
 impl World {
     /// An empty world, at time 0.
     ///
-    /// # Errors
-    /// [`Error::Invalid`] for a parameter of the rule that makes no sense.
+    /// # Errors [`Error::Invalid`] for an invalid parameter of the rule.
     pub fn new(settings: Settings) -> Result<Self, Error> {
         let mut world = Self::default();
         world.set_settings(settings)?;
         Ok(world)
     }
 
-    /// Advances the world by `dt` \[s\]: emits what is due, moves every sphere, answers impacts.
+    /// Advances the world by `dt` \[s\]: emits the spheres that are due, moves all spheres, answers impacts.
     ///
-    /// # Errors
-    /// [`Error::Invalid`] if `dt` is not positive and finite, an emitter runs away or a periodic
-    /// box is too small for the spheres; [`Error::NonFiniteState`] if a number would overflow;
-    /// [`Error::TooManyImpacts`] under the rule `exact`; [`Error::Stopped`] on a request
-    /// ([`Self::set_stop_request`]). The state before the step is kept.
+    /// # Errors [`Error::Invalid`] if `dt` is not positive and finite, an emitter runs away or a periodic box is
+    /// too small for the spheres; [`Error::NonFiniteState`] if a number would overflow; [`Error::TooManyImpacts`]
+    /// under the rule `exact`; [`Error::Stopped`] on a request ([`Self::set_stop_request`]). The world then keeps
+    /// the state before the step.
     pub fn step(&mut self, dt: f64) -> Result<&StepReport, Error> {
         let Self { state, report, scratch, stop_request } = self;
         step::step(state, dt, stop_request.as_ref(), scratch, report, Until::End)?;
         Ok(report)
     }
 
-    /// Checks what [`Self::step`] by `dt` \[s\] checks first: the length of the step, emitters, and under the rule
-    /// `exact` the periodic box, the number of spheres and how stiff springs are. Forces are not evaluated.
+    /// Checks everything about a step by `dt` \[s\] that does not depend on forces: the length of the step,
+    /// emitters, and under the rule `exact` the periodic box, the number of spheres and the stiffness of springs.
     ///
     /// # Errors
     /// [`Error::Invalid`], as [`Self::step`], or if springs are too stiff for the rule `exact`.
@@ -84,8 +82,8 @@ impl World {
         step::check(&self.state, dt)
     }
 
-    /// Advances the world to its next impact, and answers it with all others at that instant; by
-    /// `within` \[s\] if none comes before. Only under the rule `exact`.
+    /// Advances the world to its next impact and answers it, with all others at that instant; by `within` \[s\] if
+    /// there is none before. Only under the rule `exact`.
     ///
     /// ```
     /// use carom::{Collider, DVec3, Gravity, Pose, Settings, Shape, Sphere, World};
@@ -100,9 +98,8 @@ impl World {
     /// # Ok::<(), carom::Error>(())
     /// ```
     ///
-    /// # Errors
-    /// [`Error::Invalid`] under another rule, and with springs or forces that are not linear: they are held for a
-    /// time, which may end before that. Else those of [`Self::step`].
+    /// # Errors [`Error::Invalid`] under another rule, and with springs or forces that are not linear: they are
+    /// held for a time, which may end before that. Otherwise the errors of [`Self::step`].
     pub fn step_to_next_event(&mut self, within: f64) -> Result<&StepReport, Error> {
         let Self { state, report, scratch, stop_request } = self;
         let stop_request = stop_request.as_ref();
@@ -121,9 +118,9 @@ impl World {
         Ok(has_impact.then(|| copy.time()))
     }
 
-    /// The contacts that persist, with their forces, in the order of the ids of spheres, pairs of
-    /// spheres first. A ball that lies on the floor is in one. Known under the rules `exact` and
-    /// `contact` after a step; none where something was changed since, or under other rules.
+    /// The persistent contacts with their forces, in the order of the ids of spheres, pairs of spheres first. A
+    /// ball that lies on the floor has one. They are known under the rules `exact` and `contact` after a step; none
+    /// are listed after a change to the world, or under other rules.
     ///
     /// ```
     /// use carom::{Collider, DVec3, Gravity, Pose, Settings, Shape, Sphere, World};
@@ -140,39 +137,38 @@ impl World {
         self.state.persistent_contacts()
     }
 
-    /// Sets the request that ends steps early once it is made; `None` removes it. Under the rule
-    /// `exact` a step looks at it every few milliseconds, under the others before it begins. It is no
-    /// part of a snapshot; copies of the world have it, too.
+    /// Sets the request that ends steps early once it is made; `None` removes it. Under the rule `exact` a step
+    /// reads it every few milliseconds, under the others before it begins. It is not part of a snapshot; copies of
+    /// the world share it.
     pub fn set_stop_request(&mut self, request: Option<StopRequest>) {
         self.stop_request = request;
     }
 
-    /// What happened in the last step.
+    /// The report of the last step.
     pub fn report(&self) -> &StepReport {
         &self.report
     }
 
-    /// Whether spheres were in stepped zones under the rule `exact` so far: if not, every impact was answered
-    /// at its own time. [`StepReport::zone_account`] tells which step had how many.
+    /// Whether spheres have been in stepped zones under the rule `exact`. If not, every impact was answered at its
+    /// own time. [`StepReport::zone_account`] has the number for each step.
     pub fn was_stepped(&self) -> bool {
         self.state.was_stepped
     }
 
-    /// Time since the beginning \[s\]: the sum of all steps.
+    /// Time since the start \[s\]: the sum of all steps.
     pub fn time(&self) -> f64 {
         self.state.clock.seconds()
     }
 
-    /// Settings: the step rule, and what holds under every rule.
+    /// Settings: the step rule, and values that all rules share.
     pub fn settings(&self) -> &Settings {
         &self.state.settings
     }
 
     /// Replaces the settings; later steps use them.
     ///
-    /// # Errors
-    /// [`Error::Invalid`] for a parameter of the rule that makes no sense, or a periodic box where there is a
-    /// force that suits none.
+    /// # Errors [`Error::Invalid`] for an invalid parameter of the rule, or a periodic box with a force that does
+    /// not suit it.
     pub fn set_settings(&mut self, settings: Settings) -> Result<(), Error> {
         settings
             .validate()
@@ -187,8 +183,7 @@ impl World {
 
     /// Adds a sphere. It may overlap others: see [`Self::overlaps`].
     ///
-    /// # Errors
-    /// [`Error::Invalid`] for a number that makes no sense.
+    /// # Errors [`Error::Invalid`] for an invalid number.
     pub fn add_sphere(&mut self, sphere: Sphere) -> Result<SphereId, Error> {
         let id = SphereId(self.state.next_id);
         sphere.validate().map_err(|invalid| invalid.about(Subject::Sphere(id)))?;
@@ -213,9 +208,7 @@ impl World {
 
     /// Changes a sphere.
     ///
-    /// # Errors
-    /// [`Error::Unknown`] if it is not in the world, [`Error::Invalid`] for a number that makes
-    /// no sense.
+    /// # Errors [`Error::Unknown`] if it is not in the world, [`Error::Invalid`] for an invalid number.
     pub fn set_sphere(&mut self, id: SphereId, sphere: Sphere) -> Result<(), Error> {
         let index = self.index_of(id)?;
         sphere.validate().map_err(|invalid| invalid.about(Subject::Sphere(id)))?;
@@ -296,12 +289,11 @@ impl World {
         self.set_sphere(id, Sphere { angular_velocity, ..sphere })
     }
 
-    /// Sets positions and velocities of spheres; their spins stay. Where forces are applied to single
-    /// spheres ([`Self::set_applied_forces`]), the flights of the others go on, which makes this cheap.
+    /// Sets positions and velocities of spheres; their spins do not change. Where forces are applied to single
+    /// spheres ([`Self::set_applied_forces`]), the flights of the others continue, which makes this cheap.
     ///
-    /// # Errors
-    /// [`Error::Unknown`] if one is not in the world, [`Error::Invalid`] for a number that makes no
-    /// sense. Then none is moved.
+    /// # Errors [`Error::Unknown`] if one is not in the world, [`Error::Invalid`] for an invalid number. Then no
+    /// sphere moves.
     pub fn set_motions(&mut self, motions: &[SphereMotion]) -> Result<(), Error> {
         for &SphereMotion { id, position, velocity } in motions {
             self.index_of(id)?;
@@ -316,9 +308,9 @@ impl World {
         Ok(())
     }
 
-    /// Applies a force of its own \[N\] to every sphere, in the order of [`Self::spheres`]; an empty
-    /// list takes them away. Each is held constant until it is set again; spheres that come into the
-    /// world have none. They add to the forces that act on all, and have no potential energy.
+    /// Applies a separate force \[N\] to every sphere, in the order of [`Self::spheres`]; an empty list removes
+    /// these forces. Each is constant until it is set again; spheres that are added later have none. They add to
+    /// the forces that act on all, and have no potential energy.
     ///
     /// To steer spheres, set them before each frame: this costs little, under the rule `exact` too,
     /// which renews all flights at the start of a frame while there are such forces.
@@ -344,11 +336,10 @@ impl World {
         Ok(())
     }
 
-    /// Sets the clock. Only emitters, motions of colliders and forces that depend on time tell one time from another;
-    /// but times round differently. A run that sets the clock back depends to the bit on nothing before.
+    /// Sets the clock. Only emitters, motions of colliders and forces that depend on time read it; but different
+    /// times round differently. A run that sets the clock back depends on nothing before, to the bit.
     ///
-    /// # Errors
-    /// [`Error::Invalid`] if the time is not finite, or there are emitters, which count it.
+    /// # Errors [`Error::Invalid`] if the time is not finite, or there are emitters, which depend on it.
     pub fn set_time(&mut self, seconds: f64) -> Result<(), Error> {
         let has_emitters = self.state.emitters.iter().len() > 0;
         validate::require(seconds.is_finite(), "time", "finite", seconds)
@@ -365,7 +356,7 @@ impl World {
         Ok(())
     }
 
-    /// Takes a sphere out of the world, with the springs at it, and returns it.
+    /// Removes a sphere from the world, with its springs, and returns it.
     ///
     /// # Errors
     /// [`Error::Unknown`] if it is not in the world.
@@ -376,10 +367,9 @@ impl World {
         Ok(sphere)
     }
 
-    /// Takes spheres out of the world, with the springs at them. Those after them move up in the arrays.
+    /// Removes spheres from the world, with their springs. Later ones move up in the arrays.
     ///
-    /// # Errors
-    /// [`Error::Unknown`] if one of them is not in it; then none is taken out.
+    /// # Errors [`Error::Unknown`] if one of them is not in it; then none is removed.
     pub fn remove_spheres(&mut self, ids: &[SphereId]) -> Result<(), Error> {
         ids.iter().try_for_each(|&id| self.index_of(id).map(|_| ()))?;
         if !ids.is_empty() {
@@ -394,8 +384,7 @@ impl World {
 
     /// Adds a collider, after those already there.
     ///
-    /// # Errors
-    /// [`Error::Invalid`] for a number that makes no sense.
+    /// # Errors [`Error::Invalid`] for an invalid number.
     pub fn add_collider(&mut self, collider: Collider) -> Result<ColliderId, Error> {
         let id = ColliderId(self.state.colliders.list().next_number());
         collider.validate().map_err(|invalid| invalid.about(Subject::Collider(id)))?;
@@ -419,9 +408,7 @@ impl World {
 
     /// Changes a collider. It keeps its place in the order.
     ///
-    /// # Errors
-    /// [`Error::Unknown`] if there is no such collider, [`Error::Invalid`] for a number that
-    /// makes no sense.
+    /// # Errors [`Error::Unknown`] if there is no such collider, [`Error::Invalid`] for an invalid number.
     pub fn set_collider(&mut self, id: ColliderId, collider: Collider) -> Result<(), Error> {
         self.set_colliders(&[(id, collider)])
     }
@@ -440,7 +427,7 @@ impl World {
         Ok(())
     }
 
-    /// Takes a collider out of the world and returns it.
+    /// Removes a collider from the world and returns it.
     ///
     /// # Errors
     /// [`Error::Unknown`] if there is no such collider.
@@ -450,8 +437,7 @@ impl World {
 
     /// Adds an emitter; its first sphere is due now.
     ///
-    /// # Errors
-    /// [`Error::Invalid`] for a number that makes no sense.
+    /// # Errors [`Error::Invalid`] for an invalid number.
     pub fn add_emitter(&mut self, emitter: Emitter) -> Result<EmitterId, Error> {
         let id = EmitterId(self.state.emitters.next_number());
         emitter.validate().map_err(|invalid| invalid.about(Subject::Emitter(id)))?;
@@ -465,12 +451,10 @@ impl World {
         self.state.emitters.iter().map(|(number, state)| (EmitterId(number), &state.emitter))
     }
 
-    /// Changes an emitter. It emits the new kind of sphere from the next one on; with another
-    /// period it starts again now; one that was done emits what a larger `count` adds from now on.
+    /// Changes an emitter. The next sphere is of the new kind. With another period the emitter starts again now; a
+    /// finished one emits what a larger `count` adds from now on.
     ///
-    /// # Errors
-    /// [`Error::Unknown`] if there is no such emitter, [`Error::Invalid`] for a number that
-    /// makes no sense.
+    /// # Errors [`Error::Unknown`] if there is no such emitter, [`Error::Invalid`] for an invalid number.
     pub fn set_emitter(&mut self, id: EmitterId, emitter: Emitter) -> Result<(), Error> {
         let time = self.time();
         let unknown = Error::Unknown(Subject::Emitter(id));
@@ -480,7 +464,7 @@ impl World {
         Ok(())
     }
 
-    /// Takes an emitter out of the world and returns it; its spheres stay.
+    /// Removes an emitter from the world and returns it; its spheres stay.
     ///
     /// # Errors
     /// [`Error::Unknown`] if there is no such emitter.

@@ -9,7 +9,8 @@ use crate::rotation;
 use crate::validate;
 
 impl World {
-    /// Sets the pose of a collider at once: spheres feel no velocity of this motion. A motion in closed form goes along.
+    /// Moves a collider to a pose at once: spheres feel no velocity of this change. A motion in closed form moves
+    /// with it.
     ///
     /// # Errors
     /// As [`Self::set_collider`].
@@ -17,8 +18,9 @@ impl World {
         self.set_collider(id, Collider { pose, ..self.collider(id)? })
     }
 
-    /// Sets the velocities of a collider that bring it to a pose within `dt` \[s\], by the shorter way round: a step
-    /// of this length takes it there, and spheres feel how fast it moves. It moves on until it gets another velocity.
+    /// Sets the velocities of a collider so that it reaches a pose after `dt` \[s\], by the shorter rotation. A
+    /// step of this length takes it there, and spheres feel its velocity. It moves on until it gets another
+    /// velocity.
     ///
     /// ```
     /// use carom::{Collider, DVec3, Pose, Shape, World};

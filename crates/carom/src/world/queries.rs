@@ -1,4 +1,4 @@
-//! Queries of a world between steps: rays, what is near, and the path that a sphere will take.
+//! Queries of a world between steps: rays, nearby bodies, and the future path of a sphere.
 
 use std::sync::Arc;
 
@@ -13,21 +13,21 @@ use crate::path::PredictedPath;
 use crate::query::{Hit, NearBody, Queries, QueryFilter};
 use crate::step;
 
-/// Sorting all bodies costs about as much as this many queries that look at them one by one.
+/// Sorting all bodies costs about as much as this many queries that test them one by one.
 const FEW: usize = 8;
 
 impl World {
-    /// All spheres as they are now.
+    /// All spheres and surfaces in their present state.
     pub(crate) fn now(&self) -> Instant<'_> {
         self.state.now()
     }
 
-    /// The colliders as they are now, shared with the world until it changes its own.
+    /// The present colliders, shared with the world until it changes its own.
     pub(crate) fn shared_colliders(&self) -> Arc<Colliders> {
         self.state.colliders.clone()
     }
 
-    /// Sorts all bodies by place, for many queries of the world as it is now: one of 10,000 spheres then takes
+    /// Sorts all bodies by place, for many queries of the present state: a query among 10,000 spheres then takes
     /// some microseconds.
     pub fn queries(&self) -> Queries<'_> {
         Queries::of(self.state.now(), true)
@@ -39,8 +39,8 @@ impl World {
         Queries::of(self.state.now(), count > FEW)
     }
 
-    /// What a ray meets first that starts at `origin` and leads along `way` to its end \[m\]. For many rays,
-    /// [`Self::queries`] sorts the bodies once; the results are the same to the bit.
+    /// The first body that a ray meets from `origin` along `way` to its end \[m\]. For many rays, [`Self::queries`]
+    /// sorts the bodies once; the results are the same to the bit.
     ///
     /// ```
     /// use carom::{Collider, DVec3, Pose, QueryFilter, Shape, World};
@@ -65,7 +65,7 @@ impl World {
         Queries::of(self.state.now(), false).cast_ray(origin, way, filter)
     }
 
-    /// What a sphere of this `radius` meets first that moves straight from `center` along `way` to its end
+    /// The first body that a sphere of this `radius` meets on a straight path from `center` along `way` to its end
     /// \[m\].
     ///
     /// # Errors

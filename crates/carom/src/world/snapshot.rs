@@ -1,4 +1,4 @@
-//! The state of a world as a value: to return to, and to compare by.
+//! The state of a world as a value, to restore and to compare.
 
 use super::World;
 #[cfg(feature = "serde")]
@@ -10,9 +10,9 @@ use crate::id::SphereId;
 use crate::sphere::Sphere;
 use crate::state::State;
 
-/// The state of a world at one moment, to return to.
+/// The state of a world at one moment, to restore.
 ///
-/// Holds all that the future depends on, parameters too: settings, forces, colliders, emitters.
+/// It holds everything that later steps depend on, with settings, forces, colliders and emitters.
 ///
 /// ```
 /// use carom::{DVec3, Sphere, World};
@@ -38,12 +38,12 @@ use crate::state::State;
 pub struct Snapshot(State);
 
 impl Snapshot {
-    /// Time of the world then \[s\].
+    /// Time of the world at the snapshot \[s\].
     pub fn time(&self) -> f64 {
         self.0.clock.seconds()
     }
 
-    /// A sphere as it was then; `None` if it was not in the world.
+    /// A sphere at the snapshot; `None` if it was not in the world.
     pub fn sphere(&self, id: SphereId) -> Option<Sphere> {
         let spheres = &self.0.spheres;
         spheres.index_of(id).map(|index| spheres.get(index))
@@ -52,7 +52,7 @@ impl Snapshot {
 
 #[cfg(feature = "serde")]
 impl Snapshot {
-    /// The first force that cannot be serialized, for it is not one of this crate's.
+    /// The first force that cannot be serialized because it is not one of this crate's.
     pub fn foreign_force(&self) -> Option<ForceId> {
         shipped::first_foreign(&self.0.forces).map(ForceId)
     }
@@ -64,12 +64,12 @@ impl World {
         hash::of_state(&self.state)
     }
 
-    /// Everything the future depends on, to return to.
+    /// Everything that later steps depend on, to restore.
     pub fn snapshot(&self) -> Snapshot {
         Snapshot(self.state.clone())
     }
 
-    /// Returns to a snapshot, bit for bit. The report of the last step is gone.
+    /// Restores a snapshot, bit for bit. The report of the last step is lost.
     pub fn restore(&mut self, snapshot: &Snapshot) {
         self.state.clone_from(&snapshot.0);
         self.report.clear();

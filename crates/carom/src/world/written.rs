@@ -1,4 +1,4 @@
-//! A world in writing: its state.
+//! Serialization of a world: its state.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 

@@ -11,7 +11,7 @@ use crate::parallel;
 use crate::sum::Sum;
 use crate::validate;
 
-/// Up to so many spheres every pair is summed: a tree gains little there.
+/// Up to this many spheres every pair is summed: a tree gains little there.
 const FEW: usize = 1000;
 
 /// Gravity between spheres: on each the sum of `G m1 m2 r / (r² + e²)^(3/2)`, with r to each of the others.
@@ -58,7 +58,7 @@ impl MutualGravity {
         count <= FEW || self.opening_angle == 0.0
     }
 
-    /// What all other spheres add up to at each sphere, in the order of the arrays.
+    /// The sum over all other spheres at each sphere, in the order of the arrays.
     fn sums<T: FieldSum>(&self, spheres: &SphereStates) -> Vec<T> {
         let softening = self.softening * self.softening;
         if self.is_direct(spheres.len()) {
@@ -135,7 +135,7 @@ impl Interaction for MutualGravity {
     }
 }
 
-/// What masses add up to at a place.
+/// A sum over masses at a place.
 trait FieldSum: Default + Send {
     /// Adds a mass \[kg\] at an offset \[m\], with the square of the softening length \[m²\].
     fn add(&mut self, offset: DVec3, softening: f64, mass: f64);
@@ -153,7 +153,7 @@ impl FieldSum for Field {
     #[inline]
     fn add(&mut self, offset: DVec3, softening: f64, mass: f64) {
         let square = offset.length_squared() + softening;
-        // Two spheres in one point pull each other nowhere.
+        // Two spheres in one point exert no force.
         if square > 0.0 {
             self.0 += mass / (square * square.sqrt()) * offset;
         }

@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use crate::norm::Norm;
 
-/// Cubes with so many points or fewer are not divided.
+/// Cubes with this many points or fewer are not divided.
 const LEAF: usize = 8;
 /// Levels below the root: as many bits of each coordinate as fit three times into a key.
 const LEVELS: u32 = 21;
@@ -92,9 +92,8 @@ impl Octree {
         self.nodes[number].end = self.nodes.len() as u32;
     }
 
-    /// Visits, seen from the point of this index, all others: each with its offset \[m\] and mass \[kg\], or
-    /// cubes whose edge is less than `opening_angle` times their distance, as if all were at their centre of
-    /// mass.
+    /// Visits all points other than that with this index, each with its offset from it \[m\] and its mass \[kg\]. A
+    /// cube whose edge is less than `opening_angle` times its distance counts as one point at its centre of mass.
     pub fn visit(
         &self,
         index: usize,

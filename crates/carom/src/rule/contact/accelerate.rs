@@ -1,4 +1,4 @@
-//! Velocities gain what forces give them.
+//! Accelerate: applies forces to velocities.
 
 use fearless_simd::{Level, Simd, SimdMask, dispatch};
 
@@ -12,13 +12,12 @@ use crate::lanes::{LANES, Lanes};
 use crate::real::{Real, Vector};
 use crate::system::System;
 
-/// The number beside the velocity at the start of a sub-step, of a sphere that bears something: its
-/// difference to that of any other sphere is not zero.
+/// Marks a sphere that presses on something, in the number beside its velocity at the start of a sub-step: its
+/// difference from any other sphere's number is not zero.
 const BEARS: f64 = f64::INFINITY;
 
-/// Changes velocities over a sub-step of `h` \[s\], one of those of a frame that starts at a time \[s\], by
-/// all forces, `v' = (v + h a) / (1 + h c)` with the rate c of linear drag, which so slows down and never
-/// turns round.
+/// Changes velocities by all forces over a sub-step of `h` \[s\], one of those of a frame that starts at a time
+/// \[s\]: `v' = (v + h a) / (1 + h c)` with the rate c of linear drag, which never reverses a velocity.
 pub(super) fn accelerate(
     system: &System,
     frame_start: f64,
@@ -42,14 +41,14 @@ pub(super) fn accelerate(
     SubStep::new(time, h, solver.common_acceleration, change)
 }
 
-/// Accelerates the spheres of a run; one that sleeps stays at rest. Finds their kinetic energy, the
-/// largest change of a velocity, and whether one may leave its margin in the sub-step.
+/// Accelerates the spheres of a run; sleeping ones stay at rest. Returns their kinetic energy, the largest change
+/// of a velocity, and whether one may leave its margin in the sub-step.
 #[inline(always)]
 fn accelerate_run<S: Simd>(simd: S, run: &mut Run, h: f64, drift: Drift) -> SlabTotals {
     run.spin_before.copy_from_slice(run.spin);
     let zero = Lanes::all(simd, 0.0);
     let length = Lanes::all(simd, h);
-    // Ways are those beside the common one, at the end of the sub-step.
+    // Distances relative to the common motion, at the end of the sub-step.
     let common = Vector::all(simd, drift.after(h).way);
     let [mut energy, mut change] = [zero; 2];
     let mut leaves = false;
@@ -68,7 +67,7 @@ fn accelerate_run<S: Simd>(simd: S, run: &mut Run, h: f64, drift: Drift) -> Slab
 
         energy = energy + twice_energy(simd, now, inverse_mass);
         change = change.max((now - before).length_squared());
-        // A flight ends between where its first velocity takes it and where its last one does.
+        // A flight ends between the places that its first and its last velocity lead to.
         let (position, _) = row::columns(simd, run.position, slot);
         let (reference, margin) = row::columns_or(simd, run.reference, slot, BOUNDLESS);
         let (way, reach) = (position - reference - common, margin * margin);
@@ -113,7 +112,7 @@ pub(super) fn kinetic_energy<S: Simd>(simd: S, rows: &[Row]) -> f64 {
     0.5 * energy.sum()
 }
 
-/// Twice the kinetic energy \[J\]; none of what nothing moves.
+/// Twice the kinetic energy \[J\]; 0 for immovable rows.
 #[inline(always)]
 fn twice_energy<S: Simd>(simd: S, velocity: Vector<Lanes<S>>, inverse_mass: Lanes<S>) -> Lanes<S> {
     let zero = Lanes::all(simd, 0.0);
@@ -129,7 +128,7 @@ pub(super) fn work_of_impulses<S: Simd>(simd: S, run: &Run, h: f64) -> f64 {
     let mut twice = zero;
     let mut add = |change: Vector<Lanes<S>>, sum: Vector<Lanes<S>>, inverse_mass: Lanes<S>| {
         let work = change.dot(sum) / inverse_mass;
-        // Nothing moves one that sleeps.
+        // Sleeping spheres are immovable.
         twice = twice + work.select(zero.is_less(inverse_mass), zero);
     };
     for slot in (0..run.velocity.len()).step_by(LANES) {

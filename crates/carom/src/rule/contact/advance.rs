@@ -1,4 +1,4 @@
-//! Positions follow the velocities.
+//! Advance: moves positions by the velocities.
 
 use fearless_simd::{Level, Simd, SimdMask, dispatch};
 use glam::DVec3;
@@ -79,7 +79,7 @@ fn advance_run<S: Simd>(simd: S, run: &mut Run, h: f64, flies: bool) {
     }
 }
 
-/// Takes spheres that bounce to where that brings them.
+/// Moves bouncing spheres to the ends of their paths.
 fn shift_bounced(run: &mut Run, start: usize, bounces: &[Bounce]) {
     for bounce in bounces {
         let slot = bounce.slot as usize - start;
@@ -90,7 +90,7 @@ fn shift_bounced(run: &mut Run, start: usize, bounces: &[Bounce]) {
     }
 }
 
-/// Puts spheres where cascades took them.
+/// Moves spheres of cascades to the ends of their paths.
 fn place_landed(run: &mut Run, start: usize, landed: &[Landed]) {
     for it in landed {
         let slot = it.slot as usize - start;
@@ -99,8 +99,8 @@ fn place_landed(run: &mut Run, start: usize, landed: &[Landed]) {
     }
 }
 
-/// Keeps spheres that an impact has made faster within their margins beside the common way \[m\], but for
-/// those that are free, by slot. Returns whether one has left its margin.
+/// Keeps spheres that an impact made faster within their margins relative to the common motion \[m\]; spheres that
+/// are `free`, by slot, are exempt. Returns whether one has left its margin.
 #[inline(always)]
 fn stay_within_margin<S: Simd>(
     simd: S,

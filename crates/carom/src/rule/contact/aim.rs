@@ -1,5 +1,5 @@
-//! How the contacts of pairs of spheres begin a sub-step: a batch at a time, one contact in each lane of the
-//! processor's vectors.
+//! Prepare for pairs: the state in which the contacts of pairs of spheres begin a sub-step, one contact per lane of
+//! the processor's vectors.
 
 use fearless_simd::{Level, Simd, SimdMask, dispatch, mask64x4};
 use glam::DVec3;
@@ -17,8 +17,8 @@ use super::swept::{self, Traits};
 use crate::lanes::{LANES, Lanes};
 use crate::real::{Real, Vector};
 
-/// Prepares the contacts of a run: normals, gaps, what velocities must come to, and the impulses to
-/// start from, which it applies.
+/// Prepares the contacts of a run: normals, gaps, target velocities, and the impulses to start from, which it
+/// applies.
 pub(super) fn prepare(run: &mut Run, batches: &mut Batches, sub_step: &SubStep) {
     let level = Level::new();
     if batches.frictions.is_empty() {
@@ -61,29 +61,28 @@ fn prepare_all<S: Simd, const FRICTION: bool>(
     }
 }
 
-/// What no sub-step changes of the pairs of a batch.
+/// Constants of the pairs of a batch between searches.
 #[derive(Clone, Copy)]
 struct Given<'a> {
     /// Coefficients of restitution.
     restitution: &'a Quad,
-    /// From where spheres 2 are to their images \[m\], where space is periodic.
+    /// Offsets from spheres 2 to their images \[m\], where space is periodic.
     shift: Option<&'a [Quad; 3]>,
 }
 
-/// How the pairs of a batch come near each other in a sub-step.
+/// The approach of the pairs of a batch in a sub-step.
 struct Aimed<S: Simd> {
     /// Speeds of approach of impacts \[m/s\]; 0 elsewhere.
     impact: Lanes<S>,
-    /// Where the spheres go so far that they may meet on their way.
+    /// Pairs whose spheres move so far that they may meet on the way.
     goes_far: mask64x4<S>,
-    /// Where there is an impact.
+    /// Pairs with an impact.
     is_hit: mask64x4<S>,
-    /// Where neither sphere bears anything.
+    /// Pairs of which neither sphere presses on anything.
     is_free: mask64x4<S>,
 }
 
-/// Normals and gaps of now; the velocities that contacts are to have after the sub-step if none bounces;
-/// the impulses to start from.
+/// Computes present normals and gaps, target velocities without a bounce, and the impulses to start from.
 #[inline(always)]
 fn aim<S: Simd>(
     simd: S,
@@ -99,7 +98,7 @@ fn aim<S: Simd>(
     let is_lost = length.is_less(all(TINY));
     let inverse = all(1.0) / length.max(all(TINY));
     let mut normal = offset * inverse;
-    // Any direction would do for centres that coincide, but it must be the same always.
+    // For coincident centres any direction will do, if it is always the same.
     normal.y = all(1.0).select(is_lost, normal.y);
     let radius_sum = Lanes::each(simd, approach.radius_sum);
     let gap = length - radius_sum;
@@ -110,7 +109,7 @@ fn aim<S: Simd>(
 
     let carried = Lanes::each(simd, batch.impulse);
     let before = Lanes::each(simd, approach.previous);
-    // What stopped an impact is no longer needed, once the two part.
+    // The impulse that stopped an impact is not needed once the two part.
     let has_bounced = Lanes::each(simd, batch.bias).is_less(zero) & zero.is_at_most(speed);
     let carried = smaller(carried, before).select(has_bounced, carried);
     let effective_mass = Lanes::each(simd, batch.effective_mass);
@@ -123,15 +122,15 @@ fn aim<S: Simd>(
     let rests = zero.is_less(carried);
     let is_free = bear.is_equal(zero);
     let mut fall = zero;
-    // One of two that fall side by side does not come nearer to the other; it does to one that is borne.
-    // What does not bounce may wait until the end of the sub-step.
+    // Spheres that fall side by side do not approach each other, but a falling sphere approaches a supported one. A
+    // contact that does not bounce may wait until the end of the sub-step.
     let is_one_borne = bear.abs().is_equal(all(f64::INFINITY))
         & carried.is_equal(zero)
         & zero.is_less(Lanes::each(simd, *restitution));
     if is_one_borne.any_true() {
         let pressing = pressing(simd, run, (batch, normal), (bear, sub_step));
         fall = (pressing * (0.5 * sub_step.h)).select(is_one_borne, zero);
-        // On its parabola it does not come so far as its last velocity says.
+        // On its parabola the sphere does not get as far as with its last velocity.
         let stays = ((zero - speed + fall) * sub_step.h).is_less(gap);
         let later = fall.max(zero).select(stays, zero);
         batch.bias = (Lanes::each(simd, batch.bias) + later).to_array();
@@ -153,7 +152,7 @@ fn aim<S: Simd>(
 }
 
 impl<S: Simd> Aimed<S> {
-    /// Whether there is an impact, or may be one.
+    /// Whether some pair has an impact or may have one.
     #[inline(always)]
     fn is_any(&self) -> bool {
         (self.is_hit | self.goes_far).any_true()
@@ -172,7 +171,7 @@ impl<S: Simd> Aimed<S> {
     ) -> Quad {
         let zero = Lanes::all(simd, 0.0);
         let rebound = zero - Lanes::each(simd, *restitution) * self.impact;
-        // What bears something already does not bounce: it would lose the impulse to start from.
+        // A contact that already presses does not bounce: it would lose its starting impulse.
         let is_new = Lanes::each(simd, approach.previous).is_equal(zero);
         let bounces = is_new & rebound.is_less(zero);
         let bias = rebound.select(bounces, Lanes::each(simd, batch.bias));
@@ -195,7 +194,7 @@ impl<S: Simd> Aimed<S> {
     }
 }
 
-/// Speeds of approach below which the spheres of a batch that bear something do not bounce \[m/s\].
+/// Speeds of approach below which the spheres of a batch that press on something do not bounce \[m/s\].
 #[inline(always)]
 fn shaken_speed<S: Simd>(
     simd: S,
@@ -214,8 +213,8 @@ fn shaken_speed<S: Simd>(
     along * by_weight + Lanes::all(simd, least)
 }
 
-/// How forces have the spheres of a batch close \[m/s²\], of which one is borne and the other is not, as
-/// the sign of `bear` tells: it is positive where that is the second.
+/// Acceleration of approach \[m/s²\] for pairs of a supported sphere and a free one. The sign of `bear` says which
+/// one is free: positive for the second.
 #[inline(always)]
 fn pressing<S: Simd>(
     simd: S,
@@ -236,7 +235,7 @@ fn pressing<S: Simd>(
 }
 
 impl FrictionBatch {
-    /// The slip that impacts are to end with.
+    /// Computes the slip after impacts.
     #[inline(always)]
     fn aim<S: Simd>(&mut self, simd: S, run: &Run, batch: &PairBatch, speed: Quad) {
         let restitution = Lanes::each(simd, self.tangential_restitution);
@@ -267,7 +266,7 @@ fn start_friction<S: Simd>(
     let impulse = Lanes::each(simd, batch.impulse);
     let bears = zero.is_less(impulse);
     let normal = vector(simd, &batch.normal);
-    // What the normal turned away from goes; nothing is left where the contact bears nothing.
+    // Removes the part along the turned normal, and everything where the contact does not press.
     let kept = vector(simd, &friction.tangential);
     let along = kept - normal * kept.dot(normal);
     let none = Vector { x: zero, y: zero, z: zero };

@@ -1,5 +1,5 @@
-//! Pairs of spheres in batches, no sphere in two pairs of a batch: what one pair changes no other of its
-//! batch reads, so that a batch is solved side by side with the bits of one pair after the other.
+//! Batches of pairs, no sphere in two pairs of a batch: no pair reads what another one of its batch changes. So a
+//! batch is solved in lanes, with the bits of one pair after the other.
 
 use glam::DVec3;
 
@@ -9,8 +9,8 @@ use crate::lanes::LANES;
 /// One number of each pair of a batch.
 pub(super) type Quad = [f64; LANES];
 
-/// Batches between two in which the same sphere is: a batch that follows at once would wait for what
-/// the one before it writes.
+/// Least number of batches between two with the same sphere: the next batch would wait for the results of the one
+/// before.
 const APART: u32 = 2;
 
 /// Contacts of pairs of spheres, 1 and 2, by run of slots. Lanes without a pair hold a sphere twice,
@@ -27,14 +27,13 @@ pub(super) struct PairBatch {
     pub normal: [Quad; 3],
     /// Normal impulses \[N s\].
     pub impulse: Quad,
-    /// What the normal velocity is to be after the sub-step at least, with the opposite sign \[m/s\]: the
-    /// gap may close, and a bounce separates.
+    /// Minus the least normal velocity after the sub-step \[m/s\]: the gap may close, and a bounce separates.
     pub bias: Quad,
     /// m1 m2 / (m1 + m2) \[kg\]
     pub effective_mass: Quad,
 }
 
-/// How the pairs of a batch come to touch: what no sweep reads, kept apart for sweeps to stream less memory.
+/// The approach of the pairs of a batch, which no sweep reads. It is kept apart so that sweeps stream less memory.
 #[derive(Debug, Clone, Copy, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[repr(C, align(32))]
@@ -61,7 +60,7 @@ pub(super) struct Hit {
 pub(super) struct FrictionBatch {
     /// Tangential impulses \[N s\].
     pub tangential: [Quad; 3],
-    /// Slip that an impact is to end with \[m/s\].
+    /// Slip after an impact \[m/s\].
     pub slip: [Quad; 3],
     /// 1 / ((1 + 1/k1)/m1 + (1 + 1/k2)/m2) \[kg\]
     pub tangential_mass: Quad,
@@ -74,7 +73,7 @@ pub(super) struct FrictionBatch {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[repr(C, align(32))]
 pub(super) struct RollingBatch {
-    /// Angular impulses on sphere 2, against which 1 feels the opposite \[N m s\].
+    /// Angular impulses on sphere 2; sphere 1 gets the opposite \[N m s\].
     pub angular: [Quad; 3],
     /// Coefficients of rolling friction, times the radius \[m\].
     pub rolling: Quad,
@@ -86,7 +85,7 @@ pub(super) struct RollingBatch {
     pub curvature: [Quad; 2],
 }
 
-/// What a contact keeps from search to search.
+/// Impulses that a contact keeps from search to search.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Impulses {
@@ -101,7 +100,7 @@ pub(super) struct Impulses {
 }
 
 impl Impulses {
-    /// Whether there is anything to start from.
+    /// Whether one of the impulses is not zero.
     pub fn is_some(&self) -> bool {
         self.normal > 0.0
     }
@@ -113,7 +112,7 @@ impl Impulses {
     }
 }
 
-/// A pair of spheres, in slots from the start of a run, and what is known of its contact.
+/// A pair of spheres, in slots from the start of a run, with the constants of its contact.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pair {
     pub slots: [u32; 2],
@@ -124,7 +123,7 @@ pub(super) struct Pair {
     pub inverse_inertias: [f64; 2],
     pub material: ContactMaterial,
     pub impulses: Impulses,
-    /// From where sphere 2 is to its image that sphere 1 touches \[m\].
+    /// Offset from sphere 2 to its image that sphere 1 touches \[m\].
     pub shift: DVec3,
 }
 
@@ -143,14 +142,14 @@ pub(super) struct Batches {
     pub frictions: Vec<FrictionBatch>,
     /// As many, or none where there is no rolling friction.
     pub rollings: Vec<RollingBatch>,
-    /// From where spheres 2 are to their images that spheres 1 touch \[m\]; as many as pairs, or none where space
-    /// is not periodic.
+    /// Offsets from spheres 2 to their images that spheres 1 touch \[m\]; one per pair, or none where space is not
+    /// periodic.
     pub shifts: Vec<[Quad; 3]>,
     /// Pairs in each batch.
     counts: Vec<u8>,
-    /// A batch with room that is not before each; itself while it has room.
+    /// A batch with room, not before each one; the batch itself while it has room.
     with_room: Vec<u32>,
-    /// One more than the batch that each slot is in last; 0 for none.
+    /// For each slot, one more than the last batch with it; 0 for none.
     last: Vec<u32>,
 }
 
@@ -170,8 +169,8 @@ impl Batches {
         self.last.resize(slots, 0);
     }
 
-    /// Adds a pair to the first batch that is behind all others of its spheres and has room, so that
-    /// pairs that share a sphere keep their order.
+    /// Adds a pair to the first batch that has room and is behind all others of its spheres, so that pairs with a
+    /// common sphere keep their order.
     pub fn push(&mut self, pair: &Pair, kinds: ContactKinds) {
         let [first, second] = pair.slots;
         let last = self.last[first as usize].max(self.last[second as usize]);
@@ -206,14 +205,14 @@ impl Batches {
         }
     }
 
-    /// The first batch from this one on that has room, which may be one that is not there yet.
+    /// The first batch with room from this one on, which may be one that does not exist yet.
     fn first_with_room(&mut self, from: u32) -> u32 {
         let next = |table: &[u32], batch: u32| table.get(batch as usize).copied().unwrap_or(batch);
         let mut found = from;
         while next(&self.with_room, found) != found {
             found = next(&self.with_room, found);
         }
-        // Those on the way lead there at once from now on.
+        // Shortens the path for the batches on the way.
         let mut batch = from;
         while batch != found {
             let following = self.with_room[batch as usize];
@@ -268,13 +267,12 @@ impl Batches {
         })
     }
 
-    /// From where sphere 2 of a contact is to its image that sphere 1 touches \[m\].
+    /// Offset from sphere 2 of a contact to its image that sphere 1 touches \[m\].
     pub fn shift(&self, number: usize, lane: usize) -> DVec3 {
         self.shifts.get(number).map_or(DVec3::ZERO, |it| DVec3::from_array(get(it, lane)))
     }
 
-    /// The contacts that an impact was found for and that bear something, and their speeds of approach
-    /// \[m/s\].
+    /// The contacts with an impact that press, and their speeds of approach \[m/s\].
     pub fn impacts(&self) -> impl Iterator<Item = (usize, usize, f64)> {
         self.hits.iter().flat_map(move |hit| {
             let number = hit.batch as usize;
@@ -284,7 +282,7 @@ impl Batches {
         })
     }
 
-    /// What a contact keeps from search to search. An impact leaves nothing to start from.
+    /// Impulses that a contact keeps from search to search. An impact leaves none.
     pub fn impulses(&self, number: usize, lane: usize) -> Impulses {
         let batch = &self.pairs[number];
         let bounces = batch.bias[lane] < 0.0;
@@ -296,8 +294,8 @@ impl Batches {
         }
     }
 
-    /// The impulse on sphere 2 \[N s\] of an impact with this speed of approach \[m/s\] that is a bounce,
-    /// without what others press the two together with; `None` without a bounce.
+    /// The impulse on sphere 2 \[N s\] of a bounce with this speed of approach \[m/s\], without the part with which
+    /// others press the two together; `None` without a bounce.
     pub fn bounce(&self, number: usize, lane: usize, speed: f64) -> Option<DVec3> {
         let batch = &self.pairs[number];
         if batch.bias[lane] >= 0.0 {
@@ -336,7 +334,7 @@ impl PairBatch {
     };
 }
 
-/// What occurs in the contacts of a world.
+/// Kinds of contacts that occur in a world.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct ContactKinds {

@@ -1,4 +1,4 @@
-//! Where spheres that bounce within a sub-step come to.
+//! Bounces within a sub-step, and where they lead.
 
 use glam::DVec3;
 
@@ -15,7 +15,7 @@ use crate::detect::{Separation, known_in_front, sphere_surface};
 use crate::flight::Flight;
 use crate::report::StepReport;
 
-/// A change of velocity is that of a bounce alone up to this part of it.
+/// A change of velocity comes from a bounce alone, up to this part of it.
 const ROUNDING: f64 = 1e-9;
 
 /// A bounce of a sphere off one body, or off the walls of a corner at once.
@@ -31,7 +31,7 @@ pub(super) struct OneBounce {
 }
 
 impl OneBounce {
-    /// All bounces of a sphere, if that is one: off another sphere, or at one time off surfaces.
+    /// The bounces of a sphere as one, if they are: off another sphere, or off surfaces at one time.
     fn of_all(bounces: &[Self]) -> Option<Self> {
         let (&first, others) = bounces.split_first()?;
         let is_same = |it: &Self| it.other.is_none() && it.time == first.time;
@@ -48,7 +48,7 @@ impl OneBounce {
         (0.5 * sub_step.h - self.time) * slots.velocity[self.slot].number() * self.impulse
     }
 
-    /// What the work of its impulse is more \[J\] at its own time than in the middle of the sub-step: forces
+    /// By how much the work of the impulse \[J\] at its own time exceeds that in the middle of the sub-step: forces
     /// change the velocity in between.
     fn work_at_its_time(&self, slots: &Slots, sub_step: &SubStep) -> f64 {
         if slots.sleeps[self.slot] {
@@ -71,8 +71,8 @@ pub(super) fn find(solver: &Solver, sub_step: &SubStep) -> Vec<OneBounce> {
     all
 }
 
-/// The slots of the spheres that bounce and are not done with that: they, or what they bounce off, touch
-/// something else, or come to it.
+/// The slots of the bouncing spheres with further contacts: they, or the bodies off which they bounce, touch or
+/// reach something else.
 pub(super) fn entangled(solver: &Solver, bounces: &[OneBounce], sub_step: &SubStep) -> Vec<usize> {
     let Solver { slots, slabs, places, .. } = solver;
     let is_done = |of_sphere: &[OneBounce]| match of_sphere {
@@ -85,7 +85,7 @@ pub(super) fn entangled(solver: &Solver, bounces: &[OneBounce], sub_step: &SubSt
     awake.filter(|it| !is_done(it)).map(|it| it[0].slot).collect()
 }
 
-/// Notes where spheres that bounce come to, but for those that cascades took there.
+/// Notes the ends of the paths of bouncing spheres, without those of cascades.
 ///
 /// One that nothing else touches in the sub-step moves until its bounce as if nothing were there. Any other
 /// moves by its last velocity. Contacts know nothing of surfaces that a sphere comes to after a bounce, or
@@ -148,7 +148,7 @@ fn of_pairs(slots: &Slots, slab: &Slab, sub_step: &SubStep, bounces: &mut Vec<On
         let offset = offset + slab.batches.shift(number, lane);
         let normal = DVec3::from_array(batch::get(&slab.batches.pairs[number].normal, lane));
         let velocity = slots.before[second].vector() - slots.before[first].vector();
-        // The speed of approach may have changed until then.
+        // Forces may have changed the speed of approach until then.
         let mean = 0.5 * (approach - velocity.dot(normal));
         let time = ((offset.dot(normal) - radius_sum).max(0.0) / mean).min(sub_step.h);
         bounces.push(OneBounce { slot: first, other: Some(second), impulse: -impulse, time });
@@ -165,15 +165,16 @@ fn of_surfaces(slots: &Slots, slab: &Slab, bounces: &mut Vec<OneBounce>) {
     }
 }
 
-/// The way of a sphere that bounces.
+/// The path of a bouncing sphere.
 struct Way {
     bounce: Bounce,
-    /// Its way from the bounce on.
+    /// Path after the bounce.
     last: FinalFlight,
 }
 
-/// How a sphere bounces; `None` if something else changed its velocity, or the other sphere's. If it does after
-/// a time t, with the impulse P, it is `t P / m` short of where its last velocity takes it in the whole sub-step.
+/// The bounce of a sphere; `None` if something else changed its velocity or the other sphere's. After a bounce at a
+/// time t with the impulse P, the sphere is `t P / m` short of the place to which its last velocity leads in the
+/// whole sub-step.
 fn alone(slots: &Slots, bounce: &OneBounce, sub_step: &SubStep) -> Option<Way> {
     let &OneBounce { slot, other, impulse, time } = bounce;
     let own = own_change(slots, slot, impulse, sub_step)?;
@@ -199,8 +200,8 @@ fn alone(slots: &Slots, bounce: &OneBounce, sub_step: &SubStep) -> Option<Way> {
     Some(Way { bounce, last })
 }
 
-/// How a sphere bounces off what touches something else, or off several bodies at once; `None` if it bore
-/// something before: that moves by its last velocity, and all that it presses.
+/// The bounce of a sphere off a body that touches something else, or off several bodies at once; `None` if the
+/// sphere pressed on something before: such a sphere, and all on which it presses, moves by its last velocity.
 ///
 /// It flies until its first bounce and goes on from there, with all that impulses changed.
 fn among_others(slots: &Slots, bounces: &[OneBounce], sub_step: &SubStep) -> Option<Way> {
@@ -225,7 +226,7 @@ fn among_others(slots: &Slots, bounces: &[OneBounce], sub_step: &SubStep) -> Opt
     Some(Way { bounce, last: FinalFlight { slot, start: time, flight, duration: left } })
 }
 
-/// The change of velocity by an impulse \[m/s\]; `None` if something else changed the sphere's, too.
+/// The change of velocity by an impulse \[m/s\]; `None` if something else also changed the sphere's velocity.
 fn own_change(slots: &Slots, slot: usize, impulse: DVec3, sub_step: &SubStep) -> Option<DVec3> {
     let own = slots.velocity[slot].number() * impulse;
     let change = slots.velocity[slot].vector() - slots.accelerated(slot, sub_step.h);
@@ -249,7 +250,8 @@ struct FinalFlight {
 struct Stop {
     /// Since the final flight began \[s\].
     time: f64,
-    /// Where the surface, as it moves along its normal, takes the sphere by the end of the final flight \[m\].
+    /// Place to which the surface, moving along its normal, carries the sphere by the end of the final flight
+    /// \[m\].
     end: DVec3,
 }
 
@@ -260,14 +262,14 @@ impl Stop {
 }
 
 impl FinalFlight {
-    /// The whole way of a sphere that moves by its last velocity.
+    /// The path of a sphere that moves by its last velocity in the whole sub-step.
     fn straight(slots: &Slots, slot: usize, sub_step: &SubStep) -> Self {
         let [position, velocity] = [slots.position[slot], slots.velocity[slot]].map(Row::vector);
         let flight = Flight { position, velocity, acceleration: DVec3::ZERO, drag_rate: 0.0 };
         Self { slot, start: 0.0, flight, duration: sub_step.h }
     }
 
-    /// Whether the sphere goes so far, or a surface near it comes so far, that it may come past that.
+    /// Whether the sphere, or a surface near it, moves so far that the sphere may pass the surface.
     fn goes_far(&self, slots: &Slots, slabs: &Slabs, places: &Places) -> bool {
         let Flight { position, velocity, .. } = self.flight;
         let far = FAR * slots.position[self.slot].number();
@@ -280,7 +282,7 @@ impl FinalFlight {
                 })
     }
 
-    /// Where the sphere comes to a surface that bears nothing of it.
+    /// First stop of the sphere at a surface on which it does not press.
     fn first_met(&self, slots: &Slots, slabs: &Slabs, places: &Places) -> Option<Stop> {
         let is_far = self.goes_far(slots, slabs, places);
         is_far.then(|| self.first_of_free(slots, slabs, places))?
@@ -288,7 +290,7 @@ impl FinalFlight {
 
     /// Where the sphere comes to a surface that bears nothing of it, also near where it is.
     fn first_of_free(&self, slots: &Slots, slabs: &Slabs, places: &Places) -> Option<Stop> {
-        // One that turns may catch up with what has just bounced off it.
+        // A turning surface may catch up with a sphere that has just bounced off it.
         let stops = slabs.surfaces_of(self.slot).filter_map(|contact| {
             let place = places.at_start(contact.surface);
             let may_be_met = contact.impulses.normal == 0.0 || place.1.turns_form(&place.0);
@@ -297,8 +299,8 @@ impl FinalFlight {
         Stop::first(stops)
     }
 
-    /// Where the sphere comes to a surface that it would pass with its centre, also one that bears it: the
-    /// sweeps may leave it a part of its speed.
+    /// First stop of the sphere at a surface that its centre would pass, even one on which it presses: the sweeps
+    /// may leave it a part of its speed.
     fn first_passed(&self, slots: &Slots, slabs: &Slabs, places: &Places) -> Option<Stop> {
         let stops = slabs.surfaces_of(self.slot).filter_map(|contact| {
             let place = places.at_start(contact.surface);
@@ -343,8 +345,8 @@ impl FinalFlight {
         Stop { time, end }
     }
 
-    /// What becomes of the sphere if it stops on this final flight, and goes along with what it stops at, where nothing
-    /// else touches it in the sub-step or something does.
+    /// The end of the sphere if it stops on this final flight and moves on with what stops it; `is_alone` if
+    /// nothing else touches it in the sub-step.
     fn stopped(&self, slots: &Slots, stop: Stop, sub_step: &SubStep, is_alone: bool) -> Bounce {
         let Self { slot, start: start_time, flight, .. } = self;
         let [start, last] = [slots.position[*slot], slots.velocity[*slot]].map(Row::vector);

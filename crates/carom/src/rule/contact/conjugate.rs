@@ -1,7 +1,7 @@
-//! Sweeps that are accelerated, to converge without friction: what sweeps there and back change is taken for
-//! the descent of a function, and conjugate directions are followed (Silcowitz, Niebe and Erleben, A
-//! nonsmooth nonlinear conjugate gradient method for interactive contact force problems, The Visual
-//! Computer 26, 893 (2010)). With friction there is no such function.
+//! Accelerated sweeps, which converge faster without friction: the change of impulses in a sweep forth and back is
+//! taken for the descent of a function, and conjugate directions are followed (Silcowitz, Niebe and Erleben, A
+//! nonsmooth nonlinear conjugate gradient method for interactive contact force problems, The Visual Computer 26,
+//! 893 (2010)). With friction there is no such function.
 
 use glam::DVec3;
 
@@ -10,7 +10,7 @@ use super::descent::Descent;
 use super::slab::{Direction, Slab, Slabs};
 use super::slots::{Run, Slots};
 
-/// Notes the impulses from which sweeps set out.
+/// Saves the impulses before the sweeps.
 pub(super) fn begin(slots: &mut Slots, slabs: &mut Slabs) {
     slabs.each_contact(slots, Direction::Forwards, |_, slab| {
         let before = impulses(slab);
@@ -19,9 +19,8 @@ pub(super) fn begin(slots: &mut Slots, slabs: &mut Slabs) {
     });
 }
 
-/// Goes on along the direction of before, once sweeps have changed impulses, and has the next direction
-/// take that change, too. `last` is the sum of squares of the change before, infinite for the first; gives
-/// that of this one.
+/// Adds a step along the direction before, after sweeps have changed the impulses, and updates the direction by
+/// that change. `last` is the sum of squares of the change before, infinite at first. Returns that of this change.
 pub(super) fn follow(slots: &mut Slots, slabs: &mut Slabs, last: f64) -> f64 {
     slabs.each_contact(slots, Direction::Forwards, |_, slab| {
         let now = impulses(slab);
@@ -30,7 +29,7 @@ pub(super) fn follow(slots: &mut Slots, slabs: &mut Slabs, last: f64) -> f64 {
     });
     let squares = |slab: &Slab| slab.descent.change.iter().map(|it| it * it).sum::<f64>();
     let sum = slabs.iter().map(squares).sum::<f64>();
-    // Where changes grow, the descent begins anew.
+    // Where changes grow, the descent restarts.
     let part = if sum < last { sum / last } else { 0.0 };
     slabs.each_contact(slots, Direction::Forwards, |run, slab| {
         slab.descent.direction.iter_mut().for_each(|it| *it *= part);

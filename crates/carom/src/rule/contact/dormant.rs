@@ -1,4 +1,4 @@
-//! Contacts of spheres that sleep.
+//! Contacts of sleeping spheres.
 
 use glam::DVec3;
 
@@ -20,13 +20,13 @@ pub(super) struct Dormant {
     pub force: DVec3,
 }
 
-/// What a sphere touches.
+/// What a sleeping sphere touches.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) enum Partner {
     /// A sphere that sleeps, too, by slot.
     Sphere(u32),
-    /// A sphere that is awake, by slot; [`GONE`] once it is in the world no more.
+    /// A sphere that is awake, by slot; [`GONE`] once it has left the world.
     Awake(u32),
     Surface(u32),
 }
@@ -49,7 +49,7 @@ impl Dormant {
         }
     }
 
-    /// What the contact is to the partner, which sleeps; the sphere is awake.
+    /// The contact seen from the partner, which sleeps; the sphere is awake.
     fn reversed(self, partner: u32) -> Self {
         Self {
             sphere: partner,
@@ -61,7 +61,7 @@ impl Dormant {
     }
 }
 
-/// Follows spheres to other slots; `now` tells where those of a slot are, [`GONE`] if nowhere.
+/// Updates the slots of spheres; `now` returns the new slot, or [`GONE`].
 pub(super) fn renumber(dormant: &mut Vec<Dormant>, now: impl Fn(usize) -> u32) {
     let now = |slot: u32| if slot == GONE { GONE } else { now(slot as usize) };
     dormant.retain_mut(|contact| {
@@ -74,7 +74,7 @@ pub(super) fn renumber(dormant: &mut Vec<Dormant>, now: impl Fn(usize) -> u32) {
     });
 }
 
-/// Leaves out the contacts of spheres that have woken.
+/// Removes the contacts of spheres that woke.
 pub(super) fn renew(dormant: &mut Vec<Dormant>, sleeps: &[bool]) {
     dormant.retain_mut(|contact| {
         let sleeps_on = sleeps[contact.sphere as usize];

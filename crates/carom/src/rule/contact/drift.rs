@@ -1,9 +1,8 @@
-//! Drift: the motion that spheres have in common. Balls that fall side by side stay neighbours, however
-//! fast they are.
+//! Drift: the common motion of all spheres. Balls that fall side by side stay neighbours, however fast they are.
 
 use glam::DVec3;
 
-/// The common motion since the last search for neighbours, at the mean velocity of then.
+/// The common motion since the last search for neighbours, with the mean velocity at that time.
 #[derive(Debug, Clone, Copy, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Drift {
@@ -11,12 +10,12 @@ pub(super) struct Drift {
     pub velocity: DVec3,
     /// Since the search \[m\].
     pub way: DVec3,
-    /// How long the way may become until the next search \[m\]: surfaces are looked for so far.
+    /// Longest common path until the next search \[m\]; surfaces were searched up to it.
     pub reach: f64,
 }
 
 impl Drift {
-    /// From a search on that is to last so long \[s\].
+    /// The drift after a search that is to last this long \[s\].
     pub fn begin(velocity: DVec3, lasting: f64) -> Self {
         Self { velocity, way: DVec3::ZERO, reach: velocity.length() * lasting }
     }
@@ -26,7 +25,7 @@ impl Drift {
         Self { way: self.way + h * self.velocity, ..self }
     }
 
-    /// Whether the way is longer than surfaces were looked for.
+    /// Whether the common path exceeds the reach of the search.
     pub fn is_beyond(&self) -> bool {
         self.way.length_squared() > self.reach * self.reach
     }

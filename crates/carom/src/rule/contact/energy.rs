@@ -1,5 +1,5 @@
-//! No impulse adds kinetic energy: neither restitution in a group of contacts, nor an impulse to start
-//! from that is no longer needed.
+//! Keep energy: no impulse adds kinetic energy, neither by restitution in a group of contacts nor by a starting
+//! impulse that is no longer needed.
 
 use fearless_simd::{Level, dispatch};
 use glam::DVec3;
@@ -16,13 +16,13 @@ use crate::report::StepReport;
 /// Gains up to this part of the kinetic energy are rounding.
 const ROUNDING: f64 = 1e-14;
 
-/// Sweeps again where impulses have added kinetic energy, in so many rounds at most; from
-/// [`SOFTENING`] on with less restitution.
+/// Largest number of rounds of further sweeps where impulses added kinetic energy; from [`SOFTENING`] on with less
+/// restitution.
 const ROUNDS: u32 = 12;
 const SOFTENING: u32 = 3;
 
-/// Limits impulses so that they add no kinetic energy, and accounts for what they took. Returns whether it
-/// changed them.
+/// Limits impulses so that they add no kinetic energy, and accounts for their work. Returns whether it changed
+/// them.
 ///
 /// Impulses to start from may be too large, and a few sweeps do not take all of that back; more sweeps do.
 /// Restitution in a group of contacts may add energy whatever the sweeps: there, less is given back. As a
@@ -69,7 +69,7 @@ fn kick_work(solver: &Solver) -> f64 {
     solver.slabs.iter().map(of_slab).sum()
 }
 
-/// What impulses did to the kinetic energy of a sub-step.
+/// The effect of impulses on the kinetic energy of a sub-step.
 struct Change {
     /// Change of kinetic energy \[J\], as if forces had acted before them.
     gain: f64,
@@ -78,7 +78,7 @@ struct Change {
     work: f64,
 }
 
-/// What the impulses of a sub-step of `h` \[s\] did to the kinetic energy.
+/// The effect of the impulses of a sub-step of `h` \[s\] on the kinetic energy.
 fn change(solver: &mut Solver, h: f64) -> Change {
     solver.slabs.each(&mut solver.slots, |run, slab| {
         let (energy, work) = dispatch!(Level::new(), simd => {
@@ -91,7 +91,7 @@ fn change(solver: &mut Solver, h: f64) -> Change {
     Change { gain: solver.slabs.energy() - solver.energy_before, work }
 }
 
-/// Takes less of all impulses, so that they add nothing, in a sub-step of `h` \[s\].
+/// Reduces all impulses so that they add nothing, in a sub-step of `h` \[s\].
 ///
 /// With the velocities v before them and v + d after, the kinetic energy of `v + s d` is a parabola in s
 /// that begins with a descent; s is the largest part that adds nothing. Momentum is kept for any s.
@@ -104,9 +104,9 @@ fn take_less(solver: &mut Solver, gain: f64, h: f64) {
     solver.slabs.each_run(&mut solver.slots, |mut run| take(&mut run, h, part));
 }
 
-/// Kinetic energy of what the impulses changed \[J\].
+/// Kinetic energy of the velocity changes by impulses \[J\].
 fn of_change(run: &Run, h: f64) -> f64 {
-    // What sleeps does not change, and has no mass here.
+    // Sleeping spheres do not change and have no mass here.
     let of = |now: Row, before: DVec3| {
         let change = (now.vector() - before).length_squared();
         if change > 0.0 { change / now.number() } else { 0.0 }
@@ -118,7 +118,7 @@ fn of_change(run: &Run, h: f64) -> f64 {
     0.5 * (velocities.sum::<f64>() + spins.sum::<f64>())
 }
 
-/// Takes a part of what the impulses changed.
+/// Scales the velocity changes by impulses.
 fn take(run: &mut Run, h: f64, part: f64) {
     let between =
         |before: DVec3, now: Row| now.with_vector(before + part * (now.vector() - before));

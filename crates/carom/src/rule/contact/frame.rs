@@ -16,7 +16,7 @@ use crate::report::StepReport;
 use crate::rotation;
 use crate::system::System;
 
-/// Takes over spheres, forces and surfaces from the world, for a frame of `h` \[s\].
+/// Copies spheres, forces and surfaces from the world, for a frame of `h` \[s\].
 pub(super) fn begin(system: &System, motion: &mut Motion, h: f64, solver: &mut Solver) {
     let ids = &system.spheres.id;
     let kinds = kinds_of(system);
@@ -35,7 +35,7 @@ pub(super) fn begin(system: &System, motion: &mut Motion, h: f64, solver: &mut S
         solver.warm_start = Some(warm_start);
         dormant::renumber(&mut solver.dormant, index_of);
         solver.slots.arrange(ids);
-        // By slot: the search finds them anew.
+        // These are by slot; the search makes them again.
         solver.watched.clear();
         solver.slabs = Slabs::of_one(ids.len());
         solver.materials = Materials::of(system);
@@ -59,13 +59,12 @@ pub(super) fn begin(system: &System, motion: &mut Motion, h: f64, solver: &mut S
     solver.may_sleep = !solver.has_other_forces
         && !solver.has_moving_surfaces
         && system.spheres.applied_force.is_empty();
-    // The bounds of moving surfaces are those of now.
+    // Bounds of moving surfaces are present ones.
     solver.is_stale |= solver.has_moving_surfaces;
     solver.places.begin_frame(system.surfaces, h);
 }
 
-/// Takes over from the world what the solver does not know from the frame before, which gave it to the
-/// world.
+/// Copies from the world what the solver does not have from the frame before, which wrote it to the world.
 pub(super) fn go_on(system: &System, motion: &mut Motion, h: f64, solver: &mut Solver) {
     let is_known = !(solver.is_stale
         || solver.is_changed

@@ -1,5 +1,5 @@
-//! Contacts of pairs side by side: what of the spheres they read, one in each lane of the processor's
-//! vectors, and what they give back.
+//! Gather and scatter for contacts of pairs: reads the data of their spheres, one pair per lane of the processor's
+//! vectors, and writes results back.
 //!
 //! Every operation is the one that a single contact needs, so no bit depends on the vectors.
 
@@ -10,10 +10,10 @@ use super::row::Row;
 use crate::lanes::{LANES, Lanes};
 use crate::real::{Real, Vector};
 
-/// Smaller than what it is compared with, unless that is zero.
+/// Smaller than any number it is compared with, except zero.
 pub(super) const TINY: f64 = f64::MIN_POSITIVE;
 
-/// Slip of the surfaces where they touch: what of the velocity is across the normal, with spin.
+/// Slip of the surfaces at the contact: the tangential part of the velocity, with spin.
 #[inline(always)]
 pub(super) fn slip<S: Simd>(
     velocity: Vector<Lanes<S>>,
@@ -42,7 +42,7 @@ pub(super) fn difference<S: Simd>(simd: S, all: &[Row], batch: &PairBatch) -> [L
     Lanes::transposed([e - a, f - b, g - c, h - d])
 }
 
-/// Ways from spheres 1 to spheres 2, or to the images of these that a shift leads to \[m\].
+/// Offsets from spheres 1 to spheres 2, or to their images at these shifts \[m\].
 #[inline(always)]
 pub(super) fn offset<S: Simd>(
     simd: S,
@@ -94,8 +94,7 @@ pub(super) fn apply<S: Simd>(
     }
 }
 
-/// Turns both spheres of each pair by the impulses that act at their surfaces, of which this is the cross
-/// product with the normal.
+/// Turns both spheres of each pair by tangential impulses, given by their cross product with the normal.
 #[inline(always)]
 pub(super) fn apply_spin<S: Simd>(
     simd: S,

@@ -1,4 +1,4 @@
-//! The last line of defence: no centre of a sphere passes a face, whatever contacts made of its motion.
+//! Hold: no centre of a sphere passes a face, whatever contacts made of its motion.
 //!
 //! A sphere is seen from each surface, as if that were at rest: so a box that moves and turns is a box. The
 //! way of its centre within a sub-step is straight there. What counts is whether that way passes the
@@ -22,18 +22,18 @@ use crate::report::StepReport;
 use crate::surface::{Form, Rectangle, Role, SurfaceMotion};
 use crate::system::System;
 
-/// The centre of a sphere stays so far in front of a surface, as a part of the radius, whatever presses on it:
-/// from behind nothing would bring it back.
+/// Least distance of a centre in front of a surface, as a part of the radius, whatever presses on the sphere:
+/// behind the surface nothing would push it back.
 const LEAST_IN_FRONT: f64 = 0.5;
-/// A way that passes an edge by less than this part of the radius passes the face: between two faces that
-/// share it there is no gap, however the numbers round. No centre comes so near to an edge otherwise.
+/// A path that passes an edge by less than this part of the radius passes the face: between two faces that share an
+/// edge there is no gap, however numbers round. No centre is so near to an edge otherwise.
 const BESIDE: f64 = 0.01;
-/// Where spheres overlap by more than this part of the sum of radii, a correction may take them far.
+/// Where spheres overlap by more than this part of the sum of radii, a correction may move them far.
 const FAR_APART: f64 = 0.02;
-/// In corners one surface may push a sphere into another so often.
+/// Largest number of pushes from one surface to another in a corner.
 const ROUNDS: usize = 16;
 
-/// Holds back the spheres whose centres would pass a surface in the sub-step. Velocities stay as they are.
+/// Holds back spheres whose centres would pass a surface in the sub-step. Velocities stay as they are.
 pub(super) fn hold(
     system: &System,
     solver: &mut Solver,
@@ -54,11 +54,11 @@ pub(super) fn hold(
     report.contact_account.squeezed += squeezed;
 }
 
-/// What tells where spheres went in the sub-step.
+/// The paths of spheres in the sub-step.
 struct Guard<'a> {
     system: &'a System<'a>,
     places: &'a Places,
-    /// Of each slot in the arrays of the world; empty where no sphere goes astray.
+    /// Index of each slot in the arrays of the world; empty where no sphere goes astray.
     index: Vec<u32>,
     bounces: &'a [Bounce],
     /// Spheres that met bodies on the way, each at its time: what counts is the flight after the last.
@@ -67,12 +67,12 @@ struct Guard<'a> {
     common: DVec3,
     /// Length of the sub-step \[s\].
     h: f64,
-    /// Whether a sphere may have come to surfaces with which it has no contact.
+    /// Whether spheres may have reached surfaces with which they have no contact.
     go_astray: bool,
 }
 
 impl Guard<'_> {
-    /// Holds back the spheres of a slab. Finds the work that takes, and how many there were.
+    /// Holds back the spheres of a slab. Returns the work against forces and the number of spheres.
     fn hold_all(&self, run: &mut Run, slab: &Slab) -> SlabTotals {
         let mut found = SlabTotals::default();
         let mut go_to = |run: &mut Run, slot: usize, end: Option<DVec3>| {
@@ -93,7 +93,7 @@ impl Guard<'_> {
                 if self.is_astray(run, slot) {
                     let first = slab.surfaces.partition_point(|it| (it.slot as usize) < slot);
                     let own = slab.surfaces.get(first).filter(|it| it.slot as usize == slot);
-                    // Where it was found, it was in front of what it has no contact with.
+                    // At the last search the sphere was in front of all surfaces without a contact.
                     let start = own.map_or(run.reference[slot].vector(), |it| it.start);
                     let start = self.start_of(slab.start + slot, start);
                     let way = (start, self.turn_of(slab.start + slot));
@@ -105,7 +105,7 @@ impl Guard<'_> {
         found
     }
 
-    /// Where a sphere is held, by its contacts.
+    /// The place at which the surfaces of its contacts hold a sphere.
     fn held_by_contacts(
         &self,
         run: &Run,
@@ -129,7 +129,7 @@ impl Guard<'_> {
         self.held(run, slot, (start, turn), &surfaces)
     }
 
-    /// Where a sphere is held that goes straight to where it turned round, and from there to its end.
+    /// The place at which a sphere is held on a straight path to its turning point and from there to its end.
     fn held(
         &self,
         run: &Run,
@@ -141,13 +141,13 @@ impl Guard<'_> {
         let leg = |[from, to]: [f64; 2], centers| {
             held(&self.passages(surfaces, [from, to], centers), centers, radius)
         };
-        // One that would have passed something before it turned round did not come there.
+        // A sphere that would have passed something before its turning point did not get there.
         let turn = turn.filter(|it| leg([0.0, it.time], [start, it.place]).is_none());
         let Turn { time, place } = turn.unwrap_or(Turn { time: 0.0, place: start });
         leg([time, self.h], [place, end])
     }
 
-    /// How a centre \[m\] goes past surfaces between two times of the sub-step \[s\].
+    /// The passages of a centre \[m\] along surfaces between two times of the sub-step \[s\].
     fn passages(
         &self,
         surfaces: &[u32],
@@ -186,7 +186,7 @@ impl Guard<'_> {
         found.ok().and_then(|place| self.bounces[place].turn)
     }
 
-    /// Where the last straight way of a sphere began, by its slot, which began the sub-step at `start` \[m\].
+    /// Start of the last straight path of a sphere, by its slot, which began the sub-step at `start` \[m\].
     fn start_of(&self, slot: usize, start: DVec3) -> DVec3 {
         self.landings.of(slot).map_or(start, |landed| landed.from)
     }
@@ -209,8 +209,8 @@ pub(crate) struct Passage {
     pub carried: DVec3,
 }
 
-/// Finds where a sphere of this radius \[m\] ends that would pass surfaces between two centres \[m\]; `None` if it
-/// passes none.
+/// Place \[m\] at which a sphere of this radius \[m\] ends that would pass surfaces between two centres \[m\];
+/// `None` if it passes none.
 ///
 /// Each surface that it would pass pushes it along its normal, until none does. If that has no end, it goes
 /// along with one of them: surfaces that move together never press it out. Between others that leave it no room,
@@ -236,7 +236,7 @@ pub(crate) fn held(passages: &[Passage], [start, end]: [DVec3; 2], radius: f64) 
     Some(if passes(held) { goes_along().unwrap_or(held) } else { held })
 }
 
-/// The way of a centre past a surface: where both are at its start and at its end.
+/// The path of a centre relative to a surface, with both at its start and its end.
 #[derive(Clone, Copy)]
 struct Way<'a> {
     forms: [&'a Form; 2],
@@ -245,7 +245,7 @@ struct Way<'a> {
 }
 
 impl Way<'_> {
-    /// Where the centre ends at the `least` distance \[m\] in front of the surface, if it would come nearer. A way
+    /// Place of the centre at the `least` distance \[m\] in front of the surface, if it would come nearer. A path
     /// that is `beside` an edge by less than this \[m\] passes the surface.
     fn pushed(&self, least: f64, beside: f64) -> Option<DVec3> {
         let [start, end] = self.centers;
@@ -280,8 +280,8 @@ impl Way<'_> {
     }
 }
 
-/// Where a centre ends at the `least` distance \[m\] in front of a surface of revolution, if its straight way would
-/// come nearer, to the face or `beside` it by less than this \[m\].
+/// Place of a centre at the `least` distance \[m\] in front of a surface of revolution, if its straight path would
+/// come nearer to the face or pass `beside` it by less than this \[m\].
 fn pushed_by_band(band: &Band, [start, end]: [DVec3; 2], least: f64, beside: f64) -> Option<DVec3> {
     let way = end - start;
     let before = band.seen_from(start);
@@ -297,7 +297,7 @@ fn pushed_by_band(band: &Band, [start, end]: [DVec3; 2], least: f64, beside: f64
     if reached.room < -beside {
         return None;
     }
-    // Along the face it goes on, where it stays over it.
+    // Along the face the centre moves freely, while it stays over the face.
     let over = band.face_seen_from(end);
     let along = end + (least - over.front).max(0.0) * over.normal;
     let stays = over.front < least
@@ -350,7 +350,7 @@ fn way_out([start, end]: [DVec3; 2], distance: f64) -> Option<DVec3> {
     let (along, length_squared) = (start.dot(way), way.length_squared());
     let room = start.length_squared() - distance * distance;
     if room < 0.0 {
-        // From inside it may come out, but not through the middle.
+        // From inside it may leave, but not through the middle.
         let is_same_side = start.dot(end) > 0.0;
         if is_same_side && end.length_squared() >= distance * distance {
             return None;

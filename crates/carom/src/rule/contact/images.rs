@@ -1,4 +1,4 @@
-//! Pairs of spheres that may touch across the faces of a periodic box: of one of them it is an image.
+//! Pairs of spheres that may touch across the faces of a periodic box: one of them is an image.
 
 use glam::DVec3;
 
@@ -7,7 +7,7 @@ use super::slots::Slots;
 use crate::detect::broad_phase::BroadPhase;
 use crate::rule::periodic::image_shift;
 
-/// A pair of slots, the smaller one first, and from where the second sphere is to its image that the first may
+/// A pair of slots, the smaller one first, with the offset from the second sphere to its image that the first may
 /// touch \[m\].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -19,9 +19,9 @@ pub(super) struct ImagePair {
 /// Working memory of the search for such pairs.
 #[derive(Debug, Clone, Default)]
 pub(super) struct ImageSearch {
-    /// The slots of spheres near a face, and where they are.
+    /// Spheres near a face.
     own: Vec<Place>,
-    /// The same of images.
+    /// Images near a face.
     images: Vec<Place>,
     phases: [BroadPhase; 2],
     found: Vec<(u32, u32)>,
@@ -100,7 +100,7 @@ impl ImageSearch {
 }
 
 impl ImagePair {
-    /// Of a sphere and the image of another one.
+    /// The pair of a sphere and the image of another one.
     fn of(first: Place, second: Place) -> Self {
         if first.slot < second.slot {
             Self { slots: [first.slot, second.slot], shift: second.shift }

@@ -1,4 +1,4 @@
-//! What the impacts of a sub-step report.
+//! Reports of the impacts of a sub-step.
 
 use glam::DVec3;
 
@@ -36,7 +36,7 @@ fn of_pairs(solver: &Solver, slab: &Slab, time: f64, impacts: &mut Vec<Impact>) 
         }
         if solver.slots.id[first] > solver.slots.id[second] {
             (first, second, normal) = (second, first, -normal);
-            // From zero, for it not to become -0.
+            // Subtracted from zero, so that zero does not become -0.
             tangential_impulse = DVec3::ZERO - tangential_impulse;
         }
         let at = &solver.slots;

@@ -1,9 +1,9 @@
-//! Which contacts each sphere is in.
+//! The contacts of each sphere.
 
 use crate::rule::contact::batch::{Impulses, set};
 use crate::rule::contact::slab::{Slab, Slabs};
 
-/// Where a contact is kept.
+/// The place of a contact in memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Origin {
     /// In a lane of a batch of a slab.
@@ -22,7 +22,7 @@ impl Origin {
         slabs.list.get_mut(number as usize).unwrap_or(&mut slabs.far)
     }
 
-    /// Makes the contact no impact, and sets its impulses and minus the least normal velocity that it allows
+    /// Makes the contact a plain one with these impulses and minus the least normal velocity that it allows
     /// \[m/s\].
     pub fn set(self, slabs: &mut Slabs, kept: Impulses, bias: f64) {
         match self {
@@ -50,13 +50,13 @@ impl Origin {
 /// The contacts of each sphere, by slot, as the last search for neighbours left them.
 #[derive(Debug, Clone, Default)]
 pub struct Incidence {
-    /// Where those of each slot begin in `origins`; empty until someone asks for them.
+    /// Start of each slot's contacts in `origins`; empty until they are needed.
     starts: Vec<u32>,
     origins: Vec<Origin>,
 }
 
 impl Incidence {
-    /// Forgets all: contacts are made anew.
+    /// Clears the lists, since contacts are made again.
     pub fn clear(&mut self) {
         self.starts.clear();
     }

@@ -1,5 +1,4 @@
-//! The stages of a sub-step that change pairs of spheres: a batch at a time, one contact in each lane of the
-//! processor's vectors.
+//! Sweep and Correct for pairs of spheres: one batch at a time, one contact per lane of the processor's vectors.
 
 use fearless_simd::{Level, Simd, dispatch};
 
@@ -14,8 +13,8 @@ use super::sub_step::{RELAXATION, SLOP};
 use crate::lanes::Lanes;
 use crate::real::Real;
 
-/// Sweeps over the contacts of a run, forwards or backwards: each gets the impulse that it needs with
-/// the others as they are. Finds the largest change of an impulse, and the largest impulse.
+/// Sweeps over the contacts of a run, forwards or backwards: each gets the impulse that it needs with the others as
+/// they are. Returns the largest change of an impulse and the largest impulse.
 pub(super) fn sweep(run: &mut Run, batches: &mut Batches, backwards: bool) -> SlabTotals {
     let level = Level::new();
     macro_rules! sweep {
@@ -68,7 +67,7 @@ fn sweep_all<S: Simd, const FRICTION: bool, const ROLLING: bool>(
     SlabTotals { change, excess, impulse, ..SlabTotals::default() }
 }
 
-/// What solving a batch comes to.
+/// Result of solving a batch.
 struct Solved<S: Simd> {
     /// Changes of the normal impulses \[N s\].
     change: Lanes<S>,
@@ -171,7 +170,7 @@ fn correct_all<S: Simd>(simd: S, run: &mut Run, batches: &Batches) -> f64 {
         let length = offset.length_squared().sqrt();
         let radius_sum = Lanes::each(simd, approach.radius_sum);
         let overlap = radius_sum * (1.0 - SLOP) - length;
-        // Centres that coincide are left to the velocities.
+        // Coincident centres are separated by the velocities alone.
         let is_whole = Lanes::all(simd, TINY).is_less(length);
         let overlap = overlap.max(zero).select(is_whole, zero);
         if !is_any(simd, overlap) {

@@ -1,11 +1,11 @@
-//! What cascades come to in a sub-step.
+//! Results of cascades in a sub-step.
 
 use glam::DVec3;
 
 use super::batch::Impulses;
 use super::incidence::Origin;
 
-/// Where a cascade takes a sphere.
+/// The state of a sphere after a cascade.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Landed {
     pub slot: u32,
@@ -20,18 +20,18 @@ pub(super) struct Landed {
     pub way: DVec3,
     /// The same of the products with the velocity that drag acts on \[m²/s\].
     pub against_drag: f64,
-    /// Whether contacts bear it in the end.
+    /// Whether the sphere presses on something at the end.
     pub bears: bool,
     /// Whether it has met a surface.
     pub met_surface: bool,
 }
 
-/// What cascades came to in a sub-step.
+/// The results of the cascades of a sub-step.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Landings {
-    /// The spheres that they took through it, by slot.
+    /// The spheres of cascades, by slot.
     pub spheres: Vec<Landed>,
-    /// What their contacts begin the next sub-step with.
+    /// The impulses with which their contacts start the next sub-step.
     pub contacts: Vec<(Origin, Impulses)>,
 }
 
@@ -41,7 +41,7 @@ impl Landings {
         self.of(slot).is_some()
     }
 
-    /// Where the sphere in a slot came to, if it is among them.
+    /// The result for the sphere in a slot, if it was in a cascade.
     pub fn of(&self, slot: usize) -> Option<&Landed> {
         let place = |it: &Landed| it.slot as usize;
         let found = self.spheres.binary_search_by_key(&slot, place).ok()?;

@@ -1,4 +1,4 @@
-//! The contacts of a world, as they are listed.
+//! The list of the contacts of a world.
 
 use glam::DVec3;
 
@@ -10,11 +10,10 @@ use crate::persistent_contact::PersistentContact;
 use crate::report::BodyPair;
 use crate::system::System;
 
-/// A contact slides whose tangential impulse is this part of the largest possible one at least.
+/// A contact slides where the tangential impulse is at least this part of the largest possible.
 const SLIDES: f64 = 1.0 - 1e-9;
 
-/// The contacts that bore something in the last sub-step, in order of their bodies, pairs of spheres
-/// first.
+/// The contacts that pressed in the last sub-step, in the order of their bodies, pairs of spheres first.
 pub(crate) fn persistent_contacts(solver: &Solver, system: &System) -> Vec<PersistentContact> {
     if solver.is_changed {
         return Vec::new();

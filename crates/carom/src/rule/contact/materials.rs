@@ -1,5 +1,5 @@
-//! Materials: spheres that say the same of restitution and friction, so that what a pair has of both is
-//! looked up and not combined anew at each search.
+//! Materials: spheres with equal restitution and friction. The coefficients of each pair of materials are combined
+//! once and looked up at each search.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use crate::system::System;
 /// With more materials than this, pairs are combined one by one.
 const MOST: usize = 64;
 
-/// What two bodies in contact have of restitution and friction.
+/// The coefficients of two bodies in contact.
 #[derive(Debug, Clone, Copy, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct ContactMaterial {
@@ -20,13 +20,13 @@ pub(super) struct ContactMaterial {
 }
 
 impl ContactMaterial {
-    /// That of these bodies.
+    /// The coefficients of these bodies.
     pub fn of(bodies: Bodies, system: &System) -> Self {
         Self { restitution: restitution_of(bodies, system), friction: friction_of(bodies, system) }
     }
 }
 
-/// The material of each sphere, and what each two of them have in contact.
+/// The material of each sphere, and the coefficients of each pair of materials.
 #[derive(Debug, Clone, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Materials {
@@ -38,7 +38,7 @@ pub(super) struct Materials {
 }
 
 impl Materials {
-    /// Those of the spheres of now.
+    /// The materials of the present spheres.
     pub fn of(system: &System) -> Self {
         let spheres = system.spheres;
         let mut known: BTreeMap<[u64; 5], u8> = BTreeMap::new();
@@ -62,7 +62,7 @@ impl Materials {
         Self { of_sphere, table, count: examples.len() }
     }
 
-    /// What two spheres, given by index, have in contact.
+    /// The coefficients of two spheres, given by index.
     pub fn of_pair(&self, [first, second]: [u32; 2], system: &System) -> ContactMaterial {
         if self.of_sphere.is_empty() {
             return ContactMaterial::of(Bodies::Pair(first, second), system);
@@ -75,7 +75,7 @@ impl Materials {
     }
 }
 
-/// The bits of what a sphere says, the same for spheres of one material.
+/// The bits of a sphere's coefficients, equal for spheres of one material.
 fn key(restitution: f64, friction: Friction) -> [u64; 5] {
     let bits = |said: Option<f64>| said.map_or(u64::MAX, f64::to_bits);
     [

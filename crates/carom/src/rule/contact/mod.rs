@@ -4,9 +4,9 @@
 //! A frame is cut into sub-steps of equal length, more where forces or turning surfaces do much in one. Each goes
 //! through these stages:
 //!
-//! 1. **Wake.** What something is about to hit wakes.
-//! 2. **Accelerate.** Velocities gain what forces give them.
-//! 3. **Search.** Where a sphere may leave the margin of the last search, neighbours are found anew.
+//! 1. **Wake.** Spheres that something is about to hit wake.
+//! 2. **Accelerate.** Forces change velocities.
+//! 3. **Search.** Where a sphere may leave the margin of the last search, neighbours are found again.
 //! 4. **Prepare.** Normals, gaps and impacts; contacts begin with the impulses of the sub-step before.
 //! 5. **Sweep.** Each contact in turn gets the impulse that it needs, by Gauss and Seidel.
 //! 6. **Follow cascades.** Small islands go from impact to impact.
@@ -77,7 +77,7 @@ use crate::work::{StopRequest, Work};
 /// Work of a sub-step, for each sphere.
 const UNITS_PER_SPHERE: u64 = 16;
 
-/// A frame of `h` \[s\] in which all spheres sleep; one that spins where it lies goes on with that.
+/// A frame of `h` \[s\] in which all spheres sleep; a sphere that spins in its place keeps spinning.
 pub(crate) fn rest(solver: &Solver, motion: &mut Motion, h: f64, report: &mut StepReport) {
     report.contact_account.asleep = solver.asleep();
     if motion.spin.angular_velocity.iter().any(|&it| it != DVec3::ZERO) {
@@ -95,7 +95,7 @@ pub(crate) struct Memory<'a> {
     pub tracks: &'a mut Tracks,
 }
 
-/// Advances all spheres by one frame. Returns whether it came to its end, or a request stopped it.
+/// Advances all spheres by one frame. Returns whether the frame was completed; a request may stop it.
 pub(crate) fn step(
     system: &System,
     parameters: Contact,
@@ -122,8 +122,8 @@ pub(crate) fn step(
     true
 }
 
-/// Advances all spheres by one sub-step, the first one of a frame: for a rule that looks at them after
-/// each, and changes nothing but which spheres there are.
+/// Advances all spheres by one sub-step, the first one of a frame, for a rule that reads them after each and
+/// changes only which spheres there are.
 pub(crate) fn tick(
     system: &System,
     parameters: Contact,

@@ -1,4 +1,4 @@
-//! Neighbours: when they are found anew, and what contacts are made of them.
+//! Search: when neighbours are found again, and the contacts that are made of them.
 
 use glam::DVec3;
 
@@ -27,8 +27,8 @@ use crate::system::System;
 /// Two images are equally near whose squared distances differ by less than this part.
 const ROUNDING: f64 = 1e-9;
 
-/// Puts spheres into the order of space, finds which may touch, and makes contacts of them, which go on
-/// from the impulses that they had.
+/// Sorts spheres by place, finds those that may touch, and makes contacts of them that start from their former
+/// impulses.
 pub(super) fn search(
     system: &System,
     frame: Interval,
@@ -91,7 +91,7 @@ pub(super) fn search(
     report.work.pair_tests += search.take_tests();
 }
 
-/// Keeps the impulses of all contacts that are not to sleep on.
+/// Saves the impulses of all contacts that stay awake.
 fn collect(solver: &Solver, warm_start: &mut WarmStart) {
     let Solver { slots, slabs, dormant, .. } = solver;
     warm_start.collect(slabs, slots.len(), |slot| slot as u32);
@@ -120,7 +120,7 @@ fn divide(slots: &Slots, slabs: &mut Slabs, search: &Search) {
     slabs.far.batches.clear(slots.len());
 }
 
-/// Takes out the pairs of which both sleep, and notes those of which one does.
+/// Removes the pairs of which both sleep, and notes those of which one does.
 fn watch_sleepers(slots: &Slots, pairs: &mut Vec<[u32; 2]>, watched: &mut Vec<[u32; 2]>) {
     pairs.retain(|&pair| {
         watch(slots, pair, watched);
@@ -137,7 +137,7 @@ fn watch(slots: &Slots, [first, second]: [u32; 2], watched: &mut Vec<[u32; 2]>) 
     }
 }
 
-/// What contacts are made of.
+/// The input for making contacts.
 #[derive(Clone, Copy)]
 struct Known<'a> {
     system: &'a System<'a>,
@@ -148,15 +148,15 @@ struct Known<'a> {
     materials: &'a Materials,
     kinds: ContactKinds,
     places: &'a Places,
-    /// How far spheres may go together until the next search \[m\].
+    /// Longest common path until the next search \[m\].
     drift: f64,
     /// What is left of the frame \[s\].
     left: f64,
 }
 
 impl Known<'_> {
-    /// Makes the contacts of all slabs, side by side: first those that bear something, so that most others come
-    /// to batches in which sweeps have little to do.
+    /// Makes the contacts of all slabs in parallel: first those that press, so that most others come into batches
+    /// with little work for sweeps.
     fn add_contacts(&self, slabs: &mut Slabs) {
         let Slabs { list, far } = slabs;
         let ends: Vec<usize> = list.iter().map(|slab| slab.end).collect();
@@ -190,8 +190,8 @@ impl Known<'_> {
         }
     }
 
-    /// What is known of the spheres in two slots, counted from the start of a run, of which the second touches
-    /// by its image that is shifted so \[m\].
+    /// The pair of the spheres in two slots, counted from the start of a run, where the second one touches by its
+    /// image at this offset \[m\].
     #[inline(always)]
     fn pair(&self, slots: [u32; 2], shift: DVec3, start: usize) -> Pair {
         let at = self.slots;

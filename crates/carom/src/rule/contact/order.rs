@@ -6,8 +6,8 @@ use super::row::Row;
 
 /// Cells along an axis at most; beyond, spheres share the outermost ones.
 const MOST_CELLS: f64 = 1024.0;
-/// Cells for each sphere at most, all in all: where spheres are scattered, cells are wider. With few of them, those
-/// that fly apart would share cells with many.
+/// Largest number of cells per sphere: where spheres are scattered, cells are wider. With few cells, spheres that
+/// fly apart would share cells with many.
 const CELLS_PER_SPHERE: f64 = 32.0;
 
 /// A grid over all spheres. Its slowest axis makes layers.
@@ -15,7 +15,7 @@ const CELLS_PER_SPHERE: f64 = 32.0;
 pub(super) struct Grid {
     /// The corner where cells begin along each axis \[m\].
     origin: DVec3,
-    /// Along each axis \[1/m\]; negative where cells follow each other against it.
+    /// Cells per metre along each axis \[1/m\]; negative where the numbers of cells fall along it.
     cells_per_metre: DVec3,
     /// Of a cell \[m\].
     width: f64,
@@ -26,8 +26,8 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    /// A grid of cells of this width at least \[m\] over these centres \[m\], whose fastest axis is that of
-    /// the forces: columns stay together, and what presses comes before what bears it.
+    /// A grid over these centres \[m\] with cells of at least this width \[m\]. Its fastest axis is that of the
+    /// forces: columns stay together, and a sphere comes before those on which it lies.
     pub fn over(centers: &[Row], width: f64, down: DVec3) -> Self {
         let bounds = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         let (low, high) = centers
@@ -104,7 +104,7 @@ pub(super) fn sort(
     order: &mut Vec<u32>,
 ) {
     starts.clear();
-    // One place further than the starts will be, which makes room to count on while sorting.
+    // Shifted by one place, which leaves room to count while sorting.
     starts.resize(count + 2, 0);
     for &cell in cells {
         starts[cell as usize + 2] += 1;

@@ -1,4 +1,4 @@
-//! Where surfaces are at both ends of a sub-step.
+//! Surfaces at both ends of a sub-step.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +15,7 @@ use crate::surface::{Form, Role, Surface, SurfaceMotion};
 /// Growth of the search distance when more images are needed; this is rare.
 const IMAGES_FARTHER: f64 = 1.5;
 
-/// Where a surface is, and how it moves.
+/// The form and motion of a surface.
 pub(super) type Place = (Form, SurfaceMotion);
 
 /// An image of a surface in a periodic box: the number of the surface, and boxes between both along each axis.
@@ -30,22 +30,22 @@ pub(super) struct Places {
     /// At its end; empty where all are at rest.
     #[cfg_attr(feature = "serde", serde(skip))]
     ends: Vec<Place>,
-    /// The numbers of those that move and deflect.
+    /// The numbers of moving surfaces that deflect spheres.
     moving: Vec<u32>,
-    /// Of those of them that do not move steadily, their number and bounds for the frame of the speed of their origin
-    /// \[m/s\] and of their angular velocity \[rad/s\]; ascending.
+    /// Number, and bounds for the frame of the speed of the origin \[m/s\] and of the angular velocity \[rad/s\],
+    /// of the surfaces that do not move steadily; ascending.
     #[cfg_attr(feature = "serde", serde(skip))]
     fastest: Vec<(u32, [f64; 2])>,
     /// The images that spheres may touch.
     images: Vec<(ImageKey, DVec3)>,
     /// Their numbers.
     number_of: BTreeMap<ImageKey, u32>,
-    /// Images are known that come so near to the box \[m\].
+    /// Largest distance from the box of known images \[m\].
     image_reach: f64,
 }
 
 impl Places {
-    /// Takes over the surfaces of a frame of `h` \[s\] that begins.
+    /// Copies the surfaces for a frame of `h` \[s\] that begins.
     pub fn begin_frame(&mut self, surfaces: &[Surface], h: f64) {
         place_all(surfaces, 0.0, &mut self.starts);
         place_images(surfaces, &self.images, &mut self.starts);
@@ -61,8 +61,8 @@ impl Places {
         }));
     }
 
-    /// Finds where surfaces that move are when a sub-step ends, between two times of the frame \[s\]. Those that do not
-    /// move steadily do so over the sub-step, to where they are at its end.
+    /// Computes the places of moving surfaces at the end of a sub-step, between two times of the frame \[s\].
+    /// Surfaces that do not move steadily do so within the sub-step, between their places at both ends.
     pub fn begin_sub_step(&mut self, surfaces: &[Surface], times: [f64; 2]) {
         if !self.moving.is_empty() {
             place_all(surfaces, times[1], &mut self.ends);
@@ -75,7 +75,7 @@ impl Places {
         }
     }
 
-    /// Goes on to the next sub-step.
+    /// Moves on to the next sub-step.
     pub fn end_sub_step(&mut self) {
         if !self.moving.is_empty() {
             std::mem::swap(&mut self.starts, &mut self.ends);
@@ -101,7 +101,7 @@ impl Places {
                     number_of.insert((number, offset), starts.len() as u32);
                     images.push(((number, offset), shift));
                     let place = (surface.form.shifted(shift), surface.motion);
-                    // It is known where those that move end, and so of all, once a sub-step has begun.
+                    // Once a sub-step has begun, the ends of all surfaces are known.
                     if !ends.is_empty() {
                         ends.push(place.clone());
                     }
@@ -111,7 +111,7 @@ impl Places {
         }
     }
 
-    /// Forgets all images: surfaces are others.
+    /// Forgets all images, because the surfaces changed.
     pub fn forget_images(&mut self) {
         self.images.clear();
         self.number_of.clear();
@@ -123,8 +123,7 @@ impl Places {
         self.number_of.get(&(surface, offset)).copied()
     }
 
-    /// The number of the surface of which one is the image, and the way from it \[m\]; of a surface itself, its own
-    /// number.
+    /// The surface of which this is the image, with the offset from it \[m\]; of a surface itself, its own number.
     pub fn image(&self, number: u32) -> (u32, DVec3) {
         let own = self.starts.len() - self.images.len();
         match self.images.get((number as usize).wrapping_sub(own)) {
@@ -133,7 +132,7 @@ impl Places {
         }
     }
 
-    /// The number of the surface of which one is the image; of a surface itself, its own number.
+    /// The surface of which this is the image; of a surface itself, its own number.
     pub fn surface_of(&self, number: u32) -> u32 {
         self.image(number).0
     }
@@ -186,8 +185,8 @@ impl Places {
         }
     }
 
-    /// The highest speed \[m/s\] at which a moving surface may come to a sphere with this centre \[m\], radius \[m\]
-    /// and velocity \[m/s\] within a time \[s\].
+    /// The highest speed \[m/s\] with which a moving surface may approach a sphere with this centre \[m\], radius
+    /// \[m\] and velocity \[m/s\] within a time \[s\].
     pub fn approach(&self, (center, radius): (DVec3, f64), velocity: DVec3, time: f64) -> f64 {
         let speed = |&number: &u32| {
             let (form, motion) = self.at_start(number);

@@ -10,7 +10,7 @@ const NEAR: f64 = 0.05;
 /// A sphere is also near another one that it meets within this number of sub-steps.
 const SUB_STEPS: f64 = 16.0;
 
-/// By index, whether something but forces and lone bounces changed the velocity of each sphere in the last
+/// By index, whether something other than forces and single bounces changed the velocity of each sphere in the last
 /// sub-step.
 pub(crate) fn bearing(solver: &Solver) -> impl Iterator<Item = (u32, bool)> {
     solver.slots.index.iter().copied().zip(solver.slots.bears.iter().copied())
@@ -19,11 +19,11 @@ pub(crate) fn bearing(solver: &Solver) -> impl Iterator<Item = (u32, bool)> {
 /// Proximity of a sphere to the nearest other one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Proximity {
-    /// It meets none soon.
+    /// The sphere meets no other one soon.
     Apart,
-    /// It touches one, or may soon.
+    /// The sphere touches another one, or may soon.
     Near,
-    /// It overlaps one by more than what is left as it is.
+    /// The sphere overlaps another one by more than the slop.
     Overlaps,
 }
 

@@ -1,18 +1,18 @@
-//! How finely time is cut: sub-steps short enough for what forces and turning surfaces do in one.
+//! Number of sub-steps: short enough for the changes by forces and turning surfaces in one.
 
 use glam::DVec3;
 
 use super::slots::Slots;
 use super::solver::Solver;
 
-/// In a sub-step of the length h, what accelerates with a from rest goes by h² a: by no more than the square of
+/// In a sub-step of the length h, a sphere that accelerates with a from rest moves by h² a: at most the square of
 /// this part of its radius.
 const FALL: f64 = 0.25;
 /// A surface turns by no more than this angle in a sub-step \[rad\].
 pub(crate) const TURN: f64 = 0.25;
 /// In a periodic box no sphere goes farther in a sub-step than this part of its shortest edge, beside the mean motion.
 const OF_BOX: f64 = 0.125;
-/// Sub-steps are halved so often at most.
+/// Largest number of halvings of sub-steps.
 const MOST_HALVINGS: u32 = 6;
 
 /// Returns the number of sub-steps of a frame of this length \[s\]: that of the parameters, or twice, four

@@ -1,22 +1,22 @@
-//! Whether spheres that bear each other are at rest as a whole: each of them may be slow while all roll down a
-//! gentle slope.
+//! Whether spheres that press on each other are at rest as a whole: each may be slow while all roll down a gentle
+//! slope.
 
 use glam::DVec3;
 
 use super::slots::Slots;
 use crate::connected::Connected;
 
-/// A group is at rest that is slower than this part of sqrt(a r): in the time sqrt(r / a) it moves by this part of
+/// A group is at rest if it is slower than this part of sqrt(a r): in the time sqrt(r / a) it moves by this part of
 /// the radius.
 const AT_REST: f64 = 1e-3;
-/// A group stays at rest that accelerates by less than this part of what forces alone would do: in the time
+/// A group stays at rest if it accelerates by less than this part of the acceleration by forces alone: in the time
 /// sqrt(r / a) it moves by half this part of the radius.
 const TOGETHER: f64 = 2e-3;
-/// A sphere that touches no other one stays at rest where contacts take away, up to rounding, what forces do to it:
-/// its contacts with surfaces are solved that well.
+/// A sphere that touches no other one stays at rest where its contacts cancel the forces on it, up to this part:
+/// contacts with surfaces are solved that well.
 const ALONE: f64 = 1e-9;
 
-/// Spheres that bear each other, and are awake.
+/// Awake spheres that press on each other.
 #[derive(Clone, Copy, Default)]
 struct Group {
     count: u32,

@@ -6,16 +6,16 @@ use glam::DVec3;
 use crate::lanes::{LANES, Lanes};
 use crate::real::Vector;
 
-/// A vector and one number more, in one piece of memory that a vector of the processor holds.
+/// A vector and a fourth number, in one piece of memory that fits a vector of the processor.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[repr(align(32))]
 pub(super) struct Row(pub [f64; 4]);
 
-/// What stands in lanes beyond the last row: at rest, with a mass.
+/// The value of lanes beyond the last row: at rest, with a mass.
 const BEYOND: Row = Row([0.0, 0.0, 0.0, 1.0]);
 
-/// What stands there among the places from which spheres may go so far: any distance is within reach.
+/// The value of lanes beyond the last reference place: any distance is within reach.
 pub(super) const BOUNDLESS: Row = Row([0.0, 0.0, 0.0, f64::INFINITY]);
 
 impl Row {
@@ -71,7 +71,7 @@ pub(super) fn columns_or<S: Simd>(
     (Vector { x, y, z }, number)
 }
 
-/// Puts vectors and numbers side by side into the rows from one on.
+/// Stores vectors and numbers of lanes into the rows from one on.
 #[inline(always)]
 pub(super) fn store<S: Simd>(
     rows: &mut [Row],
@@ -99,7 +99,7 @@ pub(super) fn flags<S: Simd, T: Copy + Default>(
     Lanes::all(simd, 0.0).is_less(numbers)
 }
 
-/// The items from one on, and beyond the last one something else.
+/// The items from one on; `beyond` after the last.
 #[inline(always)]
 fn four<T: Copy>(items: &[T], first: usize, beyond: T) -> [T; LANES] {
     let rest = items.get(first..).unwrap_or_default();

@@ -14,32 +14,32 @@ use super::slots::Slots;
 use crate::detect::broad_phase::BroadPhase;
 use crate::parallel;
 
-/// A sphere may go at least this part of its radius from where a search found it.
+/// Least distance of a sphere from its place at a search, as a part of its radius, before the next search.
 const LEAST_MARGIN: f64 = 0.04;
-/// A sphere may go at most this part of its radius, unless it goes farther in a sub-step.
+/// Largest such distance, unless the sphere moves farther in a sub-step.
 const MOST_MARGIN: f64 = 0.3;
-/// Where fewer than this part of all, or so many, would go farther, these may go [`MOST_OF_FEW`] times
-/// their radius: for a few there are few pairs more.
+/// Where at most this part of all spheres, or this number, would move farther, they may move [`MOST_OF_FEW`] times
+/// their radius: few spheres add few pairs.
 const FEW: (f64, usize) = (1.0 / 32.0, 16);
 const MOST_OF_FEW: f64 = 8.0;
-/// Margins are to be this part of the mean radius in the mean: with wider ones there are fewer searches,
-/// but more contacts that bear nothing.
+/// Mean margin as a part of the mean radius: wider margins mean fewer searches, but more contacts that do not
+/// press.
 const MEAN_MARGIN: f64 = 0.15;
-/// In a periodic box, spheres may go at most this part of its shortest edge, unless they go farther in a sub-step:
-/// so two never reach images of each other that are farther than the next box.
+/// In a periodic box, spheres may move at most this part of its shortest edge, unless they move farther in a
+/// sub-step: so two never reach images beyond the next box.
 const MOST_OF_BOX: f64 = 0.25;
 /// Least and most frames that a search is to last at the present speeds.
 const LASTING: [f64; 2] = [1.5, 16.0];
 /// Speeds may grow by this factor meanwhile.
 const FASTER: f64 = 1.1;
-/// A sphere is wide whose reach is more than this many times the mean: it is looked for in all cells that
-/// it may reach, so that cells can fit the others.
+/// A sphere is wide if its reach is more than this many times the mean. It is looked for in all cells that it may
+/// reach, so that cells can fit the others.
 const WIDE: f64 = 1.5;
 /// With more wide ones than this part of all, spheres are found by a hierarchy of grids.
 const MOST_WIDE: f64 = 1.0 / 16.0;
 
-/// How far spheres of this mean radius \[m\] may go, as a part of it: farther the more room there is for
-/// each, up to where another one lies in the mean.
+/// How far spheres of this mean radius \[m\] may move, as a part of it: the more room each has the farther, up to
+/// the mean distance of the next one.
 fn most_among(slots: &Slots, radius: f64) -> f64 {
     let bounds = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let centers = slots.position.iter().map(|row| row.vector());
@@ -49,8 +49,8 @@ fn most_among(slots: &Slots, radius: f64) -> f64 {
     (0.5 * libm::cbrt(room) - 1.0).clamp(MOST_MARGIN, MOST_OF_FEW)
 }
 
-/// What moving surfaces may add to the speed of a sphere in a frame of this length \[s\] \[m/s\]: an elastic one
-/// adds twice the speed at which they meet.
+/// Speed that moving surfaces may add to a sphere in a frame of this length \[s\] \[m/s\]: an elastic impact adds
+/// twice the speed of approach.
 fn hit(surfaces: &Places, slots: &Slots, slot: usize, frame: f64) -> f64 {
     if surfaces.moving().is_empty() {
         return 0.0;
@@ -67,7 +67,7 @@ pub(super) struct Search {
     starts: Vec<u32>,
     /// By slot, how far each sphere may go \[m\].
     margins: Vec<f64>,
-    /// The slot that each sphere is in before it is moved, in the new order.
+    /// The former slot of each sphere, in the new order.
     from: Vec<u32>,
     slot_of: Vec<u32>,
     cells: Vec<u32>,
@@ -82,9 +82,9 @@ pub(super) struct Search {
 }
 
 impl Search {
-    /// Sorts spheres by space, and notes from where they may go how far, in frames of `frame` and sub-steps
-    /// of `h` \[s\]. Returns the motion that they have in common, beside which they may go so far. Where
-    /// there are surfaces they may turn round, and be hit by those that move.
+    /// Sorts spheres by place, and notes their places and margins, in frames of `frame` and sub-steps of `h` \[s\].
+    /// Returns the common motion, to which the margins are relative. Where there are surfaces, spheres may reverse,
+    /// and moving surfaces may hit them.
     pub fn arrange(
         &mut self,
         slots: &mut Slots,
@@ -104,7 +104,7 @@ impl Search {
         cells.extend(
             slots.position.iter().map(|row| grid.number(grid.cell_of(row.vector())) as u32),
         );
-        // By index, for the order of spheres in one cell not to depend on the order of now.
+        // By index, so that the order in a cell does not depend on the present order.
         slot_of.resize(count, 0);
         slots.index.iter().zip(0..).for_each(|(&index, slot)| slot_of[index as usize] = slot);
         order::sort(grid.len(), cells, slot_of, starts, from);
@@ -118,8 +118,8 @@ impl Search {
         drift
     }
 
-    /// How far each sphere may go beside the common motion: in the mean a given part of the radius, but
-    /// farther the faster it is, for a few fast ones not to have all looked for again and again.
+    /// The margin of each sphere relative to the common motion: on average a given part of the radius, but more for
+    /// faster spheres, so that a few fast ones do not cause frequent searches.
     fn find_margins(
         &mut self,
         slots: &Slots,
@@ -133,7 +133,7 @@ impl Search {
         let radii = slots.position.iter().map(|row| row.number()).sum::<f64>();
         let [least, most] = LASTING.map(|frames| frames * frame + h);
         let lasting = (MEAN_MARGIN * radii / speeds.max(f64::MIN_POSITIVE)).clamp(least, most);
-        // What is slow among fast ones may be hit, and fly as they do.
+        // A slow sphere among fast ones may be hit and fly like them.
         let mean_speed = speeds / count;
         let farthest = MOST_OF_BOX * slots.period.min_element();
         let wanted = |slot: usize| {
@@ -147,7 +147,7 @@ impl Search {
         self.margins.extend((0..slots.len()).map(|slot| {
             let bounded = wanted(slot).clamp(LEAST_MARGIN, most) * slots.position[slot].number();
             let bounded = bounded.min(farthest);
-            // Within a sub-step it goes on by half of what it does in one, or turns round at a surface.
+            // Within a sub-step it may move on by half its path, or reverse at a surface.
             let row = &slots.velocity[slot];
             let beside = 1.5 * speed(row).max(mean_speed);
             let turned = row.vector().length() + velocity.length();
@@ -223,7 +223,7 @@ impl Search {
         }
     }
 
-    /// How far spheres may reach beyond the box until the next search, by radii and margins \[m\].
+    /// How far spheres may reach beyond the box until the next search, with radii and margins \[m\].
     pub fn reach(slots: &Slots) -> f64 {
         let reaches = slots.position.iter().zip(&slots.reference);
         reaches.map(|(place, from)| place.number() + from.number()).fold(0.0, f64::max)

@@ -1,4 +1,4 @@
-//! Slabs: runs of slots that are worked on side by side.
+//! Slabs: runs of slots that are processed in parallel.
 //!
 //! A slab has the contacts of its own spheres with each other and with those of the next slab. In the
 //! even phase slabs 0, 2, ... are at work, each with the next one's slots, in the odd phase 1, 3, ...: so
@@ -13,9 +13,9 @@ use super::slots::{Run, Slots};
 use super::surfaces::SurfaceContact;
 use crate::parallel;
 
-/// Spheres in a slab, about.
+/// Approximate number of spheres in a slab.
 const SPHERES: usize = 500;
-/// Slabs at most: of 100,000 spheres each still fits into a cache of the processor.
+/// Largest number of slabs: of 100,000 spheres each slab still fits into a cache of the processor.
 const MOST: usize = 200;
 
 /// The contacts of a run of slots.
@@ -28,14 +28,14 @@ pub(super) struct Slab {
     pub surfaces: Vec<SurfaceContact>,
     /// Pairs of slots that a search found, until contacts are made of them.
     pub pairs: Vec<[u32; 2]>,
-    /// Pairs across the faces of a periodic box, likewise.
+    /// Pairs across the faces of a periodic box that a search found, until contacts are made of them.
     pub image_pairs: Vec<ImagePair>,
     pub descent: Descent,
     /// Pairs that the search tested.
     pub tests: u64,
     /// Whether sweeps pass over it.
     pub is_done: bool,
-    /// What a stage found in this slab.
+    /// Sums and maxima of a stage in this slab.
     pub totals: SlabTotals,
 }
 
@@ -50,7 +50,7 @@ impl Slab {
 /// Number of slabs for a number of spheres.
 pub(super) fn count(spheres: usize) -> usize {
     let count = (spheres / SPHERES).clamp(1, MOST);
-    // The phases are equal in work with as many even as odd slabs.
+    // With equal numbers of even and odd slabs, both phases have the same work.
     if count > 1 { count & !1 } else { 1 }
 }
 
@@ -93,7 +93,7 @@ impl Slabs {
         self.list.iter_mut().chain([&mut self.far])
     }
 
-    /// Sum of what a stage found.
+    /// Sum of the energies of a stage.
     pub fn energy(&self) -> f64 {
         self.iter().map(|slab| slab.totals.energy).sum()
     }

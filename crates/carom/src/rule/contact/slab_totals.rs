@@ -10,14 +10,13 @@ pub(super) struct SlabTotals {
     pub work: f64,
     /// Largest change of a normal impulse \[N s\], or of a velocity \[m/s\].
     pub change: f64,
-    /// Largest speed that a contact had to be kept from \[m/s\]: in the last sweep, by how much it still
-    /// closed too fast.
+    /// Largest speed that a contact had to stop \[m/s\]; in the last sweep, by how much it still closed too fast.
     pub excess: f64,
     /// Largest normal impulse, before or after a sweep \[N s\].
     pub impulse: f64,
     /// Largest overlap, as a part of the sum of radii.
     pub overlap: f64,
-    /// Spheres that were pressed into a surface as far as it may be.
+    /// Number of spheres pressed into a surface as far as allowed.
     pub squeezed: u32,
     /// Whether a sphere may leave its margin.
     pub leaves: bool,

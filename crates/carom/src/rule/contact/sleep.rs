@@ -1,5 +1,5 @@
-//! Sleep: spheres that have been at rest for a while, and what they lie on, are left alone until something
-//! comes near or presses them otherwise than before.
+//! Sleep: spheres that have been at rest for a while are not simulated, with what they lie on, until something
+//! comes near or the load on them changes.
 //!
 //! A heap need not be at rest everywhere: what moves keeps awake what it touches, a few contacts far. One
 //! that sleeps is immovable, and bears what lies on it.
@@ -14,21 +14,20 @@ use super::solver::Solver;
 use super::sub_step::SLOP;
 use crate::report::StepReport;
 
-/// A spin is steady that a sub-step changes by less than this part of the speed of free fall over it: that
-/// of a ball about the normal on which it lies, without spinning friction.
+/// A spin is steady if a sub-step changes it by less than this part of the speed of free fall over it. A ball that
+/// spins about the normal without spinning friction has one.
 const STEADY: f64 = 1e-3;
-/// A sphere is borne that accelerates by less than this part of what forces alone would do.
+/// A sphere is supported if it accelerates by less than this part of the acceleration by forces alone.
 const UNBORNE: f64 = 0.1;
-/// How long a sphere, and all those so many contacts around it, are calm before it sleeps, in units of the time
-/// sqrt(r / a), a being what forces accelerate it by.
+/// How long a sphere, and all spheres up to [`NEAR`] contacts around it, must be calm before it sleeps, in units of
+/// the time sqrt(r / a), with a the acceleration by forces.
 pub(super) const PATIENCE: f64 = 5.0;
 /// Spheres that overlap by more than this part of the sum of their radii stay awake, for the overlap to be
 /// corrected.
 const DEEP: f64 = 4.0 * SLOP;
-/// How many contacts far a sphere that moves keeps others awake.
+/// Number of contacts up to which a moving sphere keeps others awake.
 pub(super) const NEAR: u32 = 2;
-/// Frames from one search for spheres that may sleep to the next: a search costs as much as a
-/// sweep.
+/// Frames between two searches for spheres that may sleep: a search costs as much as a sweep.
 const FRAMES: u32 = 16;
 
 /// Puts spheres to sleep that have been calm for long enough, at the end of a frame of this length \[s\].
@@ -63,7 +62,7 @@ pub(super) fn fall_asleep(solver: &mut Solver, frame: f64, report: &mut StepRepo
     solver.is_stale = true;
 }
 
-/// Ends a motion, of a sphere or of its spin. Returns its kinetic energy \[J\].
+/// Sets a velocity or a spin to zero. Returns its kinetic energy \[J\].
 fn stop(row: &mut Row) -> f64 {
     let (twice, inverse_mass) = (row.vector().length_squared(), row.number());
     *row = row.with_vector(DVec3::ZERO);
@@ -81,14 +80,14 @@ fn is_slow(slots: &Slots, sleep_speed: f64, slot: usize) -> bool {
     slots.velocity[slot].vector().length_squared() < calm_speed_squared(slots, sleep_speed, slot)
 }
 
-/// Whether contacts bear what forces do to a sphere in a sub-step of `h` \[s\].
+/// Whether contacts cancel the forces on a sphere in a sub-step of `h` \[s\].
 fn is_borne(slots: &Slots, slot: usize, h: f64) -> bool {
     let change = slots.velocity[slot].vector() - slots.before[slot].vector();
     let most = UNBORNE * h * slots.acceleration[slot].vector().length();
     change.length_squared() < most * most
 }
 
-/// Whether a sphere has no spin that does anything: it is slow, or steady over a sub-step of `h` \[s\].
+/// Whether the spin of a sphere has no effect: it is slow, or steady over a sub-step of `h` \[s\].
 fn turns_calmly(slots: &Slots, sleep_speed: f64, slot: usize, h: f64) -> bool {
     let (Some(spin), Some(before)) = (slots.spin.get(slot), slots.spin_before.get(slot)) else {
         return true;
@@ -99,8 +98,8 @@ fn turns_calmly(slots: &Slots, sleep_speed: f64, slot: usize, h: f64) -> bool {
     spin.vector().length_squared() < slow || change < steady
 }
 
-/// Counts for how long each sphere has been calm, in units of sqrt(r / a), over a frame in sub-steps of `h` \[s\].
-/// Returns the longest time of one that is awake.
+/// Counts how long each sphere has been calm, in units of sqrt(r / a), over a frame in sub-steps of `h` \[s\].
+/// Returns the longest time of an awake sphere.
 fn note_calm(slots: &mut Slots, sleep_speed: f64, frame: f64, h: f64) -> f64 {
     let mut longest = 0.0_f64;
     for slot in 0..slots.len() {
@@ -119,8 +118,8 @@ fn note_calm(slots: &mut Slots, sleep_speed: f64, frame: f64, h: f64) -> f64 {
     longest
 }
 
-/// By slot, whether a sphere has not been calm for long enough, overlaps another one, moves on with
-/// all that it touches, or is [`NEAR`] one that is so.
+/// By slot, whether a sphere has not been calm for long enough, overlaps another one, moves with all that it
+/// touches, or is [`NEAR`] such a sphere.
 fn near_restless(solver: &Solver) -> Vec<bool> {
     let Slots { sleeps, calm, position, .. } = &solver.slots;
     let is_restless = |(&sleeps, &calm): (&bool, &f64)| !sleeps && calm < PATIENCE;
@@ -169,7 +168,7 @@ pub(super) fn spread(flags: &mut Vec<bool>, contacts: &[[usize; 2]], far: Option
 /// Notes the contacts of spheres that fall asleep.
 fn keep_contacts(solver: &mut Solver, falls: &[bool]) {
     let Solver { slots, slabs, dormant, h, .. } = solver;
-    // What it pressed before it slept, too, is as now.
+    // Its loads before it slept count as present ones.
     dormant.retain(|contact| match contact.partner {
         Partner::Awake(other) => falls.get(other as usize) != Some(&true),
         _ => true,

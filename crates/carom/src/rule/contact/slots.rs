@@ -1,4 +1,4 @@
-//! Spheres in the order of memory in which the solver works on them.
+//! Slots: the spheres in the solver's order of memory.
 
 use glam::DVec3;
 
@@ -14,11 +14,11 @@ use crate::system::System;
 #[derive(Debug, Clone, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Slots {
-    /// Which sphere is in each slot.
+    /// Id of the sphere in each slot.
     pub id: Vec<SphereId>,
-    /// The index of each sphere in the world's arrays; [`GONE`] if it is there no more.
+    /// Index of each sphere in the world's arrays; [`GONE`] if it has left the world.
     pub index: Vec<u32>,
-    /// Centre \[m\] and radius \[m\]. In a periodic box it counts on across the faces from search to search.
+    /// Centre \[m\] and radius \[m\]. In a periodic box the centre is wrapped at searches only.
     pub position: Vec<Row>,
     /// Velocity \[m/s\] and 1/m \[1/kg\], 0 for one that sleeps: nothing moves it.
     pub velocity: Vec<Row>,
@@ -35,7 +35,7 @@ pub(super) struct Slots {
     pub reference: Vec<Row>,
     /// Which spheres sleep.
     pub sleeps: Vec<bool>,
-    /// For how long each sphere has been calm, in units of sqrt(r / a).
+    /// How long each sphere has been calm, in units of sqrt(r / a).
     pub calm: Vec<f64>,
     /// Whether a contact that is no bounce had an impulse in the sub-step before.
     pub bears: Vec<bool>,
@@ -77,15 +77,15 @@ impl Slots {
                 .all(|(&index, &id)| ids.get(index as usize) == Some(&id))
     }
 
-    /// Finds the spheres that are still in the world.
+    /// Updates the indices of the spheres that are still in the world.
     pub fn follow(&mut self, ids: &[SphereId]) {
         for (index, id) in self.index.iter_mut().zip(&self.id) {
             *index = ids.binary_search(id).map_or(GONE, |found| found as u32);
         }
     }
 
-    /// Puts all spheres of the world into slots, in order of their ids. What is not in the world is kept of
-    /// those that were there.
+    /// Puts all spheres of the world into slots, in the order of their ids. Known ones keep the state that is not
+    /// in the world.
     pub fn arrange(&mut self, ids: &[SphereId]) {
         let count = ids.len();
         let (mut sleeps, mut calm, mut bears) =
@@ -100,7 +100,7 @@ impl Slots {
         self.id = ids.to_vec();
     }
 
-    /// Takes over from the world where spheres are and how they move.
+    /// Copies places and motions of spheres from the world.
     pub fn read(&mut self, system: &System, motion: &Motion, with_spin: bool) {
         self.read_places(system, motion);
         let Self { index, velocity, spin, turn, .. } = self;
@@ -122,7 +122,7 @@ impl Slots {
         self.spin_before.clone_from(&self.spin);
     }
 
-    /// Takes over where spheres are. One that the world shows at the image of its place keeps that place.
+    /// Copies places of spheres from the world. A sphere whose place is the wrapped form of its own keeps its own.
     fn read_places(&mut self, system: &System, motion: &Motion) {
         let Self { index, position, period, .. } = self;
         let radii = &system.spheres.radius;
@@ -135,7 +135,7 @@ impl Slots {
         }
     }
 
-    /// Takes all spheres into the periodic box.
+    /// Wraps all spheres into the periodic box.
     pub fn wrap(&mut self) {
         if self.period != DVec3::INFINITY {
             for row in &mut self.position {
@@ -144,7 +144,7 @@ impl Slots {
         }
     }
 
-    /// Where a sphere is shown, by its slot \[m\]: in the periodic box.
+    /// Place of a sphere, by its slot, wrapped into the periodic box \[m\].
     pub fn place(&self, slot: usize) -> DVec3 {
         periodic::wrapped(self.position[slot].vector(), self.period)
     }
@@ -154,12 +154,12 @@ impl Slots {
         periodic::image_near(self.position[slot].vector(), place, self.period)
     }
 
-    /// The way from one sphere to another, or in a periodic box to its nearest image \[m\].
+    /// Offset from one sphere to another, in a periodic box to its nearest image \[m\].
     pub fn offset(&self, [from, to]: [usize; 2]) -> DVec3 {
         nearest_image(self.position[to].vector() - self.position[from].vector(), self.period)
     }
 
-    /// Takes over from the world how hard spheres are to move and to turn; those that sleep are immovable.
+    /// Copies masses and moments of inertia from the world; sleeping spheres are immovable.
     pub fn read_masses(&mut self, system: &System) {
         let spheres = system.spheres;
         for (slot, &index) in self.index.iter().enumerate() {
@@ -353,7 +353,7 @@ impl Run<'_> {
 }
 
 impl<'a> Run<'a> {
-    /// Takes a run of this number of slots from the front.
+    /// Splits a run of this number of slots off the front.
     fn take_front(&mut self, count: usize) -> Self {
         Run {
             position: front_mut(&mut self.position, count),
@@ -371,7 +371,7 @@ impl<'a> Run<'a> {
     }
 }
 
-/// Takes this number of items from the front; an array that is not kept stays empty.
+/// Splits this number of items off the front; an unused array stays empty.
 fn front_mut<'a, T>(rest: &mut &'a mut [T], count: usize) -> &'a mut [T] {
     let count = count.min(rest.len());
     let (front, behind) = std::mem::take(rest).split_at_mut(count);
@@ -389,7 +389,7 @@ fn permute<T: Copy>(items: &mut Vec<T>, from: &[u32]) {
     *items = from.iter().map(|&slot| items[slot as usize]).collect();
 }
 
-/// `(v + h a) / (1 + h c)` \[m/s\], with the rate c of drag: drag slows down, and never turns round.
+/// `(v + h a) / (1 + h c)` \[m/s\], with the rate c of drag, which never reverses a velocity.
 pub(super) fn accelerated(before: Row, acceleration: Row, h: f64) -> DVec3 {
     let gained = before.vector() + h * acceleration.vector();
     let drag = h * acceleration.number();

@@ -1,4 +1,4 @@
-//! The stages that work on contacts, slab by slab.
+//! The stages Prepare, Sweep and Correct, slab by slab.
 
 use super::aim;
 use super::conjugate;
@@ -16,9 +16,9 @@ use crate::settings::Contact;
 const CONVERGED: f64 = 1e-10;
 /// Overlap that a sub-step may add, as a part of the smallest radius, before there are more sweeps.
 const TOLERABLE: f64 = 0.001;
-/// Sweeps are this many times as many as the parameters say, at most.
+/// Largest number of sweeps, as a multiple of the parameter.
 const MORE: u32 = 8;
-/// Sweeps at most with `converged`.
+/// Largest number of sweeps with `converged`.
 const MOST_SWEEPS: u32 = 20_000;
 
 /// Prepares all contacts: normals, gaps, impacts; applies the impulses to start from.
@@ -30,9 +30,9 @@ pub(super) fn prepare(solver: &mut Solver, sub_step: &SubStep) {
     });
 }
 
-/// Sweeps over all contacts: as often as the parameters say, and on while bodies would come to overlap by
-/// more than [`TOLERABLE`]. These go in one direction, since a heap needs more that go there and back; in each slab
-/// surfaces come last, for little to be pressed through them.
+/// Sweeps over all contacts: as often as the parameters say, and longer while bodies would overlap by more than
+/// [`TOLERABLE`]. These sweeps go in one direction, since a heap needs more sweeps forth and back. In each slab
+/// surfaces come last, so that little is pressed through them.
 pub(super) fn sweep(
     solver: &mut Solver,
     sub_step: &SubStep,
@@ -48,8 +48,8 @@ pub(super) fn sweep(
     account.residual = account.residual.max(residual);
 }
 
-/// Sweeps a number of times at least, and on over the slabs that are not apart and those beside them. Gives
-/// the residual.
+/// Sweeps at least this number of times, then over the slabs that still close and those beside them. Returns the
+/// residual.
 fn sweep_until_apart(
     solver: &mut Solver,
     sub_step: &SubStep,
@@ -72,8 +72,8 @@ fn sweep_until_apart(
     }
 }
 
-/// Leaves out of sweeps the slabs whose contacts, and those of the slabs beside them, close by no more than
-/// this speed \[m/s\].
+/// Excludes from sweeps the slabs whose contacts, and those of the slabs beside them, close by no more than this
+/// speed \[m/s\].
 fn pass_over_apart(slabs: &mut Slabs, tolerable: f64) {
     let is_apart = |slab: &Slab| slab.totals.excess <= tolerable;
     let apart: Vec<bool> = slabs.list.iter().map(is_apart).collect();
@@ -84,8 +84,8 @@ fn pass_over_apart(slabs: &mut Slabs, tolerable: f64) {
     slabs.far.is_done = is_apart(&slabs.far);
 }
 
-/// Sweeps there and back until impulses hardly change; without friction along conjugate directions in
-/// between. Returns the residual.
+/// Sweeps forth and back until impulses hardly change, without friction along conjugate directions. Returns the
+/// residual.
 fn converge(solver: &mut Solver, report: &mut StepReport) -> f64 {
     let descends = !solver.kinds.friction;
     if descends {

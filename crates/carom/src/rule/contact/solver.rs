@@ -1,4 +1,4 @@
-//! What the rule keeps from frame to frame.
+//! The state of the rule between frames.
 
 use glam::DVec3;
 
@@ -21,17 +21,17 @@ use super::warm_start::WarmStart;
 pub(crate) struct Solver {
     pub(super) slots: Slots,
     pub(super) slabs: Slabs,
-    /// The impulses of contacts that were taken out of [`Self::slabs`], until the next search.
+    /// The impulses of contacts that were removed from [`Self::slabs`], until the next search.
     pub(super) warm_start: Option<WarmStart>,
-    /// The spheres that go elsewhere than their last velocity takes them, for they bounce, by slot.
+    /// Spheres, by slot, whose bounces lead elsewhere than their last velocity.
     pub(super) bounces: Vec<Bounce>,
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) landings: Landings,
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) incidence: Incidence,
-    /// Where surfaces are in the sub-step, and how they move.
+    /// Places and motions of surfaces in the sub-step.
     pub(super) places: Places,
-    /// The motion that spheres have in common since the last search.
+    /// The common motion of spheres since the last search.
     pub(super) drift: Drift,
     pub(super) kinds: ContactKinds,
     pub(super) materials: Materials,
@@ -54,7 +54,7 @@ pub(crate) struct Solver {
     pub(super) is_stale: bool,
     /// Whether something was changed from outside since the last frame.
     pub(super) is_changed: bool,
-    /// Slots of spheres that sleep, each with that of one near it that is awake.
+    /// Pairs of a sleeping sphere and an awake one near it, by slot.
     pub(super) watched: Vec<[u32; 2]>,
     /// The contacts of spheres that sleep.
     pub(super) dormant: Vec<Dormant>,
@@ -62,28 +62,28 @@ pub(crate) struct Solver {
     pub(super) sleep_speed: f64,
     /// Whether spheres at rest stay at rest: forces are constant, and surfaces fixed.
     pub(super) may_sleep: bool,
-    /// Frames since it was looked for what may fall asleep.
+    /// Frames since the last search for spheres that may sleep.
     pub(super) frames: u32,
 }
 
-/// What a bounce does to the way of a sphere in a sub-step.
+/// The effect of a bounce on the path of a sphere in a sub-step.
 #[derive(Debug, Clone, Copy)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Bounce {
     pub slot: u32,
-    /// How far the sphere is from where its last velocity takes it in the whole sub-step \[m\].
+    /// Offset from the place to which the last velocity leads in the whole sub-step \[m\].
     pub shift: DVec3,
-    /// There \[m/s\].
+    /// Velocity at the end \[m/s\].
     pub velocity: DVec3,
     /// Whether nothing else touches it in the sub-step.
     pub is_alone: bool,
-    /// Whether it turns round at a surface, or stops there.
+    /// Whether the sphere reverses or stops at a surface.
     pub is_at_surface: bool,
-    /// Where it turns round, if nothing else touches it.
+    /// The turning point, if nothing else touches the sphere.
     pub turn: Option<Turn>,
 }
 
-/// Where a sphere turns round in a sub-step.
+/// The turning point of a sphere in a sub-step.
 #[derive(Debug, Clone, Copy)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Turn {
@@ -101,8 +101,8 @@ pub(crate) struct Scratch {
 }
 
 impl Solver {
-    /// Something was changed from outside: neighbours are found anew, and whatever sleeps wakes. Contacts
-    /// keep their impulses.
+    /// Notes a change from outside: neighbours are found again, and all sleeping spheres wake. Contacts keep their
+    /// impulses.
     pub fn set_changed(&mut self) {
         self.is_changed = true;
     }

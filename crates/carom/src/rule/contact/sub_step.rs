@@ -1,25 +1,25 @@
-//! A sub-step: its length, and what tells an impact from a contact that rests.
+//! A sub-step: its length, and the speeds that separate impacts from resting contacts.
 
 use glam::DVec3;
 
 /// Overlaps up to this part of the sum of radii are left as they are, so that a contact that rests does
 /// not come and go.
 pub(super) const SLOP: f64 = 0.0005;
-/// Part of a larger overlap that a sub-step corrects. With all of it, to open a contact that bears
-/// others would close them next, and a heap would never rest.
+/// Part of a larger overlap that a sub-step corrects. With the whole overlap, opening one contact would close the
+/// next, and a heap would never rest.
 pub(super) const RELAXATION: f64 = 0.3;
-/// The impulse that a contact starts from grows by this factor from sub-step to sub-step at most, and by
-/// [`GROWTH_BY_WEIGHT`] times the impulse that its effective mass gains in free fall over one.
+/// Largest growth factor of a contact's starting impulse per sub-step, besides [`GROWTH_BY_WEIGHT`] times the
+/// impulse that its effective mass gains in free fall over one.
 pub(super) const GROWTH: f64 = 3.0;
 const GROWTH_BY_WEIGHT: f64 = 4.0;
-/// Speed in free fall over a sub-step, times this: a contact that carried something bounces only above
-/// it, for its neighbours shake it by about that much.
+/// A contact that pressed before bounces only above this multiple of the speed of free fall over a sub-step: its
+/// neighbours shake it by about that much.
 const RESTING: f64 = 10.0;
-/// A new contact bounces only above the speed that its bodies gain relative to each other in a sub-step,
-/// times this: more slowly they would be back within it.
+/// A new contact bounces only above this multiple of the relative speed that its bodies gain in a sub-step: slower
+/// ones would meet again within it.
 const NEW: f64 = 2.0;
-/// A new contact of a body that bears something bounces only above the speed of free fall over a sub-step
-/// along its normal, times [`RESTING`], and in any direction times this: it is shaken, too.
+/// A new contact of a body that presses on something bounces only above [`RESTING`] times the speed of free fall
+/// over a sub-step along its normal, and in any direction above this multiple: it is shaken, too.
 const SHAKEN: f64 = 0.5;
 
 /// A sub-step.
@@ -31,13 +31,13 @@ pub(super) struct SubStep {
     pub h: f64,
     /// Speed of approach above which a new contact of two spheres is an impact \[m/s\].
     pub impact_speed: f64,
-    /// Speed of approach above which a contact that carried something is an impact \[m/s\].
+    /// Speed of approach above which a contact that pressed before is an impact \[m/s\].
     pub resting_speed: f64,
     /// Speed that forces give a sphere in the sub-step at most \[m/s\].
     fall: f64,
     /// The acceleration of all spheres \[m/s²\], where it is one and constant.
     pub common_acceleration: Option<DVec3>,
-    /// By how much an impulse to start from may grow, by effective mass \[m/s\].
+    /// Growth allowed to a starting impulse, divided by the effective mass \[m/s\].
     pub growth: f64,
 }
 
@@ -45,7 +45,7 @@ impl SubStep {
     /// A sub-step of `h` \[s\] from a `time` \[s\] on, in which forces change velocities by at most `change`
     /// \[m/s\].
     pub fn new(time: f64, h: f64, common_acceleration: Option<DVec3>, change: f64) -> Self {
-        // Of two spheres relative to each other.
+        // For two spheres relative to each other.
         let (fall, difference) = match common_acceleration {
             Some(acceleration) => (h * acceleration.length(), 0.0),
             None => (change, 2.0 * change),
@@ -66,19 +66,19 @@ impl SubStep {
         RESTING * self.h * acceleration.length()
     }
 
-    /// By how much [`Self::growth`] is more there.
+    /// By how much [`Self::growth`] is larger beside a surface with this acceleration \[m/s²\].
     pub fn growth_at(&self, acceleration: DVec3) -> f64 {
         GROWTH_BY_WEIGHT * self.h * acceleration.length()
     }
 
-    /// Speed of approach above which a new contact of a sphere that bears something is an impact \[m/s\];
-    /// forces accelerate it by so much along the normal \[m/s²\].
+    /// Speed of approach above which a new contact of a sphere that presses on something is an impact \[m/s\], for
+    /// an acceleration by forces along the normal \[m/s²\].
     pub fn shaken_speed(&self, along: f64) -> f64 {
         let [by_weight, least] = self.shaken();
         by_weight * along.abs() + least
     }
 
-    /// What [`Self::shaken_speed`] is for each acceleration along the normal \[s\], and at least \[m/s\].
+    /// [`Self::shaken_speed`] divided by the acceleration along the normal \[s\], and its least value \[m/s\].
     pub fn shaken(&self) -> [f64; 2] {
         [RESTING * self.h, SHAKEN * self.fall]
     }

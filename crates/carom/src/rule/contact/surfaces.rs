@@ -16,7 +16,7 @@ use crate::friction::ContactFriction;
 use crate::respond;
 use crate::surface::{Form, SurfaceMotion};
 
-/// A centre is right in front of a plane, or behind it, below this part of the radius.
+/// A centre counts as in front of a plane, or behind it, beyond this part of the radius.
 const LEAST_IN_FRONT: f64 = 0.5;
 
 /// A contact of a surface, which is body 1, and a sphere, which is body 2.
@@ -30,32 +30,32 @@ pub(super) struct SurfaceContact {
     pub normal: DVec3,
     /// Centre of the sphere at the start of the sub-step \[m\].
     pub start: DVec3,
-    /// Whether the sphere flies too little in the sub-step to come past an edge of it.
+    /// Whether the path of the sphere in the sub-step is too short to pass an edge of the surface.
     is_slow: bool,
     /// Velocity of the surface where they touch \[m/s\].
     pub velocity: DVec3,
     /// Angular velocity of the surface \[rad/s\].
     angular_velocity: DVec3,
-    /// How the sphere accelerates beside a surface that turns, without forces \[m/s²\].
+    /// Acceleration of the sphere relative to a turning surface, without forces \[m/s²\].
     swing: DVec3,
-    /// What the normal velocity is to be after the sub-step at least, with the opposite sign \[m/s\].
+    /// Minus the least normal velocity after the sub-step \[m/s\].
     pub bias: f64,
     /// Speed of approach of an impact \[m/s\]; 0 if there is none.
     pub approach: f64,
-    /// Slip that an impact is to end with \[m/s\].
+    /// Slip after an impact \[m/s\].
     slip: DVec3,
     /// When in the sub-step a bounce happens \[s\].
     pub time: f64,
     pub restitution: f64,
     pub friction: ContactFriction,
-    /// Speed that the surface adds in an impact \[m/s\], and what it adds in this one.
+    /// Speed that the surface adds in an impact \[m/s\], and the part added in this one.
     pub kick: f64,
     pub kicked: f64,
     pub impulses: Impulses,
 }
 
 impl SurfaceContact {
-    /// A contact of which nothing but its bodies is known.
+    /// A contact of known bodies, not measured yet.
     pub fn new(slot: u32, surface: u32, material: ContactMaterial) -> Self {
         let ContactMaterial { restitution, friction } = material;
         Self {
@@ -79,19 +79,19 @@ impl SurfaceContact {
         }
     }
 
-    /// What it keeps from search to search. An impact leaves nothing to start from.
+    /// Impulses that the contact keeps from search to search. An impact leaves none.
     pub fn kept(&self) -> Impulses {
         let normal = if self.bias < 0.0 { 0.0 } else { self.impulses.normal };
         Impulses { normal, ..self.impulses }
     }
 
-    /// Whether the sphere comes to an impact and bounces.
+    /// Whether the contact is an impact with a bounce.
     fn is_bounce(&self) -> bool {
         self.bias < 0.0 && self.approach > 0.0
     }
 
-    /// The impulse of a bounce \[N s\] on a sphere of this mass \[kg\], without what others press it to
-    /// the surface with; `None` without a bounce.
+    /// The impulse of a bounce \[N s\] on a sphere of this mass \[kg\], without the part with which others press it
+    /// to the surface; `None` without a bounce.
     pub fn bounce(&self, mass: f64) -> Option<DVec3> {
         let bounces = self.is_bounce() && self.impulses.normal > 0.0;
         let own = mass * (1.0 + self.restitution) * self.approach + mass * self.kicked;
@@ -106,7 +106,7 @@ impl SurfaceContact {
         mass * self.kicked * (self.restitution * self.approach + 0.5 * self.kicked)
     }
 
-    /// Work that the surface does, in its place \[J\].
+    /// Work of the moving surface \[J\].
     pub fn work(&self) -> f64 {
         let angular = DVec3::from_array(self.impulses.angular);
         self.impulse().dot(self.velocity) + angular.dot(self.angular_velocity)
@@ -118,8 +118,8 @@ impl SurfaceContact {
     }
 }
 
-/// Prepares the contacts of a run: normals, gaps, what velocities must come to, and the impulses to
-/// start from, which it applies.
+/// Prepares the contacts of a run: normals, gaps, target velocities, and the impulses to start from, which it
+/// applies.
 pub(super) fn prepare(
     run: &mut Run,
     contacts: &mut [SurfaceContact],
@@ -135,8 +135,8 @@ pub(super) fn prepare(
     }
 }
 
-/// Frees a sphere that bounces and goes far from the surfaces that it would come to after its first bounce,
-/// or past, if it went straight on: it goes elsewhere, and stops at the next of them.
+/// Frees a bouncing sphere with a long path from the surfaces that it would reach or pass after its first bounce if
+/// it flew straight on: it moves elsewhere and stops at the next surface.
 fn leave_first_bounce(of_sphere: &mut [SurfaceContact]) {
     let bounces = of_sphere.iter().filter(|contact| contact.is_bounce());
     let Some(first) = bounces.map(|contact| contact.time).min_by(f64::total_cmp) else { return };
@@ -150,14 +150,14 @@ fn leave_first_bounce(of_sphere: &mut [SurfaceContact]) {
 }
 
 impl SurfaceContact {
-    /// The normal and the gap; the velocity that the sphere is to have after the sub-step.
+    /// Computes normal, gap and target velocity.
     fn aim(&mut self, run: &Run, places: &Places, sub_step: &SubStep) {
         let slot = self.slot as usize;
         let place @ (form, motion) = places.at_start(self.surface);
         let (center, radius) = (run.position[slot].vector(), run.position[slot].number());
         let before = run.before[slot].vector();
         if self.bias < 0.0 && (before - self.velocity).dot(self.normal) >= 0.0 {
-            // What stopped an impact is no longer needed, once the two part.
+            // The impulse that stopped an impact is not needed once the two part.
             self.impulses.normal = self.impulses.normal.min(self.impulses.previous);
         }
         self.start = center;
@@ -190,7 +190,7 @@ impl SurfaceContact {
         }
     }
 
-    /// Notes an impact, if the sphere comes to one within the sub-step.
+    /// Notes an impact, if there is one within the sub-step.
     fn watch_for_impact(&mut self, run: &Run, distance: f64, sub_step: &SubStep) {
         let slot = self.slot as usize;
         let speed = -(run.before[slot].vector() - self.velocity).dot(self.normal);
@@ -212,13 +212,13 @@ impl SurfaceContact {
             let radius = run.position[slot].number();
             self.note_impact((speed + pressing * time, pressing), radius, time, sub_step);
         } else if self.impulses.normal == 0.0 && distance > sub_step.h * (speed + fall) {
-            // On its parabola it does not come so far as its last velocity says.
+            // On its parabola the sphere does not get as far as with its last velocity.
             self.bias += fall.max(0.0);
         }
     }
 
-    /// Aims the contact at the impact of the sphere within the sub-step, wherever on the surface that
-    /// is; without an impact the contact bears nothing.
+    /// Computes the contact for the impact of the sphere within the sub-step, wherever on the surface that is;
+    /// without an impact the contact does not press.
     fn aim_at_impact(&mut self, run: &Run, place: &Place, sub_step: &SubStep) {
         let (form, motion) = place;
         let slot = self.slot as usize;
@@ -232,7 +232,7 @@ impl SurfaceContact {
         (self.bias, self.approach, self.kicked) = (FREE, 0.0, 0.0);
         let time = contact_time::sphere_surface(&flight, radius, form, motion, sub_step.h);
         let Some(time) = time else { return self.aim_at_end(&flight, radius, place, sub_step) };
-        // Seen from where the surface is now.
+        // Relative to the present place of the surface.
         let (there, velocity) = flight.after(time);
         let moved = motion.carried_back(there, time);
         let Some(separation) = sphere_surface(form, moved, radius) else { return };
@@ -243,7 +243,7 @@ impl SurfaceContact {
         self.bias = approach.max(0.0) * time / sub_step.h;
         self.note_impact((approach.max(0.0), pressing), radius, time, sub_step);
         if motion.turns_form(form) && self.bias >= 0.0 && is_flat(form, separation.normal) {
-            // It stays at the plane, which turns on.
+            // It stays in contact with the plane, which turns on.
             let height = (flight.position - separation.point).dot(separation.normal);
             let plane = (separation.normal, separation.point);
             (self.normal, self.velocity) =
@@ -252,8 +252,8 @@ impl SurfaceContact {
         }
     }
 
-    /// Lets the contact keep a sphere that meets nothing out of the surface at the end of its way, should
-    /// others push it there; not if it has passed the surface by then, where others may send it back.
+    /// Makes the contact hold a sphere without an impact out of the surface at the end of its path, should others
+    /// push it there; not if it has passed the surface by then, where others may send it back.
     fn aim_at_end(&mut self, flight: &Flight, radius: f64, place: &Place, sub_step: &SubStep) {
         let (form, motion) = place;
         let h = sub_step.h;
@@ -263,7 +263,7 @@ impl SurfaceContact {
         let normal = motion.turned(own, h);
         let surface_velocity = motion.velocity_after(motion.carried(point, h), h);
         let leaving = (velocity - surface_velocity).dot(normal);
-        // A plane across its way, or round the edge that it has passed, would keep it from coming back.
+        // A plane across its path, or around the edge that it has passed, would keep it from coming back.
         let was_behind = (flight.position - point).dot(own) < LEAST_IN_FRONT * radius;
         if was_behind || (leaving > 0.0 && !is_flat(form, own)) {
             return;
@@ -285,7 +285,7 @@ impl SurfaceContact {
         let pressing = pressing - self.swing.dot(self.normal);
         let kick = if approach > 0.0 { respond::kick(self.kick, pressing, radius) } else { 0.0 };
         let rebound = self.restitution * approach + kick - pressing * (sub_step.h - time);
-        // What bears something already does not bounce: it would lose the impulse to start from.
+        // A contact that already presses does not bounce: it would lose its starting impulse.
         if rebound > 0.0 && self.impulses.normal == 0.0 {
             (self.bias, self.time, self.kicked) = (-rebound, time, kick);
         }
@@ -369,8 +369,8 @@ impl SurfaceContact {
     }
 }
 
-/// Sweeps over the contacts of a run: each gets the impulses that it needs with the others as they are.
-/// Finds the largest change of a normal impulse, and the like.
+/// Sweeps over the contacts of a run: each gets the impulses that it needs with the others as they are. Returns the
+/// largest change of a normal impulse, and the other totals.
 pub(super) fn sweep(run: &mut Run, contacts: &mut [SurfaceContact], backwards: bool) -> SlabTotals {
     let mut found = SlabTotals::default();
     let mut solve = |contact: &mut SurfaceContact| found = found.or_larger(contact.solve(run));
@@ -418,8 +418,8 @@ fn is_flat(form: &Form, normal: DVec3) -> bool {
     }
 }
 
-/// The normal that a plane which turns has after `h` \[s\], and its velocity \[m/s\]: across the normal where the sphere
-/// touches it then, along it the one at which it comes to the sphere where that is now.
+/// Normal of a turning plane after `h` \[s\], and its velocity \[m/s\]: tangential to it as where the sphere
+/// touches then, along it the speed of approach to the sphere's present place.
 fn turning_plane(
     motion: &SurfaceMotion,
     (normal, point): (DVec3, DVec3),
@@ -432,7 +432,7 @@ fn turning_plane(
     (normal, velocity + (along - velocity.dot(normal)) * normal)
 }
 
-/// Slip of a sphere's surface where it touches: what of the velocity is across the normal, with spin.
+/// Slip of a sphere's surface at the contact: the tangential part of the velocity, with spin.
 fn slip(velocity: DVec3, normal: DVec3, spin: DVec3) -> DVec3 {
     velocity - normal * velocity.dot(normal) - spin.cross(normal)
 }

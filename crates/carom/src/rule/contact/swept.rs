@@ -1,4 +1,4 @@
-//! Contacts of spheres that bounce, or go far in a sub-step: whether they meet on their way, and where.
+//! Contacts of spheres that bounce, or have a long path in a sub-step: whether they meet on the way, and where.
 //!
 //! Elsewhere the normal at the start of a sub-step is as good as that at the impact, and the gap along it
 //! says when the bodies meet. A sphere that goes far would be stopped by what it passes.
@@ -10,24 +10,24 @@ use super::slots::Run;
 use super::sub_step::SubStep;
 use crate::contact_time;
 
-/// A way is far from this part of the sum of radii on.
+/// A path is long beyond this part of the sum of radii.
 pub(super) const FAR: f64 = 0.125;
-/// What the normal velocity may be where nothing is met \[m/s\]: anything.
+/// Bound of the normal velocity where nothing is met \[m/s\]: any value is allowed.
 pub(super) const FREE: f64 = f64::MAX;
 
-/// What no sub-step changes of a contact of two spheres.
+/// Constants of a contact of two spheres between searches.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Traits {
     /// \[m\]
     pub radius_sum: f64,
     pub restitution: f64,
-    /// From where sphere 2 is to its image that sphere 1 touches \[m\].
+    /// Offset from sphere 2 to its image that sphere 1 touches \[m\].
     pub shift: DVec3,
 }
 
-/// Aims a contact of a batch that bounces, or whose spheres go far, at their impact within the sub-step,
-/// with the normal there; without an impact it bears nothing. Returns the speed of approach \[m/s\], 0 if
-/// they come to none; `None` if they overlap already.
+/// Computes a contact of a batch that bounces, or whose spheres have a long path, for their impact within the
+/// sub-step, with the normal there; without an impact it does not press. Returns the speed of approach \[m/s\], 0
+/// without an impact; `None` if they overlap already.
 pub(super) fn aim_pair(
     run: &Run,
     batch: &mut PairBatch,
@@ -60,20 +60,20 @@ pub(super) fn aim_pair(
     Some(speed)
 }
 
-/// How a gap closes.
+/// The closing of a gap.
 struct Fall {
     /// \[m\]
     gap: f64,
-    /// When it is closed \[s\].
+    /// Time at which it is closed \[s\].
     time: f64,
-    /// How fast it closes then \[m/s\].
+    /// Closing speed at that time \[m/s\].
     speed: f64,
-    /// How that grows \[m/s²\].
+    /// Acceleration of closing \[m/s²\].
     pressing: f64,
 }
 
 impl Fall {
-    /// Of a gap that would be closed after a time \[s\] at this speed \[m/s\], without the acceleration
+    /// The closing of a gap that would close after a time \[s\] at this speed \[m/s\] without the acceleration
     /// \[m/s²\]: `gap = s t + a t²/2`.
     fn over(time: f64, speed: f64, pressing: f64) -> Self {
         let gap = speed * time;
@@ -85,8 +85,8 @@ impl Fall {
     }
 }
 
-/// How forces have the second of two spheres accelerate towards the first \[m/s²\], of which one is borne and the
-/// other is not; zero where neither is, or both are.
+/// Acceleration of the second of two spheres towards the first by forces \[m/s²\], if one is supported and the
+/// other is not; else zero.
 fn pressing(run: &Run, [first, second]: [usize; 2]) -> DVec3 {
     match [run.bears[first], run.bears[second]] {
         [true, false] => -run.acceleration[second].vector(),
@@ -95,12 +95,11 @@ fn pressing(run: &Run, [first, second]: [usize; 2]) -> DVec3 {
     }
 }
 
-/// How two spheres pass each other that do not meet within a sub-step.
+/// The passage of two spheres that do not meet within a sub-step.
 struct Passage {
     /// From the first to the second, where they are nearest.
     normal: DVec3,
-    /// What the normal velocity is to be at least, with the opposite sign \[m/s\], for others not to push
-    /// them together.
+    /// Minus the least normal velocity \[m/s\], so that others do not push them together.
     bias: f64,
 }
 

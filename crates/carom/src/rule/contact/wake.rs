@@ -1,5 +1,4 @@
-//! What wakes spheres that sleep: something hits them, presses them otherwise than before, or takes away
-//! what they touch.
+//! Wake: something hits sleeping spheres, changes the load on them, or takes away what they touch.
 
 use glam::DVec3;
 
@@ -9,23 +8,22 @@ use super::slots::{self, GONE, Slots};
 use super::solver::Solver;
 use crate::system::System;
 
-/// A sphere that comes nearer than this part of the sum of radii touches.
+/// A sphere touches within this part of the sum of radii.
 const TOUCH: f64 = 1e-3;
-/// An impact wakes what it hits, and what is near that, whose impulse would give that a speed above that of
-/// spheres that are calm. This many times that speed, and it wakes all that contacts connect with it.
+/// An impact wakes the sphere that it hits, and those near it, if its impulse would make that sphere faster than
+/// calm ones. Above this many times that speed, it wakes all that are connected by contacts.
 const HARD: f64 = 50.0;
-/// What is struck passes that on, at up to twice the speed, to those that it comes to within the sub-step; so many
-/// are looked for.
+/// A struck sphere passes the impact on to those that it reaches within the sub-step, at up to this many times its
+/// speed.
 const PASSED_ON: f64 = 2.0;
 const MOST_IN_REACH: usize = 48;
-/// A sphere wakes where the force on it by those that are awake has changed by this part of that force and of its
-/// weight.
+/// A sphere wakes when the force of awake spheres on it has changed by this part of that force and of its weight.
 const LOAD_CHANGE: f64 = 0.3;
-/// Frames from one search for such changes to the next.
+/// Frames between two searches for such changes.
 const FRAMES: u32 = 8;
-/// A sphere bears another one that bears this part of its weight.
+/// A sphere supports another one if it takes this part of its weight.
 const BORNE: f64 = 0.1;
-/// For how long those that a load has woken are awake at least, if they stay calm, in units of sqrt(r / a).
+/// How long spheres woken by a load stay awake at least, if they are calm, in units of sqrt(r / a).
 const REST: f64 = 1.0;
 
 /// Wakes spheres that something is about to hit in a sub-step of `h` \[s\], and those around them.
@@ -50,7 +48,7 @@ pub(super) fn touched(system: &System, solver: &mut Solver, h: f64) {
             continue;
         }
         let [own, others] = [sleeper, other].map(|slot| system.spheres.mass[index[slot] as usize]);
-        // Without what it falls in the sub-step: that is so for what rests.
+        // Without its fall in the sub-step, which resting spheres do not have.
         let gain = others / (own + others) * velocity[other].vector().length();
         let calm = sleep::calm_speed_squared(&solver.slots, solver.sleep_speed, sleeper);
         if gain * gain > HARD * HARD * calm {
@@ -70,8 +68,8 @@ pub(super) fn touched(system: &System, solver: &mut Solver, h: f64) {
     solver.slots.read_masses(system);
 }
 
-/// The spheres that sleep and are within a distance \[m\] of these, or of others that are: a cascade may come to
-/// them within the sub-step.
+/// The sleeping spheres within a distance \[m\] of these, or of others found so: a cascade may reach them within
+/// the sub-step.
 fn in_reach(slots: &Slots, struck: &[usize], distance: f64) -> Vec<usize> {
     let Slots { position, sleeps, .. } = slots;
     let mut found = struck.to_vec();
@@ -91,8 +89,8 @@ fn in_reach(slots: &Slots, struck: &[usize], distance: f64) -> Vec<usize> {
     found
 }
 
-/// Wakes spheres whose support has gone away, and, once in some frames, those on which what is awake presses
-/// otherwise than when they fell asleep.
+/// Wakes spheres whose support is gone, and, once in some frames, those on which awake spheres press differently
+/// than when they fell asleep.
 pub(super) fn loaded(system: &System, solver: &mut Solver) {
     if solver.dormant.is_empty() {
         return;
@@ -104,7 +102,7 @@ pub(super) fn loaded(system: &System, solver: &mut Solver) {
     wake(solver, loaded, Some(sleep::NEAR), sleep::PATIENCE - REST);
 }
 
-/// The spheres of which a part of the weight was borne by one that is awake, and has gone away.
+/// The spheres of whose weight a part was supported by an awake sphere that is gone.
 fn left_alone(system: &System, slots: &Slots, dormant: &[Dormant]) -> Vec<usize> {
     let has_gone = |contact: &&Dormant| {
         let Partner::Awake(other) = contact.partner else { return false };
@@ -121,7 +119,7 @@ fn left_alone(system: &System, slots: &Slots, dormant: &[Dormant]) -> Vec<usize>
     dormant.iter().filter(has_gone).filter(bore).map(|it| it.sphere as usize).collect()
 }
 
-/// The spheres that sleep and are pressed otherwise than before by those that are awake.
+/// The sleeping spheres on which awake ones press differently than before.
 fn pressed_otherwise(system: &System, solver: &Solver) -> Vec<usize> {
     let Solver { slots, slabs, dormant, .. } = solver;
     let mut change = vec![DVec3::ZERO; slots.len()];
@@ -151,7 +149,7 @@ fn weight(system: &System, slots: &Slots, slot: usize) -> DVec3 {
     system.spheres.mass[slots.index[slot] as usize] * slots.acceleration[slot].vector()
 }
 
-/// Wakes what touched a sphere that was taken out of the world.
+/// Wakes the neighbours of a sphere that was removed from the world.
 pub(super) fn bereft(solver: &mut Solver) {
     let index = &solver.slots.index;
     let gone = (0..index.len()).filter(|&slot| index[slot] == GONE).collect();
@@ -165,8 +163,8 @@ pub(super) fn all(solver: &mut Solver) {
     wake(solver, all, Some(0), 0.0);
 }
 
-/// Wakes spheres, and those so many contacts around them, or however far. They count as calm for so long
-/// already, in units of sqrt(r / a).
+/// Wakes spheres and those up to `contacts` contacts around them, or all connected ones. They count as calm for
+/// `calm_for`, in units of sqrt(r / a).
 fn wake(solver: &mut Solver, from: Vec<usize>, contacts: Option<u32>, calm_for: f64) {
     if from.is_empty() {
         return;

@@ -23,8 +23,8 @@ pub(super) struct WarmStart {
 }
 
 impl WarmStart {
-    /// Collects the impulses of contacts that bear something. `now` maps the slot of a sphere when the slabs
-    /// were made to its present slot, [`GONE`] if the sphere left the world: its contacts are lost.
+    /// Collects the impulses of contacts that press. `now` maps the slot of a sphere when the slabs were made to
+    /// its present slot, [`GONE`] if the sphere left the world: its contacts are lost.
     pub fn collect(&mut self, slabs: &Slabs, spheres: usize, now: impl Fn(usize) -> u32) {
         self.bodies.clear();
         self.impulses.clear();
@@ -49,7 +49,7 @@ impl WarmStart {
                 Partner::Surface(surface) if slot != GONE => {
                     self.add(slot, surface | SURFACE, impulses);
                 }
-                // The slabs have that of one that is awake.
+                // The slabs have the contact of an awake sphere.
                 Partner::Awake(_) | Partner::Surface(_) => {}
             }
         }

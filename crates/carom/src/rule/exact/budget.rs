@@ -4,14 +4,15 @@ use std::collections::BTreeMap;
 
 use crate::settings::Exact;
 
-/// A sphere may begin a new flight before it has moved as often as its budget holds this.
+/// Work that a flight costs which ends before the sphere has moved: the budget divided by this is the number of
+/// such flights a sphere may make.
 const UNITS_OF_A_SHORT_FLIGHT: u64 = 60;
 /// Ticks in which all groups together may spend the budget of one group.
 const TICKS_OF_A_BUDGET: f64 = 4.0;
 /// Budgets of one group by which all groups together may be ahead of that.
 const AHEAD: u64 = 8;
-/// Each time that all groups together have spent the budget of one, the budget of each is halved, so that
-/// many cost hardly more than a few; so often at most.
+/// Each time that all groups together have spent the budget of one, the budget of each is halved, up to this many
+/// times. Many groups then cost hardly more than a few.
 const MOST_HALVINGS: u64 = 16;
 
 /// What the groups of a tick have spent, in units of work.
@@ -22,7 +23,7 @@ pub(crate) struct Budget {
     tick: f64,
     /// By index of the sphere.
     of_spheres: BTreeMap<u32, u64>,
-    /// By index of the sphere, flights after which nothing had moved.
+    /// Number of flights, by index of the sphere, after which the sphere had not moved.
     short_flights: BTreeMap<u32, u64>,
     of_all: u64,
 }
@@ -37,14 +38,14 @@ impl Budget {
         (of_each >> halvings).saturating_sub(spent.copied().unwrap_or(0))
     }
 
-    /// Counts what the answer of a group of these spheres has spent, and what it took `besides`.
+    /// Adds what the answer of a group of these spheres spent, and what it took `besides`.
     pub fn charge(&mut self, spheres: &[u32], spent: u64, besides: u64) {
         self.of_all += spent + besides;
         spheres.iter().for_each(|&index| *self.of_spheres.entry(index).or_default() += spent);
     }
 
-    /// Counts a flight of a sphere, by index, that ends at `time` \[s\] after too short a way to count. Tells
-    /// whether there have been too many in this tick.
+    /// Counts a flight of a sphere, by index, that ends at `time` \[s\] after too short a path. Returns whether
+    /// there have been too many in this tick.
     pub fn is_spent_by_flight(&mut self, parameters: Exact, sphere: u32, time: f64) -> bool {
         self.follow(time / parameters.zone_tick, u64::from(parameters.zone_budget));
         let flights = self.short_flights.entry(sphere).or_default();
@@ -52,7 +53,7 @@ impl Budget {
         *flights > u64::from(parameters.zone_budget) / UNITS_OF_A_SHORT_FLIGHT
     }
 
-    /// Goes on to a time, in ticks.
+    /// Advances to a time, in ticks.
     fn follow(&mut self, ticks: f64, of_each: u64) {
         let tick = ticks.floor();
         if tick != self.tick {

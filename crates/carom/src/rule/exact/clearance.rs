@@ -1,5 +1,5 @@
-//! Clearance: free space in which a sphere meets no surface, but those that hold it, whichever way it
-//! flies. While the sphere stays there, no surface has to be looked at.
+//! Clearance: a box in which the centre of a sphere can move without touching a surface, other than those in
+//! persistent contact with it. While the centre stays in the box, no surface is tested.
 
 use glam::DVec3;
 
@@ -8,8 +8,8 @@ use crate::detect::surface_tree::bounds;
 use crate::flight::Flight;
 use crate::surface::Form;
 
-/// Where the centre of a sphere may be and touch no surface at rest of its neighbour region, but those
-/// that hold it.
+/// Where the centre of a sphere can be without touching a surface at rest of its neighbour region, other than those
+/// in persistent contact with it.
 #[derive(Debug, Clone, Copy)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Clearance(Bounds);
@@ -17,16 +17,16 @@ pub(super) struct Clearance(Bounds);
 /// A surface that a sphere may meet.
 pub(super) struct Obstacle<'a> {
     pub form: &'a Form,
-    /// Brings the surface to where the position of the sphere counts \[m\].
+    /// Offset \[m\] that moves the surface to the image beside the sphere's position.
     pub shift: DVec3,
 }
 
 impl Clearance {
-    /// Nowhere.
+    /// An empty clearance.
     pub const NONE: Self = Self(Bounds { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY });
 
-    /// A large one about the centre \[m\] of a sphere of this radius \[m\]; none where it touches an
-    /// obstacle, or an obstacle has no bounds.
+    /// A large clearance about the centre \[m\] of a sphere of this radius \[m\]; empty where the sphere touches an
+    /// obstacle or an obstacle has no bounds.
     pub fn about<'a>(
         center: DVec3,
         radius: f64,
@@ -43,7 +43,7 @@ impl Clearance {
             if gaps[axis] <= 0.0 {
                 return Self::NONE;
             }
-            // It is open on that side of the surface that is farthest from it.
+            // An obstacle bounds the clearance along the axis on which it is farthest.
             if below[axis] > above[axis] {
                 free.max[axis] = free.max[axis].min(center[axis] + below[axis]);
             } else {
@@ -53,13 +53,14 @@ impl Clearance {
         Self(free)
     }
 
-    /// Whether a sphere stays in it for a `time` \[s\].
+    /// Whether a sphere stays in the clearance for a `time` \[s\].
     #[inline]
     pub fn holds(&self, flight: &Flight, time: f64) -> bool {
         self.holds_way(flight.position, flight.farthest(time))
     }
 
-    /// Whether a sphere stays in it that goes no farther from a position \[m\] than this along each axis \[m\].
+    /// Whether a sphere stays in the clearance if it moves no farther from a position \[m\] than `way` \[m\] along
+    /// each axis.
     pub fn holds_way(&self, position: DVec3, way: DVec3) -> bool {
         ((position - way).cmpgt(self.0.min) & (position + way).cmplt(self.0.max)).all()
     }

@@ -5,11 +5,10 @@ use glam::DVec3;
 use super::flights::{Flights, Species};
 use crate::norm::Norm;
 
-/// Bodies touch when the gap between them is below this many roundings of their coordinates: what
-/// the time of an impact and the way to it leave uncertain.
+/// Bodies touch when the gap between them is below this many roundings of their coordinates: the uncertainty of the
+/// time of an impact and of the path to it.
 pub(super) const TOUCHING: f64 = 256.0 * f64::EPSILON;
-/// Relative rounding of a time at which two bodies may be said to meet: that of the clock, and of the
-/// sums that lead to it.
+/// Relative rounding of the time of a contact: that of the clock and of the sums that lead to the time.
 pub(super) const CLOCK_ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// A persistent contact of spheres, or on a curve, is followed to this part of the radius: the error
 /// of the third order in the turn of its normal.
@@ -32,7 +31,7 @@ pub(super) struct ContactScale {
     pub radius: f64,
     /// Whether the contact is part of a path along a curve, which has an error of its own.
     pub is_curved: bool,
-    /// Whether an impact gives back all: its bounces never end, however low they are.
+    /// Whether impacts are elastic: their bounces never end, however low they are.
     pub is_elastic: bool,
 }
 

@@ -22,7 +22,7 @@ pub(super) struct StepContext<'a> {
     pub report: &'a mut StepReport,
     /// The work of the stages.
     pub counts: StageCounts,
-    /// Counted and bounded.
+    /// The count of work and its bound.
     pub work: &'a Work<'a>,
     /// Start of the step, on the world's clock \[s\]: impacts count their time from there, and there
     /// surfaces are where the system says.
@@ -31,7 +31,7 @@ pub(super) struct StepContext<'a> {
     pub length: f64,
     /// Edges of the periodic box \[m\]; infinite along an open axis.
     pub period: DVec3,
-    /// Flights that began anew at force ticks.
+    /// Flights that restarted at force ticks.
     pub renewed: u64,
     /// The slot of a sphere on which friction acts in a way that has no closed form, where nothing is
     /// stepped.
@@ -65,7 +65,7 @@ impl<'a> StepContext<'a> {
         }
     }
 
-    /// Whether what takes too much work is stepped.
+    /// Whether spheres that take too much work are stepped in zones.
     pub fn has_zones(&self) -> bool {
         self.parameters.zones == Zones::Automatic
     }
@@ -74,8 +74,8 @@ impl<'a> StepContext<'a> {
         self.system.settings.combine_rule
     }
 
-    /// A time on the world's clock \[s\] as impacts count it, from the start of the step. What was
-    /// in doubt at the very start, or rounds beyond the end, counts as there.
+    /// A time on the world's clock \[s\] as impacts report it, from the start of the step. A time that rounding
+    /// puts before the start or beyond the end counts as the start or the end.
     pub fn since_start(&self, time: f64) -> f64 {
         (time - self.start).clamp(0.0, self.length)
     }
@@ -84,11 +84,11 @@ impl<'a> StepContext<'a> {
         self.system.spheres.id[timeline.flights.index_of[slot as usize] as usize]
     }
 
-    /// Restitution of an impact: nothing is given back, unless all is, where all spheres in it
-    /// were hit less than a contact's duration ago. So the shorter and shorter flights of an
-    /// inelastic collapse come to an end (McNamara and Young, Phys. Fluids A 4, 496 (1992)). The TC
-    /// model of Luding and McNamara, Granular Matter 1, 113 (1998), has the same condition and gives
-    /// back all, which leaves spheres that are wedged in to bounce without end.
+    /// Restitution of an impact. It is 0 where all spheres of the impact were hit less than a contact's duration
+    /// ago, unless the impact is elastic. So the shorter and shorter flights of an inelastic collapse end (McNamara
+    /// and Young, Phys. Fluids A 4, 496 (1992)). The TC model of Luding and McNamara, Granular Matter 1, 113
+    /// (1998), has the same condition and takes the restitution 1 there, which leaves wedged spheres bouncing
+    /// without end.
     pub fn restitution_at<const N: usize>(
         &self,
         timeline: &Timeline,
@@ -116,7 +116,7 @@ impl<'a> StepContext<'a> {
         scale.duration(self.parameters.contact_duration, time)
     }
 
-    /// Writes down impacts that were answered together.
+    /// Records impacts that were answered together.
     #[inline(always)]
     pub fn record(&mut self, impacts: impl IntoIterator<Item = Impact>, account: ImpactGroup) {
         let first = self.report.impacts.len();

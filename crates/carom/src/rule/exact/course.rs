@@ -1,4 +1,4 @@
-//! The course of one sphere: what it meets next and how it flies on, while the others keep to their flights.
+//! The course of one sphere: its next impacts and flights, while the others keep their flights.
 
 use super::Unfinished;
 use super::context::StepContext;
@@ -15,7 +15,7 @@ use crate::work::Work;
 /// The course of a sphere over a span.
 pub(crate) struct Course {
     pub legs: Vec<PathLeg>,
-    /// Those of the sphere alone.
+    /// Impacts of the followed sphere alone.
     pub impacts: Vec<Impact>,
     pub end: PathEnd,
 }
@@ -74,8 +74,8 @@ pub(crate) fn follow(
     Ok(course)
 }
 
-/// Answers the next event as far as it concerns the followed sphere, and returns its time
-/// \[s\]. Of what others do among themselves, only cell crossings happen.
+/// Answers the next event if it concerns the followed sphere. Returns its time \[s\]. Other spheres only cross
+/// cells.
 fn answer(
     timeline: &mut Timeline,
     context: &mut StepContext,

@@ -1,4 +1,4 @@
-//! The frame: how it begins and ends, and how spheres are taken in between frames.
+//! The frame: its beginning, its end, and how added spheres join between frames.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -25,26 +25,26 @@ use crate::surface::Role;
 use crate::system::System;
 use crate::work::Work;
 
-/// In a periodic box, spheres are put in order of place again after this many cell crossings per
-/// sphere: seldom enough to cost little, often enough that neighbours stay near each other in memory.
+/// In a periodic box, spheres are ordered by place again after this many cell crossings per sphere: seldom enough
+/// to cost little, often enough that neighbours stay near each other in memory.
 const CROSSINGS_PER_ARRANGEMENT: u64 = 10;
-/// Cell crossings per sphere before that, where all stay in the fast caches in whatever order.
+/// Cell crossings per sphere before spheres are ordered again, where all fit into the fast caches in any order.
 const CROSSINGS_OF_FEW: u64 = 100;
-/// On open axes the spheres are arranged after this many events per sphere: they may have gathered in
-/// outermost cells, which none of them leaves.
+/// On open axes the spheres are ordered again after this many events per sphere: they may have gathered in
+/// outermost cells, which no sphere leaves.
 const EVENTS_PER_ARRANGEMENT: u64 = 24;
 
-/// Spheres that came since a timeline was made, or went.
+/// Spheres that were added or removed since the timeline was made.
 pub(crate) struct Arrivals<'a, F: Fn(SphereId) -> f64> {
     /// Ids of the spheres that the timeline knows.
     pub known: &'a [SphereId],
-    /// When the flight of a sphere that came begins, on the world's clock \[s\].
+    /// When the flight of an added sphere begins, on the world's clock \[s\].
     pub time_of: F,
-    /// When the next spheres come, on the world's clock \[s\].
+    /// The next emission, on the world's clock \[s\].
     pub next: f64,
 }
 
-/// Begins a flight of every sphere from its state at `time` \[s\]. Those of a zone are in it again.
+/// Begins a flight of every sphere from its state at `time` \[s\]. Spheres of a zone join it again.
 pub(crate) fn start(
     system: &System,
     parameters: Exact,
@@ -54,7 +54,7 @@ pub(crate) fn start(
 ) -> Timeline {
     let mut flights = Flights::new(system, motion, |_| Err(time));
     flights.growth = Growth::of(&flights.species, time);
-    // What is stepped has the radius that it had at the start.
+    // Zones step spheres with the radius of the start, so growth excludes them.
     let zones = if flights.growth.is_some() { Zones::Never } else { parameters.zones };
     let parameters = parameters.with_zones(zones);
     if zones == Zones::Never {
@@ -80,8 +80,8 @@ pub(crate) fn start(
     timeline
 }
 
-/// Takes in, at `time` \[s\], the spheres that came, and leaves out those that went; the others fly on.
-/// Persistent contacts are found anew.
+/// Adds, at `time` \[s\], the spheres that were added to the world, and removes those that were removed; the others
+/// fly on. Persistent contacts are computed again.
 pub(crate) fn adopt<F: Fn(SphereId) -> f64>(
     before: &Timeline,
     system: &System,
@@ -131,12 +131,12 @@ pub(crate) fn adopt<F: Fn(SphereId) -> f64>(
     timeline
 }
 
-/// Whether some body says of friction that it acts.
+/// Whether friction acts on some body.
 fn friction_acts(system: &System) -> bool {
     system.frictions().any(|friction| friction.acts())
 }
 
-/// Prepares for a frame from and to these times \[s\]. The next spheres are emitted at `next` \[s\].
+/// Prepares a frame from and to these times \[s\]. The next spheres are emitted at `next` \[s\].
 ///
 /// # Errors
 /// Springs that are too stiff, or a sphere on which a force is not finite.
@@ -172,7 +172,7 @@ pub(crate) fn begin(
     Ok(())
 }
 
-/// Goes on to a frame from and to these times \[s\]. The ticks of zones follow its length.
+/// Begins a frame from and to these times \[s\]. The ticks of zones follow its length.
 fn set_frame(timeline: &mut Timeline, system: &System, frame: [f64; 2]) {
     let before = timeline.zone_tick();
     timeline.frame = frame;
@@ -191,9 +191,8 @@ pub(crate) enum HoldError {
     NotFinite(SphereId),
 }
 
-/// Fits the force ticks to frames of this length \[s\] and to springs, also before there is a sphere that
-/// needs them: it may be emitted within the frame. Returns whether forces that are held now have other
-/// ticks.
+/// Sets the force tick by the length of frames \[s\] and by springs, also before a sphere needs it: one may be
+/// emitted within the frame. Returns whether the ticks of held forces changed.
 fn set_force_tick(timeline: &mut Timeline, frame: f64) -> Result<bool, HoldError> {
     let (before, rate) = (timeline.force_tick, timeline.spring_rate);
     let tick = tick_for_springs(rate, timeline.parameters, frame)?;
@@ -201,7 +200,7 @@ fn set_force_tick(timeline: &mut Timeline, frame: f64) -> Result<bool, HoldError
     Ok(timeline.flights.forces_vary && timeline.force_tick != before)
 }
 
-/// Has forces be held for a tick \[s\], or as much shorter as springs need it.
+/// Sets how long forces are held: for a tick \[s\], or for a shorter time where springs need it.
 fn hold_until_ticks(timeline: &mut Timeline, tick: f64) {
     timeline.work_tick = tick;
     timeline.force_tick =
@@ -217,15 +216,15 @@ pub(crate) fn tick_for_springs(rate: f64, parameters: Exact, frame: f64) -> Resu
     if ticks::can_follow_springs(rate, tick) { Ok(tick) } else { Err(HoldError::TooStiff(rate)) }
 }
 
-/// Whether forces are to be found anew at the start of a frame \[s\]: those that are held over it, and others
-/// at a force tick.
+/// Whether forces are computed at the start of a frame \[s\]: forces that are held over a frame always, others at a
+/// force tick.
 fn is_renewal_due(timeline: &Timeline, system: &System, start: f64) -> bool {
     let Flights { hold_forces, forces_vary, .. } = timeline.flights;
     let are_applied = !system.spheres.applied_force.is_empty();
     hold_forces && (are_applied || !forces_vary || timeline.held_until <= start)
 }
 
-/// Finds forces anew at a force tick that is now \[s\]. Returns how many flights began anew.
+/// Computes the held forces at a force tick, which is now \[s\]. Returns the number of flights that restarted.
 ///
 /// # Errors
 /// A sphere on which a force is not finite.
@@ -247,8 +246,8 @@ pub(super) fn force_tick(
     Ok(renewed.len() as u64)
 }
 
-/// Finds all flights that are not known, and those of companions of spheres that began others; adds them to the
-/// slots to be predicted.
+/// Computes all flights that are not known, and those of companions of restarted spheres. Adds these to the slots
+/// to be predicted.
 fn find_curves(timeline: &mut Timeline, system: &System, begun: &mut Vec<u32>) {
     timeline.find_curves(system);
     timeline.restart_companions(system);
@@ -267,7 +266,7 @@ fn predict_each(timeline: &mut Timeline, system: &System, slots: &[u32], time: f
     counts.pair_tests += search.tests();
 }
 
-/// Refuses a force that is not finite, with the sphere that it acts on.
+/// Returns an error for a force that is not finite, with the sphere on which it acts.
 fn check_accelerations(timeline: &Timeline, system: &System) -> Result<(), SphereId> {
     let Flights { bodies, species, index_of, lost, .. } = &timeline.flights;
     if let Some(index) = *lost {
@@ -278,7 +277,7 @@ fn check_accelerations(timeline: &Timeline, system: &System) -> Result<(), Spher
     lost.map_or(Ok(()), |slot| Err(system.spheres.id[index_of[slot] as usize]))
 }
 
-/// Writes where all spheres are at the end of a part of a step, and how they move there.
+/// Writes the states of all spheres at the end of a part of a step.
 ///
 /// # Errors
 /// The index of a sphere whose state is not finite, and which of its quantities is not; then nothing
@@ -302,7 +301,7 @@ pub(crate) fn end(
     Ok(())
 }
 
-/// What is read from a world in a span. Nothing of that is reported, and its work does not count.
+/// Runs `read` on a world without reporting anything or counting its work.
 fn reading<T>(
     system: &System,
     parameters: Exact,
@@ -331,15 +330,14 @@ pub(crate) fn persistent_contacts(
     contacts
 }
 
-/// Puts the spheres in the order of their places, and finds their neighbours as of `time` \[s\]. What
-/// was predicted is void.
+/// Orders the spheres by place and finds their neighbours as of `time` \[s\]. All predictions become void.
 fn arrange(timeline: &mut Timeline, system: &System, time: f64) {
     timeline.moving_surfaces = (0u32..)
         .zip(system.surfaces)
         .filter(|(_, surface)| surface.role == Role::Deflects && !surface.motion.is_at_rest())
         .map(|(number, _)| number)
         .collect();
-    // What is made anew must not be in memory twice.
+    // The old schedule is dropped first, so that two never are in memory.
     timeline.schedule = Schedule::default();
     timeline.neighbours = Neighbours::default();
     timeline.flights.make_room_to_grow(time, system.settings.boundary.period());
@@ -371,7 +369,7 @@ fn contents<'a>(flights: &'a Flights, system: &System<'a>, time: f64) -> Content
     }
 }
 
-/// After how many events the order of the spheres is out of date, and after how many cell crossings.
+/// Numbers of events and cell crossings after which the spheres are ordered again.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ArrangementDue {
     events: u64,
@@ -379,7 +377,7 @@ pub(super) struct ArrangementDue {
 }
 
 impl ArrangementDue {
-    /// That of these spheres.
+    /// The numbers for these spheres.
     pub fn of(timeline: &Timeline, system: &System) -> Self {
         let count = timeline.flights.bodies.len() as u64;
         let is_closed = system.settings.boundary.period().is_finite();
@@ -390,7 +388,7 @@ impl ArrangementDue {
         }
     }
 
-    /// Whether that is so now.
+    /// Whether the spheres must be ordered now.
     #[inline(always)]
     pub fn is_now(self, timeline: &Timeline) -> bool {
         timeline.events > self.events || timeline.cell_crossings > self.cell_crossings
@@ -401,9 +399,8 @@ impl ArrangementDue {
     }
 }
 
-/// Arranges the spheres and predicts all their events, at `now` \[s\]. This is done right after the event that
-/// makes it due, not at the start of a frame: it predicts meetings again that were passed over, so results would
-/// depend on the frames.
+/// Orders the spheres and predicts all their events, at `now` \[s\]. This follows the event that makes it due, not
+/// the start of a frame: it predicts meetings again that were passed over, so results would depend on the frames.
 #[cold]
 #[inline(never)]
 pub(super) fn arrange_anew(timeline: &mut Timeline, system: &System, now: f64) {

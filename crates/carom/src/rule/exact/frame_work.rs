@@ -8,8 +8,8 @@ use crate::report::StageCounts;
 /// Units of work that count as much as one flight of a sphere.
 pub(super) const UNITS_PER_FLIGHT: u64 = 32;
 
-/// By how much the generation grew but for impacts: of a flight that an impact began it adds but one, which counts with
-/// that.
+/// By how much the generation grew without impacts: a flight that an impact began adds one, which counts with the
+/// impact.
 fn flights_between(before: u32, now: u32) -> u32 {
     now.wrapping_sub(before) & !1
 }
@@ -22,7 +22,7 @@ pub(super) struct FrameWork {
     generations_before: Vec<u32>,
     /// Work of the groups of each sphere; empty where there was none.
     of_groups: Vec<u64>,
-    /// What no report has counted yet.
+    /// Counts that are in no report yet.
     pub unreported: StageCounts,
 }
 
@@ -34,7 +34,7 @@ impl FrameWork {
         self.generations_before.extend(bodies.iter().map(|body| body.generation));
     }
 
-    /// Follows the spheres at the slots of an `order` into that order.
+    /// Reorders the counts as the spheres at the slots of `order`.
     pub fn reorder(&mut self, order: &[u32]) {
         if !self.generations_before.is_empty() {
             let before = |&slot: &u32| self.generations_before[slot as usize];
@@ -46,7 +46,7 @@ impl FrameWork {
         }
     }
 
-    /// Does not count flights that all began anew at once, and were of these generations before.
+    /// Leaves out flights that all restarted at once and had these generations before.
     pub fn pass_over(&mut self, before: &[u32], bodies: &[Body]) {
         let generations = before.iter().zip(bodies).map(|(before, body)| (before, body.generation));
         for (counted, (before, now)) in self.generations_before.iter_mut().zip(generations) {
@@ -54,15 +54,14 @@ impl FrameWork {
         }
     }
 
-    /// Does not count the flights of a sphere since one of a generation, up to that of another.
+    /// Leaves out the flights of a sphere between two generations.
     pub fn pass_over_step(&mut self, slot: u32, [before, now]: [u32; 2]) {
         if let Some(counted) = self.generations_before.get_mut(slot as usize) {
             *counted = counted.wrapping_add(flights_between(before, now));
         }
     }
 
-    /// How many flights of a sphere began, whose flight is of this generation now, and what its groups
-    /// took besides.
+    /// Number of flights that a sphere with this generation began, plus the work of its groups.
     #[inline]
     pub fn of(&self, slot: u32, generation: u32) -> u64 {
         let before = self.generations_before[slot as usize];

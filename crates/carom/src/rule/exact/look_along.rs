@@ -8,7 +8,7 @@ use crate::id::SphereId;
 use crate::sensor::FlightSegment;
 use crate::system::System;
 
-/// Begins to watch all spheres at `now` \[s\].
+/// Begins to watch all flights at `now` \[s\].
 pub(crate) fn begin(timeline: &mut Timeline, system: &System, mut watch: Watch, now: f64) {
     let slots = &timeline.flights.slot_of;
     watch.flights = slots.iter().map(|&slot| seen(timeline, slot, now)).collect();

@@ -11,8 +11,7 @@
 //! 7. **Emission**: spheres that are due within the frame are taken in (`frame`)
 //! 8. **End of the frame** (`frame`): states are written, flights go on
 //!
-//! What was predicted stays good from frame to frame. `docs/physics/exact.md` has the stages under the
-//! same names.
+//! Predictions hold across frames. `docs/physics/exact.md` has the stages under the same names.
 
 mod budget;
 mod clearance;
@@ -64,7 +63,7 @@ use crate::report::{StageCounts, StepReport};
 use crate::system::System;
 use crate::work::Work;
 
-/// Why a part of a frame was not taken to its end.
+/// Reason why a part of a frame was not completed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Unfinished {
     /// A sphere took more work than the parameters allow.
@@ -101,7 +100,7 @@ pub(crate) enum Unfinished {
     Stopped,
 }
 
-/// What a sphere may do in a frame it may do again in each part of a longer one that has so many ticks.
+/// The work allowed per sphere and frame is allowed in each part of a longer frame that has this many ticks.
 const TICKS_OF_A_FRAME: f64 = 8.0;
 
 /// How far spheres are taken.
@@ -113,7 +112,7 @@ pub(crate) enum Until {
     NextImpact,
 }
 
-/// Advances all spheres over a span, and gives the time that they come to \[s\] (`docs/physics/exact.md`).
+/// Advances all spheres over a span. Returns the time reached \[s\] (`docs/physics/exact.md`).
 pub(crate) fn advance(
     system: &System,
     timeline: &mut Timeline,
@@ -140,7 +139,8 @@ pub(crate) fn advance(
                 }
                 now
             }
-            // Zones are stepped under the forces of the time to come: at the end both wait for those.
+            // Zones are stepped under the forces of the next tick, so at the end of a frame both wait for the next
+            // frame.
             None if force_tick < end && force_tick <= tick => {
                 renew_forces(timeline, &mut context, force_tick)?
             }
@@ -256,7 +256,7 @@ fn happen(
     Ok(event.time)
 }
 
-/// Refuses spheres that growth made so fast, at `time` \[s\], that they have no room left.
+/// Returns an error if growth made a sphere so fast, at `time` \[s\], that it has no room left.
 fn check_room_to_grow(
     timeline: &Timeline,
     context: &StepContext,
@@ -270,7 +270,7 @@ fn check_room_to_grow(
     })
 }
 
-/// Counts a flight that ended before the sphere had moved; with too many of them it is stepped.
+/// Counts a flight that ended before the sphere had moved. A sphere with too many of them joins a zone.
 fn count_short_flight(timeline: &mut Timeline, context: &mut StepContext, slot: u32, time: f64) {
     let index = timeline.flights.index_of[slot as usize];
     let is_spent = timeline.budget.is_spent_by_flight(context.parameters, index, time);
@@ -293,7 +293,7 @@ impl WorkSoFar {
         Self { events, cell_crossings, units: work.done() }
     }
 
-    /// Goes on where the timeline begins to count its events from zero.
+    /// Continues the count where the timeline counts its events from zero again.
     fn count_from_zero(&mut self, timeline: &Timeline) {
         self.events = self.events.wrapping_sub(timeline.events);
         self.cell_crossings = self.cell_crossings.wrapping_sub(timeline.cell_crossings);

@@ -15,7 +15,7 @@ use crate::detect::sphere_surface;
 use crate::surface::Form;
 use crate::system::System;
 
-/// Two bodies that touch, and for how long a meeting of them has nothing to answer.
+/// Two bodies that touch, and for how long their meetings need no answer.
 ///
 /// Two bodies that hardly touch may meet, by the rounding of one formula, and have nothing to
 /// answer, by that of another.
@@ -33,7 +33,7 @@ pub(super) fn predict(timeline: &mut Timeline, context: &mut StepContext, slot: 
     predict_restarted(timeline, context, now);
 }
 
-/// Predicts what spheres meet next whose companions began other flights `now` \[s\], so that they did, too.
+/// Predicts the next events of spheres whose flights restarted `now` \[s\] with those of companions.
 pub(super) fn predict_restarted(timeline: &mut Timeline, context: &mut StepContext, now: f64) {
     if timeline.restarted.is_empty() {
         return;
@@ -49,14 +49,14 @@ pub(super) fn predict_restarted(timeline: &mut Timeline, context: &mut StepConte
     timeline.restarted = restarted;
 }
 
-/// Enters what a sphere meets next as of `now` \[s\] into the schedule.
+/// Enters the next events of a sphere as of `now` \[s\] into the schedule.
 fn enter(timeline: &mut Timeline, context: &mut StepContext, slot: u32, now: f64) {
     context.counts.predictions += 1;
     let prediction = prediction(timeline, context.system, slot, &mut context.searches[0], now);
     timeline.enter(slot, prediction);
 }
 
-/// Begins the flights of the companions of spheres that began others `now` \[s\].
+/// Restarts the flights of the companions of restarted spheres, `now` \[s\].
 #[inline]
 pub(super) fn restart_companions(timeline: &mut Timeline, context: &mut StepContext, now: f64) {
     if timeline.flights.are_curved() {
@@ -65,9 +65,8 @@ pub(super) fn restart_companions(timeline: &mut Timeline, context: &mut StepCont
     }
 }
 
-/// Lets a sphere go on to what it meets next, where the other one of a meeting that is due `now` \[s\]
-/// began another flight before. The pair search of that one found this sphere, so this one need not
-/// search again.
+/// Moves a sphere to its second event, where the other sphere of its first one, due `now` \[s\], restarted before.
+/// That sphere's pair search found this one, so this one need not search again.
 pub(super) fn fall_back(timeline: &mut Timeline, context: &mut StepContext, slot: u32, now: f64) {
     match timeline.schedule.next_events(slot).without_first() {
         Some(rest) if rest.first.is_never() || !timeline.is_void(&rest.first) => {
@@ -77,7 +76,7 @@ pub(super) fn fall_back(timeline: &mut Timeline, context: &mut StepContext, slot
     }
 }
 
-/// What a sphere meets next as of `now` \[s\].
+/// The next events of a sphere as of `now` \[s\].
 ///
 /// Times follow from the flights alone: either sphere, and whenever it predicts a meeting, finds the
 /// same time to the bit.
@@ -92,7 +91,7 @@ pub(super) fn prediction(
     prediction_from_found(timeline, system, slot, search, now)
 }
 
-/// What a sphere meets next, among the neighbours that a pair search has found.
+/// The next events of a sphere among the neighbours that a pair search has found.
 #[inline(always)]
 pub(super) fn prediction_from_found(
     timeline: &Timeline,
@@ -105,7 +104,7 @@ pub(super) fn prediction_from_found(
     prediction_after(timeline, system, slot, events, &[], now)
 }
 
-/// What a sphere meets next whose meetings with other spheres are known; some bodies it passes.
+/// The next events of a sphere whose meetings with other spheres are known, without those that it passes over.
 #[inline(always)]
 fn prediction_after(
     timeline: &Timeline,
@@ -137,7 +136,7 @@ fn prediction_after(
         events.add(Event::at(end, PackedTarget::STEP_END));
     }
     if events.first.time < now {
-        // It was passed over. From the start of another flight it is found again only if it closes.
+        // It was passed over. A new flight finds it again only if the bodies close.
         events = NextEvents::only(Event::at(now, PackedTarget::RESTART));
     }
     let cell_crossing = match &curve {
@@ -152,8 +151,8 @@ fn prediction_after(
     Prediction { events, cell_crossing }
 }
 
-/// Lets a sphere pass over meetings that have nothing to answer `now` \[s\], to begin another flight after
-/// them. What else it meets before comes as predicted.
+/// Lets a sphere pass over meetings that need no answer `now` \[s\], and begin another flight after them. Earlier
+/// events happen as predicted.
 pub(super) fn pass_over(
     timeline: &mut Timeline,
     context: &mut StepContext,
@@ -178,7 +177,7 @@ pub(super) fn pass_over(
         return;
     }
     restart.time = restart.time.min(timeline.flights.step_end(slot));
-    // Of meetings only the first two are known.
+    // Only the first two meetings are known.
     let is_far = restart.time - now > 2.0 * context.parameters.contact_duration;
     let next = match events {
         None if is_far => first_but(timeline, context, slot, meetings, now),
@@ -206,7 +205,7 @@ pub(super) fn meeting_at(timeline: &Timeline, slot: u32, time: f64) -> Option<Bo
     is_due.then(|| bodies_of(timeline, timeline.flights.index_of[slot as usize], &event))?
 }
 
-/// What a sphere meets first, as of `now` \[s\], but for these meetings.
+/// The first event of a sphere as of `now` \[s\], without these meetings.
 fn first_but(
     timeline: &Timeline,
     context: &mut StepContext,
@@ -226,7 +225,7 @@ fn first_but(
     Some(prediction.events.first)
 }
 
-/// Begins another flight of a sphere from where it is at `now` \[s\].
+/// Restarts the flight of a sphere at `now` \[s\].
 pub(super) fn restart(timeline: &mut Timeline, context: &mut StepContext, slot: u32, now: f64) {
     let (position, velocity) = timeline.flights.state_of(slot, now);
     timeline.flights.count_contact_work(slot, now);
@@ -340,7 +339,7 @@ fn meet_surfaces_growing(timeline: &Timeline, system: &System, slot: u32, events
     }
 }
 
-/// The planes at rest that a sphere lies on, in a periodic box their nearest images.
+/// The planes at rest on which a sphere lies; in a periodic box their nearest images.
 fn planes_that_hold<'a>(
     timeline: &Timeline,
     system: &System<'a>,
@@ -365,7 +364,7 @@ fn planes_that_hold<'a>(
     planes
 }
 
-/// How far the image of a surface that is nearest to a sphere is from the surface \[m\].
+/// Offset of the image of a surface that is nearest to a sphere \[m\].
 fn nearest_image(timeline: &Timeline, form: &Form, surface: u32, slot: u32) -> Option<DVec3> {
     let place = timeline.flights.bodies[slot as usize].position;
     let distance = |shift: &DVec3| {

@@ -1,4 +1,4 @@
-//! Reading ahead: what the next events need, fetched into the cache so that it is there by then.
+//! Prefetching: data of the next events are fetched into the cache before they are needed.
 
 use prefetch_index::prefetch_index;
 
@@ -6,14 +6,14 @@ use super::events::UpcomingEvent;
 use super::timeline::Timeline;
 use crate::system::System;
 
-/// Fetches what the events at the head of the queue need, where that is not in the fast caches.
+/// Fetches the data of the events at the head of the queue, where they are not in the fast caches.
 #[inline]
 pub(super) fn upcoming_events(timeline: &Timeline, system: &System) {
     if !timeline.are_many() {
         return;
     }
     let Timeline { flights, neighbours, schedule, work, .. } = timeline;
-    // What one step fetches is found from what the steps before have fetched.
+    // Each stage of the prefetch uses the data that the stages before have fetched.
     let at_work = |place: usize| {
         let slot = schedule.upcoming(place);
         let next = slot.map(|slot| schedule.first(slot));

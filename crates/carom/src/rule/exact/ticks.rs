@@ -3,11 +3,11 @@
 /// The fastest motion on springs turns by at most this angle from one tick to the next \[rad\]: the leapfrog
 /// scheme is stable up to 2, and the phase of that motion is off by a hundredth of it.
 const MOST_TURN: f64 = 0.5;
-/// For springs a tick is halved so often at most.
+/// Largest number of halvings of a tick for springs.
 const MOST_HALVINGS: u32 = 12;
-/// Most force ticks in a frame, but for springs: of days, say, in the motion of planets.
+/// Largest number of force ticks in a frame without springs, for frames of days in the motion of planets, say.
 pub(super) const MOST_FORCE_TICKS: f64 = 64.0;
-/// Most ticks of zones in a frame, but for small spheres.
+/// Largest number of zone ticks in a frame without small spheres.
 pub(super) const MOST_ZONE_TICKS: f64 = 128.0;
 /// Most frames in a tick.
 const MOST_FRAMES: f64 = 4.0;
@@ -22,8 +22,8 @@ pub(super) fn first_tick_after(time: f64, tick: f64) -> f64 {
     if first > time { first } else { ((number + 1.0) * tick).max(time.next_up()) }
 }
 
-/// Returns a tick \[s\] in the order of magnitude of frames of this length \[s\]: doubled while there are more
-/// than `most` in a frame, halved while there are too many frames in it.
+/// Adapts a tick \[s\] to frames of this length \[s\]: doubled while a frame has more than `most` ticks, halved
+/// while a tick has too many frames.
 pub(super) fn tick_for_frames(mut tick: f64, frame: f64, most: f64) -> f64 {
     while frame > most * tick * (1.0 + ROUNDING) {
         tick *= 2.0;
@@ -34,22 +34,22 @@ pub(super) fn tick_for_frames(mut tick: f64, frame: f64, most: f64) -> f64 {
     tick
 }
 
-/// How often a tick \[s\] is to be halved for motion on springs that has this rate \[1/s\].
+/// Number of halvings of a tick \[s\] for springs with this rate of motion \[1/s\].
 pub(super) fn halvings_for_springs(rate: f64, tick: f64) -> u32 {
     halvings(tick, MOST_HALVINGS, |part| rate * part <= MOST_TURN)
 }
 
-/// How often a tick \[s\] is to be halved until a part of it is short, and so often at most.
+/// Number of halvings of a tick \[s\] until it is short, at most `most`.
 pub(super) fn halvings(tick: f64, most: u32, is_short: impl Fn(f64) -> bool) -> u32 {
     (0..most).find(|&times| is_short(part(tick, times))).unwrap_or(most)
 }
 
-/// Whether a tick \[s\] can be halved as often as springs need it whose motion has this rate \[1/s\].
+/// Whether a tick \[s\] can be halved often enough for springs with this rate of motion \[1/s\].
 pub(super) fn can_follow_springs(rate: f64, tick: f64) -> bool {
     rate * part(tick, MOST_HALVINGS) <= MOST_TURN
 }
 
-/// A tick \[s\], halved so often.
+/// A tick \[s\] after this many halvings.
 pub(super) fn part(tick: f64, halvings: u32) -> f64 {
     tick / f64::from(1u32 << halvings)
 }

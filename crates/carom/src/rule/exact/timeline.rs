@@ -1,4 +1,4 @@
-//! The timeline: where every sphere flies, and what happens next.
+//! The timeline: the flights of all spheres and their next events.
 
 use glam::DVec3;
 
@@ -20,7 +20,7 @@ use crate::system::System;
 /// More spheres than this do not stay in the fast caches.
 const MANY: usize = 20_000;
 
-/// All that the rule keeps between frames.
+/// The state of the rule between frames.
 ///
 /// Only the flights are state. Neighbours and schedule follow from them: they decide how fast the next
 /// event is found, never what it is.
@@ -31,35 +31,35 @@ pub(crate) struct Timeline {
     pub(super) flights: Flights,
     pub(super) neighbours: Neighbours,
     pub(super) schedule: Schedule,
-    /// Surfaces that move: near every sphere.
+    /// Moving surfaces, which count as near every sphere.
     pub(super) moving_surfaces: Vec<u32>,
-    /// By slot, where flights begin anew time and again, near surfaces none of which moves; else empty.
+    /// By slot, where flights restart often near surfaces that do not move; else empty.
     pub(super) clearances: Vec<Clearance>,
     pub(super) work: FrameWork,
     /// What groups spent in a tick.
     pub(super) budget: Budget,
-    /// The spheres that are stepped.
+    /// The spheres in zones.
     pub(super) zone: Zone,
-    /// When surfaces are where the system says, and until when that tells how they turn, on the
-    /// world's clock \[s\]: the frame.
+    /// The frame on the world's clock \[s\]: surfaces are where the system says at its start, and their rotation is
+    /// known up to its end.
     pub(super) frame: [f64; 2],
     /// Time between two force ticks \[s\].
     pub(super) force_tick: f64,
-    /// The same before springs made it shorter: the work of curves is bounded in each.
+    /// The force tick before springs made it shorter \[s\]: the work of curves is bounded in each.
     pub(super) work_tick: f64,
     /// A bound for the rate of motion on springs \[1/s\].
     pub(super) spring_rate: f64,
-    /// Until when forces are held as they are, on the world's clock \[s\].
+    /// Until when the present forces are held, on the world's clock \[s\].
     pub(super) held_until: f64,
     /// Forces of nonconservative interactions that are held as they are \[N\], by index; empty where there are none.
     /// They are of programs, and in no snapshot that is written.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) working_forces: Vec<DVec3>,
-    /// When all curves end at the latest, as forces applied over a frame do, on the world's clock \[s\].
+    /// Latest end of all curves, as forces applied over a frame need it, on the world's clock \[s\].
     pub(super) curves_until: f64,
     /// When the next spheres are emitted, on the world's clock \[s\].
     pub(super) next_emission: f64,
-    /// Slots of spheres whose flights began anew as those of companions did, and are not predicted yet.
+    /// Slots of spheres whose flights restarted because those of companions did, and which are not predicted yet.
     pub(super) restarted: Vec<u32>,
     /// The watch over spheres during a step, where sensors or the work of forces need one.
     #[cfg_attr(feature = "serde", serde(skip))]
@@ -70,8 +70,8 @@ pub(crate) struct Timeline {
 }
 
 impl Timeline {
-    /// Whether all flights begin anew at the start of each frame, where forces are applied that are held over
-    /// it, and none of them is in a zone.
+    /// Whether all flights restart at the start of each frame: applied forces are held over a frame, and no sphere
+    /// is in a zone.
     pub fn is_renewed_each_frame(&self, are_applied: bool) -> bool {
         self.flights.hold_forces && are_applied && self.zone.is_empty()
     }
@@ -130,7 +130,7 @@ impl Timeline {
         self.flights.take_contact_work(time)
     }
 
-    /// What is stepped, to go on with where the flights are dropped.
+    /// The zone, for a timeline that is made again.
     pub fn into_zone(self) -> Zone {
         self.zone
     }
@@ -154,9 +154,9 @@ impl Timeline {
         }
     }
 
-    /// Until when the sphere at `slot`, of this species, stays on its flight at most, on the world's clock
-    /// \[s\]: until the step of its curve ends, the forces of its persistent contacts are found anew, the zone
-    /// that it is in is stepped, or all flights begin anew.
+    /// Latest end of the flight of the sphere at `slot`, of this species, on the world's clock \[s\]: the end of
+    /// its curve's step, the next computation of its persistent contacts, the next step of its zone, or the next
+    /// restart of all flights.
     #[inline]
     pub(super) fn flight_end(&self, slot: u32, species: &Species) -> f64 {
         if species.is_curved {
@@ -171,7 +171,7 @@ impl Timeline {
         })
     }
 
-    /// Begins the flight of a sphere that is known by what it does at an event, with no contact forces.
+    /// Begins the flight of a sphere in the state of an event, without contact forces.
     pub(super) fn begin_free_flight(&mut self, member: &Member, time: f64) {
         let Member { slot, position, velocity, species, .. } = *member;
         self.set_free(slot, time);
@@ -181,8 +181,8 @@ impl Timeline {
         self.begin_flight(slot, position, velocity, time);
     }
 
-    /// Finds the flight of a sphere from its beginning to the end of a step, if forces without a closed form act on
-    /// it and it is not known yet. The companions of its component begin theirs anew.
+    /// Computes the flight of a sphere to the end of a step, if forces without a closed form act on it and the step
+    /// is not known yet. The flights of its component's members restart.
     #[inline]
     pub(super) fn find_curve(&mut self, system: &System, slot: u32) {
         if self.flights.are_curved()
@@ -192,7 +192,7 @@ impl Timeline {
         }
     }
 
-    /// Finds all flights that are not known yet.
+    /// Computes all flights that are not known yet.
     pub(super) fn find_curves(&mut self, system: &System) {
         if !self.flights.are_curved() {
             return;
@@ -203,7 +203,7 @@ impl Timeline {
         }
     }
 
-    /// Begins the flights anew of the components of which one did, and lists them as `restarted`.
+    /// Restarts the flights of each component in which one restarted, and lists them as `restarted`.
     #[inline]
     pub(super) fn restart_companions(&mut self, system: &System) {
         while let Some(number) = self.flights.components.next_due() {
@@ -211,8 +211,7 @@ impl Timeline {
         }
     }
 
-    /// Takes the next step of a component, by its number, from where its spheres are when the last of their flights
-    /// begins.
+    /// Takes the next step of a component, by its number, from the latest start of its members' flights.
     #[inline(never)]
     fn take_step(&mut self, system: &System, number: u32) {
         let members = self.flights.components.get(number).members.clone();
@@ -241,7 +240,7 @@ impl Timeline {
         self.flights.components.charge(number, evaluations);
     }
 
-    /// Begins another flight of a sphere, which goes on from where it is at `time` \[s\]: no work of events.
+    /// Continues a sphere in another flight at `time` \[s\] without counting it as work.
     pub(super) fn go_on(&mut self, slot: u32, time: f64) {
         let (position, velocity) = self.flights.state_of(slot, time);
         let body = &mut self.flights.bodies[slot as usize];
@@ -260,7 +259,7 @@ impl Timeline {
         };
         self.flights.bodies[slot as usize].begin_flight(position, velocity, time);
         match rest {
-            // Companions need not know of it.
+            // Companions are not affected.
             Some(rest) => self.flights.set_rest_of_step(slot, rest),
             None => self.note_for_companions(slot),
         }
@@ -268,7 +267,7 @@ impl Timeline {
         self.wrap(slot);
     }
 
-    /// Notes for the companions of a sphere that they have to begin their flights anew.
+    /// Notes that the companions of a sphere must restart their flights.
     #[inline]
     pub(super) fn note_for_companions(&mut self, slot: u32) {
         if self.flights.are_curved() {
@@ -276,7 +275,7 @@ impl Timeline {
         }
     }
 
-    /// Makes spheres that are free a cluster from `time` \[s\] on.
+    /// Makes a cluster of free spheres from `time` \[s\] on.
     pub(super) fn set_supported(&mut self, support: Support, time: f64) {
         support.members.iter().for_each(|member| self.note_for_companions(member.slot));
         self.flights.set_supported(support, time);
@@ -290,7 +289,7 @@ impl Timeline {
         }
     }
 
-    /// Wraps the position where a flight begins into the periodic box; tells whether it was elsewhere.
+    /// Wraps the position where a flight begins into the periodic box. Returns whether it changed.
     #[inline(always)]
     pub(super) fn wrap(&mut self, slot: u32) -> bool {
         let is_elsewhere = !self.neighbours.is_in_box(self.flights.bodies[slot as usize].position);
@@ -307,15 +306,14 @@ impl Timeline {
         wrapped.is_some()
     }
 
-    /// Takes away the contact forces on a sphere at `time` \[s\], and its cluster.
+    /// Removes the contact forces on a sphere at `time` \[s\], and its cluster.
     pub(super) fn set_free(&mut self, slot: u32, time: f64) {
         if self.flights.set_free(slot, time) {
             self.drop_clearance(slot);
         }
     }
 
-    /// Puts the sphere at an index of the world's arrays elsewhere at `time` \[s\]. What was predicted
-    /// is not predicted anew.
+    /// Moves the sphere with this index of the world's arrays at `time` \[s\]. Its predictions are not renewed.
     pub fn place(&mut self, index: usize, position: DVec3, velocity: DVec3, time: f64) {
         let slot = self.flights.slot_of[index];
         self.set_free(slot, time);
@@ -326,8 +324,7 @@ impl Timeline {
         self.wrap(slot);
     }
 
-    /// Begins the flights that are at `now` \[s\] anew at another time \[s\]. What was predicted is not
-    /// predicted anew.
+    /// Shifts the flights from `now` \[s\] to another time \[s\]. Predictions are not renewed.
     pub fn set_time(&mut self, now: f64, time: f64) {
         for slot in 0..self.flights.bodies.len() as u32 {
             let (position, velocity) = self.flights.state_of(slot, now);
@@ -355,7 +352,7 @@ impl Timeline {
         near.filter(move |near| self.neighbours.meets_surface(slot, near.0))
     }
 
-    /// Whether a sphere is certain to meet no surface on its flight, but those that hold it.
+    /// Whether a sphere cannot meet a surface on its flight, other than those in persistent contact with it.
     #[inline]
     pub(super) fn is_clear_of_surfaces(&self, slot: u32) -> bool {
         self.clearances.get(slot as usize).is_some_and(|clearance| {
@@ -371,7 +368,7 @@ impl Timeline {
         })
     }
 
-    /// Finds the clearance of a sphere anew, if it leaves the one that it had.
+    /// Computes the clearance of a sphere again, if the sphere leaves the old one.
     pub(super) fn find_clearance(&mut self, system: &System, slot: u32) {
         if self.clearances.is_empty() || self.is_clear_of_surfaces(slot) {
             return;
@@ -388,14 +385,14 @@ impl Timeline {
         self.clearances[slot as usize] = Clearance::about(center, radius, obstacles);
     }
 
-    /// Notes that a sphere may meet surfaces that it could not meet before.
+    /// Drops the clearance of a sphere that may meet other surfaces now.
     pub(super) fn drop_clearance(&mut self, slot: u32) {
         if let Some(clearance) = self.clearances.get_mut(slot as usize) {
             *clearance = Clearance::NONE;
         }
     }
 
-    /// Notes that a sphere has one in a zone `near` it; or those near it, where it is in one.
+    /// Notes a sphere with a sphere of a zone among its neighbours; or its neighbours, if it is in a zone.
     pub(super) fn note_near_zone(&mut self, slot: u32, near: &NeighbourBuffer) {
         let Self { flights, zone, .. } = self;
         if zone.is_empty() {
@@ -409,7 +406,7 @@ impl Timeline {
         }
     }
 
-    /// Notes what a sphere meets next, in the same neighbour region.
+    /// Changes the next events of a sphere in the same neighbour region.
     pub(super) fn reschedule(&mut self, slot: u32, events: NextEvents) {
         let cell_crossing = self.schedule.cell_crossing(slot);
         self.enter(slot, Prediction { events, cell_crossing });
@@ -421,14 +418,14 @@ impl Timeline {
         self.schedule.enter(slot, self.flights.index_of[slot as usize], prediction);
     }
 
-    /// The meeting with another sphere at this time \[s\], as far as is known now.
+    /// The meeting with another sphere at this time \[s\], with that sphere's present generation.
     #[inline(always)]
     pub(super) fn meeting(&self, time: f64, other: u32) -> Event {
         let generation = self.flights.bodies[other as usize].generation;
         Event { time, target: PackedTarget::sphere(other), generation }
     }
 
-    /// Whether a meeting with another sphere will not be, because that one began another flight.
+    /// Whether a meeting is void because the other sphere restarted.
     #[inline]
     pub(super) fn is_void(&self, event: &Event) -> bool {
         let generation_of = |other: u32| self.flights.bodies[other as usize].generation;
@@ -453,7 +450,7 @@ impl Timeline {
         way_squared < resolved * resolved
     }
 
-    /// How many flights of a sphere began in this frame, and what its groups took besides.
+    /// Number of flights that a sphere began in this frame, plus the work of its groups.
     #[inline]
     pub(super) fn work_in_frame(&self, slot: u32) -> u64 {
         self.work.of(slot, self.flights.bodies[slot as usize].generation)

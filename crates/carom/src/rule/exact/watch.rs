@@ -1,4 +1,4 @@
-//! The watch over spheres: which flights they were last seen on.
+//! The watch over spheres: the flight of each up to which sensors have looked and work is counted.
 
 use glam::DVec3;
 
@@ -8,7 +8,7 @@ use crate::force_work::ForceWork;
 use crate::polynomial_flight::PolynomialFlight;
 use crate::sensor::{Presence, Sensors};
 
-/// The flight of each sphere as it was last seen, and what was found along those before.
+/// The flight of each sphere that is looked along next, and what was found along those before.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Watch {
     /// What sensors saw; `None` where there are none.
@@ -23,7 +23,7 @@ pub(crate) struct Watch {
     pub(super) step_start: f64,
 }
 
-/// The flight that a sphere was seen on.
+/// A flight that sensors look along.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Seen {
     pub flight: Flight,
@@ -34,7 +34,7 @@ pub(super) struct Seen {
     pub is_stepped: bool,
     /// Forces of nonconservative interactions, held over the flight \[N\].
     pub held_force: DVec3,
-    /// Up to when it was looked along it, on the world's clock \[s\].
+    /// Up to when the flight was looked along, on the world's clock \[s\].
     pub from: f64,
 }
 

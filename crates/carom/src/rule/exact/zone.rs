@@ -19,37 +19,37 @@ use crate::settings::Contact;
 use crate::surface::Surface;
 use crate::system::System;
 
-/// Neighbours of spheres in a zone are to last some of the frames that so many ticks make.
+/// Neighbour lists of zones are made to last some frames, each of this many ticks.
 const TICKS_PER_FRAME: u32 = 8;
 
-/// A sphere that has borne nothing and was not borne for so many ticks leaves its zone, whatever is near.
+/// A sphere leaves its zone after this many ticks without a pressing contact, whatever is near.
 const FREE_TICKS: u32 = 4 * TICKS_PER_FRAME;
 
-/// Ticks are to be at most this part of `sqrt(r / a)`, the time in which a sphere with the radius r falls
-/// through half of it.
+/// Ticks last at most this part of `sqrt(r / a)`, the time in which a sphere with the radius r falls through half
+/// of it.
 const SHORT: f64 = 0.03;
-/// They are halved so often at most.
+/// Largest number of halvings of a tick.
 const MOST_TICK_HALVINGS: u32 = 6;
 
-/// The spheres that are stepped, all zones of a world together. Between ticks they fly straight.
+/// The spheres of all zones of a world. Between ticks they fly straight.
 #[derive(Debug, Clone, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Zone {
     /// Their places in the arrays of the world, ascending.
     pub index: Vec<u32>,
     properties: Properties,
-    /// How they move at the next tick.
+    /// The states of the spheres at the next tick.
     motion: Motion,
     /// Their velocities at the last tick \[m/s\].
     velocity_before: Vec<DVec3>,
-    /// Ticks since each bore something or was borne.
+    /// Ticks since each sphere last had a pressing contact.
     free_ticks: Vec<u32>,
     /// Spheres that joined since the last tick.
     waiting: Vec<Waiting>,
     solver: Solver,
     #[cfg_attr(feature = "serde", serde(skip))]
     scratch: Scratch,
-    /// Where surfaces are at a tick; of use within [`Self::step`] only.
+    /// Surfaces at a tick; valid within [`Self::step`] only.
     #[cfg_attr(feature = "serde", serde(skip))]
     surfaces: Vec<Surface>,
     /// The last tick, and the next one, on the world's clock \[s\]; the next one is infinite while all
@@ -58,17 +58,15 @@ pub(crate) struct Zone {
     /// What the sub-step from the last tick to the next one does to the energy, and which part of it is in reports.
     account: EnergyAccount,
     reported: f64,
-    /// How often a tick is halved, for small spheres to be stepped well.
+    /// Number of halvings of a tick that small spheres need.
     halvings: u32,
-    /// Forces between spheres as they are held \[N\], by index in the arrays of the world; empty
-    /// where there are none.
+    /// Held forces between spheres \[N\], by index in the arrays of the world; empty where there are none.
     pub held_forces: Vec<DVec3>,
-    /// Slots of spheres that are in no zone and have one that is among their neighbours; more than once,
-    /// perhaps, and some for which it is so no more.
+    /// Slots of spheres outside zones with a neighbour inside; some may appear more than once or be out of date.
     pub near: Vec<u32>,
 }
 
-/// A sphere that waits for the first tick since it joined a zone.
+/// A sphere that joined a zone and waits for its first tick.
 #[derive(Debug, Clone, Copy)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Waiting {
@@ -79,7 +77,7 @@ struct Waiting {
     velocities: [DVec3; 2],
 }
 
-/// How a sphere in a zone moves.
+/// The motion of a sphere in a zone between two ticks.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Stepped {
     pub index: u32,
@@ -104,14 +102,14 @@ impl Zone {
         if self.is_empty() { 0 } else { self.solver.asleep() }
     }
 
-    /// Until when its spheres fly as they do now, on the world's clock \[s\]: until the next tick.
+    /// The next tick, on the world's clock \[s\]; infinite without spheres.
     pub fn next_tick(&self) -> f64 {
         if self.is_empty() { f64::INFINITY } else { self.ticks[1] }
     }
 
-    /// Sets and gives the next tick \[s\] for the sphere at an index of the world's arrays, which is about to join
-    /// at a time \[s\]. Ticks are `tick` \[s\] apart, or parts of that where spheres are small or springs, on which motion
-    /// has a rate \[1/s\], stiff.
+    /// Sets and returns the next tick \[s\] for a sphere that is about to join at a time \[s\], by its index in the
+    /// world's arrays. Ticks are `tick` \[s\] apart, or parts of that where spheres are small or springs, which move at
+    /// `spring_rate` \[1/s\], are stiff.
     pub fn expect(
         &mut self,
         system: &System,
@@ -139,8 +137,8 @@ impl Zone {
         self.halvings = of_spheres.fold(of_all, u32::max);
     }
 
-    /// Takes in a sphere that was expected. Its velocity changes steadily from that `since` it joined \[s\] to
-    /// that at the next tick \[m/s\].
+    /// Adds a sphere for which [`Self::expect`] was called. Its velocity changes steadily from that at `since`,
+    /// when it joined \[s\], to that at the next tick \[m/s\].
     pub fn join(&mut self, sphere: SphereId, velocities: [DVec3; 2], since: f64) {
         self.waiting.push(Waiting { sphere, since, velocities });
     }
@@ -170,7 +168,7 @@ impl Zone {
         // What is left of the sub-step does not happen.
         self.account = EnergyAccount::default();
         self.near.clear();
-        // Of forces that may be gone, by indices that may be others' now.
+        // The held forces may be outdated, and their indices may belong to other spheres now.
         self.held_forces.clear();
         self.solver.set_changed();
         for index in all {
@@ -179,8 +177,7 @@ impl Zone {
         }
     }
 
-    /// Follows spheres to other places in the arrays of the world, which hold these ids; forgets those that
-    /// are gone.
+    /// Updates the indices of spheres to arrays of the world with these ids; drops removed spheres.
     pub fn follow(&mut self, ids: &[SphereId]) {
         self.held_forces.clear();
         let is_there = |id: &SphereId| ids.binary_search(id).is_ok();
@@ -196,7 +193,7 @@ impl Zone {
             .collect();
     }
 
-    /// Keeps those of its spheres that stay.
+    /// Keeps the spheres whose flag is set.
     fn keep(&mut self, stays: &[bool]) {
         if stays.iter().all(|&stays| stays) {
             return;
@@ -210,10 +207,9 @@ impl Zone {
         self.free_ticks = kept.iter().map(|&place| self.free_ticks[place as usize]).collect();
     }
 
-    /// Takes out the spheres that are near no other one, or fly freely since some time, at a tick, before
-    /// those that wait are taken in; but for those that bear something and would have to come back, as
-    /// `would_rejoin` takes an index and a centre \[m\]. Returns their indices, and centres \[m\] and
-    /// velocities \[m/s\].
+    /// Removes, at a tick, the spheres that are near no other one or have flown freely for some time, before
+    /// waiting spheres are added. Spheres that press and would have to come back stay; `would_rejoin` decides by
+    /// index and centre \[m\]. Returns the indices, centres \[m\] and velocities \[m/s\] of the removed.
     pub fn take_out_free(
         &mut self,
         would_rejoin: impl Fn(u32, DVec3) -> bool,
@@ -241,7 +237,7 @@ impl Zone {
         out
     }
 
-    /// Whether nothing happens at the next tick: all sleep.
+    /// Whether all spheres sleep, so that nothing happens at the next tick.
     pub fn is_idle(&self) -> bool {
         self.waiting.is_empty() && self.solver.is_idle()
     }
@@ -270,8 +266,7 @@ impl Zone {
             .map(move |(&index, (&before, &after))| (index, before + part * (after - before)))
     }
 
-    /// The places of all spheres, those that joined since the last tick among them, in arrays of the world
-    /// that hold these ids.
+    /// The indices of all spheres, waiting ones included, in arrays of the world with these ids.
     pub fn indices(&self, ids: &[SphereId]) -> Vec<u32> {
         let waiting = self.waiting.iter().map(|it| &it.sphere);
         let all = self.properties.id.iter().chain(waiting);
@@ -287,27 +282,26 @@ impl Zone {
         })
     }
 
-    /// The contacts that bore something in the last sub-step.
+    /// The contacts that pressed in the last sub-step.
     pub fn persistent_contacts(&self, system: &System) -> Vec<PersistentContact> {
         let system = System { spheres: &self.properties, interactions: None, ..*system };
         contact::persistent_contacts(&self.solver, &system)
     }
 
-    /// Whether spheres may leave at the next tick: once in so many that are `tick` \[s\] apart.
+    /// Whether spheres may leave at the next tick: once per frame, for ticks `tick` \[s\] apart.
     pub fn is_due_to_leave(&self, tick: f64) -> bool {
         // A multiple may round to less.
         let number = |time: f64| ((time / tick + 0.25) as u64) / u64::from(TICKS_PER_FRAME);
         number(self.ticks[1]) != number(self.ticks[0])
     }
 
-    /// Takes those that wait into its arrays: `flights` tell where spheres are at `now` \[s\], and how they
-    /// turn.
+    /// Moves waiting spheres into the arrays; `flights` has their states and rotations at `now` \[s\].
     pub fn admit(&mut self, system: &System, flights: &Flights, now: f64) {
         if self.waiting.is_empty() {
             return;
         }
         let ids = &system.spheres.id;
-        // By index, with the place that it has already.
+        // By index, with the place of known spheres.
         let known = (0u32..).zip(&self.index).map(|(place, &index)| (index, Err(place)));
         let come = self.waiting.drain(..).filter_map(|it| {
             Some((ids.binary_search(&it.sphere).ok()? as u32, Ok(it.velocities[1])))
@@ -358,7 +352,7 @@ impl Zone {
         let system = System {
             spheres: &self.properties,
             surfaces: &self.surfaces,
-            // Those are held, as all forces on single spheres.
+            // Forces between spheres are held.
             interactions: None,
             ..*system
         };
@@ -406,14 +400,14 @@ impl Zone {
         self.properties.applied_force = self.index.iter().filter_map(force).collect();
     }
 
-    /// Moves surfaces to where they are at a time after the poses of the system \[s\].
+    /// Moves surfaces to their places at a time after the poses of the system \[s\].
     fn place_surfaces(&mut self, system: &System, offset: f64) {
         self.surfaces.clear();
         self.surfaces.extend(system.surfaces.iter().map(|surface| surface.moved(offset)));
     }
 }
 
-/// How a sphere turns between two ticks \[s\], by what its spin is at both.
+/// The rotation of a sphere between two ticks \[s\], from its angular velocities at both.
 fn rotation_between(
     [before, after]: [&Spin; 2],
     place: usize,
@@ -424,21 +418,20 @@ fn rotation_between(
     Some(Rotation::between(orientation, velocities, [now, next]))
 }
 
-/// How often a tick \[s\] is to be halved for springs, on which motion has a rate \[1/s\], and for surfaces that
-/// turn.
+/// Number of halvings of a tick \[s\] for springs, with a rate of motion \[1/s\], and for turning surfaces.
 fn halvings_for_all(system: &System, [tick, spring_rate]: [f64; 2]) -> u32 {
     halvings_for_springs(spring_rate, tick).max(halvings_for_turning(system.surfaces, tick))
 }
 
-/// How often a tick \[s\] is to be halved for surfaces that turn.
+/// Number of halvings of a tick \[s\] for turning surfaces.
 fn halvings_for_turning(surfaces: &[Surface], tick: f64) -> u32 {
     let rates = surfaces.iter().map(|it| contact::turning_rate(&it.form, &it.motion));
     let rate = rates.fold(0.0, f64::max);
     halvings(tick, MOST_TICK_HALVINGS, |it| rate * it <= contact::TURN)
 }
 
-/// How often a tick \[s\] is to be halved for a sphere: until it is short in relation to the time in which
-/// the sphere falls through its own size.
+/// Number of halvings of a tick \[s\] for a sphere: until the tick is short beside the time in which the sphere
+/// falls through its own size.
 fn halvings_for(system: &System, index: usize, tick: f64) -> u32 {
     let (radius, mass) = (system.spheres.radius[index], system.spheres.mass[index]);
     let (linear, _) = forces::total_linear(system.forces, radius, mass);

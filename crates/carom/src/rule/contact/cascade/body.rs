@@ -28,13 +28,13 @@ pub struct Body {
     /// As in [`Landed`], of the flights so far.
     pub way: DVec3,
     pub against_drag: f64,
-    /// Whether contacts bore it in the flight before.
+    /// Whether the sphere pressed on something in the flight before.
     pub bears: bool,
     pub met_surface: bool,
 }
 
 impl Body {
-    /// The sphere in a slot, as the sub-step begins.
+    /// The sphere in a slot at the start of the sub-step.
     pub fn of(slots: &Slots, slot: usize) -> Self {
         let [position, before] = [slots.position[slot], slots.before[slot]];
         let zero = Row::default();
@@ -81,7 +81,7 @@ impl Body {
         Landed { slot, position, velocity, spin, from, way, against_drag, bears, met_surface }
     }
 
-    /// What forces alone do to it: nothing where contacts bear it.
+    /// Acceleration by forces alone; zero for a supported sphere.
     pub fn free_acceleration(&self) -> DVec3 {
         if self.bears { DVec3::ZERO } else { self.acceleration }
     }

@@ -12,31 +12,31 @@ use crate::rule::contact::places::Place;
 use crate::rule::contact::sub_step::SubStep;
 use crate::rule::contact::swept::FAR;
 
-/// Impacts for each sphere of an island at most; what comes after them is answered together.
+/// Largest number of impacts per sphere of an island; later ones are answered together.
 const MOST_IMPACTS: usize = 8;
-/// And so many times it is looked for the next meeting of a link: each impact looks at all.
+/// Largest number of searches for the next meeting of a link: each impact searches all links.
 const MOST_LOOKS: usize = 20_000;
-/// Links that are solved in a cascade, one after the other, at most.
+/// Largest number of links that a cascade solves, one after the other.
 const MOST_VISITS: u32 = 100_000;
-/// Of impacts: what they leave is lost or gained.
+/// Accuracy of impacts: their error is a loss or gain of energy.
 const OF_IMPACTS: Accuracy = Accuracy { part: 1e-12, visits: 20_000 };
-/// Of what bears something in a flight: a sub-step of the rule has a larger error.
+/// Accuracy of contact forces in a flight: a sub-step of the rule has a larger error.
 const OF_FLIGHTS: Accuracy = Accuracy { part: 1e-7, visits: 2_000 };
 /// Bodies touch whose gap is below this part of the sum of radii.
 const TOUCH: f64 = 1e-6;
 /// Gains up to this part of the kinetic energy are rounding.
 const ROUNDING: f64 = 1e-14;
 
-/// How well impulses are known.
+/// The accuracy of impulses.
 #[derive(Clone, Copy)]
 struct Accuracy {
-    /// The last sweep changes none by more than this part of the largest.
+    /// Largest change of an impulse in the last sweep, as a part of the largest impulse.
     part: f64,
-    /// Links that are solved for it, one after the other, at most: with friction, sweeps may never end.
+    /// Largest number of links to solve, one after the other: with friction, sweeps may never end.
     visits: u32,
 }
 
-/// What happened.
+/// The events of a cascade.
 pub struct Course {
     /// Work of all impulses \[J\].
     pub work: f64,
@@ -47,7 +47,7 @@ pub struct Course {
 }
 
 impl Course {
-    /// Takes an island through a sub-step.
+    /// Advances an island through a sub-step.
     pub fn run(island: &mut Island, places: &[Place], sub_step: &SubStep) -> Self {
         let mut course = Self { work: 0.0, impacts: Vec::new(), last: 0.0, visits: 0 };
         let most_by_looks = MOST_LOOKS / island.links.len().max(1);
@@ -77,7 +77,7 @@ impl Course {
         course
     }
 
-    /// Finds the velocities after a flight of a time \[s\], in which links bear what they have to.
+    /// Computes the velocities after a flight of a time \[s\], with the contact forces of its links.
     fn fly(&mut self, island: &mut Island, time: f64) {
         for body in &mut island.bodies {
             (body.velocity, body.spin) = (body.accelerated(time), body.start[1]);
@@ -88,7 +88,7 @@ impl Course {
         self.solve(island, OF_FLIGHTS);
     }
 
-    /// Sweeps over the links until their impulses are known.
+    /// Sweeps over the links until their impulses have this accuracy.
     fn solve(&mut self, island: &mut Island, accuracy: Accuracy) {
         let Island { bodies, links } = island;
         let mut bearing: Vec<&mut Link> =
@@ -126,8 +126,7 @@ impl Course {
         }
     }
 
-    /// Answers the impacts of the bodies that meet now, after a time of their flight \[s\], and of what touches
-    /// them.
+    /// Answers the impacts of bodies that meet after a time of their flight \[s\], and of what touches them.
     fn meet(&mut self, island: &mut Island, places: &[Place], time: f64) {
         let Island { bodies, links } = island;
         for link in &mut *links {
@@ -155,7 +154,7 @@ impl Course {
             if link.approach > 0.0 && link.impulses.normal > 0.0 {
                 self.impacts.push(met(link, bodies));
             }
-            // What bounces is awaited again; what does not goes on together.
+            // Bodies that bounce may meet again; others stay together.
             link.bears = link.bias >= 0.0 && (link.bears || link.impulses.normal > 0.0);
             if link.first.is_none() && link.impulses.normal > 0.0 {
                 bodies[link.second].met_surface = true;
@@ -165,7 +164,7 @@ impl Course {
     }
 }
 
-/// Decides what each link does in a flight of this time at most \[s\]; in the last one, none is awaited.
+/// Sets the role of each link in a flight of at most this time \[s\]; in the last flight, none awaits a meeting.
 fn expect(island: &mut Island, places: &[Place], (left, sub_step): (f64, &SubStep), is_last: bool) {
     let Island { bodies, links } = island;
     for link in links {
@@ -183,7 +182,7 @@ fn expect(island: &mut Island, places: &[Place], (left, sub_step): (f64, &SubSte
         } else if closing > link.threshold(bodies, sub_step) || (goes_far && link.gap > 0.0) {
             link.set(Role::Awaited, 0.0);
         } else if room > closing + fall {
-            // On its parabola it does not come so far as its last velocity says.
+            // On its parabola the body does not get as far as with its last velocity.
             link.set(Role::Bears, room + fall.max(0.0));
         } else {
             link.set(Role::Bears, room);
@@ -191,7 +190,7 @@ fn expect(island: &mut Island, places: &[Place], (left, sub_step): (f64, &SubSte
     }
 }
 
-/// When the first bodies meet that are awaited to in a flight of a time \[s\].
+/// Time of the first meeting that a link awaits in a flight of a time \[s\].
 fn first_meeting(island: &mut Island, places: &[Place], time: f64) -> Option<f64> {
     let touched = touched(island);
     let bodies = &island.bodies;
@@ -220,7 +219,7 @@ fn restart(island: &mut Island) {
     }
 }
 
-/// Which bodies links have given impulses.
+/// Whether a link has given each body an impulse.
 fn touched(island: &Island) -> Vec<bool> {
     let mut touched = vec![false; island.bodies.len()];
     for link in island.links.iter().filter(|link| link.impulses.normal > 0.0) {
@@ -252,8 +251,8 @@ fn path(body: &Body, is_touched: bool, time: f64) -> Flight {
     }
 }
 
-/// Work \[J\] of what impulses have done to a body that had this velocity without them \[m/s\], with the mean of its
-/// velocities at both ends.
+/// Work \[J\] of the impulses on a body with this velocity without them \[m/s\], by the mean of its velocities at
+/// both ends.
 fn work(body: &Body, without: DVec3) -> f64 {
     if body.inverse_mass == 0.0 {
         return 0.0;
@@ -279,8 +278,8 @@ fn kinetic_energy(bodies: &[Body]) -> f64 {
     0.5 * bodies.iter().map(of).sum::<f64>()
 }
 
-/// Takes less of the impulses of an impact where they would add to the kinetic energy of before \[J\]: restitution
-/// in a group may.
+/// Reduces the impulses of an impact where they would raise the kinetic energy above that of before \[J\]:
+/// restitution in a group may.
 ///
 /// With the velocities v before and v + d after, the energy of `v + s d` is a parabola in s that begins
 /// with a descent; s is the largest part that adds nothing.
@@ -303,7 +302,7 @@ fn take_gain(island: &mut Island, before: f64) {
     }
 }
 
-/// What a link tells of an impact.
+/// The impact of a link.
 fn met(link: &Link, bodies: &[Body]) -> Met {
     let second = bodies[link.second].slot;
     let partners = match link.first {

@@ -1,4 +1,4 @@
-//! Islands: the spheres that may take part in a cascade, and all contacts that they may come to in it.
+//! Islands: the spheres of a cascade, and all contacts that they may get in it.
 
 use super::body::Body;
 use super::link::Link;
@@ -7,12 +7,12 @@ use crate::rule::contact::slots::Slots;
 use crate::rule::contact::solver::Solver;
 use crate::rule::contact::sub_step::SubStep;
 
-/// Spheres of an island at most: those of larger ones are left to the sweeps.
+/// Largest number of spheres of an island; larger ones are left to the sweeps.
 const MOST_BODIES: usize = 48;
-/// Contacts of an island at most.
+/// Largest number of contacts of an island.
 const MOST_LINKS: usize = 512;
-/// A sphere may come so many times as far in a cascade as it would by itself: what a heavy one hits
-/// flies off at twice its speed.
+/// A sphere may get this many times as far in a cascade as by itself: what a heavy one hits flies off at twice its
+/// speed.
 const REACH: f64 = 2.0;
 
 /// Spheres and their contacts.
@@ -28,7 +28,7 @@ pub struct Gathering {
     seen: Vec<Seen>,
 }
 
-/// What is known of a sphere.
+/// The state of a sphere in the search for islands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Seen {
     Never,
@@ -107,7 +107,7 @@ impl Growing {
         })
     }
 
-    /// Adds a contact of a body that something may come of in the sub-step, and the other sphere.
+    /// Adds a contact of a body that may close in the sub-step, and the other sphere.
     fn follow(&mut self, solver: &Solver, own: usize, origin: Origin, sub_step: &SubStep) {
         let slots = &solver.slots;
         let mut link = Link::of(solver, origin);

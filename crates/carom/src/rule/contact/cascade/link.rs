@@ -12,14 +12,14 @@ use crate::rule::contact::slots::Slots;
 use crate::rule::contact::solver::Solver;
 use crate::rule::contact::sub_step::SubStep;
 
-/// What a link does in a flight or an impact.
+/// The role of a link in a flight or an impact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
     /// Nothing.
     Off,
-    /// It keeps its bodies apart.
+    /// The link keeps its bodies apart.
     Bears,
-    /// Its bodies are awaited to meet: nothing until then.
+    /// The bodies of the link may meet; it acts from then on.
     Awaited,
 }
 
@@ -33,14 +33,14 @@ pub struct Link {
     pub first: Option<usize>,
     pub second: usize,
     pub surface: u32,
-    /// From where body 2 is to its image that body 1 touches \[m\].
+    /// Offset from body 2 to its image that body 1 touches \[m\].
     pub shift: DVec3,
     radius_sum: f64,
     restitution: f64,
     friction: ContactFriction,
-    /// The impulse that it had before the sub-step \[N s\].
+    /// Impulse before the sub-step \[N s\].
     carried: f64,
-    /// Whether it bore something in the sub-step, or in the flight before.
+    /// Whether the link pressed in the sub-step, or in the flight before.
     pub bears: bool,
     /// Whether its surface kicks, which no cascade follows.
     pub has_kick: bool,
@@ -48,9 +48,9 @@ pub struct Link {
     pub normal: DVec3,
     pub point: DVec3,
     pub gap: f64,
-    /// What the normal velocity is to be at least, with the opposite sign \[m/s\].
+    /// Minus the least normal velocity \[m/s\].
     pub bias: f64,
-    /// Slip that an impact is to end with \[m/s\].
+    /// Slip after an impact \[m/s\].
     slip: DVec3,
     /// When its bodies meet in the flight \[s\].
     pub time: f64,
@@ -60,7 +60,7 @@ pub struct Link {
 }
 
 impl Link {
-    /// A contact of the solver, whose bodies are to be found.
+    /// A contact of the solver as a link, without its bodies.
     pub fn of(solver: &Solver, origin: Origin) -> Self {
         let none = Self {
             origin,
@@ -134,18 +134,18 @@ impl Link {
         }
     }
 
-    /// The gap of two spheres where they are as the sub-step begins \[m\].
+    /// The gap of two spheres at the start of the sub-step \[m\].
     pub fn gap_between(&self, slots: &Slots) -> f64 {
         let [first, second] = self.slots.map(|slot| slots.position[slot as usize].vector());
         (second - first + self.shift).length() - self.radius_sum
     }
 
-    /// Notes whether it bore something before the sub-step, which is what counts from its start on.
+    /// Notes whether the link pressed before the sub-step; that counts from its start on.
     pub fn begin(&mut self) {
         self.bears = self.carried > 0.0;
     }
 
-    /// Finds normal and gap now. Returns whether there are any.
+    /// Measures normal and gap. Returns whether there are any.
     pub fn measure(&mut self, bodies: &[Body], places: &[Place]) -> bool {
         let second = &bodies[self.second];
         let Some(first) = self.first else {
@@ -167,7 +167,7 @@ impl Link {
         true
     }
 
-    /// The velocity of body 2 relative to body 1, `[velocity, spin]` of each being so.
+    /// The relative vector of body 2 to body 1, where `of` returns that of one body.
     fn relative(&self, bodies: &[Body], of: impl Fn(&Body) -> DVec3) -> DVec3 {
         of(&bodies[self.second]) - self.first.map_or(DVec3::ZERO, |first| of(&bodies[first]))
     }
@@ -182,12 +182,12 @@ impl Link {
         self.relative(bodies, |body| body.velocity)
     }
 
-    /// How forces have the bodies close along the normal \[m/s²\].
+    /// Acceleration of approach along the normal by forces \[m/s²\].
     pub fn pressing(&self, bodies: &[Body]) -> f64 {
         -self.relative(bodies, Body::free_acceleration).dot(self.normal)
     }
 
-    /// The length in relation to which ways are far \[m\].
+    /// The length beside which paths count as long \[m\].
     pub fn size(&self) -> f64 {
         self.radius_sum
     }
@@ -213,7 +213,7 @@ impl Link {
         }
     }
 
-    /// Begins a flight or an impact without impulses, in which it does so.
+    /// Begins a flight or an impact in this role, without impulses.
     pub fn set(&mut self, role: Role, bias: f64) {
         (self.role, self.bias) = (role, bias);
         (self.approach, self.slip) = (0.0, DVec3::ZERO);
@@ -236,8 +236,8 @@ impl Link {
         velocity - self.normal * velocity.dot(self.normal) - spin.cross(self.normal)
     }
 
-    /// Applies the impulses that both bodies need with the others as they are, if the link bears. Returns the
-    /// largest change of one \[N s\].
+    /// Applies the impulses that this link needs with the others as they are, if it acts. Returns the largest
+    /// change of an impulse \[N s\].
     pub fn solve(&mut self, bodies: &mut [Body]) -> f64 {
         let [mut inverse_mass, mut inverse_inertia] =
             [bodies[self.second].inverse_mass, bodies[self.second].inverse_inertia];
@@ -303,8 +303,8 @@ impl Link {
         }
     }
 
-    /// What it begins the next sub-step with, after a last flight of this duration \[s\]: what it would have
-    /// borne in a whole one.
+    /// The impulses with which the link starts the next sub-step, after a last flight of this duration \[s\]: those
+    /// of a whole sub-step.
     pub fn kept(&self, bodies: &[Body], last: f64, sub_step: &SubStep) -> Impulses {
         if self.role != Role::Bears || self.impulses.normal == 0.0 || last <= 0.0 {
             return Impulses::default();

@@ -17,14 +17,14 @@ pub struct Met {
     pub impact: Contact,
 }
 
-/// Who meets.
+/// The bodies of an impact.
 #[derive(Debug, Clone, Copy)]
 pub enum Partners {
     Spheres([u32; 2]),
     Surface(u32, u32),
 }
 
-/// What happens in an impact.
+/// The geometry and impulses of an impact.
 #[derive(Debug, Clone, Copy)]
 pub struct Contact {
     pub point: DVec3,
@@ -36,7 +36,7 @@ pub struct Contact {
 }
 
 impl Met {
-    /// As it is reported.
+    /// The impact for the report.
     pub fn report(&self, system: &System, solver: &Solver, sub_step: &SubStep) -> Impact {
         let slots = &solver.slots;
         let Contact {
@@ -54,7 +54,7 @@ impl Met {
                     BodyPair::Spheres(first, second)
                 } else {
                     normal = -normal;
-                    // From zero, for it not to become -0.
+                    // Subtracted from zero, so that zero does not become -0.
                     tangential_impulse = DVec3::ZERO - tangential_impulse;
                     BodyPair::Spheres(second, first)
                 }

@@ -1,5 +1,5 @@
-//! Cascades: where a sphere strikes what touches something else, or comes to a second body after its first
-//! impact, a small island of spheres goes through the sub-step anew, from impact to impact in order of time.
+//! Cascades: where a sphere strikes a body that touches something else, or reaches a second body after its first
+//! impact, a small island of spheres repeats the sub-step, from impact to impact in order of time.
 //!
 //! The sweeps answer all impacts of a sub-step together, as if they came at one time, and take what a few of
 //! them leave for solved. In a heap that is good enough, for much is lost there anyway. Elastic bounces
@@ -47,7 +47,8 @@ pub(super) fn follow(
     solver.landings.spheres.sort_unstable_by_key(|landed| landed.slot);
 }
 
-/// Takes an island, whose last flight took so long \[s\], out of what the sweeps work on.
+/// Removes an island, whose last flight took this long \[s\], from the spheres and contacts that the sweeps work
+/// on.
 fn withdraw(solver: &mut Solver, island: &Island, last: f64, sub_step: &SubStep) {
     let Solver { slots, slabs, landings, .. } = solver;
     for body in island.bodies.iter().filter(|body| body.inverse_mass > 0.0) {

@@ -71,7 +71,7 @@ struct Gathering<'a> {
     /// By index, so in order.
     members: BTreeMap<u32, Member>,
     touches: BTreeMap<Bodies, TouchOrigin>,
-    /// Slots of members whose pair_search were not looked at yet.
+    /// Slots of members whose neighbours were not searched yet.
     frontier: Vec<u32>,
 }
 
@@ -95,8 +95,7 @@ impl<'a> Gathering<'a> {
         self.context.period != DVec3::INFINITY
     }
 
-    /// Notes that two spheres touch, with the shift from where the second one counts to where the
-    /// first does.
+    /// Notes that two spheres touch, with the shift from the second one's position to its image beside the first.
     fn connect(&mut self, slots: [u32; 2], shift: DVec3) {
         let is_predicted = false;
         let indices = slots.map(|slot| self.timeline.flights.index_of[slot as usize]);
@@ -108,8 +107,8 @@ impl<'a> Gathering<'a> {
         });
     }
 
-    /// Two spheres touch, whatever rounding says: those that were predicted to meet now, or stay in
-    /// contact. In a periodic box, the nearest images do.
+    /// Connects two spheres that touch by prediction or persistent contact, whatever rounding says. In a periodic
+    /// box their nearest images touch.
     fn connect_nearest(&mut self, first: u32, second: u32) {
         let shift = if self.has_images() {
             let place = |slot| self.timeline.flights.state_of(slot, self.time).0;
@@ -227,8 +226,8 @@ impl<'a> Gathering<'a> {
         }
     }
 
-    /// Notes that a sphere meets a surface as predicted; unless that is a part of the mesh that holds it, to which
-    /// it is only about to come.
+    /// Notes that a sphere meets a surface as predicted. A part of the mesh that the sphere lies on does not count
+    /// before the sphere reaches it.
     fn connect_predicted(&mut self, slot: u32, surface: u32) {
         let mesh = holding_mesh(self.timeline, self.context, slot, self.time);
         let collider = self.context.system.surfaces[surface as usize].collider;
@@ -260,8 +259,7 @@ impl<'a> Gathering<'a> {
     }
 }
 
-/// Leaves out edges that spheres touch where they touch a plane, but for rounding: there two faces meet that
-/// make one.
+/// Removes edges that spheres touch together with a plane, up to rounding: two coplanar faces meet there.
 fn leave_out_seams(context: &StepContext, members: &[Member], touches: &mut Vec<Touch>) {
     let is_at_rest = |touch: &Touch| touch.first.is_none() && !touch.does_work();
     if !touches.iter().any(|touch| is_at_rest(touch) && touch.is_curved()) {

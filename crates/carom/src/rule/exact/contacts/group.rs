@@ -13,7 +13,7 @@ pub(crate) struct Group {
     pub members: Vec<Member>,
     /// In the order of their bodies.
     pub touches: Vec<Touch>,
-    /// Largest speed among the members as they came \[m/s\].
+    /// Largest speed among the members before the impact \[m/s\].
     pub fastest: f64,
 }
 
@@ -23,8 +23,8 @@ impl Group {
         self.members.binary_search_by_key(&index, |member| member.index).ok()
     }
 
-    /// What can be resolved of a contact of the group. Where one contact is curved, the spheres that it
-    /// moves have the error of its path in all their contacts.
+    /// The scale of a contact of the group. Where one contact is curved, the spheres that it moves have the error
+    /// of its path in all their contacts.
     pub fn scale(&self, touch: &Touch) -> ContactScale {
         let is_curved = self.touches.iter().any(Touch::is_curved);
         touch

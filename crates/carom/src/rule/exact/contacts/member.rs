@@ -1,4 +1,4 @@
-//! A sphere of a group, as it comes to an instant.
+//! A sphere of a group at the instant of an impact.
 
 use glam::DVec3;
 
@@ -18,12 +18,12 @@ pub(crate) struct Member {
     pub velocity: DVec3,
     /// Where friction acts \[rad/s\].
     pub angular_velocity: DVec3,
-    /// Free of contact forces.
+    /// The species without contact forces.
     pub species: Species,
 }
 
 impl Member {
-    /// The sphere at `slot`, as it comes to `time` \[s\].
+    /// The sphere at `slot` at `time` \[s\], before any impulse.
     pub fn at(flights: &Flights, slot: u32, time: f64) -> Self {
         let (position, velocity) = flights.state_of(slot, time);
         Self {
@@ -51,7 +51,7 @@ impl Member {
         [self.position, self.velocity]
     }
 
-    /// What can be resolved of the contacts of this sphere with surfaces, some of them curved or none.
+    /// The scale of the contacts of this sphere with surfaces; `is_curved` if one of them is.
     pub fn scale(&self, is_curved: bool) -> ContactScale {
         let scale = ContactScale { is_curved, ..ContactScale::default() };
         scale.with(self.position, self.velocity, &self.species)

@@ -1,4 +1,4 @@
-//! Contacts at one instant: which bodies touch, and what can be resolved of that.
+//! Contacts at one instant: which bodies touch, and to what accuracy.
 
 mod curvature;
 mod gather;

@@ -17,13 +17,13 @@ pub(crate) struct Plane<'a> {
     pub surface: u32,
     pub normal: DVec3,
     pub form: &'a Form,
-    /// Where its image is that the sphere lies on, less where the form is \[m\].
+    /// Offset \[m\] from the plane to its image on which the sphere lies.
     pub image: DVec3,
 }
 
 impl<'a> Plane<'a> {
-    /// The surface of this number, if a sphere with this centre \[m\] and velocity \[m/s\] finds a plane at
-    /// rest in it, not an edge.
+    /// The surface with this number, if it is a plane at rest for a sphere with this centre \[m\] and velocity
+    /// \[m/s\], not an edge.
     pub fn under(state: [DVec3; 2], surface: u32, surfaces: &'a [Surface]) -> Option<Self> {
         let Surface { form, motion, .. } = &surfaces[surface as usize];
         let normal = match form {
@@ -42,13 +42,13 @@ impl<'a> Plane<'a> {
         Some(Self { surface, normal, form, image: DVec3::ZERO })
     }
 
-    /// The plane as its image so far away \[m\].
+    /// The image of the plane at this offset \[m\].
     pub fn at_image(self, image: DVec3) -> Self {
         Self { image, ..self }
     }
 
-    /// Whether no part of an image of a form, so far from that \[m\], is above it, but for the rounding of their
-    /// coordinates and of that of a sphere's centre \[m\]: a sphere that stays on it passes over that.
+    /// Whether no part of an image of a form, at this offset \[m\], is above the plane, up to the rounding of its
+    /// coordinates and of a sphere's centre \[m\]. A sphere that stays on the plane then passes over the image.
     pub fn is_above(&self, form: &Form, image: DVec3, center: DVec3) -> bool {
         let coordinates = self.form.coordinates() + form.coordinates() + center.norm();
         let foot = self.foot_of(center - self.image) + (self.image - image);
@@ -61,8 +61,8 @@ impl<'a> Plane<'a> {
     }
 }
 
-/// Planes whose normals have no axis in common: what a sphere feels from one does not change what it
-/// feels from another, not even by rounding.
+/// Planes whose normals have no axis in common: the force of one does not change that of another, not even by
+/// rounding.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Corner<'a> {
     /// Ascending by surface.
@@ -70,7 +70,7 @@ pub(crate) struct Corner<'a> {
 }
 
 impl<'a> Corner<'a> {
-    /// Adds a plane; `None`, and nothing added, if that makes no corner.
+    /// Adds a plane. Returns `None` and adds nothing where the planes would make no corner.
     #[must_use]
     pub fn add(&mut self, plane: Plane<'a>) -> Option<()> {
         let is_apart = |other: Plane| other.normal * plane.normal == DVec3::ZERO;

@@ -1,4 +1,4 @@
-//! How a sphere lies to a surface, within rounding.
+//! The separation of a sphere and a surface, within rounding.
 
 use glam::DVec3;
 
@@ -16,8 +16,8 @@ use crate::rule::exact::context::StepContext;
 use crate::rule::exact::timeline::Timeline;
 use crate::surface::{Form, Rectangle, Surface};
 
-/// How a sphere stands to a surface; to be in front may be given, whatever rounding says. A feature of a mesh is taken
-/// to be the nearest one.
+/// The separation of a sphere and a surface. A predicted contact with a rectangle or a band is in front of it,
+/// whatever rounding says. A feature of a mesh counts as the nearest one.
 pub(crate) fn separation(
     form: &Form,
     center: DVec3,
@@ -33,8 +33,8 @@ pub(crate) fn separation(
     }
 }
 
-/// How far a point is beyond the edges of a rectangle along its axes \[m\]; negative inside. At the
-/// very edge it counts as beyond, so that what slides over it goes on.
+/// How far a point is beyond the edges of a rectangle along its axes \[m\]; negative inside. A point on the edge
+/// counts as beyond, so that a sliding sphere leaves the face.
 pub(crate) fn beyond(rectangle: &Rectangle, point: DVec3) -> [f64; 2] {
     let offset = point - rectangle.center;
     let slack = slack_of(rectangle, offset);
@@ -42,9 +42,9 @@ pub(crate) fn beyond(rectangle: &Rectangle, point: DVec3) -> [f64; 2] {
         .map(|(axis, half)| offset.dot(axis).abs() - half + slack)
 }
 
-/// Whether a sphere with this centre \[m\] and velocity relative to a rectangle \[m/s\] is within its edges
-/// along its axes. At the very edge it is if it moves inward, or along the edge, and inward is along the
-/// axes of the world: of two faces that share an edge, one has the sphere.
+/// Whether a sphere with this centre \[m\] and velocity relative to a rectangle \[m/s\] is within its edges along
+/// its axes. A sphere on the edge is inside if it moves inward, or if it moves along the edge and inward is a
+/// positive direction of the world's axes. So one of two faces that share an edge has the sphere.
 pub(crate) fn are_within(rectangle: &Rectangle, [center, velocity]: [DVec3; 2]) -> [bool; 2] {
     let offset = center - rectangle.center;
     let slack = slack_of(rectangle, offset);
@@ -61,8 +61,8 @@ pub(crate) fn are_within(rectangle: &Rectangle, [center, velocity]: [DVec3; 2]) 
     })
 }
 
-/// Whether a sphere with this centre \[m\] and velocity relative to a band \[m/s\] is over its face. At the very
-/// rim it is if it moves away from that.
+/// Whether a sphere with this centre \[m\] and velocity relative to a band \[m/s\] is over its face. A sphere on
+/// the rim is, if it moves away from the rim.
 pub(crate) fn is_over_face(band: &Band, [center, velocity]: [DVec3; 2]) -> bool {
     let slack = TOUCHING * band.coordinates();
     let view = band.face_seen_from(center);
@@ -78,14 +78,14 @@ pub(crate) fn slack_of(rectangle: &Rectangle, offset: DVec3) -> f64 {
     TOUCHING * (offset.norm() + rectangle.half_x + rectangle.half_z)
 }
 
-/// Gap \[m\] up to which two bodies touch: rounding of their coordinates \[m\], and how far they move,
-/// at a `speed` \[m/s\] to each other, in the rounding of the clock.
+/// Gap \[m\] below which two bodies touch: the rounding of their coordinates \[m\], and how far they move at a
+/// relative `speed` \[m/s\] within the rounding of the clock.
 pub(super) fn touching_gap(coordinates: f64, speed: f64, time: f64) -> f64 {
     TOUCHING * coordinates + CLOCK_ROUNDING * time.abs() * speed
 }
 
-/// Whether a sphere with this centre \[m\] and velocity relative to a surface \[m/s\] is where it meets that part of a
-/// mesh, if it is one. At a border between two of them, one has the sphere.
+/// Whether a sphere with this centre \[m\] and velocity relative to a surface \[m/s\] is in the region of this part
+/// of a mesh; true for other surfaces. At a border between two parts, exactly one has the sphere.
 fn has(form: &Form, state: [DVec3; 2]) -> bool {
     match form {
         Form::Facet(facet) => facet.holds(state),
@@ -95,15 +95,15 @@ fn has(form: &Form, state: [DVec3; 2]) -> bool {
     }
 }
 
-/// The mesh that holds a sphere.
+/// The mesh with which a sphere is in persistent contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct HoldingMesh {
     pub collider: ColliderId,
-    /// Whether the sphere has come to where another part of it is nearer than the one that it was held by.
+    /// Whether another part of the surface is now nearer to the sphere than the part that held it.
     pub is_left: bool,
 }
 
-/// The mesh of which a part holds the sphere at `slot` in persistent contact, at `time` \[s\].
+/// The mesh with a part of which the sphere at `slot` is in persistent contact, at `time` \[s\].
 pub(crate) fn holding_mesh(
     timeline: &Timeline,
     context: &StepContext,
@@ -123,7 +123,7 @@ pub(crate) fn holding_mesh(
     Some(HoldingMesh { collider, is_left: left.is_some() })
 }
 
-/// Whether the sphere at `slot` is at `time` \[s\] where it meets that part of a mesh, if the surface is one.
+/// Whether the sphere at `slot` is, at `time` \[s\], in the region of this part of a mesh; true for other surfaces.
 pub(crate) fn has_at(
     timeline: &Timeline,
     context: &StepContext,
@@ -144,8 +144,8 @@ fn is_part(form: &Form) -> bool {
     matches!(form, Form::Facet(_) | Form::Edge(_) | Form::Corner(_))
 }
 
-/// Whether a sphere touches a surface, or the image of it where a `shift` \[m\] brings it, at `time`
-/// \[s\], or has a gap to it that a path along a curve may have `missed` \[m\].
+/// Whether a sphere touches a surface, or its image at the offset `shift` \[m\], at `time` \[s\]. A gap of `missed`
+/// \[m\], the error of a path along a curve, counts as a touch.
 pub(crate) fn touches_surface(
     context: &StepContext,
     member: &Member,
@@ -157,7 +157,7 @@ pub(crate) fn touches_surface(
     let radius = species.radius;
     let Surface { form, motion, .. } = &context.system.surfaces[surface as usize];
     if motion.is_at_rest() {
-        // Where they touch, the point of the surface is no farther from the origin than that.
+        // The point of the surface is no farther from the origin than this if they touch.
         let coordinates = 2.0 * (center.norm() + shift.norm() + radius);
         let gap = 2.0 * touching_gap(coordinates, velocity.norm(), time) + missed;
         if is_above(form, center - shift, radius + gap) {
@@ -175,7 +175,7 @@ pub(crate) fn touches_surface(
     separation.distance <= touching_gap(coordinates, speed, time) + missed
 }
 
-/// Whether a point is higher than that above the plane of a surface, or far behind it \[m\].
+/// Whether the distance of a point from a surface is above `height` \[m\]; for a plane, behind it too.
 fn is_above(form: &Form, point: DVec3, height: f64) -> bool {
     match form {
         Form::HalfSpace { point: origin, normal } => (point - *origin).dot(*normal) > height,

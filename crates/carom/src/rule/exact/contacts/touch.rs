@@ -27,33 +27,32 @@ pub(crate) struct Touch {
     pub gap: f64,
     /// How the normal turns when the spheres slide.
     pub curvature: NormalCurvature,
-    /// Of the surface, were it to reach as far as the centre of body 2 \[m/s\]: along the normal it is
-    /// the same where they touch. 0 where body 1 is a sphere.
+    /// Velocity of the surface, extended to the centre of body 2 \[m/s\]: its normal part equals that at the
+    /// contact point. 0 where body 1 is a sphere.
     pub surface_velocity: DVec3,
-    /// The part of that by which the surface turns in its place, as a wheel does about its axle \[m/s\].
+    /// The part of `surface_velocity` with which the surface turns in its own place, as a wheel does about its axle
+    /// \[m/s\].
     pub turning_in_place: DVec3,
     /// Of the surface \[rad/s\].
     pub surface_spin: DVec3,
-    /// Acceleration of the gap from the turning of the surface, without sliding, is its part along
-    /// the normal \[m/s²\].
+    /// Acceleration \[m/s²\] whose normal part is that of the gap from the turning of the surface, without sliding.
     pub surface_pull: DVec3,
-    /// Acceleration of the surface, where it does not move steadily, were it to reach as far as the centre of body 2
-    /// \[m/s²\].
+    /// Acceleration of a surface that does not move steadily, extended to the centre of body 2 \[m/s²\].
     pub drive: DVec3,
-    /// A bound of the rate at which that changes \[rad/s\].
+    /// Bound of the relative rate of change of `drive` \[rad/s\].
     pub drive_rate: f64,
-    /// From where the position of body 2 counts to where that of body 1 does \[m\].
+    /// From the position of body 2 to its image beside body 1 \[m\].
     pub shift: DVec3,
-    /// Predicted, so not in doubt.
+    /// The contact was predicted, so rounding does not decide on it.
     pub is_predicted: bool,
     /// The contact has lasted up to now.
     pub has_persisted: bool,
-    /// It goes on from another part of the same mesh, over a border at which nothing is felt.
+    /// The contact continues from another part of the same mesh, over a border without an impulse.
     pub is_handed_over: bool,
 }
 
-/// A sphere that comes to the next part of a mesh feels nothing where that meets it at less than this part of its
-/// speed: more than a piece of path along a curve misses.
+/// A sphere that reaches the next part of a mesh gets no impulse where it meets that part at less than this
+/// fraction of its speed. A piece of path along a curve is no more accurate than that.
 const UNFELT: f64 = 1e-6;
 
 impl Touch {
@@ -78,7 +77,7 @@ impl Touch {
         members[self.second].velocity - first
     }
 
-    /// Velocity of the place of the surface, which does not change where it turns in place \[m/s\].
+    /// Velocity of the place of the surface \[m/s\], without what turns in its own place.
     pub fn form_velocity(&self) -> DVec3 {
         self.surface_velocity - self.turning_in_place
     }
@@ -112,7 +111,7 @@ impl Touch {
         moves || self.drive_rate > 0.0
     }
 
-    /// As the impact laws take it, restitution 0.
+    /// The contact for the impact laws, with restitution 0.
     pub fn contact(&self) -> TouchingContact {
         TouchingContact {
             first: self.first,
@@ -152,7 +151,7 @@ impl Touch {
                 let velocity = second.velocity - (motion.velocity_at(center) - turning_in_place);
                 let curvature = curvature_of(&form, [center, velocity], &separation);
                 if let (Form::Rectangle(face), NormalCurvature::Flat) = (&form, curvature) {
-                    // At its very edge, too.
+                    // A centre on the edge counts, too.
                     let height = (center - face.center).dot(face.normal);
                     separation.distance = height - second.species.radius;
                     separation.normal = face.normal;
@@ -163,7 +162,7 @@ impl Touch {
         }
     }
 
-    /// The same contact, if it goes on from the part of a mesh beside it; unless that bends there.
+    /// The contact as the continuation of one with the neighbouring part of a mesh, unless the mesh bends there.
     pub(super) fn handed_over(self, members: &[Member]) -> Self {
         let speed = self.relative_velocity(members).norm();
         let is_unfelt = self.normal_velocity(members).abs() <= UNFELT * speed;
@@ -176,11 +175,11 @@ impl Touch {
         Self { gap: distance, normal, point, ..self }
     }
 
-    /// Seen from a coordinate system that moves and turns with the surface, at the centre of the sphere.
+    /// The touch in a coordinate system that moves and turns with the surface, at the centre of the sphere.
     fn with_motion(self, motion: &SurfaceMotion, center: DVec3) -> Self {
         let surface_velocity = motion.velocity_at(center);
         let spin = motion.angular_velocity;
-        // What turns with the surface is drawn towards the axis.
+        // The centripetal acceleration of what turns with the surface.
         let surface_pull = -spin.cross(spin.cross(center - motion.origin));
         let (drive, drive_rate) = motion.drive.map_or((DVec3::ZERO, 0.0), |drive| {
             let arm = center - motion.origin;
@@ -221,10 +220,10 @@ impl Touch {
 /// Origin of a touch: how the search found that two bodies touch.
 #[derive(Clone, Copy)]
 pub(super) struct TouchOrigin {
-    /// From where the position of body 2 counts to where that of body 1 does \[m\].
+    /// From the position of body 2 to its image beside body 1 \[m\].
     pub shift: DVec3,
-    /// Predicted, so not in doubt.
+    /// The contact was predicted, so rounding does not decide on it.
     pub is_predicted: bool,
-    /// Held by the part of a mesh beside it up to now.
+    /// The contact was with the neighbouring part of the mesh up to now.
     pub is_handed_over: bool,
 }

@@ -2,7 +2,7 @@
 
 use crate::rule::exact::neighbours::MAX_SPHERES;
 
-/// An event, in 16 bytes, for each sphere keeps two.
+/// An event in 16 bytes; each sphere has two.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Event {
@@ -15,7 +15,7 @@ pub(crate) struct Event {
 
 impl Event {
     const NEVER: Self = Self { time: f64::INFINITY, target: PackedTarget::RESTART, generation: 0 };
-    /// One that a search would have to find: it stands before all others.
+    /// An event that a search still has to find: it comes before all others.
     const UNKNOWN: Self = Self { time: f64::NEG_INFINITY, ..Self::NEVER };
 
     /// An event at `time` \[s\] that concerns no other sphere.
@@ -41,17 +41,17 @@ impl NextEvents {
     /// None.
     pub const NEVER: Self = Self { first: Event::NEVER, second: Event::NEVER };
 
-    /// One event, where it is not known what comes if it does not.
+    /// One event, with no knowledge of what follows if it is void.
     pub fn only(first: Event) -> Self {
         Self { first, second: Event::UNKNOWN }
     }
 
-    /// What is left if the first does not come, as far as it is known.
+    /// The events without the first, as far as they are known.
     pub fn without_first(self) -> Option<Self> {
         (self.second.time > f64::NEG_INFINITY).then(|| Self::only(self.second))
     }
 
-    /// Takes in an event that may come, too.
+    /// Adds a possible event.
     #[inline(always)]
     pub fn add(&mut self, event: Event) {
         if event.time < self.first.time {
@@ -68,23 +68,23 @@ pub(crate) enum EventTarget {
     /// Another sphere, by slot.
     Sphere(u32),
     Surface(u32),
-    /// The forces of its persistent contacts have to be found anew.
+    /// The forces of its persistent contacts are computed again.
     Cluster,
-    /// Nothing: the flight begins anew from where the sphere is.
+    /// Nothing happens: the flight restarts from where the sphere is.
     Restart,
     /// The step of its curve ends, and another one begins.
     StepEnd,
 }
 
-/// An [`EventTarget`] in four bytes: the slot of a sphere, a surface's number with the highest bit set
-/// (there is no memory for so many surfaces that it was set before), or one of the numbers below.
+/// An [`EventTarget`] in four bytes: the slot of a sphere, the number of a surface with the highest bit set (no
+/// memory holds enough surfaces to set it otherwise), or one of the constants below.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct PackedTarget(u32);
 
 impl PackedTarget {
     const SURFACE: u32 = 1 << 31;
-    /// No slot: these are smaller.
+    /// Larger than every slot.
     pub const CLUSTER: Self = Self(MAX_SPHERES as u32);
     pub const RESTART: Self = Self(MAX_SPHERES as u32 + 1);
     pub const STEP_END: Self = Self(MAX_SPHERES as u32 + 2);
@@ -140,7 +140,7 @@ impl Prediction {
     #[inline(always)]
     pub fn time(&self) -> f64 {
         let first = self.events.first.time;
-        // Neither is NaN; `min`, which takes care of that, takes longer than all the rest.
+        // Neither is NaN; `min`, which handles NaN, takes longer than all the rest.
         if self.cell_crossing < first { self.cell_crossing } else { first }
     }
 

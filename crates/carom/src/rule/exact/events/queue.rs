@@ -18,7 +18,7 @@ const ENTRIES_PER_BUCKET: usize = 32;
 const MIN_BUCKETS: usize = 16;
 /// Up to this many spheres, the memory of buckets is no matter.
 const FEW: usize = 20_000;
-/// These have so many times the buckets that they need: hardly any event lies beyond the last one.
+/// The queue has this many times the buckets that its spheres need, so that few events lie beyond the last bucket.
 const SPARE_BUCKETS: usize = 8;
 /// The queue is cleared of void entries when it holds this many times what it can need.
 const MAX_VOID_RATIO: usize = 2;
@@ -58,7 +58,7 @@ pub(super) struct EventQueue {
     current: Vec<Entry>,
     /// Entries of the current bucket that were added since it was sorted.
     late: BinaryHeap<Reverse<Entry>>,
-    /// By number: which bucket an event is in, `bucket_of` its time alone says.
+    /// By number. `bucket_of` derives the bucket of an event from its time alone.
     buckets: Vec<Vec<Entry>>,
     /// When the first bucket begins \[s\].
     start: f64,
@@ -69,7 +69,7 @@ pub(super) struct EventQueue {
     /// Events after the last bucket.
     far: Vec<Entry>,
     len: usize,
-    /// Number of spheres: how many entries are not void, at most.
+    /// Number of spheres, which bounds the number of entries that are not void.
     spheres: usize,
 }
 
@@ -159,7 +159,7 @@ impl EventQueue {
         while self.next_bucket < self.buckets.len() {
             let bucket = self.next_bucket;
             self.next_bucket += 1;
-            // It gives its memory back: full buckets and empty ones are never all of one size.
+            // The memory is freed, since full buckets and empty ones never have one size.
             let entries = std::mem::take(&mut self.buckets[bucket]);
             self.len -= entries.len();
             self.current.extend(entries.into_iter().filter(|entry| is_live(entry)));
@@ -172,7 +172,7 @@ impl EventQueue {
         self.begin_year(is_live)
     }
 
-    /// Spreads the events that were too far away over the buckets anew.
+    /// Distributes the events that were beyond the last bucket over the buckets of the next year.
     fn begin_year(&mut self, is_live: &impl Fn(&Entry) -> bool) -> bool {
         let before = self.far.len();
         self.far.retain(|entry| is_live(entry));
@@ -181,13 +181,13 @@ impl EventQueue {
             return false;
         }
         let mut far = std::mem::take(&mut self.far);
-        // The earlier half of the events says how dense they are.
+        // The density of the earlier half of the events sets the width.
         let middle = far.len() / 2;
         let median = far.select_nth_unstable(middle).1.time;
         let first = far[..=middle].iter().fold(median, |first, entry| entry.time.min(first));
         let per_event = (median - first) / (middle + 1) as f64;
         let width = per_event * ENTRIES_PER_BUCKET as f64;
-        // Events at one time need no width, but a number has to be divided by.
+        // Simultaneous events need no width, but the width must not be 0.
         self.per_second = width.max(f64::MIN_POSITIVE).recip();
         self.start = first;
         self.next_bucket = 0;

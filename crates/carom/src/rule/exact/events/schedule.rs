@@ -5,9 +5,8 @@ use prefetch_index::prefetch_index;
 use super::prediction::{NextEvents, Prediction, UpcomingEvent};
 use super::queue::{Entry, EventQueue};
 
-/// What happens next to each sphere, and to which of them first.
-///
-/// It follows from the flights: the queue decides how fast the next event is found, never what it is.
+/// The next event of each sphere, and the order of these events. It follows from the flights: the queue decides how
+/// fast the next event is found, never what it is.
 #[derive(Debug, Clone, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Schedule {

@@ -15,7 +15,7 @@ use crate::parallel;
 use crate::real::Vector;
 use crate::rule::periodic;
 
-/// Where all flights are read one after another, so many are fetched into the cache ahead.
+/// Number of flights that are fetched into the cache ahead where all flights are read in order.
 const FETCHED_AHEAD: usize = 32;
 
 /// Writes the states of all spheres at `time` \[s\], in a periodic box with these edges \[m\].
@@ -72,7 +72,7 @@ impl Run<'_> {
 /// The first sphere, by index, whose state is not finite at `time` \[s\], and which of its quantities
 /// is not.
 pub(crate) fn first_lost(flights: &Flights, time: f64) -> Option<(usize, &'static str)> {
-    // As a rule no sphere can be that far, whatever drag does, and no path has to be followed.
+    // In most cases this bound shows that all states are finite, and no path is followed.
     let pull = flights.species.iter().map(|it| it.acceleration.abs().element_sum()).sum();
     if dispatch!(Level::new(), simd => farthest(flights, simd, time, pull)).is_finite() {
         return None;
@@ -85,8 +85,8 @@ pub(crate) fn first_lost(flights: &Flights, time: f64) -> Option<(usize, &'stati
     })
 }
 
-/// More than how far any sphere is from the origin \[m\] and how fast \[m/s\] at `time` \[s\], where
-/// no acceleration is larger than `pull` \[m/s²\].
+/// Upper bounds of the distance from the origin \[m\] and the speed \[m/s\] of all spheres at `time` \[s\], where
+/// no acceleration exceeds `pull` \[m/s²\].
 #[inline(always)]
 fn farthest<S: Simd>(flights: &Flights, simd: S, time: f64, pull: f64) -> f64 {
     let [time, pull, one] = [time, pull, 1.0].map(|number| Lanes::all(simd, number));

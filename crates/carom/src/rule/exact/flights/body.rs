@@ -1,4 +1,4 @@
-//! Spheres as the rule keeps them: in flight since their last event.
+//! Spheres in flight since their last event.
 
 use glam::DVec3;
 
@@ -13,7 +13,7 @@ use crate::flight::Flight;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[repr(C, align(64))]
 pub(crate) struct Body {
-    /// Centre at `time` \[m\]. In a periodic box it counts on across the faces.
+    /// Centre at `time` \[m\]. In a periodic box it is not wrapped during a flight.
     pub position: DVec3,
     /// Velocity at `time` \[m/s\].
     pub velocity: DVec3,
@@ -21,7 +21,7 @@ pub(crate) struct Body {
     pub time: f64,
     /// The number of its species.
     pub species: u32,
-    /// Grows whenever its flight begins anew: a prediction made with another generation is void. Odd
+    /// Grows whenever the sphere's flight restarts, so that a prediction made with another generation is void. Odd
     /// if an impact began the flight.
     pub generation: u32,
 }

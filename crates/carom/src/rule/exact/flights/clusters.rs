@@ -10,26 +10,27 @@ use crate::detect::contact::Bodies;
 #[derive(Debug, Clone, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Cluster {
-    /// By slot, in the order of their indices. The first one bears the event of renewal.
+    /// Slots in the order of the spheres' indices. The first member has the event at which the forces are computed
+    /// again.
     pub members: Vec<u32>,
     /// By index, ascending.
     pub contacts: Vec<Bodies>,
-    /// When its forces have to be found anew, on the world's clock \[s\].
+    /// When the forces of the cluster are computed again, on the world's clock \[s\].
     pub renewal: f64,
 }
 
-/// A cluster to be, with what its contact forces do.
+/// A cluster that is about to be made, with the effect of its contact forces.
 #[derive(Debug, Clone)]
 pub(crate) struct Support {
     /// In the order of their indices.
     pub members: Vec<Supported>,
     /// Ascending.
     pub contacts: Vec<Bodies>,
-    /// When the forces have to be found anew, on the world's clock \[s\].
+    /// When the forces are computed again, on the world's clock \[s\].
     pub renewal: f64,
 }
 
-/// A sphere of a cluster to be.
+/// A sphere of a cluster that is about to be made.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Supported {
     pub slot: u32,
@@ -113,7 +114,8 @@ impl Clusters {
         }
     }
 
-    /// When a cluster is renewed, for the member that bears the event; never for the others.
+    /// When the forces of a cluster are computed again, if `slot` is the member that has this event; never for
+    /// other members.
     pub fn renewal_by(&self, number: u32, slot: u32) -> f64 {
         let cluster = self.get(number);
         if cluster.members.first() == Some(&slot) { cluster.renewal } else { f64::INFINITY }

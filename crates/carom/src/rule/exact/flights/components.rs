@@ -8,8 +8,8 @@ use crate::connected::Connected;
 use crate::forces::{Spring, SpringEnd};
 use crate::system::System;
 
-/// How often the forces on a sphere of a component may be evaluated in a tick, summed over its spheres: so often, or so
-/// often for each. What takes more is taken in rough steps to the end of the tick.
+/// Evaluations of the forces on the spheres of a component that are allowed in a tick: this many in total, or this
+/// many for each sphere if that is more. Beyond it, rough steps lead to the end of the tick.
 const MOST_EVALUATIONS: u64 = 1 << 16;
 const MOST_FOR_EACH: u64 = 1 << 8;
 
@@ -43,7 +43,7 @@ pub(crate) struct PlacedSpring {
 }
 
 impl PlacedSpring {
-    /// Place \[m\] and velocity \[m/s\] of its second end, where `state_of` tells those of a sphere by its place.
+    /// Place \[m\] and velocity \[m/s\] of the second end; `state_of` returns those of a sphere by its place.
     pub fn state_of_second(&self, state_of: impl Fn(u32) -> [DVec3; 2]) -> [DVec3; 2] {
         match (self.second, self.spring.to) {
             (Some(place), _) => state_of(place),
@@ -53,7 +53,7 @@ impl PlacedSpring {
     }
 }
 
-/// The components of all spheres that fly on curves when nothing bears them.
+/// The components of all spheres that fly on curves, without persistent contacts.
 #[derive(Debug, Clone, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Components {
@@ -65,7 +65,7 @@ pub(crate) struct Components {
 }
 
 impl Components {
-    /// Those of the spheres on curves, as `is_curved` tells of an index.
+    /// The components of the spheres on curves; `is_curved` decides by index.
     pub fn of(system: &System, is_curved: impl Fn(usize) -> bool) -> Self {
         let ids = &system.spheres.id;
         let place = |id| ids.binary_search(&id).ok();
@@ -115,7 +115,7 @@ impl Components {
         number.filter(|&number| number != NONE)
     }
 
-    /// Whether the steps of a sphere, by its index, are also those of others.
+    /// Whether the sphere with this index takes its steps together with others.
     #[inline]
     pub fn has_companions(&self, index: u32) -> bool {
         self.of_sphere(index).is_some_and(|number| self.get(number).members.len() > 1)
@@ -126,7 +126,7 @@ impl Components {
         self.of_sphere(index).is_some_and(|number| !self.get(number).springs.is_empty())
     }
 
-    /// Notes that the flight of a sphere, by its index, began anew, so that its companions have to.
+    /// Notes that the flight of the sphere with this index restarted, so that its companions' flights must, too.
     pub fn note(&mut self, index: u32) {
         let Some(number) = self.of_sphere(index) else { return };
         let component = &mut self.components[number as usize];
@@ -147,8 +147,8 @@ impl Components {
         self.due.first().copied()
     }
 
-    /// Notes that a step of a component begins, in the tick with this number. Returns whether it is to be a rough one,
-    /// as the work of this tick is spent.
+    /// Notes that a step of a component begins, in the tick with this number. Returns whether the step must be a
+    /// rough one, because the work of the tick is spent.
     pub fn begin_step(&mut self, number: u32, tick: f64) -> bool {
         let component = &mut self.components[number as usize];
         if component.is_due {

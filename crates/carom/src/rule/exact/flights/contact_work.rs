@@ -4,19 +4,19 @@
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) enum ContactWork {
-    /// None: nothing rubs, and no surface moves.
+    /// None: no friction, and no moving surface.
     #[default]
     None,
-    /// Friction changes how the sphere moves, and turns about its moment of inertia \[kg m²\].
+    /// Friction changes the sphere's motion, and its rotation with this moment of inertia \[kg m²\].
     Friction {
         /// \[kg m²\]
         moment: f64,
     },
-    /// Colliders that move push it.
+    /// Moving colliders push the sphere.
     Colliders,
 }
 
-/// Work that persistent contacts have done and that is in no report yet.
+/// Work of persistent contacts that is in no report yet.
 #[derive(Debug, Clone, Copy)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct WorkDone {
@@ -24,12 +24,12 @@ pub(crate) struct WorkDone {
     pub friction: f64,
     /// \[J\]
     pub colliders: f64,
-    /// Until when that of flights that go on is counted, on the world's clock \[s\].
+    /// Until when the work along present flights is counted, on the world's clock \[s\].
     pub until: f64,
 }
 
 impl WorkDone {
-    /// None, of flights that begin from now on.
+    /// No work, for flights that begin from now on.
     pub const NONE: Self = Self { friction: 0.0, colliders: 0.0, until: f64::NEG_INFINITY };
 }
 

@@ -3,7 +3,7 @@
 use crate::integrate::gauss_radau::Pace;
 use crate::polynomial_flight::PolynomialAcceleration;
 
-/// A step tells nothing of what follows for more than so many times its length.
+/// A step's polynomial predicts the start of the next step only up to this many times its own length.
 const LONGEST_GUESS: f64 = 64.0;
 
 /// One step of the flight of a sphere.
@@ -14,19 +14,19 @@ pub(crate) struct Curve(pub(super) Option<CurveStep>);
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct CurveStep {
-    /// Generation of the flight that it is.
+    /// Generation of the flight that follows this step.
     pub generation: u32,
     pub acceleration: PolynomialAcceleration,
     /// When it ends, on the world's clock \[s\].
     pub end: f64,
-    /// Whether forces go on there as they are; else a spring changes how it acts.
+    /// Whether forces stay smooth at the end; else a spring changes how it acts there.
     pub is_smooth: bool,
-    /// What is to be expected of the step after it.
+    /// Estimate for the next step.
     pub pace: Pace,
 }
 
 impl CurveStep {
-    /// Whether what follows at a time \[s\] is likely to go on as the step does.
+    /// Whether the polynomial is a good first guess for a step that begins at a time \[s\].
     pub fn leads_to(&self, time: f64) -> bool {
         let is_long = self.pace.trial <= LONGEST_GUESS * self.acceleration.length;
         self.end == time && self.is_smooth && is_long
@@ -34,9 +34,9 @@ impl CurveStep {
 }
 
 impl Curve {
-    /// One whose flight has yet to begin, by steps as those of this one.
+    /// A curve whose flight has not begun, with steps like those of this one.
     pub fn to_begin(&self) -> Self {
-        // No flight is of this generation: those that an event begins are even, those of impacts one more.
+        // No flight has this generation: those that events begin are even, those that impacts begin are one more.
         let step = self.0.clone().map(|step| CurveStep { generation: u32::MAX, ..step });
         Self(step)
     }

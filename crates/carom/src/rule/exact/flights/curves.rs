@@ -16,8 +16,8 @@ use crate::polynomial_flight::{PolynomialAcceleration, PolynomialFlight};
 use crate::settings::nearest_image;
 use crate::system::System;
 
-/// Where forces are steady, a step is no longer than so many times the time in which a sphere moves by its
-/// radius: they may be others there.
+/// Where forces are steady, a step lasts at most this many times the time in which a sphere moves by its radius,
+/// since forces may differ farther away.
 const STEADY_RADII: f64 = 16.0;
 
 /// Bounds for the steps of curves.
@@ -25,13 +25,13 @@ const STEADY_RADII: f64 = 16.0;
 pub(crate) struct StepLimits {
     /// When all of them have to end at the latest, on the world's clock \[s\].
     pub until: f64,
-    /// How long they are at most where nothing can be said of a force \[s\].
+    /// Longest step where nothing is known of a force \[s\].
     pub tick: f64,
-    /// Whether a step is as long as that, whatever its error, and changes of springs come within it.
+    /// Whether a step lasts a whole tick, whatever its error and however springs change within it.
     pub is_rough: bool,
 }
 
-/// Steps of the spheres of a component that nothing bears.
+/// Steps of the spheres of a component that have no persistent contacts.
 pub(crate) struct JointStep {
     /// Of each sphere, by slot.
     pub curves: Vec<(u32, Curve)>,
@@ -40,8 +40,8 @@ pub(crate) struct JointStep {
 }
 
 impl Flights {
-    /// The flight of a sphere as a polynomial, if its forces have no closed form and nothing bears it, and
-    /// when that ends, on the world's clock \[s\].
+    /// The polynomial flight of a sphere and its end on the world's clock \[s\]; `None` if its forces have a closed
+    /// form or it has persistent contacts.
     pub fn curve_of(&self, slot: u32) -> Option<(PolynomialFlight, f64)> {
         let body = &self.bodies[slot as usize];
         let step = self.step_of(slot, body)?;
@@ -49,7 +49,7 @@ impl Flights {
         Some((PolynomialFlight { position, velocity, acceleration: step.acceleration }, step.end))
     }
 
-    /// When the step that a sphere is in ends, on the world's clock \[s\]; infinite if it is in none.
+    /// End of the sphere's present step, on the world's clock \[s\]; infinite if it is in none.
     #[inline]
     pub fn step_end(&self, slot: u32) -> f64 {
         let body = &self.bodies[slot as usize];
@@ -64,7 +64,7 @@ impl Flights {
         step.filter(|step| step.generation == body.generation)
     }
 
-    /// The component of a sphere, by its number, if its step has to be found before the sphere can be predicted.
+    /// The component of a sphere, by its number, if its step must be computed before the sphere can be predicted.
     pub fn unknown_component_of(&self, slot: u32) -> Option<u32> {
         let body = &self.bodies[slot as usize];
         if !self.species[body.species as usize].is_curved {
@@ -92,7 +92,7 @@ impl Flights {
         }
     }
 
-    /// How a sphere moves from `time` \[s\] on.
+    /// The path of a sphere from `time` \[s\] on.
     pub fn track_from(&self, slot: u32, time: f64) -> Track {
         let body = &self.bodies[slot as usize];
         match self.curve_of(slot) {
@@ -103,7 +103,7 @@ impl Flights {
         }
     }
 
-    /// A sphere without the forces of its persistent contacts, as it is at `time` \[s\].
+    /// The species of a sphere without the forces of its persistent contacts, at `time` \[s\].
     pub fn free_species_at(&self, slot: u32, time: f64) -> Species {
         let free = *self.free_species_of(slot);
         match self.curve_of(slot) {
@@ -118,8 +118,8 @@ impl Flights {
         }
     }
 
-    /// Without the forces of its contacts, the acceleration \[m/s²\] of the sphere at a slot at `time` \[s\] in this state
-    /// \[m\], \[m/s\], the others being where they are.
+    /// The acceleration \[m/s²\] without contact forces of the sphere at a slot at `time` \[s\] in this state
+    /// \[m\], \[m/s\], with the others where they are.
     pub fn acceleration_of(
         &self,
         system: &System,
@@ -184,8 +184,8 @@ impl Flights {
         if limits.is_rough {
             pace = Pace { trial: pace.trial.max(limits.tick), shortest: limits.tick };
         }
-        // What was before is the beginning of what comes only if no event was between, and not of a rough step, which
-        // may be any times as long.
+        // The last step predicts this one only if no event was between, and if it was no rough step, which may be
+        // of any length.
         let leads_here = |step: &&CurveStep| !limits.is_rough && step.leads_to(time);
         let continues = before.filter(|steps| steps.iter().all(leads_here));
         let before: Option<Vec<PolynomialAcceleration>> =
@@ -206,13 +206,13 @@ impl Flights {
         JointStep { curves, evaluations: field.evaluations }
     }
 
-    /// The last step of a sphere on a curve, whatever came after it.
+    /// The last step of a sphere on a curve, even if its flight ended early.
     fn last_step(&self, slot: u32) -> Option<&CurveStep> {
         self.curves[self.index_of[slot as usize] as usize].0.as_ref()
     }
 
-    /// What is left of the step of a sphere that begins another flight at `time` \[s\] in this state \[m\], \[m/s\], if
-    /// that is the one that it has there.
+    /// The rest of a sphere's step, if a flight that begins at `time` \[s\] in this state \[m\], \[m/s\] continues
+    /// it: if the step has the same state there.
     pub fn rest_of_step(&self, slot: u32, state: [DVec3; 2], time: f64) -> Option<Curve> {
         let body = &self.bodies[slot as usize];
         let step = self.step_of(slot, body).filter(|step| time < step.end)?;
@@ -221,7 +221,7 @@ impl Flights {
         goes_on.then(|| Curve(Some(CurveStep { acceleration, ..step.clone() })))
     }
 
-    /// Lets a sphere go on along the rest of a step, in the flight that it has begun.
+    /// Continues a sphere's new flight along the rest of a step.
     pub fn set_rest_of_step(&mut self, slot: u32, mut rest: Curve) {
         if let Some(step) = &mut rest.0 {
             step.generation = self.bodies[slot as usize].generation;
@@ -229,7 +229,7 @@ impl Flights {
         self.curves[self.index_of[slot as usize] as usize] = rest;
     }
 
-    /// Puts the step of a sphere in its place. One whose forces are not finite is noted as lost.
+    /// Sets the step of a sphere. A sphere whose forces are not finite is noted as lost.
     pub fn set_curve(&mut self, slot: u32, mut curve: Curve) {
         let index = self.index_of[slot as usize];
         if let Some(step) = &mut curve.0
@@ -256,12 +256,12 @@ pub(crate) struct FreeField<'a> {
     drag_rate: f64,
     radius: f64,
     mass: f64,
-    /// Those that are not linear.
+    /// Forces that are not linear.
     others: Vec<&'a dyn Force>,
 }
 
 impl<'a> FreeField<'a> {
-    /// Those on the sphere at an index of the world's arrays.
+    /// The forces on the sphere with this index of the world's arrays.
     pub fn of(system: &System<'a>, index: usize) -> Self {
         let (radius, mass) = (system.spheres.radius[index], system.spheres.mass[index]);
         let (linear, _) = forces::total_linear(system.forces, radius, mass);
@@ -286,18 +286,18 @@ impl<'a> FreeField<'a> {
     }
 }
 
-/// The forces on the spheres of a component that nothing bears.
+/// The forces on the spheres of a component that have no persistent contacts.
 struct JointField<'a> {
     flights: &'a Flights,
     /// Slots of the spheres that it acts on.
     flying: Vec<u32>,
-    /// What acts on each by itself.
+    /// Forces on each sphere by itself.
     alone: Vec<FreeField<'a>>,
-    /// Slots of the others, which move as they do.
+    /// Slots of the other members, whose motion is given.
     others: Vec<u32>,
-    /// By place among the members, that in `flying` and then `others`.
+    /// Place of each member in `flying` followed by `others`.
     place_of: Vec<usize>,
-    /// Spheres at their ends are by those places.
+    /// Springs between those places.
     ties: Vec<Tie<'a>>,
     period: DVec3,
     /// How often the forces on a sphere were evaluated.
@@ -305,7 +305,7 @@ struct JointField<'a> {
 }
 
 impl<'a> JointField<'a> {
-    /// Without its ties.
+    /// The field without its ties.
     fn of(system: &System<'a>, flights: &'a Flights, component: &Component) -> Self {
         let slot_of = |&index: &u32| flights.slot_of[index as usize];
         let slots: Vec<u32> = component.members.iter().map(slot_of).collect();
@@ -359,7 +359,7 @@ impl<'a> JointField<'a> {
         }
     }
 
-    /// The same of the second end of a tie.
+    /// Centre \[m\] and velocity \[m/s\] of the second end of a tie.
     fn state_at(&self, end: TieEnd, states: [&[DVec3]; 2], time: f64) -> [DVec3; 2] {
         match end {
             TieEnd::Sphere(place) => self.state_of(place, states, time),
@@ -378,7 +378,7 @@ impl<'a> JointField<'a> {
         times.reduce(f64::min).filter(|time| time.is_finite() && *time > 0.0)
     }
 
-    /// When a spring changes how it acts in a step, from its start \[s\]; `None` if none does.
+    /// First time, from the start of a step \[s\], at which a spring changes how it acts; `None` if none does.
     fn first_change(&self, start: &Start, step: &Step) -> Option<f64> {
         let path = |place: usize| match self.others.get(place.wrapping_sub(self.alone.len())) {
             Some(&other) => {

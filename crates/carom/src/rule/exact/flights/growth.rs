@@ -4,19 +4,19 @@ use glam::DVec3;
 
 use super::species::Species;
 
-/// Neighbours are found for radii that are larger by this part. A larger one makes for wider cells with more
-/// spheres in them, a smaller one for more searches of all neighbours.
+/// Neighbour lists are made for radii larger by this part. A larger part makes wider cells with more spheres in
+/// them, a smaller one more searches for neighbours.
 const ROOM_TO_GROW: f64 = 1.0 / 16.0;
 
-/// Since when radii grow, and until when neighbours are known.
+/// The growth of radii: when it began, and until when the neighbour lists are valid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Growth {
-    /// When radii were those of the species, on the world's clock \[s\].
+    /// When the radii were those of the species, on the world's clock \[s\].
     pub since: f64,
-    /// Until when no radius is larger than neighbours were found for, on the world's clock \[s\].
+    /// Until when the neighbour lists are wide enough, on the world's clock \[s\].
     pub until: f64,
-    /// No sphere may become faster \[m/s\].
+    /// Largest speed that growth may give a sphere \[m/s\].
     pub speed_limit: f64,
 }
 
@@ -33,8 +33,8 @@ impl Growth {
         species.radius + species.growth_speed * (time - self.since)
     }
 
-    /// When a sphere is larger than at `time` \[s\] by the room that neighbours leave, or so large that a periodic
-    /// box with these edges \[m\] holds no larger one.
+    /// When a radius has outgrown the neighbour lists made at `time` \[s\], or a periodic box with these edges
+    /// \[m\] holds no larger sphere.
     pub fn room_ends(&self, species: &[Species], time: f64, period: DVec3) -> f64 {
         let largest = 0.25 * period.min_element();
         let mut end = f64::INFINITY;

@@ -6,8 +6,8 @@ use super::species::Species;
 use super::state::Flights;
 use crate::norm::Norm;
 
-/// In a step, growth makes no sphere more than so many times as fast as the fastest one at its start, or as the
-/// fastest radius: spheres without room are struck ever more often, ever harder, and no step would end.
+/// In a step, growth makes no sphere faster than this many times the fastest sphere at the start, or the fastest
+/// radius. Spheres without room are struck ever more often and ever harder, and the step would not end.
 const MOST_HEATED: f64 = 4096.0;
 
 impl Flights {
@@ -18,13 +18,13 @@ impl Flights {
         self.growth.map_or(species.radius, |growth| growth.radius_at(species, time))
     }
 
-    /// The largest radius of spheres of a species that neighbours have to be found for \[m\].
+    /// Radius for which neighbour lists are made for a species \[m\].
     #[inline]
     pub fn largest_radius(&self, species: &Species) -> f64 {
         self.growth.map_or(species.radius, |growth| growth.radius_at(species, growth.until))
     }
 
-    /// Makes room for larger spheres from `time` \[s\] on, in a periodic box with these edges \[m\].
+    /// Sets for how long neighbour lists made at `time` \[s\] are valid, in a periodic box with these edges \[m\].
     pub fn make_room_to_grow(&mut self, time: f64, period: DVec3) {
         if let Some(growth) = &mut self.growth {
             growth.until = growth.room_ends(&self.species, time, period);
@@ -45,7 +45,7 @@ impl Flights {
         self.growth.is_some_and(|growth| speed > growth.speed_limit)
     }
 
-    /// Until when neighbours are known, as radii grow, on the world's clock \[s\].
+    /// Until when the neighbour lists are wide enough for growing radii, on the world's clock \[s\].
     #[inline]
     pub fn room_until(&self) -> f64 {
         self.growth.map_or(f64::INFINITY, |growth| growth.until)

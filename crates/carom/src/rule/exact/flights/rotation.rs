@@ -6,14 +6,14 @@ use crate::bodies::Motion;
 use crate::norm::Norm;
 use crate::rotation::turned;
 
-/// Where the axis of a rotation turns, orientations are found in steps of this angle \[rad\].
+/// Step of the angle \[rad\] with which orientations are computed where the axis of rotation turns.
 const STEP: f64 = 0.1;
-/// Steps at most; longer ones after that.
+/// Largest number of steps; beyond it they are longer.
 const MOST_STEPS: f64 = 1e4;
 /// An axis counts as fixed if the angular acceleration is along it but for this part.
 const SAME_AXIS: f64 = 1e-14;
 
-/// How one sphere turns since some time: its angular velocity changes steadily.
+/// The rotation of one sphere since some time: its angular velocity changes steadily.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Rotation {
@@ -27,7 +27,7 @@ pub(crate) struct Rotation {
 }
 
 impl Rotation {
-    /// How a sphere turns, on which no torque acts, since the motion of all was this at `time` \[s\].
+    /// The rotation of a sphere without torque, from its state in `motion` at `time` \[s\].
     pub fn of(motion: &Motion, index: usize, time: f64) -> Self {
         let spin = &motion.spin;
         Self {
@@ -38,7 +38,7 @@ impl Rotation {
         }
     }
 
-    /// How a sphere turns from one time to another \[s\], with angular velocities \[rad/s\] of both.
+    /// The rotation of a sphere from one time to another \[s\], with its angular velocities \[rad/s\] at both.
     pub fn between(orientation: DQuat, velocities: [DVec3; 2], [from, to]: [f64; 2]) -> Self {
         let [angular_velocity, after] = velocities;
         let change = after - angular_velocity;
@@ -70,26 +70,26 @@ impl Rotation {
         })
     }
 
-    /// The sphere as it is at `time` \[s\], with another angular velocity \[rad/s\] and angular acceleration
-    /// \[rad/s²\] from there on.
+    /// Begins another rotation at `time` \[s\], with this angular velocity \[rad/s\] and angular acceleration
+    /// \[rad/s²\].
     pub fn begin(&mut self, [angular_velocity, angular_acceleration]: [DVec3; 2], time: f64) {
         let orientation = self.orientation_at(time);
         *self = Self { orientation, angular_velocity, angular_acceleration, time };
     }
 
-    /// The sphere as it is at `time` \[s\], where no torque acts from there on.
+    /// Ends the torque at `time` \[s\].
     pub fn let_go(&mut self, time: f64) {
         self.begin([self.angular_velocity_at(time), DVec3::ZERO], time);
     }
 
-    /// Puts it to another time \[s\], as it is `now` \[s\].
+    /// Shifts the rotation from `now` \[s\] to another time \[s\].
     pub fn set_time(&mut self, now: f64, time: f64) {
         self.let_go(now);
         self.time = time;
     }
 }
 
-/// Writes how all spheres are turned and turn at `time` \[s\].
+/// Writes the orientations and angular velocities of all spheres at `time` \[s\].
 pub(crate) fn write_spin(all: &[Rotation], motion: &mut Motion, time: f64) {
     if all.is_empty() {
         return;

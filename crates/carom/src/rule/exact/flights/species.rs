@@ -1,4 +1,4 @@
-//! Species: what equal spheres share, so that it is kept once.
+//! Species: the constants that equal spheres share, stored once.
 
 use std::collections::BTreeMap;
 
@@ -30,16 +30,16 @@ pub(crate) struct Species {
     pub drag_rate: f64,
     /// Size class: the level of the cell lists that holds these spheres.
     pub level: u32,
-    /// The cluster whose persistent contacts act on the sphere. Such a sphere is a species of its own.
+    /// The cluster whose persistent contacts act on the sphere. Such a sphere has a species of its own.
     pub cluster: Option<u32>,
-    /// Which work those do.
+    /// The work of these contacts.
     pub contact_work: ContactWork,
-    /// The number of this species, or of what the sphere is without contact forces and out of a zone.
+    /// The number of the species of the sphere without contact forces and outside a zone: of this one, or another.
     pub free: u32,
     /// Whether these spheres are in a stepped zone.
     pub is_stepped: bool,
-    /// Whether the flight of the sphere is a `Curve`: forces without a closed form act on it,
-    /// and no contacts. Such a sphere is a species of its own.
+    /// Whether the flight of the sphere is a `Curve`: forces without a closed form act on it, and no contacts. Such
+    /// a sphere has a species of its own.
     pub is_curved: bool,
 }
 
@@ -67,9 +67,9 @@ pub(super) struct SpeciesOfSpheres {
     pub species: Vec<Species>,
     /// By index: the number of the species of each sphere.
     pub number_of: Vec<u32>,
-    /// Whether some forces are held constant for a time. Then each sphere is a species of its own.
+    /// Whether some forces are held constant for a time. Then each sphere has a species of its own.
     pub hold_forces: bool,
-    /// Whether some of them have no closed form, so that they change with where spheres are.
+    /// Whether some forces have no closed form, so that they change with the state.
     pub forces_vary: bool,
 }
 

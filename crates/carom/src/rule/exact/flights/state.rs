@@ -26,17 +26,17 @@ pub(crate) struct Flights {
     pub species: Vec<Species>,
     /// Numbers of species without spheres.
     spare_species: Vec<u32>,
-    /// The species of spheres in a zone, by what they are out of it.
+    /// The species of spheres in a zone, by their species outside.
     stepped_species: BTreeMap<u32, u32>,
     /// Place of each slot in the arrays of the world, and back.
     pub index_of: Vec<u32>,
     pub slot_of: Vec<u32>,
     pub clusters: Clusters,
-    /// How spheres turn, by index; empty where no friction acts.
+    /// Rotations by index; empty where no friction acts.
     pub rotations: Vec<Rotation>,
-    /// By index, the curves of spheres whose flights are such; empty where none is.
+    /// Curves by index; empty where no sphere flies on one.
     pub curves: Vec<Curve>,
-    /// Which of them take their steps together.
+    /// The sets of spheres that take their steps together.
     pub components: Components,
     /// How radii grow; `None` where none does.
     pub growth: Option<Growth>,
@@ -44,15 +44,15 @@ pub(crate) struct Flights {
     pub lost: Option<u32>,
     /// Whether some forces are held constant for a time.
     pub hold_forces: bool,
-    /// Whether some of them have no closed form, so that they change with where spheres are.
+    /// Whether some forces have no closed form, so that they change with the state.
     pub forces_vary: bool,
-    /// What persistent contacts have done since the last report.
+    /// Work of persistent contacts since the last report.
     contact_work: WorkDone,
 }
 
 impl Flights {
-    /// The flight of each sphere: one that `flight_of` its index gives, or one that begins from the
-    /// state in the arrays of the world at a time \[s\].
+    /// The flights of all spheres: `flight_of` returns a known one by index; the others begin from the state in the
+    /// world's arrays at a time \[s\].
     pub fn new(
         system: &System,
         motion: &Motion,
@@ -92,7 +92,7 @@ impl Flights {
         }
     }
 
-    /// Puts the spheres at the slots of an `order` into that order.
+    /// Reorders the spheres by their slots in `order`.
     pub fn reorder(&mut self, order: &[u32]) {
         let mut new_slots = vec![0; order.len()];
         for (new, &old) in (0u32..).zip(order) {
@@ -106,7 +106,7 @@ impl Flights {
         self.clusters.renumber(|slot| new_slots[slot as usize]);
     }
 
-    /// Whether spheres that nothing touches fly on curves, each by its own steps.
+    /// Whether spheres without contacts fly on curves.
     #[inline]
     pub fn are_curved(&self) -> bool {
         !self.curves.is_empty()
@@ -125,7 +125,7 @@ impl Flights {
         &self.species[self.bodies[slot as usize].species as usize]
     }
 
-    /// What the sphere is without contact forces.
+    /// The species of the sphere without contact forces.
     pub fn free_species_of(&self, slot: u32) -> &Species {
         &self.species[self.species_of(slot).free as usize]
     }
@@ -159,23 +159,23 @@ impl Flights {
         rotation.map_or(DVec3::ZERO, |rotation| rotation.angular_velocity_at(time))
     }
 
-    /// Has no torque act on a sphere from `time` \[s\] on, where friction acts.
+    /// Ends all torque on a sphere from `time` \[s\] on, where friction acts.
     pub fn let_go(&mut self, slot: u32, time: f64) {
         if let Some(rotation) = self.rotations.get_mut(self.index_of[slot as usize] as usize) {
             rotation.let_go(time);
         }
     }
 
-    /// Has a sphere turn with an angular velocity \[rad/s\] and an angular acceleration \[rad/s²\] from
-    /// `time` \[s\] on, where friction acts.
+    /// Sets the angular velocity \[rad/s\] and angular acceleration \[rad/s²\] of a sphere from `time` \[s\] on,
+    /// where friction acts.
     pub fn rotate(&mut self, slot: u32, rotation: [DVec3; 2], time: f64) {
         if let Some(it) = self.rotations.get_mut(self.index_of[slot as usize] as usize) {
             it.begin(rotation, time);
         }
     }
 
-    /// How the sphere at an index of the world's arrays turns. Where torques of persistent contacts act on
-    /// it, none does from `time` \[s\] on.
+    /// The rotation of the sphere with this index of the world's arrays. Torques of its persistent contacts end at
+    /// `time` \[s\].
     pub fn free_rotation_of(&self, index: usize, time: f64) -> Rotation {
         let mut rotation = self.rotations[index];
         if self.hold_forces || self.species_of(self.slot_of[index]).cluster.is_some() {
@@ -217,7 +217,7 @@ impl Flights {
         }
     }
 
-    /// Counts work of colliders that is done at once \[J\].
+    /// Adds work of colliders that is done at once \[J\].
     pub fn add_collider_work(&mut self, work: f64) {
         self.contact_work.colliders += work;
     }
@@ -233,13 +233,12 @@ impl Flights {
         [friction, colliders]
     }
 
-    /// Notes that all flights begin at another time: the work up to now is in a report.
+    /// Notes that all flights begin at another time and the work up to now is reported.
     pub fn restart_contact_work(&mut self) {
         self.contact_work = WorkDone::NONE;
     }
 
-    /// Takes away the contact forces on a sphere at `time` \[s\], and its cluster; tells whether there was
-    /// one.
+    /// Removes the contact forces on a sphere at `time` \[s\], and its cluster. Returns whether there was one.
     pub fn set_free(&mut self, slot: u32, time: f64) -> bool {
         let species = *self.species_of(slot);
         let Some(cluster) = species.cluster else { return false };
@@ -251,14 +250,14 @@ impl Flights {
         true
     }
 
-    /// Has a sphere on which no contact forces act fly straight in a zone from this place \[m\] on with a
-    /// velocity \[m/s\], since a time \[s\].
+    /// Puts a sphere without contact forces into a zone: it flies straight from this place \[m\] with this velocity
+    /// \[m/s\], since a time \[s\].
     pub fn enter_zone(&mut self, slot: u32, [position, velocity]: [DVec3; 2], time: f64) {
         self.make_stepped(slot);
         self.bodies[slot as usize].begin_flight(position, velocity, time);
     }
 
-    /// Has spheres whose flights are known, by index, be in a zone.
+    /// Marks spheres whose flights are known, by index, as members of a zone.
     pub fn set_stepped(&mut self, indices: &[u32]) {
         indices.iter().for_each(|&index| self.make_stepped(self.slot_of[index as usize]));
     }
@@ -280,8 +279,8 @@ impl Flights {
         self.bodies[slot as usize].species = number;
     }
 
-    /// Has a sphere that was in a zone fly freely from this place \[m\] on with a velocity \[m/s\], since a
-    /// time \[s\].
+    /// Takes a sphere out of a zone: it flies freely from this place \[m\] with this velocity \[m/s\], since a time
+    /// \[s\].
     pub fn leave_zone(&mut self, slot: u32, [position, velocity]: [DVec3; 2], time: f64) {
         let free = self.species_of(slot).free;
         let body = &mut self.bodies[slot as usize];
@@ -295,7 +294,7 @@ impl Flights {
         self.species_of(slot).is_stepped
     }
 
-    /// Makes spheres that are free a cluster from `time` \[s\] on.
+    /// Makes a cluster of free spheres from `time` \[s\] on.
     pub fn set_supported(&mut self, support: Support, time: f64) {
         let Support { members, contacts, renewal } = support;
         let slots = members.iter().map(|member| member.slot).collect();
@@ -334,7 +333,7 @@ impl Flights {
         cluster.is_some_and(|cluster| self.clusters.get(cluster).has(bodies))
     }
 
-    /// Whether a surface is one of those that hold a sphere in persistent contact.
+    /// Whether a sphere is in persistent contact with a surface.
     #[inline]
     pub fn is_held_by(&self, slot: u32, surface: u32) -> bool {
         self.are_held_together(Bodies::Surface { sphere: self.index_of[slot as usize], surface })

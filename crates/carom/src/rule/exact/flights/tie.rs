@@ -19,7 +19,7 @@ pub(super) struct Tie<'a> {
     /// Place of the sphere at its first end.
     pub first: usize,
     pub second: TieEnd,
-    /// From the second end to its image that counts \[m\].
+    /// From the second end to its nearest image \[m\].
     shift: DVec3,
     phase: Phase,
 }
@@ -36,15 +36,15 @@ pub(super) enum TieEnd {
 /// How a spring acts, until it changes that.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Phase {
-    /// It pulls and pushes, for ever.
+    /// The spring pulls and pushes; nothing changes.
     Smooth,
-    /// A thread that is no longer than without force.
+    /// A thread that is not longer than its rest length.
     Slack,
-    /// A thread that is longer, and shortens so fast that its damper takes all of its pull.
+    /// A thread longer than its rest length that shortens so fast that its damper cancels the pull.
     Idle,
     /// A thread that pulls.
     Taut,
-    /// Whatever it does, as it does it.
+    /// Any of these, as the state says.
     Any,
 }
 
@@ -61,7 +61,7 @@ impl<'a> Tie<'a> {
         let (offset, velocity) = (to - from, other_velocity - velocity);
         let mut shift = DVec3::ZERO;
         if period != DVec3::INFINITY {
-            // Half an edge away it is the image that it comes to.
+            // Half an edge away, the image in the direction of motion becomes the nearest.
             let beyond = BEYOND * velocity.signum() * period;
             let is_periodic = period.is_finite_mask();
             let along = offset + DVec3::select(is_periodic, beyond, DVec3::ZERO);
@@ -71,12 +71,12 @@ impl<'a> Tie<'a> {
         Self { spring, first, second, shift, phase }
     }
 
-    /// The same, but for changes in how it acts: those come within the step.
+    /// The tie with changes of its phase inside the step.
     pub fn with_changes(self) -> Self {
         Self { phase: Phase::Any, ..self }
     }
 
-    /// The force on its first end \[N\], with both ends here \[m\] and moving with these velocities \[m/s\].
+    /// The force on the first end \[N\], for these positions \[m\] and velocities \[m/s\] of both ends.
     pub fn pull(&self, [from, to]: [DVec3; 2], [velocity, other]: [DVec3; 2]) -> DVec3 {
         let (offset, velocity) = (to + self.shift - from, other - velocity);
         match self.phase {
@@ -86,8 +86,8 @@ impl<'a> Tie<'a> {
         }
     }
 
-    /// When it changes how it acts within a time \[s\], along the paths of its ends, in a periodic box with these edges
-    /// \[m\]; `None` if it does not.
+    /// When the spring changes how it acts within `length` \[s\], along the paths of its ends, in a periodic box
+    /// with these edges \[m\]; `None` if it does not.
     pub fn change(&self, ends: [TiePath; 2], period: DVec3, length: f64) -> Option<f64> {
         let apart = Apart { ends, shift: self.shift, length };
         let rest = self.spring.rest_length;
@@ -136,7 +136,7 @@ fn tension_by_length(spring: &Spring, offset: DVec3, velocity: DVec3) -> f64 {
     spring.stiffness * stretch + spring.damping * offset.dot(velocity)
 }
 
-/// How one end of a spring moves over a step.
+/// The path of one end of a spring over a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum TiePath {
     Polynomial(PolynomialFlight),
@@ -183,7 +183,7 @@ impl TiePath {
     }
 }
 
-/// The second end of a spring as seen from the first, over a step.
+/// The second end of a spring relative to the first, over a step.
 struct Apart {
     ends: [TiePath; 2],
     shift: DVec3,
@@ -217,7 +217,7 @@ impl Apart {
         first_positive(function, curvature, self.length)
     }
 
-    /// When the tension of a spring that is longer than without force rises (`sign` 1) or falls (-1) through 0.
+    /// When the tension of a spring longer than its rest length rises (`sign` 1) or falls (-1) through 0.
     fn passes_tension(&self, spring: &Spring, sign: f64) -> Option<f64> {
         let Spring { rest_length: rest, stiffness, damping, .. } = *spring;
         let [distance, speed, acceleration, jerk] = self.bounds();

@@ -1,6 +1,6 @@
-//! Follow-up impacts: contacts that an impact closes within its own duration, and that give nothing
-//! back. One by one they are the sweeps of a Gauss-Seidel iteration, which in a wedge has no end;
-//! merged into the group, they are answered at once.
+//! Follow-up impacts: plastic contacts that an impact closes within its own duration. Answered one by one they are
+//! the sweeps of a Gauss-Seidel iteration, which in a wedge does not end; merged into the group, they are answered
+//! at once.
 
 use crate::detect::contact::Bodies;
 use crate::detect::sphere_surface;
@@ -13,9 +13,8 @@ use crate::rule::exact::neighbours::NeighbourBuffer;
 use crate::rule::exact::predict;
 use crate::rule::exact::timeline::Timeline;
 
-/// The contacts that the spheres `struck` in a group close within a contact duration of its impacts,
-/// and that would give nothing back: either their restitution is 0, or all their spheres were struck
-/// within that time. Ascending.
+/// The contacts that the spheres `struck` in a group close plastically within a contact duration of its impacts:
+/// either the restitution is 0, or all their spheres were struck within that time. Ascending.
 pub(super) fn follow_ups(
     timeline: &Timeline,
     context: &StepContext,
@@ -23,7 +22,7 @@ pub(super) fn follow_ups(
     struck: &[Bodies],
 ) -> Vec<Bodies> {
     if group.touches.len() < 2 {
-        // A single impact: one that follows it meets a sphere that was struck, as any other does.
+        // A single impact needs no merging: a later one meets a struck sphere as any other does.
         return Vec::new();
     }
     let mut is_struck = vec![false; group.members.len()];
@@ -43,9 +42,9 @@ pub(super) fn follow_ups(
     found
 }
 
-/// Impacts that are due at the instant of a group beside it: of spheres that are within the reach of those
-/// that the follow-up impacts `found` bring into it. Answered after it they would find these with other
-/// velocities, and what is symmetric would not stay so.
+/// Impacts at the same instant as a group, of spheres within the reach of those that the follow-up impacts `found`
+/// add to it. Answered after the group they would find changed velocities, and a symmetric scene would lose its
+/// symmetry.
 pub(super) fn impacts_beside(timeline: &Timeline, group: &Group, found: &[Bodies]) -> Vec<Bodies> {
     let mut beside = Vec::new();
     let mut near = NeighbourBuffer::default();
@@ -135,7 +134,7 @@ impl Search<'_> {
         }
     }
 
-    /// A sphere as the group leaves it, or as it flies outside the group.
+    /// The state of a sphere after the group's impacts, or on its flight outside the group.
     fn state_of(&self, slot: u32, index: u32) -> Member {
         let Self { timeline, group, .. } = *self;
         group.place_of(index).map_or_else(
@@ -144,8 +143,7 @@ impl Search<'_> {
         )
     }
 
-    /// Whether spheres close a gap \[m\] at a speed \[m/s\] within a contact duration, without giving
-    /// anything back.
+    /// Whether spheres close a gap \[m\] at a speed \[m/s\] within a contact duration, and plastically.
     fn follows(&self, spheres: &[&Member], gap: f64, closing: f64, restitution: f64) -> bool {
         if closing <= 0.0 || restitution == 1.0 {
             return false;

@@ -9,7 +9,7 @@ use crate::rule::exact::contacts::{Group, Member, Touch};
 use crate::rule::exact::context::StepContext;
 use crate::sum::Sum;
 
-/// What friction did in an impact.
+/// The effect of friction in an impact.
 #[derive(Default)]
 pub(super) struct FrictionImpulses {
     /// Impulses on body 2 \[N s\], one per touch; empty where no friction acts.
@@ -26,7 +26,7 @@ impl FrictionImpulses {
         self.impulses.iter().sum()
     }
 
-    /// An account of the group, with rotation and with what friction demands.
+    /// The account of the group with rotation and the work of friction.
     pub fn add_to(&self, account: ImpactGroup) -> ImpactGroup {
         ImpactGroup {
             energy_before: account.energy_before + self.rotational[0],
@@ -117,7 +117,7 @@ fn apply(
     FrictionImpulses { impulses, energy, rotational: [before, rotational(&spheres)] }
 }
 
-/// A sphere of a group, as friction takes it.
+/// A sphere of a group for the friction law.
 fn spinning(context: &StepContext, member: &Member) -> SpinningSphere {
     SpinningSphere {
         radius: member.species.radius,

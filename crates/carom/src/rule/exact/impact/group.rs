@@ -1,5 +1,5 @@
-//! Impacts of a group: all that touches at one instant is answered together, and contacts that would
-//! not part again become persistent.
+//! Impacts of a group: everything that touches at one instant is answered together. Contacts that would not part
+//! become persistent.
 
 use std::iter::repeat;
 
@@ -64,7 +64,7 @@ pub(super) fn answer(
     let is_over = context.work.is_stopped()
         || allowance.is_some_and(|allowed| context.work.done() - work_before >= allowed);
     if answer.cut_short && !is_over && is_jammed(&group) {
-        // Surfaces that move leave a sphere no way out.
+        // Moving surfaces leave a sphere no room.
         context.work.allow(u64::MAX);
         let (group, _) = gather(timeline, context, seeds, surface, &joined, time);
         return refuse(timeline, context, &group);
@@ -85,7 +85,7 @@ pub(super) fn answer(
         return refuse(timeline, context, &group);
     };
     timeline.flights.add_collider_work(work_of_corrections(&group, &before));
-    // Impacts by which nothing stays in contact may be many: their number is that of flights.
+    // Impacts without persistent contacts may be many: their number is that of flights.
     let lasting = if supports.is_empty() { 0 } else { group.members.len() as u64 };
     timeline.budget.charge(&indices_of(&group), spent, UNITS_PER_MEMBER * lasting);
     let held: Vec<Bodies> =
@@ -105,7 +105,7 @@ pub(super) fn answer(
     }
 }
 
-/// Has a group be stepped that has no answer; without zones, the step has none.
+/// Joins a group without an answer to a zone; without zones, the step fails.
 fn refuse(timeline: &mut Timeline, context: &mut StepContext, group: &Group) {
     if context.has_zones() {
         return stepped::make_zone(timeline, context, group);
@@ -113,7 +113,7 @@ fn refuse(timeline: &mut Timeline, context: &mut StepContext, group: &Group) {
     context.unanswered = Some(group.members[0].slot);
 }
 
-/// Whether contacts close that impacts were to open.
+/// Whether contacts still close after the impacts that should open them.
 fn is_jammed(group: &Group) -> bool {
     let closing = group.touches.iter().map(|touch| -touch.normal_velocity(&group.members));
     let speeds = group.touches.iter().map(|touch| touch.relative_velocity(&group.members).norm());
@@ -121,7 +121,8 @@ fn is_jammed(group: &Group) -> bool {
     closing.fold(0.0, f64::max) > JAMMED * fastest
 }
 
-/// What touches at `time` \[s\], as it comes to that, and the work of surfaces that move in what settles \[J\].
+/// Collects what touches at `time` \[s\], in the state before the impact, and the work \[J\] of moving surfaces on
+/// what settles.
 fn gather(
     timeline: &Timeline,
     context: &StepContext,
@@ -144,7 +145,7 @@ fn states_of(group: &Group) -> Vec<[DVec3; 2]> {
     if gets_work { states() } else { Vec::new() }
 }
 
-/// The work \[J\] of surfaces that move where persistent contacts were brought to where these are, from these states.
+/// The work \[J\] of moving surfaces on spheres that were moved onto them, from these states.
 fn work_of_corrections(group: &Group, before: &[[DVec3; 2]]) -> f64 {
     let gained = |(member, &[position, velocity]): (&Member, &[DVec3; 2])| {
         let change = 0.5 * (member.velocity - velocity).dot(member.velocity + velocity);
@@ -154,7 +155,7 @@ fn work_of_corrections(group: &Group, before: &[[DVec3; 2]]) -> f64 {
     group.members.iter().zip(before).map(gained).sum()
 }
 
-/// Lets solvers do no more work than a group may take; tells how much.
+/// Limits the solvers to the work that the group may take. Returns that work.
 fn allow_work(timeline: &mut Timeline, context: &StepContext, group: &Group) -> u64 {
     let in_frame = UNITS_PER_FLIGHT * (u64::from(context.parameters.max_impacts) + 1);
     let allowed = if context.has_zones() {
@@ -225,7 +226,7 @@ fn met(timeline: &Timeline, seeds: &[u32], surface: Option<u32>) -> Option<Bodie
     }
 }
 
-/// What impacts did to a group.
+/// The effect of impacts on a group.
 #[derive(Default)]
 struct Answer {
     /// One per touch: speed of approach before all impacts \[m/s\].
@@ -276,7 +277,7 @@ fn respond_to_impacts(
         if surfaces[surface as usize].kick > 0.0)
     };
     let has_kicks = group.touches.iter().any(has_kick);
-    // Where nothing is answered a second time there are none.
+    // These are kept only if impacts are answered a second time.
     let repeated = if merged.is_empty() && !has_friction && !has_kicks { 0 } else { count };
     let plastic: Vec<TouchingContact> = contacts[..repeated].iter().map(plastic).collect();
     let all: Vec<usize> = (0..repeated).collect();
@@ -320,7 +321,7 @@ fn respond_to_impacts(
     Answer { approach_speeds, impulses, friction, kicks: kicks.speeds, account, cut_short }
 }
 
-/// What the kicks of surfaces did to a group.
+/// The effect of kicks of surfaces on a group.
 #[derive(Default)]
 struct Kicks {
     /// One per touch \[m/s\].
@@ -361,7 +362,7 @@ fn velocities_of(group: &Group) -> Vec<DVec3> {
     group.members.iter().map(|member| member.velocity).collect()
 }
 
-/// Writes down the impacts of a group.
+/// Records the impacts of a group.
 fn record(context: &mut StepContext, group: &Group, answer: &Answer) {
     let Answer { approach_speeds, impulses, friction, kicks, .. } = answer;
     let mut account = answer.account;
@@ -435,8 +436,8 @@ fn contacts_of(timeline: &Timeline, context: &StepContext, group: &Group) -> Vec
     group.touches.iter().map(contact).collect()
 }
 
-/// Begins a new flight of every sphere of the group, borne by its persistent contacts. Bodies that were
-/// `struck` begin it by that.
+/// Begins a new flight of every sphere of the group, under the forces of its persistent contacts. The flights of
+/// `struck` bodies begin with an impact.
 fn begin_flights(
     timeline: &mut Timeline,
     group: &Group,

@@ -1,5 +1,5 @@
-//! Impacts of elastic spheres whose radii grow: the surfaces part as fast as they came. Bodies that meet at one
-//! instant are answered one pair after the other.
+//! Impacts of elastic spheres whose radii grow: the surfaces part with the speed of their approach. Bodies that
+//! meet at one instant are answered one pair after the other.
 
 use glam::DVec3;
 
@@ -101,7 +101,7 @@ pub(crate) fn answer_growing_single(
     predict::predict(timeline, context, slot, time);
 }
 
-/// How a sphere at a place \[m\] lies to that image of a surface which is nearest to touching it.
+/// The separation of a sphere at a place \[m\] from the nearest image of a surface.
 fn nearest_image(
     timeline: &Timeline,
     context: &StepContext,

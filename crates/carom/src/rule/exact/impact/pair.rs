@@ -20,8 +20,8 @@ use crate::rule::exact::stepped;
 use crate::rule::exact::timeline::Timeline;
 use crate::rule::periodic;
 
-/// Whatever is nearer to a sphere than this part of the distance of centres may take part in the
-/// impact, and is looked at closely. Generous: it only decides which way is taken to one result.
+/// Spheres nearer than this part of the distance of centres are tested closely for taking part in the impact. The
+/// value is generous: it only decides which way is taken to one result.
 pub(super) const NEARBY: f64 = 1e-6;
 
 /// Answers the impact of two spheres at `time` \[s\], and of whatever touches them there.
@@ -31,7 +31,7 @@ pub(crate) fn answer_pair(
     slots: [u32; 2],
     time: f64,
 ) {
-    // In the order of ids, as everywhere.
+    // In the order of ids, so that rounding does not depend on the memory.
     let [one, other] = slots;
     let is_ordered =
         timeline.flights.index_of[one as usize] < timeline.flights.index_of[other as usize];
@@ -46,7 +46,7 @@ pub(crate) fn answer_pair(
     if !are_free {
         return group::answer(timeline, context, &slots, None, time);
     }
-    // As if they were alone: then they need not look around once more.
+    // The impact is computed as if the two were alone, which saves a second search.
     let impact = PairImpact::at(timeline, context, slots, time);
     let before = slots.map(|slot| timeline.flights.bodies[slot as usize]);
     let after = impact.places.into_iter().zip(impact.velocities);
@@ -85,8 +85,8 @@ pub(crate) fn answer_pair(
     }
 }
 
-/// Whether one of two spheres, whose flights begin at `time` \[s\], touches nothing but the other.
-/// It looks around.
+/// Whether one of two spheres, whose flights begin at `time` \[s\], touches nothing but the other. Searches its
+/// neighbours.
 #[inline(always)]
 fn is_alone(timeline: &Timeline, context: &mut StepContext, slots: [u32; 2], one: usize) -> bool {
     let (slot, other) = (slots[one], slots[1 - one]);
@@ -95,17 +95,17 @@ fn is_alone(timeline: &Timeline, context: &mut StepContext, slots: [u32; 2], one
     let near_test = NearTest { exempt: other, margin: NEARBY };
     let search = &mut context.searches[one];
     let mut is_near = search.search(timeline, slot, time, near_test);
-    // The two fly alike: where all are of one species, all do.
+    // The two fly alike; with one species, all do.
     if timeline.flights.species.len() > 1 {
         is_near |= search.is_near_others(timeline, slot, near_test);
     }
-    // Surfaces are not called for where there are none.
+    // Surfaces are read only where there are some.
     !is_near
         && (context.system.surfaces.is_empty()
             || context.touches_no_surface(timeline, slot, position, radius * NEARBY, time))
 }
 
-/// The impact of two spheres by itself, which all laws answer alike.
+/// The impact of two spheres that touch nothing else; all impact laws give the same answer.
 struct PairImpact {
     time: f64,
     places: [DVec3; 2],

@@ -1,5 +1,5 @@
-//! What a sphere does that is alone with surfaces at rest: it bounces off them, rests on planes or
-//! slides along.
+//! Events of a sphere that touches only surfaces at rest: it bounces off them, rests on planes or slides along
+//! them.
 
 use glam::DVec3;
 
@@ -22,8 +22,8 @@ use crate::rule::exact::persistent::planar::{self, PlanarSupport};
 use crate::rule::exact::predict::{self, Unresolved};
 use crate::rule::exact::timeline::Timeline;
 
-/// Answers what happens to a sphere at `time` \[s\]: it meets a `surface`, or else the forces of its
-/// persistent contacts have to be found anew. The answer is that of its group, but for rounding.
+/// Answers an event of a sphere at `time` \[s\]: an impact with `surface`, or, without one, new forces of its
+/// persistent contacts. The answer equals that of the sphere as a group, up to rounding.
 pub(crate) fn answer_single(
     timeline: &mut Timeline,
     context: &mut StepContext,
@@ -36,7 +36,7 @@ pub(crate) fn answer_single(
     else {
         return group::answer(timeline, context, &[slot], surface, time);
     };
-    // With friction, one contact feels the other; and drag leaves no closed form.
+    // Friction couples the contacts, and drag leaves no closed form.
     let is_one = || touched.contacts(member.position).iter().flatten().count() == 1;
     if timeline.has_friction() && !(is_one() && member.species.drag_rate == 0.0) {
         return group::answer(timeline, context, &[slot], surface, time);
@@ -72,7 +72,7 @@ pub(crate) fn answer_single(
         touched.is_struck(&struck, surface) || timeline.flights.is_held_by(slot, surface)
     };
     let Some(met) = surface.filter(|&surface| !is_answered(timeline, surface)) else { return };
-    // Others may be closed by rounding, too: passed over one at a time, they would take turns.
+    // Other contacts may close by rounding, too: passed over one at a time, they would alternate without end.
     let contacts = touched.contacts(member.position).into_iter().flatten();
     let others = contacts.map(|contact| contact.surface).filter(|&it| !is_answered(timeline, it));
     let unresolved: Vec<Unresolved> = others
@@ -83,9 +83,8 @@ pub(crate) fn answer_single(
     predict::pass_over(timeline, context, slot, &unresolved, time);
 }
 
-/// Applies the impulses of the surfaces that a sphere closes on, by Newton's law, which all impact
-/// laws give for contacts that do not affect each other, and records them. Returns the surfaces that
-/// gave one.
+/// Applies the impulses of the surfaces on which the sphere closes, by Newton's law, and records them. All impact
+/// laws equal it for independent contacts. Returns the surfaces with an impulse.
 fn strike(
     timeline: &Timeline,
     context: &mut StepContext,

@@ -1,5 +1,5 @@
-//! Surface contacts of a single sphere: what it touches, if that is nothing but surfaces at rest at
-//! right angles to each other. Then each of them acts on it as if there were no other.
+//! Surface contacts of a single sphere: what it touches, if only surfaces at rest at right angles to each other.
+//! Then each acts as if there were no other.
 
 use glam::DVec3;
 
@@ -23,7 +23,7 @@ const SAME_NORMAL: f64 = 1e-12;
 /// Planes and something round, at most.
 pub(super) const MOST_TOUCHED: usize = MOST_PLANES + 1;
 
-/// A sphere as it comes to what it touches.
+/// A sphere at the instant of an impact, with what it touches.
 pub(super) struct SingleSphere<'a> {
     pub member: Member,
     pub touched: SurfaceContacts<'a>,
@@ -57,7 +57,7 @@ pub(super) struct Contact {
 }
 
 impl<'a> SurfaceContacts<'a> {
-    /// Adds a surface that a sphere touches; `None` if it is not at rest, or feels another one.
+    /// Adds a surface that a sphere touches; `None` if it moves or depends on another one.
     fn add(&mut self, context: &StepContext<'a>, member: &Member, surface: u32) -> Option<()> {
         let surfaces = context.system.surfaces;
         if let Some(plane) = Plane::under(member.state(), surface, surfaces) {
@@ -129,7 +129,7 @@ pub(super) fn single_sphere<'a>(
         .cluster
         .map(|number| timeline.flights.clusters.get(number));
     let is_held_with_others = cluster.is_some_and(|cluster| cluster.members.len() > 1);
-    // In a periodic box it may be images that it touches.
+    // In a periodic box the sphere may touch images.
     if is_held_with_others || context.period != DVec3::INFINITY {
         return None;
     }
@@ -160,7 +160,7 @@ pub(super) fn single_sphere<'a>(
     is_alone.then_some(SingleSphere { member, touched })
 }
 
-/// Whether a sphere closes on what is round, and leaves it for longer than a contact lasts.
+/// Whether a sphere closes on a round feature and leaves it for longer than a contact lasts.
 fn bounces_off(
     timeline: &Timeline,
     context: &StepContext,

@@ -12,12 +12,12 @@ use crate::lanes::LANES;
 /// Neighbours of each sphere, by slot: as a rule not more than fifteen.
 pub(super) type NeighbourLists = PagedLists<Neighbour, 15>;
 
-/// So many are compared at once.
+/// Neighbours that are compared at once.
 const LINE: usize = 16;
-/// So many flags fit into one number.
+/// Flags that fit into one number.
 const BITS: usize = u64::BITS as usize;
 
-/// Whether none is an image.
+/// Whether none of the four is an image.
 #[inline(always)]
 pub(super) fn are_in_same_box(four: &[Neighbour; LANES]) -> bool {
     four.iter().fold(Neighbour::default(), |all, &other| all.joined(other)).is_in_same_box()
@@ -26,10 +26,10 @@ pub(super) fn are_in_same_box(four: &[Neighbour; LANES]) -> bool {
 /// Memory in which the neighbours of a sphere are gathered.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct NeighbourBuffer {
-    /// The neighbours; what lies behind has no meaning, but for a sphere's slot in each.
+    /// The neighbours. Entries behind them are unused; each holds the slot of a sphere.
     pub(super) buffer: Vec<Neighbour>,
     pub(crate) len: usize,
-    /// Joined, those from lists and perhaps others: in the same box only if all of these are.
+    /// Union of the neighbours from lists and perhaps others: in the same box only if all of these are.
     joined: Neighbour,
 }
 
@@ -69,7 +69,7 @@ impl NeighbourBuffer {
         self.len = kept;
     }
 
-    /// The neighbours, in fours; behind them, in the last four, others stand.
+    /// The neighbours in groups of four; unused entries fill the last group.
     #[inline(always)]
     pub fn in_fours(&mut self) -> &[[Neighbour; LANES]] {
         let end = self.len.next_multiple_of(LANES);
@@ -77,7 +77,7 @@ impl NeighbourBuffer {
         self.buffer[..end].as_chunks().0
     }
 
-    /// Makes sure that something stands up to `end`.
+    /// Extends the memory to `end`.
     #[inline(always)]
     fn extend_to(&mut self, end: usize) {
         if self.buffer.len() < end {
@@ -106,8 +106,8 @@ impl NeighbourBuffer {
     pub(super) fn add_list(&mut self, lists: &NeighbourLists, slot: u32) {
         let start = self.len;
         self.len = lists.gather(slot as usize, &mut self.buffer, start);
-        // The first page is read where it is, and all of it: what was just written can be read in
-        // other pieces only when it has come to the cache.
+        // Reads the first page in place and whole: reading freshly written data in other pieces waits until the
+        // data are in the cache.
         let rest = &self.buffer[start + lists.first(slot as usize).len()..self.len];
         let all = lists.first_page(slot as usize).iter().chain(rest);
         self.joined = all.fold(self.joined, |all, &other| all.joined(other));
@@ -131,7 +131,7 @@ impl NeighbourBuffer {
         })
     }
 
-    /// The neighbours, with places that hold none behind them.
+    /// The neighbours, filled up with entries that are none.
     #[inline(always)]
     fn filled_up(&mut self) -> &[[Neighbour; LINE]] {
         let end = self.len.next_multiple_of(LINE);
@@ -140,14 +140,14 @@ impl NeighbourBuffer {
         self.buffer[..end].as_chunks().0
     }
 
-    /// Makes those from `start` on images.
+    /// Marks the neighbours from `start` on as images.
     pub(super) fn make_images(&mut self, start: usize) {
         for other in &mut self.buffer[start..self.len] {
             *other = other.as_image();
         }
     }
 
-    /// Of those from `start` on, keeps those whose bits are set, which `kept` gives in fours.
+    /// Keeps, of the neighbours from `start` on, those whose bits are set by `kept`, which tests four at a time.
     #[inline(always)]
     pub(super) fn retain_from(&mut self, start: usize, kept: impl Fn(&[Neighbour; LANES]) -> u64) {
         let count = self.len - start;

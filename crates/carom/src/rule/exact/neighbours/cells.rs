@@ -4,7 +4,7 @@ use super::grid::Block;
 use super::neighbour::Neighbour;
 use super::paged_lists::PagedLists;
 
-/// Spheres by cell, as they are seen from the box about the origin.
+/// Spheres by cell, relative to the box about the origin.
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) enum Cells {

@@ -1,4 +1,4 @@
-//! What neighbours are found from, and the grids that suit it.
+//! The input of the neighbour search, and the grids that suit it.
 
 use std::ops::Range;
 
@@ -12,8 +12,8 @@ use crate::rule::exact::flights::{Flights, Species};
 use crate::rule::periodic::wrapped;
 use crate::surface::Surface;
 
-/// Lists are kept if there are more spheres than this to a cell as wide as a diameter: then to
-/// look at fewer neighbours is worth the upkeep.
+/// Neighbour lists are kept if there are more spheres than this in a cell as wide as a diameter: then fewer
+/// neighbours to test are worth the upkeep.
 const CROWDED: f64 = 0.55;
 /// Where there are lists, cells are wider than a diameter by this part of it, at least.
 const LIST_MARGIN: f64 = 0.28;
@@ -30,7 +30,7 @@ pub(crate) struct Contents<'a> {
     pub period: DVec3,
     pub surfaces: &'a [Surface],
     pub tree: &'a SurfaceTree,
-    /// Whether spheres have to find each other at all.
+    /// Whether spheres collide with each other.
     pub spheres_collide: bool,
     /// Groups of spheres, by index; empty where all spheres collide.
     pub groups: &'a [Groups],
@@ -88,8 +88,8 @@ impl Contents<'_> {
         grids
     }
 
-    /// How wide the cells of a level have to be at least \[m\], and how many things look for each
-    /// other in them. Spheres that pass through each other look for surfaces alone.
+    /// Least width of the cells of a level \[m\], and the number of bodies that search in them. Spheres that pass
+    /// through each other search for surfaces alone.
     fn cells_wanted(&self, level: u32) -> (f64, usize) {
         let radius = self.radius_of(level);
         if !self.spheres_collide {
@@ -115,7 +115,7 @@ impl Contents<'_> {
         let is_crowded = self.spheres_collide && self.level_count() == 1 && crowd > CROWDED;
         is_crowded.then(|| {
             let grid = self.grid(diameter * (1.0 + LIST_MARGIN), count);
-            // Two regions side by side, and the spheres that reach out of them, are as wide as a cell.
+            // Two adjacent regions, and the spheres that reach out of them, are as wide as a cell.
             let reach = grid.width().min_element() / (2.0 * SLACK);
             CrowdedGrid { half_edges: DVec3::splat(reach - self.radius_of(0)), grid }
         })

@@ -33,7 +33,7 @@ pub(super) struct Grid {
     runs: [Vec<[Run; 3]>; 3],
 }
 
-/// Cells about one, ghosts among them, that lie side by side and are seen from there alike.
+/// A block of cells around a cell, ghosts included, that share one image offset.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Block<'a> {
     grid: &'a Grid,
@@ -54,7 +54,7 @@ impl Block<'_> {
     /// Visits the cells, in rows or parts of rows, by their numbers with ghosts.
     #[inline(always)]
     pub fn for_each_row(&self, mut visit: impl FnMut(Range<usize>)) {
-        // As a rule it is a cube or a side of one, whose loops need not be counted.
+        // Most blocks are cubes or sides of cubes, whose loops need no counters.
         let [x, y, z] = self.grid.strides;
         let strides = match self.lens {
             [3, 3, 3] => return self.rows([3; 3], &mut visit),
@@ -63,7 +63,7 @@ impl Block<'_> {
             [3, 3, 1] => [x, y],
             lens => return self.rows(lens.map(usize::from), &mut visit),
         };
-        // One by one, whichever way the side lies.
+        // One cell after another, for a side in any direction.
         let first = self.grid.number_with_ghosts(self.first);
         for line in 0..3 {
             for place in 0..3 {
@@ -110,8 +110,8 @@ pub(super) struct Side {
 }
 
 impl Grid {
-    /// A grid over these places \[m\]: its cells at least `min_width` \[m\] wide, and not more than
-    /// are worth while for the number of spheres that `seek` each other.
+    /// A grid over these places \[m\]: its cells are at least `min_width` \[m\] wide, and no more than pay off for
+    /// the number of spheres that `seek` each other.
     pub fn over(
         places: impl Iterator<Item = DVec3>,
         period: DVec3,
@@ -182,8 +182,7 @@ impl Grid {
         x + row * y + layer * z
     }
 
-    /// Visits a cell and its ghosts, with their numbers and the image offset with which
-    /// what is in the cell is seen there.
+    /// Visits a cell and its ghosts, with their numbers and the image offset of each.
     #[inline(always)]
     pub fn for_each_copy(&self, cell: [u16; 3], mut visit: impl FnMut(usize, [i32; 3])) {
         // The ends of an axis may be one cell.
@@ -212,7 +211,7 @@ impl Grid {
         self.periodic == [true; 3]
     }
 
-    /// Whether a thing less than three cells away along each axis is nearer than all its images.
+    /// Whether a body less than three cells away along each axis is nearer than all its images.
     pub fn is_wide(&self) -> bool {
         (0..3).all(|axis| !self.periodic[axis] || self.counts[axis] >= 6)
     }
@@ -248,7 +247,7 @@ impl Grid {
         (0..nz).flat_map(move |z| (0..ny).flat_map(move |y| (0..nx).map(move |x| [x, y, z])))
     }
 
-    /// Bounds of something about a place, without those on whose side its cell reaches to infinity.
+    /// Bounds of a body at a place, extended to infinity where the cell of the place is endless.
     #[inline(always)]
     pub fn without_ends(&self, place: DVec3, low: DVec3, high: DVec3) -> (DVec3, DVec3) {
         if self.is_closed() {
@@ -271,7 +270,7 @@ impl Grid {
         (low, high)
     }
 
-    /// Offsets along an axis by which images of a thing may be near cells.
+    /// Image offsets along an axis for which images may be near cells.
     pub fn image_offsets(&self, axis: usize) -> RangeInclusive<i8> {
         if self.periodic[axis] { -1..=1 } else { 0..=0 }
     }
@@ -283,7 +282,7 @@ impl Grid {
         Bounds { min, max }
     }
 
-    /// Visits those of a cell and the cells next to it that lie on one side, if one is given.
+    /// Visits the blocks of a cell and the cells next to it, or those on one side.
     #[inline(always)]
     pub fn for_each_block(&self, cell: [u16; 3], side: Option<Side>, mut visit: impl FnMut(Block)) {
         if (0..3).all(|axis| self.is_inside(axis, cell[axis])) {
@@ -314,7 +313,7 @@ impl Grid {
         }
     }
 
-    /// The side of a cell that another one is on, if it is a neighbour along one axis.
+    /// The side of a cell on which another one lies, if it is a neighbour along one axis.
     pub fn side(&self, from: [u16; 3], to: [u16; 3]) -> Option<Side> {
         let [x, y, z] = [0, 1, 2].map(|axis| usize::from(from[axis] != to[axis]));
         // Without branches on the axis, which the processor cannot predict.
@@ -324,7 +323,7 @@ impl Grid {
         }
         let last = i32::from(self.counts[axis]) - 1;
         let step = i32::from(to[axis]) - i32::from(from[axis]);
-        // Round the axis it is as many cells the other way.
+        // Around a periodic axis it is as many cells the other way.
         let step = select_unpredictable(step.abs() == last, -step.signum(), step);
         // In a ring of two cells, one is on both sides of the other.
         (last > 1 && step.abs() == 1).then_some(Side { axis, step: step as i16 })
@@ -365,15 +364,15 @@ impl Grid {
         runs
     }
 
-    /// Where a place in the box lies along a space-filling curve through the cells (Morton).
+    /// Position of a place in the box along a space-filling curve through the cells (Morton).
     pub fn curve_key(&self, place: DVec3) -> u64 {
         let cell = self.cell_of(place);
         (0..3).fold(0, |key, axis| key | spread(cell[axis]) << axis)
     }
 }
 
-/// Cells along each axis, a multiple of `counts`, when so many are `width` \[m\] wide: at least
-/// `min_width` \[m\] wide, and not more than are worth while for this number of spheres.
+/// Cells along each axis: a multiple of `counts`, where that many cells are `width` \[m\] wide. A cell is at least
+/// `min_width` \[m\] wide, and there are no more cells than pay off for this number of spheres.
 fn cell_counts(counts: [u16; 3], width: DVec3, min_width: f64, spheres: usize) -> [u16; 3] {
     if spheres <= SINGLE_CELL || !width.is_finite() {
         return counts;

@@ -34,7 +34,7 @@ pub(crate) struct Neighbours {
     lists: Option<NeighbourLists>,
     periodic_box: PeriodicBox,
     images: Images,
-    /// Whether spheres have to find each other at all.
+    /// Whether spheres collide with each other.
     spheres_collide: bool,
     /// By slot; empty where all bodies collide.
     groups: Vec<Groups>,
@@ -103,8 +103,8 @@ impl Neighbours {
         self.images
     }
 
-    /// Finds the spheres that the one at `slot`, of level `level`, may meet before one of them
-    /// leaves its neighbour region, perhaps with itself.
+    /// Finds the spheres that the sphere at `slot`, of this level, may meet before one of them leaves its neighbour
+    /// region; the sphere itself may be among them.
     #[inline(always)]
     pub fn find(&self, slot: u32, level: u32, near: &mut NeighbourBuffer) {
         near.clear();
@@ -192,7 +192,7 @@ impl Neighbours {
         &self.regions[slot as usize]
     }
 
-    /// The shift that brings a neighbour of the sphere at `slot` near \[m\].
+    /// Offset \[m\] of a neighbour's image beside the sphere at `slot`.
     pub fn shift_of(&self, slot: u32, neighbour: Neighbour) -> DVec3 {
         if neighbour.is_in_same_box() {
             return DVec3::ZERO;
@@ -201,7 +201,7 @@ impl Neighbours {
         self.periodic_box.shift(offset_between(region, other, neighbour.image_offset()))
     }
 
-    /// The shifts \[m\] that bring several neighbours near, side by side.
+    /// Offsets \[m\] of several neighbours' images, one per lane.
     #[inline(always)]
     pub fn shifts_of<S: Simd>(
         &self,
@@ -213,8 +213,8 @@ impl Neighbours {
         self.periodic_box.shifts_of(simd, &self.regions[slot as usize], others, some)
     }
 
-    /// The shifts \[m\] that bring neighbours near, where images are recognised by their positions, from
-    /// their offsets at a time when all are in their neighbour regions \[m\].
+    /// Offsets \[m\] of neighbours' images that are recognised by their positions, from the offsets at a time when
+    /// all are in their neighbour regions \[m\].
     #[inline(always)]
     pub fn shifts_to_nearest<S: Simd>(
         &self,
@@ -224,14 +224,14 @@ impl Neighbours {
         self.periodic_box.shifts_to_nearest(simd, offset)
     }
 
-    /// From the box about the origin to where the position of the sphere counts \[m\].
+    /// Offset from the box about the origin to the box of the sphere's position \[m\].
     #[inline]
     pub fn shift_from_box(&self, slot: u32) -> DVec3 {
         self.periodic_box.shift_from_box(self.region(slot))
     }
 
-    /// Surfaces that the sphere may meet in its neighbour region, with the shift \[m\] that brings them
-    /// to where its position counts.
+    /// Surfaces that the sphere may meet in its neighbour region, with the offset \[m\] of the image beside the
+    /// sphere.
     pub fn surfaces_near(&self, slot: u32, level: u32) -> impl Iterator<Item = (u32, DVec3)> {
         let Level { grid, surfaces, .. } = &self.levels[level as usize];
         let offset = self.region(slot).image_offset;
@@ -252,8 +252,7 @@ impl Neighbours {
         })
     }
 
-    /// Whether the sphere certainly does not leave its neighbour region until `horizon`, on the world's
-    /// clock \[s\].
+    /// Whether the sphere cannot leave its neighbour region until `horizon`, on the world's clock \[s\].
     #[inline]
     pub fn stays(&self, slot: u32, body: &Body, species: &Species, horizon: f64) -> bool {
         let Level { half_edges, .. } = &self.levels[species.level as usize];
@@ -289,7 +288,7 @@ impl Neighbours {
         }
     }
 
-    /// Lays the region of a sphere about it, and gives the cell that it lies about.
+    /// Centres the neighbour region of a sphere on it. Returns the cell at its centre.
     fn place(&mut self, slot: u32, level: u32, [position, velocity]: [DVec3; 2]) -> [u16; 3] {
         let Level { grid, half_edges, .. } = &self.levels[level as usize];
         let period = self.periodic_box.period;
@@ -325,8 +324,8 @@ impl Neighbours {
         self.for_its_cells(slot, level, own_cell, |cells, cell, mark| cells.remove(cell, mark));
     }
 
-    /// Does something about a sphere, or an image of it, in its cell, in those that hold it on the
-    /// levels above, and in the ghosts of these.
+    /// Calls `act` for a sphere, or an image of it, in its cell, in the cells that hold it on the levels above,
+    /// and in the ghosts of these.
     #[inline]
     fn for_its_cells(
         &mut self,
@@ -397,8 +396,8 @@ impl Neighbours {
         });
     }
 
-    /// Brings the list of a sphere and those of its neighbours up to date, where there are lists. Adds
-    /// those to `new` that are new on its own.
+    /// Updates the list of a sphere and those of its neighbours, where there are lists. Adds the new neighbours to
+    /// `new`.
     fn update_list(&mut self, slot: u32, new: &mut NeighbourBuffer) {
         let Self { levels, regions, lists, periodic_box, .. } = self;
         if let ([level], Some(lists)) = (&levels[..], lists) {
@@ -429,7 +428,7 @@ impl Neighbours {
         Some(position - periodic::image_shift(offset, period))
     }
 
-    /// Takes boxes from the image offset of a sphere: of its neighbours, others are now in the same box.
+    /// Subtracts boxes from the image offset of a sphere; its neighbours' images change with it.
     fn drop_offset(&mut self, slot: u32, level: u32, offset: [i32; 3]) {
         let cell = self.cell_of(slot, &self.levels[level as usize].grid);
         self.leave_cells(slot, level, cell);

@@ -13,12 +13,12 @@ use crate::rule::periodic;
 #[derive(Debug, Clone, Copy, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) enum Images {
-    /// There are none: all axes are open.
+    /// No images: all axes are open.
     #[default]
     None,
-    /// One near a sphere is nearer than all its other images.
+    /// By position: the image beside a sphere is nearer than all others.
     ByPlace,
-    /// In a narrow box, by their marks in cells and lists.
+    /// By marks in cells and lists, in a narrow box.
     ByMark,
 }
 
@@ -52,13 +52,13 @@ impl PeriodicBox {
         periodic::image_shift(offset, self.period)
     }
 
-    /// From the box about the origin to where the position of a sphere counts \[m\].
+    /// Offset from the box about the origin to the box of a sphere's position \[m\].
     #[inline]
     pub fn shift_from_box(&self, region: &Region) -> DVec3 {
         region.offset_in_numbers() * self.edges
     }
 
-    /// The shifts \[m\] that bring neighbours near a sphere, side by side.
+    /// Offsets \[m\] of neighbours' images beside a sphere, one per lane.
     #[inline(always)]
     pub fn shifts_of<S: Simd>(
         &self,
@@ -76,8 +76,8 @@ impl PeriodicBox {
         ((in_box + (here - there)) * is_image).scaled(Vector::all(simd, self.edges))
     }
 
-    /// The shifts \[m\] that bring neighbours near a sphere, where images are recognised by their positions,
-    /// from their offsets at a time when all are in their regions \[m\].
+    /// Offsets \[m\] of neighbours' images that are recognised by their positions, from the offsets at a time when
+    /// all are in their regions \[m\].
     #[inline(always)]
     pub fn shifts_to_nearest<S: Simd>(
         &self,
@@ -100,7 +100,7 @@ impl PeriodicBox {
     }
 }
 
-/// The image offset between where the positions of two spheres count, when in the box it is `in_box`.
+/// The image offset between the positions of two spheres; `in_box` is the offset between their wrapped positions.
 pub(super) fn offset_between(region: &Region, other: &Region, in_box: [i32; 3]) -> [i32; 3] {
     let (here, there) = (region.image_offset, other.image_offset);
     [0, 1, 2].map(|axis| in_box[axis] + here[axis] - there[axis])

@@ -8,9 +8,9 @@ use crate::rule::periodic::image_shift;
 const SLOT_BITS: u32 = 27;
 /// The number of the image with offset 0, among those at -1, 0 or 1 boxes along each axis.
 const MIDDLE_IMAGE: i32 = 13;
-/// How many images can be distinguished, with the sphere in the same box, and some that are none.
+/// Number of images that can be distinguished, with that in the same box and the values that mean none.
 pub(super) const IMAGES: usize = 1 << (u32::BITS - SLOT_BITS);
-/// The offset of each image, by its number and one more: to look it up takes less than to count.
+/// The offset of each image by its number, and 1: reading a table takes less than counting.
 const OFFSETS: [[i32; 3]; IMAGES] = {
     let mut offsets = [[0; 3]; IMAGES];
     let mut number = 0;
@@ -42,16 +42,16 @@ pub(crate) const MAX_SPHERES: usize = 1 << SLOT_BITS;
 pub(crate) struct Neighbour(u32);
 
 impl Neighbour {
-    /// Not a neighbour: an image that there is not.
+    /// No neighbour: an image that does not exist.
     pub const NONE: Self = Self((IMAGES as u32 - 1) << SLOT_BITS);
 
-    /// One whose position counts in the same box as that of the sphere.
+    /// A neighbour whose position is in the same box as the sphere's.
     #[inline(always)]
     pub fn in_same_box(slot: u32) -> Self {
         Self(slot)
     }
 
-    /// One whose image is near, this offset from itself in the box about the origin.
+    /// A neighbour whose image is near, at this offset in the box about the origin.
     pub fn image(slot: u32, [x, y, z]: [i32; 3]) -> Self {
         let number = x + 3 * y + 9 * z + MIDDLE_IMAGE;
         Self(slot | (number as u32 + 1) << SLOT_BITS)
@@ -74,7 +74,7 @@ impl Neighbour {
         self.0 < 1 << SLOT_BITS
     }
 
-    /// A value that is an image if this one or the other is; it names no sphere.
+    /// The union of two neighbours: an image if one of them is. It names no sphere.
     #[inline(always)]
     pub fn joined(self, other: Self) -> Self {
         Self(self.0 | other.0)
@@ -91,7 +91,7 @@ impl Neighbour {
         &OFFSETS_IN_NUMBERS[self.image_number()]
     }
 
-    /// This neighbour where even those in the box about the origin are images.
+    /// This neighbour as an image, even if it is in the box about the origin.
     #[inline(always)]
     pub fn as_image(self) -> Self {
         if self.is_in_same_box() { Self::image(self.slot(), [0; 3]) } else { self }
@@ -108,7 +108,7 @@ impl Neighbour {
         OFFSETS.map(|offset| image_shift(offset, period))
     }
 
-    /// What the sphere at `slot`, of which this is a neighbour, is to it.
+    /// The sphere at `slot` as a neighbour of this neighbour.
     #[inline]
     pub fn mirrored(self, slot: u32) -> Self {
         match self.0 >> SLOT_BITS {

@@ -44,8 +44,7 @@ impl NeighbourLists {
         Self { lists: buffer::NeighbourLists::new(count), before, after }
     }
 
-    /// Brings the list of a sphere and those of its neighbours up to date. Adds those to `new` that are
-    /// new on its own.
+    /// Updates the list of a sphere and those of its neighbours. Adds the new neighbours to `new`.
     pub fn update(&mut self, crowd: Crowd, slot: u32, new: &mut NeighbourBuffer) {
         let (mut before, mut after) = (take(&mut self.before), take(&mut self.after));
         before.clear();
@@ -93,8 +92,8 @@ impl Crowd<'_> {
         });
     }
 
-    /// Keeps, of those from `start` on, the others whose regions reach that of the sphere, when
-    /// their centres may be so far apart \[m\].
+    /// Keeps, of the spheres from `start` on, those whose regions reach the sphere's, for centres up to `reach`
+    /// apart \[m\].
     #[inline(always)]
     fn keep_peers<S: Simd>(
         &self,
@@ -113,7 +112,7 @@ impl Crowd<'_> {
             #[inline(always)]
             |four| {
                 let others = four.each_ref().map(|one| self.region(one.slot()));
-                // From the other sphere it is the same to the last bit, but for the sign.
+                // Seen from the other sphere, only the sign differs.
                 let mut offset = Vector::each(simd, others.map(|other| other.center)) - here;
                 if !are_in_same_box(four) {
                     offset = offset + self.periodic_box.shifts_of_images(simd, four);
@@ -128,7 +127,7 @@ impl Crowd<'_> {
         );
     }
 
-    /// What a sphere is to the one at `slot`, when its image with this offset in the box is near.
+    /// The sphere `other` as a neighbour of the sphere at `slot`, for this image offset in the box.
     pub fn neighbour(&self, slot: u32, other: u32, in_box: [i32; 3]) -> Neighbour {
         if offset_between(self.region(slot), self.region(other), in_box) == [0; 3] {
             Neighbour::in_same_box(other)

@@ -41,12 +41,12 @@ impl Link {
     }
 }
 
-/// Lists by number, their members in no order, in pages of so many (at most 15).
+/// Lists by number, unordered, in pages of `SIZE` entries (at most 15).
 #[derive(Debug, Clone, Default)]
 pub(super) struct PagedLists<T, const SIZE: usize> {
     /// The first page of each list, by its number, and behind them the others.
     pages: Vec<Page<T, SIZE>>,
-    /// Pages that no list has.
+    /// Unused pages.
     spare: Vec<u32>,
 }
 
@@ -57,8 +57,8 @@ impl<T: Copy + Default, const SIZE: usize> Page<T, SIZE> {
 }
 
 impl<T: Copy + PartialEq + Default, const SIZE: usize> PagedLists<T, SIZE> {
-    /// So many empty lists, with room for a page more for every other one: what is not used of it is
-    /// no memory yet, where to grow would be twice all for a moment.
+    /// Creates `count` empty lists, with room for one more page for every second list. Unused room takes no memory,
+    /// whereas growing would double all of it for a moment.
     pub fn new(count: usize) -> Self {
         let mut pages = Vec::with_capacity(count + count / 2);
         pages.resize(count, Page::empty());
@@ -71,8 +71,8 @@ impl<T: Copy + PartialEq + Default, const SIZE: usize> PagedLists<T, SIZE> {
         lists * SIZE
     }
 
-    /// Copies the members on the first pages of lists into `members`, from `end` on, and tells where
-    /// they end, and whether there are further pages. What is behind the end has no meaning.
+    /// Copies the members on the first pages of lists into `members`, from `end` on. Returns where they end and
+    /// whether there are further pages. Entries behind the end are unused.
     #[inline(always)]
     pub fn copy_first(
         &self,
@@ -106,8 +106,8 @@ impl<T: Copy + PartialEq + Default, const SIZE: usize> PagedLists<T, SIZE> {
         end
     }
 
-    /// Puts the members of a list into `members`, from `len` on, and gives where they end. What is
-    /// there behind that has no meaning.
+    /// Copies the members of a list into `members`, from `len` on. Returns where they end; entries behind that are
+    /// unused.
     #[inline(always)]
     pub fn gather(&self, list: usize, members: &mut Vec<T>, len: usize) -> usize {
         if members.len() < len + SIZE {
@@ -148,7 +148,7 @@ impl<T: Copy + PartialEq + Default, const SIZE: usize> PagedLists<T, SIZE> {
         members
     }
 
-    /// Puts other members in the place of those of a list.
+    /// Replaces the members of a list.
     pub fn set(&mut self, list: usize, members: &[T]) {
         let mut number = list;
         let mut rest = members;
@@ -177,7 +177,7 @@ impl<T: Copy + PartialEq + Default, const SIZE: usize> PagedLists<T, SIZE> {
         page.link.set_len(len + 1);
     }
 
-    /// Takes a member out of a list, if it is there.
+    /// Removes a member from a list, if it is there.
     pub fn remove(&mut self, list: usize, member: T) {
         let Some((number, place, before)) = self.find(list, member) else { return };
         let page = &mut self.pages[number];
@@ -191,7 +191,7 @@ impl<T: Copy + PartialEq + Default, const SIZE: usize> PagedLists<T, SIZE> {
         }
     }
 
-    /// Puts a member in the place of another, if that is there.
+    /// Replaces a member by another, if it is there.
     pub fn replace(&mut self, list: usize, old: T, new: T) {
         if let Some((number, place, _)) = self.find(list, old) {
             self.pages[number].members[place] = new;

@@ -11,20 +11,20 @@ pub(super) const CROSSING: f64 = 1.0 - 1.0 / 512.0;
 /// Where there are lists, a region is laid ahead of its sphere by this part of its half edge.
 pub(super) const LEAD: f64 = 0.5;
 
-/// Where a sphere is until it crosses into another region.
+/// The region of a sphere until it crosses into another.
 #[derive(Debug, Clone, Copy)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Region {
     /// In the box \[m\].
     pub center: DVec3,
-    /// That of the sphere, or more by its rounding \[m\].
+    /// Radius of the sphere, rounded up \[m\].
     pub radius: f32,
     /// Boxes that the sphere has crossed along each periodic axis since its flight began.
     pub image_offset: [i32; 3],
 }
 
 impl Region {
-    /// The region of a sphere of this radius \[m\], not yet anywhere.
+    /// The region of a sphere with this radius \[m\], without a place.
     pub fn nowhere(radius: f64) -> Self {
         Self { center: DVec3::ZERO, radius: rounded_up(radius), image_offset: [0; 3] }
     }

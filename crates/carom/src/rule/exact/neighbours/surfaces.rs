@@ -98,7 +98,7 @@ impl NearSurfaces {
     }
 }
 
-/// Whether all centres within some bounds are behind a rectangle or a face, which is met from its front.
+/// Whether all centres within some bounds are behind a rectangle or a face, which only its front can meet.
 fn is_behind(form: &Form, centers: &Bounds) -> bool {
     let rectangle = match form {
         Form::Rectangle(rectangle) => rectangle,

@@ -1,5 +1,5 @@
-//! The pair kernel: a sphere against its neighbours that fly alike, several side by side, one in each
-//! lane of the processor's vectors.
+//! The pair kernel: tests a sphere against the neighbours that fly alike, one in each lane of the processor's
+//! vectors. Every operation is the one that a single pair needs, so the bits do not depend on the number of lanes.
 //!
 //! Every operation is the one that a single pair needs, so no bit depends on how many lanes a processor
 //! has.
@@ -23,12 +23,12 @@ const TOUCH_ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// Only within this part of the distance of centres may spheres be taken to touch.
 const NEARLY_TOUCHING: f64 = 1e-6;
 
-/// A sphere, and the neighbours that it is tested against.
+/// A sphere and the neighbours against which it is tested.
 #[derive(Clone, Copy)]
 pub(super) struct PairQuery<'a> {
     pub timeline: &'a Timeline,
     pub slot: u32,
-    /// The neighbours, and in the last lanes perhaps other spheres.
+    /// The neighbours; other spheres may fill the last lanes.
     pub near: &'a [[Neighbour; LANES]],
     /// How many neighbours there are.
     pub count: usize,
@@ -36,7 +36,7 @@ pub(super) struct PairQuery<'a> {
     pub has_images: bool,
     /// A time on the world's clock \[s\] when all are in their neighbour regions.
     pub now: f64,
-    /// A sphere that may be near.
+    /// A sphere that does not count as near.
     pub exempt: u32,
     /// Part of the sum of radii by which the gap to a sphere that is near may be open.
     pub margin: f64,
@@ -54,7 +54,7 @@ pub(super) struct Meeting {
 /// The result of a query.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PairResult {
-    /// Whether a sphere is near, but the one that may be.
+    /// Whether a sphere other than the exempt one is near.
     pub is_near: bool,
     /// The first two meetings.
     pub meetings: [Meeting; 2],
@@ -91,11 +91,11 @@ impl PairQuery<'_> {
 struct LaneResult<S: Simd> {
     /// When the sphere meets each, on the world's clock \[s\]; infinite if never.
     time: Lanes<S>,
-    /// Which of them are near.
+    /// The neighbours that are near.
     is_near: mask64x4<S>,
 }
 
-/// Cases that a neighbour may be: an image, the sphere itself, falling, of another species.
+/// Cases of neighbours: an image, the sphere itself, falling, of another species.
 const IMAGES: u8 = 1;
 const ITSELF: u8 = 2;
 const FALLS: u8 = 4;
@@ -110,7 +110,7 @@ struct PairKernel<'a, const CASES: u8> {
     query: &'a PairQuery<'a>,
     body: &'a Body,
     species: &'a Species,
-    /// Where the sphere is now \[m\], if it flies straight.
+    /// Position of the sphere now \[m\], if it flies straight.
     here: DVec3,
 }
 
@@ -156,7 +156,7 @@ impl<'a, const CASES: u8> PairKernel<'a, CASES> {
             neighbour.map_or(0, |neighbour| neighbour.slot())
         };
         let near_count: f64 = near_count.to_array().iter().sum();
-        // If there is one alone, all other lanes are zero.
+        // With a single one, all other lanes are zero.
         let nearest: f64 = nearest.to_array().iter().sum();
         PairResult {
             is_near: near_count > 1.0 || (near_count == 1.0 && slot_of(nearest) != exempt),
@@ -166,7 +166,7 @@ impl<'a, const CASES: u8> PairKernel<'a, CASES> {
         }
     }
 
-    /// Tests four, of which only some may be there.
+    /// Tests four entries, some of which may be unused.
     #[inline(always)]
     fn test<S: Simd>(
         &self,
@@ -211,8 +211,7 @@ impl<'a, const CASES: u8> PairKernel<'a, CASES> {
         let meets = is_alike & comes & all(0.0).is_at_most(approach.discriminant);
         let distance_squared = offset.length_squared();
         let distance = distance_squared.sqrt();
-        // For all of them: a branch on whether one is met takes longer, for the processor cannot
-        // predict it.
+        // All lanes compute this: a branch that the processor cannot predict would take longer.
         let delay = approach.time(distance - radius_sum, distance + radius_sum);
         let mut time = (start + delay).select(meets, all(f64::INFINITY));
         let square = radius_sum * radius_sum;
@@ -225,8 +224,8 @@ impl<'a, const CASES: u8> PairKernel<'a, CASES> {
         LaneResult { time, is_near: is_alike & distance_squared.is_at_most(reach * reach) }
     }
 
-    /// Tests four whose radii grow: the sums of radii \[m\] and of the speeds at which they grow \[m/s\] are given. The
-    /// answer of impacts does not ask which of them are near.
+    /// Tests four neighbours whose radii grow, for these sums of radii \[m\] and of growth speeds \[m/s\]. None
+    /// counts as near, which impacts of growing spheres do not need.
     #[inline(always)]
     fn test_growing<S: Simd>(
         &self,
@@ -263,7 +262,7 @@ impl<'a, const CASES: u8> PairKernel<'a, CASES> {
         self.query.timeline.flights.growth.map_or(0.0, |growth| growth.since)
     }
 
-    /// Replaces the times \[s\] of neighbours that nearly touch, given by bits.
+    /// Replaces the times \[s\] of the neighbours with these bits, which nearly touch.
     #[cold]
     #[inline(never)]
     fn close_meetings(
@@ -316,7 +315,7 @@ const fn covers<const CASES: u8>(case: u8) -> bool {
     CASES & case != 0
 }
 
-/// In each lane, the first two of some times, and the numbers that go with them.
+/// The two least times in each lane, and the numbers that belong to them.
 #[derive(Clone, Copy)]
 struct FirstTwo<S: Simd> {
     times: [Lanes<S>; 2],
@@ -363,8 +362,8 @@ impl<S: Simd> FirstTwo<S> {
     }
 }
 
-/// Whether two spheres touch or overlap a little, and close by no more than the rounding of their
-/// speeds. Their radii have a sum \[m\], which grows at a speed \[m/s\].
+/// Whether two spheres touch or overlap a little, and close with no more than the rounding of their speeds. The sum
+/// of their radii \[m\] grows with a speed \[m/s\].
 fn only_touch(
     bodies: [&Body; 2],
     relative: &Relative<f64>,
@@ -374,7 +373,7 @@ fn only_touch(
     let gap = offset.length_squared() - radius_sum * radius_sum;
     let speed = bodies.iter().map(|body| body.velocity.norm()).sum::<f64>() + growth_speed;
     let place: f64 = bodies.iter().map(|body| body.position.norm()).sum();
-    // How far they move in the rounding of the clock is in doubt, too.
+    // Adds how far they move within the rounding of the clock.
     let size = radius_sum + place + speed * relative.start.abs();
     gap.abs() <= NEARLY_TOUCHING * radius_sum * radius_sum
         && gap <= TOUCH_ROUNDING * radius_sum * size

@@ -3,8 +3,7 @@
 use crate::real::{Real, Vector};
 use crate::rule::exact::flights::FlightLanes;
 
-/// How one sphere moves relative to another when the later one of their flights begins; one pair, or
-/// several side by side.
+/// The motion of one sphere relative to another from the later start of their flights; one pair, or one per lane.
 #[derive(Clone, Copy)]
 pub(super) struct Relative<N> {
     /// On the world's clock \[s\].

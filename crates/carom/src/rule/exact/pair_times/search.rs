@@ -21,7 +21,7 @@ pub(crate) struct PairSearch {
     tests: u64,
 }
 
-/// Which neighbours count as near: all but one, nearer than the sum of radii and a part of it.
+/// Decides which neighbours count as near: all but one, within the sum of radii and a part of it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct NearTest {
     /// The slot of the sphere that does not count.
@@ -51,7 +51,7 @@ impl PairSearch {
     ) -> bool {
         let level = timeline.flights.species_of(slot).level;
         timeline.neighbours.find(slot, level, &mut self.near);
-        // Where spheres pass through each other, it finds not even itself.
+        // Where spheres pass through each other, the search finds not even the sphere itself.
         let itself = usize::from(timeline.neighbours.finds_itself());
         self.tests += self.near.len.saturating_sub(itself) as u64;
         self.test_found(timeline, slot, now, near_test)
@@ -129,8 +129,7 @@ impl PairSearch {
         self.near.others(slot).any(|near| neighbourhood.includes(timeline, slot, near))
     }
 
-    /// The first two meetings that the search has found, or that the sphere has with spheres that fly
-    /// differently.
+    /// The first two meetings that the search found, with those with spheres that fly differently.
     #[inline(always)]
     pub fn first_meetings(&self, timeline: &Timeline, slot: u32) -> NextEvents {
         let [first, second] = self.meetings;
@@ -144,8 +143,8 @@ impl PairSearch {
         events
     }
 
-    /// Adds to its next events the meetings of a sphere that is in no zone with neighbours that are in one.
-    /// Returns whether there are such neighbours.
+    /// Adds the meetings of a sphere outside zones with neighbours in zones to its next events. Returns whether
+    /// there are such neighbours.
     pub fn add_meetings_with_zone(
         &mut self,
         timeline: &Timeline,
@@ -183,14 +182,14 @@ impl PairSearch {
 pub(crate) struct Neighbourhood {
     /// Centre of the sphere \[m\].
     pub position: DVec3,
-    /// When it is there, on the world's clock \[s\].
+    /// Time of that position, on the world's clock \[s\].
     pub time: f64,
     /// Part of the sum of radii by which the gap to a neighbour may be open.
     pub margin: f64,
 }
 
 impl Neighbourhood {
-    /// Whether a neighbour of the sphere at `slot` is that near.
+    /// Whether a neighbour of the sphere at `slot` is within the margin.
     fn includes(&self, timeline: &Timeline, slot: u32, neighbour: Neighbour) -> bool {
         let flights = &timeline.flights;
         let shift = timeline.neighbours.shift_of(slot, neighbour);
@@ -239,7 +238,7 @@ fn time_of_meeting(timeline: &Timeline, slot: u32, neighbour: Neighbour) -> f64 
     let time = if index < other_index {
         time_of_contact(bodies, species, shift)
     } else {
-        // In the order of ids: the other way round the same time might round differently.
+        // In the order of ids: the opposite order might round differently.
         time_of_contact([bodies[1], bodies[0]], [species[1], species[0]], -shift)
     };
     let is_too_late = are_stepped != [false; 2] && time > end;
@@ -261,8 +260,8 @@ fn time_of_contact_on_curves(timeline: &Timeline, slots: [u32; 2], shift: DVec3)
     delay.map_or(f64::INFINITY, |delay| start + delay)
 }
 
-/// When two spheres meet that fly differently, on the world's clock \[s\]; infinite if never. The search
-/// has no end time: what is known already must not change by a bit what is found.
+/// Time at which two spheres that fly differently meet, on the world's clock \[s\]; infinite if never. The search
+/// has no end time, so that a known horizon never changes a bit of the result.
 fn time_of_contact(bodies: [&Body; 2], species: [&Species; 2], shift: DVec3) -> f64 {
     let start = bodies[0].time.max(bodies[1].time);
     let first = bodies[0].flight_from(species[0], start);

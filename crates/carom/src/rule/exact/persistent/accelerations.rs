@@ -7,15 +7,15 @@ use crate::respond::{TouchingContact, contact_forces_within};
 use crate::rule::exact::contacts::{Member, Touch};
 use crate::work::Work;
 
-/// A contact with a normal acceleration below this part of the free accelerations neither presses
-/// nor opens, but for rounding.
+/// A contact whose normal acceleration is below this part of the free accelerations neither presses nor opens, up
+/// to rounding.
 pub(super) const IDLE: f64 = 1e-12;
 
 /// Accelerations of the members of a group.
 pub(super) struct Accelerations {
     /// Of everything but drag \[m/s²\].
     pub each: Vec<DVec3>,
-    /// The largest part that a contact force has in one \[m/s²\].
+    /// The largest contribution of a contact force to one of them \[m/s²\].
     pub largest: f64,
 }
 
@@ -56,7 +56,7 @@ pub(super) fn bias(touch: &Touch, members: &[Member]) -> f64 {
     curve + 2.0 * spin.cross(touch.normal).dot(tangential) + touch.surface_pull.dot(touch.normal)
 }
 
-/// Touches and the masses of the members \[kg\], as the solvers take them.
+/// Contacts and masses of the members \[kg\] in the form of the solvers.
 pub(super) fn contacts_and_masses(
     members: &[Member],
     touches: &[Touch],
@@ -94,13 +94,13 @@ pub(super) fn accelerations_under(
     Accelerations { each, largest }
 }
 
-/// Whether a contact does not open, but for rounding.
+/// Whether a contact does not open, up to rounding.
 pub(super) fn is_idle(accelerations: &Accelerations, touch: &Touch, members: &[Member]) -> bool {
     accelerations.along(touch, members) <= IDLE * accelerations.scale_at(touch, members)
 }
 
-/// Whether what parts with a speed \[m/s\] against an acceleration \[m/s²\] is back within a `duration`
-/// \[s\]: thrown up with u against a, a body is back after 2 u / a.
+/// Whether bodies that part with a speed \[m/s\] against an acceleration \[m/s²\] meet again within a `duration`
+/// \[s\]: after 2 u / a for the speed u and the acceleration a.
 pub(crate) fn is_back_within(duration: f64, speed: f64, acceleration: f64) -> bool {
     acceleration > 0.0 && speed <= 0.5 * acceleration * duration
 }

@@ -1,5 +1,5 @@
-//! Corrections of contacts that persist: what rounding or a piece of path has left of overlaps and
-//! normal velocities is taken away.
+//! Corrections of persistent contacts: removes the overlaps and normal velocities that rounding or a piece of path
+//! left.
 
 use glam::DVec3;
 
@@ -10,8 +10,8 @@ use crate::rule::exact::contacts::{Group, Member, Touch};
 use crate::rule::exact::context::StepContext;
 use crate::work::Work;
 
-/// Moves apart what overlaps in persistent contact, where normals turn, and brings normal velocities
-/// to zero; measures the contacts anew. Tells whether something was moved.
+/// Moves overlapping spheres in persistent contact apart, where normals turn, sets normal velocities to zero and
+/// measures the contacts again. Returns whether anything moved.
 pub(super) fn correct(context: &StepContext, group: &mut Group, touches: &mut Vec<Touch>) -> bool {
     let overlaps = |touch: &Touch| touch.gap < -TOUCHING * group.scale(touch).length;
     let moves_apart = touches.iter().any(Touch::is_curved) && touches.iter().any(overlaps);
@@ -27,7 +27,7 @@ pub(super) fn correct(context: &StepContext, group: &mut Group, touches: &mut Ve
     moves_apart
 }
 
-/// The least change of the members, weighted by mass, that takes away `excess` along the normals.
+/// The least change of the members, weighted by mass, that removes `excess` along the normals.
 pub(super) fn corrections(
     work: &Work,
     members: &[Member],

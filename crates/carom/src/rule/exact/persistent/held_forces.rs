@@ -1,5 +1,5 @@
-//! Held forces: those between spheres, and on spheres in persistent contact, constant from one force tick to the
-//! next; and applied forces, which are constant over a frame.
+//! Held forces: forces between spheres and on spheres in persistent contact, constant from one force tick to the
+//! next; and applied forces, constant over a frame.
 
 use glam::DVec3;
 
@@ -13,8 +13,8 @@ use crate::rule::exact::ticks::first_tick_after;
 use crate::rule::exact::timeline::Timeline;
 use crate::system::System;
 
-/// Until when forces that are found anew `now` \[s\] are held: until the next force tick, or for applied
-/// forces the end of the frame, and no longer than until the next spheres come.
+/// Until when forces that are computed `now` \[s\] are held: until the next force tick, or for applied forces the
+/// end of the frame, and no longer than until the next emission.
 fn held_until(timeline: &Timeline, system: &System, now: f64) -> f64 {
     let next_tick = match timeline.flights.forces_vary {
         true => first_tick_after(now, timeline.force_tick),
@@ -23,11 +23,11 @@ fn held_until(timeline: &Timeline, system: &System, now: f64) -> f64 {
     let are_applied = !system.spheres.applied_force.is_empty();
     let others =
         [timeline.next_emission, if are_applied { timeline.frame[1] } else { f64::INFINITY }];
-    // What is due already comes at once, when this is done again.
+    // An emission that is due happens at once, when this is called again.
     others.into_iter().filter(|&other| other > now).fold(next_tick, f64::min)
 }
 
-/// Begins to count force ticks at an event at `now` \[s\], where no forces were held up to now.
+/// Starts the force ticks at an event at `now` \[s\], where no forces were held before.
 #[inline]
 pub(crate) fn prepare(timeline: &mut Timeline, system: &System, now: f64) {
     if timeline.flights.are_curved() && timeline.held_until <= now && !timeline.holds_forces() {
@@ -35,7 +35,7 @@ pub(crate) fn prepare(timeline: &mut Timeline, system: &System, now: f64) {
     }
 }
 
-/// Finds the forces between spheres at `now` \[s\] for a zone that begins, where none are held on free ones.
+/// Computes the forces between spheres at `now` \[s\] for a zone that begins, where none are held on free spheres.
 pub(crate) fn prepare_zone(timeline: &mut Timeline, system: &System, now: f64) {
     prepare(timeline, system, now);
     if timeline.flights.are_curved() && timeline.zone.is_empty() {
@@ -49,8 +49,8 @@ pub(crate) fn prepare_zone(timeline: &mut Timeline, system: &System, now: f64) {
 /// others if none flies on a curve. Returns their slots.
 ///
 /// They fly under the forces that act on them in the middle of the time for which these are held: an error of the
-/// third order in its length, of the second over all ticks (the midpoint rule). Persistent contacts with planes go
-/// on where forces are the same everywhere; others are found anew.
+/// third order in its length, of the second over all ticks (the midpoint rule). Persistent contacts with planes
+/// continue where forces are the same everywhere; others are computed again.
 ///
 /// Forces between spheres are those where all would be in the middle if nothing accelerated them, a drift,
 /// a kick and a drift: the leapfrog scheme, which keeps energy, without damping, as velocity Verlet does.
@@ -64,7 +64,7 @@ pub(crate) fn renew(timeline: &mut Timeline, system: &System, start: f64) -> Vec
     timeline.zone.held_forces.clone_from(&between);
     timeline.working_forces = working_forces(timeline, system, [start, end]);
     let are_curved = timeline.flights.are_curved();
-    // Forces applied over a frame are others in each.
+    // Forces applied over a frame differ in each frame.
     let are_restarted = timeline.curves_until.is_finite() && start == timeline.frame[0];
     let mut renewed = Vec::new();
     for slot in 0..timeline.flights.bodies.len() as u32 {
@@ -83,7 +83,7 @@ pub(crate) fn renew(timeline: &mut Timeline, system: &System, start: f64) -> Vec
         let uniform = linear.acceleration + applied;
         let uniform = between.get(index).map_or(uniform, |&force| uniform + force / species.mass);
         if timeline.flights.is_stepped(slot) {
-            // Of use once it flies again.
+            // For its flight after the contact.
             timeline.flights.set_free_acceleration(slot, uniform);
             continue;
         }
@@ -99,7 +99,7 @@ pub(crate) fn renew(timeline: &mut Timeline, system: &System, start: f64) -> Vec
     renewed
 }
 
-/// Begins the flight of a sphere that nothing bears at `start` \[s\], where forces are applied that are others now.
+/// Begins the flight of a sphere without persistent contacts at `start` \[s\], where applied forces changed.
 fn begin_free(timeline: &mut Timeline, system: &System, slot: u32, start: f64) {
     let species = *timeline.flights.species_of(slot);
     let (position, velocity) = timeline.flights.state_of(slot, start);
@@ -146,7 +146,7 @@ fn states_in_the_middle(
     let (mut positions, mut velocities): (Vec<DVec3>, Vec<DVec3>) =
         timeline.flights.slot_of.iter().map(state_of).unzip();
     if system.has_damped_interactions() {
-        // Where velocities matter they have to be those of the middle, to the first order.
+        // Forces that depend on velocities need those of the middle, to the first order.
         system.forces_between([&positions, &velocities], start, &mut forces);
         for (index, velocity) in velocities.iter_mut().enumerate() {
             let at = (positions[index], *velocity);
@@ -161,8 +161,8 @@ fn states_in_the_middle(
     (positions, velocities)
 }
 
-/// The acceleration of a sphere, by its index, that would have the one `free` if nothing touched it \[m/s²\]: where it
-/// lies, contacts bear it.
+/// The acceleration \[m/s²\] of the sphere with this index: `free` without contacts, less what its persistent
+/// contacts take.
 fn under_contacts(timeline: &Timeline, index: usize, free: DVec3) -> DVec3 {
     let species = timeline.flights.species_of(timeline.flights.slot_of[index]);
     match (species.is_stepped, species.cluster) {
@@ -181,7 +181,7 @@ fn begin_under(
     acceleration: DVec3,
     [start, end]: [f64; 2],
 ) {
-    // Where the forces up to now have brought it.
+    // The state to which the forces up to now have led.
     let member = Member::at(&timeline.flights, slot, start);
     timeline.flights.set_free_acceleration(slot, acceleration);
     let member = Member { species: *timeline.flights.free_species_of(slot), ..member };
@@ -203,8 +203,8 @@ fn begin_under(
     timeline.begin_flight(slot, member.position, velocity, start);
 }
 
-/// How the persistent contacts of a sphere go on, with the number of its cluster, if that is known
-/// from a start to an end \[s\] without finding them anew.
+/// The continuation of a sphere's persistent contacts from a start to an end \[s\], with the number of its cluster,
+/// if it follows without computing them again.
 fn planar_support(
     timeline: &Timeline,
     system: &System,
@@ -213,7 +213,7 @@ fn planar_support(
 ) -> Option<(u32, PlanarSupport)> {
     let number = timeline.flights.species_of(member.slot).cluster?;
     let cluster = timeline.flights.clusters.get(number);
-    // In a periodic box a surface may bear the sphere by one of its images.
+    // In a periodic box the contact may be with an image of the sphere.
     if cluster.members.len() != 1 || system.settings.boundary.is_periodic() {
         return None;
     }
@@ -231,9 +231,8 @@ fn planar_support(
     Some((number, planar))
 }
 
-/// Begins the flight of a sphere under forces that depend on where it is and how it moves, besides
-/// an acceleration \[m/s²\] that is the same everywhere: those that act on it in the middle of a flight,
-/// or of a motion in contact, under the forces of the start.
+/// Begins the flight of a sphere under forces that depend on its state, besides a uniform acceleration \[m/s²\]:
+/// those in the middle of its flight, or of its motion in contact, under the forces of the start.
 fn begin_under_varying(
     timeline: &mut Timeline,
     system: &System,

@@ -1,4 +1,4 @@
-//! The list of the contacts that persist, with their forces.
+//! The list of persistent contacts, with their forces.
 
 use glam::DVec3;
 
@@ -15,7 +15,7 @@ use crate::rule::exact::context::StepContext;
 use crate::rule::exact::timeline::Timeline;
 use crate::rule::periodic;
 
-/// A contact slides where friction is this part of the largest possible at least.
+/// A contact slides where friction is at least this part of the largest possible.
 const SLIDES: f64 = 1.0 - 1e-9;
 
 /// All contacts that persist at `time` \[s\], in the order of their bodies: pairs of spheres first.
@@ -69,7 +69,7 @@ fn friction_on(timeline: &Timeline, group: &Group, touch: &Touch) -> DVec3 {
     let Member { slot, species, .. } = group.members[touch.second];
     let change = timeline.flights.species_of(slot).acceleration - species.acceleration;
     let forces = group.touches.iter().filter(|it| it.bodies != touch.bodies);
-    // Another plane bears what is along its normal.
+    // Another plane takes the part along its own normal.
     let along = |rest: DVec3, other: &Touch| rest - rest.dot(other.normal) * other.normal;
     species.mass * touch.across(forces.fold(change, along))
 }

@@ -11,29 +11,29 @@ use crate::rule::exact::contacts::{Group, Member, NormalCurvature, Touch};
 use crate::rule::exact::context::StepContext;
 use crate::sum::Sum;
 
-/// How far the normal of a persistent contact turns before its force is found anew \[rad\]. The path
-/// between is a parabola through the middle of the turn; its gap to the true one is of the third
-/// order, below 1e-10 of the radius of the curve.
+/// How far the normal of a persistent contact turns before its force is computed again \[rad\]. The path between is
+/// a parabola through the middle of the turn; its gap to the true one is of the third order, below 1e-10 of the
+/// radius of the curve.
 pub(super) const TURN: f64 = 1e-3;
-/// The same where a surface of revolution turns the normal: there a sphere may stay for a long time, and the errors of
-/// many pieces add up.
+/// The turn of a piece where a surface of revolution turns the normal \[rad\]: there a sphere may stay for long,
+/// and the errors of many pieces add up.
 const TURN_ON_BAND: f64 = 0.2 * TURN;
-/// The same as a part of the phase of a surface that does not move steadily: shorter where the gap of the middle says
-/// so.
+/// The turn of a piece as a part of the phase of a driven surface \[rad\]; shorter where the gap of the middle
+/// demands it.
 const TURN_OF_DRIVE: f64 = 0.03;
 /// Part of a radius by which a piece of path may close the gap of a persistent contact: more than what
 /// rounding opens.
 const MOST_CLOSED: f64 = 1e-10;
-/// A force that is found from the gap at the end of a turn differs from that of the middle by no more
-/// than this part of the accelerations at work.
+/// A force computed from the gap at the end of a turn differs from that of the middle by at most this part of the
+/// accelerations at work.
 const MOST_CORRECTED: f64 = 1e-2;
 /// Part of the kinetic energy at the end of a piece of path that may be its error.
 const MOST_GAINED: f64 = 0.1;
 /// Below this turn \[rad\] a force that ends within a piece of the path ends at its beginning.
 const SHORTEST_TURN: f64 = 1e-6;
 
-/// Time \[s\] in which the normal of some contact turns by [`TURN`]; infinite where none does. How
-/// a surface turns is known for the rest of the frame \[s\].
+/// Time \[s\] in which the normal of some contact turns by [`TURN`]; infinite where none does. The rotation of
+/// surfaces is known for the rest of the frame \[s\].
 pub(super) fn turning_time(
     members: &[Member],
     touches: &[Touch],
@@ -105,7 +105,7 @@ pub(super) fn through_the_middle(
         let still: Vec<Touch> = measured.iter().flatten().copied().collect();
         let forces = forces(context.work, &middle, &still);
         let accelerations = accelerations_under(&middle, &still, &forces);
-        // Where contacts are redundant one may do without a force, and does not open for that.
+        // A redundant contact may have no force and still not open.
         let opens = |touch: &Touch| !is_idle(&accelerations, touch, &middle);
         let mut in_middle = forces.iter();
         let released: Vec<bool> = measured
@@ -143,7 +143,7 @@ struct Ending {
     /// Whether the forces of the middle alone keep the contacts to a part of a radius, so that the
     /// piece is short enough.
     is_followed: bool,
-    /// Whether no energy appears on it.
+    /// Whether the piece gains no energy.
     keeps_energy: bool,
 }
 
@@ -152,8 +152,8 @@ fn is_at_rest(members: &[Member], touches: &[Touch]) -> bool {
     touches.iter().flat_map(Touch::places).all(|place| members[place].velocity == DVec3::ZERO)
 }
 
-/// The accelerations where spheres in contact have none: a motion that from rest would gain energy is
-/// the rounding of a cluster that is jammed.
+/// The accelerations, or none for spheres at rest in contact: a motion that would gain energy from rest is the
+/// rounding of a jammed cluster.
 fn stopped(mut accelerations: Accelerations, touches: &[Touch]) -> Accelerations {
     for place in touches.iter().flat_map(Touch::places) {
         accelerations.each[place] = DVec3::ZERO;
@@ -161,9 +161,9 @@ fn stopped(mut accelerations: Accelerations, touches: &[Touch]) -> Accelerations
     accelerations
 }
 
-/// Accelerations under which the gaps of contacts after `valid_for` \[s\] are what they are now, or a little
-/// less where they are open: constraint forces that are found from positions, as in SHAKE (Ryckaert,
-/// Ciccotti and Berendsen, J. Comput. Phys. 23, 327 (1977)).
+/// Accelerations under which the gaps of contacts after `valid_for` \[s\] equal the present ones, or are a little
+/// smaller where they are open. They are constraint forces computed from positions, as in SHAKE (Ryckaert, Ciccotti
+/// and Berendsen, J. Comput. Phys. 23, 327 (1977)).
 fn ending_in_contact(
     context: &StepContext,
     group: &Group,
@@ -189,7 +189,7 @@ fn ending_in_contact(
         way / Propagator::over(valid_for, member.species.drag_rate).fall
     };
     let changes: Vec<DVec3> = moves.into_iter().zip(&end).map(needed).collect();
-    // Of the order of the turn; where contacts hardly differ, rounding may make it any.
+    // The correction is of the order of the turn; where contacts hardly differ, rounding may make it any size.
     let is_small = |(member, change): (&Member, &DVec3)| {
         change.norm()
             <= MOST_CORRECTED * (member.species.acceleration.norm() + accelerations.largest)
@@ -208,9 +208,9 @@ fn ending_in_contact(
     Ending { accelerations, is_followed, keeps_energy }
 }
 
-/// Whether spheres that fly so for `valid_for` \[s\] rise no higher than their kinetic energy lifts them, and
-/// gain or lose so little by the error of the path that it can be made up for in that. Contact forces
-/// at surfaces at rest do no work; where surfaces move, or with drag, anything passes.
+/// Whether spheres that fly so for `valid_for` \[s\] rise no higher than their kinetic energy allows, and the
+/// energy error of the path is small enough to be corrected. Contact forces at surfaces at rest do no work; with
+/// moving surfaces or drag every path passes.
 fn keeps_energy(group: &Group, touches: &[Touch], accelerations: &[DVec3], valid_for: f64) -> bool {
     let has_drag = group.members.iter().any(|member| member.species.drag_rate > 0.0);
     if has_drag || touches.iter().any(Touch::does_work) {

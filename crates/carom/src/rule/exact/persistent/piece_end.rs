@@ -1,5 +1,4 @@
-//! The end of a piece of path in persistent contact: what the piece, a parabola, has left of the
-//! curve that it stands for.
+//! The end of a piece of path in persistent contact: corrects what the piece, a parabola, misses of the curve.
 
 use std::collections::BTreeMap;
 
@@ -15,17 +14,15 @@ use crate::rule::exact::timeline::Timeline;
 use crate::rule::periodic;
 use crate::sum::Sum;
 
-/// Kinetic energy is restored to at most this many times what is left: what has come to its turning
-/// point is not pushed on.
+/// Kinetic energy is restored to at most this many times what is left, so that nothing is pushed past its turning
+/// point.
 const MOST_RESTORED: f64 = 4.0;
 /// Normals that differ by less than this angle \[rad\] count as one direction.
 const SAME_DIRECTION: f64 = 1e-6;
 
-/// Takes from contacts that have persisted on curves the overlap and the normal velocities that the
-/// piece of path has left, and restores the energy that the spheres had when it began.
-///
-/// In persistent contact no normal velocity is possible: what there is comes from the parabola, and
-/// is neither an impact nor a parting.
+/// Removes the overlap and the normal velocities that a piece of path left in contacts on curves, and restores the
+/// energy that the spheres had at its start. A persistent contact allows no normal velocity: the velocity comes
+/// from the parabola and is neither an impact nor a separation.
 pub(crate) fn settle(timeline: &Timeline, context: &StepContext, group: &mut Group) {
     let has_persisted = |touch: &&Touch| touch.has_persisted;
     let mut persisted: Vec<Touch> = group.touches.iter().filter(has_persisted).copied().collect();
@@ -48,7 +45,7 @@ pub(crate) fn settle(timeline: &Timeline, context: &StepContext, group: &mut Gro
             cluster.is_curved |= touch.is_curved() || touch.is_handed_over;
             if touch.first.is_none() {
                 cluster.hold_along(touch.normal);
-                // On the piece of path its normal was in the plane of the sliding.
+                // Along the piece, the normal stayed in the plane of sliding.
                 cluster.hold_along(touch.sliding(members));
             }
             let has_friction = || respond::friction_of(touch.bodies, context.system).acts();
@@ -61,8 +58,8 @@ pub(crate) fn settle(timeline: &Timeline, context: &StepContext, group: &mut Gro
     }
 }
 
-/// Writes the motion at a frame's end of spheres in persistent contact on curves, as if their piece of
-/// path ended there; the piece goes on.
+/// Writes the states at a frame's end of spheres in persistent contact on curves, as if their piece of path ended
+/// there; the piece continues.
 pub(crate) fn write_motion(
     timeline: &Timeline,
     context: &StepContext,
@@ -87,22 +84,21 @@ pub(crate) fn write_motion(
     }
 }
 
-/// Spheres that persistent contacts have held together.
+/// Spheres that were in persistent contact with each other.
 #[derive(Default)]
 struct Cluster {
     /// Places among the members of the group.
     members: Vec<usize>,
     /// Whether a normal turns.
     is_curved: bool,
-    /// Directions in which surfaces hold it, at right angles to each other: there its momentum is not
-    /// kept.
+    /// Orthogonal directions along which surfaces hold the cluster: its momentum is not conserved there.
     held: Vec<DVec3>,
-    /// Whether a surface that moves, or friction, does work on it.
+    /// Whether a moving surface, or friction, does work on the cluster.
     gets_work: bool,
 }
 
 impl Cluster {
-    /// Notes that a surface holds it along a direction; none is zero.
+    /// Notes that a surface holds the cluster along a direction, which is not zero.
     fn hold_along(&mut self, direction: DVec3) {
         let rest = across(&self.held, direction.normalize_or_zero());
         if rest.norm() > SAME_DIRECTION {
@@ -111,14 +107,14 @@ impl Cluster {
     }
 }
 
-/// The part of a vector at right angles to directions that are so to each other.
+/// The part of a vector at right angles to these orthogonal directions.
 fn across(directions: &[DVec3], vector: DVec3) -> DVec3 {
     directions.iter().fold(vector, |rest, &direction| rest - rest.dot(direction) * direction)
 }
 
-/// Scales the velocities of a cluster so that its energy is what it was when its flights began:
-/// contact forces at surfaces at rest do no work. Momentum is kept in all directions in which no surface
-/// holds the cluster. With drag, the energy is left as it is.
+/// Scales the velocities of a cluster so that its energy is that of the start of its flights: contact forces at
+/// surfaces at rest do no work. Momentum is conserved in all directions in which no surface holds the cluster. With
+/// drag, the energy is not changed.
 fn restore_energy(timeline: &Timeline, members: &mut [Member], cluster: &Cluster, time: f64) {
     let spheres = || cluster.members.iter().map(|&place| &members[place]);
     if spheres().any(|member| member.species.drag_rate > 0.0) {

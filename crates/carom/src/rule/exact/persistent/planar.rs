@@ -1,4 +1,4 @@
-//! Persistent contacts of a sphere in a corner: which ones stay, with which forces, and for how long.
+//! Persistent contacts of a sphere in a corner: which of them persist, their forces, and how long the forces hold.
 
 use glam::DVec3;
 
@@ -16,7 +16,7 @@ use crate::rule::exact::flights::{ContactWork, Supported};
 use crate::surface::Form;
 use crate::system::System;
 
-/// How a sphere goes on in its persistent contacts.
+/// The motion of a sphere in its persistent contacts.
 pub(crate) struct PlanarSupport {
     /// \[m/s\]
     pub velocity: DVec3,
@@ -35,7 +35,7 @@ pub(crate) struct PlanarSupport {
 }
 
 impl PlanarSupport {
-    /// The sphere at `slot`, so supported.
+    /// The sphere at `slot` with this support.
     pub fn supported(&self, slot: u32) -> Supported {
         let rotation = Some([self.angular_velocity, self.angular_acceleration]);
         let contact_work = ContactWork::Friction { moment: self.moment };
@@ -43,8 +43,8 @@ impl PlanarSupport {
     }
 }
 
-/// How a sphere that touches the planes of a corner goes on: where it is pressed on one, without the
-/// part along the normal; elsewhere the contact parts. `None` where no contact is left.
+/// The motion of a sphere that touches the planes of a corner. Where it is pressed onto a plane, it loses the
+/// velocity along the normal; elsewhere the contact ends. `None` where no contact is left.
 ///
 /// All of that holds for a `duration` \[s\]. Contacts that part for less than a contact's duration
 /// \[s\] persist, and what holds for less is in doubt only by rounding.
@@ -101,7 +101,7 @@ pub(crate) fn support(
 }
 
 impl PlanarSupport {
-    /// Has friction act on the sphere.
+    /// Adds friction to the acceleration of the sphere.
     fn add_friction(
         &mut self,
         system: &System,
@@ -135,8 +135,8 @@ impl PlanarSupport {
         Ok(())
     }
 
-    /// How a sphere goes on that friction gives a velocity towards or away from planes that do not press on
-    /// it: it rolls along those that it would roll into, and parts from those that it rolls away from.
+    /// The motion of a sphere to which friction gives a velocity towards or away from planes that do not press on
+    /// it: it rolls along the former and leaves the latter.
     ///
     /// A slip that friction ends within a contact's duration is gone at once, and may leave such a velocity. In
     /// a persistent contact nothing would meet it.
@@ -168,7 +168,8 @@ impl PlanarSupport {
         on_plane(&sphere.rolling_with(velocity), contact_duration)
     }
 
-    /// Has it hold until the sphere may come to the end of a face, if that is within a `duration` \[s\].
+    /// Shortens the piece to the time at which the sphere may reach the end of a face, if that is within `duration`
+    /// \[s\].
     fn end_at_edges(&mut self, member: &Member, corner: &Corner, duration: f64) {
         let Member { position, species, .. } = *member;
         let Self { velocity, acceleration, .. } = *self;
@@ -180,7 +181,7 @@ impl PlanarSupport {
         let flight = Flight { position, velocity, acceleration, drag_rate: species.drag_rate };
         let way = flight.farthest(duration).element_sum();
         for (plane, persists) in corner.planes().zip(self.persists) {
-            // Nothing may be known of how far that is in endless time.
+            // The distance of an endless time is unknown.
             let is_within = |beyond: f64| beyond + way < 0.0;
             let may_end = match plane.form {
                 Form::Rectangle(face) => !beyond(face, position).into_iter().all(is_within),
@@ -199,8 +200,8 @@ impl PlanarSupport {
         }
     }
 
-    /// The sphere on each of the planes that it is pressed onto and where it persists, if friction acts on
-    /// one of them; as it moves without.
+    /// The sphere on each plane that presses on it, if friction acts on one of them; with its motion without
+    /// friction.
     fn pressed_spheres(
         &self,
         system: &System,
@@ -228,7 +229,7 @@ impl PlanarSupport {
     }
 }
 
-/// How a sphere goes on that is pressed onto planes.
+/// The motion of a sphere that is pressed onto planes.
 fn rolling_on(pressed: &[PressedSphere], contact_duration: f64) -> Result<Rolling, NoClosedForm> {
     match pressed {
         [sphere] => Ok(on_plane(sphere, contact_duration)),

@@ -1,5 +1,4 @@
-//! A piece of path of spheres on planes that push each other where friction acts
-//! (`docs/physics/persistent-contacts.md`).
+//! A piece of path of spheres on planes that push each other with friction (`docs/physics/persistent-contacts.md`).
 
 use glam::DVec3;
 
@@ -10,19 +9,19 @@ use super::sliding::sliding_time;
 use crate::norm::Norm;
 use crate::rule::exact::contacts::{Member, Touch};
 
-/// A velocity goes on along a straight line if its rate is aside of it by less than this part of the
-/// accelerations at work: rounding.
+/// A velocity stays on a straight line if the transverse part of its rate is below this part of the accelerations
+/// at work: rounding.
 const STRAIGHT: f64 = 1e-13;
-/// A direction turns by as much over a piece as moves a sphere by this part of its radius aside, if that is more
-/// than a thousandth, and by no more than the angle \[rad\]: slips that end turn fast.
+/// A direction turns over a piece by the angle that moves a sphere aside by this part of its radius, but by at
+/// least a thousandth and at most the next constant \[rad\]: slips that end turn fast.
 const MOST_ASIDE: f64 = 1e-10;
 const LARGEST_TURN: f64 = 0.05;
 /// Part of the time to its end for which a velocity that also turns is followed in one piece.
 const PART_TO_END: f64 = 0.5;
 
-/// How spheres that push each other go on over a piece of path.
+/// The motion of spheres that push each other over a piece of path.
 pub(super) struct PushedPiece {
-    /// As they begin it.
+    /// The spheres at the start of the piece.
     pub members: Vec<Member>,
     /// Acceleration \[m/s²\] and angular acceleration \[rad/s²\] of each.
     pub rates: Vec<[DVec3; 2]>,
@@ -30,12 +29,12 @@ pub(super) struct PushedPiece {
     pub valid_for: f64,
 }
 
-/// For how long the direction of a velocity that friction acts against holds.
+/// How long the direction of a velocity that friction opposes lasts.
 #[derive(Clone, Copy)]
 struct Lifetime {
     /// \[s\]
     valid_for: f64,
-    /// Whether it does not turn, and ends at zero if it ends.
+    /// Whether the direction does not turn, and the velocity ends at zero if it ends.
     is_straight: bool,
 }
 
@@ -61,9 +60,9 @@ impl Lifetime {
 }
 
 impl PushedSpheres<'_> {
-    /// Returns how the spheres go on: for as long as nothing that their forces depend on turns by a
-    /// thousandth, comes to an end or begins. Over the piece, velocities and angular velocities change by as
-    /// much as on the true path; places are right to the third order. `None` where no forces hold them so.
+    /// Returns the next piece of path. It lasts while nothing that the forces depend on turns by a thousandth, ends
+    /// or begins. Over the piece, velocities and angular velocities change by as much as on the true path; places
+    /// are right to the third order. `None` where no forces hold the contacts.
     pub fn piece(mut self) -> Option<PushedPiece> {
         self.close_gaps();
         self.end_slow_motion();
@@ -100,7 +99,7 @@ impl PushedSpheres<'_> {
         turning_time(members, self.pushing(), &accelerations, f64::INFINITY)
     }
 
-    /// Time \[s\] until a sphere may come to the end of a face.
+    /// Time \[s\] until a sphere may reach the end of a face.
     fn time_on_planes(&self, rates: &[[DVec3; 2]]) -> f64 {
         let each = rates.iter().map(|rate| rate[0]).collect();
         let accelerations = Accelerations { each, largest: 0.0 };
@@ -120,7 +119,7 @@ impl PushedSpheres<'_> {
         }
     }
 
-    /// The lifetimes of what friction of its plane acts against, of the sphere at a place.
+    /// The lifetimes of the velocities that friction of the plane opposes, for the sphere at a place.
     fn of_sphere(&self, place: usize, directions: &Directions, start: &Forces) -> SphereLifetimes {
         let members = &self.group.members;
         let (response, sphere) = (start.responses[place], start.spheres[place]);
@@ -211,7 +210,7 @@ struct SphereLifetimes {
     spin: f64,
 }
 
-/// For how long the directions hold that friction acts against.
+/// How long the directions that friction opposes last.
 struct Lifetimes {
     spheres: Vec<SphereLifetimes>,
     contacts: Vec<Lifetime>,

@@ -1,4 +1,4 @@
-//! A sphere on a plane at rest that other spheres push: how it slides, rolls and spins under their forces
+//! A sphere on a plane at rest under the push of other spheres: how it slides, rolls and spins
 //! (`docs/physics/persistent-contacts.md`).
 
 use glam::DVec3;
@@ -7,7 +7,7 @@ use super::accelerations::IDLE;
 use crate::friction::ContactFriction;
 use crate::norm::Norm;
 
-/// Force and torque that the contacts with other spheres put on one.
+/// Force and torque of the contacts with other spheres.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Push {
     /// \[N\]
@@ -29,10 +29,10 @@ pub(super) struct Response {
     pub friction: DVec3,
 }
 
-/// A sphere on a plane at rest, and what friction acts against.
+/// A sphere on a plane at rest, with the velocities that friction opposes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PushedSphere {
-    /// Unit normal out of the plane; zero where the sphere flies, and slides along nothing.
+    /// Unit normal out of the plane; zero for a flying sphere, which slides along nothing.
     pub normal: DVec3,
     /// \[m\]
     pub radius: f64,
@@ -54,7 +54,7 @@ pub(super) struct PushedSphere {
 /// Tangential forces on a sphere that does not slide \[N\].
 #[derive(Clone, Copy)]
 struct Drive {
-    /// What draws it along the plane if it rolls without rolling friction.
+    /// Force along the plane on a sphere that rolls without rolling friction.
     force: DVec3,
     /// Friction that keeps it rolling then.
     held: DVec3,
@@ -116,7 +116,7 @@ impl PushedSphere {
         (share * (drive.force - against) / self.mass, drive.held - share * against)
     }
 
-    /// Rolling friction \[N\]: no more than sliding friction can hold it with.
+    /// Rolling friction \[N\]; at most what sliding friction can balance.
     fn rolling_loss(&self, drive: &Drive, direction: DVec3) -> f64 {
         let wanted = self.friction.rolling * drive.pressing;
         let along = drive.held.dot(direction);

@@ -19,27 +19,27 @@ use crate::rule::exact::flights::Species;
 /// Part of a radius by which the start of a piece of path closes a gap: more than what a piece opens.
 const MOST_CLOSED: f64 = 1e-9;
 
-/// Spheres that a plane bears each, or that fly, with contacts in which they push each other or other planes.
+/// Spheres that fly or lie on one plane each, with the contacts in which they push each other or other planes.
 pub(super) struct PushedSpheres<'a> {
     pub context: &'a StepContext<'a>,
-    /// Touches are those in which they push, then those with the planes that bear them.
+    /// The contacts in which they push, then those with the planes on which they lie.
     pub group: Group,
     /// Number of touches in which they push.
     pushing: usize,
-    /// One per member: the touch with the plane that bears it, if one does.
+    /// The touch of each member with the plane on which it lies, if any.
     pub planes: Vec<Option<Touch>>,
-    /// Forces on the second bodies of touches in which they push \[N\], about.
+    /// Estimates of the forces on the second bodies of touches in which they push \[N\].
     pub known: Vec<DVec3>,
 }
 
-/// The direction of a velocity that friction acts against.
+/// The direction of a velocity that friction opposes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Direction {
     /// The velocity is zero.
     None,
-    /// That of the velocity at each instant.
+    /// The direction of the velocity at each instant.
     Current,
-    /// The same all the time.
+    /// A constant direction.
     Fixed(DVec3),
 }
 
@@ -82,8 +82,8 @@ impl Direction {
 }
 
 impl<'a> PushedSpheres<'a> {
-    /// The spheres of a group that push in some touches. `planes` has the touch of each member of the group with
-    /// the plane that bears it, if one does.
+    /// The spheres of a group that push in some touches. `planes` has the touch of each member with the plane on
+    /// which it lies, if any.
     pub fn of_touches(
         context: &'a StepContext<'a>,
         group: &Group,
@@ -118,14 +118,14 @@ impl<'a> PushedSpheres<'a> {
         self.planes[place].map_or(vector, |plane| plane.across(vector))
     }
 
-    /// The time \[s\] within which what friction would end has ended: the longest contact duration with a plane.
+    /// The time \[s\] within which a slip ends at once: the longest contact duration with a plane.
     pub fn least_duration(&self) -> f64 {
         let Self { context, group, .. } = self;
         let of = |member: &Member| context.duration_of(&member.scale(false), group.time);
         group.members.iter().map(of).fold(0.0, f64::max)
     }
 
-    /// Closes gaps that a piece of path has left, by rounding or an error of the third order.
+    /// Closes gaps that a piece of path left by rounding or its error of the third order.
     pub fn close_gaps(&mut self) {
         let Self { context, group, .. } = self;
         let excess = |touch: &Touch| {
@@ -173,7 +173,7 @@ impl<'a> PushedSpheres<'a> {
         }
     }
 
-    /// Brings the velocities along normals to zero; what rolls goes on rolling.
+    /// Sets the velocities along normals to zero; rolling spheres keep rolling.
     pub fn stop_along_normals(&mut self) {
         let Directions { slides, .. } = self.directions();
         let members = &self.group.members;
@@ -223,7 +223,7 @@ impl<'a> PushedSpheres<'a> {
     /// The direction of the slip of a sphere on its plane.
     fn direction_of_slip(&self, place: usize) -> Direction {
         let members = &self.group.members;
-        // What flies is not held by rolling.
+        // A flying sphere does not roll.
         let Some(plane) = &self.planes[place] else { return Direction::Fixed(DVec3::ZERO) };
         let pressing = (-members[place].species.acceleration.dot(plane.normal)).max(0.0);
         let loss = slip_loss(self.friction_of(plane), self.inertia_factor(place), pressing);
@@ -293,7 +293,8 @@ impl<'a> PushedSpheres<'a> {
         Some(self.pushing().iter().zip(found.on_second).map(or_zero).collect())
     }
 
-    /// The touches in which spheres push, at other places; those that no longer face each other, as they were.
+    /// The touches in which spheres push, measured at other places. Bodies that no longer face each other keep the
+    /// old values.
     fn measured_at(&self, members: &[Member], time: f64) -> Vec<Touch> {
         let measured =
             |touch: &Touch| touch.measured_at(self.context, members, time).unwrap_or(*touch);
@@ -355,8 +356,8 @@ fn surface_turning(members: &[Member], touch: &Touch) -> DVec3 {
         .sum()
 }
 
-/// The largest change of the speed of a sphere that rolls on a plane, by rolling friction and what draws it
-/// along \[m/s²\].
+/// The largest change of the speed of a sphere that rolls on a plane, by rolling friction and the force along the
+/// plane \[m/s²\].
 fn speed_loss(friction: ContactFriction, plane: &Touch, member: &Member) -> f64 {
     let acceleration = member.species.acceleration;
     let pressing = (-acceleration.dot(plane.normal)).max(0.0);

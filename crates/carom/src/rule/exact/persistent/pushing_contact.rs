@@ -7,20 +7,20 @@ use super::pushed_sphere::{Push, PushedSphere, Response};
 use crate::norm::Norm;
 use crate::work::Work;
 
-/// Forces count as found once they change by less than this part of the largest: some hundred roundings.
+/// Forces have converged once they change by less than this part of the largest: some hundred roundings.
 const SETTLED: f64 = 256.0 * f64::EPSILON;
-/// Where sweeps over many contacts end without that, changes below this part of the largest are taken.
+/// After the last sweep, changes below this part of the largest are accepted.
 const ACCEPTED: f64 = 1e-9;
 /// Sweeps over the contacts, at most. Without friction each is one of Gauss and Seidel, and converges.
 const MOST_SWEEPS: usize = 1000;
-/// Sweeps after which forces go half the way only: where spheres begin or cease to slide, whole steps may take
-/// turns.
+/// Sweeps after which forces take half steps only: where spheres begin or cease to slide, whole steps may
+/// alternate.
 const WHOLE_SWEEPS: usize = 64;
 /// Steps of the methods for one contact, at most. Where the spheres keep their states one step is exact.
 const MOST_STEPS: usize = 16;
 /// Turns of the direction in which friction acts where a slip begins, at most.
 const MOST_TURNS: usize = 64;
-/// Accelerations count as zero below this part of those at work: some roundings.
+/// Accelerations below this part of those at work count as zero: some roundings.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// The contact of two pushed spheres, or of one with a plane at rest.
@@ -49,7 +49,7 @@ struct Pair<'a> {
     second: Side<'a>,
 }
 
-/// A sphere of a contact, with what other contacts do to it.
+/// A sphere of a contact, with the push of its other contacts.
 #[derive(Clone, Copy)]
 struct Side<'a> {
     sphere: &'a PushedSphere,
@@ -140,8 +140,8 @@ impl PushingContact {
         Push { force: -force, ..self.push(sphere, force) }
     }
 
-    /// Acceleration of the gap, along the normal, and of the slip \[m/s²\] where the bodies, with their radii
-    /// \[m\], respond like this.
+    /// Acceleration of the gap, along the normal, and of the slip \[m/s²\] for these responses of the bodies and
+    /// their radii \[m\].
     pub fn rate(&self, first: Option<(Response, f64)>, second: (Response, f64)) -> DVec3 {
         let (mut relative, mut turning) = (DVec3::ZERO, DVec3::ZERO);
         if let Some((response, radius)) = first {
@@ -176,8 +176,8 @@ impl Pair<'_> {
         }
     }
 
-    /// The force along a direction, with one along the normal in it, under which the gap does not open, by the
-    /// secant method from the acceleration of the gap without it \[m/s²\] and its size \[N\], about.
+    /// The force along a direction, with a normal part of 1, under which the gap does not open. The secant method
+    /// starts from the acceleration of the gap without the force \[m/s²\] and an estimate of the force \[N\].
     fn force_along(&self, direction: DVec3, [opening, about]: [f64; 2]) -> Option<DVec3> {
         let enough = ROUNDING * self.scale();
         let (mut last, mut rate_before, mut size) = (0.0, opening, about);
@@ -196,8 +196,8 @@ impl Pair<'_> {
         None
     }
 
-    /// The force under which neither the gap opens nor the surfaces begin to slide, or if that takes more
-    /// friction than there is, that under which they begin to.
+    /// The force under which the gap does not open and the surfaces do not begin to slide. Where that takes more
+    /// friction than there is, the force under which they begin to slide.
     fn force_where_it_sticks(&self, known: DVec3, start: [f64; 2]) -> Option<DVec3> {
         let PushingContact { normal, friction, .. } = *self.contact;
         if let Some(force) = self.force_without_slip(known) {
@@ -266,7 +266,7 @@ impl Pair<'_> {
         self.sides().map(of).sum::<f64>() + self.contact.bias.norm()
     }
 
-    /// The mass that a slip has to be stopped of, at least \[kg\]: that of spheres that are free to turn.
+    /// A lower bound of the mass that resists a change of the slip \[kg\]: that of spheres that are free to turn.
     fn slip_mass(&self) -> f64 {
         let mobility = |side: Side| (1.0 + 1.0 / side.sphere.inertia_factor) / side.sphere.mass;
         1.0 / self.sides().map(mobility).sum::<f64>()

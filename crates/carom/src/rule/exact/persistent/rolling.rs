@@ -24,14 +24,14 @@ pub(super) struct PressedSphere {
     pub velocity: DVec3,
     /// \[rad/s\]
     pub angular_velocity: DVec3,
-    /// What presses it on, divided by its mass, > 0 \[m/s²\].
+    /// Normal force divided by the mass, > 0 \[m/s²\].
     pub pressing: f64,
-    /// What draws it along the plane, divided by its mass \[m/s²\].
+    /// Applied force along the plane divided by the mass \[m/s²\].
     pub pull: DVec3,
     pub friction: ContactFriction,
 }
 
-/// How a sphere goes on that friction acts on.
+/// The motion of a sphere under friction.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rolling {
     /// Along the plane \[m/s\].
@@ -55,14 +55,14 @@ impl Rolling {
         valid_for: f64::INFINITY,
     };
 
-    /// Whether it stays where it is, spinning on the spot or not.
+    /// Whether the sphere stays at its place, spinning or not.
     pub fn is_at_rest(&self) -> bool {
         [self.velocity, self.acceleration] == [DVec3::ZERO; 2]
     }
 }
 
-/// How a sphere goes on: it slides while its surface moves along the plane, else rolls, or rests. What
-/// friction would end within a contact's duration \[s\] has ended.
+/// The motion of a sphere on a plane: it slides while its surface moves along the plane, else it rolls or rests. A
+/// slip or spin that friction would end within a contact's duration \[s\] has ended.
 ///
 /// With n the normal, g what presses, p the pull, k the inertia factor:
 ///
@@ -94,12 +94,12 @@ pub(super) fn on_plane(sphere: &PressedSphere, contact_duration: f64) -> Rolling
 }
 
 impl PressedSphere {
-    /// Whether it does not move, and nothing draws it along.
+    /// Whether the sphere does not move and no force acts along the plane.
     pub fn is_at_rest(&self) -> bool {
         [self.velocity, self.angular_velocity, self.pull] == [DVec3::ZERO; 3]
     }
 
-    /// The sphere as it rolls with a velocity \[m/s\], and spins as before.
+    /// The sphere when it rolls with a velocity \[m/s\] and spins as before.
     pub fn rolling_with(&self, velocity: DVec3) -> Self {
         let spin = self.angular_velocity.dot(self.normal) * self.normal;
         Self { velocity, angular_velocity: self.turning_with(velocity) + spin, ..*self }
@@ -115,7 +115,7 @@ impl PressedSphere {
         (1.0 + 1.0 / self.inertia_factor) * self.friction.sliding * self.pressing
     }
 
-    /// Sliding friction, or that which keeps it rolling, divided by the mass \[m/s²\].
+    /// Sliding friction, or the friction that keeps the sphere rolling, divided by the mass \[m/s²\].
     pub fn friction_now(&self, slides: bool) -> DVec3 {
         if slides {
             let limit = self.friction.sliding * self.pressing;
@@ -143,7 +143,8 @@ impl PressedSphere {
         moment * torque
     }
 
-    /// Whether its surface slides along the plane, or begins to: for longer than a contact's duration \[s\].
+    /// Whether the surface of the sphere slides along the plane, or begins to, for longer than a contact's duration
+    /// \[s\].
     pub fn slides(&self, contact_duration: f64) -> bool {
         let slip = self.slip().norm();
         slip > self.slip_loss() * contact_duration
@@ -158,7 +159,7 @@ impl PressedSphere {
     fn sliding(&self, contact_duration: f64) -> Rolling {
         let slip = self.slip();
         let piece = Piece::of(slip, self.pull, self.slip_loss(), contact_duration);
-        // Friction by which the slip changes, without what the pull does.
+        // Friction that changes the slip, without the effect of the pull.
         let friction = self.friction.sliding * self.pressing * piece.against;
         let turning = -self.turning_with(friction) / self.inertia_factor;
         Rolling {
@@ -192,8 +193,8 @@ impl PressedSphere {
         }
     }
 
-    /// What rolling friction takes of the acceleration of a sphere that does not turn \[m/s²\]: no more than
-    /// sliding friction can hold it with.
+    /// The part of the acceleration of a sphere that does not turn which rolling friction takes \[m/s²\]: at most
+    /// what sliding friction can balance.
     fn rolling_loss(&self, velocity: DVec3) -> f64 {
         let wanted = self.friction.rolling * self.pressing;
         let held = self.inertia_factor * self.pull;
@@ -209,7 +210,7 @@ impl PressedSphere {
     }
 }
 
-/// The direction of a velocity, or else that in which it is drawn.
+/// The direction of a velocity, or of the pull where there is none.
 fn direction_of(velocity: DVec3, pull: DVec3) -> DVec3 {
     let way = if velocity == DVec3::ZERO { pull } else { velocity };
     if way == DVec3::ZERO { way } else { way / way.norm() }
@@ -233,7 +234,7 @@ impl Piece {
             return Self { against: -direction_of(velocity, pull), valid_for: f64::INFINITY };
         }
         if speed <= loss * contact_duration {
-            // What begins to move is drawn along.
+            // A sphere that begins to move follows the pull.
             return Self { against: -direction_of(DVec3::ZERO, pull), valid_for: f64::INFINITY };
         }
         let direction = velocity / speed;

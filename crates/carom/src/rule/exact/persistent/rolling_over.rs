@@ -15,7 +15,7 @@ use crate::rule::exact::contacts::{Member, Touch};
 use crate::rule::exact::context::StepContext;
 use crate::surface::Form;
 
-/// How a sphere goes on over a piece of path.
+/// The motion of a sphere over a piece of path.
 pub(super) struct RollingOver {
     pub member: Member,
     /// Of everything \[m/s²\].
@@ -26,9 +26,9 @@ pub(super) struct RollingOver {
     pub valid_for: f64,
 }
 
-/// How a sphere goes on that one curved contact at rest bears: for as long as the normal turns by a
-/// thousandth, or until it stops to slide or to roll. Over the piece, velocity and angular velocity change by
-/// as much as on the true path; its places are right to the third order.
+/// The next piece of path of a sphere on one curved contact at rest. It lasts until the normal has turned by a
+/// thousandth, or the sphere stops sliding or rolling. Over the piece, velocity and angular velocity change by as
+/// much as on the true path; its places are right to the third order.
 ///
 /// # Errors
 /// [`NoClosedForm`] under drag, and where the surface moves.
@@ -51,7 +51,7 @@ pub(super) fn roll_over(
         time,
     };
     let mut member = *member;
-    // Where the piece before has left it.
+    // Closes the gap that the piece before left.
     member.position -= touch.gap * touch.normal;
     member.velocity -= member.velocity.dot(touch.normal) * touch.normal;
     let duration = context.parameters.contact_duration;
@@ -59,7 +59,7 @@ pub(super) fn roll_over(
     let slides = pressed.slides(duration);
     let state = on_plane(&pressed, duration);
     (member.velocity, member.angular_velocity) = (state.velocity, state.angular_velocity);
-    // Where it ends within the piece, a slip has no direction at the end.
+    // A slip that ends within the piece has no direction at the end.
     let slip = slides.then(|| state.acceleration - pressed.pull);
     let fixed = slip.filter(|_| state.valid_for < f64::INFINITY);
     let motion = Motion { slides, friction: fixed };
@@ -69,7 +69,7 @@ pub(super) fn roll_over(
     let on_feature = contact.time_on(&member, acceleration).max(duration);
     let valid_for = state.valid_for.min(turning).min(on_feature);
     if valid_for == f64::INFINITY || state.is_at_rest() {
-        // It rests, or spins on the spot, or rolls along an edge.
+        // The sphere rests, spins on the spot, or rolls along an edge.
         let Rolling { acceleration, angular_acceleration, .. } = state;
         return Ok(RollingOver { member, acceleration, angular_acceleration, valid_for });
     }
@@ -84,7 +84,7 @@ pub(super) fn roll_over(
     })
 }
 
-/// What friction does over a piece.
+/// The friction over a piece.
 #[derive(Clone, Copy)]
 struct Motion {
     slides: bool,
@@ -92,7 +92,7 @@ struct Motion {
     friction: Option<DVec3>,
 }
 
-/// The contact of a sphere with what is round and at rest.
+/// The contact of a sphere with a round feature at rest.
 struct CurvedContact<'a> {
     context: &'a StepContext<'a>,
     /// As it is at the start, of the only member.
@@ -104,8 +104,7 @@ struct CurvedContact<'a> {
 }
 
 impl CurvedContact<'_> {
-    /// The sphere as it would be on the plane that it touches there: with what the turning of the normal
-    /// adds to the pull on its slip.
+    /// The sphere on the tangent plane of the contact, with the effect of the turning normal on its slip as a pull.
     fn pressed(&self, member: &Member, touch: &Touch) -> PressedSphere {
         let Member { species, velocity, angular_velocity, .. } = *member;
         let normal = touch.normal;
@@ -125,12 +124,12 @@ impl CurvedContact<'_> {
         }
     }
 
-    /// Time \[s\] until the sphere, with this acceleration \[m/s²\], may come to what is beside the feature.
+    /// Time \[s\] until the sphere, with this acceleration \[m/s²\], may reach what is beside the feature.
     fn time_on(&self, member: &Member, acceleration: DVec3) -> f64 {
         let Bodies::Surface { surface, .. } = self.touch.bodies else { return f64::INFINITY };
         let form = &self.context.system.surfaces[surface as usize].form;
         if let Form::Rectangle(_) = form {
-            // Of its edges and corners it is said where they turn.
+            // Edges and corners are tested where they turn.
             return f64::INFINITY;
         }
         let motion = |axis: DVec3| AxisMotion {

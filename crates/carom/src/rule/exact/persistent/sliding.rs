@@ -66,12 +66,12 @@ fn time_on_band(band: &Band, state: [DVec3; 2], motion: impl Fn(DVec3) -> AxisMo
     if band.disc_radius().is_some() || !is_over_face(band, state) {
         return f64::INFINITY;
     }
-    // As far as the rim is certain to be behind it.
+    // Up to where the rim is certainly behind the sphere.
     let slack = TOUCHING * band.coordinates();
     let view = band.face_seen_from(state[0]);
     let [before, after] = band.rooms(state[0]);
     let along = motion(view.directions[0]).leaves(-before - slack, after + slack);
-    // On the axis it meets the other side of the ring that it lies in.
+    // On the axis the sphere meets the other side of the ring in which it lies.
     match view.way_to_ring(band) {
         Some((inward, way)) => along.min(motion(inward).leaves(f64::NEG_INFINITY, way)),
         None => along,
@@ -106,7 +106,7 @@ fn time_on_face(
             continue;
         }
         let place = offset.dot(axis);
-        // As far as the edge is certain to be behind it: then the next face has it.
+        // Up to where the edge is certainly behind the sphere: then the next face has it.
         let half = half + slack_of(rectangle, offset);
         time = time.min(motion(axis).leaves(-half - place, half - place));
     }

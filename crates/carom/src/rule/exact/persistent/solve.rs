@@ -1,4 +1,4 @@
-//! Persistent contacts: which ones stay, with which forces, and for how long those valid_for.
+//! Persistent contacts: which of them persist, their forces, and how long the forces hold.
 
 use std::collections::BTreeMap;
 
@@ -21,12 +21,11 @@ use crate::rule::exact::context::StepContext;
 use crate::rule::exact::flights::{ContactWork, Support, Supported};
 use crate::work::Work;
 
-/// Spheres in persistent contact whose speed is below this part of the speeds they came with are at
-/// rest, but for rounding.
+/// Spheres in persistent contact are at rest if their speed is below this part of their speeds before the event:
+/// rounding.
 pub(crate) const REST: f64 = 1e-12;
 
-/// Finds the contacts of a group that stay closed and what they do; brings their gaps and normal
-/// velocities to zero.
+/// Computes the persistent contacts of a group and their forces; sets their gaps and normal velocities to zero.
 ///
 /// # Errors
 /// [`NoClosedForm`] where friction acts but on spheres that lie on one surface at rest each.
@@ -42,7 +41,7 @@ pub(crate) fn find(context: &StepContext, group: &mut Group) -> Result<Vec<Suppo
     Ok(find_smooth(context, group, candidates, persistent, known_forces))
 }
 
-/// Finds what stays closed of contacts without friction.
+/// Computes the persistent contacts among contacts without friction.
 fn find_smooth(
     context: &StepContext,
     group: &mut Group,
@@ -53,8 +52,8 @@ fn find_smooth(
     let mut known_forces = Some(known_forces);
     while !persistent.is_empty() {
         let has_moved = correct(context, group, &mut persistent);
-        // Contacts that push nothing were left out: the forces of the others are the same, unless drag
-        // has changed with the velocities.
+        // Contacts without a force were left out: the forces of the others do not change, unless drag changed with
+        // the velocities.
         let has_drag = group.members.iter().any(|member| member.species.drag_rate > 0.0);
         let known_forces = known_forces.take().filter(|_| !(has_moved || has_drag));
         let forces =
@@ -70,7 +69,7 @@ fn find_smooth(
             (accelerations, turning)
         } else {
             let start = TurnStart { accelerations: &accelerations, forces: &forces };
-            // Beyond the end of a face there is nothing to be in contact with.
+            // A contact ends with its face.
             let sliding = sliding_time(context, group, &persistent, &accelerations);
             let turning = turning.min(sliding.max(context.parameters.contact_duration));
             match through_the_middle(context, group, &persistent, start, turning) {
@@ -87,15 +86,14 @@ fn find_smooth(
             add_closing(&group.members, &candidates, (&accelerations, turn), &mut persistent);
         }
         let valid_for = valid_for.min(sliding_time(context, group, &persistent, &accelerations));
-        // What holds for less than a contact's duration is in doubt only by rounding.
+        // A validity below a contact's duration comes from rounding.
         let valid_for = valid_for.max(context.parameters.contact_duration);
         return connected(group, &persistent, &accelerations, group.time + valid_for);
     }
     Vec::new()
 }
 
-/// The touches that may stay closed: those whose bodies would be back in contact within a contact's
-/// duration.
+/// The touches that may persist: those whose bodies would be back in contact within a contact's duration.
 fn may_persist(context: &StepContext, group: &Group) -> Vec<Touch> {
     let members = &group.members;
     let persists = |touch: &&Touch| {
@@ -110,8 +108,7 @@ fn may_persist(context: &StepContext, group: &Group) -> Vec<Touch> {
     group.touches.iter().filter(persists).copied().collect()
 }
 
-/// Of touches that may persist, those whose forces press, so that they stay closed; with the forces
-/// \[N\].
+/// The touches, of those that may persist, whose forces press, with the forces \[N\].
 fn pressing(work: &Work, members: &[Member], candidates: &[Touch]) -> (Vec<Touch>, Vec<f64>) {
     if candidates.is_empty() {
         return (Vec::new(), Vec::new());
@@ -153,7 +150,7 @@ fn add_closing(
     persistent.sort_unstable_by_key(|touch| touch.bodies);
 }
 
-/// How far some normal turns in a piece of path of `valid_for` \[s\] at most \[rad\].
+/// Largest turn of a normal in a piece of path of `valid_for` \[s\] \[rad\].
 fn most_turned(touches: &[Touch], valid_for: f64) -> f64 {
     let driven = touches.iter().filter(|touch| touch.drive_rate > 0.0);
     driven
@@ -161,7 +158,7 @@ fn most_turned(touches: &[Touch], valid_for: f64) -> f64 {
         .fold(TURN, f64::max)
 }
 
-/// Stops what moves and accelerates by no more than rounding.
+/// Stops spheres whose velocity and acceleration are rounding.
 fn zero_roundoff(
     context: &StepContext,
     group: &mut Group,

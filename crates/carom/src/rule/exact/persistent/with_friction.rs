@@ -1,5 +1,5 @@
-//! Persistent contacts of a group in which friction acts: of spheres that lie on planes, and push each other,
-//! or on curves, each by itself.
+//! Persistent contacts of a group with friction: of spheres that lie on planes and push each other, or that lie on
+//! curves, each by itself.
 
 use glam::DVec3;
 
@@ -19,16 +19,16 @@ use crate::rule::exact::flights::{ContactWork, Support, Supported};
 /// Angle \[rad\] below which two normals count as one: they differ by rounding.
 const SAME_NORMAL: f64 = 1e-9;
 
-/// What flies leans on other spheres where their normals are across the acceleration of all but for this part;
-/// else they bear it.
+/// A flying sphere leans on others, and does not rest on them, where the normals are across the acceleration up to
+/// this part of it.
 const LEANS: f64 = 0.1;
 
 /// A sphere closes on a surface if it accelerates towards it by more than this part of the accelerations at
 /// work: rounding.
 const CLOSES: f64 = 1e-9;
 
-/// Finds how each sphere goes on whose contacts press; of the `candidates`, those of two spheres that do not
-/// press let go.
+/// Computes the motion of each sphere whose contacts press. Pairs of spheres among the `candidates` that do not
+/// press part.
 ///
 /// # Errors
 /// [`NoClosedForm`] if two spheres press on each other that do not lie on one plane each, or one presses on
@@ -57,7 +57,7 @@ pub(super) fn find(
             supports.push(over_curve(context, group, place, &own)?);
             continue;
         }
-        // Of two spheres that may push each other, friction has those part that do not.
+        // Friction separates two touching spheres that do not press.
         let bears = |touch: &Touch| {
             is_pressing(touch, pressing) && touch.places().any(|place| bearings[place].is_none())
         };
@@ -77,8 +77,7 @@ pub(super) fn find(
 
 /// The planes that a sphere touches.
 ///
-/// # Errors
-/// [`NoClosedForm`] if they make no corner, or something else bears it.
+/// # Errors [`NoClosedForm`] if they make no corner, or the sphere rests on something else.
 fn corner_of<'a>(
     context: &StepContext<'a>,
     group: &Group,
@@ -113,8 +112,8 @@ pub(super) fn forces_of_pushed(context: &StepContext, group: &Group) -> Option<V
     group.touches.iter().map(force_of).collect()
 }
 
-/// By place, the touch of a sphere with the plane at rest that bears it; none if it flies, and at most leans on
-/// others. `None` where something else bears it, or drag slows it.
+/// The touch of each sphere, by place, with the plane at rest on which it lies; none if it flies and at most leans
+/// on others. `None` where a sphere rests on something else or drag slows it.
 fn bearings(
     context: &StepContext,
     group: &Group,
@@ -199,7 +198,7 @@ fn split_connected(first: Touch, touches: Pressed) -> (Pressed, Pressed) {
     touches.into_iter().partition(|_| is_in.next() == Some(true))
 }
 
-/// How spheres go on that push each other.
+/// The motion of spheres that push each other.
 fn support_pushed(group: &mut Group, pushed: PushedSpheres) -> Result<Support, NoClosedForm> {
     let mut contacts: Vec<Bodies> = pushed.group.touches.iter().map(|touch| touch.bodies).collect();
     contacts.sort_unstable();
@@ -225,7 +224,7 @@ fn support_pushed(group: &mut Group, pushed: PushedSpheres) -> Result<Support, N
     })
 }
 
-/// How the sphere at a place goes on that lies on the planes of a corner.
+/// The motion of the sphere at a place that lies on the planes of a corner.
 fn on_planes(
     context: &StepContext,
     group: &mut Group,
@@ -248,7 +247,7 @@ fn on_planes(
     (member.velocity, member.angular_velocity) = (velocity, angular_velocity);
     Ok(Some(support))
 }
-/// Whether friction presses a sphere to a surface that it touches, and nothing else does.
+/// Whether friction alone presses a sphere onto a surface that it touches.
 fn closes(touch: &Touch, group: &Group, supports: &[Support]) -> bool {
     if supports.iter().any(|support| support.contacts.contains(&touch.bodies)) {
         return false;
@@ -265,7 +264,7 @@ fn closes(touch: &Touch, group: &Group, supports: &[Support]) -> bool {
     accelerations.along(touch, members) < -CLOSES * accelerations.scale_at(touch, members)
 }
 
-/// Whether what bears a sphere is one curve: faces that share an edge have one normal.
+/// Whether a sphere lies on one curve: faces that share an edge have one normal.
 fn is_one_curve(own: &[Touch]) -> bool {
     own.iter().all(|touch| {
         let is_same = (touch.normal - own[0].normal).norm() <= SAME_NORMAL;
@@ -273,7 +272,7 @@ fn is_one_curve(own: &[Touch]) -> bool {
     })
 }
 
-/// How the sphere at a place goes on over a curve, of one surface or several.
+/// The motion of the sphere at a place over a curve, of one surface or several.
 fn over_curve(
     context: &StepContext,
     group: &mut Group,
@@ -297,12 +296,12 @@ fn over_curve(
     })
 }
 
-/// Whether a contact of two spheres, or with something else than a plane at rest, bears something.
+/// Whether a contact presses that is not with a plane at rest.
 fn is_pressing(touch: &Touch, pressing: &[Touch]) -> bool {
     pressing.iter().any(|it| it.bodies == touch.bodies)
 }
 
-/// The plane at rest that a touch is with; `None` if it is with something else.
+/// The plane at rest of a touch; `None` if it is with something else.
 fn plane_of<'a>(context: &StepContext<'a>, member: &Member, touch: &Touch) -> Option<Plane<'a>> {
     match touch.bodies {
         Bodies::Surface { surface, .. } if touch.shift == DVec3::ZERO => {

@@ -1,4 +1,4 @@
-//! How spheres come into a zone.
+//! How spheres join a zone.
 
 use glam::DVec3;
 
@@ -14,10 +14,9 @@ use crate::rule::exact::persistent::held_forces;
 use crate::rule::exact::predict;
 use crate::rule::exact::timeline::Timeline;
 
-/// Makes a zone of a group, whose spheres move as its impacts have left them.
-///
-/// Until the next tick they go on together with their mean velocity, as far as no surface is in the way;
-/// then their own velocities count. One that is alone goes on under its forces.
+/// Makes a zone of a group with the velocities after its impacts. Until the next tick the spheres move together
+/// with their mean velocity, up to surfaces in the way; then their own velocities count. A single sphere moves
+/// under its forces.
 pub(crate) fn make_zone(timeline: &mut Timeline, context: &mut StepContext, group: &Group) {
     let common = match group.members[..] {
         [_] => None,
@@ -33,7 +32,7 @@ pub(crate) fn make_zone(timeline: &mut Timeline, context: &mut StepContext, grou
     predict_joined(timeline, context, slots, group.time);
 }
 
-/// The mean velocity of a group \[m/s\], without what would take its spheres into surfaces.
+/// The mean velocity of a group \[m/s\], without the part that would move its spheres into surfaces.
 fn common_velocity(timeline: &Timeline, context: &StepContext, group: &Group) -> DVec3 {
     let mass: f64 = group.members.iter().map(|member| member.species.mass).sum();
     let momenta = group.members.iter().map(|member| member.species.mass * member.velocity);
@@ -54,8 +53,8 @@ pub(crate) fn make_zone_about(
     make_zone(timeline, context, &group);
 }
 
-/// Answers the meeting of a sphere in a zone with one that is in none, at `time` \[s\]: that one joins the
-/// zone, with all that is in persistent contact with it, and goes along with the other until the next tick.
+/// Answers the meeting of a sphere in a zone with one outside, at `time` \[s\]: the latter joins the zone with its
+/// persistent contacts, and moves with the other until the next tick.
 pub(crate) fn meet(timeline: &mut Timeline, context: &mut StepContext, slots: [u32; 2], time: f64) {
     let [comes, stepped] =
         if timeline.flights.is_stepped(slots[0]) { [slots[1], slots[0]] } else { slots };
@@ -76,7 +75,8 @@ pub(crate) fn meet(timeline: &mut Timeline, context: &mut StepContext, slots: [u
     predict_joined(timeline, context, coming.into_iter(), time);
 }
 
-/// Whether a spring pulls a sphere. Within a tick it goes its own way then: a stiff one would do much work on another.
+/// Whether a spring acts on a sphere. Within a tick such a sphere moves by itself, since a stiff spring would do
+/// much work on a common motion.
 fn is_on_spring(timeline: &Timeline, slot: u32) -> bool {
     timeline.flights.components.have_springs(timeline.flights.index_of[slot as usize])
 }
@@ -103,7 +103,7 @@ fn without_closing(
     velocity
 }
 
-/// The velocity \[m/s\] at which a sphere, from its centre \[m\], passes no surface until the next tick.
+/// The velocity \[m/s\] with which a sphere passes no surface from its centre \[m\] until the next tick.
 fn in_front(
     timeline: &Timeline,
     context: &StepContext,
@@ -126,9 +126,9 @@ fn in_front(
     held.map_or(velocity, |held| (held - position) / duration)
 }
 
-/// How a sphere with this centre \[m\] and velocity \[m/s\] goes on under its forces from a time until the next tick
-/// \[s\], as far as no surface is in the way: its mean velocity on that way, and that at the tick \[m/s\]. Both
-/// belong together: what its forces do on the way is what its kinetic energy gains.
+/// The motion of a sphere with this centre \[m\] and velocity \[m/s\] under its forces until the next tick, up to
+/// surfaces in the way: its mean velocity and the velocity at the tick \[m/s\]. The kinetic energy gained equals
+/// the work of the forces.
 fn under_forces(
     timeline: &Timeline,
     context: &StepContext,

@@ -1,9 +1,9 @@
-//! Which spheres that are in no zone have neighbours in one.
+//! The list of spheres outside zones with neighbours inside.
 
 use crate::rule::exact::neighbours::NeighbourBuffer;
 use crate::rule::exact::timeline::Timeline;
 
-/// Finds them all, where neighbours are others than before.
+/// Rebuilds the list when the neighbours changed.
 pub(crate) fn find_near(timeline: &mut Timeline) {
     timeline.zone.near.clear();
     if timeline.zone.is_empty() {

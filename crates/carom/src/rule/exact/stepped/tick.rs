@@ -1,5 +1,5 @@
-//! What happens at a tick: spheres leave the zone that are near no other one or fly freely, those that have
-//! joined are taken in, and all are stepped to the next tick.
+//! A tick of the zones: spheres leave that are near no other one or fly freely, waiting spheres join, and all are
+//! stepped to the next tick.
 
 use std::mem::take;
 
@@ -44,7 +44,7 @@ pub(crate) fn tick(timeline: &mut Timeline, context: &mut StepContext) -> f64 {
     zone.admit(context.system, flights, now);
     let first = context.report.impacts.len();
     let stepped = zone.step(context.system, now - context.start, tick, context.report);
-    // Of a zone it is known in which sub-step an impact was.
+    // Impacts of a zone are known to the sub-step.
     let time = context.since_start(now);
     context.report.impacts[first..].iter_mut().for_each(|impact| impact.time = time);
     fly(timeline, context, &stepped, now);
@@ -54,8 +54,8 @@ pub(crate) fn tick(timeline: &mut Timeline, context: &mut StepContext) -> f64 {
     now
 }
 
-/// Whether a sphere about `center` \[m\] that bears something would have to join its zone again at once:
-/// friction acts, and it does not lie on a single surface at rest.
+/// Whether a sphere with this centre \[m\] that presses on others would join its zone again at once: friction acts,
+/// and it does not lie on a single surface at rest.
 fn would_rejoin(
     timeline: &Timeline,
     context: &StepContext,
@@ -80,7 +80,7 @@ fn would_rejoin(
     !is_at_rest || touched.next().is_some() || species.drag_rate > 0.0
 }
 
-/// The image of a place \[m\] in a periodic box where the position of a sphere counts at `now` \[s\].
+/// The image of a place \[m\] beside the position of a sphere at `now` \[s\] in a periodic box.
 fn where_it_counts(
     timeline: &Timeline,
     context: &StepContext,
@@ -111,7 +111,7 @@ fn fly(timeline: &mut Timeline, context: &StepContext, stepped: &[Stepped], now:
         }
         timeline.begin_flight(slot, from, velocity, now);
         let cell_crossing = stay_in_region(timeline, slot, [now, next], &mut found);
-        // Those near it look for it.
+        // Spheres near it predict the meetings.
         let events = NextEvents::NEVER;
         timeline.enter(slot, Prediction { events, cell_crossing });
         timeline.note_near_zone(slot, &found);

@@ -9,7 +9,7 @@ use crate::rule::exact::neighbours::level::Level;
 use crate::rule::exact::neighbours::region::CROSSING;
 
 impl Neighbours {
-    /// A time before which the sphere does not leave its neighbour region, on the world's clock \[s\].
+    /// A lower bound of the time at which the sphere leaves its neighbour region, on the world's clock \[s\].
     #[inline(always)]
     pub fn crossing_time(&self, slot: u32, body: &Body, species: &Species, now: f64) -> f64 {
         let Level { grid, half_edges, .. } = &self.levels[species.level as usize];
@@ -41,9 +41,9 @@ impl Neighbours {
         (now + first).max(now.next_up())
     }
 
-    /// A time before which a sphere does not leave its neighbour region that has this centre \[m\] and velocity
-    /// \[m/s\] `now`, and from then on accelerations between these bounds along each axis \[m/s²\]; on the
-    /// world's clock \[s\].
+    /// A lower bound of the time at which a sphere leaves its neighbour region, on the world's clock \[s\]. The
+    /// sphere has this centre \[m\] and velocity \[m/s\] `now`, and accelerations between these bounds along each
+    /// axis \[m/s²\].
     pub fn crossing_time_within(
         &self,
         (slot, level): (u32, u32),
@@ -70,8 +70,8 @@ impl Neighbours {
         (now + first).max(now.next_up())
     }
 
-    /// Whether a sphere that is at `position` \[m\] certainly does not leave its neighbour region if it goes no
-    /// farther than this along each axis \[m\].
+    /// Whether a sphere at `position` \[m\] cannot leave its neighbour region if it moves no farther than `way`
+    /// \[m\] along each axis.
     pub fn stays_within(&self, slot: u32, level: u32, position: DVec3, way: DVec3) -> bool {
         let Level { half_edges, .. } = &self.levels[level as usize];
         let offset = self.region(slot).center + self.shift_from_box(slot) - position;
