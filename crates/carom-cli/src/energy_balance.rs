@@ -47,7 +47,8 @@ impl EnergyBalance {
         let EnergyAccount { correction, emission, .. } = account;
         let integration = end - start - account.total();
         let given = [contacts, colliders, kicks, growth, forces, applied, correction, emission];
-        let largest = given.iter().chain(&[start, end]).fold(0.0, |most: f64, it| most.max(it.abs()));
+        let largest =
+            given.iter().chain(&[start, end]).fold(0.0, |most: f64, it| most.max(it.abs()));
         let integration_part = if integration == 0.0 { 0.0 } else { integration.abs() / largest };
         Self {
             contacts,
@@ -103,8 +104,7 @@ pub fn rest_of(scene: &Scene, world: &World, edits: usize) -> &'static str {
         )
     };
     // Potentials jump at the faces of a periodic box.
-    let jumps =
-        world.settings().boundary.is_periodic() && scene.forces.iter().any(has_potential);
+    let jumps = world.settings().boundary.is_periodic() && scene.forces.iter().any(has_potential);
     match (edits > 0, jumps) {
         (true, _) => "by edits, and error of integration",
         (false, true) => "by potentials at the faces of the box, and error of integration",

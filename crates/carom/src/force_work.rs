@@ -1,13 +1,13 @@
-//! Work of forces that no potential accounts for.
+//! Work of nonconservative forces: of those whose potential energy does not account for all of it.
 
 use std::ops::AddAssign;
 
-/// Work of forces that no potential accounts for \[J\].
+/// Work of nonconservative forces \[J\].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct ForceWork {
-    /// Of forces on all spheres, and of the dampers of springs.
+    /// Work of forces on all spheres, and of the dampers of springs.
     pub forces: f64,
-    /// Of forces applied to single spheres.
+    /// Work of forces applied to single spheres.
     pub applied: f64,
 }
 

@@ -130,7 +130,7 @@ impl EnergyAccount {
         of_bodies + self.forces + self.applied + self.correction + self.emission
     }
 
-    /// A part of it.
+    /// Returns the account with all entries multiplied by a factor.
     pub(crate) fn part(&self, part: f64) -> Self {
         Self {
             contacts: part * self.contacts,
@@ -144,7 +144,7 @@ impl EnergyAccount {
         }
     }
 
-    /// Adds work of forces that no potential accounts for.
+    /// Adds work of nonconservative forces.
     pub(crate) fn add_force_work(&mut self, work: ForceWork) {
         self.forces += work.forces;
         self.applied += work.applied;

@@ -77,7 +77,7 @@ impl<'a> System<'a> {
         self.interactions.is_some_and(|it| it.depend_on_velocity())
     }
 
-    /// Whether forces act whose work no potential accounts for.
+    /// Whether nonconservative forces act.
     pub fn has_nonconservative_forces(&self) -> bool {
         !self.spheres.applied_force.is_empty()
             || !forces::are_conservative(self.forces)
@@ -98,8 +98,8 @@ impl<'a> System<'a> {
         }
     }
 
-    /// The nonconservative forces between spheres \[N\], without dampers, as
-    /// [`Self::nonconservative_forces_between`] has them with dampers.
+    /// The nonconservative forces between spheres \[N\] without dampers, as in
+    /// [`Self::nonconservative_forces_between`].
     pub fn nonconservative_interactions(
         &self,
         states: [&[DVec3]; 2],
@@ -113,8 +113,8 @@ impl<'a> System<'a> {
         }
     }
 
-    /// Potential energy \[J\] in forces whose work it does not account for, of spheres at `positions` \[m\] that
-    /// move with `velocities` \[m/s\], at a time on the world's clock \[s\].
+    /// Potential energy \[J\] in nonconservative forces of spheres at `positions` \[m\] with `velocities` \[m/s\], at a
+    /// time on the world's clock \[s\].
     pub fn nonconservative_potential(&self, states: [&[DVec3]; 2], time: f64) -> f64 {
         let spheres = self.states(states);
         let of_each = (0..spheres.len()).map(|index| {
@@ -139,12 +139,7 @@ impl<'a> System<'a> {
 
     /// The forces between spheres \[N\] on each of them, where they are at `positions` \[m\] and move with
     /// `velocities` \[m/s\] at a time on the world's clock \[s\].
-    pub fn forces_between(
-        &self,
-        states: [&[DVec3]; 2],
-        time: f64,
-        forces: &mut Vec<DVec3>,
-    ) {
+    pub fn forces_between(&self, states: [&[DVec3]; 2], time: f64, forces: &mut Vec<DVec3>) {
         forces.clear();
         forces.resize(states[0].len(), DVec3::ZERO);
         if let Some(interactions) = self.interactions {

@@ -1,5 +1,5 @@
-//! The work of forces without a potential in the energy account: against closed forms, and as what closes the
-//! account of each rule beside each force. It proves nothing of forces that have a potential.
+//! The work of forces without a potential in the energy account, against closed forms; the account of each rule closes
+//! beside each force. These tests prove nothing of forces that have a potential.
 
 mod common;
 
@@ -22,7 +22,7 @@ fn contact() -> Rule {
     Contact::default().into()
 }
 
-/// Runs a number of frames. Returns the sum of their accounts, and what is left of the change of energy.
+/// Runs a number of frames. Returns the sum of their accounts, and the error of the integration.
 fn run(world: &mut World, frames: usize, dt: f64) -> (EnergyAccount, f64) {
     let before = world.total_energy();
     let mut sum = EnergyAccount::default();
@@ -136,7 +136,7 @@ fn applied_force_does_the_work_of_its_way_under_every_rule() {
     }
 }
 
-/// A trap that moves, and so does work that its potential does not account for.
+/// A trap that moves: it does work beyond its potential energy.
 #[derive(Debug)]
 struct MovingTrap {
     is_conservative: bool,
@@ -158,7 +158,7 @@ impl Force for MovingTrap {
 
 #[test]
 fn work_of_a_force_of_a_program_is_what_its_potential_leaves() {
-    // At rest in the trap at t = 0: as seen from it, it begins with -1 m/s and w = 2/s: the velocity is 1 - cos 2t.
+    // Seen from the trap the ball starts with -1 m/s and swings at w = 2/s: its velocity is 1 - cos 2t.
     let (t, m) = (1.0, 2.0);
     let (v, x) = (1.0 - libm::cos(2.0 * t), -0.5 * libm::sin(2.0 * t));
     let energy = 0.5 * m * v * v + 4.0 * x * x;
@@ -226,7 +226,7 @@ fn gas(rule: Rule, count: usize, restitution: f64) -> World {
     world
 }
 
-/// Adds a force by its number; the names of all.
+/// Adds a force by its name to a world.
 fn add_force(world: &mut World, name: &str) {
     let ids = world.spheres().ids().to_vec();
     let spring = |index: usize| Spring::between(ids[index], ids[index + 1], 0.8);
@@ -304,7 +304,7 @@ fn what_runge_and_kutta_leave_of_the_account_falls_with_the_fourth_order() {
             run(&mut world, (24.0 * parts) as usize, 0.02 / parts).1
         };
         let [coarse, fine] = [1.0, 2.0].map(rest);
-        // 16 for small steps; rounding of energies of 3 J ends it.
+        // The ratio is 16 for small steps; the rest is rounding of energies of 3 J.
         assert!(fine.abs() < coarse.abs() / 12.0 + 1e-14, "{name}: {coarse:e} {fine:e}");
     }
 }

@@ -25,24 +25,24 @@ impl<'a> Interactions<'a> {
         self.forces.iter().filter_map(|(_, force)| force.interaction())
     }
 
-    /// Those whose work their potentials do not account for, but for springs.
+    /// The nonconservative interactions, without springs.
     fn nonconservative(&self) -> impl Iterator<Item = &'a dyn Interaction> {
         let forces = self.forces.iter().filter(|(_, force)| !force.is_conservative());
         forces.filter_map(|(_, force)| force.interaction())
     }
 
-    /// Whether potentials account for the work of all but the dampers of springs.
+    /// Whether all interactions are conservative, apart from the dampers of springs.
     pub fn are_conservative_but_for_dampers(&self) -> bool {
         self.nonconservative().next().is_none()
     }
 
-    /// Whether potentials account for the work of all.
+    /// Whether all interactions are conservative.
     pub fn are_conservative(&self) -> bool {
         self.are_conservative_but_for_dampers()
             && self.springs().all(|spring| spring.damping == 0.0)
     }
 
-    /// Adds the forces \[N\] whose work no potential accounts for, but for those of dampers.
+    /// Adds the nonconservative forces \[N\], without dampers.
     pub fn add_nonconservative(&self, spheres: &SphereStates, time: f64, forces: &mut [DVec3]) {
         self.nonconservative().for_each(|it| it.add_forces(spheres, time, forces));
     }
@@ -52,7 +52,7 @@ impl<'a> Interactions<'a> {
         self.springs().for_each(|spring| spring.add_damping(spheres, forces));
     }
 
-    /// Potential energy \[J\] of those whose work it does not account for.
+    /// Potential energy \[J\] of the nonconservative interactions.
     pub fn nonconservative_potential(&self, spheres: &SphereStates, time: f64) -> f64 {
         self.nonconservative().map(|it| it.potential_energy(spheres, time)).sum()
     }

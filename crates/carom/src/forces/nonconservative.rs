@@ -1,4 +1,4 @@
-//! The forces whose work no potential accounts for.
+//! Nonconservative forces: those whose potential energy does not account for all of their work.
 
 use std::sync::Arc;
 
@@ -7,12 +7,12 @@ use glam::DVec3;
 use super::{Force, LinearForce, SphereState, linear_form};
 use crate::numbered::Numbered;
 
-/// The forces whose work their potentials do not account for, in the order in which they entered the world.
+/// The nonconservative forces, in the order in which they entered the world.
 fn nonconservative(forces: &Numbered<Arc<dyn Force>>) -> impl Iterator<Item = &dyn Force> {
     forces.iter().map(|(_, force)| &**force).filter(|force| !force.is_conservative())
 }
 
-/// Whether the potentials of all forces account for their work.
+/// Whether all forces are conservative.
 pub(crate) fn are_conservative(forces: &Numbered<Arc<dyn Force>>) -> bool {
     nonconservative(forces).next().is_none()
 }
@@ -58,8 +58,7 @@ pub(crate) fn nonconservative_others(
         .fold(DVec3::ZERO, |sum, force| sum + force.on(sphere, time))
 }
 
-/// Potential energy \[J\] of a sphere in the nonconservative forces, which may have one that accounts for a part of
-/// their work.
+/// Potential energy \[J\] of a sphere in the nonconservative forces: it accounts for a part of their work.
 pub(crate) fn nonconservative_potential(
     forces: &Numbered<Arc<dyn Force>>,
     sphere: &SphereState,

@@ -126,14 +126,14 @@ impl Spring {
         stretch.elastic_tension(self) * stretch.direction
     }
 
-    /// The part of [`Self::pull`] that its damper adds \[N\], which no potential accounts for.
+    /// The part of [`Self::pull`] that the damper adds \[N\], the nonconservative one.
     pub(crate) fn damping_pull(&self, offset: DVec3, velocity: DVec3) -> DVec3 {
         let stretch = Stretch::of(offset, velocity);
         let undamped = Self { damping: 0.0, ..*self };
         (stretch.tension(self) - stretch.tension(&undamped)) * stretch.direction
     }
 
-    /// Adds the force of its damper on each of its spheres \[N\].
+    /// Adds the force of the damper on each of the spheres \[N\].
     pub(super) fn add_damping(&self, spheres: &SphereStates, forces: &mut [DVec3]) {
         let Some(ends) = self.ends(spheres).filter(|_| self.damping > 0.0) else { return };
         let along = self.damping_pull(ends.offset, ends.velocity);

@@ -1,8 +1,8 @@
-//! Work of forces that no potential accounts for, over an interval.
+//! Work of nonconservative forces over an interval.
 //!
-//! A scheme takes it as it takes the motion: the sum of the powers `F·v` of its stages, in their parts of the
-//! interval. Schemes of the first and second order change velocities by `h Σ b F / m`, so that the mean of the first
-//! and last velocity makes the work the change of the kinetic energy.
+//! The work is `h Σ b F·v` over the stages of a scheme, with their weights b. Schemes of the first and second order
+//! change the velocity by `h Σ b F / m`: with the mean of the first and the last velocity for v, the work is the change
+//! of the kinetic energy.
 
 use glam::DVec3;
 
@@ -18,7 +18,7 @@ use crate::settings::Integrator;
 use crate::system::System;
 
 /// Work of the nonconservative forces on spheres that an `integrator` moves over `interval` from the states in
-/// `motion`. Where forces act between spheres, it has to be all of them, or none.
+/// `motion`. With forces between spheres, the list must contain all of them, or none.
 pub(crate) fn work(
     integrator: Integrator,
     system: &System,
@@ -45,13 +45,13 @@ pub(crate) fn work(
 struct Way {
     index: usize,
     start: Kinematics,
-    /// At the stage at work.
+    /// State at the current stage.
     at: Kinematics,
     /// Accelerations at the stages so far \[m/s²\].
     known: [DVec3; MOST_STAGES],
-    /// Nonconservative forces there \[N\].
+    /// Nonconservative forces at the stages so far \[N\].
     forces: [DVec3; MOST_STAGES],
-    /// Velocities there \[m/s\].
+    /// Velocities at the stages so far \[m/s\].
     velocities: [DVec3; MOST_STAGES],
 }
 
@@ -80,8 +80,7 @@ fn work_by<S: Scheme>(system: &System, mut spheres: Vec<Way>, interval: Interval
         }
         for (place, way) in spheres.iter_mut().enumerate() {
             let Kinematics { position, velocity } = way.at;
-            let (radius, mass) =
-                (system.spheres.radius[way.index], system.spheres.mass[way.index]);
+            let (radius, mass) = (system.spheres.radius[way.index], system.spheres.mass[way.index]);
             let state = SphereState { position, velocity, radius, mass };
             let [all, own] =
                 [0, 1].map(|which| between[which].get(place).copied().unwrap_or(DVec3::ZERO));

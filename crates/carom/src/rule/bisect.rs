@@ -291,7 +291,7 @@ fn is_intersecting(contact: &Contact) -> bool {
     contact.state == ContactState::Intersecting
 }
 
-/// Work of forces that no potential accounts for on spheres that [`advance`] takes over `interval` from `start`.
+/// Work of nonconservative forces on spheres that [`advance`] moves over `interval` from `start`.
 fn work_of_forces(
     frame: &Frame,
     start: &Motion,

@@ -21,7 +21,7 @@ pub(super) struct Island {
     pub impacts: Vec<Impact>,
     /// Work of putting spheres onto surfaces \[J\].
     pub correction: f64,
-    /// Work of forces that no potential accounts for.
+    /// Work of nonconservative forces.
     pub work: ForceWork,
 }
 

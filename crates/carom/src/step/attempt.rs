@@ -80,7 +80,7 @@ impl<'a> Attempt<'a> {
             self.report.clear();
             return Err(error);
         }
-        // What a potential accounts for is no work of its own.
+        // A potential accounts for this part of the work.
         let gained = self.state.nonconservative_potential(self.end.seconds()) - potential;
         self.report.energy_account.forces += gained;
         self.state.clock = self.end;

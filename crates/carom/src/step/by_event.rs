@@ -47,7 +47,7 @@ pub(super) fn step(mut attempt: Attempt, parameters: Exact, until: Until) -> Res
     Ok(())
 }
 
-/// The watch over spheres in a step; `None` where neither sensors nor the work of forces need one.
+/// Watch over spheres in a step; `None` without sensors and nonconservative forces.
 fn watch_over(attempt: &mut Attempt) -> Option<Watch> {
     let (start, presence) = (attempt.start, attempt.state.presence.clone());
     let (system, _) = attempt.state.split();
@@ -64,7 +64,7 @@ fn account_for_contacts(report: &mut StepReport, timeline: &mut Timeline, end: f
     report.energy_account.colliders += given.collect::<Sum>().value();
     let kicked = report.groups.iter().map(|group| group.kick_work);
     let kicked = kicked.collect::<Sum>().value();
-    // Nothing kicks what grows.
+    // Growth is refused beside colliders that kick.
     if timeline.has_growth() {
         report.energy_account.growth += kicked;
     } else {

@@ -42,8 +42,8 @@ impl OneBounce {
         Some(Self { impulse, ..first })
     }
 
-    /// How much farther the sphere comes than by the mean of its velocities at both ends of the sub-step \[m\], as
-    /// it bounces at its own time, not in the middle.
+    /// Difference of the way \[m\] to that with the mean of the velocities at both ends of the sub-step: the sphere
+    /// bounces at its own time, not in the middle.
     pub fn way_beyond_mean(&self, slots: &Slots, sub_step: &SubStep) -> DVec3 {
         (0.5 * sub_step.h - self.time) * slots.velocity[self.slot].number() * self.impulse
     }

@@ -1,4 +1,4 @@
-//! Work of forces that no potential accounts for, in a sub-step.
+//! Work of nonconservative forces in a sub-step.
 
 use glam::DVec3;
 
@@ -13,8 +13,8 @@ use crate::report::StepReport;
 use crate::rule::periodic;
 use crate::system::System;
 
-/// Finds what the nonconservative forces do to each sphere in a sub-step that starts at `time` \[s\] on the world's
-/// clock; nothing where there are none.
+/// Computes the accelerations by nonconservative forces for a sub-step that starts at `time` \[s\] on the world's
+/// clock; the arrays stay empty without such forces.
 pub(super) fn find(system: &System, solver: &mut Solver, time: f64) {
     let Solver { slots, held_forces, has_other_forces, .. } = solver;
     slots.working.clear();
@@ -61,8 +61,7 @@ fn forces_between(system: &System, slots: &Slots, time: f64) -> Vec<DVec3> {
 /// Accounts for the work of the forces that [`find`] found, `F·(v + v')/2 h` from the velocity v at the start to v'
 /// at the end.
 ///
-/// What [bounces](super::bounces) at its own time goes another way, and cascades go through the sub-step in
-/// several flights.
+/// A sphere that bounces alone takes another way, and a sphere of a cascade several flights in a sub-step.
 pub(super) fn account(
     solver: &Solver,
     bounces: &[OneBounce],

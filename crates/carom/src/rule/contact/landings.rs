@@ -16,9 +16,9 @@ pub(super) struct Landed {
     pub spin: DVec3,
     /// Centre at the start of the last flight \[m\].
     pub from: DVec3,
-    /// Sum of the products of the times of its flights with the means of their first and last velocities \[m\].
+    /// Sum over its flights of the time times the mean of the first and the last velocity \[m\].
     pub way: DVec3,
-    /// The same of the products with the velocity that drag acts on \[m²/s\].
+    /// Sum over its flights of the time times the product of that mean and the velocity that drag acts on \[m²/s\].
     pub against_drag: f64,
     /// Whether the sphere presses on something at the end.
     pub bears: bool,

@@ -61,7 +61,7 @@ pub(crate) use guard::{Passage, held};
 pub(crate) use listing::persistent_contacts;
 pub(crate) use places::turning_rate;
 pub(crate) use proximity::{Proximity, bearing, proximity};
-pub(crate) use resolution::TURN;
+pub(crate) use resolution::{TURN, longest_frame_for_springs};
 pub(crate) use solver::{Scratch, Solver};
 
 use glam::DVec3;
@@ -109,7 +109,8 @@ pub(crate) fn step(
     let work = Work::new(stop_request);
     solver.sleep_speed = parameters.sleep_speed;
     frame::begin(system, motion, frame.h, solver);
-    let sub_steps = resolution::sub_steps(solver, parameters.sub_steps, frame.h);
+    let spring_rate = system.fastest_spring_rate();
+    let sub_steps = resolution::sub_steps(solver, parameters.sub_steps, frame.h, spring_rate);
     let parameters = parameters.with_sub_steps(sub_steps);
     for number in 0..sub_steps {
         if !work.spend(UNITS_PER_SPHERE * solver.slots.len() as u64) {

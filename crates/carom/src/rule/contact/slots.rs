@@ -43,11 +43,11 @@ pub(super) struct Slots {
     pub acceleration: Vec<Row>,
     /// The acceleration by forces that are linear \[m/s²\]; empty where there are no others.
     linear: Vec<Row>,
-    /// Acceleration by the forces whose work no potential accounts for \[m/s²\], and the rate of their linear drag
-    /// \[1/s\]; empty where there are none. Of this sub-step, as the next array.
+    /// Acceleration by nonconservative forces \[m/s²\], and the rate of their linear drag \[1/s\], in the present
+    /// sub-step; empty without such forces.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub working: Vec<Row>,
-    /// The part of it by forces applied to the sphere alone \[m/s²\].
+    /// The part of that acceleration by forces applied to single spheres \[m/s²\].
     #[cfg_attr(feature = "serde", serde(skip))]
     pub applied: Vec<DVec3>,
     /// Edges of the periodic box \[m\], infinite along open axes.
@@ -291,7 +291,7 @@ pub(super) struct Run<'a> {
     pub spin_before: &'a mut [Row],
     pub turn: &'a mut [Row],
     pub acceleration: &'a [Row],
-    /// Empty where no forces act whose work no potential accounts for.
+    /// Empty without nonconservative forces.
     pub working: &'a [Row],
     pub reference: &'a [Row],
     pub bears: &'a mut [bool],
@@ -337,7 +337,7 @@ impl Slots {
 }
 
 impl Run<'_> {
-    /// The acceleration of a sphere by forces that have a potential \[m/s²\].
+    /// Acceleration of a sphere by conservative forces \[m/s²\].
     pub fn conservative_acceleration(&self, slot: usize) -> DVec3 {
         let working = self.working.get(slot).map_or(DVec3::ZERO, |row| row.vector());
         self.acceleration[slot].vector() - working

@@ -1,4 +1,4 @@
-//! Work of forces that no potential accounts for, along the flights of spheres.
+//! Work of nonconservative forces along the flights of spheres.
 
 use glam::DVec3;
 
@@ -20,12 +20,12 @@ const QUADRATURE: [[f64; 2]; 4] = [
     [0.960_289_856_497_536_3, 0.101_228_536_290_376_26],
 ];
 
-/// The work of nonconservative forces while spheres are watched.
+/// Work of nonconservative forces during a watch.
 #[derive(Debug, Clone, Default)]
 pub(super) struct ForceTally {
     pub work: ForceWork,
     dampers: Vec<Damper>,
-    /// By index of a sphere, the numbers of the dampers at it; empty where there are none.
+    /// Numbers of the dampers at each sphere, by its index; empty without dampers.
     dampers_at: Vec<Vec<u32>>,
 }
 
@@ -36,19 +36,22 @@ struct Damper {
     /// Indices of the spheres at its ends.
     first: u32,
     second: Option<u32>,
-    /// Until when its work is counted, on the world's clock \[s\].
+    /// Time up to which its work is counted, on the world's clock \[s\].
     until: f64,
 }
 
 impl ForceTally {
-    /// Begins with all spheres and springs at `now` \[s\]; the work so far stays.
+    /// Starts to count for all springs at `now` \[s\], and keeps the work so far.
     pub fn restart(&mut self, system: &System, now: f64) {
         let ids = &system.spheres.id;
         self.dampers.clear();
         self.dampers_at.clear();
         for &spring in system.springs().filter(|spring| spring.damping > 0.0) {
-            let ends: Vec<u32> =
-                spring.spheres().flat_map(|id| ids.binary_search(&id)).map(|it| it as u32).collect();
+            let ends: Vec<u32> = spring
+                .spheres()
+                .flat_map(|id| ids.binary_search(&id))
+                .map(|it| it as u32)
+                .collect();
             let second = match (spring.to, &ends[..]) {
                 (SpringEnd::Sphere(_), &[_, second]) => Some(second),
                 (SpringEnd::Point(_), &[_]) => None,
@@ -61,7 +64,7 @@ impl ForceTally {
         }
     }
 
-    /// Counts the work on a sphere along a segment of its flight, beside forces that are held over it.
+    /// Counts the work on a sphere along a segment of its flight, without that of dampers.
     pub fn follow(&mut self, segment: &FlightSegment, seen: &Seen, system: &System) {
         if segment.to <= segment.from {
             return;
@@ -90,7 +93,7 @@ impl ForceTally {
             });
             return;
         }
-        // Of a flight in closed form, `x'' = a - γ x'`, drag takes what the kinetic energy gains less than by a.
+        // In a flight `x'' = a - γ x'` the work of drag is the gain of kinetic energy less the work of a.
         let (linear, is_all) = forces::nonconservative_linear(system.forces, radius, mass);
         self.work.forces += mass * linear.acceleration.dot(way);
         if segment.flight.drag_rate > 0.0 {
@@ -106,8 +109,7 @@ impl ForceTally {
         }
     }
 
-    /// Counts the work of the dampers at a sphere up to `now` \[s\], while the spheres at their ends fly as they were
-    /// seen.
+    /// Counts the work of the dampers at a sphere up to `now` \[s\], along the flights that were seen.
     pub fn follow_dampers(&mut self, index: u32, seen: &[Seen], system: &System, now: f64) {
         let Some(numbers) = self.dampers_at.get(index as usize) else { return };
         for &number in numbers {
@@ -124,7 +126,7 @@ impl ForceTally {
 }
 
 impl Damper {
-    /// Work from where it is counted up to `now` \[s\] \[J\].
+    /// Returns the work \[J\] since the last call, up to `now` \[s\].
     fn work_until(&mut self, now: f64, seen: &[Seen], system: &System) -> f64 {
         let range = [self.until, now];
         if now <= self.until {

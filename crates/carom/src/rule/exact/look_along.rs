@@ -1,4 +1,4 @@
-//! Looks along the flights of all spheres, as these end: for sensors, and for the work of forces.
+//! Looks along the flights of all spheres when they end, for sensors and for the work of forces.
 
 use glam::DVec3;
 
@@ -38,7 +38,7 @@ fn look_along_ended(timeline: &mut Timeline, system: &System) {
         let index = index_of[slot as usize] as usize;
         bodies[slot as usize].generation != watch.flights[index].generation
     });
-    // Springs need both of their ends as they were seen: those are seen anew after all.
+    // A damper needs the old flights of both of its ends.
     for &slot in &begun {
         let index = index_of[slot as usize];
         look_along(&mut watch, timeline, system, index as usize, bodies[slot as usize].time);
@@ -88,7 +88,7 @@ fn look_along(watch: &mut Watch, timeline: &Timeline, system: &System, index: us
     watch.flights[index].from = segment.to;
 }
 
-/// The flight of a sphere, which was looked along up to `from` \[s\].
+/// The flight of a sphere, along which the watch has looked up to `from` \[s\].
 fn seen(timeline: &Timeline, slot: u32, from: f64) -> Seen {
     let body = &timeline.flights.bodies[slot as usize];
     let species = timeline.flights.species_of(slot);

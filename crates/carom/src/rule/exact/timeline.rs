@@ -51,8 +51,8 @@ pub(crate) struct Timeline {
     pub(super) spring_rate: f64,
     /// Until when the present forces are held, on the world's clock \[s\].
     pub(super) held_until: f64,
-    /// Forces of nonconservative interactions that are held as they are \[N\], by index; empty where there are none.
-    /// They are of programs, and in no snapshot that is written.
+    /// Held forces of nonconservative interactions \[N\], by index; empty where there are none. Only programs define
+    /// such interactions, so no written snapshot has them.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) working_forces: Vec<DVec3>,
     /// Latest end of all curves, as forces applied over a frame need it, on the world's clock \[s\].
@@ -61,7 +61,7 @@ pub(crate) struct Timeline {
     pub(super) next_emission: f64,
     /// Slots of spheres whose flights restarted because those of companions did, and which are not predicted yet.
     pub(super) restarted: Vec<u32>,
-    /// The watch over spheres during a step, where sensors or the work of forces need one.
+    /// Watch over spheres during a step, for sensors and for the work of forces.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) watch: Option<Box<Watch>>,
     /// Events, and cell crossings among them, since the spheres were put in order of place.
@@ -119,7 +119,7 @@ impl Timeline {
         self.flights.growth.is_some()
     }
 
-    /// Reports what happened to the energy in zones up to `time` \[s\].
+    /// Reports the changes of energy in zones up to `time` \[s\].
     pub fn report_zone_energy(&mut self, time: f64, account: &mut EnergyAccount) {
         self.zone.report_energy(time, account);
     }

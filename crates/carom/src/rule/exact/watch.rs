@@ -1,4 +1,4 @@
-//! The watch over spheres: the flight of each up to which sensors have looked and work is counted.
+//! The watch over spheres: the flights along which sensors look and work is counted.
 
 use glam::DVec3;
 
@@ -8,12 +8,12 @@ use crate::force_work::ForceWork;
 use crate::polynomial_flight::PolynomialFlight;
 use crate::sensor::{Presence, Sensors};
 
-/// The flight of each sphere that is looked along next, and what was found along those before.
+/// The current flight of each sphere, and the results along earlier flights.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Watch {
-    /// What sensors saw; `None` where there are none.
+    /// Results of sensors; `None` without sensors.
     pub sensors: Option<Sensors>,
-    /// What forces did whose work no potential accounts for; `None` where there are none.
+    /// Work of nonconservative forces; `None` without such forces.
     pub(super) tally: Option<ForceTally>,
     /// By index.
     pub(super) flights: Vec<Seen>,
@@ -34,7 +34,7 @@ pub(super) struct Seen {
     pub is_stepped: bool,
     /// Forces of nonconservative interactions, held over the flight \[N\].
     pub held_force: DVec3,
-    /// Up to when the flight was looked along, on the world's clock \[s\].
+    /// Time up to which the watch has looked along the flight, on the world's clock \[s\].
     pub from: f64,
 }
 
@@ -50,15 +50,15 @@ impl Seen {
 }
 
 impl Watch {
-    /// A watch over a step that starts at a time \[s\]: for sensors, if it is known what is in them, and for the work
-    /// of forces, if that is measured.
+    /// Creates a watch over a step that starts at a time \[s\]: for sensors if their contents are given, and for the
+    /// work of forces if `measures_work`.
     pub fn new(presence: Option<Presence>, measures_work: bool, step_start: f64) -> Self {
         let sensors = presence.map(Sensors::with);
         let tally = measures_work.then(ForceTally::default);
         Self { sensors, tally, step_start, ..Self::default() }
     }
 
-    /// Takes the work that was measured since it was taken last.
+    /// Returns the work since the last call.
     pub fn take_work(&mut self) -> ForceWork {
         self.tally.as_mut().map(|tally| std::mem::take(&mut tally.work)).unwrap_or_default()
     }

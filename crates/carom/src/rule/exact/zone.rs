@@ -55,8 +55,9 @@ pub(crate) struct Zone {
     /// The last tick, and the next one, on the world's clock \[s\]; the next one is infinite while all
     /// sleep.
     ticks: [f64; 2],
-    /// What the sub-step from the last tick to the next one does to the energy, and which part of it is in reports.
+    /// Changes of energy in the sub-step from the last tick to the next one.
     account: EnergyAccount,
+    /// Part of them that is reported, 0 to 1.
     reported: f64,
     /// Number of halvings of a tick that small spheres need.
     halvings: u32,
@@ -148,11 +149,12 @@ impl Zone {
         part(tick, self.halvings)
     }
 
-    /// Reports what sub-steps did to the energy up to `time` \[s\], no later than the next tick: between ticks, that
-    /// changes as velocities do.
+    /// Reports the changes of energy up to `time` \[s\], at most up to the next tick. Between two ticks they grow
+    /// linearly, as velocities do.
     pub fn report_energy(&mut self, time: f64, account: &mut EnergyAccount) {
         let [last, next] = self.ticks;
-        let part = if time < next { ((time - last) / (next - last)).max(self.reported) } else { 1.0 };
+        let part =
+            if time < next { ((time - last) / (next - last)).max(self.reported) } else { 1.0 };
         *account += self.account.part(part - self.reported);
         self.reported = part;
     }
@@ -165,7 +167,7 @@ impl Zone {
         self.index.clear();
         self.properties = Properties::default();
         (self.motion, self.velocity_before, self.free_ticks) = Default::default();
-        // What is left of the sub-step does not happen.
+        // The rest of the sub-step is dropped.
         self.account = EnergyAccount::default();
         self.near.clear();
         // The held forces may be outdated, and their indices may belong to other spheres now.

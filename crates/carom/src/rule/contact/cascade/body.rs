@@ -25,7 +25,7 @@ pub struct Body {
     pub start: [DVec3; 2],
     /// Centre at the start of the flight before \[m\].
     pub from: DVec3,
-    /// As in [`Landed`], of the flights so far.
+    /// Sums over the flights so far, as in [`Landed`].
     pub way: DVec3,
     pub against_drag: f64,
     /// Whether the sphere pressed on something in the flight before.
@@ -67,17 +67,27 @@ impl Body {
         slots::accelerated(Row::new(self.start[0], 0.0), force, h)
     }
 
-    /// Adds a flight of `h` \[s\] that has come to its end, to what forces do work along.
+    /// Adds a completed flight of `h` \[s\] to the sums that the work of forces needs.
     pub fn add_way(&mut self, h: f64) {
         let mean = 0.5 * (self.start[0] + self.velocity);
         self.way += h * mean;
         self.against_drag += h * self.accelerated(h).dot(mean);
     }
 
-    /// Where it has come to.
+    /// State at the end of the sub-step.
     pub fn landed(&self) -> Landed {
-        let Self { slot, position, velocity, spin, from, way, against_drag, bears, met_surface, .. } =
-            *self;
+        let Self {
+            slot,
+            position,
+            velocity,
+            spin,
+            from,
+            way,
+            against_drag,
+            bears,
+            met_surface,
+            ..
+        } = *self;
         Landed { slot, position, velocity, spin, from, way, against_drag, bears, met_surface }
     }
 

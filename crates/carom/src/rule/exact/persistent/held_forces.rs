@@ -123,7 +123,8 @@ fn forces_between(timeline: &Timeline, system: &System, interval: [f64; 2]) -> V
     forces
 }
 
-/// Those among them whose work no potential accounts for, but for dampers; empty where there are none.
+/// The nonconservative forces between spheres in the middle of an interval \[N\], by index, without dampers; empty
+/// where there are none.
 fn working_forces(timeline: &Timeline, system: &System, interval: [f64; 2]) -> Vec<DVec3> {
     let mut forces = Vec::new();
     if system.interactions.is_some_and(|it| !it.are_conservative_but_for_dampers()) {

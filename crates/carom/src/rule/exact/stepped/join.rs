@@ -145,8 +145,8 @@ fn under_forces(
     [before + 0.5 * gained, velocity + gained]
 }
 
-/// Accounts for the work of nonconservative forces on a sphere with this centre \[m\] and velocity \[m/s\] that goes
-/// on under its forces from a time until the next tick \[s\], with a mean velocity \[m/s\].
+/// Accounts for the work of nonconservative forces on a sphere with this centre \[m\] and velocity \[m/s\] that moves
+/// under its forces from a time until the next tick \[s\], with a mean velocity \[m/s\].
 fn account_for_forces(
     timeline: &Timeline,
     context: &mut StepContext,
@@ -164,7 +164,10 @@ fn account_for_forces(
     let index = timeline.flights.index_of[slot as usize] as usize;
     let applied = system.spheres.applied_force.get(index).copied().unwrap_or(DVec3::ZERO);
     let of = |force: DVec3| (tick - time) * force.dot(mean);
-    context.report.energy_account.add_force_work(ForceWork { forces: of(force), applied: of(applied) });
+    context
+        .report
+        .energy_account
+        .add_force_work(ForceWork { forces: of(force), applied: of(applied) });
 }
 
 /// Adds a sphere to a zone with this centre \[m\] and velocity \[m/s\]. Until the next tick it moves with the
