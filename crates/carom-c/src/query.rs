@@ -1,6 +1,6 @@
 //! Queries of a world between steps: rays, moving spheres, near bodies.
 
-use carom::{Body, DVec3, Groups, Hit, NearBody, QueryFilter, SphereId};
+use carom::{Body, DVec3, Error, Groups, Hit, NearBody, Queries, QueryFilter, SphereId};
 
 use crate::pointer::{Out, Plain, Room, Rows, RowsMut, Strided, read};
 use crate::sphere::{refuse_too_many, refused};
@@ -111,7 +111,7 @@ pub struct CaromNearBody {
 }
 
 /// Returns whether a body is a collider, and its id.
-fn told(body: Body) -> (u32, u64) {
+fn kind_and_id(body: Body) -> (u32, u64) {
     match body {
         Body::Collider(collider) => (1, collider.number()),
         Body::Sphere(sphere) => (0, sphere.number()),
@@ -120,15 +120,32 @@ fn told(body: Body) -> (u32, u64) {
 
 fn hit(hit: Option<Hit>) -> CaromHit {
     let Some(Hit { body, point, normal, fraction, .. }) = hit else { return CaromHit::default() };
-    let ((is_collider, body), is_hit) = (told(body), 1);
+    let ((is_collider, body), is_hit) = (kind_and_id(body), 1);
     let (point, normal) = (point.to_array(), normal.to_array());
     CaromHit { is_hit, is_collider, body, point, normal, fraction }
 }
 
 fn near(near: &NearBody) -> CaromNearBody {
-    let ((is_collider, body), is_found) = (told(near.body), 1);
+    let ((is_collider, body), is_found) = (kind_and_id(near.body), 1);
     let (point, normal) = (near.point.to_array(), near.normal.to_array());
     CaromNearBody { is_found, is_collider, body, point, normal, distance: near.distance }
+}
+
+/// Writes the first body on each path of an array, which has this name, into `hits`.
+fn write_hits<P: Plain>(
+    world: CaromWorld,
+    (name, paths): (&'static str, Rows<P>),
+    mut hits: RowsMut<CaromHit>,
+    cast: impl Fn(&Queries, P) -> Result<Option<Hit>, Error>,
+) -> Result<(), Failure> {
+    let found = world.with(|inner| {
+        let paths: Vec<P> = paths.values().collect();
+        let queries = inner.world.queries_for(paths.len());
+        let cast = |(row, path)| cast(&queries, path).map_err(|error| refused(name, row, error));
+        paths.into_iter().enumerate().map(cast).collect::<Result<Vec<_>, _>>()
+    })?;
+    found.into_iter().enumerate().for_each(|(row, it)| hits.set_row(row, [hit(it)]));
+    Ok(())
 }
 
 /// Returns the filter behind a pointer of the program.
@@ -174,20 +191,13 @@ pub unsafe extern "C" fn carom_world_cast_rays(
         // SAFETY: the caller's array is null or has this layout, as the header demands.
         let rays = unsafe { Rows::new(rays, array, 1, "rays") }?;
         // SAFETY: the caller's array is null or has this layout, as the header demands.
-        let mut hits = unsafe { RowsMut::new(hits, array, 1, "hits") }?;
+        let hits = unsafe { RowsMut::new(hits, array, 1, "hits") }?;
         // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
         let filter = unsafe { filter_of(filter) }?;
-        let found = world.with(|inner| {
-            let queries = inner.world.queries_for(count);
-            let cast = |(row, ray): (usize, CaromRay)| {
-                let [origin, way] = [ray.origin, ray.way].map(DVec3::from_array);
-                let hit = queries.cast_ray(origin, way, &filter);
-                hit.map_err(|error| refused("rays", row, error))
-            };
-            rays.values().enumerate().map(cast).collect::<Result<Vec<_>, _>>()
-        })?;
-        found.into_iter().enumerate().for_each(|(row, it)| hits.set_row(row, [hit(it)]));
-        Ok(())
+        write_hits(world, ("rays", rays), hits, |queries, ray: CaromRay| {
+            let [origin, way] = [ray.origin, ray.way].map(DVec3::from_array);
+            queries.cast_ray(origin, way, &filter)
+        })
     })
 }
 
@@ -206,20 +216,13 @@ pub unsafe extern "C" fn carom_world_cast_spheres(
         // SAFETY: the caller's array is null or has this layout, as the header demands.
         let spheres = unsafe { Rows::new(spheres, array, 1, "spheres") }?;
         // SAFETY: the caller's array is null or has this layout, as the header demands.
-        let mut hits = unsafe { RowsMut::new(hits, array, 1, "hits") }?;
+        let hits = unsafe { RowsMut::new(hits, array, 1, "hits") }?;
         // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
         let filter = unsafe { filter_of(filter) }?;
-        let found = world.with(|inner| {
-            let queries = inner.world.queries_for(count);
-            let cast = |(row, moving): (usize, CaromMovingSphere)| {
-                let [center, way] = [moving.center, moving.way].map(DVec3::from_array);
-                let hit = queries.cast_sphere(center, moving.radius, way, &filter);
-                hit.map_err(|error| refused("spheres", row, error))
-            };
-            spheres.values().enumerate().map(cast).collect::<Result<Vec<_>, _>>()
-        })?;
-        found.into_iter().enumerate().for_each(|(row, it)| hits.set_row(row, [hit(it)]));
-        Ok(())
+        write_hits(world, ("spheres", spheres), hits, |queries, moving: CaromMovingSphere| {
+            let [center, way] = [moving.center, moving.way].map(DVec3::from_array);
+            queries.cast_sphere(center, moving.radius, way, &filter)
+        })
     })
 }
 

@@ -90,7 +90,7 @@ impl Colliders {
     }
 
     /// Moves colliders with a motion, and their surfaces, to their places at `time` \[s\].
-    pub fn be_at(&mut self, time: f64) {
+    pub fn move_to(&mut self, time: f64) {
         if self.time != time && self.list.iter().any(|(_, it)| !it.motion.is_empty()) {
             self.set_time(time);
             self.place_all();

@@ -150,7 +150,7 @@ impl State {
     pub fn colliders_mut(&mut self) -> &mut Colliders {
         let time = self.clock.seconds();
         let colliders = Arc::make_mut(&mut self.changed().colliders);
-        colliders.be_at(time);
+        colliders.move_to(time);
         colliders
     }
 
@@ -187,7 +187,7 @@ impl State {
         }
         self.clock = Clock::at(seconds);
         if self.colliders.any_moving() {
-            Arc::make_mut(&mut self.colliders).be_at(seconds);
+            Arc::make_mut(&mut self.colliders).move_to(seconds);
         }
     }
 

@@ -91,8 +91,8 @@ impl Feature<'_> {
 
     /// Whether it is overlapped by more than a search may leave unseen.
     fn is_deep(&self, obstacle: &Obstacle, state: &State) -> bool {
-        let sight = obstacle.seen_from(state.position, state.velocity);
-        sight.distance < -search::CLOSE * (self.size + state.size).length
+        let local = obstacle.local_distance(state.position, state.velocity);
+        local.distance < -search::CLOSE * (self.size + state.size).length
     }
 }
 

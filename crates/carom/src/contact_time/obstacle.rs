@@ -28,7 +28,7 @@ pub(super) enum Obstacle {
 
 /// Distance of an obstacle from one point, with its derivatives.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Sight {
+pub(super) struct LocalDistance {
     /// From the core \[m\].
     pub from_core: f64,
     /// Of the surfaces, `from_core` less the radius \[m\].
@@ -76,33 +76,36 @@ impl Obstacle {
         wide
     }
 
-    /// Seen from a centre with a velocity.
-    pub fn seen_from(&self, position: DVec3, velocity: DVec3) -> Sight {
+    /// Distance of a centre with a velocity.
+    pub fn local_distance(&self, position: DVec3, velocity: DVec3) -> LocalDistance {
         match *self {
-            Self::Point { radius } => Sight::of_offset(position, velocity, radius, DVec3::Y),
+            Self::Point { radius } => {
+                LocalDistance::of_offset(position, velocity, radius, DVec3::Y)
+            }
             Self::HalfSpace { point, normal, radius } => {
                 let height = (position - point).dot(normal);
-                Sight::of_face(height, normal, radius, f64::INFINITY)
+                LocalDistance::of_face(height, normal, radius, f64::INFINITY)
             }
             Self::Rectangle { ref rectangle, radius } => {
-                see_rectangle(rectangle, radius, position, velocity)
+                rectangle_distance(rectangle, radius, position, velocity)
             }
-            Self::Band { ref band, radius } => see_band(band, radius, position, velocity),
-            Self::Segment { ends, radius } => see_segment(ends, radius, position, velocity),
+            Self::Band { ref band, radius } => band_distance(band, radius, position, velocity),
+            Self::Segment { ends, radius } => segment_distance(ends, radius, position, velocity),
             Self::Plane { point, normal, radius } => {
                 let height = (position - point).dot(normal);
                 let (above, away) =
                     if height < 0.0 { (-height, -normal) } else { (height, normal) };
-                Sight::of_face(above, away, radius, f64::INFINITY).one_sided(height, normal, radius)
+                LocalDistance::of_face(above, away, radius, f64::INFINITY)
+                    .one_sided(height, normal, radius)
             }
             Self::Triangle { ref corners, normal, radius } => {
-                see_triangle(corners, normal, radius, [position, velocity])
+                triangle_distance(corners, normal, radius, [position, velocity])
             }
         }
     }
 }
 
-impl Sight {
+impl LocalDistance {
     fn of_face(height: f64, normal: DVec3, radius: f64, flat_within: f64) -> Self {
         Self {
             from_core: height,
@@ -144,7 +147,7 @@ impl Sight {
 }
 
 /// As in `detect/sphere_band.rs`; from behind, the distance is that to the front.
-fn see_band(band: &Band, radius: f64, position: DVec3, velocity: DVec3) -> Sight {
+fn band_distance(band: &Band, radius: f64, position: DVec3, velocity: DVec3) -> LocalDistance {
     let view = band.seen_from(position);
     let concavity = Some(band.concavity(&view));
     let is_behind = view.front < 0.0;
@@ -159,7 +162,7 @@ fn see_band(band: &Band, radius: f64, position: DVec3, velocity: DVec3) -> Sight
     let from_center = offset.norm();
     let hull = (from_center > reach)
         .then(|| Barrier { distance: from_center - reach, normal: offset / from_center });
-    let seen = Sight {
+    let local = LocalDistance {
         hull,
         from_core,
         distance: view.distance - radius,
@@ -172,13 +175,13 @@ fn see_band(band: &Band, radius: f64, position: DVec3, velocity: DVec3) -> Sight
         concavity,
     };
     if !is_behind {
-        return seen;
+        return local;
     }
     let (distance, normal) = (-view.front, -view.front_normal);
-    Sight { distance, normal, barrier: Some(Barrier { distance, normal }), ..seen }
+    LocalDistance { distance, normal, barrier: Some(Barrier { distance, normal }), ..local }
 }
 
-impl Sight {
+impl LocalDistance {
     /// Of what meets only centres in front of its plane, from a height above that.
     fn one_sided(self, height: f64, normal: DVec3, radius: f64) -> Self {
         let is_behind = height < 0.0;
@@ -192,7 +195,12 @@ impl Sight {
 }
 
 /// As in `detect/sphere_rectangle.rs`.
-fn see_rectangle(rectangle: &Rectangle, radius: f64, position: DVec3, velocity: DVec3) -> Sight {
+fn rectangle_distance(
+    rectangle: &Rectangle,
+    radius: f64,
+    position: DVec3,
+    velocity: DVec3,
+) -> LocalDistance {
     let offset = position - rectangle.center;
     let (axis_x, axis_z) = (rectangle.axis_x, rectangle.axis_z);
     let height = offset.dot(rectangle.normal);
@@ -200,11 +208,11 @@ fn see_rectangle(rectangle: &Rectangle, radius: f64, position: DVec3, velocity: 
     let nearest_x = x.clamp(-rectangle.half_x, rectangle.half_x);
     let nearest_z = z.clamp(-rectangle.half_z, rectangle.half_z);
     let (over_x, over_z) = (nearest_x == x, nearest_z == z);
-    let sight = if over_x && over_z {
+    let local = if over_x && over_z {
         let (height, normal) =
             if height < 0.0 { (-height, -rectangle.normal) } else { (height, rectangle.normal) };
         let to_edge = (rectangle.half_x - x.abs()).min(rectangle.half_z - z.abs());
-        Sight::of_face(height, normal, radius, to_edge)
+        LocalDistance::of_face(height, normal, radius, to_edge)
     } else {
         let from_nearest =
             height * rectangle.normal + (x - nearest_x) * axis_x + (z - nearest_z) * axis_z;
@@ -215,13 +223,18 @@ fn see_rectangle(rectangle: &Rectangle, radius: f64, position: DVec3, velocity: 
         if over_z {
             across -= velocity.dot(axis_z) * axis_z;
         }
-        Sight::of_offset(from_nearest, across, radius, rectangle.normal)
+        LocalDistance::of_offset(from_nearest, across, radius, rectangle.normal)
     };
-    sight.one_sided(height, rectangle.normal, radius)
+    local.one_sided(height, rectangle.normal, radius)
 }
 
-/// A line between two ends, seen from a centre with a velocity.
-fn see_segment(ends: [DVec3; 2], radius: f64, position: DVec3, velocity: DVec3) -> Sight {
+/// Distance of a centre with a velocity from a line between two ends.
+fn segment_distance(
+    ends: [DVec3; 2],
+    radius: f64,
+    position: DVec3,
+    velocity: DVec3,
+) -> LocalDistance {
     let way = ends[1] - ends[0];
     let length = way.norm();
     let axis = if length > 0.0 { way / length } else { DVec3::ZERO };
@@ -233,16 +246,16 @@ fn see_segment(ends: [DVec3; 2], radius: f64, position: DVec3, velocity: DVec3) 
     } else {
         (ends[0] + along * axis, velocity - velocity.dot(axis) * axis)
     };
-    Sight::of_offset(position - nearest, across, radius, DVec3::Y)
+    LocalDistance::of_offset(position - nearest, across, radius, DVec3::Y)
 }
 
 /// A triangle that goes round against the clock as seen from its front.
-fn see_triangle(
+fn triangle_distance(
     corners: &[DVec3; 3],
     normal: DVec3,
     radius: f64,
     [position, velocity]: [DVec3; 2],
-) -> Sight {
+) -> LocalDistance {
     let height = (position - corners[0]).dot(normal);
     let sides = [0, 1, 2].map(|side| [corners[side], corners[(side + 1) % 3]]);
     let inside = sides.map(|[from, to]| {
@@ -250,14 +263,15 @@ fn see_triangle(
         (position - from).dot(normal.cross(way)) / way.norm()
     });
     let to_edge = inside.into_iter().fold(f64::INFINITY, f64::min);
-    let sight = if to_edge >= 0.0 {
+    let local = if to_edge >= 0.0 {
         let (above, away) = if height < 0.0 { (-height, -normal) } else { (height, normal) };
-        Sight::of_face(above, away, radius, to_edge)
+        LocalDistance::of_face(above, away, radius, to_edge)
     } else {
-        let seen = sides.map(|ends| see_segment(ends, radius, position, velocity));
-        let [first, second, third] = seen;
-        let nearer = |a: Sight, b: Sight| if b.distance < a.distance { b } else { a };
+        let of_sides = sides.map(|ends| segment_distance(ends, radius, position, velocity));
+        let [first, second, third] = of_sides;
+        let nearer =
+            |a: LocalDistance, b: LocalDistance| if b.distance < a.distance { b } else { a };
         nearer(nearer(first, second), third)
     };
-    sight.one_sided(height, normal, radius)
+    local.one_sided(height, normal, radius)
 }

@@ -4,7 +4,7 @@ use crate::norm::Norm;
 use glam::DVec3;
 
 use super::bisection::{Probe, bisect};
-use super::obstacle::{Barrier, Obstacle, Sight};
+use super::obstacle::{Barrier, LocalDistance, Obstacle};
 use super::path::{Path, State};
 use super::roundoff::{ACCELERATION_ROUNDOFF, Gap, Magnitudes, Phase, Zero};
 
@@ -42,7 +42,7 @@ const MAX_HALVINGS: u32 = 128;
 /// d(t0 + τ) >= d + d' τ - A τ²/2
 /// ```
 ///
-/// Before this bound reaches zero there is no contact, so the search steps there and looks anew
+/// Before this bound reaches zero there is no contact, so the search steps there and starts again
 /// (Mirtich, *Impulse-based Dynamic Simulation* (1996), 2.3, with a bound of second order). It
 /// converges quadratically to contacts with d' < 0, and by halves to grazing ones. Where the
 /// bodies part, the step ends where the bound returns to zero or, of an overlap, where d' may.
@@ -62,17 +62,17 @@ pub(super) fn first_contact(
     size: Magnitudes,
     horizon: f64,
 ) -> Option<f64> {
-    let look = |t: f64| Look::at(path, obstacle, size, t);
+    let state_at = |t: f64| SearchState::at(path, obstacle, size, t);
     let (mut before, mut t) = (0.0, 0.0);
     let mut window = path.window();
     let (mut close_steps, mut was_overlap) = (0, false);
     for _ in 0..MAX_STEPS {
-        let now = look(t);
+        let now = state_at(t);
         if !now.is_finite() {
             return None;
         }
         if now.phase == Phase::Contact {
-            let pinned = if t == 0.0 { 0.0 } else { pin_down(&now, look, before, t) };
+            let pinned = if t == 0.0 { 0.0 } else { pin_down(&now, state_at, before, t) };
             return Some(pinned.min(horizon));
         }
         let goes_on = now.is_close() && now.is_overlap() == was_overlap;
@@ -91,12 +91,12 @@ pub(super) fn first_contact(
 }
 
 /// The time of a contact that is present at `t`, but not at `before`, to full precision.
-fn pin_down(now: &Look, look: impl Fn(f64) -> Look, before: f64, t: f64) -> f64 {
+fn pin_down(now: &SearchState, state_at: impl Fn(f64) -> SearchState, before: f64, t: f64) -> f64 {
     let mut earliest = t;
     if now.is_overlap() {
         let length = t - before;
         bisect(length, MAX_HALVINGS, |elapsed| {
-            if look(before + elapsed).phase == Phase::Contact {
+            if state_at(before + elapsed).phase == Phase::Contact {
                 earliest = before + elapsed;
                 Probe::After
             } else {
@@ -114,7 +114,7 @@ fn pin_down(now: &Look, look: impl Fn(f64) -> Look, before: f64, t: f64) -> f64 
     };
     let polished = (t + step).max(before);
     if polished.is_finite() {
-        let there = look(polished);
+        let there = state_at(polished);
         let is_better = there.gap.distance.abs() < distance.abs();
         if is_better && there.phase == Phase::Contact {
             return polished;
@@ -127,7 +127,7 @@ fn pin_down(now: &Look, look: impl Fn(f64) -> Look, before: f64, t: f64) -> f64 
 /// it follows the steps.
 fn longest_step(
     path: &impl Path,
-    now: &Look,
+    now: &SearchState,
     aim: f64,
     t: f64,
     window: &mut f64,
@@ -160,9 +160,9 @@ fn longest_step(
 }
 
 /// Gap and sizes at one instant of the search.
-struct Look {
+struct SearchState {
     state: State,
-    sight: Sight,
+    local: LocalDistance,
     gap: Gap,
     zero: Zero,
     phase: Phase,
@@ -172,28 +172,28 @@ struct Look {
     growth_speed: f64,
 }
 
-impl Look {
+impl SearchState {
     fn at(path: &impl Path, obstacle: &Obstacle, size: Magnitudes, t: f64) -> Self {
         let state = path.state_at(t);
         let size = size + state.size;
         let growth_speed = path.growth_speed();
-        let sight = if growth_speed > 0.0 {
-            obstacle.widened(growth_speed * t).seen_from(state.position, state.velocity)
+        let local = if growth_speed > 0.0 {
+            obstacle.widened(growth_speed * t).local_distance(state.position, state.velocity)
         } else {
-            obstacle.seen_from(state.position, state.velocity)
+            obstacle.local_distance(state.position, state.velocity)
         };
         let gap = Gap {
-            distance: sight.distance,
-            speed: sight.normal.dot(state.velocity) - growth_speed,
-            acceleration: sight.normal.dot(state.acceleration) + sight.turning,
+            distance: local.distance,
+            speed: local.normal.dot(state.velocity) - growth_speed,
+            acceleration: local.normal.dot(state.acceleration) + local.turning,
         };
-        let zero = if sight.is_round {
-            Zero::round(&size, sight.from_core, state.velocity.norm(), sight.turning)
+        let zero = if local.is_round {
+            Zero::round(&size, local.from_core, state.velocity.norm(), local.turning)
         } else {
             Zero::flat(&size)
         };
-        let phase = if sight.is_behind { Phase::Apart } else { gap.phase(&zero) };
-        Self { state, sight, gap, zero, phase, size, growth_speed }
+        let phase = if local.is_behind { Phase::Apart } else { gap.phase(&zero) };
+        Self { state, local, gap, zero, phase, size, growth_speed }
     }
 
     fn is_close(&self) -> bool {
@@ -218,7 +218,7 @@ impl Look {
         let doublings = (close_steps - exact_steps) / STEPS_OF_A_DEPTH;
         let depth =
             (0..doublings.min(MOST_DOUBLINGS)).fold(self.zero.distance, |depth, _| 2.0 * depth);
-        // What turns within an overlap is seen to close at the next look, and pinned down.
+        // A path that turns within an overlap closes at the next step, which finds the contact.
         if self.is_overlap() { depth } else { depth.min(CLOSE * self.size.length) }
     }
 
@@ -231,26 +231,26 @@ impl Look {
         if falls == f64::INFINITY {
             return slide;
         }
-        let barrier = self.sight.barrier.map_or(0.0, |Barrier { distance, normal }| {
+        let barrier = self.local.barrier.map_or(0.0, |Barrier { distance, normal }| {
             let aim = if distance > self.zero.distance { aim } else { self.zero.distance.max(aim) };
             // From behind, it is the centre that has to pass the plane.
-            let growth_speed = if self.sight.is_behind { 0.0 } else { self.growth_speed };
+            let growth_speed = if self.local.is_behind { 0.0 } else { self.growth_speed };
             let speed = normal.dot(self.state.velocity) - growth_speed;
             time_to_fall(distance + aim, speed, bound(normal))
         });
         let Gap { distance, speed, .. } = self.gap;
         if distance > self.zero.distance {
-            let falling = time_to_fall(distance + aim, speed, bound(self.sight.normal));
+            let falling = time_to_fall(distance + aim, speed, bound(self.local.normal));
             return barrier.max(falling).max(slide);
         }
-        if self.sight.is_behind {
+        if self.local.is_behind {
             return barrier;
         }
         let is_at_rest = self.gap.is_at_rest(&self.zero);
         let (speed, aim) =
             if is_at_rest { (0.0, aim.max(self.zero.distance)) } else { (speed, aim) };
         let parting = if distance >= -self.zero.distance {
-            time_to_fall(aim, speed, bound(self.sight.normal))
+            time_to_fall(aim, speed, bound(self.local.normal))
         } else {
             // d' falls by A t at most, so an overlap opens until d' may be used up.
             let pull = self.opening_pull(path, t, window);
@@ -262,7 +262,7 @@ impl Look {
     /// An upper bound of the acceleration \[m/s²\] with which the distance from a core that is not convex falls, by the
     /// curvature of the core, on a straight way.
     fn falls_by_curvature(&self, path: &impl Path, t: f64, window: f64) -> f64 {
-        let Some(concavity) = self.sight.concavity else { return 0.0 };
+        let Some(concavity) = self.local.concavity else { return 0.0 };
         let (way, speed) = self.most_moved(path, t, window);
         let curvature = concavity.most(way);
         if curvature == 0.0 { 0.0 } else { curvature * speed * speed }
@@ -278,7 +278,7 @@ impl Look {
 
     /// A step \[s\] in which the sphere does not go as far as the distance from a core that is not convex.
     fn shortest_way_time(&self, path: &impl Path, aim: f64, t: f64, window: f64) -> f64 {
-        if self.sight.concavity.is_none() {
+        if self.local.concavity.is_none() {
             return 0.0;
         }
         let (_, speed) = self.most_moved(path, t, window);
@@ -289,7 +289,7 @@ impl Look {
 
     /// A step \[s\] within which the sphere cannot reach the half-space that contains every place of contact.
     fn time_to_hull(&self, path: &impl Path, aim: f64, t: f64, window: f64) -> f64 {
-        self.sight.hull.map_or(0.0, |Barrier { distance, normal }| {
+        self.local.hull.map_or(0.0, |Barrier { distance, normal }| {
             let pull = self.pull(path, normal, t, window);
             let speed = normal.dot(self.state.velocity) - self.growth_speed;
             time_to_fall(distance + aim, speed, pull)
@@ -299,7 +299,7 @@ impl Look {
     /// Length of the next window \[s\]: over a core that is not convex, bounds of the curvature hold for a part of
     /// its radius.
     fn window(&self, path: &impl Path, aim: f64, t: f64, horizon: f64) -> f64 {
-        let concavity = self.sight.concavity.filter(|it| !it.is_none());
+        let concavity = self.local.concavity.filter(|it| !it.is_none());
         let Some(concavity) = concavity else { return f64::INFINITY };
         let span = concavity.span.max(self.gap.distance).max(self.zero.distance + aim);
         let speed = self.state.velocity.norm();
@@ -323,14 +323,14 @@ impl Look {
     /// 1/ρ for each metre.
     fn opening_pull(&self, path: &impl Path, t: f64, window: f64) -> f64 {
         let anywhere = path.max_acceleration_anywhere(t, t + window);
-        if self.sight.concavity.is_some() {
+        if self.local.concavity.is_some() {
             return anywhere + self.falls_by_curvature(path, t, window);
         }
         let way = window * (self.state.velocity.norm() + 0.5 * anywhere * window);
-        let is_flat = self.sight.flat_within == f64::INFINITY || way <= self.sight.flat_within;
-        let turn = if is_flat { 0.0 } else { way / (self.sight.from_core - way) };
+        let is_flat = self.local.flat_within == f64::INFINITY || way <= self.local.flat_within;
+        let turn = if is_flat { 0.0 } else { way / (self.local.from_core - way) };
         if (0.0..1.0).contains(&turn) {
-            self.pull(path, self.sight.normal, t, window) + turn * anywhere
+            self.pull(path, self.local.normal, t, window) + turn * anywhere
         } else {
             anywhere
         }

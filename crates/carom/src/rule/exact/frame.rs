@@ -403,7 +403,7 @@ impl ArrangementDue {
 /// the start of a frame: it predicts meetings again that were passed over, so results would depend on the frames.
 #[cold]
 #[inline(never)]
-pub(super) fn arrange_anew(timeline: &mut Timeline, system: &System, now: f64) {
+pub(super) fn rearrange(timeline: &mut Timeline, system: &System, now: f64) {
     arrange(timeline, system, now);
     predict_all(timeline, system, now);
 }

@@ -131,11 +131,11 @@ pub(crate) fn advance(
         let room_until = timeline.room_until();
         let now = match timeline.next(end.min(tick).min(force_tick).min(room_until)) {
             Some((slot, next)) => {
-                let now = happen(timeline, &mut context, slot, next)?;
+                let now = answer_event(timeline, &mut context, slot, next)?;
                 if due.is_now(timeline) {
                     look_along::follow(timeline, system);
                     before.count_from_zero(timeline);
-                    frame::arrange_anew(timeline, system, now);
+                    frame::rearrange(timeline, system, now);
                 }
                 now
             }
@@ -152,7 +152,7 @@ pub(crate) fn advance(
             None if room_until < end => {
                 look_along::follow(timeline, system);
                 before.count_from_zero(timeline);
-                frame::arrange_anew(timeline, system, room_until);
+                frame::rearrange(timeline, system, room_until);
                 room_until
             }
             None => break,
@@ -186,7 +186,7 @@ fn renew_forces(
 }
 
 /// Answers the next event of the sphere at `slot`. Returns its time \[s\].
-fn happen(
+fn answer_event(
     timeline: &mut Timeline,
     context: &mut StepContext,
     slot: u32,

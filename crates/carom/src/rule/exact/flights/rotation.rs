@@ -78,13 +78,13 @@ impl Rotation {
     }
 
     /// Ends the torque at `time` \[s\].
-    pub fn let_go(&mut self, time: f64) {
+    pub fn end_torque(&mut self, time: f64) {
         self.begin([self.angular_velocity_at(time), DVec3::ZERO], time);
     }
 
     /// Shifts the rotation from `now` \[s\] to another time \[s\].
     pub fn set_time(&mut self, now: f64, time: f64) {
-        self.let_go(now);
+        self.end_torque(now);
         self.time = time;
     }
 }

@@ -160,9 +160,9 @@ impl Flights {
     }
 
     /// Ends all torque on a sphere from `time` \[s\] on, where friction acts.
-    pub fn let_go(&mut self, slot: u32, time: f64) {
+    pub fn end_torque(&mut self, slot: u32, time: f64) {
         if let Some(rotation) = self.rotations.get_mut(self.index_of[slot as usize] as usize) {
-            rotation.let_go(time);
+            rotation.end_torque(time);
         }
     }
 
@@ -179,7 +179,7 @@ impl Flights {
     pub fn free_rotation_of(&self, index: usize, time: f64) -> Rotation {
         let mut rotation = self.rotations[index];
         if self.hold_forces || self.species_of(self.slot_of[index]).cluster.is_some() {
-            rotation.let_go(time);
+            rotation.end_torque(time);
         }
         rotation
     }
@@ -246,7 +246,7 @@ impl Flights {
         self.clusters.remove(cluster);
         self.spare_species.push(self.bodies[slot as usize].species);
         self.bodies[slot as usize].species = species.free;
-        self.let_go(slot, time);
+        self.end_torque(slot, time);
         true
     }
 

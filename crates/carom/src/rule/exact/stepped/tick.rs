@@ -193,7 +193,7 @@ fn leave(
     timeline.note_flight(slot);
     timeline.note_for_companions(slot);
     timeline.wrap(slot);
-    timeline.flights.let_go(slot, now);
+    timeline.flights.end_torque(slot, now);
     predict::predict(timeline, context, slot, now);
     timeline.zone.near.push(slot);
     context.report.zone_account.left += 1;
