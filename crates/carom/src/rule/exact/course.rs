@@ -89,7 +89,7 @@ fn answer(
         meet_only(timeline, context, at_work, followed, event.time);
         return Ok(event.time);
     }
-    super::answer_event(timeline, context, at_work, next)
+    super::answer::event(timeline, context, at_work, next)
 }
 
 /// Whether an event of the sphere at work is one of the sphere that is followed, or of its cluster.

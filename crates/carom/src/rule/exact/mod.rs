@@ -13,6 +13,7 @@
 //!
 //! Predictions hold across frames. `docs/physics/exact.md` has the stages under the same names.
 
+mod answer;
 mod budget;
 mod clearance;
 mod contact_scale;
@@ -53,10 +54,9 @@ pub(crate) use zone::Zone;
 use std::mem::take;
 
 use context::StepContext;
-use events::{EventTarget, PackedTarget, UpcomingEvent};
+use events::UpcomingEvent;
 use frame_work::UNITS_PER_FLIGHT;
 use pair_times::PairSearch;
-use persistent::held_forces;
 
 use crate::id::SphereId;
 use crate::report::{StageCounts, StepReport};
@@ -100,9 +100,6 @@ pub(crate) enum Unfinished {
     Stopped,
 }
 
-/// The work allowed per sphere and frame is allowed in each part of a longer frame that has this many ticks.
-const TICKS_OF_A_FRAME: f64 = 8.0;
-
 /// How far spheres are taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Until {
@@ -110,6 +107,35 @@ pub(crate) enum Until {
     End,
     /// To the next impact, with all others at that instant, or to the end.
     NextImpact,
+}
+
+/// What comes first in a span.
+enum Next {
+    /// An event of the sphere at a slot.
+    Event(u32, UpcomingEvent),
+    /// A force tick \[s\], at which held forces are computed again.
+    ForceTick(f64),
+    /// A tick of the zones.
+    ZoneTick,
+    /// The time \[s\] at which radii outgrow the neighbour lists.
+    Outgrown(f64),
+}
+
+/// Returns what comes first, if that is before the `end` of a span \[s\].
+///
+/// Zones are stepped under the forces of the next tick, so at the end of a frame both ticks wait for the next frame.
+fn next(timeline: &mut Timeline, end: f64) -> Option<Next> {
+    let (tick, force_tick) = (timeline.zone.next_tick(), timeline.next_force_tick());
+    let outgrown = timeline.room_until();
+    if let Some((slot, event)) = timeline.next(end.min(tick).min(force_tick).min(outgrown)) {
+        Some(Next::Event(slot, event))
+    } else if force_tick < end && force_tick <= tick {
+        Some(Next::ForceTick(force_tick))
+    } else if tick <= end && tick < force_tick {
+        Some(Next::ZoneTick)
+    } else {
+        (outgrown < end).then_some(Next::Outgrown(outgrown))
+    }
 }
 
 /// Advances all spheres over a span. Returns the time reached \[s\] (`docs/physics/exact.md`).
@@ -123,40 +149,27 @@ pub(crate) fn advance(
 ) -> Result<f64, Unfinished> {
     let parameters = timeline.parameters.with_zone_tick(timeline.zone_tick());
     let mut context = StepContext::new(system, parameters, span, work, report);
-    let mut before = WorkSoFar::of(timeline, work);
+    let mut counts = SpanCounts::begin(timeline, work);
     let due = frame::ArrangementDue::of(timeline, system);
     let mut end = span.end;
-    loop {
-        let (tick, force_tick) = (timeline.zone.next_tick(), timeline.next_force_tick());
-        let room_until = timeline.room_until();
-        let now = match timeline.next(end.min(tick).min(force_tick).min(room_until)) {
-            Some((slot, next)) => {
-                let now = answer_event(timeline, &mut context, slot, next)?;
-                if due.is_now(timeline) {
-                    look_along::follow(timeline, system);
-                    before.count_from_zero(timeline);
-                    frame::rearrange(timeline, system, now);
-                }
-                now
-            }
-            // Zones are stepped under the forces of the next tick, so at the end of a frame both wait for the next
-            // frame.
-            None if force_tick < end && force_tick <= tick => {
-                renew_forces(timeline, &mut context, force_tick)?
-            }
-            None if tick <= end && tick < force_tick => {
+    while let Some(next) = next(timeline, end) {
+        let (is_event, is_outgrown) =
+            (matches!(next, Next::Event(..)), matches!(next, Next::Outgrown(_)));
+        let now = match next {
+            Next::Event(slot, event) => answer::event(timeline, &mut context, slot, event)?,
+            Next::ForceTick(time) => renew_forces(timeline, &mut context, time)?,
+            Next::ZoneTick => {
                 let now = stepped::tick(timeline, &mut context);
                 predict::restart_companions(timeline, &mut context, now);
                 now
             }
-            None if room_until < end => {
-                look_along::follow(timeline, system);
-                before.count_from_zero(timeline);
-                frame::rearrange(timeline, system, room_until);
-                room_until
-            }
-            None => break,
+            Next::Outgrown(time) => time,
         };
+        if is_outgrown || is_event && due.is_now(timeline) {
+            look_along::follow(timeline, system);
+            counts.count_from_zero(timeline);
+            frame::rearrange(timeline, system, now);
+        }
         look_along::follow(timeline, system);
         if work.is_stopped() {
             return Err(Unfinished::Stopped);
@@ -165,11 +178,7 @@ pub(crate) fn advance(
             end = now.min(end);
         }
     }
-    let counts = before.counts_since(timeline, &context);
-    context.report.work += take(&mut timeline.work.unreported);
-    context.report.work += counts;
-    context.report.zone_account.spheres = timeline.zone.len() as u32;
-    context.report.contact_account.asleep = timeline.zone.asleep();
+    counts.report(timeline, &mut context);
     Ok(end)
 }
 
@@ -185,110 +194,16 @@ fn renew_forces(
     if context.work.spend(UNITS_PER_FLIGHT * flights) { Ok(now) } else { Err(Unfinished::Stopped) }
 }
 
-/// Answers the next event of the sphere at `slot`. Returns its time \[s\].
-fn answer_event(
-    timeline: &mut Timeline,
-    context: &mut StepContext,
-    slot: u32,
-    next: UpcomingEvent,
-) -> Result<f64, Unfinished> {
-    prefetch::upcoming_events(timeline, context.system);
-    if !context.work.spend(UNITS_PER_FLIGHT) {
-        return Err(Unfinished::Stopped);
-    }
-    let event = match next {
-        UpcomingEvent::Event(event) => event,
-        UpcomingEvent::CellCrossing(time) => {
-            predict::cross_cell(timeline, context, slot, time);
-            return Ok(time);
-        }
-    };
-    if timeline.is_void(&event) {
-        predict::fall_back(timeline, context, slot, event.time);
-        return Ok(event.time);
-    }
-    if matches!(event.target.unpacked(), EventTarget::Sphere(_) | EventTarget::Surface(_)) {
-        held_forces::prepare(timeline, context.system, event.time);
-    }
-    // Between impacts with a light one a heavy sphere hardly moves.
-    let involved = [Some(slot), event.target.slot()];
-    let has_moved = |slot: &u32| !timeline.is_unresolved(*slot, event.time);
-    let is_counted = context.has_zones()
-        && event.target != PackedTarget::STEP_END
-        && !involved.iter().flatten().any(has_moved);
-    match event.target.unpacked() {
-        EventTarget::Restart => predict::restart(timeline, context, slot, event.time),
-        EventTarget::StepEnd => predict::next_step(timeline, context, slot, event.time),
-        EventTarget::Sphere(other) if timeline.flights.growth.is_some() => {
-            impact::answer_growing_pair(timeline, context, [slot, other], event.time);
-            check_room_to_grow(timeline, context, &[slot, other], event.time)?;
-        }
-        EventTarget::Surface(surface) if timeline.flights.growth.is_some() => {
-            impact::answer_growing_single(timeline, context, slot, surface, event.time);
-            check_room_to_grow(timeline, context, &[slot], event.time)?;
-        }
-        EventTarget::Sphere(other) => {
-            impact::answer_pair(timeline, context, [slot, other], event.time);
-        }
-        EventTarget::Surface(surface) => {
-            impact::answer_single(timeline, context, slot, Some(surface), event.time);
-        }
-        EventTarget::Cluster => {
-            impact::answer_single(timeline, context, slot, None, event.time);
-        }
-    }
-    predict::restart_companions(timeline, context, event.time);
-    if let Some(index) = timeline.flights.lost {
-        return Err(Unfinished::NonFiniteForce {
-            sphere: context.system.spheres.id[index as usize],
-        });
-    }
-    if let Some(slot) = context.unanswered {
-        let sphere = context.id_of(timeline, slot);
-        return Err(Unfinished::NoClosedForm { sphere, time: event.time });
-    }
-    check_work(timeline, context, slot, event.time)?;
-    if is_counted {
-        for slot in involved.into_iter().flatten() {
-            count_short_flight(timeline, context, slot, event.time);
-        }
-    }
-    Ok(event.time)
-}
-
-/// Returns an error if growth made a sphere so fast, at `time` \[s\], that it has no room left.
-fn check_room_to_grow(
-    timeline: &Timeline,
-    context: &StepContext,
-    slots: &[u32],
-    time: f64,
-) -> Result<(), Unfinished> {
-    let overheated = slots.iter().find(|&&slot| timeline.flights.is_overheated(slot));
-    overheated.map_or(Ok(()), |&slot| {
-        let sphere = context.id_of(timeline, slot);
-        Err(Unfinished::NoRoomToGrow { sphere, time })
-    })
-}
-
-/// Counts a flight that ended before the sphere had moved. A sphere with too many of them joins a zone.
-fn count_short_flight(timeline: &mut Timeline, context: &mut StepContext, slot: u32, time: f64) {
-    let index = timeline.flights.index_of[slot as usize];
-    let is_spent = timeline.budget.is_spent_by_flight(context.parameters, index, time);
-    if is_spent && !timeline.flights.is_stepped(slot) {
-        stepped::make_zone_about(timeline, context, slot, time);
-    }
-}
-
-/// Work before a part of a frame.
-struct WorkSoFar {
+/// Counts at the start of a span.
+struct SpanCounts {
     events: u64,
     cell_crossings: u64,
     /// In units of [`Work`].
     units: u64,
 }
 
-impl WorkSoFar {
-    fn of(timeline: &Timeline, work: &Work) -> Self {
+impl SpanCounts {
+    fn begin(timeline: &Timeline, work: &Work) -> Self {
         let Timeline { events, cell_crossings, .. } = *timeline;
         Self { events, cell_crossings, units: work.done() }
     }
@@ -299,42 +214,20 @@ impl WorkSoFar {
         self.cell_crossings = self.cell_crossings.wrapping_sub(timeline.cell_crossings);
     }
 
-    /// The work of the stages since then.
-    fn counts_since(&self, timeline: &Timeline, context: &StepContext) -> StageCounts {
+    /// Writes the work of the stages since then, and the state of the zones, to the report.
+    fn report(&self, timeline: &mut Timeline, context: &mut StepContext) {
         let events = timeline.events.wrapping_sub(self.events);
         let units = context.work.done() - self.units;
-        StageCounts {
+        let counts = StageCounts {
             events,
             cell_crossings: timeline.cell_crossings.wrapping_sub(self.cell_crossings),
             pair_tests: context.searches.iter().map(PairSearch::tests).sum(),
             solver_iterations: units - UNITS_PER_FLIGHT * (events + context.renewed),
             ..context.counts
-        }
+        };
+        context.report.work += take(&mut timeline.work.unreported);
+        context.report.work += counts;
+        context.report.zone_account.spheres = timeline.zone.len() as u32;
+        context.report.contact_account.asleep = timeline.zone.asleep();
     }
-}
-
-/// Puts a sphere that takes more work in a frame than the parameters allow into a zone, or returns
-/// the error.
-fn check_work(
-    timeline: &mut Timeline,
-    context: &mut StepContext,
-    slot: u32,
-    time: f64,
-) -> Result<(), Unfinished> {
-    let limit = context.parameters.max_impacts;
-    let work = timeline.work_in_frame(slot);
-    if work <= u64::from(limit) || timeline.flights.is_stepped(slot) {
-        return Ok(());
-    }
-    if context.has_zones() {
-        // A long frame may have as many in each of its parts.
-        let parts = (time - context.start) / (TICKS_OF_A_FRAME * context.parameters.zone_tick);
-        if work as f64 > f64::from(limit) * parts.ceil().max(1.0) {
-            stepped::make_zone_about(timeline, context, slot, time);
-        }
-        return Ok(());
-    }
-    let sphere = context.id_of(timeline, slot);
-    let companions = timeline.flights.companions(slot);
-    Err(Unfinished::TooManyImpacts { sphere, limit, companions, time })
 }

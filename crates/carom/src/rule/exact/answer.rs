@@ -1,0 +1,156 @@
+//! Answers to events: what happens to the spheres of an event, and what it may cost.
+
+use super::context::StepContext;
+use super::events::{Event, EventTarget, PackedTarget, UpcomingEvent};
+use super::frame_work::UNITS_PER_FLIGHT;
+use super::persistent::held_forces;
+use super::timeline::Timeline;
+use super::{Unfinished, impact, predict, prefetch, stepped};
+
+/// The work allowed per sphere and frame is allowed in each part of a longer frame that has this many ticks.
+const TICKS_OF_A_FRAME: f64 = 8.0;
+
+/// Answers the next event of the sphere at `slot`. Returns its time \[s\].
+pub(super) fn event(
+    timeline: &mut Timeline,
+    context: &mut StepContext,
+    slot: u32,
+    next: UpcomingEvent,
+) -> Result<f64, Unfinished> {
+    prefetch::upcoming_events(timeline, context.system);
+    if !context.work.spend(UNITS_PER_FLIGHT) {
+        return Err(Unfinished::Stopped);
+    }
+    match next {
+        UpcomingEvent::CellCrossing(time) => {
+            predict::cross_cell(timeline, context, slot, time);
+            Ok(time)
+        }
+        UpcomingEvent::Event(event) if timeline.is_void(&event) => {
+            predict::fall_back(timeline, context, slot, event.time);
+            Ok(event.time)
+        }
+        UpcomingEvent::Event(event) => {
+            answer_and_check(timeline, context, slot, event)?;
+            Ok(event.time)
+        }
+    }
+}
+
+/// Answers an event of the sphere at `slot`, and limits the work of its spheres.
+fn answer_and_check(
+    timeline: &mut Timeline,
+    context: &mut StepContext,
+    slot: u32,
+    event: Event,
+) -> Result<(), Unfinished> {
+    // Between impacts with a light sphere a heavy one hardly moves, so both must have stayed.
+    let involved = [Some(slot), event.target.slot()];
+    let has_moved = |slot: &u32| !timeline.is_unresolved(*slot, event.time);
+    let is_counted = context.has_zones()
+        && event.target != PackedTarget::STEP_END
+        && !involved.iter().flatten().any(has_moved);
+    answer(timeline, context, slot, event)?;
+    predict::restart_companions(timeline, context, event.time);
+    check_forces(timeline, context, event.time)?;
+    check_work(timeline, context, slot, event.time)?;
+    if is_counted {
+        for slot in involved.into_iter().flatten() {
+            count_short_flight(timeline, context, slot, event.time);
+        }
+    }
+    Ok(())
+}
+
+/// Answers an event of the sphere at `slot` by its target.
+fn answer(
+    timeline: &mut Timeline,
+    context: &mut StepContext,
+    slot: u32,
+    Event { time, target, .. }: Event,
+) -> Result<(), Unfinished> {
+    let target = target.unpacked();
+    if matches!(target, EventTarget::Sphere(_) | EventTarget::Surface(_)) {
+        held_forces::prepare(timeline, context.system, time);
+    }
+    match target {
+        EventTarget::Restart => predict::restart(timeline, context, slot, time),
+        EventTarget::StepEnd => predict::next_step(timeline, context, slot, time),
+        EventTarget::Cluster => impact::answer_single(timeline, context, slot, None, time),
+        EventTarget::Sphere(other) if timeline.flights.growth.is_some() => {
+            impact::answer_growing_pair(timeline, context, [slot, other], time);
+            check_room_to_grow(timeline, context, &[slot, other], time)?;
+        }
+        EventTarget::Surface(surface) if timeline.flights.growth.is_some() => {
+            impact::answer_growing_single(timeline, context, slot, surface, time);
+            check_room_to_grow(timeline, context, &[slot], time)?;
+        }
+        EventTarget::Sphere(other) => impact::answer_pair(timeline, context, [slot, other], time),
+        EventTarget::Surface(surface) => {
+            impact::answer_single(timeline, context, slot, Some(surface), time);
+        }
+    }
+    Ok(())
+}
+
+/// Returns an error if a force was not finite, or friction has no closed form and nothing is stepped.
+fn check_forces(timeline: &Timeline, context: &StepContext, time: f64) -> Result<(), Unfinished> {
+    if let Some(index) = timeline.flights.lost {
+        let sphere = context.system.spheres.id[index as usize];
+        return Err(Unfinished::NonFiniteForce { sphere });
+    }
+    if let Some(slot) = context.unanswered {
+        let sphere = context.id_of(timeline, slot);
+        return Err(Unfinished::NoClosedForm { sphere, time });
+    }
+    Ok(())
+}
+
+/// Returns an error if growth made a sphere so fast, at `time` \[s\], that it has no room left.
+fn check_room_to_grow(
+    timeline: &Timeline,
+    context: &StepContext,
+    slots: &[u32],
+    time: f64,
+) -> Result<(), Unfinished> {
+    let overheated = slots.iter().find(|&&slot| timeline.flights.is_overheated(slot));
+    overheated.map_or(Ok(()), |&slot| {
+        let sphere = context.id_of(timeline, slot);
+        Err(Unfinished::NoRoomToGrow { sphere, time })
+    })
+}
+
+/// Counts a flight that ended before the sphere had moved. A sphere with too many of them joins a zone.
+fn count_short_flight(timeline: &mut Timeline, context: &mut StepContext, slot: u32, time: f64) {
+    let index = timeline.flights.index_of[slot as usize];
+    let is_spent = timeline.budget.is_spent_by_flight(context.parameters, index, time);
+    if is_spent && !timeline.flights.is_stepped(slot) {
+        stepped::make_zone_about(timeline, context, slot, time);
+    }
+}
+
+/// Puts a sphere that takes more work in a frame than the parameters allow into a zone, or returns
+/// the error.
+fn check_work(
+    timeline: &mut Timeline,
+    context: &mut StepContext,
+    slot: u32,
+    time: f64,
+) -> Result<(), Unfinished> {
+    let limit = context.parameters.max_impacts;
+    let work = timeline.work_in_frame(slot);
+    if work <= u64::from(limit) || timeline.flights.is_stepped(slot) {
+        return Ok(());
+    }
+    if context.has_zones() {
+        // A long frame may have as many in each of its parts.
+        let parts = (time - context.start) / (TICKS_OF_A_FRAME * context.parameters.zone_tick);
+        if work as f64 > f64::from(limit) * parts.ceil().max(1.0) {
+            stepped::make_zone_about(timeline, context, slot, time);
+        }
+        return Ok(());
+    }
+    let sphere = context.id_of(timeline, slot);
+    let companions = timeline.flights.companions(slot);
+    Err(Unfinished::TooManyImpacts { sphere, limit, companions, time })
+}
