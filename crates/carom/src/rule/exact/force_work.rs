@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::watch::Seen;
+use super::seen::Seen;
 use crate::bodies::Properties;
 use crate::force_work::ForceWork;
 use crate::forces::{self, SphereState, Spring, SpringEnd};

@@ -2,8 +2,9 @@
 
 use glam::DVec3;
 
+use super::seen::Seen;
 use super::timeline::Timeline;
-use super::watch::{Seen, Watch};
+use super::watch::Watch;
 use crate::id::SphereId;
 use crate::sensor::FlightSegment;
 use crate::system::System;

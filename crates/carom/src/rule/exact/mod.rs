@@ -32,6 +32,7 @@ mod pair_times;
 mod persistent;
 mod predict;
 mod prefetch;
+mod seen;
 mod span;
 mod stepped;
 mod ticks;
