@@ -5,7 +5,8 @@ use super::events::{Event, EventTarget, PackedTarget, UpcomingEvent};
 use super::frame_work::UNITS_PER_FLIGHT;
 use super::persistent::held_forces;
 use super::timeline::Timeline;
-use super::{Unfinished, impact, predict, prefetch, stepped};
+use super::unfinished::Unfinished;
+use super::{impact, predict, prefetch, stepped};
 
 /// The work allowed per sphere and frame is allowed in each part of a longer frame that has this many ticks.
 const TICKS_OF_A_FRAME: f64 = 8.0;

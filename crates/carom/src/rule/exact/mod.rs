@@ -37,6 +37,7 @@ mod span;
 mod stepped;
 mod ticks;
 mod timeline;
+mod unfinished;
 mod watch;
 mod zone;
 
@@ -49,6 +50,7 @@ pub(crate) use look_along::{begin as begin_watch, end as end_watch};
 pub(crate) use neighbours::MAX_SPHERES;
 pub(crate) use span::Span;
 pub(crate) use timeline::Timeline;
+pub(crate) use unfinished::Unfinished;
 pub(crate) use watch::Watch;
 pub(crate) use zone::Zone;
 
@@ -59,47 +61,9 @@ use events::UpcomingEvent;
 use frame_work::UNITS_PER_FLIGHT;
 use pair_times::PairSearch;
 
-use crate::id::SphereId;
 use crate::report::{StageCounts, StepReport};
 use crate::system::System;
 use crate::work::Work;
-
-/// Reason why a part of a frame was not completed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Unfinished {
-    /// A sphere took more work than the parameters allow.
-    TooManyImpacts {
-        /// A sphere that was at work then.
-        sphere: SphereId,
-        /// The bound per sphere.
-        limit: u32,
-        /// How many spheres it was in persistent contact with, directly or through others.
-        companions: usize,
-        /// When it happened, on the world's clock \[s\].
-        time: f64,
-    },
-    /// Friction acts in a way that has no closed form, and nothing is stepped.
-    NoClosedForm {
-        /// A sphere that it acts on.
-        sphere: SphereId,
-        /// When it happened, on the world's clock \[s\].
-        time: f64,
-    },
-    /// Growth made a sphere so fast that it has no room left.
-    NoRoomToGrow {
-        /// The sphere.
-        sphere: SphereId,
-        /// When it happened, on the world's clock \[s\].
-        time: f64,
-    },
-    /// A force on a sphere is not finite.
-    NonFiniteForce {
-        /// The sphere.
-        sphere: SphereId,
-    },
-    /// A stop request came.
-    Stopped,
-}
 
 /// How far spheres are taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
