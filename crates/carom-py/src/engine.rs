@@ -438,9 +438,7 @@ impl Engine {
         ])
     }
 
-    /// Returns the energy account [J]: work of contacts, of moving colliders, of kicks, of growth, of forces
-    /// without a potential, of applied forces and of the correction of overlaps, and the energy of emitted
-    /// spheres minus that of removed ones.
+    /// Returns the entries of the energy account [J] in the order of `carom.EnergyAccount`.
     #[pyo3(name = "_energy_account")]
     fn energy_account(&self, py: Python<'_>) -> PyResult<[f64; 8]> {
         let account = self.lock(py)?.world.report().energy_account;
