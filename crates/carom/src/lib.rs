@@ -69,6 +69,7 @@ pub mod respond;
 mod rotation;
 mod round_solid;
 mod rule;
+mod seams;
 mod sensor;
 mod settings;
 mod sphere;

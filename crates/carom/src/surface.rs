@@ -21,6 +21,8 @@ pub(crate) use crate::surface_motion::SurfaceMotion;
 pub(crate) struct Surface {
     pub form: Form,
     pub collider: ColliderId,
+    /// Lowest-numbered collider of those with faces flush with each other, its own included.
+    pub whole: ColliderId,
     pub restitution: f64,
     pub friction: Friction,
     /// Speed that an impact adds along the normal \[m/s\].
@@ -145,7 +147,7 @@ impl Form {
     }
 
     /// The same form carried along.
-    fn placed(&self, placement: &Placement) -> Self {
+    pub fn placed(&self, placement: &Placement) -> Self {
         let place = |point: DVec3| placement.point(point);
         let turn = |direction: DVec3| placement.direction(direction);
         match *self {
@@ -259,6 +261,7 @@ pub(crate) fn place(id: ColliderId, collider: &Collider, time: f64, surfaces: &m
         surfaces.push(Surface {
             form,
             collider,
+            whole: collider,
             restitution,
             friction,
             kick,
@@ -341,7 +344,7 @@ fn place_round(
 }
 
 /// Places the faces of a mesh, those that are met from both sides twice, then its edges and its corners.
-fn place_mesh(features: &Features, placement: &Placement, mut add: impl FnMut(Form)) {
+pub(crate) fn place_mesh(features: &Features, placement: &Placement, mut add: impl FnMut(Form)) {
     for facet in &features.facets {
         let facet = placement.facet(facet);
         let behind = features.is_two_sided.then(|| facet.turned());
