@@ -13,7 +13,6 @@ use super::swept::FAR;
 use crate::contact_time;
 use crate::detect::{Separation, known_in_front, sphere_surface};
 use crate::flight::Flight;
-use crate::report::StepReport;
 
 /// A change of velocity comes from a bounce alone, up to this part of it.
 const ROUNDING: f64 = 1e-9;
@@ -21,9 +20,9 @@ const ROUNDING: f64 = 1e-9;
 /// A bounce of a sphere off one body, or off the walls of a corner at once.
 #[derive(Clone, Copy)]
 pub(super) struct OneBounce {
-    pub slot: usize,
+    slot: usize,
     /// The other sphere, if it is one.
-    pub other: Option<usize>,
+    other: Option<usize>,
     /// On the sphere \[N s\].
     impulse: DVec3,
     /// When in the sub-step \[s\].
@@ -40,22 +39,6 @@ impl OneBounce {
         }
         let impulse = others.iter().fold(first.impulse, |sum, it| sum + it.impulse);
         Some(Self { impulse, ..first })
-    }
-
-    /// Difference of the way \[m\] to that with the mean of the velocities at both ends of the sub-step: the sphere
-    /// bounces at its own time, not in the middle.
-    pub fn way_beyond_mean(&self, slots: &Slots, sub_step: &SubStep) -> DVec3 {
-        (0.5 * sub_step.h - self.time) * slots.velocity[self.slot].number() * self.impulse
-    }
-
-    /// By how much the work of the impulse \[J\] at its own time exceeds that in the middle of the sub-step: forces
-    /// change the velocity in between.
-    fn work_at_its_time(&self, slots: &Slots, sub_step: &SubStep) -> f64 {
-        if slots.sleeps[self.slot] {
-            return 0.0;
-        }
-        let acceleration = slots.acceleration[self.slot].vector();
-        (self.time - 0.5 * sub_step.h) * self.impulse.dot(acceleration)
     }
 }
 
@@ -91,17 +74,10 @@ pub(super) fn entangled(solver: &Solver, bounces: &[OneBounce], sub_step: &SubSt
 /// moves by its last velocity. Contacts know nothing of surfaces that a sphere comes to after a bounce, or
 /// because of what hit it: one that goes far stops at the first of them, and bounces off it in the next
 /// sub-step.
-pub(super) fn note(
-    solver: &mut Solver,
-    mut all: Vec<OneBounce>,
-    sub_step: &SubStep,
-    report: &mut StepReport,
-) {
+pub(super) fn note(solver: &mut Solver, mut all: Vec<OneBounce>, sub_step: &SubStep) {
     let Solver { slots, slabs, bounces, places, has_other_forces, landings, .. } = solver;
     let has_landed = |slot: usize| landings.has(slot);
     all.retain(|bounce| !has_landed(bounce.slot) && !bounce.other.is_some_and(has_landed));
-    let work = all.iter().map(|bounce| bounce.work_at_its_time(slots, sub_step));
-    report.energy_account.contacts += work.sum::<f64>();
     bounces.clear();
     for of_sphere in all.chunk_by(|first, second| first.slot == second.slot) {
         if *has_other_forces {

@@ -2,7 +2,6 @@
 
 use glam::DVec3;
 
-use super::bounces::OneBounce;
 use super::row::Row;
 use super::slots::Slots;
 use super::solver::Solver;
@@ -58,42 +57,35 @@ fn forces_between(system: &System, slots: &Slots, time: f64) -> Vec<DVec3> {
     forces
 }
 
-/// Accounts for the work of the forces that [`find`] found, `F·(v + v')/2 h` from the velocity v at the start to v'
-/// at the end.
-///
-/// A sphere that bounces alone takes another way, and a sphere of a cascade several flights in a sub-step.
-pub(super) fn account(
-    solver: &Solver,
-    bounces: &[OneBounce],
-    sub_step: &SubStep,
-    report: &mut StepReport,
-) {
+/// Accounts for the work of the forces that [`find`] found: `F·Δx` along the path of a sphere that contacts touch, and
+/// `F·(v + v')/2 h` without contacts, from the velocity v at the start to v' at the end.
+pub(super) fn account(solver: &Solver, sub_step: &SubStep, report: &mut StepReport) {
     let slots = &solver.slots;
     if slots.working.is_empty() {
         return;
     }
     let mut work = ForceWork::default();
-    let mut add = |slot: usize, way: DVec3, against_drag: f64| {
+    for slot in (0..slots.len()).filter(|&slot| !slots.sleeps[slot]) {
+        let (path, against_drag) = path(solver, slot, sub_step);
         let (mass, applied) = (1.0 / slots.velocity[slot].number(), slots.applied[slot]);
         let own = slots.working[slot].vector() - applied;
-        work.forces += mass * (own.dot(way) - slots.working[slot].number() * against_drag);
-        work.applied += mass * applied.dot(way);
-    };
-    for slot in (0..slots.len()).filter(|&slot| !slots.sleeps[slot]) {
-        if let Some(landed) = solver.landings.of(slot) {
-            add(slot, landed.way, landed.against_drag);
-        } else {
-            let mean = 0.5 * (slots.before[slot].vector() + slots.velocity[slot].vector());
-            let free = slots.accelerated(slot, sub_step.h);
-            add(slot, sub_step.h * mean, sub_step.h * free.dot(mean));
-        }
-    }
-    let has_landed = |slot: usize| solver.landings.has(slot);
-    for bounce in bounces {
-        let is_done = has_landed(bounce.slot) || bounce.other.is_some_and(has_landed);
-        if !is_done && !slots.sleeps[bounce.slot] {
-            add(bounce.slot, bounce.way_beyond_mean(slots, sub_step), 0.0);
-        }
+        work.forces += mass * (own.dot(path) - slots.working[slot].number() * against_drag);
+        work.applied += mass * applied.dot(path);
     }
     report.energy_account.add_force_work(work);
+}
+
+/// The path of a sphere in the sub-step \[m\], and the integral of the product of its velocity and the one that drag
+/// acts on \[m²/s\].
+fn path(solver: &Solver, slot: usize, sub_step: &SubStep) -> (DVec3, f64) {
+    if let Some(landed) = solver.landings.of(slot) {
+        return (landed.path, landed.against_drag);
+    }
+    let (slots, h) = (&solver.slots, sub_step.h);
+    let [before, velocity] = [slots.before[slot], slots.velocity[slot]].map(Row::vector);
+    let (mean, free) = (0.5 * (before + velocity), slots.accelerated(slot, h));
+    let bounce = solver.bounces.binary_search_by_key(&slot, |bounce| bounce.slot as usize);
+    let shift = bounce.map_or(DVec3::ZERO, |place| solver.bounces[place].shift);
+    let last = if velocity == free { mean } else { velocity };
+    (h * last + shift, h * free.dot(mean))
 }

@@ -11,6 +11,8 @@ pub(super) struct Landed {
     pub slot: u32,
     /// Centre at the end of the sub-step \[m\].
     pub position: DVec3,
+    /// Its path in the sub-step \[m\].
+    pub path: DVec3,
     pub velocity: DVec3,
     /// r w \[m/s\]
     pub spin: DVec3,

@@ -167,9 +167,9 @@ fn sub_step(
     }
     cascade::land(solver);
     impacts::report(system, solver, &sub_step, first, report);
-    force_work::account(solver, &bounces, &sub_step, report);
-    bounces::note(solver, bounces, &sub_step, report);
-    advance::advance(solver, &sub_step);
+    bounces::note(solver, bounces, &sub_step);
+    force_work::account(solver, &sub_step, report);
+    advance::advance(solver, &sub_step, report);
     solve::correct(solver, report);
     guard::hold(system, solver, &sub_step, report);
     solver.places.end_sub_step();

@@ -25,6 +25,8 @@ pub struct Body {
     pub start: [DVec3; 2],
     /// Centre at the start of the flight before \[m\].
     pub from: DVec3,
+    /// Centre at the start of the sub-step \[m\].
+    pub began: DVec3,
     /// Sums over the flights so far, as in [`Landed`].
     pub way: DVec3,
     pub against_drag: f64,
@@ -54,6 +56,7 @@ impl Body {
             drag_rate: acceleration.number(),
             start,
             from: position.vector(),
+            began: position.vector(),
             way: DVec3::ZERO,
             against_drag: 0.0,
             bears: slots.bears[slot],
@@ -76,19 +79,9 @@ impl Body {
 
     /// State at the end of the sub-step.
     pub fn landed(&self) -> Landed {
-        let Self {
-            slot,
-            position,
-            velocity,
-            spin,
-            from,
-            way,
-            against_drag,
-            bears,
-            met_surface,
-            ..
-        } = *self;
-        Landed { slot, position, velocity, spin, from, way, against_drag, bears, met_surface }
+        let Self { slot, position, velocity, spin, from, way, against_drag, bears, .. } = *self;
+        let (path, met_surface) = (position - self.began, self.met_surface);
+        Landed { slot, position, path, velocity, spin, from, way, against_drag, bears, met_surface }
     }
 
     /// Acceleration by forces alone; zero for a supported sphere.
