@@ -17,8 +17,10 @@ from carom._pictures.film import Film
 from carom._pictures.picture import Renderer
 from carom._run.batch import Batch
 from carom._run.derivatives import Gradient, Margin, Tangents, Tape
+from carom._run.packing import Packing, pack
 from carom._run.queries import PredictedPath, QueryFilter
 from carom._run.reports import ContactAccount, EnergyAccount, StageCounts, ZoneAccount
+from carom._run.stress import Stress, StressMeter
 from carom._run.tables import (
     CONTACT,
     HIT,
@@ -51,6 +53,7 @@ from carom._scene.parts import (
     Contact,
     Container,
     Cylinder,
+    DenseFluid,
     DensityColor,
     Disc,
     Discrete,
@@ -135,6 +138,7 @@ __all__ = [
     "ContactAccount",
     "Container",
     "Cylinder",
+    "DenseFluid",
     "DensityColor",
     "Disc",
     "Discrete",
@@ -161,6 +165,7 @@ __all__ = [
     "MutualGravity",
     "OmissionWarning",
     "Oscillate",
+    "Packing",
     "Periodic",
     "Pipe",
     "PointAttractor",
@@ -187,6 +192,8 @@ __all__ = [
     "StaggeredRows",
     "Steady",
     "StepError",
+    "Stress",
+    "StressMeter",
     "Sun",
     "Swing",
     "Tangents",
@@ -204,6 +211,7 @@ __all__ = [
     "__version__",
     "analysis",
     "load",
+    "pack",
     "scene",
     "scenes",
     "sweep",

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from os import PathLike
-from typing import Self, TypeAlias, final
+from typing import Any, Self, TypeAlias, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -176,6 +176,16 @@ class TapeEngine:
     @property
     def margin(self) -> tuple[float, int, float, float, int, float]: ...
     def gradient(self, motion: Sequence[NDArray[np.float64]]) -> list[NDArray[np.float64]]: ...
+
+@final
+class StressEngine:
+    """What `carom.StressMeter` stands on."""
+
+    def __new__(cls, world: Engine) -> Self: ...
+    def step(self, world: Engine, dt: float | None, frames: int) -> None: ...
+    @property
+    def time(self) -> float: ...
+    def stress(self, volume: float | None) -> list[list[list[float]]]: ...
 
 @final
 class TangentsEngine:
@@ -407,6 +417,15 @@ def pair_histogram(
 def pairs_within(
     points: NDArray[np.float64], sides: Sequence[float], distance: float
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]: ...
+def radii_of_sizes(sizes: str, count: int, seed: int) -> NDArray[np.float64]: ...
+def pack_spheres(
+    radii: list[float],
+    packing_fraction: float,
+    seed: int,
+    growth: float,
+    pressure: float | None,
+    equilibrate: float | None,
+) -> dict[str, Any]: ...
 def read_scene(text: str, source: str, overrides: list[str]) -> str: ...
 def read_scene_file(path: str | PathLike[str], overrides: list[str]) -> str: ...
 def canonical_toml(text: str) -> str: ...
