@@ -39,7 +39,10 @@ pub(super) fn step(mut attempt: Attempt, parameters: Exact, until: Until) -> Res
         if !timeline.has_friction() {
             attempt.state.spheres.motion.spin.advance(attempt.length);
         }
-        attempt.report_sensors(watch.map(|watch| watch.sensors));
+        if let Some(watch) = &mut watch {
+            attempt.report.energy_account.add_force_work(watch.take_work());
+        }
+        attempt.report_sensors(watch.and_then(|watch| watch.sensors));
         attempt.state.timeline = Some(timeline);
         let account = &mut attempt.report.zone_account;
         attempt.state.was_stepped |= account.joined > 0;
@@ -50,11 +53,13 @@ pub(super) fn step(mut attempt: Attempt, parameters: Exact, until: Until) -> Res
     Ok(())
 }
 
-/// The watch over sensors in a step; `None` where there are none.
+/// Watch over spheres in a step; `None` without sensors and nonconservative forces.
 fn watch_over(attempt: &mut Attempt) -> Option<Watch> {
     let (start, presence) = (attempt.start, attempt.state.presence.clone());
     let (system, _) = attempt.state.split();
-    (!system.trigger_tree.is_empty()).then(|| Watch::new(presence, start))
+    let presence = (!system.trigger_tree.is_empty()).then_some(presence);
+    let measures_work = system.has_nonconservative_forces();
+    (presence.is_some() || measures_work).then(|| Watch::new(presence, measures_work, start))
 }
 
 /// Accounts for the impacts of a step, and for persistent contacts up to its end \[s\].
@@ -64,12 +69,19 @@ fn account_for_contacts(report: &mut StepReport, timeline: &mut Timeline, end: f
     let given = report.groups.iter().map(|group| group.collider_work);
     report.energy_account.colliders += given.collect::<Sum>().value();
     let kicked = report.groups.iter().map(|group| group.kick_work);
-    report.energy_account.kicks += kicked.collect::<Sum>().value();
+    let kicked = kicked.collect::<Sum>().value();
+    // Growth is refused beside colliders that kick.
+    if timeline.has_growth() {
+        report.energy_account.growth += kicked;
+    } else {
+        report.energy_account.kicks += kicked;
+    }
     account_for_persistent_contacts(report, timeline, end);
 }
 
-/// Accounts for the work of persistent contacts up to `time` \[s\].
+/// Accounts for the work of persistent contacts, and of zones, up to `time` \[s\].
 fn account_for_persistent_contacts(report: &mut StepReport, timeline: &mut Timeline, time: f64) {
+    timeline.report_zone_energy(time, &mut report.energy_account);
     let [friction, colliders] = timeline.take_contact_work(time);
     report.energy_account.contacts += friction;
     report.energy_account.colliders += colliders;
@@ -122,7 +134,7 @@ fn advance(
         let Attempt { state, work, report, .. } = &mut *attempt;
         let (system, _) = state.split();
         if let Some(watch) = watch.take() {
-            exact::begin_watch(timeline, watch, now);
+            exact::begin_watch(timeline, &system, watch, now);
         }
         let came_to = exact::advance(&system, timeline, span, work, report, until)
             .map_err(|unfinished| refusal(unfinished, start))?;

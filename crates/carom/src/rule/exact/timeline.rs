@@ -13,6 +13,7 @@ use super::neighbours::{NeighbourBuffer, Neighbours};
 use super::ticks::{MOST_ZONE_TICKS, tick_for_frames};
 use super::watch::Watch;
 use super::zone::Zone;
+use crate::report::EnergyAccount;
 use crate::settings::Exact;
 use crate::system::System;
 
@@ -50,13 +51,17 @@ pub(crate) struct Timeline {
     pub(super) spring_rate: f64,
     /// Until when the present forces are held, on the world's clock \[s\].
     pub(super) held_until: f64,
+    /// Held forces of nonconservative interactions \[N\], by index; empty where there are none. Only programs define
+    /// such interactions, so no written snapshot has them.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub(super) working_forces: Vec<DVec3>,
     /// Latest end of all curves, as forces applied over a frame need it, on the world's clock \[s\].
     pub(super) curves_until: f64,
     /// When the next spheres are emitted, on the world's clock \[s\].
     pub(super) next_emission: f64,
     /// Slots of spheres whose flights restarted because those of companions did, and which are not predicted yet.
     pub(super) restarted: Vec<u32>,
-    /// The watch over sensors during a step, where there are some.
+    /// Watch over spheres during a step, for sensors and for the work of forces.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) watch: Option<Box<Watch>>,
     /// Events, and cell crossings among them, since the spheres were put in order of place.
@@ -107,6 +112,16 @@ impl Timeline {
     /// Whether friction acts, so that spins change.
     pub fn has_friction(&self) -> bool {
         !self.flights.rotations.is_empty()
+    }
+
+    /// Whether spheres grow.
+    pub fn has_growth(&self) -> bool {
+        self.flights.growth.is_some()
+    }
+
+    /// Reports the changes of energy in zones up to `time` \[s\].
+    pub fn report_zone_energy(&mut self, time: f64, account: &mut EnergyAccount) {
+        self.zone.report_energy(time, account);
     }
 
     /// Returns the work that persistent contacts have done up to `time` \[s\] since it was taken last: that of
@@ -276,7 +291,7 @@ impl Timeline {
         self.flights.set_supported(support, time);
     }
 
-    /// Notes for sensors that a sphere begins another flight.
+    /// Notes for the watch that a sphere begins another flight.
     #[inline]
     pub(super) fn note_flight(&mut self, slot: u32) {
         if let Some(watch) = &mut self.watch {
