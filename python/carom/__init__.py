@@ -17,6 +17,7 @@ from carom._pictures.film import Film
 from carom._pictures.picture import Renderer
 from carom._run.batch import Batch
 from carom._run.derivatives import Gradient, Margin, Tangents, Tape
+from carom._run.gradients import RunEnd, value_and_grad
 from carom._run.packing import Packing, pack
 from carom._run.queries import PredictedPath, QueryFilter
 from carom._run.reports import ContactAccount, EnergyAccount, StageCounts, ZoneAccount
@@ -178,6 +179,7 @@ __all__ = [
     "Renderer",
     "Ring",
     "Row",
+    "RunEnd",
     "RunError",
     "Runs",
     "Scene",
@@ -215,6 +217,7 @@ __all__ = [
     "scene",
     "scenes",
     "sweep",
+    "value_and_grad",
 ]
 
 above.notebook = _show

@@ -11,7 +11,7 @@ use serde::Serialize;
 use crate::advice::{Conduct, advice, unread};
 use crate::breach::{Course, breaches};
 use crate::contact_totals::ContactTotals;
-use crate::energy_balance::{EnergyBalance, remainder_of};
+use crate::energy_balance::{EnergyBalance, rest_of};
 use crate::escapes::Escapes;
 use crate::failure::Failure;
 use crate::stage_work::StageWork;
@@ -287,8 +287,8 @@ impl Summary {
             energy_at_end,
             energy_balance: EnergyBalance::new(
                 observer.energy,
-                energy_at_end - observer.energy_at_start,
-                remainder_of(replay.scene(), world, replay.edits()),
+                [observer.energy_at_start, energy_at_end],
+                rest_of(replay.scene(), world, replay.edits()),
             ),
             momentum_at_start: observer.momentum_at_start.to_array(),
             momentum_at_end: world.momentum().to_array(),

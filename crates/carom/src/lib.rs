@@ -42,6 +42,7 @@ pub mod detect;
 mod emitter;
 mod error;
 mod flight;
+mod force_work;
 mod forces;
 mod friction;
 mod groups;

@@ -492,6 +492,31 @@ fn springs_too_stiff_for_force_ticks_are_refused_by_their_rate() {
 }
 
 #[test]
+fn contact_follows_stiff_springs_by_its_sub_steps_and_refuses_stiffer_ones() {
+    // The rate is the root of the stiffness by the mass: there are up to 512 sub-steps in a frame.
+    for (stiffness, follows) in [(1e6, true), (9e8, true), (1e9, false), (1e20, false)] {
+        let mut world = world(Contact::default());
+        let ball = Sphere::new(DVec3::X, 0.1).with_mass(1.0);
+        let ball = world.add_sphere(ball).unwrap();
+        let spring = Spring::to_point(ball, DVec3::ZERO, 0.99).with_stiffness(stiffness);
+        world.add_spring(spring).unwrap();
+        let energy = world.total_energy();
+        for _ in 0..30 {
+            match world.step(1.0 / 60.0) {
+                // Symplectic Euler with w h = 1 keeps x² + v²/w² to within (1 ± w h / 2).
+                Ok(_) => assert!(follows && world.total_energy() < 3.0 * energy, "{stiffness}"),
+                Err(error) => {
+                    let told = error.to_string();
+                    assert!(!follows && told.starts_with("step: `stiffness` must be"), "{told}");
+                }
+            }
+        }
+        assert_eq!(world.time() > 0.0, follows);
+        assert_eq!(world.check_step(1.0 / 60.0).is_ok(), follows);
+    }
+}
+
+#[test]
 fn force_ticks_follow_the_scale_of_frames() {
     // A double star by years, by seconds and by microseconds: the same orbit, with G = 4 pi² / scale².
     let after = |scale: f64| {

@@ -114,6 +114,10 @@ impl Force for MutualGravity {
         Some(self)
     }
 
+    fn is_conservative(&self) -> bool {
+        true
+    }
+
     fn validate(&self) -> Result<(), InvalidValue> {
         validate::finite_number("constant", self.constant)?;
         validate::non_negative("softening", self.softening)?;
