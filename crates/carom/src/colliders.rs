@@ -1,11 +1,12 @@
 //! All colliders of a world, with the surfaces and trees made of them.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use crate::collider::Collider;
 use crate::detect::surface_tree::SurfaceTree;
 use crate::id::ColliderId;
 use crate::numbered::Numbered;
+use crate::seams::Seams;
 use crate::surface::{self, Role, Surface};
 
 /// Colliders in their order, and the surfaces made of them.
@@ -14,10 +15,12 @@ pub(crate) struct Colliders {
     list: Numbered<Collider>,
     /// Time of their present places, on the world's clock \[s\].
     time: f64,
-    surfaces: Vec<Surface>,
-    /// Made when first needed after a change.
+    /// Seams, found when first read after a change from outside.
+    seams: OnceLock<Arc<Seams>>,
+    /// Made when first read after a change, as the trees.
+    surfaces: OnceLock<Vec<Surface>>,
     tree: OnceLock<SurfaceTree>,
-    /// Tree of the surfaces of triggers, made when it is first read.
+    /// Tree of the surfaces of triggers.
     trigger_tree: OnceLock<SurfaceTree>,
 }
 
@@ -28,31 +31,31 @@ impl Colliders {
 
     /// The surfaces of all colliders, in their order.
     pub fn surfaces(&self) -> &[Surface] {
-        &self.surfaces
+        self.surfaces.get_or_init(|| {
+            let mut plain = Vec::new();
+            for (number, collider) in self.list.iter() {
+                surface::place(ColliderId(number), collider, self.time, &mut plain);
+            }
+            let seams = self.seams.get_or_init(|| Arc::new(Seams::of(&self.list, &plain)));
+            seams.applied(&self.list, plain)
+        })
     }
 
     /// Finds surfaces, by their index in [`Self::surfaces`].
     pub fn tree(&self) -> &SurfaceTree {
-        self.tree.get_or_init(|| SurfaceTree::of(&self.surfaces, |_| true))
+        self.tree.get_or_init(|| SurfaceTree::of(self.surfaces(), |_| true))
     }
 
     /// Tree of the surfaces that report and deflect nothing.
     pub fn trigger_tree(&self) -> &SurfaceTree {
         let is_trigger = |surface: &Surface| surface.role == Role::Reports;
-        self.trigger_tree.get_or_init(|| SurfaceTree::of(&self.surfaces, is_trigger))
-    }
-
-    fn forget_trees(&mut self) {
-        self.tree.take();
-        self.trigger_tree.take();
+        self.trigger_tree.get_or_init(|| SurfaceTree::of(self.surfaces(), is_trigger))
     }
 
     pub fn push(&mut self, mut collider: Collider) {
         collider.follow_motion(self.time);
-        let id = ColliderId(self.list.next_number());
-        surface::place(id, &collider, self.time, &mut self.surfaces);
         self.list.push(collider);
-        self.forget_trees();
+        self.forget_seams();
     }
 
     /// Replaces some of the colliders.
@@ -63,18 +66,18 @@ impl Colliders {
                 place.follow_motion(self.time);
             }
         }
-        self.place_all();
+        self.forget_seams();
     }
 
     pub fn remove(&mut self, id: ColliderId) -> Option<Collider> {
         let removed = self.list.remove(id.0);
-        self.place_all();
+        self.forget_seams();
         removed
     }
 
     /// Whether any of them moves.
     pub fn any_moving(&self) -> bool {
-        self.surfaces.iter().any(|surface| !surface.motion.is_at_rest())
+        self.surfaces().iter().any(|surface| !surface.motion.is_at_rest())
     }
 
     /// Advances moving colliders by `h` \[s\], to `time` \[s\].
@@ -86,14 +89,17 @@ impl Colliders {
             }
         }
         self.set_time(time);
-        self.place_all();
+        if self.seams.get().is_some_and(|it| it.are_of_now) {
+            self.forget_seams();
+        }
+        self.forget_surfaces();
     }
 
     /// Moves colliders with a motion, and their surfaces, to their places at `time` \[s\].
     pub fn move_to(&mut self, time: f64) {
         if self.time != time && self.list.iter().any(|(_, it)| !it.motion.is_empty()) {
             self.set_time(time);
-            self.place_all();
+            self.forget_surfaces();
         }
         self.time = time;
     }
@@ -103,12 +109,15 @@ impl Colliders {
         self.list.values_mut().for_each(|collider| collider.follow_motion(time));
     }
 
-    fn place_all(&mut self) {
-        self.surfaces.clear();
-        for (number, collider) in self.list.iter() {
-            surface::place(ColliderId(number), collider, self.time, &mut self.surfaces);
-        }
-        self.forget_trees();
+    fn forget_seams(&mut self) {
+        self.seams.take();
+        self.forget_surfaces();
+    }
+
+    fn forget_surfaces(&mut self) {
+        self.surfaces.take();
+        self.tree.take();
+        self.trigger_tree.take();
     }
 }
 
@@ -128,9 +137,7 @@ mod written {
     impl<'de> Deserialize<'de> for Colliders {
         fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
             let (time, list) = <(f64, Numbered<_>)>::deserialize(deserializer)?;
-            let mut colliders = Self { time, list, ..Self::default() };
-            colliders.place_all();
-            Ok(colliders)
+            Ok(Self { time, list, ..Self::default() })
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::nearest::Feature;
 use super::obstacle::Obstacle;
 use super::path::{Path, State};
 use super::roundoff::{DISTANCE_ROUNDOFF, Magnitudes, SPEED_ROUNDOFF};
@@ -91,8 +92,7 @@ impl<N: Real> GrowingApproach<N> {
     }
 }
 
-/// Time \[s\] at which a sphere whose radius grows, in straight flight, comes into contact with a surface at rest that
-/// is no part of a mesh.
+/// Time \[s\] at which a sphere whose radius grows, in straight flight, comes into contact with a surface at rest.
 ///
 /// - `radius` at time 0 \[m\], > 0; `growth_speed` of it \[m/s\], >= 0; `horizon` \[s\], may be infinite
 /// - returns \[s\] in `[0, horizon]`; `None` if there is no contact
@@ -124,12 +124,13 @@ pub(crate) fn growing_sphere_surface(
         }
         Form::Rectangle(rectangle) => Obstacle::Rectangle { rectangle, radius },
         Form::Band(band) => Obstacle::Band { band, radius },
-        Form::Box(_)
-        | Form::Round(_)
-        | Form::Closed(_)
-        | Form::Facet(_)
-        | Form::Edge(_)
-        | Form::Corner(_) => return None,
+        Form::Facet(_) | Form::Edge(_) | Form::Corner(_) => {
+            let path = GrowingFlight { flight: *flight, growth_speed };
+            let feature = Feature { form, origin: DVec3::ZERO, radius, size };
+            let time = search::first_contact(&path, &feature.obstacle()?, size, horizon)?;
+            return feature.first_nearest(&path, time, horizon);
+        }
+        Form::Box(_) | Form::Round(_) | Form::Closed(_) => return None,
     };
     let path = GrowingFlight { flight: *flight, growth_speed };
     search::first_contact(&path, &obstacle, size, horizon)

@@ -50,7 +50,8 @@ impl Feature<'_> {
                 return None;
             }
             let later = Later { path, from };
-            let wait = search::first_contact(&later, &obstacle, self.size, horizon - from)?;
+            let grown = obstacle.widened(path.growth_speed() * from);
+            let wait = search::first_contact(&later, &grown, self.size, horizon - from)?;
             t = from + wait;
             if wait > 0.0 && is_nearest(self.form, center(t)) {
                 return Some(t);
@@ -58,13 +59,14 @@ impl Feature<'_> {
             // The border itself: how far rounding blurs it depends on where the origin is.
             if wait == 0.0 && self.beside(center(t)) == 0.0 {
                 // What touches by rounding alone touched what was nearest before.
-                return self.is_deep(&obstacle, &path.state_at(t)).then_some(t);
+                return self.is_deep(&grown, &path.state_at(t)).then_some(t);
             }
         }
         None
     }
 
-    fn obstacle(&self) -> Option<Obstacle> {
+    /// The whole plane, line or point.
+    pub fn obstacle(&self) -> Option<Obstacle> {
         let Self { origin, radius, .. } = *self;
         match self.form {
             Form::Facet(facet) => {
@@ -135,6 +137,10 @@ impl<P: Path> Path for Later<'_, P> {
 
     fn window(&self) -> f64 {
         self.path.window()
+    }
+
+    fn growth_speed(&self) -> f64 {
+        self.path.growth_speed()
     }
 }
 

@@ -5,11 +5,11 @@ use std::ops::ControlFlow;
 use glam::DVec3;
 
 use super::broad_phase::BroadPhase;
-use super::contact::Contact;
+use super::contact::{Bodies, Contact};
 use super::instant::Instant;
 use super::{ContactState, sphere_surface};
 use crate::bounds::Bounds;
-use crate::surface::Role;
+use crate::surface::{Form, Role, Surface};
 use crate::system::System;
 
 /// Up to this many spheres all pairs are tested: sorting would not pay off.
@@ -253,16 +253,41 @@ fn of_surfaces(
         return;
     }
     for sphere in members {
+        let first = contacts.len();
         instant.for_each_surface(
             sphere,
             tolerance,
             (instant.system.tree, near),
             |role| role == Role::Deflects,
             |contact| {
-                keep(contact, contacts);
+                let own = contacts[first..].iter_mut();
+                match own.into_iter().find(|it| are_flush(instant.system, [&**it, &contact])) {
+                    Some(other) if contact.separation.distance < other.separation.distance => {
+                        *other = contact;
+                    }
+                    Some(_) => {}
+                    None => keep(contact, contacts),
+                }
             },
         );
     }
+}
+
+/// Angle \[rad\] between the normals of flush faces, at most, rounding included.
+const FLUSH: f64 = 2e-9;
+
+/// Returns whether two contacts of a sphere are with flush faces, so that it is above their seam.
+fn are_flush(system: System, contacts: [&Contact; 2]) -> bool {
+    let [one, other] = contacts.map(|contact| match contact.bodies {
+        Bodies::Surface { surface, .. } => Some(&system.surfaces[surface as usize]),
+        Bodies::Pair(..) => None,
+    });
+    let is_face = |it: &Surface| matches!(it.form, Form::Facet(_) | Form::HalfSpace { .. });
+    let are_joined = one
+        .zip(other)
+        .is_some_and(|(one, other)| one.whole == other.whole && is_face(one) && is_face(other));
+    let [one, other] = contacts.map(|it| it.separation.normal);
+    are_joined && (one - other).length_squared() <= FLUSH * FLUSH
 }
 
 fn at(instant: &Instant, i: u32) -> (u32, DVec3, f64) {

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::outline::Outline;
+use super::outline::{Outline, Side};
 use crate::axis_motion::AxisMotion;
 use crate::norm::Norm;
 use crate::rectangle::Rectangle;
@@ -17,6 +17,20 @@ pub(crate) struct Facet {
 }
 
 impl Facet {
+    /// A whole rectangle.
+    pub fn of_rectangle(frame: Rectangle) -> Self {
+        let half = DVec2::new(frame.half_x, frame.half_z);
+        let [a, b, c, d] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
+            .map(|corner| half * DVec2::from_array(corner));
+        let sides = vec![
+            Side::new([a, b], DVec2::NEG_Y),
+            Side::new([b, c], DVec2::X),
+            Side::new([c, d], DVec2::Y),
+            Side::new([d, a], DVec2::NEG_X),
+        ];
+        Self { frame, outline: Outline::new(sides, vec![[a, b, c], [a, c, d]]) }
+    }
+
     /// The same face, met from behind.
     pub fn turned(&self) -> Self {
         let frame = Rectangle { normal: -self.frame.normal, ..self.frame };
@@ -75,6 +89,14 @@ impl Facet {
         self.outline.ends().map(|end| base + end.dot(rise)).fold(f64::NEG_INFINITY, f64::max)
     }
 
+    /// Returns whether its outline crosses that of another face in its plane.
+    pub fn crosses(&self, other: &Self) -> bool {
+        let place = |end: DVec2| self.frame.center + self.world(end);
+        let sides =
+            self.outline.sides().iter().map(|side| side.ends.map(|it| other.local(place(it))));
+        sides.into_iter().any(|ends| other.outline.is_crossed_by(ends))
+    }
+
     /// The triangles that cover it, in the world \[m\].
     pub fn triangles(&self) -> impl Iterator<Item = [DVec3; 3]> {
         let Rectangle { center, axis_x, axis_z, .. } = self.frame;
@@ -88,12 +110,14 @@ impl Facet {
         self.outline.ends().map(move |end| center + end.x * axis_x + end.y * axis_z)
     }
 
-    fn local(&self, point: DVec3) -> DVec2 {
+    /// Coordinates of the foot of a point in the plane \[m\].
+    pub fn local(&self, point: DVec3) -> DVec2 {
         let offset = point - self.frame.center;
         DVec2::new(offset.dot(self.frame.axis_x), offset.dot(self.frame.axis_z))
     }
 
-    fn world(&self, direction: DVec2) -> DVec3 {
+    /// A direction of the plane in the world.
+    pub fn world(&self, direction: DVec2) -> DVec3 {
         direction.x * self.frame.axis_x + direction.y * self.frame.axis_z
     }
 

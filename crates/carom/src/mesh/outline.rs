@@ -82,6 +82,16 @@ impl Outline {
         is_inside
     }
 
+    /// Returns whether a line between two ends \[m\] crosses one of the sides.
+    pub fn is_crossed_by(&self, [from, to]: [DVec2; 2]) -> bool {
+        let parts = |[start, end]: [DVec2; 2], ends: [DVec2; 2]| {
+            let [one, other] = ends.map(|it| (end - start).perp_dot(it - start));
+            (one > 0.0) != (other > 0.0)
+        };
+        let crosses = |side: &Side| parts([from, to], side.ends) && parts(side.ends, [from, to]);
+        self.sides().iter().any(crosses)
+    }
+
     /// How far outside a point is \[m\]; 0 inside.
     pub fn distance(&self, point: DVec2) -> f64 {
         if self.contains(point) {

@@ -1,10 +1,11 @@
 //! What growing spheres can be combined with.
 
+use crate::collider::{Collider, Shape};
 use crate::error::{Error, Subject};
 use crate::id::SphereId;
 use crate::settings::Rule;
 use crate::state::State;
-use crate::surface::{Form, Role, Surface};
+use crate::surface::{Role, Surface};
 use crate::validate;
 
 /// Returns an error for growing spheres in a world that a step of `h` \[s\] cannot combine with growth.
@@ -32,9 +33,7 @@ pub(super) fn check(state: &State, h: f64) -> Result<(), Error> {
 fn obstacle(state: &State) -> Option<&'static str> {
     let surfaces = || state.colliders.surfaces().iter();
     let is_inelastic = |restitution: &f64| *restitution != 1.0;
-    let is_of_mesh = |it: &Surface| {
-        matches!(it.form, Form::Facet(_) | Form::Edge(_) | Form::Corner(_) | Form::Closed(_))
-    };
+    let is_mesh = |(_, it): (u64, &Collider)| matches!(it.shape, Shape::Mesh(_));
     let now = state.now();
     let spheres = &state.spheres;
     let is_under_force = state.forces.iter().len() > 0
@@ -55,7 +54,7 @@ fn obstacle(state: &State) -> Option<&'static str> {
         (state.emitters.iter().len() > 0, "zero in a world with emitters"),
         (surfaces().any(moves), "zero beside colliders that move or kick"),
         (surfaces().any(reports), "zero beside triggers"),
-        (surfaces().any(is_of_mesh), "zero beside meshes"),
+        (state.colliders.list().iter().any(is_mesh), "zero beside meshes"),
     ]
     .into_iter()
     .find_map(|(stands, requirement)| stands.then_some(requirement))

@@ -130,8 +130,31 @@ pub(super) fn prepare(
         for contact in &mut *of_sphere {
             contact.aim(run, places, sub_step);
         }
+        leave_doubles(of_sphere);
         leave_first_bounce(of_sphere);
         of_sphere.iter_mut().for_each(|contact| contact.warm_start(run, sub_step));
+    }
+}
+
+/// Angle \[rad\] between the normals of flush faces, at most, rounding included; also the relative difference of the
+/// speeds that a sphere may keep towards them.
+const FLUSH: f64 = 2e-9;
+
+/// Frees the second of two flush faces where a sphere is above their seam.
+fn leave_doubles(of_sphere: &mut [SurfaceContact]) {
+    for number in 1..of_sphere.len() {
+        let (before, after) = of_sphere.split_at_mut(number);
+        let contact = &mut after[0];
+        let is_double = |other: &SurfaceContact| {
+            let apart = (other.bias - contact.bias).abs();
+            other.bias != FREE
+                && apart <= FLUSH * (other.bias.abs() + contact.bias.abs())
+                && (other.normal - contact.normal).length_squared() <= FLUSH * FLUSH
+                && other.velocity == contact.velocity
+        };
+        if contact.bias != FREE && before.iter().any(is_double) {
+            (contact.bias, contact.approach, contact.kicked) = (FREE, 0.0, 0.0);
+        }
     }
 }
 
@@ -404,7 +427,7 @@ pub(super) fn correct(run: &mut Run, contacts: &[SurfaceContact], places: &Place
 /// Moves a sphere. Returns the work against the forces that are linear \[J\].
 pub(super) fn move_by(run: &mut Run, slot: usize, way: DVec3) -> f64 {
     run.position[slot] = run.position[slot].with_vector(run.position[slot].vector() + way);
-    -run.acceleration[slot].vector().dot(way) / run.velocity[slot].number()
+    -run.conservative_acceleration(slot).dot(way) / run.velocity[slot].number()
 }
 
 /// Whether a surface has this normal in more than one place.

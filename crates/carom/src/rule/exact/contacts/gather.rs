@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::group::Group;
 use super::member::Member;
-use super::separation::{has_at, holding_mesh, touches_surface, touching_gap};
+use super::separation::{has, has_at, holding_mesh, touches_surface, touching_gap};
 use super::touch::{Touch, TouchOrigin};
 use crate::detect::contact::Bodies;
 use crate::detect::sphere_surface;
@@ -17,6 +17,9 @@ use crate::rule::exact::flights::Cluster;
 use crate::rule::exact::neighbours::NeighbourBuffer;
 use crate::rule::exact::timeline::Timeline;
 use crate::rule::periodic;
+
+/// Angle \[rad\] between the normals of flush faces, at most, rounding included.
+const FLUSH: f64 = 2e-9;
 
 /// Gathers the spheres at `seeds`, whatever touches them at `time` \[s\], what touches that, and so
 /// on, clusters as a whole. `joined` contacts count as touching, too.
@@ -187,8 +190,8 @@ impl<'a> Gathering<'a> {
         let member = self.members[&sphere];
         let mesh = holding_mesh(timeline, self.context, slot, self.time);
         for near @ (surface, shift) in timeline.surfaces_near(slot) {
-            let collider = self.context.system.surfaces[surface as usize].collider;
-            let mesh = mesh.filter(|mesh| mesh.collider == collider);
+            let whole = self.context.system.surfaces[surface as usize].whole;
+            let mesh = mesh.filter(|mesh| mesh.whole == whole);
             let (is_handed_over, is_left) = (mesh.is_some(), mesh.is_some_and(|it| it.is_left));
             let missed = if is_left { MOST_MISSED * member.species.radius } else { 0.0 };
             if touches_surface(self.context, &member, near, missed, self.time) {
@@ -230,8 +233,8 @@ impl<'a> Gathering<'a> {
     /// before the sphere reaches it.
     fn connect_predicted(&mut self, slot: u32, surface: u32) {
         let mesh = holding_mesh(self.timeline, self.context, slot, self.time);
-        let collider = self.context.system.surfaces[surface as usize].collider;
-        let is_held = mesh.is_some_and(|mesh| mesh.collider == collider);
+        let whole = self.context.system.surfaces[surface as usize].whole;
+        let is_held = mesh.is_some_and(|mesh| mesh.whole == whole);
         if !is_held || has_at(self.timeline, self.context, slot, surface, self.time) {
             self.connect_surface(slot, surface, [true, is_held]);
         }
@@ -253,10 +256,45 @@ impl<'a> Gathering<'a> {
             Some(if found.is_handed_over { touch.handed_over(&members) } else { touch })
         });
         let mut touches: Vec<Touch> = touches.collect();
+        leave_out_doubles(context, &members, &mut touches);
         leave_out_seams(context, &members, &mut touches);
         let fastest = members.iter().map(|member| member.velocity.norm()).fold(0.0, f64::max);
         Group { time, members, touches, fastest }
     }
+}
+
+/// Removes all but one of the flush faces that a sphere touches. The face under its centre stays; of several, the
+/// one it has been on, or the first.
+fn leave_out_doubles(context: &StepContext, members: &[Member], touches: &mut Vec<Touch>) {
+    let surface = |touch: &Touch| match touch.bodies {
+        Bodies::Surface { surface, .. } => Some(&context.system.surfaces[surface as usize]),
+        Bodies::Pair(..) => None,
+    };
+    let are_flush = |one: &Touch, other: &Touch| {
+        let whole = |touch: &Touch| surface(touch).map(|it| it.whole);
+        one.second == other.second
+            && whole(one) == whole(other)
+            && !one.is_curved()
+            && !other.is_curved()
+            && (one.normal - other.normal).norm() <= FLUSH
+    };
+    let rank = |touch: &Touch| {
+        let Member { position, velocity, .. } = members[touch.second];
+        let state = [position + touch.shift, velocity - touch.form_velocity()];
+        let is_under = surface(touch).is_some_and(|it| has(&it.form, state));
+        (!is_under, !touch.has_persisted, touch.bodies)
+    };
+    let mut left: Vec<Touch> = Vec::with_capacity(touches.len());
+    for touch in touches.iter() {
+        let of_sphere = left.iter_mut().rev().take_while(|it| it.second == touch.second);
+        let is_surface = surface(touch).is_some();
+        match of_sphere.into_iter().find(|it| is_surface && are_flush(it, touch)) {
+            Some(other) if rank(touch) < rank(other) => *other = *touch,
+            Some(_) => {}
+            None => left.push(*touch),
+        }
+    }
+    *touches = left;
 }
 
 /// Removes edges that spheres touch together with a plane, up to rounding: two coplanar faces meet there.

@@ -86,7 +86,7 @@ pub(super) fn touching_gap(coordinates: f64, speed: f64, time: f64) -> f64 {
 
 /// Whether a sphere with this centre \[m\] and velocity relative to a surface \[m/s\] is in the region of this part
 /// of a mesh; true for other surfaces. At a border between two parts, exactly one has the sphere.
-fn has(form: &Form, state: [DVec3; 2]) -> bool {
+pub(super) fn has(form: &Form, state: [DVec3; 2]) -> bool {
     match form {
         Form::Facet(facet) => facet.holds(state),
         Form::Edge(edge) => edge.holds(state),
@@ -95,10 +95,11 @@ fn has(form: &Form, state: [DVec3; 2]) -> bool {
     }
 }
 
-/// The mesh with which a sphere is in persistent contact.
+/// The mesh with which a sphere is in persistent contact, and the colliders with faces flush with it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct HoldingMesh {
-    pub collider: ColliderId,
+    /// `Surface::whole` of its surfaces.
+    pub whole: ColliderId,
     /// Whether another part of the surface is now nearer to the sphere than the part that held it.
     pub is_left: bool,
 }
@@ -119,8 +120,8 @@ pub(crate) fn holding_mesh(
         .peekable();
     let first = *parts.peek()?;
     let left = parts.find(|&surface| !has_at(timeline, context, slot, surface, time));
-    let collider = surfaces[left.unwrap_or(first) as usize].collider;
-    Some(HoldingMesh { collider, is_left: left.is_some() })
+    let whole = surfaces[left.unwrap_or(first) as usize].whole;
+    Some(HoldingMesh { whole, is_left: left.is_some() })
 }
 
 /// Whether the sphere at `slot` is, at `time` \[s\], in the region of this part of a mesh; true for other surfaces.

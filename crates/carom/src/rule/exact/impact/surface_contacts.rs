@@ -133,8 +133,8 @@ pub(super) fn single_sphere<'a>(
     if is_held_with_others || context.period != DVec3::INFINITY {
         return None;
     }
-    let collider = |surface: u32| context.system.surfaces[surface as usize].collider;
-    let goes_on = |mesh: HoldingMesh| mesh.is_left || surface.map(collider) == Some(mesh.collider);
+    let whole = |surface: u32| context.system.surfaces[surface as usize].whole;
+    let goes_on = |mesh: HoldingMesh| mesh.is_left || surface.map(whole) == Some(mesh.whole);
     if contacts::holding_mesh(timeline, context, slot, time).is_some_and(goes_on) {
         return None;
     }

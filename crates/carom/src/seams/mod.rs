@@ -1,0 +1,162 @@
+//! Seams: where flat faces of colliders lie side by side in one plane, as tiles do.
+//!
+//! Such faces are one surface, without edges and corners between them. `flush` finds the faces, `polyhedron` makes
+//! meshes of their colliders, and `edges` and `corners` cut away the parts that other faces cover.
+
+mod corners;
+mod edges;
+mod face;
+mod flush;
+mod motions;
+mod polyhedron;
+
+use std::collections::BTreeMap;
+
+use crate::collider::Collider;
+use crate::collider_motion::Motion;
+use crate::connected::Connected;
+use crate::id::ColliderId;
+use crate::mesh::Placement;
+use crate::numbered::Numbered;
+use crate::pose::Pose;
+use crate::surface::{self, Form, Role, Surface};
+
+use face::FlushFace;
+use polyhedron::Polyhedra;
+
+/// The colliders that have faces flush with those of others.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Seams {
+    /// By the numbers of the colliders.
+    joined: BTreeMap<u64, Joined>,
+    /// Whether one of them moves steadily, so that the seams depend on its present pose.
+    pub are_of_now: bool,
+}
+
+/// A collider with faces that are flush with those of others.
+#[derive(Debug, Clone)]
+struct Joined {
+    /// Lowest-numbered collider of all that are joined to each other.
+    whole: ColliderId,
+    /// Pose of the collider without its motion.
+    rest: Pose,
+    /// Forms that deflect spheres, in that pose; `None` if the seams change none.
+    forms: Option<Vec<Form>>,
+}
+
+impl Seams {
+    /// Finds the seams between colliders; `plain` are their surfaces without seams.
+    pub fn of(colliders: &Numbered<Collider>, plain: &[Surface]) -> Self {
+        let is_moved = |(_, it): (u64, &Collider)| !it.motion.is_empty();
+        let at_rest = colliders.iter().any(is_moved).then(|| placed_at_rest(colliders));
+        let surfaces = at_rest.as_deref().unwrap_or(plain);
+        let pairs = flush::pairs(colliders, surfaces);
+        let mut flush_with: BTreeMap<u64, Vec<u32>> = BTreeMap::new();
+        for [first, second] in &pairs {
+            for (own, other) in [(first, second), (second, first)] {
+                let number = surfaces[*own as usize].collider.0;
+                flush_with.entry(number).or_default().push(*other);
+            }
+        }
+        let numbers: Vec<u64> = flush_with.keys().copied().collect();
+        let whole = wholes(&numbers, &pairs, surfaces);
+        let mut polyhedra = Polyhedra::default();
+        let mut joined = BTreeMap::new();
+        let mut are_of_now = false;
+        for ((number, mut others), whole) in flush_with.into_iter().zip(whole) {
+            let Some(collider) = colliders.get(number) else { continue };
+            others.sort_unstable();
+            others.dedup();
+            let rest = motions::rest_pose(collider);
+            let faces = others.iter().map(|&other| &surfaces[other as usize].form);
+            let faces: Vec<FlushFace> =
+                faces.filter_map(|form| FlushFace::of(form, rest.position)).collect();
+            let first = surfaces.partition_point(|it| it.collider.0 < number);
+            let own = surfaces[first..].iter().take_while(|it| it.collider.0 == number);
+            let deflecting = own.filter(|it| it.role == Role::Deflects).map(|it| &it.form);
+            let forms = polyhedra.forms(&collider.shape, rest, deflecting);
+            let forms = forms.map(|forms| without_covered(forms, &faces));
+            are_of_now |= motions::is_steady(collider);
+            joined.insert(number, Joined { whole, rest, forms });
+        }
+        Self { joined, are_of_now }
+    }
+
+    /// Returns the surfaces of colliders with their seams; `plain` are those without.
+    pub fn applied(&self, colliders: &Numbered<Collider>, plain: Vec<Surface>) -> Vec<Surface> {
+        if self.joined.is_empty() {
+            return plain;
+        }
+        let mut surfaces = Vec::with_capacity(plain.len());
+        for own in plain.chunk_by(|first, second| first.collider == second.collider) {
+            let number = own[0].collider.0;
+            match (self.joined.get(&number), colliders.get(number)) {
+                (Some(joined), Some(collider)) => joined.place(collider, own, &mut surfaces),
+                _ => surfaces.extend_from_slice(own),
+            }
+        }
+        surfaces
+    }
+}
+
+impl Joined {
+    /// Appends the surfaces of the collider; `own` are those without seams.
+    fn place(&self, collider: &Collider, own: &[Surface], surfaces: &mut Vec<Surface>) {
+        let whole = self.whole;
+        let as_whole = |surface: &Surface| Surface { whole, ..surface.clone() };
+        let Some(forms) = &self.forms else { return surfaces.extend(own.iter().map(as_whole)) };
+        surfaces.extend(own.iter().filter(|it| it.role != Role::Deflects).map(as_whole));
+        let Some(deflecting) = own.iter().find(|it| it.role == Role::Deflects) else { return };
+        let Pose { position: to, rotation } = collider.pose;
+        let placement = (collider.pose != self.rest).then(|| Placement {
+            rotation: rotation.normalize() * self.rest.rotation.normalize().conjugate(),
+            from: self.rest.position,
+            to,
+        });
+        surfaces.extend(forms.iter().map(|form| {
+            let form = placement.map_or_else(|| form.clone(), |it| form.placed(&it));
+            Surface { form, whole, ..deflecting.clone() }
+        }));
+    }
+}
+
+/// Lowest-numbered collider joined to each of these colliders, whose numbers ascend.
+fn wholes(numbers: &[u64], pairs: &[[u32; 2]], surfaces: &[Surface]) -> Vec<ColliderId> {
+    let mut connected = Connected::new(numbers.len());
+    let place = |surface: u32| {
+        let number = surfaces[surface as usize].collider.0;
+        numbers.partition_point(|&it| it < number)
+    };
+    for [first, second] in pairs {
+        connected.join(place(*first), place(*second));
+    }
+    (0..numbers.len()).map(|it| ColliderId(numbers[connected.root_of(it)])).collect()
+}
+
+/// Surfaces of colliders in their poses without motion.
+fn placed_at_rest(colliders: &Numbered<Collider>) -> Vec<Surface> {
+    let mut surfaces = Vec::new();
+    for (number, collider) in colliders.iter() {
+        let pose = motions::rest_pose(collider);
+        let still = Collider { pose, motion: Motion::default(), ..collider.clone() };
+        surface::place(ColliderId(number), &still, 0.0, &mut surfaces);
+    }
+    surfaces
+}
+
+/// Forms of a collider without the parts that flush faces of others cover.
+fn without_covered(forms: Vec<Form>, faces: &[FlushFace]) -> Vec<Form> {
+    let mut kept = Vec::with_capacity(forms.len());
+    for form in forms {
+        match form {
+            Form::Edge(edge) => {
+                kept.extend(edges::uncovered(&edge, faces).into_iter().map(Form::Edge));
+            }
+            Form::Corner(corner) => {
+                kept.extend(corners::uncovered(&corner, faces).into_iter().map(Form::Corner));
+            }
+            form => kept.push(form),
+        }
+    }
+    kept
+}
