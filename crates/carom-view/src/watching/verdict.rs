@@ -12,14 +12,18 @@ const KEPT: f64 = 5e-3;
 pub(super) struct Verdict {
     /// Energy now relative to that at the start, 1 if it is the same.
     pub kept: f64,
-    /// Whether the scene has nothing that takes or adds energy.
+    /// Whether nothing in the scene takes energy.
     pub must_keep: bool,
 }
 
 impl Verdict {
-    /// Returns the verdict on a view; `None` while nothing has moved.
+    /// Returns the verdict on a view; `None` while nothing has moved, and where new balls, edits or
+    /// moving surfaces add energy.
     pub fn of(view: &View) -> Option<Self> {
         let first = view.readings.first()?;
+        if has_sources(view) {
+            return None;
+        }
         let moved = view.readings.iter().map(|it| it.kinetic_energy).fold(0.0, f64::max);
         if moved <= 0.0 {
             return None;
@@ -34,7 +38,7 @@ impl Verdict {
         if self.must_keep {
             format!("energy kept: {percent:.0} %")
         } else {
-            format!("energy now: {percent:.0} % of the start")
+            format!("energy left: {percent:.0} %")
         }
     }
 
@@ -55,8 +59,14 @@ impl Verdict {
     }
 }
 
-/// Returns whether nothing in the scene takes or adds energy: no loss in impacts, no drag, friction,
-/// damping, moving surface, emitter or edit.
+/// Returns whether emitters, edits or moving surfaces may add energy.
+fn has_sources(view: &View) -> bool {
+    let setup = &view.setup;
+    let moves = setup.colliders.iter().any(|(_, it)| !it.trigger && !it.motion.is_empty());
+    !view.changes.is_empty() || !setup.emitters.is_empty() || moves
+}
+
+/// Returns whether nothing in the scene takes energy: no loss in impacts, drag, friction or damping.
 fn is_lossless(view: &View) -> bool {
     let setup = &view.setup;
     let keeps = |force: &Force| {
@@ -73,13 +83,8 @@ fn is_lossless(view: &View) -> bool {
             .colliders
             .iter()
             .any(|(_, it)| it.surface_friction() != carom::Friction::default());
-    view.changes.is_empty()
-        && setup.emitters.is_empty()
-        && setup.forces.iter().all(|(_, it)| keeps(it))
-        && setup
-            .colliders
-            .iter()
-            .all(|(_, it)| it.trigger || (it.restitution == 1.0 && it.motion.is_empty()))
+    setup.forces.iter().all(|(_, it)| keeps(it))
+        && setup.colliders.iter().all(|(_, it)| it.trigger || it.restitution == 1.0)
         && !has_friction
         && view.spheres.restitutions.iter().all(|it| *it == 1.0)
         && view.spheres.frictions.iter().all(|it| *it == carom::Friction::default())
