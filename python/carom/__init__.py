@@ -17,8 +17,11 @@ from carom._pictures.film import Film
 from carom._pictures.picture import Renderer
 from carom._run.batch import Batch
 from carom._run.derivatives import Gradient, Margin, Tangents, Tape
+from carom._run.gradients import RunEnd, value_and_grad
+from carom._run.packing import Packing, pack
 from carom._run.queries import PredictedPath, QueryFilter
 from carom._run.reports import ContactAccount, EnergyAccount, StageCounts, ZoneAccount
+from carom._run.stress import Stress, StressMeter
 from carom._run.tables import (
     CONTACT,
     HIT,
@@ -51,6 +54,7 @@ from carom._scene.parts import (
     Contact,
     Container,
     Cylinder,
+    DenseFluid,
     DensityColor,
     Disc,
     Discrete,
@@ -135,6 +139,7 @@ __all__ = [
     "ContactAccount",
     "Container",
     "Cylinder",
+    "DenseFluid",
     "DensityColor",
     "Disc",
     "Discrete",
@@ -161,6 +166,7 @@ __all__ = [
     "MutualGravity",
     "OmissionWarning",
     "Oscillate",
+    "Packing",
     "Periodic",
     "Pipe",
     "PointAttractor",
@@ -173,6 +179,7 @@ __all__ = [
     "Renderer",
     "Ring",
     "Row",
+    "RunEnd",
     "RunError",
     "Runs",
     "Scene",
@@ -187,6 +194,8 @@ __all__ = [
     "StaggeredRows",
     "Steady",
     "StepError",
+    "Stress",
+    "StressMeter",
     "Sun",
     "Swing",
     "Tangents",
@@ -204,9 +213,11 @@ __all__ = [
     "__version__",
     "analysis",
     "load",
+    "pack",
     "scene",
     "scenes",
     "sweep",
+    "value_and_grad",
 ]
 
 above.notebook = _show

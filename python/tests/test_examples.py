@@ -63,3 +63,15 @@ def test_the_gas_begins_in_equilibrium_without_momentum() -> None:
         world.velocities = it.maxwell_velocities(len(world), 3)
         assert world.kinetic_energy == pytest.approx(1.5 * len(world), rel=1e-12)
         np.testing.assert_allclose(world.momentum, 0, atol=1e-12)
+
+
+def test_descent_finds_a_bank_shot_in_twenty_steps() -> None:
+    it = example("bank_shot")
+    scene = it.table()
+    strike, misses = it.find(scene)
+    assert misses[0] > 0.5
+    # A billionth of a metre, from a gradient that is exact to rounding.
+    assert misses[-1] < 1e-9
+    assert len(misses) <= 20
+    place, _ = it.rest(scene, strike)
+    assert np.allclose(place, it.TARGET, atol=1e-9)

@@ -14,7 +14,7 @@ use crate::markdown::{Block, Markdown};
 use crate::shell::{CI, Outcome, cargo, ci_folder, succeeds, target_folder};
 
 /// Documents whose commands are run.
-const DOCUMENTS: [&str; 15] = [
+const DOCUMENTS: [&str; 16] = [
     "README.md",
     "docs/tutorial.md",
     "docs/command-line.md",
@@ -27,6 +27,7 @@ const DOCUMENTS: [&str; 15] = [
     "docs/physics/persistent-contacts.md",
     "docs/physics/exact.md",
     "docs/physics/growth.md",
+    "docs/physics/stress.md",
     "docs/physics/zones.md",
     "docs/physics/contact.md",
     "docs/physics/bisect-and-discrete.md",

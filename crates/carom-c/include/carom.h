@@ -344,12 +344,13 @@ typedef void (*CaromDestroyFunction)(void *user_data);
 ///
 /// The thread that steps a world calls it; if the library was built with the feature `rayon`, other
 /// threads do so, too. For the same bits everywhere it must not use functions whose result depends
-/// on the platform (sin, exp, ...). Under the rule `exact` such a force is held constant from one
-/// force tick to the next.
+/// on the platform (sin, exp, ...). The rule `exact` calls it some
+/// tens of times in each step of a sphere, not in the order of time.
 typedef struct {
     /// The function.
     CaromForceFunction force;
-    /// The function of its potential energy, or null.
+    /// The function of its potential energy, which accounts for all of its work, or null. Without one the work of
+    /// the force is measured: carom_world_energy_account().
     CaromPotentialFunction potential_energy;
     /// Passed to the functions.
     void *user_data;
@@ -404,9 +405,8 @@ typedef struct {
     double collider_work;
     /// Work of the correction of overlaps [J].
     double correction_work;
-    /// Energy of emitted spheres minus that of removed ones [J]. The total energy changes by these
-    /// four, by carom_world_kick_work(), by the work of forces without a potential, and by the error
-    /// of the integration.
+    /// Energy of emitted spheres minus that of removed ones [J]. carom_world_energy_account() has
+    /// all that changes the total energy.
     double emission_energy;
     /// Under the rule `contact`: largest change of an impulse in the last sweep, relative to the
     /// largest impulse.
@@ -415,6 +415,27 @@ typedef struct {
     /// radii.
     double largest_overlap;
 } CaromReport;
+
+/// Changes of the energy in the last step: the total energy changes by their sum, and by the error of
+/// the integration.
+typedef struct {
+    /// Work of contacts [J]: the energy change by restitution and friction.
+    double contacts;
+    /// Work of moving colliders [J].
+    double colliders;
+    /// Work of the kicks of colliders [J].
+    double kicks;
+    /// Work of growing spheres [J].
+    double growth;
+    /// Work of forces without a potential [J]: drag, wind, vortices, dampers, forces of the program.
+    double forces;
+    /// Work of the forces applied to single spheres [J].
+    double applied;
+    /// Work of the correction of overlaps [J].
+    double correction;
+    /// Energy of emitted spheres minus that of removed ones [J].
+    double emission;
+} CaromEnergyAccount;
 
 /// Two bodies: two spheres, or a collider and a sphere.
 typedef struct {
@@ -828,6 +849,9 @@ CaromStatus carom_world_report(CaromWorld world, CaromReport *report);
 
 /// Reads the work of the kicks of colliders in the last step [J]; 0 after carom_world_restore().
 CaromStatus carom_world_kick_work(CaromWorld world, double *work);
+
+/// Reads the changes of the energy in the last step; all are 0 after carom_world_restore().
+CaromStatus carom_world_energy_account(CaromWorld world, CaromEnergyAccount *account);
 
 /// Reads the impacts of the last step in order of time, in the way of carom_world_ids().
 CaromStatus carom_world_impacts(CaromWorld world, CaromImpact *impacts, size_t stride, size_t capacity, size_t *count);

@@ -48,14 +48,15 @@ pub type CaromDestroyFunction = Option<unsafe extern "C" fn(user_data: *mut c_vo
 ///
 /// The thread that steps a world calls it; if the library was built with the feature `rayon`, other
 /// threads do so, too. For the same bits everywhere it must not use functions whose result depends
-/// on the platform (sin, exp, ...). Under the rule `exact` such a force is held constant from one
-/// force tick to the next.
+/// on the platform (sin, exp, ...). The rule `exact` calls it some
+/// tens of times in each step of a sphere, not in the order of time.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct CaromForce {
     /// The function.
     pub force: CaromForceFunction,
-    /// The function of its potential energy, or null.
+    /// The function of its potential energy, which accounts for all of its work, or null. Without one the work of
+    /// the force is measured: carom_world_energy_account().
     pub potential_energy: CaromPotentialFunction,
     /// Passed to the functions.
     pub user_data: *mut c_void,
@@ -104,6 +105,10 @@ impl Force for Function {
             // SAFETY: a function of the program, with its own data; the state outlives the call.
             unsafe { function(&raw const state, time, self.0.user_data) }
         })
+    }
+
+    fn is_conservative(&self) -> bool {
+        self.0.potential_energy.is_some()
     }
 }
 

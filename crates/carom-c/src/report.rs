@@ -195,9 +195,8 @@ pub struct CaromReport {
     pub collider_work: f64,
     /// Work of the correction of overlaps [J].
     pub correction_work: f64,
-    /// Energy of emitted spheres minus that of removed ones [J]. The total energy changes by these
-    /// four, by carom_world_kick_work(), by the work of forces without a potential, and by the error
-    /// of the integration.
+    /// Energy of emitted spheres minus that of removed ones [J]. carom_world_energy_account() has
+    /// all that changes the total energy.
     pub emission_energy: f64,
     /// Under the rule `contact`: largest change of an impulse in the last sweep, relative to the
     /// largest impulse.
@@ -240,6 +239,51 @@ pub unsafe extern "C" fn carom_world_kick_work(world: CaromWorld, work: *mut f64
     // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
     let place = unsafe { Out::new(work, "work") };
     world.measure(place, |inner| inner.world.report().energy_account.kicks)
+}
+
+/// Changes of the energy in the last step: the total energy changes by their sum, and by the error of
+/// the integration.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct CaromEnergyAccount {
+    /// Work of contacts [J]: the energy change by restitution and friction.
+    pub contacts: f64,
+    /// Work of moving colliders [J].
+    pub colliders: f64,
+    /// Work of the kicks of colliders [J].
+    pub kicks: f64,
+    /// Work of growing spheres [J].
+    pub growth: f64,
+    /// Work of forces without a potential [J]: drag, wind, vortices, dampers, forces of the program.
+    pub forces: f64,
+    /// Work of the forces applied to single spheres [J].
+    pub applied: f64,
+    /// Work of the correction of overlaps [J].
+    pub correction: f64,
+    /// Energy of emitted spheres minus that of removed ones [J].
+    pub emission: f64,
+}
+
+/// Reads the changes of the energy in the last step; all are 0 after carom_world_restore().
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carom_world_energy_account(
+    world: CaromWorld,
+    account: *mut CaromEnergyAccount,
+) -> CaromStatus {
+    // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
+    world.measure(unsafe { Out::new(account, "account") }, |inner| {
+        let account = inner.world.report().energy_account;
+        CaromEnergyAccount {
+            contacts: account.contacts,
+            colliders: account.colliders,
+            kicks: account.kicks,
+            growth: account.growth,
+            forces: account.forces,
+            applied: account.applied,
+            correction: account.correction,
+            emission: account.emission,
+        }
+    })
 }
 
 /// Reads the impacts of the last step in order of time, in the way of carom_world_ids().

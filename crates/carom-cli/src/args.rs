@@ -264,6 +264,10 @@ pub struct Run {
     /// before and after; `-` as by --out. Kept by the rule `exact` only.
     #[arg(long, value_name = "PATH")]
     pub ledger: Option<PathBuf>,
+    /// Tell the mean stress of the run, and its pressure; in VOLUME m³, by default that of the periodic box or of the
+    /// first closed container.
+    #[arg(long, value_name = "VOLUME", num_args = 0..=1, require_equals = true, value_parser = positive)]
+    pub stress: Option<Option<f64>>,
     /// Whether existing files are replaced.
     #[command(flatten)]
     pub replacing: Replacing,

@@ -1,8 +1,11 @@
 //! Energy balance of a run.
 
-use carom::{EnergyAccount, Rule, World};
+use carom::{EnergyAccount, World};
 use carom_scene::scene::{Force, Scene};
 use serde::Serialize;
+
+/// An error of integration above this part of the largest energy is more than rounding.
+const ROUNDING: f64 = 1e-9;
 
 /// Energy accounts of a run, as in JSON: the energy at the end is the energy at the start plus all
 /// of these.
@@ -14,44 +17,82 @@ pub struct EnergyBalance {
     colliders: f64,
     /// Work of the kicks of colliders \[J\].
     kicks: f64,
+    /// Work of growing spheres \[J\].
+    growth: f64,
+    /// Work of forces without a potential \[J\].
+    forces: f64,
+    /// Work of forces applied to single spheres \[J\].
+    applied: f64,
     /// Work of separating overlapping spheres \[J\].
     correction: f64,
     /// Energy of emitted spheres minus that of removed spheres \[J\].
     emission: f64,
-    /// Change of energy in no other account \[J\]; `remainder_is` says where it comes from.
-    remainder: f64,
-    /// Origin of the remainder, in words.
-    remainder_is: &'static str,
+    /// Change of energy in no other account \[J\]: the error of the integration, and what
+    /// `integration_is` names besides.
+    integration: f64,
+    /// Its size as a part of the largest energy.
+    integration_part: f64,
+    /// Origin of the entry before, in words.
+    integration_is: &'static str,
 }
 
 impl EnergyBalance {
-    /// Creates the balance from the accounts and the total `change` of energy \[J\].
-    pub fn new(account: EnergyAccount, change: f64, remainder_is: &'static str) -> Self {
-        let EnergyAccount { contacts, colliders, kicks, correction, emission, .. } = account;
-        let remainder = change - account.total();
-        Self { contacts, colliders, kicks, correction, emission, remainder, remainder_is }
+    /// Creates the balance from the accounts and the total energies at the start and the end \[J\].
+    pub fn new(
+        account: EnergyAccount,
+        [start, end]: [f64; 2],
+        integration_is: &'static str,
+    ) -> Self {
+        let EnergyAccount { contacts, colliders, kicks, growth, forces, applied, .. } = account;
+        let EnergyAccount { correction, emission, .. } = account;
+        let integration = end - start - account.total();
+        let given = [contacts, colliders, kicks, growth, forces, applied, correction, emission];
+        let largest =
+            given.iter().chain(&[start, end]).fold(0.0, |most: f64, it| most.max(it.abs()));
+        let integration_part = if integration == 0.0 { 0.0 } else { integration.abs() / largest };
+        Self {
+            contacts,
+            colliders,
+            kicks,
+            growth,
+            forces,
+            applied,
+            correction,
+            emission,
+            integration,
+            integration_part,
+            integration_is,
+        }
     }
 
     /// Lines of the summary. Zero entries are left out, except the first and the last.
     pub fn rows(&self) -> Vec<(&'static str, String)> {
+        let part = match self.integration_part {
+            part if part > ROUNDING => format!(": {part:.1e} of the largest energy"),
+            _ => String::new(),
+        };
+        let integration = format!("{}{part}", self.integration_is);
         let entries = [
             ("  contacts", self.contacts, "taken by restitution and friction"),
             ("  colliders", self.colliders, "given by moving colliders"),
             ("  kicks", self.kicks, "given by colliders that kick"),
+            ("  growth", self.growth, "given by growing balls"),
+            ("  forces", self.forces, "given by forces without a potential"),
+            ("  applied", self.applied, "given by forces applied to single balls"),
             ("  correction", self.correction, "given by the correction of overlaps"),
             ("  emission", self.emission, "of emitted balls, less those taken out"),
-            ("  remainder", self.remainder, self.remainder_is),
+            ("  integration", self.integration, &integration),
         ];
         let is_shown = |&(name, energy, _): &(&str, f64, &str)| {
-            energy != 0.0 || name == "  contacts" || name == "  remainder"
+            energy != 0.0 || name == "  contacts" || name == "  integration"
         };
         let row = |(name, energy, what)| (name, format!("{energy:+.3e} J {what}"));
         entries.into_iter().filter(is_shown).map(row).collect()
     }
 }
 
-/// Describes the origin of the energy that is in no account.
-pub fn remainder_of(scene: &Scene, world: &World, edits: usize) -> &'static str {
+/// Describes the origin of the energy that is in no account of its own.
+pub fn rest_of(scene: &Scene, world: &World, edits: usize) -> &'static str {
     let has_potential = |force: &Force| {
         matches!(
             force,
@@ -62,25 +103,11 @@ pub fn remainder_of(scene: &Scene, world: &World, edits: usize) -> &'static str 
                 | Force::Buoyancy { .. }
         )
     };
-    let is_linear = |force: &Force| matches!(force, Force::ViscousDrag { .. } | Force::Wind { .. });
-    let is_damped = scene.springs.iter().any(|spring| spring.damping != 0.0);
-    let (conserving, others): (Vec<_>, Vec<_>) =
-        scene.forces.iter().partition(|force| has_potential(force));
     // Potentials jump at the faces of a periodic box.
-    let jumps = world.settings().boundary.is_periodic() && !conserving.is_empty();
-    if edits > 0 {
-        return "by edits, forces without a potential, and errors of integration";
+    let jumps = world.settings().boundary.is_periodic() && scene.forces.iter().any(has_potential);
+    match (edits > 0, jumps) {
+        (true, _) => "by edits, and error of integration",
+        (false, true) => "by potentials at the faces of the box, and error of integration",
+        (false, false) => "error of integration",
     }
-    if others.is_empty() && !is_damped && !jumps {
-        return "error of integration";
-    }
-    let is_closed_form = matches!(world.settings().rule, Rule::Exact(_))
-        && scene.springs.is_empty()
-        && scene.forces.iter().all(|force| {
-            is_linear(force) || matches!(force, Force::Constant { .. } | Force::Gravity { .. })
-        });
-    if is_closed_form && !jumps {
-        return "by drag";
-    }
-    "by forces without a potential, and error of integration"
 }

@@ -34,6 +34,7 @@ mod run;
 mod scenes;
 mod stage_work;
 mod standard_input;
+mod stress;
 mod summary;
 mod table;
 mod verify;

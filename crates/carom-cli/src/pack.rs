@@ -2,12 +2,11 @@
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
 
-use carom::packing::{self, Compressed, Compression, Start, Until};
 use carom::{Boundary, Error, StopRequest, World};
 use carom_scene::Scene;
 use carom_scene::import::plain_name;
+use carom_scene::pack::{Packed, Recipe, Sizes};
 use carom_scene::recording::Trajectory;
 use carom_scene::scene::{self, Sphere};
 use carom_scene::unfinished::create_folders_of;
@@ -15,13 +14,7 @@ use carom_scene::unfinished::create_folders_of;
 use crate::failure::Failure;
 use crate::interruption::interruption;
 use crate::length::positive;
-use crate::numbers::Numbers;
 use crate::replacing::Replacing;
-
-/// The largest gap of a contact of a packing, times its reduced pressure.
-const CONTACT: f64 = 100.0;
-/// Below this reduced pressure spheres have gaps all around, and rattlers are not counted.
-const JAMMED: f64 = 1e6;
 
 /// Make a dense packing or a dense fluid.
 #[derive(Debug, clap::Args)]
@@ -56,69 +49,22 @@ pub struct Pack {
     pub replacing: Replacing,
 }
 
-/// Radii, with their shares.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Sizes(Vec<Size>);
-
-/// Radii between two \[m\], and how large their share is.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Size {
-    radii: [f64; 2],
-    share: f64,
-}
-
-impl FromStr for Sizes {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let size = |part: &str| {
-            let (radii, share) = part.split_once(':').unwrap_or((part, "1"));
-            let (low, high) = radii.split_once('-').unwrap_or((radii, radii));
-            let number =
-                |text: &str| positive(text).map_err(|problem| format!("{part}: {problem}"));
-            let radii = [number(low)?, number(high)?];
-            if radii[0] > radii[1] {
-                return Err(format!("{part}: the smaller radius comes first"));
-            }
-            Ok(Size { radii, share: number(share)? })
-        };
-        text.split(',').map(size).collect::<Result<_, _>>().map(Self)
-    }
-}
-
-impl Sizes {
-    /// Returns the radii of `count` spheres \[m\]: as many of each size as its share says, in places of their own.
-    fn radii(&self, count: usize, numbers: &mut Numbers) -> Vec<f64> {
-        let total: f64 = self.0.iter().map(|size| size.share).sum();
-        let (mut radii, mut share) = (Vec::with_capacity(count), 0.0);
-        for size in &self.0 {
-            share += size.share;
-            let until = (count as f64 * share / total).round() as usize;
-            let [low, high] = size.radii;
-            radii.extend((radii.len()..until.min(count)).map(|_| numbers.between(low, high)));
-        }
-        radii
-    }
-}
-
 /// Makes a packing, writes it and prints what it is like.
 pub fn pack(pack: &Pack) -> Result<(), Failure> {
     pack.replacing.check(pack.out.as_deref())?;
     let interrupted = interruption()?;
-    let radii = pack.sizes.radii(pack.spheres as usize, &mut Numbers::new(pack.seed));
-    let start = Start::of(radii, pack.seed).with_packing_fraction(pack.packing_fraction);
-    let mut world = packing::start(&start).map_err(|error| Failure::Usage(error.to_string()))?;
-    world.set_stop_request(Some(StopRequest::from(interrupted)));
-    let until = match pack.pressure {
-        Some(pressure) => Until::Pressure(pressure),
-        None => Until::PackingFraction(pack.packing_fraction),
+    let recipe = Recipe {
+        radii: pack.sizes.radii(pack.spheres as usize, pack.seed),
+        seed: pack.seed,
+        packing_fraction: pack.packing_fraction,
+        pressure: pack.pressure,
+        growth: pack.growth,
+        equilibrate: pack.equilibrate,
     };
-    let compression = Compression::until(until).with_growth(pack.growth);
-    let compressed = packing::compress(&mut world, &compression).map_err(refused)?;
-    let mut fluid = compressed.fluid;
-    if let Some(collisions) = pack.equilibrate.filter(|_| compressed.is_reached) {
-        fluid = packing::equilibrate(&mut world, collisions, None).map_err(refused)?;
-    }
+    let mut world = recipe.start().map_err(|error| Failure::Usage(error.to_string()))?;
+    world.set_stop_request(Some(StopRequest::from(interrupted)));
+    let packed = recipe.pack(world).map_err(refused)?;
+    let Packed { world, compressed, fluid, rattlers } = &packed;
     let out = &mut io::stdout().lock();
     writeln!(out, "spheres           {}", world.spheres().len())?;
     writeln!(out, "packing fraction  {:.6}", compressed.packing_fraction)?;
@@ -129,29 +75,17 @@ pub fn pack(pack: &Pack) -> Result<(), Failure> {
         fluid.collision_rate
     )?;
     writeln!(out, "collisions        {}", compressed.collisions)?;
-    if fluid.pressure >= JAMMED {
-        let rattlers = packing::rattlers(&world, CONTACT / fluid.pressure).map_err(refused)?;
+    if let Some(rattlers) = rattlers {
         writeln!(out, "rattlers          {rattlers}")?;
     }
     writeln!(out, "state hash        {}", world.state_hash())?;
-    check_reached(pack, &compressed)?;
+    if let Some(shortfall) = packed.shortfall(&recipe) {
+        return Err(Failure::Fault(format!("{shortfall}: a smaller --growth packs denser")));
+    }
     match &pack.out {
-        Some(file) => write(file, &world),
+        Some(file) => write(file, world),
         None => Ok(()),
     }
-}
-
-/// Refuses spheres that jammed before they were as dense as they were to be.
-fn check_reached(pack: &Pack, compressed: &Compressed) -> Result<(), Failure> {
-    if compressed.is_reached {
-        return Ok(());
-    }
-    let Compressed { packing_fraction, .. } = compressed;
-    let advice = "a smaller --growth packs denser";
-    let wanted = pack.packing_fraction;
-    Err(Failure::Fault(format!(
-        "jammed at a packing fraction of {packing_fraction:.4}, not {wanted}: {advice}"
-    )))
 }
 
 /// Writes a scene, or a trajectory of one frame.

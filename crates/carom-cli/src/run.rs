@@ -93,6 +93,9 @@ fn once(
     let mut outputs = Outputs::create(args, &replay, frames)?;
     replay.set_stop_request(Some(StopRequest::from(interrupted.clone())));
     let mut observer = Observer::new(replay.world());
+    if let Some(volume) = args.stress {
+        observer.measure_stress(replay.world(), volume)?;
+    }
     let progress = Progress::new(frames);
     let mut result = Ok(());
     for frame in 1..=frames {

@@ -11,9 +11,11 @@ use serde::Serialize;
 use crate::advice::{Conduct, advice, unread};
 use crate::breach::{Course, breaches};
 use crate::contact_totals::ContactTotals;
-use crate::energy_balance::{EnergyBalance, remainder_of};
+use crate::energy_balance::{EnergyBalance, rest_of};
 use crate::escapes::Escapes;
+use crate::failure::Failure;
 use crate::stage_work::StageWork;
+use crate::stress::{MeanStress, StressGauge};
 use crate::written::written;
 use crate::zone_totals::ZoneTotals;
 
@@ -54,6 +56,7 @@ pub struct Observer {
     /// Whether a ball was emitted into another one.
     emitted_into_another: bool,
     escapes: Escapes,
+    stress: Option<StressGauge>,
 }
 
 impl Observer {
@@ -82,7 +85,14 @@ impl Observer {
             zones: ZoneTotals::default(),
             emitted_into_another: false,
             escapes,
+            stress: None,
         }
+    }
+
+    /// Has the stress measured from here on, in a volume \[m³\] or that of the box around the spheres.
+    pub fn measure_stress(&mut self, world: &World, volume: Option<f64>) -> Result<(), Failure> {
+        self.stress = Some(StressGauge::new(world, volume)?);
+        Ok(())
     }
 
     /// Steps a frame and collects its figures.
@@ -102,6 +112,9 @@ impl Observer {
         self.energy += report.energy_account;
         self.contact.add(report);
         self.zones.add(report);
+        if let Some(stress) = &mut self.stress {
+            stress.add_frame(world);
+        }
         for group in &report.groups {
             self.largest_momentum_error = self.largest_momentum_error.max(group.momentum_error());
             self.largest_energy_error = self.largest_energy_error.max(group.energy_error());
@@ -182,6 +195,9 @@ pub struct Summary {
     contact: Option<ContactTotals>,
     /// Only if `exact` had stepped zones.
     zones: Option<ZoneTotals>,
+    /// Only if it was asked for, and after a frame at least.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stress: Option<MeanStress>,
     wall_time: f64,
     stepping_time: f64,
     state_hash: String,
@@ -271,8 +287,8 @@ impl Summary {
             energy_at_end,
             energy_balance: EnergyBalance::new(
                 observer.energy,
-                energy_at_end - observer.energy_at_start,
-                remainder_of(replay.scene(), world, replay.edits()),
+                [observer.energy_at_start, energy_at_end],
+                rest_of(replay.scene(), world, replay.edits()),
             ),
             momentum_at_start: observer.momentum_at_start.to_array(),
             momentum_at_end: world.momentum().to_array(),
@@ -281,6 +297,7 @@ impl Summary {
             largest_energy_error: is_exact.then_some(observer.largest_energy_error),
             contact: (is_contact || observer.zones.are_any()).then_some(observer.contact),
             zones: observer.zones.are_any().then_some(observer.zones),
+            stress: observer.stress.and_then(|gauge| gauge.mean()),
             wall_time: observer.began.elapsed().as_secs_f64(),
             stepping_time: observer.stepping.as_secs_f64(),
             state_hash: world.state_hash().to_string(),
@@ -349,6 +366,9 @@ impl Summary {
             ),
             ("state hash", self.state_hash.clone()),
         ];
+        if let Some(stress) = &self.stress {
+            rows.splice(7..7, stress.rows());
+        }
         if let Some(zones) = &self.zones {
             let time = self.simulated_time;
             rows.splice(6..6, [("stepped zones", zones.row(time))]);

@@ -411,17 +411,19 @@ fn the_rule_contact_tells_what_it_did_to_energy() {
     let number = |value: &Value| value.as_f64().unwrap();
     let lost = number(&figures["energy_at_start"]) - number(&figures["energy_at_end"]);
     assert!(number(&balance["contacts"]) < -0.1, "{balance}");
-    let entries = ["contacts", "colliders", "correction", "emission", "remainder"];
-    let accounted: f64 = entries.iter().map(|name| number(&balance[name])).sum();
+    let of_bodies = ["contacts", "colliders", "kicks", "growth"];
+    let others = ["forces", "applied", "correction", "emission", "integration"];
+    let entries = of_bodies.iter().chain(&others);
+    let accounted: f64 = entries.map(|name| number(&balance[name])).sum();
     assert!((lost + accounted).abs() < 1e-12 * lost, "{lost} J: {balance}");
     // Free flight is exact.
-    assert!(number(&balance["remainder"]).abs() < 1e-3 * lost, "{lost} J: {balance}");
+    assert!(number(&balance["integration"]).abs() < 1e-3 * lost, "{lost} J: {balance}");
     assert!((0.0..=1.0).contains(&number(&contact["residual"])), "{contact}");
     assert!(number(&contact["largest_overlap"]) < 0.1);
     assert_eq!((&figures["sub_steps"], &figures["sweeps"]), (&8.into(), &2.into()));
     assert!(figures["work"]["sweeps"].as_u64().unwrap() > 0);
     let text = good(&run);
-    for line in ["sub-steps 8, sweeps 2", "  contacts", "  remainder", "overlap ", "residual "] {
+    for line in ["sub-steps 8, sweeps 2", "  contacts", "  integration", "overlap ", "residual "] {
         assert!(text.contains(line), "{line}: {text}");
     }
     assert!(summary(&["run", &scene, "--seconds", "0.1"])["contact"].is_null());

@@ -64,3 +64,33 @@ fn sizes_that_make_no_sense_are_one_line() {
     }
     assert!(bad_line(&["pack", "--spheres", "2"], 2).contains("four times"));
 }
+
+#[test]
+fn run_tells_the_stress_of_a_packing_and_its_pressure() {
+    let folder = TempDir::new().unwrap();
+    let file = path(&folder, "fluid.toml");
+    let size = ["--spheres", "100", "--packing-fraction", "0.4", "--growth", "0.1"];
+    good(&[&["pack", "--out", &file][..], &size[..]].concat());
+    let summary = good(&["run", &file, "--frames", "200", "--stress"]);
+    // N k T/V of 100 spheres with m = 1/8 kg and k T of about that, times 7 by Carnahan and Starling; growth may
+    // have doubled the temperature.
+    let pressure = number(&summary, "pressure");
+    assert!((0.5..4.0).contains(&pressure), "{summary}");
+    let rows: Vec<f64> = ["stress x", "stress y", "stress z"]
+        .iter()
+        .enumerate()
+        .map(|(axis, name)| {
+            let line = summary.lines().find(|line| line.starts_with(name)).unwrap();
+            line[name.len()..].split_whitespace().nth(axis).unwrap().parse().unwrap()
+        })
+        .collect();
+    // Seven digits are printed.
+    assert!((rows.iter().sum::<f64>() / (3.0 * pressure) - 1.0).abs() < 1e-5, "{summary}");
+    let json = good(&["run", &file, "--frames", "200", "--stress=1", "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let in_a_cubic_metre = json["stress"]["pressure"].as_f64().unwrap();
+    // 100 spheres of radius 1/2 at 0.4 are in 131 m³.
+    assert!((in_a_cubic_metre / pressure / 130.9 - 1.0).abs() < 1e-3, "{in_a_cubic_metre}");
+    let refusal = bad_line(&["run", "bounce", "--frames", "2", "--stress"], 2);
+    assert!(refusal.contains("--stress needs a volume"), "{refusal}");
+}

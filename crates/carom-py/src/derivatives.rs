@@ -6,8 +6,8 @@
 use std::sync::{Mutex, MutexGuard};
 
 use carom::{
-    ColliderId, ColliderVariation, DVec3, DerivativeError, Margin, SphereId, SphereTangent,
-    SphereVariation, Variation, World,
+    ColliderId, ColliderVariation, DVec3, Margin, SphereId, SphereTangent, SphereVariation,
+    Variation, World,
 };
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::PyRuntimeError;
@@ -191,12 +191,15 @@ impl TangentsEngine {
 
 impl Engine {
     /// Takes frames of `dt` \[s\], or of the scene's own, by a function that follows them, and updates the arrays.
-    fn follow(
+    pub(crate) fn follow<E: Send>(
         &self,
         py: Python<'_>,
         (dt, frames): (Option<&Bound<'_, PyAny>>, &Bound<'_, PyAny>),
-        mut step: impl FnMut(&mut World, f64) -> Result<(), DerivativeError> + Send,
-    ) -> PyResult<()> {
+        mut step: impl FnMut(&mut World, f64) -> Result<(), E> + Send,
+    ) -> PyResult<()>
+    where
+        Failure: From<E>,
+    {
         let dt = arguments::optional_number("dt", dt)?;
         let frames = arguments::count("frames", frames)?;
         let mut guard = self.lock(py)?;

@@ -5,7 +5,7 @@
 
 use std::sync::{Arc, Mutex, MutexGuard};
 
-use carom::{ContactAccount, EnergyAccount, World, ZoneAccount};
+use carom::{ContactAccount, World, ZoneAccount};
 use carom_scene::{Palette, Scene, part};
 use numpy::PyArray1;
 use pyo3::exceptions::PyRuntimeError;
@@ -438,13 +438,20 @@ impl Engine {
         ])
     }
 
-    /// Returns the energy account [J]: work of contacts, of moving colliders, of kicks and of the correction
-    /// of overlaps, and the energy of emitted spheres minus that of removed ones.
+    /// Returns the entries of the energy account [J] in the order of `carom.EnergyAccount`.
     #[pyo3(name = "_energy_account")]
-    fn energy_account(&self, py: Python<'_>) -> PyResult<(f64, f64, f64, f64, f64)> {
-        let EnergyAccount { contacts, colliders, kicks, correction, emission, .. } =
-            self.lock(py)?.world.report().energy_account;
-        Ok((contacts, colliders, kicks, correction, emission))
+    fn energy_account(&self, py: Python<'_>) -> PyResult<[f64; 8]> {
+        let account = self.lock(py)?.world.report().energy_account;
+        Ok([
+            account.contacts,
+            account.colliders,
+            account.kicks,
+            account.growth,
+            account.forces,
+            account.applied,
+            account.correction,
+            account.emission,
+        ])
     }
 
     /// Returns the quality of the solutions of the rule `contact`: sub-steps with limited impulses,

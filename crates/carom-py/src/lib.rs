@@ -33,6 +33,7 @@ mod imports;
 mod maze;
 mod motion;
 mod next_event;
+mod packing;
 #[cfg(feature = "pictures")]
 mod painter;
 mod pairs;
@@ -51,6 +52,7 @@ mod setting;
 mod snapshot;
 mod springs;
 mod stop;
+mod stress;
 mod tables;
 mod threads;
 mod written;
@@ -63,6 +65,7 @@ pub use maze::MazeEpisodes;
 pub use painter::Painter;
 pub use predicted_path::Path;
 pub use snapshot::Snapshot;
+pub use stress::StressEngine;
 
 /// The same allocator as in the program `carom`. NumPy uses its own.
 #[cfg(target_os = "linux")]
@@ -86,6 +89,8 @@ mod _carom {
     #[pymodule_export]
     use crate::Snapshot;
     #[pymodule_export]
+    use crate::StressEngine;
+    #[pymodule_export]
     use crate::TangentsEngine;
     #[pymodule_export]
     use crate::TapeEngine;
@@ -96,6 +101,8 @@ mod _carom {
     use crate::film::film_scene;
     #[pymodule_export]
     use crate::imports::{import_gltf, import_unity};
+    #[pymodule_export]
+    use crate::packing::{pack_spheres, radii_of_sizes};
     #[pymodule_export]
     use crate::pairs::{pair_histogram, pairs_within};
     #[pymodule_export]

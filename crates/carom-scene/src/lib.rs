@@ -41,6 +41,7 @@ mod origin;
 pub mod outline;
 mod overlap;
 mod overrides;
+pub mod pack;
 mod palette;
 mod parameters;
 pub mod part;

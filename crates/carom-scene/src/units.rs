@@ -10,7 +10,7 @@ use crate::wording::{DECIMAL_POINT, quoted};
 /// round once: 7 cm is exactly the number 0.07.
 type Unit = (&'static str, &'static str, [f64; 2]);
 
-const UNITS: [Unit; 51] = [
+const UNITS: [Unit; 53] = [
     ("m", "m", [1.0, 1.0]),
     ("km", "m", [1000.0, 1.0]),
     ("cm", "m", [1.0, 100.0]),
@@ -44,6 +44,8 @@ const UNITS: [Unit; 51] = [
     ("N", "N", [1.0, 1.0]),
     ("kN", "N", [1e3, 1.0]),
     ("mN", "N", [1.0, 1e3]),
+    ("J", "J", [1.0, 1.0]),
+    ("mJ", "J", [1.0, 1e3]),
     ("N/m", "N/m", [1.0, 1.0]),
     ("kN/m", "N/m", [1e3, 1.0]),
     ("N/mm", "N/m", [1e3, 1.0]),
@@ -69,7 +71,7 @@ const DEGREES: &str = "degrees";
 const RADIANS: &str = "rad";
 
 /// Unit of each field that has one.
-const FIELDS: [(&str, &str); 61] = [
+const FIELDS: [(&str, &str); 62] = [
     ("acceleration", "m/s²"),
     ("amplitude", "m"),
     ("amplitude_degrees", DEGREES),
@@ -122,6 +124,7 @@ const FIELDS: [(&str, &str); 61] = [
     ("step", "m"),
     ("stiffness", "N/m"),
     ("surface_height", "m"),
+    ("temperature", "J"),
     ("tolerance", "m"),
     ("top_radius", "m"),
     ("tube_radius", "m"),

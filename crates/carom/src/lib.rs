@@ -42,6 +42,7 @@ pub mod detect;
 mod emitter;
 mod error;
 mod flight;
+mod force_work;
 mod forces;
 mod friction;
 mod groups;
@@ -74,6 +75,7 @@ mod settings;
 mod sphere;
 mod state;
 mod step;
+mod stress;
 mod sum;
 mod surface;
 mod surface_motion;
@@ -83,7 +85,7 @@ mod validate;
 mod work;
 mod world;
 
-pub use glam::{DQuat, DVec3};
+pub use glam::{DMat3, DQuat, DVec3};
 
 pub use bodies::Spheres;
 pub use collider::{Collider, Ends, Shape, Sides};
@@ -114,6 +116,7 @@ pub use settings::{
     WindBack, Zones,
 };
 pub use sphere::{Mass, SOLID_BALL, Sphere, SphereMotion, THIN_SHELL, volume};
+pub use stress::{Stress, StressMeter};
 pub use tangent::{
     ColliderVariation, DerivativeError, Margin, SphereTangent, SphereVariation, Tangents, Tape,
     Variation,

@@ -5,6 +5,7 @@ use std::ops::AddAssign;
 use glam::DVec3;
 
 use crate::detect::contact::{Bodies, Contact};
+use crate::force_work::ForceWork;
 use crate::id::{ColliderId, SphereId};
 use crate::settings::ImpactLaw;
 use crate::system::System;
@@ -78,7 +79,7 @@ pub struct ZoneAccount {
 /// What became of the energy of a world in a step, under any rule.
 ///
 /// [`World::total_energy`](crate::World::total_energy) after the step is that before it, and the sum of these,
-/// and what is left: the work of forces that have no potential, and the error of the integration.
+/// and the error of the integration, which is what is left. Flights in closed form have none but rounding.
 ///
 /// ```
 /// use carom::{Collider, DVec3, Gravity, Pose, Shape, Sphere, World};
@@ -96,6 +97,7 @@ pub struct ZoneAccount {
 /// # Ok::<(), carom::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct EnergyAccount {
     /// Work of contacts \[J\]: what restitution and friction took, in impacts and in contacts that persist.
@@ -104,8 +106,16 @@ pub struct EnergyAccount {
     pub contacts: f64,
     /// Work of moving colliders \[J\].
     pub colliders: f64,
-    /// Work of the kicks of colliders, and of spheres that grow \[J\].
+    /// Work of the kicks of colliders \[J\].
     pub kicks: f64,
+    /// Work of spheres that grow \[J\].
+    pub growth: f64,
+    /// Work of forces without a potential \[J\]: of drag, wind, vortices, dampers of springs, and any other
+    /// [`Force`](crate::Force) that is not conservative.
+    pub forces: f64,
+    /// Work of the forces applied to single spheres
+    /// ([`World::set_applied_forces`](crate::World::set_applied_forces)) \[J\].
+    pub applied: f64,
     /// Work of moving spheres out of what they overlap \[J\], against forces that have a potential or
     /// are linear.
     pub correction: f64,
@@ -116,7 +126,28 @@ pub struct EnergyAccount {
 impl EnergyAccount {
     /// The sum of all entries \[J\].
     pub fn total(&self) -> f64 {
-        self.contacts + self.colliders + self.kicks + self.correction + self.emission
+        let of_bodies = self.contacts + self.colliders + self.kicks + self.growth;
+        of_bodies + self.forces + self.applied + self.correction + self.emission
+    }
+
+    /// Returns the account with all entries multiplied by a factor.
+    pub(crate) fn part(&self, part: f64) -> Self {
+        Self {
+            contacts: part * self.contacts,
+            colliders: part * self.colliders,
+            kicks: part * self.kicks,
+            growth: part * self.growth,
+            forces: part * self.forces,
+            applied: part * self.applied,
+            correction: part * self.correction,
+            emission: part * self.emission,
+        }
+    }
+
+    /// Adds work of nonconservative forces.
+    pub(crate) fn add_force_work(&mut self, work: ForceWork) {
+        self.forces += work.forces;
+        self.applied += work.applied;
     }
 }
 
@@ -125,6 +156,9 @@ impl AddAssign for EnergyAccount {
         self.contacts += other.contacts;
         self.colliders += other.colliders;
         self.kicks += other.kicks;
+        self.growth += other.growth;
+        self.forces += other.forces;
+        self.applied += other.applied;
         self.correction += other.correction;
         self.emission += other.emission;
     }

@@ -85,6 +85,16 @@ impl State {
         invariants::kinetic_energy(&self.spheres) + self.potential_energy(time)
     }
 
+    /// Potential energy \[J\] in nonconservative forces at `time` \[s\].
+    pub fn nonconservative_potential(&self, time: f64) -> f64 {
+        let Instant { system, motion, .. } = self.now();
+        if system.has_nonconservative_forces() {
+            system.nonconservative_potential([&motion.position, &motion.velocity], time)
+        } else {
+            0.0
+        }
+    }
+
     /// The contacts that persist, as far as flights are known.
     pub fn persistent_contacts(&self) -> Vec<PersistentContact> {
         let Instant { system, time, .. } = self.now();
@@ -193,12 +203,24 @@ impl State {
 
     /// The longest frame \[s\] in which motion on springs is sure to be stable.
     pub fn longest_stable_frame(&self) -> f64 {
-        let stable = 2.0 / self.now().system.fastest_spring_rate();
+        let rate = self.now().system.fastest_spring_rate();
         match self.settings.rule {
             Rule::Exact(_) => f64::INFINITY,
-            Rule::Contact(parameters) => stable * f64::from(parameters.sub_steps),
-            Rule::Discrete(_) | Rule::Bisect(_) => stable,
+            Rule::Contact(parameters) => {
+                contact::longest_frame_for_springs(parameters.sub_steps, rate)
+            }
+            Rule::Discrete(_) | Rule::Bisect(_) => 2.0 / rate,
         }
+    }
+
+    /// Refuses springs that the sub-steps of the rule `contact` do not follow in frames of `h` \[s\].
+    pub fn check_springs(&self, h: f64) -> Result<(), Error> {
+        let requirement = "of springs, with their damping and the masses of their spheres, such that motion on them \
+                           has a rate of at most 64 times the `sub_steps` of the rule contact divided by the frame, \
+                           in 1/s";
+        let rate = self.now().system.fastest_spring_rate();
+        validate::require(h <= self.longest_stable_frame(), "stiffness", requirement, rate)
+            .map_err(|invalid| invalid.about(Subject::Step))
     }
 
     /// Refuses positions or velocities that are not finite, after a frame of `h` \[s\].

@@ -1,10 +1,12 @@
 //! Colliders as the world sees them: surfaces in their places.
 
+use std::cell::Cell;
+
 use glam::{DQuat, DVec2, DVec3};
 
 use crate::band::{Band, Profile};
 use crate::collider::{Collider, Shape, Sides};
-use crate::collider_motion::Course;
+use crate::collider_motion::{Carriage, Course};
 use crate::friction::Friction;
 use crate::groups::Groups;
 use crate::id::ColliderId;
@@ -61,13 +63,20 @@ impl SurfaceMotion {
 impl Surface {
     /// Geometry and motion of the surface after `h` \[s\].
     pub fn after(&self, h: f64) -> (Form, SurfaceMotion) {
-        let Some(course) = &self.course else { return self.motion.carry(&self.form, h) };
-        let (pose, motion) = course.place(h);
-        let (from, to) = (self.motion.origin, pose.position);
-        if !course.turns() {
-            return (self.form.shifted(to - from), motion);
+        match &self.course {
+            Some(course) => self.carried(&course.carriage(h)),
+            None => self.motion.carry(&self.form, h),
         }
-        (self.form.placed(&Placement { rotation: course.turn(h), from, to }), motion)
+    }
+
+    /// Geometry and motion of the surface when its collider has moved so from now on.
+    pub fn carried(&self, &Carriage { to, turn, motion }: &Carriage) -> (Form, SurfaceMotion) {
+        let from = self.motion.origin;
+        let form = match turn {
+            Some(rotation) => self.form.placed(&Placement { rotation, from, to }),
+            None => self.form.shifted(to - from),
+        };
+        (form, motion)
     }
 
     /// The surface as it is after `h` \[s\].
@@ -84,6 +93,21 @@ impl Surface {
     /// Its motion between two times from now \[s\], as if that were steady.
     pub fn mean_motion(&self, times: [f64; 2]) -> Option<SurfaceMotion> {
         self.course.as_ref().map(|course| course.mean_motion(times))
+    }
+}
+
+/// Motion of the last collider that was asked for; its surfaces share it.
+#[derive(Default)]
+pub(crate) struct LastCarriage(Cell<Option<(ColliderId, f64, Carriage)>>);
+
+impl LastCarriage {
+    /// Geometry and motion of a surface after `h` \[s\].
+    pub fn after(&self, surface: &Surface, h: f64) -> (Form, SurfaceMotion) {
+        let Some(course) = &surface.course else { return surface.after(h) };
+        let known = self.0.get().filter(|it| it.0 == surface.collider && it.1 == h);
+        let carriage = known.map_or_else(|| course.carriage(h), |it| it.2);
+        self.0.set(Some((surface.collider, h, carriage)));
+        surface.carried(&carriage)
     }
 }
 

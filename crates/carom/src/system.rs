@@ -7,11 +7,17 @@ use glam::DVec3;
 use crate::bodies::{Motion, Properties};
 use crate::colliders::Colliders;
 use crate::detect::surface_tree::SurfaceTree;
-use crate::forces::{Force, Interactions, SphereState, SphereStates, Spring};
+use crate::forces::{self, Force, Interactions, SphereState, SphereStates, Spring};
 use crate::friction::Friction;
 use crate::numbered::Numbered;
 use crate::settings::Settings;
+use crate::sum::Sum;
 use crate::surface::Surface;
+
+/// Largest number of spheres with forces between them all that take steps of high order together under the rule
+/// `exact`. Each impact restarts all of them, and each step evaluates all forces some tens of times, so that the cost of
+/// a cloud that collides grows with the cube of its number.
+const MOST_TOGETHER: usize = 32;
 
 /// The world during one step, without the motion of its spheres.
 #[derive(Clone, Copy)]
@@ -71,33 +77,88 @@ impl<'a> System<'a> {
         self.interactions.is_some_and(|interactions| !interactions.are_springs())
     }
 
+    /// Whether forces act between all spheres, and they are few enough to take their steps together.
+    pub fn moves_all_together(&self) -> bool {
+        self.couples_all() && self.spheres.id.len() <= MOST_TOGETHER
+    }
+
+    /// Whether forces act between all spheres, and they are too many to take their steps together.
+    pub fn holds_forces_of_all(&self) -> bool {
+        self.couples_all() && !self.moves_all_together()
+    }
+
     /// Whether a force between spheres depends on how they move.
     pub fn has_damped_interactions(&self) -> bool {
         self.interactions.is_some_and(|it| it.depend_on_velocity())
     }
 
-    /// The forces between spheres \[N\] on each of them, where they are at `positions` \[m\] and move with
-    /// `velocities` \[m/s\] at a time on the world's clock \[s\].
-    pub fn forces_between(
+    /// Whether nonconservative forces act.
+    pub fn has_nonconservative_forces(&self) -> bool {
+        !self.spheres.applied_force.is_empty()
+            || !forces::are_conservative(self.forces)
+            || self.interactions.is_some_and(|it| !it.are_conservative())
+    }
+
+    /// The nonconservative forces between spheres \[N\] on each of them, dampers included, where they are at
+    /// `positions` \[m\] and move with `velocities` \[m/s\] at a time on the world's clock \[s\].
+    pub fn nonconservative_forces_between(
         &self,
-        [positions, velocities]: [&[DVec3]; 2],
+        states: [&[DVec3]; 2],
+        time: f64,
+        forces: &mut Vec<DVec3>,
+    ) {
+        self.nonconservative_interactions(states, time, forces);
+        if let Some(interactions) = self.interactions {
+            interactions.add_damping(&self.states(states), forces);
+        }
+    }
+
+    /// The nonconservative forces between spheres \[N\] without dampers, as in
+    /// [`Self::nonconservative_forces_between`].
+    pub fn nonconservative_interactions(
+        &self,
+        states: [&[DVec3]; 2],
         time: f64,
         forces: &mut Vec<DVec3>,
     ) {
         forces.clear();
-        forces.resize(positions.len(), DVec3::ZERO);
+        forces.resize(states[0].len(), DVec3::ZERO);
         if let Some(interactions) = self.interactions {
-            let Properties { id, radius, mass, .. } = self.spheres;
-            let period = self.settings.boundary.period();
-            let spheres = SphereStates {
-                ids: id,
-                positions,
-                velocities,
-                radii: radius,
-                masses: mass,
-                period,
+            interactions.add_nonconservative(&self.states(states), time, forces);
+        }
+    }
+
+    /// Potential energy \[J\] in nonconservative forces of spheres at `positions` \[m\] with `velocities` \[m/s\], at a
+    /// time on the world's clock \[s\].
+    pub fn nonconservative_potential(&self, states: [&[DVec3]; 2], time: f64) -> f64 {
+        let spheres = self.states(states);
+        let of_each = (0..spheres.len()).map(|index| {
+            let state = SphereState {
+                position: spheres.positions[index],
+                velocity: spheres.velocities[index],
+                radius: spheres.radii[index],
+                mass: spheres.masses[index],
             };
-            interactions.add_forces(&spheres, time, forces);
+            forces::nonconservative_potential(self.forces, &state, time)
+        });
+        let between = |it: Interactions| it.nonconservative_potential(&spheres, time);
+        of_each.collect::<Sum>().value() + self.interactions.map_or(0.0, between)
+    }
+
+    /// All spheres at `positions` \[m\] with `velocities` \[m/s\].
+    fn states<'b>(&'b self, [positions, velocities]: [&'b [DVec3]; 2]) -> SphereStates<'b> {
+        let Properties { id, radius, mass, .. } = self.spheres;
+        let period = self.settings.boundary.period();
+        SphereStates { ids: id, positions, velocities, radii: radius, masses: mass, period }
+    }
+
+    /// The forces between spheres \[N\] on each of them, where they are at `positions` \[m\] and move with
+    /// `velocities` \[m/s\] at a time on the world's clock \[s\].
+    pub fn forces_between(&self, states: [&[DVec3]; 2], time: f64, forces: &mut Vec<DVec3>) {
+        forces.clear();
+        forces.resize(states[0].len(), DVec3::ZERO);
+        if let Some(interactions) = self.interactions {
+            interactions.add_forces(&self.states(states), time, forces);
         }
     }
 

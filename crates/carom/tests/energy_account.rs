@@ -5,7 +5,7 @@ mod common;
 
 use carom::{
     Collider, Contact, DQuat, DVec3, Emitter, EnergyAccount, Exact, Gravity, Pose, Rule, Shape,
-    Sphere, ViscousDrag, Wind, World,
+    Sphere, World,
 };
 use common::{G, Numbers, assert_close, bisect, discrete, vec, world};
 
@@ -236,15 +236,4 @@ fn emitted_and_retired_balls_are_an_entry() {
             assert!(remainder.abs() < 1e-12 * each * count, "{rule:?}: {remainder}");
         }
     }
-}
-
-#[test]
-fn what_drag_and_wind_do_is_left_over() {
-    let mut world = world(exact());
-    world.add_force(ViscousDrag::new(0.5)).unwrap();
-    world.add_force(Wind::new(vec(2.0, 0.0, 0.0), 0.5)).unwrap();
-    world.add_sphere(Sphere::new(DVec3::ZERO, 0.1)).unwrap();
-    let (account, remainder) = run(&mut world, 60, FRAME);
-    assert_eq!(account, EnergyAccount::default());
-    assert_close(remainder, world.kinetic_energy(), 1e-15);
 }

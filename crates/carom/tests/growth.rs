@@ -61,7 +61,7 @@ fn run(world: &mut World, frames: usize, seconds: f64) -> (Vec<BodyPair>, f64) {
     for _ in 0..frames {
         let report = world.step(seconds).unwrap();
         bodies.extend(report.impacts.iter().map(|impact| impact.between));
-        gained += report.energy_account.kicks;
+        gained += report.energy_account.growth;
     }
     (bodies, gained)
 }

@@ -304,11 +304,12 @@ fn what_has_no_derivative_is_refused_and_stays_refused() {
     assert_eq!(tape.step(&mut world, 1.0).unwrap_err(), error);
     assert_eq!(tape.gradient(&[]).unwrap_err(), error);
 
-    // A ball that lies on a floor.
+    // A ball that lies on another one that is fixed.
     let mut world = World::default();
     world.add_force(Gravity::new(vec(0.0, -G, 0.0))).unwrap();
-    world.add_collider(Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO))).unwrap();
-    let ball = world.add_sphere(Sphere::new(vec(0.0, 0.5, 0.0), 0.5)).unwrap();
+    let fixed = Collider::new(Shape::Sphere { radius: 1.0 }, Pose::at(DVec3::ZERO));
+    world.add_collider(fixed).unwrap();
+    let ball = world.add_sphere(Sphere::new(vec(0.0, 1.5, 0.0), 0.5)).unwrap();
     let mut tangents = Tangents::new(&world, Vec::new()).unwrap();
     let error = tangents.step(&mut world, 1.0 / 240.0).unwrap_err();
     assert!(

@@ -72,13 +72,40 @@ class Gradient:
     acceleration: Array
 
 
-class Tape(Strict):
+class Followed(Strict):
+    """A world whose steps are followed for their derivatives."""
+
+    __slots__ = ("_engine", "_world")
+
+    _engine: TapeEngine | TangentsEngine
+    _world: World
+
+    def step(self, *, dt: float | None = None, frames: int = 1) -> None:
+        """Advances the world by ``frames`` frames of ``dt`` [s], and the derivatives with it.
+
+        A change from outside since the last step counts as constant.
+
+        Raises:
+            CaromError: As of `World.step`.
+            StepError: As of `World.step`, and where there is no derivative: the world has taken the
+                frame then, and every later call raises that again.
+        """
+        self._world._refuse_functions(type(self).__name__)
+        self._engine.step(self._world, dt, frames)
+
+    @property
+    def margin(self) -> Margin:
+        """How near the run came to where derivatives end."""
+        return _margin(self._engine.margin)
+
+
+class Tape(Followed):
     """A record of a run, which gives the gradient of a number by all that the run started with.
 
     Derivatives are known of worlds under the rule ``exact`` whose spheres fly freely, under forces
-    that are linear in the velocity, and meet each other and surfaces one at a time, with or without
-    friction. What has no derivative is an error, never a guess: two impacts of one sphere at one
-    instant, resting, rolling and sliding.
+    that are linear in the velocity, or slide, roll and rest on single planes, and meet each other
+    and surfaces one at a time, with or without friction. What has no derivative is an error, never
+    a guess: two impacts of one sphere at one instant, or contacts with several bodies.
 
     >>> import carom
     >>> world = carom.World()
@@ -92,7 +119,9 @@ class Tape(Strict):
     [[0.0, -1.0, 0.0]]
     """
 
-    __slots__ = ("_tape", "_world")
+    __slots__ = ()
+
+    _engine: TapeEngine
 
     def __init__(self, world: World) -> None:
         """Begins with a world as it is now.
@@ -102,30 +131,12 @@ class Tape(Strict):
         """
         world._refuse_functions("Tape")
         self._world = world
-        self._tape = TapeEngine(world)
-
-    def step(self, *, dt: float | None = None, frames: int = 1) -> None:
-        """Advances the world by ``frames`` frames of ``dt`` [s], and records how.
-
-        What was changed from outside since the last step counts as constant.
-
-        Raises:
-            CaromError: As of `World.step`.
-            StepError: As of `World.step`, and where there is no derivative: the world has taken the
-                frame then, and every later call raises that again.
-        """
-        self._world._refuse_functions("Tape")
-        self._tape.step(self._world, dt, frames)
+        self._engine = TapeEngine(world)
 
     @property
     def impacts(self) -> int:
         """How many impacts are recorded."""
-        return self._tape.impacts
-
-    @property
-    def margin(self) -> Margin:
-        """How near the run came to where derivatives end."""
-        return _margin(self._tape.margin)
+        return self._engine.impacts
 
     def gradient(
         self,
@@ -153,7 +164,7 @@ class Tape(Strict):
             "angular_velocities": angular_velocities,
         }
         rows = [_numbers(name, values, shape) for name, values in given.items()]
-        *spheres, place, velocity, restitution, friction, acceleration = self._tape.gradient(rows)
+        *spheres, place, velocity, restitution, friction, acceleration = self._engine.gradient(rows)
         return Gradient(
             positions=spheres[0].reshape(-1, 3),
             velocities=spheres[1].reshape(-1, 3),
@@ -170,7 +181,7 @@ class Tape(Strict):
         )
 
 
-class Tangents(Strict):
+class Tangents(Followed):
     """Small changes of the start of a run, in k directions, carried along with a world.
 
     Derivatives are known of the same worlds as with `carom.Tape`.
@@ -187,7 +198,9 @@ class Tangents(Strict):
     [[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]]
     """
 
-    __slots__ = ("_shape", "_tangents", "_world")
+    __slots__ = ("_shape",)
+
+    _engine: TangentsEngine
 
     def __init__(
         self,
@@ -225,38 +238,22 @@ class Tangents(Strict):
         rows = [_numbers(name, values, self._shape) for name, values in motion.items()]
         along = _numbers("accelerations", accelerations, (count, 3))
         self._world = world
-        self._tangents = TangentsEngine(world, count, rows, along)
-
-    def step(self, *, dt: float | None = None, frames: int = 1) -> None:
-        """Advances the world by ``frames`` frames of ``dt`` [s], and the changes with it.
-
-        Raises:
-            CaromError: As of `World.step`.
-            StepError: As of `World.step`, and where there is no derivative: the world has taken the
-                frame then, and every later call raises that again.
-        """
-        self._world._refuse_functions("Tangents")
-        self._tangents.step(self._world, dt, frames)
+        self._engine = TangentsEngine(world, count, rows, along)
 
     @property
     def positions(self) -> Array:
         """How centres change now [m], shape (k, n, 3). A copy."""
-        return self._tangents.motion()[0].reshape(self._shape)
+        return self._engine.motion()[0].reshape(self._shape)
 
     @property
     def velocities(self) -> Array:
         """How velocities change now [m/s], shape (k, n, 3). A copy."""
-        return self._tangents.motion()[1].reshape(self._shape)
+        return self._engine.motion()[1].reshape(self._shape)
 
     @property
     def angular_velocities(self) -> Array:
         """How angular velocities change now [rad/s], shape (k, n, 3). A copy."""
-        return self._tangents.motion()[2].reshape(self._shape)
-
-    @property
-    def margin(self) -> Margin:
-        """How near the run came to where derivatives end."""
-        return _margin(self._tangents.margin)
+        return self._engine.motion()[2].reshape(self._shape)
 
     def orthonormalize(self, *, length: float = 1.0, speed: float = 1.0) -> Array:
         """Makes the directions orthogonal, one after the other, and each of length 1.
@@ -273,7 +270,7 @@ class Tangents(Strict):
         for name, value in {"length": length, "speed": speed}.items():
             if not (np.isfinite(value) and value > 0):
                 raise CaromError(f"{name}: must be positive and finite, not {value}", name)
-        return self._tangents.orthonormalize(float(length), float(speed))
+        return self._engine.orthonormalize(float(length), float(speed))
 
 
 def _numbers(name: str, values: ArrayLike | None, shape: tuple[int, ...]) -> Array:

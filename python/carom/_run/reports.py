@@ -31,8 +31,8 @@ class StageCounts(NamedTuple):
 class EnergyAccount(NamedTuple):
     """What became of the energy of a world in a frame, under any rule.
 
-    The total energy after the frame is that before it, the sum of these, and what is left: the work
-    of forces that have no potential, and the error of the integration.
+    The total energy after the frame is that before it, the sum of these, and the error of the
+    integration, which is what is left.
     """
 
     contacts: float
@@ -41,6 +41,12 @@ class EnergyAccount(NamedTuple):
     """Work of moving colliders [J]."""
     kicks: float
     """Work of the kicks of colliders [J]."""
+    growth: float
+    """Work of spheres that grow [J]."""
+    forces: float
+    """Work of forces without a potential [J]: drag, wind, vortices, dampers of springs."""
+    applied: float
+    """Work of the forces applied to single spheres [J]."""
     correction: float
     """Work of moving spheres out of what they overlap [J]."""
     emission: float

@@ -35,7 +35,10 @@ if TYPE_CHECKING:
 NO_CHANGES: Mapping[str, Any] = MappingProxyType({})
 
 _SEEDS = 2**32
-"""Seeds of random fillings are less."""
+"""Seeds of random fillings and dense fluids are less."""
+
+_RANDOM = (parts.RandomFill, parts.DenseFluid)
+"""Generators with a seed."""
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -201,7 +204,9 @@ class Scene(parts.Part):
         return Scene.from_toml(toml_of(self), source=self.name, changes=changes)
 
     def with_seed(self, seed: int) -> Scene:
-        """The same scene with this seed for its first random filling, the next for the second...
+        """The same scene with this seed for its first random generator, the next for the second...
+
+        Random are `RandomFill` and `DenseFluid`.
 
         Raises:
             CaromError: If nothing in the scene is random.
@@ -209,12 +214,12 @@ class Scene(parts.Part):
         generators: list[parts.Generator] = []
         next_seed = seed
         for generator in self.generators:
-            if isinstance(generator, parts.RandomFill):
+            if isinstance(generator, _RANDOM):
                 generator = replace(generator, seed=next_seed)
                 next_seed = (next_seed + 1) % _SEEDS
             generators.append(generator)
-        if not any(isinstance(generator, parts.RandomFill) for generator in generators):
-            raise CaromError("seed: the scene has no random filling", "seed")
+        if not any(isinstance(generator, _RANDOM) for generator in generators):
+            raise CaromError("seed: the scene has no random generator", "seed")
         return replace(self, generators=generators)
 
     def world(self) -> World:

@@ -59,10 +59,11 @@ def sweep(
     as in `Scene.with_changes`, or a parameter of the scene file, if its path is given.
 
     Repeats are the same run with other seeds. The seed goes to the parameter ``seed`` of the
-    function that makes the scene; if it has none, into the random fillings of the scene (the second
-    gets the next number, and so on). It also goes to ``measure``, if that has a parameter ``seed``.
-    Seeds are children of ``seed`` by `numpy.random.SeedSequence`, placed by the parameters and the
-    number of the repeat: independent of each other, and the same in a larger sweep.
+    function that makes the scene; if it has none, into the random generators of the scene (the
+    second gets the next number, and so on). It also goes to ``measure``, if that has a parameter
+    ``seed``. Seeds are children of ``seed`` by `numpy.random.SeedSequence`, placed by the
+    parameters and the number of the repeat: independent of each other, and the same in a larger
+    sweep.
 
     Workers are processes of a `Dask <https://distributed.dask.org>`_ cluster, and need carom. When
     one dies, another performs again what was in work, about a quarter of a second or a run. A
@@ -121,7 +122,7 @@ def sweep(
     experiment.scene_of(first)
     if repeats is not None and not experiment.takes_seeds(first):
         raise CaromError(
-            "repeats: nothing is random: no function with a parameter `seed`, no random filling",
+            "repeats: nothing is random: no function with a parameter `seed`, no random generator",
             "repeats",
         )
     with ExitStack() as stack:

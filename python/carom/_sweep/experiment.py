@@ -12,7 +12,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from carom._scene.parts import RandomFill
+from carom._scene.parts import DenseFluid, RandomFill
 from carom._scene.scene import Scene
 from carom.errors import CaromError
 
@@ -176,7 +176,7 @@ def _chosen(run: Run, names: frozenset[str]) -> dict[str, Any]:
 
 def _is_random(scene: Scene) -> bool:
     """Whether a seed makes another scene of it."""
-    return any(isinstance(generator, RandomFill) for generator in scene.generators)
+    return any(isinstance(generator, (RandomFill, DenseFluid)) for generator in scene.generators)
 
 
 def _numbers(value: object, name: str, taken: set[str]) -> NDArray[Any]:

@@ -148,6 +148,22 @@ export type Generator =
         radiusRange?: [number, number];
         sphere: SphereDescription;
       };
+    }
+  /** A fluid in equilibrium. It fills the periodic box, or one with walls between two corners. */
+  | {
+      denseFluid: {
+        /** At most 100,000. */
+        count: number;
+        /** k T [J]. */
+        temperature: number;
+        seed: number;
+        /** Instead of a radius, which follows from it. */
+        packingFraction?: number;
+        radiusRange?: [number, number];
+        min?: Vector;
+        max?: Vector;
+        sphere: Omit<SphereDescription, "radius"> & { radius?: number };
+      };
     };
 
 /** Shape of a collider in its own frame. Lengths are full lengths [m], > 0. */

@@ -4,6 +4,7 @@
 const HYPHENATED = new Map([
   ["closePacking", "close-packing"],
   ["staggeredRows", "staggered-rows"],
+  ["denseFluid", "dense-fluid"],
   ["viscousDrag", "viscous-drag"],
   ["pointAttractor", "point-attractor"],
   ["mutualGravity", "mutual-gravity"],
@@ -26,7 +27,7 @@ export function camel(name) {
 /** Returns a text with every `word_with_underscores` in the spelling of JavaScript. */
 export function camelWords(text) {
   return text.replace(
-    /\b[a-z]+(?:_[a-z0-9]+)+\b|\b(?:close-packing|staggered-rows|viscous-drag|point-attractor|mutual-gravity|quadratic-drag)\b/g,
+    /\b[a-z]+(?:_[a-z0-9]+)+\b|\b(?:close-packing|staggered-rows|dense-fluid|viscous-drag|point-attractor|mutual-gravity|quadratic-drag)\b/g,
     camel,
   );
 }

@@ -85,8 +85,8 @@ export interface StageCounts {
 }
 
 /**
- * Changes of the energy in a frame: `totalEnergy()` changes by these, by the work of forces without
- * a potential, and by the error of the integration.
+ * Changes of the energy in a frame: `totalEnergy()` changes by these, and by the error of the
+ * integration.
  */
 export interface EnergyAccount {
   /** Work of contacts [J]: the change by restitution and friction, <= 0 up to errors. */
@@ -95,6 +95,12 @@ export interface EnergyAccount {
   colliders: number;
   /** Work of the kicks of colliders [J]. */
   kicks: number;
+  /** Work of growing spheres [J]. */
+  growth: number;
+  /** Work of forces without a potential [J]: drag, wind, vortices, dampers of springs. */
+  forces: number;
+  /** Work of the forces applied to single spheres [J]. */
+  applied: number;
   /** Work of the correction of overlaps [J]. */
   correction: number;
   /** Energy of emitted spheres minus that of removed ones [J]. */

@@ -211,8 +211,9 @@ export class World {
   }
 
   get energyAccount() {
-    const [contacts, colliders, kicks, correction, emission] = this.#world.energyAccount;
-    return { contacts, colliders, kicks, correction, emission };
+    const [contacts, colliders, kicks, growth, ...others] = this.#world.energyAccount;
+    const [forces, applied, correction, emission] = others;
+    return { contacts, colliders, kicks, growth, forces, applied, correction, emission };
   }
 
   get contactAccount() {

@@ -60,7 +60,16 @@ test("contacts and the account tell of friction", () => {
   assert.ok(energies.contacts < 0);
   assert.deepEqual(
     { ...energies, contacts: 0 },
-    { contacts: 0, colliders: 0, kicks: 0, correction: 0, emission: 0 },
+    {
+      contacts: 0,
+      colliders: 0,
+      kicks: 0,
+      growth: 0,
+      forces: 0,
+      applied: 0,
+      correction: 0,
+      emission: 0,
+    },
   );
   const account = world.contactAccount;
   assert.equal(account.asleep, 0);

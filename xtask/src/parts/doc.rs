@@ -4,7 +4,7 @@
 pub const WIDTH: usize = 100;
 
 /// Units that stand in brackets in Python, the longer of those that begin alike first.
-const UNITS: [&str; 15] = [
+const UNITS: [&str; 16] = [
     "m³/(kg s²)",
     "m³/s²",
     "m²/s",
@@ -17,6 +17,7 @@ const UNITS: [&str; 15] = [
     "kg",
     "N/m",
     "N",
+    "J",
     "Pa s",
     "degrees",
     "s",

@@ -1,7 +1,8 @@
 //! Dense fluids and jammed packings of spheres that grow (Lubachevsky and Stillinger).
 
 use carom::packing::{self, Compression, Start, Until};
-use carom::{Error, Exact, Rule, World};
+use carom::{Error, Exact, Rule, StressMeter, World};
+use carom_scene::Scene;
 
 use super::claim::{Claim, Expected, Measured, Outcome, Tolerance};
 
@@ -21,7 +22,14 @@ pub fn fluids() -> Vec<Claim> {
         })
     };
     let fluids = [(0.3, 3.9738), (0.4, 6.9259), (0.49, 12.1556)];
-    fluids.into_iter().map(claim).map(|claim| claim.about(Rule::Exact(Exact::default()))).collect()
+    let by_stress = Claim::new(
+        "pressure of a fluid of the generator `dense-fluid` at 0.45, by its stress tensor [N k T/V]",
+        Expected::value(9.3847, "Carnahan and Starling 1969"),
+        Tolerance::relative(0.01, "statistics 0.3 %, the equation itself 0.3 %"),
+        |_| pressure_by_stress(),
+    );
+    let claims = fluids.into_iter().map(claim).chain([by_stress]);
+    claims.map(|claim| claim.about(Rule::Exact(Exact::default()))).collect()
 }
 
 /// Claims about packings.
@@ -50,6 +58,37 @@ fn compressibility(packing_fraction: f64) -> Outcome {
     // It measures over the second half.
     let fluid = packing::equilibrate(&mut world, 2.0 * COLLISIONS, None)?;
     Ok(Measured::in_world(&world, fluid.pressure))
+}
+
+/// A periodic box with the fluid of a scene file, whose k T is 1 J.
+const FLUID: &str = r#"
+name = "fluid"
+simulation = { boundary = { periodic = { size = [13.25, 13.25, 13.25] } } }
+[[generators]]
+[generators.dense-fluid]
+count = 2000
+packing_fraction = 0.45
+temperature = "1 J"
+seed = 1
+sphere = { mass = 1.0 }
+"#;
+
+/// Frames in which the stress of that fluid is measured, and their length \[s\]: some 80 collisions of each sphere.
+const FRAMES: u32 = 100;
+const FRAME: f64 = 0.05;
+
+fn pressure_by_stress() -> Outcome {
+    let scene = Scene::from_toml(FLUID, "fluid").expect("its fields are right");
+    let mut world = scene.world().expect("a scene that was read has a world");
+    let mut meter = StressMeter::new(&world);
+    for _ in 0..FRAMES {
+        world.step(FRAME)?;
+        meter.add_frame(&world);
+    }
+    let stress = meter.stress(None)?;
+    let volume = meter.volume().unwrap_or(f64::NAN);
+    let pressure = stress.pressure() * volume / world.spheres().len() as f64;
+    Ok(Measured::in_world(&world, pressure))
 }
 
 fn jamming() -> Outcome {

@@ -1,6 +1,8 @@
 //! Creates the spheres and colliders of generators.
 
 mod count;
+mod dense_fluid;
+mod numbers;
 mod place;
 mod random;
 mod regular;
@@ -11,6 +13,7 @@ use std::borrow::Cow;
 use carom::{DQuat, DVec3, World};
 
 use self::count::check_count;
+pub(crate) use self::numbers::Numbers;
 use self::place::Place;
 use crate::bodies::{add_sphere, sphere};
 use crate::error::Problem;
@@ -21,8 +24,13 @@ use crate::scene::{Collider, Generator, Scene, Sphere};
 impl Generator {
     /// Creates the spheres of the generator. `world` holds the spheres and colliders before them.
     pub(crate) fn spheres(&self, world: &World, path: &str) -> Result<Vec<Sphere>, Problem> {
-        if matches!(self, Self::Random { .. }) {
-            return self.scatter(world, path);
+        match self {
+            Self::Random { .. } => return self.scatter(world, path),
+            Self::DenseFluid(fluid) => {
+                check_count(self, path)?;
+                return dense_fluid::spheres(fluid, world, path);
+            }
+            _ => {}
         }
         let places = self.all_places(path)?;
         let Some(template) = self.sphere() else { return Ok(Vec::new()) };
@@ -44,7 +52,7 @@ impl Generator {
         Ok(self.all_places(path)?.iter().map(collider).collect())
     }
 
-    /// Places of a regular generator; empty for a random one, whose places depend on the world.
+    /// Places of a regular generator; empty for a random one, whose places depend on the world, and for a fluid.
     fn all_places(&self, path: &str) -> Result<Vec<Place>, Problem> {
         check_count(self, path)?;
         match self {
@@ -56,7 +64,7 @@ impl Generator {
                 regular::close_packing(*counts, *stacking, (*start, spacing), path)
             }
             Self::Ring(ring) => regular::ring(ring, path),
-            Self::Random { .. } => Ok(Vec::new()),
+            Self::Random { .. } | Self::DenseFluid(_) => Ok(Vec::new()),
         }
     }
 }

@@ -3,13 +3,11 @@
 use std::collections::{BTreeMap, HashMap};
 
 use carom::{DVec3, World};
-use rand_core::{Rng, SeedableRng};
-use rand_pcg::Pcg64;
 
 use super::count::check_count;
-use crate::bodies::sphere;
+use super::numbers::{Numbers, radii};
 use crate::error::Problem;
-use crate::requirement::{check, check_non_negative, check_positive, check_vector};
+use crate::requirement::{check, check_non_negative, check_vector};
 use crate::scene::values::vector;
 use crate::scene::{Generator, Sphere};
 
@@ -34,7 +32,7 @@ impl Generator {
         check(has_room, &format!("{path}.max"), || {
             format!("must be above `min` by a diameter at least, not {max:?}")
         })?;
-        let mut numbers = Numbers(Pcg64::seed_from_u64((*seed).into()));
+        let mut numbers = Numbers::new((*seed).into());
         let corner = min + vector(sphere.position);
         let mut placed = Placed::new(world);
         let mut spheres = Vec::new();
@@ -62,52 +60,6 @@ impl Generator {
             });
         }
         Ok(spheres)
-    }
-}
-
-/// Smallest and largest radius of a random filling.
-fn radii(template: &Sphere, range: Option<[f64; 2]>, path: &str) -> Result<[f64; 2], Problem> {
-    let Some([smallest, largest]) = range else {
-        let sphere_path = format!("{path}.sphere");
-        let radius = sphere(template, &sphere_path)?.radius;
-        check_positive(radius, &format!("{sphere_path}.radius"))?;
-        return Ok([radius, radius]);
-    };
-    // The sizes of the template are not used, but must be valid.
-    for (field, size) in [("radius", template.radius), ("diameter", template.diameter)] {
-        size.map_or(Ok(()), |size| check_positive(size, &format!("{path}.sphere.{field}")))?;
-    }
-    let are_in_order = smallest > 0.0 && largest >= smallest && largest.is_finite();
-    check(are_in_order, &format!("{path}.radius_range"), || {
-        format!("must be two positive radii in order, not [{smallest}, {largest}]")
-    })?;
-    Ok([smallest, largest])
-}
-
-/// Random numbers that are the same on every platform.
-struct Numbers(Pcg64);
-
-impl Numbers {
-    /// Returns a number in [0, 1).
-    fn unit(&mut self) -> f64 {
-        // The top 53 bits: every value is a multiple of 2^-53, so this is exact.
-        (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    /// Returns a point in the unit cube.
-    fn vector(&mut self) -> DVec3 {
-        DVec3::new(self.unit(), self.unit(), self.unit())
-    }
-
-    /// Returns a unit vector, uniformly distributed: a random point of the unit ball, normalized.
-    fn direction(&mut self) -> DVec3 {
-        loop {
-            let point = 2.0 * self.vector() - 1.0;
-            let length_squared = point.length_squared();
-            if (1e-6..=1.0).contains(&length_squared) {
-                return point / length_squared.sqrt();
-            }
-        }
     }
 }
 

@@ -58,6 +58,39 @@ pub enum Generator {
         /// Properties of the spheres.
         sphere: Sphere,
     },
+    /// A dense fluid in equilibrium; beyond freezing, a disordered packing. Small spheres fly, collide and grow to their
+    /// radii. They fill the periodic box of the simulation, or a box of their own, which nothing else may be in.
+    DenseFluid(Box<DenseFluid>),
+}
+
+/// Spheres of a dense fluid.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DenseFluid {
+    /// How many, from 1 to 100,000.
+    #[schemars(range(min = 1, max = 100_000))]
+    pub count: u32,
+    /// Temperature k T of the velocities, in J, >= 0. The velocity of `sphere` is added.
+    #[schemars(range(min = 0.0))]
+    pub temperature: f64,
+    /// Seed; the same seed gives the same scene.
+    pub seed: u32,
+    /// Part of the box that the spheres fill, in (0, 1): their radii follow from it. Above 0.6 they may jam before. Give
+    /// this, the radius of `sphere`, or `radius_range`.
+    #[schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = 1.0))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub packing_fraction: Option<f64>,
+    /// Smallest and largest radius, in m, evenly distributed, instead of that of `sphere`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radius_range: Option<[f64; 2]>,
+    /// Lower corner of a box with walls, in m, that whole spheres lie in; by default they fill the periodic box.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub min: Option<Vector>,
+    /// Upper corner of that box, in m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub max: Option<Vector>,
+    /// Properties of the spheres.
+    pub sphere: Sphere,
 }
 
 /// Places one after the other along a line.
@@ -185,6 +218,7 @@ impl Generator {
             Self::ClosePacking { .. } => "close-packing",
             Self::Ring(_) => "ring",
             Self::Random { .. } => "random",
+            Self::DenseFluid(_) => "dense-fluid",
         }
     }
 
@@ -199,6 +233,7 @@ impl Generator {
             Self::Row(row) => row.count.into(),
             Self::Ring(ring) => ring.count.into(),
             Self::Random { count, .. } => (*count).into(),
+            Self::DenseFluid(fluid) => fluid.count.into(),
             Self::StaggeredRows(rows) => rows.places(),
             Self::Lattice(lattice) => product(&lattice.counts),
             Self::ClosePacking { counts, .. } => product(counts),
@@ -213,13 +248,14 @@ impl Generator {
             Self::Lattice(lattice) => lattice.sphere.as_ref(),
             Self::StaggeredRows(rows) => rows.sphere.as_ref(),
             Self::Ring(ring) => ring.sphere.as_ref(),
+            Self::DenseFluid(fluid) => Some(&fluid.sphere),
         }
     }
 
     /// What its colliders have in common; `None` if it makes spheres.
     pub fn collider(&self) -> Option<&Collider> {
         match self {
-            Self::ClosePacking { .. } | Self::Random { .. } => None,
+            Self::ClosePacking { .. } | Self::Random { .. } | Self::DenseFluid(_) => None,
             Self::Row(row) => row.collider.as_ref(),
             Self::Lattice(lattice) => lattice.collider.as_ref(),
             Self::StaggeredRows(rows) => rows.collider.as_ref(),

@@ -23,7 +23,7 @@ pub use collider::{Collider, End, Shape, Side};
 pub use emitter::Emitter;
 pub use finish::Finish;
 pub use force::Force;
-pub use generator::{Generator, Lattice, Ring, Row, Stacking, StaggeredRows};
+pub use generator::{DenseFluid, Generator, Lattice, Ring, Row, Stacking, StaggeredRows};
 pub use look::{Camera, Colors, DensityColor, Sun};
 pub use mesh::{HeightField, Mesh};
 pub use motion::Motion;

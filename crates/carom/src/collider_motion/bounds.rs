@@ -29,7 +29,8 @@ impl MotionBounds {
     /// Of a motion from a time on, for `length` \[s\].
     pub fn of(motion: &Motion, time: Moment, length: f64) -> Self {
         let (mut state, mut bounds) = (Kinematics::REST, Self::default());
-        for part in motion.parts() {
+        let last = motion.parts().len().saturating_sub(1);
+        for (number, part) in motion.parts().iter().enumerate() {
             bounds = match *part {
                 MotionPart::Steady { velocity } => {
                     let speed = velocity.norm();
@@ -50,7 +51,7 @@ impl MotionBounds {
                     bounds.turned((state.offset - pivot).norm(), angle, derivatives)
                 }
             };
-            if motion.turns() {
+            if number < last && motion.turns() {
                 state = state.carried_by(part, time);
             }
         }

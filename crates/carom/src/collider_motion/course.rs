@@ -18,6 +18,16 @@ pub(crate) struct Course {
     time: Moment,
 }
 
+/// Motion of a collider since an earlier time.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Carriage {
+    /// Place of its origin \[m\].
+    pub to: DVec3,
+    /// Rotation since then, if it turns at all.
+    pub turn: Option<DQuat>,
+    pub motion: SurfaceMotion,
+}
+
 impl Course {
     /// Of a collider that is in a pose now, at `time` \[s\]. If its motion has not put it there, its pose at rest is
     /// elsewhere, so that it is there.
@@ -45,7 +55,17 @@ impl Course {
 
     /// Where the collider is after `h` \[s\], and how its surfaces move there.
     pub fn place(&self, h: f64) -> (Pose, SurfaceMotion) {
+        self.place_in(&self.state(h))
+    }
+
+    /// Motion of the collider within `h` \[s\].
+    pub fn carriage(&self, h: f64) -> Carriage {
         let state = self.state(h);
+        let (pose, motion) = self.place_in(&state);
+        Carriage { to: pose.position, turn: self.turn_in(&state), motion }
+    }
+
+    fn place_in(&self, state: &Kinematics) -> (Pose, SurfaceMotion) {
         let rotation = if self.turns() {
             state.rotation * self.rest.rotation.normalize()
         } else {
@@ -67,12 +87,9 @@ impl Course {
         (Pose { position: origin, rotation }, motion)
     }
 
-    /// The rotation from the directions of now to those after `h` \[s\].
-    pub fn turn(&self, h: f64) -> DQuat {
-        if !self.turns() {
-            return DQuat::IDENTITY;
-        }
-        self.state(h).rotation * self.state(0.0).rotation.conjugate()
+    /// Rotation from the present directions to those of a state.
+    fn turn_in(&self, state: &Kinematics) -> Option<DQuat> {
+        self.turns().then(|| state.rotation * self.state(0.0).rotation.conjugate())
     }
 
     /// The steady motion that takes the collider from where it is after `from` \[s\] to where it is after `to` \[s\].

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 pub(crate) use bounds::MotionBounds;
-pub(crate) use course::Course;
+pub(crate) use course::{Carriage, Course};
 pub(crate) use kinematics::Kinematics;
 
 use crate::error::InvalidValue;

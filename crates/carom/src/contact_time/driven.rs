@@ -1,5 +1,7 @@
 //! Paths relative to a body that moves by a motion of its own.
 
+use std::cell::Cell;
+
 use glam::{DQuat, DVec3};
 
 use super::path::{Path, State};
@@ -21,6 +23,8 @@ pub(super) struct Driven<'a, P> {
     start: Kinematics,
     /// Where positions count from, in the coordinates of the body \[m\].
     about: DVec3,
+    /// The last time that was asked for \[s\], with the motion of the body then.
+    last: Cell<(f64, Kinematics)>,
 }
 
 /// Position, velocity and acceleration of the path relative to the origin of the body, with the motion of that.
@@ -75,12 +79,23 @@ impl<'a, P: Path> Driven<'a, P> {
     /// A path from the origin of a body that moves by this course from its time 0 on; positions count from `about`
     /// \[m\], as it is then.
     pub fn new(path: P, course: &'a Course, about: DVec3) -> Self {
-        Self { path, course, start: course.state(0.0), about }
+        let start = course.state(0.0);
+        Self { path, course, start, about, last: Cell::new((0.0, start)) }
+    }
+
+    fn body_at(&self, t: f64) -> Kinematics {
+        let (time, state) = self.last.get();
+        if time == t {
+            return state;
+        }
+        let state = self.course.state(t);
+        self.last.set((t, state));
+        state
     }
 
     fn relative(&self, t: f64) -> Relative {
         let State { position, velocity, acceleration, size } = self.path.state_at(t);
-        let body = self.course.state(t);
+        let body = self.body_at(t);
         Relative {
             arm: position - (body.offset - self.start.offset),
             velocity: velocity - body.velocity,

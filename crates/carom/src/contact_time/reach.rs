@@ -43,6 +43,13 @@ impl Reach {
         Self { way: reach.way + beside, beside, ..reach }
     }
 
+    /// Reach relative to a surface whose origin moves by at most `way` \[m\] and that turns by at most `angle` \[rad\].
+    /// The flight begins `arm` \[m\] from that origin.
+    pub fn seen_from_moving(self, way: f64, angle: f64, arm: f64) -> Self {
+        let beside = (way + angle * (arm + self.way + way)) * (1.0 + MARGIN);
+        Self { way: self.way + beside, beside: self.beside + beside, ..self }
+    }
+
     /// Whether the sphere cannot meet a surface of this `form` at rest, at the offset `shift` \[m\].
     #[inline]
     pub fn misses(&self, form: &Form, shift: DVec3) -> bool {

@@ -53,6 +53,10 @@ impl Force for PointAttractor {
         -sphere.mass * self.gravitational_parameter / self.softened_square(sphere.position).sqrt()
     }
 
+    fn is_conservative(&self) -> bool {
+        true
+    }
+
     fn validate(&self) -> Result<(), InvalidValue> {
         validate::finite("position", self.position)?;
         validate::finite_number("gravitational_parameter", self.gravitational_parameter)?;

@@ -58,6 +58,10 @@ impl Force for Buoyancy {
         self.density * self.gravity.norm() * (of_cap + below)
     }
 
+    fn is_conservative(&self) -> bool {
+        true
+    }
+
     fn validate(&self) -> Result<(), InvalidValue> {
         validate::non_negative("density", self.density)?;
         validate::finite_number("surface_height", self.surface_height)?;

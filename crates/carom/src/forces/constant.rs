@@ -33,6 +33,10 @@ impl Force for ConstantForce {
         Some(LinearForce { acceleration: self.force / mass, drag_rate: 0.0 })
     }
 
+    fn is_conservative(&self) -> bool {
+        true
+    }
+
     fn validate(&self) -> Result<(), InvalidValue> {
         validate::finite("force", self.force)
     }

@@ -33,6 +33,10 @@ impl Force for Gravity {
         Some(LinearForce { acceleration: self.acceleration, drag_rate: 0.0 })
     }
 
+    fn is_conservative(&self) -> bool {
+        true
+    }
+
     fn validate(&self) -> Result<(), InvalidValue> {
         validate::finite("acceleration", self.acceleration)
     }

@@ -21,8 +21,41 @@ impl<'a> Interactions<'a> {
         are_any.then_some(Self { forces, springs })
     }
 
-    fn list(&self) -> impl Iterator<Item = &'a dyn Interaction> {
+    /// Interactions among the forces, in the order in which they entered the world.
+    pub fn list(&self) -> impl Iterator<Item = &'a dyn Interaction> + use<'a> {
         self.forces.iter().filter_map(|(_, force)| force.interaction())
+    }
+
+    /// The nonconservative interactions, without springs.
+    fn nonconservative(&self) -> impl Iterator<Item = &'a dyn Interaction> {
+        let forces = self.forces.iter().filter(|(_, force)| !force.is_conservative());
+        forces.filter_map(|(_, force)| force.interaction())
+    }
+
+    /// Whether all interactions are conservative, apart from the dampers of springs.
+    pub fn are_conservative_but_for_dampers(&self) -> bool {
+        self.nonconservative().next().is_none()
+    }
+
+    /// Whether all interactions are conservative.
+    pub fn are_conservative(&self) -> bool {
+        self.are_conservative_but_for_dampers()
+            && self.springs().all(|spring| spring.damping == 0.0)
+    }
+
+    /// Adds the nonconservative forces \[N\], without dampers.
+    pub fn add_nonconservative(&self, spheres: &SphereStates, time: f64, forces: &mut [DVec3]) {
+        self.nonconservative().for_each(|it| it.add_forces(spheres, time, forces));
+    }
+
+    /// Adds the forces \[N\] of the dampers of springs.
+    pub fn add_damping(&self, spheres: &SphereStates, forces: &mut [DVec3]) {
+        self.springs().for_each(|spring| spring.add_damping(spheres, forces));
+    }
+
+    /// Potential energy \[J\] of the nonconservative interactions.
+    pub fn nonconservative_potential(&self, spheres: &SphereStates, time: f64) -> f64 {
+        self.nonconservative().map(|it| it.potential_energy(spheres, time)).sum()
     }
 
     /// The springs, in the order in which they entered the world.
@@ -30,7 +63,7 @@ impl<'a> Interactions<'a> {
         self.springs.iter().map(|(_, spring)| spring)
     }
 
-    /// Whether there are none but springs.
+    /// Whether there are only springs.
     pub fn are_springs(&self) -> bool {
         self.list().next().is_none()
     }

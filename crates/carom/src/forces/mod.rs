@@ -8,6 +8,7 @@ mod gravity;
 mod interaction;
 mod interactions;
 mod mutual_gravity;
+mod nonconservative;
 mod quadratic_drag;
 #[cfg(feature = "serde")]
 pub(crate) mod shipped;
@@ -29,6 +30,10 @@ pub use gravity::Gravity;
 pub use interaction::{Interaction, SphereStates};
 pub(crate) use interactions::Interactions;
 pub use mutual_gravity::MutualGravity;
+pub(crate) use nonconservative::{
+    are_conservative, nonconservative_linear, nonconservative_others, nonconservative_potential,
+    total_nonconservative,
+};
 pub use quadratic_drag::QuadraticDrag;
 pub use spring::{Spring, SpringEnd};
 pub use vortex::Vortex;
@@ -63,6 +68,10 @@ use crate::numbered::Numbered;
 ///     fn potential_energy(&self, sphere: &SphereState, _time: f64) -> f64 {
 ///         0.5 * self.stiffness * sphere.position.length_squared()
 ///     }
+///
+///     fn is_conservative(&self) -> bool {
+///         true
+///     }
 /// }
 ///
 /// let mut world = World::default();
@@ -93,6 +102,15 @@ pub trait Force: Any + Debug + Send + Sync {
     /// Potential energy \[J\] of a sphere in this state; 0 (the default) where there is none.
     fn potential_energy(&self, _sphere: &SphereState, _time: f64) -> f64 {
         0.0
+    }
+
+    /// Whether its potential energy, that of its interaction included, accounts for all of its work; false (the
+    /// default) for one that dissipates or drives.
+    ///
+    /// The work of any other force is measured, and stands in
+    /// [`EnergyAccount::forces`](crate::EnergyAccount::forces), less what its potential accounts for.
+    fn is_conservative(&self) -> bool {
+        false
     }
 
     /// The forces between spheres, besides the force on each by itself; `None` (the default) for none.

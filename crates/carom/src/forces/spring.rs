@@ -126,6 +126,23 @@ impl Spring {
         stretch.elastic_tension(self) * stretch.direction
     }
 
+    /// The part of [`Self::pull`] that the damper adds \[N\], the nonconservative one.
+    pub(crate) fn damping_pull(&self, offset: DVec3, velocity: DVec3) -> DVec3 {
+        let stretch = Stretch::of(offset, velocity);
+        let undamped = Self { damping: 0.0, ..*self };
+        (stretch.tension(self) - stretch.tension(&undamped)) * stretch.direction
+    }
+
+    /// Adds the force of the damper on each of the spheres \[N\].
+    pub(super) fn add_damping(&self, spheres: &SphereStates, forces: &mut [DVec3]) {
+        let Some(ends) = self.ends(spheres).filter(|_| self.damping > 0.0) else { return };
+        let along = self.damping_pull(ends.offset, ends.velocity);
+        forces[ends.first] += along;
+        if let Some(second) = ends.second {
+            forces[second] -= along;
+        }
+    }
+
     /// `k (l - l0)² / 2` \[J\]; none where it is slack.
     pub(super) fn potential_energy(&self, spheres: &SphereStates) -> f64 {
         let Some(ends) = self.ends(spheres) else { return 0.0 };

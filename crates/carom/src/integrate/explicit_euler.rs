@@ -1,7 +1,7 @@
 use glam::DVec3;
 
 use super::kinematics::Kinematics;
-use super::scheme::Scheme;
+use super::scheme::{MOST_STAGES, Scheme};
 
 /// `x' = x + h v`, `v' = v + h a(x, v)`.
 ///
@@ -10,6 +10,8 @@ pub(super) struct ExplicitEuler;
 
 impl Scheme for ExplicitEuler {
     const STAGES: usize = 1;
+    const ORDER: u32 = 1;
+    const WEIGHTS: [f64; MOST_STAGES] = [1.0, 0.0, 0.0, 0.0];
 
     fn stage(start: Kinematics, _h: f64, _known: &[DVec3]) -> (f64, Kinematics) {
         (0.0, start)

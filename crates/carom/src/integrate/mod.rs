@@ -14,9 +14,11 @@ mod scheme;
 mod semi_implicit_euler;
 mod together;
 mod velocity_verlet;
+mod work;
 
 pub(crate) use acceleration::{acceleration, acceleration_alone};
 pub(crate) use together::Scratch;
+pub(crate) use work::work;
 
 use acceleration::acceleration_at;
 use explicit_euler::ExplicitEuler;

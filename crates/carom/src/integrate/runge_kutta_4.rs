@@ -1,7 +1,7 @@
 use glam::DVec3;
 
 use super::kinematics::Kinematics;
-use super::scheme::Scheme;
+use super::scheme::{MOST_STAGES, Scheme};
 
 /// Four slopes `k1 .. k4` at 0, h/2, h/2 and h; the step takes `(k1 + 2 k2 + 2 k3 + k4) / 6`.
 ///
@@ -10,6 +10,8 @@ pub(super) struct RungeKutta4;
 
 impl Scheme for RungeKutta4 {
     const STAGES: usize = 4;
+    const ORDER: u32 = 4;
+    const WEIGHTS: [f64; MOST_STAGES] = [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0];
 
     fn stage(start: Kinematics, h: f64, known: &[DVec3]) -> (f64, Kinematics) {
         let t = TIMES[known.len()] * h;

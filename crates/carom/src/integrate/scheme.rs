@@ -12,6 +12,10 @@ pub(super) const MOST_STAGES: usize = 4;
 pub(super) trait Scheme {
     /// How often a step asks for the acceleration, up to [`MOST_STAGES`].
     const STAGES: usize;
+    /// Order of the error over a given time.
+    const ORDER: u32;
+    /// Weights of the accelerations of the stages in the change of the velocity, by the length of the step.
+    const WEIGHTS: [f64; MOST_STAGES];
 
     /// The time from the start \[s\] and the state at which the next acceleration is due, after those that
     /// are `known` \[m/s²\].

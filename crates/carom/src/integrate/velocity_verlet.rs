@@ -1,7 +1,7 @@
 use glam::DVec3;
 
 use super::kinematics::Kinematics;
-use super::scheme::Scheme;
+use super::scheme::{MOST_STAGES, Scheme};
 
 /// `x' = x + h v + h²/2 a`, `v' = v + h/2 (a + a')` with `a' = a(x', v + h a)`.
 ///
@@ -12,6 +12,8 @@ pub(super) struct VelocityVerlet;
 
 impl Scheme for VelocityVerlet {
     const STAGES: usize = 2;
+    const ORDER: u32 = 2;
+    const WEIGHTS: [f64; MOST_STAGES] = [0.5, 0.5, 0.0, 0.0];
 
     fn stage(start: Kinematics, h: f64, known: &[DVec3]) -> (f64, Kinematics) {
         match *known {

@@ -209,7 +209,7 @@ impl Course {
         tally.add_frame(world, thermal, length);
         self.compressed.packing_fraction = volume_of_spheres(world) / self.volume;
         self.compressed.collisions += tally.collisions;
-        self.compressed.energy_gained += world.report().energy_account.kicks;
+        self.compressed.energy_gained += world.report().energy_account.growth;
         Ok((tally, length))
     }
 

@@ -24,5 +24,5 @@ mod start;
 
 pub use compress::{Compressed, Compression, Until, compress, equilibrate};
 pub use measure::{Fluid, packing_fraction};
-pub use rattlers::rattlers;
-pub use start::{Start, start};
+pub use rattlers::{jammed_rattlers, rattlers};
+pub use start::{Enclosure, Start, start};

@@ -8,6 +8,24 @@ use crate::world::World;
 /// The fewest contacts of a sphere that is held: one more than there are dimensions.
 const FEWEST_CONTACTS: usize = 4;
 
+/// The largest gap of a contact of a packing, times its reduced pressure.
+const CONTACT: f64 = 100.0;
+/// Below this reduced pressure spheres have gaps all around.
+const JAMMED: f64 = 1e6;
+
+/// How many spheres of a packing with this reduced pressure are [`rattlers`]: a gap of 100 times its inverse counts as a
+/// contact. `None` below a pressure of a million, where spheres have gaps all around.
+///
+/// # Errors
+/// [`Error::Invalid`] for a pressure that is not finite.
+pub fn jammed_rattlers(world: &World, pressure: f64) -> Result<Option<usize>, Error> {
+    if pressure < JAMMED {
+        return Ok(None);
+    }
+    validate::positive("pressure", pressure).map_err(|invalid| invalid.about(Subject::Query))?;
+    rattlers(world, CONTACT / pressure).map(Some)
+}
+
 /// How many spheres of a packing are rattlers: have fewer than four contacts with spheres that are none, or with
 /// colliders. A gap of less than `gap` times the sum of radii counts as a contact. Near jamming gaps are about the
 /// inverse of the reduced pressure p, and larger where the force is small: 100/p suits, with p a million or more.

@@ -9,6 +9,7 @@ use crate::detect::ContactState;
 use crate::detect::contact::{Bodies, Contact};
 use crate::detect::contacts::{self, Moved, Search};
 use crate::detect::instant::Instant;
+use crate::force_work::ForceWork;
 use crate::integrate;
 use crate::interval::Interval;
 use crate::report::{StepReport, TriggerContact};
@@ -105,6 +106,8 @@ pub(crate) fn step(
     }
 
     islands.report(report);
+    let lone = (0..system.spheres.id.len() as u32).filter(|&sphere| !islands.contain(sphere));
+    report.energy_account.add_force_work(work_of_forces(&frame, frame.start, lone, interval));
     report.work.pair_tests += buffers.search.take_pair_tests();
     report_triggers(&frame, buffers, report);
     let colliding = contacts.iter().filter(|contact| contact.state == ContactState::Colliding);
@@ -137,6 +140,7 @@ fn settle(frame: &Frame, island: &mut Island, buffers: &mut Buffers, work: &Work
         let tolerance = parameters.tolerance;
         contacts::of_some(&frame.end(end), &island.members, tolerance, search, late_contacts);
         if !late_contacts.iter().any(is_intersecting) {
+            island.work += work_of_forces(frame, current, island.members.iter().copied(), rest);
             island.settled = true;
             return;
         }
@@ -144,6 +148,7 @@ fn settle(frame: &Frame, island: &mut Island, buffers: &mut Buffers, work: &Work
         let Buffers { current, trial_contacts, integrate, .. } = buffers;
         let piece = Interval { time: rest.time, h: until_contact };
         let members = island.members.iter().copied();
+        island.work += work_of_forces(frame, current, members.clone(), piece);
         integrate::advance(parameters.integrator, system, current, members, piece, integrate);
         elapsed += until_contact;
         let answered = respond::sequentially(trial_contacts.iter(), system, current, elapsed);
@@ -205,6 +210,7 @@ fn give_up(frame: &Frame, island: &mut Island, rest: Interval, buffers: &mut Buf
     let Buffers { current, end, late_contacts, search, meetings, integrate, .. } = buffers;
     let rests = |bodies: Bodies| meetings.get(&bodies).is_some_and(|&met| met >= max_impacts);
     advance(frame, (current, end), island.members.iter().copied(), rest, integrate);
+    island.work += work_of_forces(frame, current, island.members.iter().copied(), rest);
     contacts::of_some(&frame.end(end), &island.members, tolerance, search, late_contacts);
     for late in late_contacts.iter().filter(|c| is_intersecting(c)) {
         // The answers before this one may have moved the sphere.
@@ -283,6 +289,16 @@ impl<'a> Frame<'a> {
 
 fn is_intersecting(contact: &Contact) -> bool {
     contact.state == ContactState::Intersecting
+}
+
+/// Work of nonconservative forces on spheres that [`advance`] moves over `interval` from `start`.
+fn work_of_forces(
+    frame: &Frame,
+    start: &Motion,
+    spheres: impl Iterator<Item = u32>,
+    interval: Interval,
+) -> ForceWork {
+    integrate::work(frame.parameters.integrator, &frame.system, start, spheres, interval)
 }
 
 /// Moves spheres without contacts over `interval`, from `start` to `end`; all of them, where forces act

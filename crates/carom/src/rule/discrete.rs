@@ -37,6 +37,8 @@ pub(crate) fn step(
 ) {
     let everyone = 0..system.spheres.id.len() as u32;
     let Discrete { integrator, .. } = parameters;
+    let work = integrate::work(integrator, system, motion, everyone.clone(), frame);
+    report.energy_account.add_force_work(work);
     integrate::advance(integrator, system, motion, everyone.clone(), frame, &mut scratch.integrate);
     for sphere in everyone {
         meet_surfaces(system, motion, sphere, frame, &mut scratch.near, report);

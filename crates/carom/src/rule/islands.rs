@@ -2,6 +2,7 @@
 
 use crate::detect::ContactState;
 use crate::detect::contact::Contact;
+use crate::force_work::ForceWork;
 use crate::report::{Impact, StepReport};
 
 /// Marks a sphere that belongs to no island.
@@ -20,6 +21,8 @@ pub(super) struct Island {
     pub impacts: Vec<Impact>,
     /// Work of putting spheres onto surfaces \[J\].
     pub correction: f64,
+    /// Work of nonconservative forces.
+    pub work: ForceWork,
 }
 
 impl Island {
@@ -99,6 +102,7 @@ impl Islands {
             island.members.sort_unstable();
             island.impacts.clear();
             island.correction = 0.0;
+            island.work = ForceWork::default();
             island.unfinished = false;
         }
         unsettled.into_iter()
@@ -114,6 +118,7 @@ impl Islands {
         for island in &self.list {
             report.impacts.extend_from_slice(&island.impacts);
             report.energy_account.correction += island.correction;
+            report.energy_account.add_force_work(island.work);
             report.unfinished_islands += u32::from(island.unfinished);
         }
         report.impacts.sort_by(|a, b| a.time.total_cmp(&b.time));

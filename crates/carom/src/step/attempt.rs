@@ -9,6 +9,7 @@ use crate::forces::Spring;
 use crate::numbered::Numbered;
 use crate::report::{StepReport, TriggerContact};
 use crate::rule::contact::{self, Solver};
+use crate::rule::exact::SupportChange;
 use crate::rule::{bisect, discrete};
 use crate::sensor::{Sensors, Tracks};
 use crate::settings::Rule;
@@ -24,6 +25,8 @@ pub(crate) struct Scratch {
     pub contact: contact::Scratch,
     pub search: Search,
     pub tracks: Tracks,
+    /// Log of persistent contacts under the rule `exact`; `None` in a step that keeps none.
+    pub support_log: Option<Vec<SupportChange>>,
     /// Motion at the start of the step, which a failed step restores.
     pub start: Motion,
 }
@@ -70,6 +73,7 @@ impl<'a> Attempt<'a> {
         &mut self,
         advance: impl FnOnce(&mut Self) -> Result<(), Error>,
     ) -> Result<(), Error> {
+        let potential = self.state.nonconservative_potential(self.start);
         if let Err(error) = advance(self) {
             if let Some(before) = self.before_emission.take() {
                 before.restore(self.state);
@@ -79,6 +83,9 @@ impl<'a> Attempt<'a> {
             self.report.clear();
             return Err(error);
         }
+        // A potential accounts for this part of the work.
+        let gained = self.state.nonconservative_potential(self.end.seconds()) - potential;
+        self.report.energy_account.forces += gained;
         self.state.clock = self.end;
         self.state.advance_colliders(self.length);
         Ok(())
@@ -139,12 +146,15 @@ impl<'a> Attempt<'a> {
         self.expect_emission();
         let room = self.room();
         let energy = self.state.total_energy(time);
+        let potential = self.state.nonconservative_potential(time);
         let State { emitters, spheres, next_id, .. } = &mut *self.state;
         let emission = emitter::emit(emitters, spheres, next_id, time, room);
         if !emission.retired.is_empty() {
             self.state.drop_loose_springs();
         }
-        self.report.energy_account.emission += self.state.total_energy(time) - energy;
+        let account = &mut self.report.energy_account;
+        account.emission += self.state.total_energy(time) - energy;
+        account.forces -= self.state.nonconservative_potential(time) - potential;
         self.report.emitted.extend(&emission.emitted);
         self.report.retired.extend(&emission.retired);
         self.report.left_out.extend(&emission.left_out);

@@ -24,16 +24,25 @@ pub(super) fn step(mut attempt: Attempt, parameters: Exact, until: Until) -> Res
             check_closed_form(&system, "next event").map_err(|it| it.about(Subject::Step))?;
         }
         let mut timeline = begin(attempt, parameters, end)?;
+        if attempt.scratch.support_log.is_some() {
+            timeline.begin_support_log(attempt.start);
+        }
         let mut watch = watch_over(attempt);
         let end = advance(attempt, &mut timeline, &mut watch, end, until)?;
         attempt.end_at(end);
+        if let Some(log) = &mut attempt.scratch.support_log {
+            *log = timeline.end_support_log();
+        }
         account_for_contacts(attempt.report, &mut timeline, end);
         place_spheres(attempt, &timeline, end)?;
         timeline.write_radii(&mut attempt.state.spheres.properties.radius, end);
         if !timeline.has_friction() {
             attempt.state.spheres.motion.spin.advance(attempt.length);
         }
-        attempt.report_sensors(watch.map(|watch| watch.sensors));
+        if let Some(watch) = &mut watch {
+            attempt.report.energy_account.add_force_work(watch.take_work());
+        }
+        attempt.report_sensors(watch.and_then(|watch| watch.sensors));
         attempt.state.timeline = Some(timeline);
         let account = &mut attempt.report.zone_account;
         attempt.state.was_stepped |= account.joined > 0;
@@ -44,11 +53,13 @@ pub(super) fn step(mut attempt: Attempt, parameters: Exact, until: Until) -> Res
     Ok(())
 }
 
-/// The watch over sensors in a step; `None` where there are none.
+/// Watch over spheres in a step; `None` without sensors and nonconservative forces.
 fn watch_over(attempt: &mut Attempt) -> Option<Watch> {
     let (start, presence) = (attempt.start, attempt.state.presence.clone());
     let (system, _) = attempt.state.split();
-    (!system.trigger_tree.is_empty()).then(|| Watch::new(presence, start))
+    let presence = (!system.trigger_tree.is_empty()).then_some(presence);
+    let measures_work = system.has_nonconservative_forces();
+    (presence.is_some() || measures_work).then(|| Watch::new(presence, measures_work, start))
 }
 
 /// Accounts for the impacts of a step, and for persistent contacts up to its end \[s\].
@@ -58,12 +69,19 @@ fn account_for_contacts(report: &mut StepReport, timeline: &mut Timeline, end: f
     let given = report.groups.iter().map(|group| group.collider_work);
     report.energy_account.colliders += given.collect::<Sum>().value();
     let kicked = report.groups.iter().map(|group| group.kick_work);
-    report.energy_account.kicks += kicked.collect::<Sum>().value();
+    let kicked = kicked.collect::<Sum>().value();
+    // Growth is refused beside colliders that kick.
+    if timeline.has_growth() {
+        report.energy_account.growth += kicked;
+    } else {
+        report.energy_account.kicks += kicked;
+    }
     account_for_persistent_contacts(report, timeline, end);
 }
 
-/// Accounts for the work of persistent contacts up to `time` \[s\].
+/// Accounts for the work of persistent contacts, and of zones, up to `time` \[s\].
 fn account_for_persistent_contacts(report: &mut StepReport, timeline: &mut Timeline, time: f64) {
+    timeline.report_zone_energy(time, &mut report.energy_account);
     let [friction, colliders] = timeline.take_contact_work(time);
     report.energy_account.contacts += friction;
     report.energy_account.colliders += colliders;
@@ -116,7 +134,7 @@ fn advance(
         let Attempt { state, work, report, .. } = &mut *attempt;
         let (system, _) = state.split();
         if let Some(watch) = watch.take() {
-            exact::begin_watch(timeline, watch, now);
+            exact::begin_watch(timeline, &system, watch, now);
         }
         let came_to = exact::advance(&system, timeline, span, work, report, until)
             .map_err(|unfinished| refusal(unfinished, start))?;

@@ -33,11 +33,12 @@ pub enum DerivativeError {
         /// On the world's clock \[s\].
         time: f64,
     },
-    /// A sphere did not fly freely between its impacts: it rests, rolls or slides on something, or is in a stepped
-    /// zone.
+    /// A sphere neither flew freely nor stayed on one plane at rest between its impacts: it lies against several bodies,
+    /// on another sphere, on a curve or an edge, or on a moving surface, it leaves a plane at its end, or it is in a
+    /// stepped zone.
     #[error(
-        "sphere {sphere} did not fly freely between {from} s and {to} s: derivatives are known of free flight \
-         and impacts only"
+        "sphere {sphere} did not fly freely, or stay on one plane at rest, between {from} s and {to} s: derivatives \
+         are known of such motion and of impacts only"
     )]
     PersistentContact {
         /// The sphere.

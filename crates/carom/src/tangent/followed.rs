@@ -2,7 +2,8 @@
 
 use super::error::DerivativeError;
 use super::margin::Margin;
-use super::replay::{Piece, Start};
+use super::replay::Piece;
+use super::start::Start;
 use crate::id::SphereId;
 use crate::world::World;
 
@@ -37,8 +38,8 @@ impl Followed {
             return Err(DerivativeError::Changed);
         }
         let before = world.time();
-        world.step(dt)?;
-        let pieces = start.pieces(world, self.elapsed);
+        let supports = world.step_noting_supports(dt)?;
+        let pieces = start.pieces(world, supports, self.elapsed);
         let pieces = pieces.inspect_err(|error| self.lost = Some(error.clone()))?;
         for piece in &pieces {
             if let Piece::Impact(saltation) = piece {

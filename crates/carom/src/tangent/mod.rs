@@ -3,15 +3,21 @@
 //! Between impacts the motion is known in closed form, and so is its derivative. An impact maps small changes of
 //! the motion before it linearly to those after it; that it comes sooner or later is a part of the map.
 
+mod coefficients;
+mod dry_motion;
 mod dual;
 mod error;
 mod followed;
+mod known;
 mod law;
 mod margin;
 mod replay;
 mod saltation;
+mod start;
 mod state;
+mod supported;
 mod tape;
+mod touched;
 mod variation;
 
 use glam::DVec3;
@@ -31,9 +37,9 @@ use replay::Piece;
 /// Derivatives in some directions, carried along with a world: how the motion of each sphere changes with what the world
 /// started with.
 ///
-/// Known of worlds under the rule `exact` whose spheres fly freely, under forces that are linear in the velocity, and
-/// meet each other and surfaces one at a time, with or without friction. What has no derivative is an error, never
-/// a guess. The formulas are in `docs/physics/derivatives.md`.
+/// Known of worlds under the rule `exact` whose spheres fly freely, under forces that are linear in the velocity, or
+/// slide, roll and rest on single planes, and meet each other and surfaces one at a time, with or without friction.
+/// What has no derivative is an error, never a guess. The formulas are in `docs/physics/derivatives.md`.
 ///
 /// ```
 /// use carom::{Collider, DVec3, Pose, Shape, Sphere, Tangents, Variation, World};
@@ -170,6 +176,7 @@ fn pass(pieces: &[Piece], direction: &Variation, spheres: &mut [SphereTangent]) 
             Piece::Flight { place, time, drag_rate } => {
                 spheres[place].fly(Piece::propagator(time, drag_rate), direction.acceleration);
             }
+            Piece::Supported(ref flight) => flight.pass(direction, spheres),
             Piece::Impact(ref saltation) => saltation.pass(direction, spheres),
         }
     }

@@ -1,32 +1,31 @@
 //! A step once more, from its report: the flights and impacts that it was made of.
 
-use std::sync::Arc;
+use std::collections::{BTreeMap, VecDeque};
 
 use glam::DVec3;
 
+use super::coefficients::{Combined, restitution_of, sliding_of};
 use super::error::DerivativeError;
-use super::saltation::{Colliding, Combined, First, Saltation, TouchedSurface};
-use crate::colliders::Colliders;
+use super::saltation::{Colliding, First, Saltation};
+use super::start::{Flying, Held, ROUNDING, Start};
+use super::supported::{Ending, Mode, Rates, SupportedFlight};
+use super::touched::touched;
 use crate::detect::contact::Bodies;
 use crate::detect::instant::Instant;
 use crate::detect::sphere_surface;
 use crate::flight::{Flight, Propagator};
-use crate::forces::{self, LinearForce};
-use crate::id::{ColliderId, SphereId};
-use crate::report::{BodyPair, Impact, StepReport};
+use crate::forces::LinearForce;
+use crate::id::SphereId;
+use crate::report::{BodyPair, Impact};
 use crate::respond;
-use crate::rule::exact::curvature_of;
+use crate::rule::exact::{HeldMotion, NormalCurvature, SupportChange, curvature_of};
 use crate::rule::periodic;
-use crate::settings::Rule;
-use crate::surface::Role;
 use crate::system::System;
 use crate::world::World;
 
-/// Where a sphere is found again, it may be off by this part of its size and of its way: rounding, but no motion
-/// that is not that of a flight.
-const ROUNDING: f64 = 1e-9;
-/// Unit normals of one contact that were found in two ways may differ by this.
-const SAME_NORMAL: f64 = 1e-6;
+/// An impact counts as plastic if its bodies part at less than this fraction of the speed that the coefficient of
+/// restitution requires.
+const NOTHING: f64 = 0.5;
 
 /// A linear map of small changes of the motion of spheres.
 #[derive(Debug, Clone)]
@@ -38,219 +37,362 @@ pub(super) enum Piece {
         time: f64,
         drag_rate: f64,
     },
+    Supported(Box<SupportedFlight>),
     Impact(Box<Saltation>),
 }
 
-/// A world before a step.
-pub(super) struct Start {
-    pub ids: Vec<SphereId>,
-    bodies: Vec<Flying>,
-    colliders: Arc<Colliders>,
-    /// On the world's clock \[s\].
-    time: f64,
-}
-
-/// A sphere in flight.
-#[derive(Debug, Clone, Copy)]
-struct Flying {
-    position: DVec3,
-    velocity: DVec3,
-    angular_velocity: DVec3,
-    linear: LinearForce,
-    /// Since the start of the step \[s\].
-    since: f64,
-    /// How far it may be off \[m\].
-    tolerance: f64,
+/// Reconstruction of a step from its report.
+struct Replay<'a> {
+    start: Start,
+    system: System<'a>,
+    /// Time from where derivatives begin to the start of the step \[s\].
+    elapsed: f64,
+    /// Changes of persistent contact during the step, by place of the sphere.
+    changes: BTreeMap<usize, VecDeque<SupportChange>>,
+    pieces: Vec<Piece>,
+    /// End of the step on the world's clock \[s\].
+    end: f64,
 }
 
 impl Start {
-    /// Of the world as it is.
+    /// Returns the pieces of the step that the world took, in order. `supports` are the changes of persistent contact
+    /// that it noted, `elapsed` is the time from where derivatives begin to the step \[s\].
     ///
     /// # Errors
-    /// What the world has that is not known.
-    pub fn of(world: &World) -> Result<Self, DerivativeError> {
-        check(world)?;
-        let Instant { system, motion, time } = world.now();
-        let flying = |place: usize| Flying {
-            position: motion.position[place],
-            velocity: motion.velocity[place],
-            angular_velocity: motion.spin.angular_velocity.get(place).copied().unwrap_or_default(),
-            linear: linear_on(&system, place),
-            since: 0.0,
-            tolerance: ROUNDING * (system.spheres.radius[place] + motion.position[place].length()),
-        };
-        let bodies = (0..motion.position.len()).map(flying).collect();
-        Ok(Self {
-            ids: system.spheres.id.clone(),
-            bodies,
-            colliders: world.shared_colliders(),
-            time,
-        })
-    }
-
-    /// The pieces of the step that the world has taken since, in order. `elapsed` is the time since derivatives are
-    /// followed \[s\].
-    ///
-    /// # Errors
-    /// What in the step has no derivative.
-    pub fn pieces(mut self, world: &World, elapsed: f64) -> Result<Vec<Piece>, DerivativeError> {
+    /// The part of the step that has no derivative.
+    pub fn pieces(
+        self,
+        world: &World,
+        supports: Vec<SupportChange>,
+        elapsed: f64,
+    ) -> Result<Vec<Piece>, DerivativeError> {
         let report = world.report();
         let Instant { system, motion, time: end } = world.now();
         self.check(report, &system, end)?;
-        let mut pieces = Vec::new();
+        let mut changes: BTreeMap<usize, VecDeque<SupportChange>> = BTreeMap::new();
+        for change in supports {
+            changes.entry(change.index as usize).or_default().push_back(change);
+        }
+        let pieces = Vec::new();
+        let mut replay = Replay { start: self, system, elapsed, changes, pieces, end };
         for group in &report.groups {
             let impact = &report.impacts[group.first];
             if group.count > 1 {
-                let time = self.time + impact.time;
+                let time = replay.start.time + impact.time;
                 return Err(DerivativeError::Simultaneous { sphere: second_of(impact), time });
             }
-            let places = self.places(impact);
-            for &place in places.iter().flatten() {
-                pieces.push(self.fly(place, impact.time));
-            }
-            let saltation = self.saltation(&system, impact, places, elapsed);
-            let Some(saltation) = saltation else {
-                return Err(self.persistent(second_of(impact), end));
-            };
-            self.leave(&saltation);
-            pieces.push(Piece::Impact(Box::new(saltation)));
+            replay.collide(impact)?;
         }
-        for place in 0..self.bodies.len() {
-            pieces.push(self.fly(place, end - self.time));
-            let body = &self.bodies[place];
-            let period = system.settings.boundary.period();
+        for place in 0..motion.position.len() {
+            replay.advance(place, f64::INFINITY)?;
+            replay.fly(place, end - replay.start.time, None)?;
+            let body = &replay.start.bodies[place];
+            let period = replay.system.settings.boundary.period();
             let off = periodic::wrapped(motion.position[place] - body.position, period);
             if off.length() > body.tolerance {
-                return Err(self.persistent(self.ids[place], end));
+                return Err(replay.lost(place));
             }
         }
-        Ok(pieces)
+        Ok(replay.pieces)
+    }
+}
+
+impl Replay<'_> {
+    /// Returns the error of a sphere whose motion has no known derivative.
+    fn lost(&self, place: usize) -> DerivativeError {
+        let sphere = self.start.ids[place];
+        DerivativeError::PersistentContact { sphere, from: self.start.time, to: self.end }
     }
 
-    fn check(&self, report: &StepReport, system: &System, end: f64) -> Result<(), DerivativeError> {
-        if self.ids != system.spheres.id {
-            return Err(DerivativeError::Changed);
-        }
-        if report.zone_account.joined > 0 || report.zone_account.spheres > 0 {
-            let sphere = self.ids.first().copied();
-            return sphere.map_or(Ok(()), |sphere| Err(self.persistent(sphere, end)));
+    /// Follows a sphere through its changes of persistent contact before a time since the start of the step \[s\].
+    fn advance(&mut self, place: usize, time: f64) -> Result<(), DerivativeError> {
+        while let Some(change) = self.next_change(place, |at| at < time) {
+            let at = self.since_start(&change);
+            let next = match change.held {
+                Some(motion) => Some(self.held(place, &motion).ok_or_else(|| self.lost(place))?),
+                None => None,
+            };
+            let was_held = self.start.bodies[place].held.is_some();
+            let begins = change.held.is_some_and(|motion| motion.is_old) || at == 0.0;
+            match (was_held, next) {
+                // It leaves a plane, or comes onto one, without an impact.
+                (true, None) => return Err(self.lost(place)),
+                (false, Some(_)) if !begins => return Err(self.lost(place)),
+                _ => {}
+            }
+            self.fly(place, at, change.held.zip(next))?;
+            if let Some((motion, held)) = change.held.zip(next) {
+                self.hold(place, &motion, held)?;
+            }
         }
         Ok(())
     }
 
-    fn persistent(&self, sphere: SphereId, end: f64) -> DerivativeError {
-        DerivativeError::PersistentContact { sphere, from: self.time, to: end }
+    /// Removes and returns the next change of a sphere's persistent contact, if `at` accepts its time since the start of
+    /// the step \[s\]; of several changes at one time the last.
+    fn next_change(&mut self, place: usize, at: impl Fn(f64) -> bool) -> Option<SupportChange> {
+        let times = [self.start.time, self.end];
+        let changes = self.changes.get_mut(&place)?;
+        let mut next = *changes.front().filter(|it| at(since(it, times)))?;
+        let time = since(&next, times);
+        while let Some(change) = changes.front().filter(|it| since(it, times) == time) {
+            next = *change;
+            changes.pop_front();
+        }
+        Some(next)
     }
 
-    /// The places of the spheres of an impact in the arrays of the world.
-    fn places(&self, impact: &Impact) -> [Option<usize>; 2] {
-        let place = |id: SphereId| self.ids.binary_search(&id).ok();
-        match impact.between {
-            BodyPair::Spheres(first, second) => [place(first), place(second)],
-            BodyPair::Collider { sphere, .. } => [None, place(sphere)],
+    fn since_start(&self, change: &SupportChange) -> f64 {
+        since(change, [self.start.time, self.end])
+    }
+
+    /// Returns the plane that holds a sphere; `None` if something else holds it.
+    fn held(&self, place: usize, motion: &HeldMotion) -> Option<Held> {
+        let Some(Bodies::Surface { surface, .. }) = motion.contact else { return None };
+        let it = &self.start.colliders.surfaces()[surface as usize];
+        if !it.motion.is_at_rest() {
+            return None;
+        }
+        let separation =
+            sphere_surface(&it.form, motion.position, self.system.spheres.radius[place])?;
+        let curvature = curvature_of(&it.form, [motion.position, motion.velocity], &separation);
+        (curvature == NormalCurvature::Flat).then_some(Held {
+            surface,
+            collider: it.collider,
+            normal: separation.normal,
+            acceleration: motion.acceleration,
+            angular_acceleration: motion.angular_acceleration,
+        })
+    }
+
+    /// Sets the motion of a sphere that a plane holds from now on.
+    fn hold(
+        &mut self,
+        place: usize,
+        motion: &HeldMotion,
+        held: Held,
+    ) -> Result<(), DerivativeError> {
+        let period = self.system.settings.boundary.period();
+        let body = &mut self.start.bodies[place];
+        let off = periodic::wrapped(motion.position - body.position, period);
+        body.position += off;
+        body.velocity = motion.velocity;
+        body.angular_velocity = motion.angular_velocity;
+        body.held = Some(held);
+        if off.length() > body.tolerance { Err(self.lost(place)) } else { Ok(()) }
+    }
+
+    /// Advances a sphere to a time since the start of the step \[s\]; `next` is its persistent contact after that, if
+    /// it changes then.
+    fn fly(
+        &mut self,
+        place: usize,
+        time: f64,
+        next: Option<(HeldMotion, Held)>,
+    ) -> Result<(), DerivativeError> {
+        let Flying { position, velocity, angular_velocity, held, .. } = self.start.bodies[place];
+        let over = time - self.start.bodies[place].since;
+        let LinearForce { acceleration, drag_rate } = self.rates(place).linear;
+        let flight = Flight { position, velocity, acceleration, drag_rate };
+        let (position, end_velocity) = flight.after(over);
+        let turning = self.rates(place).angular_acceleration;
+        let end_angular_velocity = angular_velocity + over * turning;
+        let piece = match held {
+            Some(held) if over > 0.0 => {
+                let flight = self.supported(place, held, over, next);
+                let flight = flight.ok_or_else(|| self.lost(place))?;
+                if !flight.is_that(acceleration, [end_velocity, end_angular_velocity]) {
+                    return Err(self.lost(place));
+                }
+                Piece::Supported(Box::new(flight))
+            }
+            _ => Piece::Flight { place, time: over, drag_rate },
+        };
+        self.pieces.push(piece);
+        let body = &mut self.start.bodies[place];
+        body.tolerance += ROUNDING * (position - body.position).length();
+        (body.position, body.velocity) = (position, end_velocity);
+        (body.angular_velocity, body.since) = (end_angular_velocity, time);
+        Ok(())
+    }
+
+    /// Returns the flight of a sphere on the plane that holds it, of a length \[s\]; `None` if its friction is not one of
+    /// the known cases.
+    fn supported(
+        &self,
+        place: usize,
+        held: Held,
+        time: f64,
+        next: Option<(HeldMotion, Held)>,
+    ) -> Option<SupportedFlight> {
+        let Flying { velocity, angular_velocity, .. } = self.start.bodies[place];
+        let mut flight = self.flight_on(place, held, [velocity, angular_velocity]);
+        (flight.time, flight.mode) = (time, flight.mode_of()?);
+        let Some((motion, next)) = next else { return Some(flight) };
+        if next.surface != held.surface
+            && (next.collider != held.collider || (next.normal - held.normal).length() > ROUNDING)
+        {
+            return None;
+        }
+        let after = self.flight_on(place, next, [motion.velocity, motion.angular_velocity]);
+        flight.ending = flight.ending_before(&after, after.mode_of()?);
+        flight.after = after.rates()?;
+        Some(flight)
+    }
+
+    /// Returns a flight with these velocities on a plane, without length.
+    fn flight_on(
+        &self,
+        place: usize,
+        held: Held,
+        [velocity, angular_velocity]: [DVec3; 2],
+    ) -> SupportedFlight {
+        let Flying { linear, since, .. } = self.start.bodies[place];
+        let bodies = Bodies::Surface { sphere: place as u32, surface: held.surface };
+        let friction = respond::friction_of(bodies, &self.system);
+        SupportedFlight {
+            place,
+            id: self.start.ids[place],
+            collider: held.collider,
+            normal: held.normal,
+            radius: self.system.spheres.radius[place],
+            inertia_factor: self.system.spheres.inertia_factor(place),
+            velocity,
+            angular_velocity,
+            linear,
+            sliding: sliding_of(&self.system, bodies),
+            rolling: friction.rolling,
+            spinning: friction.spinning,
+            mode: Mode::Gliding,
+            time: 0.0,
+            began: self.elapsed + since,
+            ending: Ending::Given,
+            after: held.rates(linear),
         }
     }
 
-    /// Takes a sphere on to a time since the start of the step \[s\].
-    fn fly(&mut self, place: usize, time: f64) -> Piece {
-        let body = &mut self.bodies[place];
-        let Flying { position, velocity, linear, since, .. } = *body;
-        let LinearForce { acceleration, drag_rate } = linear;
-        let over = time - since;
-        let flight = Flight { position, velocity, acceleration, drag_rate };
-        (body.position, body.velocity) = flight.after(over);
-        body.since = time;
-        body.tolerance += ROUNDING * (body.position - position).length();
-        Piece::Flight { place, time: over, drag_rate }
+    /// Returns the accelerations of a sphere that flies freely, or is held by a plane with these velocities.
+    fn rates_in(
+        &self,
+        place: usize,
+        held: Option<(Held, [DVec3; 2])>,
+    ) -> Result<Rates, DerivativeError> {
+        let linear = self.start.bodies[place].linear;
+        let free = Rates { linear, angular_acceleration: DVec3::ZERO };
+        let Some((held, velocities)) = held else { return Ok(free) };
+        self.flight_on(place, held, velocities).rates().ok_or_else(|| self.lost(place))
     }
 
-    /// The derivative of an impact; none if the spheres are not where it is.
+    /// Returns the accelerations of a sphere now.
+    fn rates(&self, place: usize) -> Rates {
+        let Flying { linear, held, .. } = self.start.bodies[place];
+        let free = Rates { linear, angular_acceleration: DVec3::ZERO };
+        held.map_or(free, |held| held.rates(linear))
+    }
+
+    /// Advances the spheres of an impact to it, and applies it.
+    fn collide(&mut self, impact: &Impact) -> Result<(), DerivativeError> {
+        let places = self.start.places(impact);
+        for &place in places.iter().flatten() {
+            self.advance(place, impact.time)?;
+            self.fly(place, impact.time, None)?;
+        }
+        let second = places[1].ok_or(DerivativeError::Changed)?;
+        let mut afterwards = Vec::new();
+        for &place in places.iter().flatten() {
+            let motion = self.next_change(place, |at| at == impact.time).and_then(|it| it.held);
+            let held = match motion {
+                Some(motion) => {
+                    let held = self.held(place, &motion).ok_or_else(|| self.lost(place))?;
+                    Some((motion, held))
+                }
+                None => None,
+            };
+            afterwards.push((place, held));
+        }
+        let mut rates = [None; 2];
+        for (rates, place) in rates.iter_mut().zip(places) {
+            let Some(place) = place else { continue };
+            let Flying { held, velocity, angular_velocity, .. } = self.start.bodies[place];
+            let before = held.map(|held| (held, [velocity, angular_velocity]));
+            let next = afterwards.iter().find(|it| it.0 == place).and_then(|it| it.1);
+            let after =
+                next.map(|(motion, held)| (held, [motion.velocity, motion.angular_velocity]));
+            *rates = Some([self.rates_in(place, before)?, self.rates_in(place, after)?]);
+        }
+        let saltation = self.saltation(impact, places, rates).ok_or_else(|| self.lost(second))?;
+        self.leave(&saltation);
+        self.pieces.push(Piece::Impact(Box::new(saltation)));
+        for (place, held) in afterwards {
+            self.start.bodies[place].held = None;
+            if let Some((motion, held)) = held {
+                self.hold(place, &motion, held)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns the derivative of an impact, with the accelerations of its spheres before and after it; `None` if the
+    /// spheres are not at its place.
     fn saltation(
         &mut self,
-        system: &System,
         impact: &Impact,
         places: [Option<usize>; 2],
-        elapsed: f64,
+        rates: [Option<[Rates; 2]>; 2],
     ) -> Option<Saltation> {
+        let system = &self.system;
         let period = system.settings.boundary.period();
         let Impact { point, normal, .. } = *impact;
-        let mut colliding = |place: usize, side: f64| {
+        let (bodies, ids) = (&mut self.start.bodies, &self.start.ids);
+        let mut colliding = |place: usize, side: f64, rates: [Rates; 2]| {
             let touching = point + side * system.spheres.radius[place] * normal;
-            let body = &mut self.bodies[place];
+            let body = &mut bodies[place];
             let off = periodic::wrapped(touching - body.position, period);
             let is_there = off.length() <= body.tolerance;
             // As the step has it: no rounding is carried on.
             body.position += off;
             is_there.then(|| Colliding {
                 position: touching,
-                ..of_sphere(system, place, self.ids[place], body)
+                ..of_sphere(system, (place, ids[place]), body, rates)
             })
         };
         let second_place = places[1]?;
-        let second = colliding(second_place, 1.0)?;
+        let second = colliding(second_place, 1.0, rates[1]?)?;
         let (first, bodies) = match (impact.between, places[0]) {
             (BodyPair::Collider { collider, .. }, _) => {
-                let touched = self.touched((collider, impact), &second)?;
+                let touched = touched(&self.start.colliders, (collider, impact), &second)?;
                 let (surface, touched) = touched;
                 let sphere = second_place as u32;
                 (First::Surface(touched), Bodies::Surface { sphere, surface })
             }
             (_, Some(place)) => {
                 let bodies = Bodies::pair([place as u32, second_place as u32]);
-                (First::Sphere(colliding(place, -1.0)?), bodies)
+                (First::Sphere(colliding(place, -1.0, rates[0]?)?), bodies)
             }
             (_, None) => return None,
         };
-        let [restitution, sliding] = coefficients(system, bodies);
-        let tangential_restitution = respond::friction_of(bodies, system).tangential_restitution;
+        let mut restitution = restitution_of(system, bodies);
+        let asked = restitution.value * impact.approach_speed + impact.kick;
+        if impact.separation_speed < NOTHING * asked {
+            restitution = Combined::default();
+        }
         Some(Saltation {
             first,
             second,
             normal,
             restitution,
-            sliding,
-            tangential_restitution,
+            sliding: sliding_of(system, bodies),
+            tangential_restitution: respond::friction_of(bodies, system).tangential_restitution,
             kick: impact.kick,
-            time: elapsed + impact.time,
+            time: self.elapsed + impact.time,
         })
     }
 
-    /// The surface of a collider that a sphere touches in an impact.
-    fn touched(
-        &self,
-        (collider, impact): (ColliderId, &Impact),
-        sphere: &Colliding,
-    ) -> Option<(u32, TouchedSurface)> {
-        let deflecting = self.colliders.surfaces().iter().enumerate();
-        let candidates = deflecting
-            .filter(|(_, it)| it.collider == collider && it.role == Role::Deflects)
-            .filter_map(|(number, surface)| {
-                let (form, motion) = surface.after(impact.time);
-                let separation = sphere_surface(&form, sphere.position, sphere.radius)?;
-                let off = (separation.normal - impact.normal).length();
-                Some((off, number, form, motion, separation))
-            });
-        let nearest = candidates
-            .filter(|it| it.0 <= SAME_NORMAL && it.4.distance.abs() <= SAME_NORMAL * sphere.radius)
-            .min_by(|a, b| a.0.total_cmp(&b.0));
-        let (_, number, form, motion, separation) = nearest?;
-        let beside = sphere.velocity - motion.velocity_at(separation.point);
-        let curvature = curvature_of(&form, [sphere.position, beside], &separation);
-        let touched = TouchedSurface {
-            collider,
-            origin: motion.origin,
-            velocity: motion.velocity,
-            angular_velocity: motion.angular_velocity,
-            curvature,
-        };
-        Some((number as u32, touched))
-    }
-
-    /// Has the spheres of an impact go on with the motion after it.
+    /// Sets the motion of the spheres of an impact after it.
     fn leave(&mut self, saltation: &Saltation) {
         let outcome = saltation.outcome();
         let mut set = |place: usize, [velocity, angular_velocity]: [DVec3; 2]| {
-            (self.bodies[place].velocity, self.bodies[place].angular_velocity) =
+            (self.start.bodies[place].velocity, self.start.bodies[place].angular_velocity) =
                 (velocity, angular_velocity);
         };
         set(saltation.second.place, outcome[1]);
@@ -261,13 +403,23 @@ impl Start {
 }
 
 impl Piece {
-    /// The propagator of a flight.
+    /// Returns the propagator of a flight.
     pub fn propagator(time: f64, drag_rate: f64) -> Propagator {
         Propagator::over(time, drag_rate)
     }
 }
 
-fn of_sphere(system: &System, place: usize, id: SphereId, body: &Flying) -> Colliding {
+/// Returns the time of a change since the start of a step between these times \[s\].
+fn since(change: &SupportChange, [start, end]: [f64; 2]) -> f64 {
+    (change.time - start).clamp(0.0, end - start)
+}
+
+fn of_sphere(
+    system: &System,
+    (place, id): (usize, SphereId),
+    body: &Flying,
+    [before, after]: [Rates; 2],
+) -> Colliding {
     Colliding {
         place,
         id,
@@ -277,72 +429,13 @@ fn of_sphere(system: &System, place: usize, id: SphereId, body: &Flying) -> Coll
         radius: system.spheres.radius[place],
         mass: system.spheres.mass[place],
         inertia_factor: system.spheres.inertia_factor(place),
-        linear: body.linear,
+        before,
+        after,
     }
-}
-
-/// The forces on a sphere.
-fn linear_on(system: &System, place: usize) -> LinearForce {
-    let (radius, mass) = (system.spheres.radius[place], system.spheres.mass[place]);
-    let (mut linear, _) = forces::total_linear(system.forces, radius, mass);
-    linear.acceleration += system.spheres.applied_acceleration(place).unwrap_or_default();
-    linear
-}
-
-/// Coefficients of restitution and of sliding friction of a contact.
-fn coefficients(system: &System, bodies: Bodies) -> [Combined; 2] {
-    let restitution = system.spheres.restitution.as_slice();
-    let (of_first, friction_of_first, second) = match bodies {
-        Bodies::Pair(first, second) => {
-            (restitution[first as usize], system.spheres.friction(first as usize), second)
-        }
-        Bodies::Surface { sphere, surface } => {
-            let surface = &system.surfaces[surface as usize];
-            (surface.restitution, surface.friction, sphere)
-        }
-    };
-    let rule = system.settings.combine_rule;
-    let both = [of_first, restitution[second as usize]];
-    let by_bodies = rule.derivatives(both);
-    let of_restitution = Combined { value: rule.combine(both[0], both[1]), by_bodies };
-    let value = respond::friction_of(bodies, system).sliding;
-    let friction = [friction_of_first, system.spheres.friction(second as usize)];
-    let by_bodies = match friction.map(|it| it.sliding) {
-        [Some(first), Some(second)] => {
-            system.settings.friction_combine_rule.derivatives([first, second])
-        }
-        [first, second] => [first, second].map(|it| f64::from(u8::from(it.is_some()))),
-    };
-    [of_restitution, Combined { value, by_bodies }]
 }
 
 fn second_of(impact: &Impact) -> SphereId {
     match impact.between {
         BodyPair::Spheres(_, second) | BodyPair::Collider { sphere: second, .. } => second,
     }
-}
-
-/// Refuses a world that has something whose derivatives are not known.
-fn check(world: &World) -> Result<(), DerivativeError> {
-    let Instant { system, .. } = world.now();
-    let refuse = |what| Err(DerivativeError::Unsupported(what));
-    if !matches!(system.settings.rule, Rule::Exact(_)) {
-        return refuse("a rule other than `exact`");
-    }
-    if system.has_interactions() {
-        return refuse("forces between spheres");
-    }
-    if !forces::are_linear(system.forces) {
-        return refuse("forces that depend on places, or not linearly on velocities");
-    }
-    if world.emitters().len() > 0 {
-        return refuse("emitters");
-    }
-    if world.colliders().any(|(_, collider)| !collider.motion.is_empty()) {
-        return refuse("colliders that do not move steadily");
-    }
-    if system.spheres.growth_speed.iter().any(|&speed| speed > 0.0) {
-        return refuse("spheres that grow");
-    }
-    Ok(())
 }

@@ -2,11 +2,12 @@
 
 use glam::DVec3;
 
+use super::coefficients::Combined;
 use super::dual::{Dual, vector};
 use super::law::{Coefficients, FirstBody, StruckSphere, collide};
 use super::state::{NUMBERS, SphereTangent};
+use super::supported::Rates;
 use super::variation::Variation;
-use crate::forces::LinearForce;
 use crate::id::{ColliderId, SphereId};
 use crate::real::Vector;
 use crate::rule::exact::NormalCurvature;
@@ -40,7 +41,9 @@ pub(super) struct Colliding {
     pub radius: f64,
     pub mass: f64,
     pub inertia_factor: f64,
-    pub linear: LinearForce,
+    /// How it was accelerated before the impact, and is after it.
+    pub before: Rates,
+    pub after: Rates,
 }
 
 /// Body 1 of an impact.
@@ -59,13 +62,6 @@ pub(super) struct TouchedSurface {
     pub velocity: DVec3,
     pub angular_velocity: DVec3,
     pub curvature: NormalCurvature,
-}
-
-/// A coefficient of a contact, and its derivatives by those of the two bodies.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Combined {
-    pub value: f64,
-    pub by_bodies: [f64; 2],
 }
 
 /// A small change of everything that an impact depends on.
@@ -91,11 +87,6 @@ struct Collided {
 }
 
 impl Colliding {
-    /// Acceleration of its flight with this velocity \[m/s²\].
-    fn acceleration(&self, velocity: DVec3) -> DVec3 {
-        self.linear.acceleration - self.linear.drag_rate * velocity
-    }
-
     /// The sphere at the impact that comes `later` \[s\]: its centre, and how it moves; its radius and mass change, too.
     fn at_impact(
         &self,
@@ -104,10 +95,11 @@ impl Colliding {
         later: f64,
     ) -> (Vector<Dual>, StruckSphere) {
         let position = vector(self.position, change.position + later * self.velocity);
-        let gained = change.velocity + later * self.acceleration(self.velocity);
+        let gained = change.velocity + later * self.before.acceleration(self.velocity);
+        let turned = change.angular_velocity + later * self.before.angular_acceleration;
         let sphere = StruckSphere {
             velocity: vector(self.velocity, gained),
-            angular_velocity: vector(self.angular_velocity, change.angular_velocity),
+            angular_velocity: vector(self.angular_velocity, turned),
             radius: Dual::new(self.radius, radius),
             mass: Dual::new(self.mass, mass),
             inertia_factor: self.inertia_factor,
@@ -120,8 +112,9 @@ impl Colliding {
         let velocity = sphere.velocity.value();
         SphereTangent {
             position: place.change() - later * velocity,
-            velocity: sphere.velocity.change() - later * self.acceleration(velocity),
-            angular_velocity: sphere.angular_velocity.change(),
+            velocity: sphere.velocity.change() - later * self.after.acceleration(velocity),
+            angular_velocity: sphere.angular_velocity.change()
+                - later * self.after.angular_acceleration,
         }
     }
 }
@@ -352,12 +345,5 @@ impl Saltation {
         };
         collide(&mut first, &mut second, normal, &coefficients);
         Collided { places: [first_place, place], first, second, later }
-    }
-}
-
-impl Combined {
-    /// How it changes with those of the two bodies.
-    fn change(&self, bodies: [f64; 2]) -> f64 {
-        self.by_bodies[0] * bodies[0] + self.by_bodies[1] * bodies[1]
     }
 }

@@ -12,8 +12,8 @@ use crate::world::World;
 /// A record of the flights and impacts of a run, which gives the gradient of a number by everything that the world
 /// started with, in one go.
 ///
-/// Known of the same worlds as [`Tangents`](crate::Tangents). It holds some 500 bytes for an impact, and 24 for a
-/// flight between two.
+/// Known of the same worlds as [`Tangents`](crate::Tangents). It holds some 500 bytes for an impact, 24 for a
+/// flight between two, and some 350 for a stretch of sliding, rolling or rest.
 ///
 /// ```
 /// use carom::{Collider, DVec3, Pose, Shape, Sphere, SphereTangent, Tape, World};
@@ -75,6 +75,17 @@ impl Tape {
                 }
                 self.last_flights[*place] = Some(self.pieces.len());
             }
+            Piece::Supported(flight) => {
+                if let Some(last) = self.last_flights[flight.place]
+                    && let Piece::Supported(before) = &mut self.pieces[last]
+                    && before.goes_on_with(flight)
+                {
+                    (before.time, before.ending) = (before.time + flight.time, flight.ending);
+                    before.after = flight.after;
+                    return;
+                }
+                self.last_flights[flight.place] = Some(self.pieces.len());
+            }
             Piece::Impact(saltation) => {
                 for sphere in saltation.spheres() {
                     self.last_flights[sphere.place] = None;
@@ -105,6 +116,7 @@ impl Tape {
                     let over = Piece::propagator(time, drag_rate);
                     gradient.acceleration += spheres[place].fly_back(over);
                 }
+                Piece::Supported(ref flight) => flight.pass_back(&mut spheres, &mut gradient),
                 Piece::Impact(ref saltation) => saltation.pass_back(&mut spheres, &mut gradient),
             }
         }

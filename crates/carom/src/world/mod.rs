@@ -18,6 +18,7 @@ use crate::error::{Error, Subject};
 use crate::id::{ColliderId, EmitterId, SphereId};
 use crate::persistent_contact::PersistentContact;
 use crate::report::StepReport;
+use crate::rule::exact::SupportChange;
 use crate::settings::Settings;
 use crate::sphere::{Sphere, SphereMotion};
 use crate::state::State;
@@ -71,6 +72,15 @@ impl World {
         let Self { state, report, scratch, stop_request } = self;
         step::step(state, dt, stop_request.as_ref(), scratch, report, Until::End)?;
         Ok(report)
+    }
+
+    /// Advances the world as [`Self::step`] does. Returns the changes of persistent contacts in the step, in order of
+    /// time.
+    pub(crate) fn step_noting_supports(&mut self, dt: f64) -> Result<Vec<SupportChange>, Error> {
+        self.scratch.support_log = Some(Vec::new());
+        let stepped = self.step(dt).map(drop);
+        let log = self.scratch.support_log.take().unwrap_or_default();
+        stepped.map(|()| log)
     }
 
     /// Checks everything about a step by `dt` \[s\] that does not depend on forces: the length of the step,

@@ -49,6 +49,7 @@ from carom._scene.parts.forces import (
 )
 from carom._scene.parts.generators import (
     ClosePacking,
+    DenseFluid,
     Emitter,
     Generator,
     Lattice,
@@ -108,6 +109,7 @@ __all__ = [
     "Count",
     "Counts",
     "Cylinder",
+    "DenseFluid",
     "DensityColor",
     "Direction",
     "Disc",

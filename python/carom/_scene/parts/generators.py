@@ -15,6 +15,7 @@ from carom._scene.parts.kinds import (
     Count,
     Counts,
     Direction,
+    Fraction,
     NonNegative,
     Positive,
     Quaternion,
@@ -25,7 +26,7 @@ from carom._scene.parts.kinds import (
 )
 from carom._scene.parts.part import Part
 from carom._scene.parts.spheres import SizedSphere, Sphere
-from carom._scene.parts.together import expect_makings, expect_sizes
+from carom._scene.parts.together import expect_makings, expect_one_size, expect_sizes
 
 
 @dataclass(frozen=True)
@@ -217,5 +218,43 @@ class RandomFill(Part):
         expect_sizes(self)
 
 
-Generator: TypeAlias = Row | Lattice | StaggeredRows | ClosePacking | Ring | RandomFill
+@dataclass(frozen=True)
+class DenseFluid(Part):
+    """A dense fluid in equilibrium; beyond freezing, a disordered packing.
+
+    Small spheres fly, collide and grow to their radii. They fill the periodic box of the
+    simulation, or a box of their own, which nothing else may be in.
+
+    Attributes:
+        count: How many, from 1 to 100,000.
+        temperature: Temperature k T of the velocities [J], >= 0. The velocity of ``sphere`` is
+            added.
+        seed: Seed; the same seed gives the same scene.
+        sphere: Properties of the spheres.
+        packing_fraction: Part of the box that the spheres fill, in (0, 1): their radii follow from
+            it. Above 0.6 they may jam before. Give this, the radius of ``sphere``, or
+            ``radius_range``.
+        radius_range: Smallest and largest radius [m], evenly distributed, instead of that of
+            ``sphere``.
+        min: Lower corner of a box with walls [m], that whole spheres lie in; by default they fill
+            the periodic box.
+        max: Upper corner of that box [m].
+    """
+
+    tag: ClassVar[str] = "dense-fluid"
+    count: Count
+    temperature: NonNegative
+    seed: Seed
+    sphere: Sphere
+    packing_fraction: Fraction | None = None
+    radius_range: RadiusRange | None = None
+    min: Vector | None = None
+    max: Vector | None = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        expect_one_size(self)
+
+
+Generator: TypeAlias = Row | Lattice | StaggeredRows | ClosePacking | Ring | RandomFill | DenseFluid
 """Places for many spheres or colliders."""

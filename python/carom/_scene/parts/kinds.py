@@ -73,6 +73,8 @@ Color: TypeAlias = Annotated[
 """Red, green, blue, each in [0, 1] (sRGB), or a text like ``"red"`` or ``"#c0392b"``."""
 Positive: TypeAlias = Annotated[float, _POSITIVE]
 """A number > 0."""
+Fraction: TypeAlias = Annotated[float, Requirement("between 0 and 1", lambda value: 0 < value < 1)]
+"""A number > 0 and < 1."""
 NonNegative: TypeAlias = Annotated[
     float, Requirement("zero or positive, and finite", lambda value: 0 <= value < math.inf)
 ]

@@ -34,7 +34,8 @@ class Sphere(Part):
         position: Centre [m]. In a generator or an emitter: an offset from the place that it gives.
         velocity: Velocity [m/s]. In an emitter: in the emitter's coordinates.
         radius: Radius [m], > 0. Every sphere needs this or ``diameter``, but for those of a
-            `RandomFill` with a ``radius_range``.
+            `RandomFill` with a ``radius_range``, and of a `DenseFluid` with that or a
+            ``packing_fraction``.
         diameter: Diameter [m], > 0.
         mass: Mass [kg], > 0; 1 if neither this nor ``density`` is given.
         density: Density [kg/m³], > 0. Give this or ``mass``.

@@ -38,6 +38,19 @@ def expect_sizes(filling: Any) -> None:
         raise CaromError(f"{where}: {NO_SIZE}, or give `radius_range`", where)
 
 
+def expect_one_size(fluid: Any) -> None:
+    """Refuses a dense fluid of spheres without a size, or with two that disagree."""
+    if fluid.packing_fraction is None:
+        if fluid.radius_range is None and not has_size(fluid.sphere):
+            where = "DenseFluid.sphere"
+            problem = f"{where}: {NO_SIZE}, or give `radius_range` or `packing_fraction`"
+            raise CaromError(problem, where)
+    elif fluid.radius_range is not None or has_size(fluid.sphere):
+        where = "DenseFluid.packing_fraction"
+        problem = "must not be given beside a radius, which says it already"
+        raise CaromError(f"{where}: {problem}", where)
+
+
 def expect_far_behind_near(camera: Any) -> None:
     """Refuses a camera that draws nothing."""
     are_numbers = not isinstance(camera.near, str) and not isinstance(camera.far, str)

@@ -79,6 +79,8 @@ pub struct Obstacle {
     pub velocity: Option<Vector>,
     /// Its angular velocity \[rad/s\], where it turns.
     pub spin: Option<Vector>,
+    /// Parts of its motion, if it does not move steadily.
+    pub parts: Vec<String>,
     pub is_trigger: bool,
     /// What an impact on it adds to the speed \[m/s\].
     pub kick: Option<f64>,
@@ -286,16 +288,39 @@ fn obstacle() -> impl Strategy<Value = Obstacle> {
     let velocity = weighted(0.15, prop_oneof![3 => vector(), 1 => vector_of(20.0)]);
     let place = (vector_of(0.5 * HALF), prop_oneof![1 => Just([0.0; 3]), 3 => vector_of(180.0)]);
     let spin = weighted(0.1, vector_of(3.0));
+    let parts = prop_oneof![6 => Just(Vec::new()), 1 => vec(part(), 1..4)];
     let answer = (proptest::bool::weighted(0.05), weighted(0.1, 0.1..5.0));
-    (shape, place, velocity, spin, answer).prop_map(
-        |(shape, (position, turn), velocity, spin, (is_trigger, kick))| Obstacle {
+    (shape, place, velocity, (spin, parts), answer).prop_map(
+        |(shape, (position, turn), velocity, (spin, parts), (is_trigger, kick))| Obstacle {
             shape,
             position,
             turn,
             velocity,
             spin,
+            parts,
             is_trigger,
             kick,
+        },
+    )
+}
+
+/// A part of a motion, as fast as some meters in a second.
+fn part() -> impl Strategy<Value = String> {
+    let axis = vector().prop_filter("has a direction", |it| it.iter().any(|part| part.abs() > 0.1));
+    let frequency = (-1.0..1.5f64).prop_map(|it| 10f64.powf(it));
+    (0..4, axis, vector(), frequency, (-1.0..1.0, 0.0..360.0)).prop_map(
+        |(kind, axis, pivot, frequency, (size, phase))| {
+            let (amplitude, angle) = (size / frequency, 60.0 * size / frequency.max(1.0));
+            let sine = format!("frequency = {frequency:?}, phase_degrees = {phase:?}");
+            let axis = format!("axis = {axis:?}");
+            match kind {
+                0 => format!("{{ steady = {{ velocity = {pivot:?} }} }}"),
+                1 => format!("{{ oscillate = {{ {axis}, amplitude = {amplitude:?}, {sine} }} }}"),
+                2 => format!("{{ turn = {{ {axis}, pivot = {pivot:?}, rate = {:?} }} }}", 5.0 * size),
+                _ => format!(
+                    "{{ swing = {{ {axis}, pivot = {pivot:?}, amplitude_degrees = {angle:?}, {sine} }} }}"
+                ),
+            }
         },
     )
 }

@@ -161,8 +161,13 @@ fn emitter(drawn: &Drawn, emitter: &Emitter) -> String {
 }
 
 fn obstacle(drawn: &Drawn, obstacle: &Obstacle, material: &str) -> String {
-    let Obstacle { shape, position, turn, velocity, spin, is_trigger, kick } = obstacle;
-    let motion = motion(drawn, *velocity, *spin);
+    let Obstacle { shape, position, turn, velocity, spin, parts, is_trigger, kick } = obstacle;
+    let motion = if parts.is_empty() {
+        motion(drawn, *velocity, *spin)
+    } else {
+        let along = format!("{{ steady = {{ velocity = {:?} }} }}", velocity_of_all(drawn));
+        format!("motion = [{}, {along}]\n", parts.join(", "))
+    };
     let trigger = if *is_trigger { "trigger = true\n" } else { "" };
     let kick = kick.map_or(String::new(), |it| format!("kick = {it:?}\n"));
     format!(

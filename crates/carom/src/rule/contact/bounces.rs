@@ -13,7 +13,6 @@ use super::swept::FAR;
 use crate::contact_time;
 use crate::detect::{Separation, known_in_front, sphere_surface};
 use crate::flight::Flight;
-use crate::report::StepReport;
 
 /// A change of velocity comes from a bounce alone, up to this part of it.
 const ROUNDING: f64 = 1e-9;
@@ -40,16 +39,6 @@ impl OneBounce {
         }
         let impulse = others.iter().fold(first.impulse, |sum, it| sum + it.impulse);
         Some(Self { impulse, ..first })
-    }
-
-    /// By how much the work of the impulse \[J\] at its own time exceeds that in the middle of the sub-step: forces
-    /// change the velocity in between.
-    fn work_at_its_time(&self, slots: &Slots, sub_step: &SubStep) -> f64 {
-        if slots.sleeps[self.slot] {
-            return 0.0;
-        }
-        let acceleration = slots.acceleration[self.slot].vector();
-        (self.time - 0.5 * sub_step.h) * self.impulse.dot(acceleration)
     }
 }
 
@@ -85,17 +74,10 @@ pub(super) fn entangled(solver: &Solver, bounces: &[OneBounce], sub_step: &SubSt
 /// moves by its last velocity. Contacts know nothing of surfaces that a sphere comes to after a bounce, or
 /// because of what hit it: one that goes far stops at the first of them, and bounces off it in the next
 /// sub-step.
-pub(super) fn note(
-    solver: &mut Solver,
-    mut all: Vec<OneBounce>,
-    sub_step: &SubStep,
-    report: &mut StepReport,
-) {
+pub(super) fn note(solver: &mut Solver, mut all: Vec<OneBounce>, sub_step: &SubStep) {
     let Solver { slots, slabs, bounces, places, has_other_forces, landings, .. } = solver;
     let has_landed = |slot: usize| landings.has(slot);
     all.retain(|bounce| !has_landed(bounce.slot) && !bounce.other.is_some_and(has_landed));
-    let work = all.iter().map(|bounce| bounce.work_at_its_time(slots, sub_step));
-    report.energy_account.contacts += work.sum::<f64>();
     bounces.clear();
     for of_sphere in all.chunk_by(|first, second| first.slot == second.slot) {
         if *has_other_forces {

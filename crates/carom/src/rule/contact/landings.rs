@@ -11,11 +11,17 @@ pub(super) struct Landed {
     pub slot: u32,
     /// Centre at the end of the sub-step \[m\].
     pub position: DVec3,
+    /// Its path in the sub-step \[m\].
+    pub path: DVec3,
     pub velocity: DVec3,
     /// r w \[m/s\]
     pub spin: DVec3,
     /// Centre at the start of the last flight \[m\].
     pub from: DVec3,
+    /// Sum over its flights of the time times the mean of the first and the last velocity \[m\].
+    pub way: DVec3,
+    /// Sum over its flights of the time times the product of that mean and the velocity that drag acts on \[m²/s\].
+    pub against_drag: f64,
     /// Whether the sphere presses on something at the end.
     pub bears: bool,
     /// Whether it has met a surface.

@@ -26,6 +26,7 @@ mod descent;
 mod dormant;
 mod drift;
 mod energy;
+mod force_work;
 mod frame;
 mod gather;
 mod guard;
@@ -60,7 +61,7 @@ pub(crate) use guard::{Passage, held};
 pub(crate) use listing::persistent_contacts;
 pub(crate) use places::turning_rate;
 pub(crate) use proximity::{Proximity, bearing, proximity};
-pub(crate) use resolution::TURN;
+pub(crate) use resolution::{TURN, longest_frame_for_springs};
 pub(crate) use solver::{Scratch, Solver};
 
 use glam::DVec3;
@@ -108,7 +109,8 @@ pub(crate) fn step(
     let work = Work::new(stop_request);
     solver.sleep_speed = parameters.sleep_speed;
     frame::begin(system, motion, frame.h, solver);
-    let sub_steps = resolution::sub_steps(solver, parameters.sub_steps, frame.h);
+    let spring_rate = system.fastest_spring_rate();
+    let sub_steps = resolution::sub_steps(solver, parameters.sub_steps, frame.h, spring_rate);
     let parameters = parameters.with_sub_steps(sub_steps);
     for number in 0..sub_steps {
         if !work.spend(UNITS_PER_SPHERE * solver.slots.len() as u64) {
@@ -153,6 +155,7 @@ fn sub_step(
     if solver.is_stale {
         neighbours::search(system, frame, &sub_step, solver, scratch, report);
     }
+    force_work::find(system, solver, frame.time + start);
     solve::prepare(solver, &sub_step);
     solve::sweep(solver, &sub_step, parameters, report);
     let first = report.impacts.len();
@@ -164,8 +167,9 @@ fn sub_step(
     }
     cascade::land(solver);
     impacts::report(system, solver, &sub_step, first, report);
-    bounces::note(solver, bounces, &sub_step, report);
-    advance::advance(solver, &sub_step);
+    bounces::note(solver, bounces, &sub_step);
+    force_work::account(solver, &sub_step, report);
+    advance::advance(solver, &sub_step, report);
     solve::correct(solver, report);
     guard::hold(system, solver, &sub_step, report);
     solver.places.end_sub_step();

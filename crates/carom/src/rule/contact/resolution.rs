@@ -1,4 +1,4 @@
-//! Number of sub-steps: short enough for the changes by forces and turning surfaces in one.
+//! Number of sub-steps: short enough for the changes by forces, springs and turning surfaces in one.
 
 use glam::DVec3;
 
@@ -12,19 +12,22 @@ const FALL: f64 = 0.25;
 pub(crate) const TURN: f64 = 0.25;
 /// In a periodic box no sphere goes farther in a sub-step than this part of its shortest edge, beside the mean motion.
 const OF_BOX: f64 = 0.125;
+/// The fastest motion on springs turns by no more than this angle in a sub-step \[rad\]: the scheme is stable up to 2
+/// (Hairer, Lubich, Wanner, *Geometric Numerical Integration*, I.5.2).
+const SWING: f64 = 1.0;
 /// Largest number of halvings of sub-steps.
 const MOST_HALVINGS: u32 = 6;
 
-/// Returns the number of sub-steps of a frame of this length \[s\]: that of the parameters, or twice, four
-/// times, ... as many.
-pub(super) fn sub_steps(solver: &Solver, least: u32, frame: f64) -> u32 {
+/// Returns the number of sub-steps of a frame of this length \[s\], with the rate of motion on springs \[1/s\]: the
+/// number of the parameters, or twice, four times, ... as many.
+pub(super) fn sub_steps(solver: &Solver, least: u32, frame: f64, spring_rate: f64) -> u32 {
     let slots = &solver.slots;
     let both = slots.acceleration.iter().zip(&slots.position);
     let rates = both.map(|(row, place)| row.vector().length() / place.number());
     let fall = rates.fold(0.0, f64::max).sqrt() / FALL;
     let turn = solver.places.turning_rate() / TURN;
     let across = fastest_beside(slots) / (OF_BOX * slots.period.min_element());
-    let most = fall.max(turn).max(across);
+    let most = fall.max(turn).max(across).max(spring_rate / SWING);
     let mut number = least;
     for _ in 0..MOST_HALVINGS {
         if frame * most <= f64::from(number) {
@@ -33,6 +36,12 @@ pub(super) fn sub_steps(solver: &Solver, least: u32, frame: f64) -> u32 {
         number = number.saturating_mul(2);
     }
     number
+}
+
+/// Returns the longest frame \[s\] for which the sub-steps can follow springs with this rate of motion \[1/s\]; `least`
+/// is the number of sub-steps of the parameters.
+pub(crate) fn longest_frame_for_springs(least: u32, spring_rate: f64) -> f64 {
+    SWING / spring_rate * f64::from(least) * f64::from(1u32 << MOST_HALVINGS)
 }
 
 /// The highest speed beside the mean velocity \[m/s\]; 0 where space is not periodic.

@@ -43,6 +43,13 @@ pub(super) struct Slots {
     pub acceleration: Vec<Row>,
     /// The acceleration by forces that are linear \[m/s²\]; empty where there are no others.
     linear: Vec<Row>,
+    /// Acceleration by nonconservative forces \[m/s²\], and the rate of their linear drag \[1/s\], in the present
+    /// sub-step; empty without such forces.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub working: Vec<Row>,
+    /// The part of that acceleration by forces applied to single spheres \[m/s²\].
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub applied: Vec<DVec3>,
     /// Edges of the periodic box \[m\], infinite along open axes.
     pub period: DVec3,
 }
@@ -284,6 +291,8 @@ pub(super) struct Run<'a> {
     pub spin_before: &'a mut [Row],
     pub turn: &'a mut [Row],
     pub acceleration: &'a [Row],
+    /// Empty without nonconservative forces.
+    pub working: &'a [Row],
     pub reference: &'a [Row],
     pub bears: &'a mut [bool],
     pub sleeps: &'a [bool],
@@ -300,6 +309,7 @@ impl Slots {
             spin_before: &mut self.spin_before,
             turn: &mut self.turn,
             acceleration: &self.acceleration,
+            working: &self.working,
             reference: &self.reference,
             bears: &mut self.bears,
             sleeps: &self.sleeps,
@@ -327,6 +337,12 @@ impl Slots {
 }
 
 impl Run<'_> {
+    /// Acceleration of a sphere by conservative forces \[m/s²\].
+    pub fn conservative_acceleration(&self, slot: usize) -> DVec3 {
+        let working = self.working.get(slot).map_or(DVec3::ZERO, |row| row.vector());
+        self.acceleration[slot].vector() - working
+    }
+
     /// The velocity of a sphere at the end of a sub-step of `h` \[s\], without contacts \[m/s\].
     pub fn accelerated(&self, slot: usize, h: f64) -> DVec3 {
         if self.sleeps[slot] {
@@ -347,6 +363,7 @@ impl<'a> Run<'a> {
             spin_before: front_mut(&mut self.spin_before, count),
             turn: front_mut(&mut self.turn, count),
             acceleration: front(&mut self.acceleration, count),
+            working: front(&mut self.working, count),
             reference: front(&mut self.reference, count),
             bears: front_mut(&mut self.bears, count),
             sleeps: front(&mut self.sleeps, count),

@@ -41,6 +41,9 @@ pub(crate) struct Solver {
     pub(super) has_other_forces: bool,
     /// Whether a surface moves.
     pub(super) has_moving_surfaces: bool,
+    /// Conservative part of the forces applied to single spheres \[N\], by index, in the next sub-step.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub(crate) held_forces: Vec<DVec3>,
     /// Kinetic energy before the impulses of the sub-step \[J\].
     pub(super) energy_before: f64,
     /// Of all spheres \[m\].

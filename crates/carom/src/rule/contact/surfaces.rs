@@ -427,7 +427,7 @@ pub(super) fn correct(run: &mut Run, contacts: &[SurfaceContact], places: &Place
 /// Moves a sphere. Returns the work against the forces that are linear \[J\].
 pub(super) fn move_by(run: &mut Run, slot: usize, way: DVec3) -> f64 {
     run.position[slot] = run.position[slot].with_vector(run.position[slot].vector() + way);
-    -run.acceleration[slot].vector().dot(way) / run.velocity[slot].number()
+    -run.conservative_acceleration(slot).dot(way) / run.velocity[slot].number()
 }
 
 /// Whether a surface has this normal in more than one place.

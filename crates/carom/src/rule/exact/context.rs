@@ -11,7 +11,7 @@ use crate::id::SphereId;
 use crate::norm::Norm;
 use crate::report::{Impact, ImpactGroup, StageCounts, StepReport};
 use crate::settings::{CombineRule, Exact, Zones};
-use crate::surface::{Form, SurfaceMotion};
+use crate::surface::{Form, LastCarriage, SurfaceMotion};
 use crate::system::System;
 use crate::work::Work;
 
@@ -38,6 +38,8 @@ pub(super) struct StepContext<'a> {
     pub unanswered: Option<u32>,
     /// Working memory: the neighbours of the spheres at work, and when they meet.
     pub searches: [PairSearch; 2],
+    /// Motion since the start of the step of the collider that was asked for last.
+    carriage: LastCarriage,
 }
 
 impl<'a> StepContext<'a> {
@@ -49,7 +51,7 @@ impl<'a> StepContext<'a> {
         report: &'a mut StepReport,
     ) -> Self {
         let period = system.settings.boundary.period();
-        let (searches, counts, renewed, unanswered) = Default::default();
+        let (searches, counts, renewed, unanswered, carriage) = Default::default();
         Self {
             system,
             parameters,
@@ -62,6 +64,7 @@ impl<'a> StepContext<'a> {
             renewed,
             unanswered,
             searches,
+            carriage,
         }
     }
 
@@ -128,7 +131,7 @@ impl<'a> StepContext<'a> {
 
     /// Geometry and motion of a surface at `time` \[s\].
     pub fn surface_at(&self, surface: u32, time: f64) -> (Form, SurfaceMotion) {
-        self.system.surfaces[surface as usize].after(time - self.start)
+        self.carriage.after(&self.system.surfaces[surface as usize], time - self.start)
     }
 
     /// Whether no surface is within `margin` \[m\] of a sphere at `place` \[m\] at `time` \[s\].

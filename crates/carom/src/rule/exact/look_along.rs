@@ -1,16 +1,22 @@
-//! Sensors look along the flights of all spheres, as these end.
+//! Looks along the flights of all spheres when they end, for sensors and for the work of forces.
 
+use glam::DVec3;
+
+use super::seen::Seen;
 use super::timeline::Timeline;
-use super::watch::{Seen, Watch};
+use super::watch::Watch;
 use crate::id::SphereId;
 use crate::sensor::FlightSegment;
 use crate::system::System;
 
 /// Begins to watch all flights at `now` \[s\].
-pub(crate) fn begin(timeline: &mut Timeline, mut watch: Watch, now: f64) {
+pub(crate) fn begin(timeline: &mut Timeline, system: &System, mut watch: Watch, now: f64) {
     let slots = &timeline.flights.slot_of;
     watch.flights = slots.iter().map(|&slot| seen(timeline, slot, now)).collect();
     watch.begun.clear();
+    if let Some(tally) = &mut watch.tally {
+        tally.restart(system, now);
+    }
     timeline.watch = Some(Box::new(watch));
 }
 
@@ -26,14 +32,25 @@ pub(super) fn follow(timeline: &mut Timeline, system: &System) {
 fn look_along_ended(timeline: &mut Timeline, system: &System) {
     let Some(mut watch) = timeline.watch.take() else { return };
     let mut begun = std::mem::take(&mut watch.begun);
+    begun.sort_unstable();
+    begun.dedup();
+    let (index_of, bodies) = (&timeline.flights.index_of, &timeline.flights.bodies);
+    begun.retain(|&slot| {
+        let index = index_of[slot as usize] as usize;
+        bodies[slot as usize].generation != watch.flights[index].generation
+    });
+    // A damper needs the old flights of both of its ends.
     for &slot in &begun {
-        let index = timeline.flights.index_of[slot as usize] as usize;
-        let body = &timeline.flights.bodies[slot as usize];
-        if body.generation != watch.flights[index].generation {
-            look_along(&mut watch, timeline, system, index, body.time);
-            let from = watch.flights[index].from;
-            watch.flights[index] = seen(timeline, slot, from);
+        let index = index_of[slot as usize];
+        look_along(&mut watch, timeline, system, index as usize, bodies[slot as usize].time);
+        if let Some(tally) = &mut watch.tally {
+            let now = watch.flights[index as usize].from;
+            tally.follow_dampers(index, &watch.flights, system, now);
         }
+    }
+    for &slot in &begun {
+        let index = index_of[slot as usize] as usize;
+        watch.flights[index] = seen(timeline, slot, watch.flights[index].from);
     }
     begun.clear();
     watch.begun = begun;
@@ -47,32 +64,44 @@ pub(crate) fn end(timeline: &mut Timeline, system: &System, now: f64) -> Option<
     for index in 0..watch.flights.len() {
         look_along(&mut watch, timeline, system, index, now);
     }
+    if let Some(tally) = &mut watch.tally {
+        tally.follow_all_dampers(&watch.flights, system, now);
+    }
     Some(watch)
 }
 
 /// Looks along the flight of a sphere up to `to` \[s\].
 fn look_along(watch: &mut Watch, timeline: &Timeline, system: &System, index: usize, to: f64) {
-    let Seen { flight, curve, flight_start, from, .. } = watch.flights[index];
+    let seen = watch.flights[index];
+    let Seen { flight, curve, flight_start, from, .. } = seen;
     let sphere: SphereId = system.spheres.id[index];
     let radius = timeline.flights.species_of(timeline.flights.slot_of[index]).radius;
     let to = to.max(from);
     let index_of = index as u32;
     let segment =
         FlightSegment { sphere, index: index_of, radius, flight, curve, flight_start, from, to };
-    watch.sensors.watch(&segment, system, watch.step_start);
+    if let Some(sensors) = &mut watch.sensors {
+        sensors.watch(&segment, system, watch.step_start);
+    }
+    if let Some(tally) = &mut watch.tally {
+        tally.follow(&segment, &seen, system);
+    }
     watch.flights[index].from = segment.to;
 }
 
-/// The flight of a sphere, along which sensors have looked up to `from` \[s\].
+/// The flight of a sphere, along which the watch has looked up to `from` \[s\].
 fn seen(timeline: &Timeline, slot: u32, from: f64) -> Seen {
     let body = &timeline.flights.bodies[slot as usize];
-    let flight = body.flight(timeline.flights.species_of(slot));
+    let species = timeline.flights.species_of(slot);
+    let index = timeline.flights.index_of[slot as usize] as usize;
     let curve = timeline.flights.curve_of(slot).map(|curve| curve.0);
     Seen {
-        flight,
+        flight: body.flight(species),
         curve,
         flight_start: body.time,
         generation: body.generation,
+        is_stepped: species.is_stepped,
+        held_force: timeline.working_forces.get(index).copied().unwrap_or(DVec3::ZERO),
         from: body.time.max(from),
     }
 }

@@ -22,6 +22,7 @@ mod context;
 mod course;
 mod events;
 mod flights;
+mod force_work;
 mod frame;
 mod frame_work;
 mod impact;
@@ -31,6 +32,7 @@ mod pair_times;
 mod persistent;
 mod predict;
 mod prefetch;
+mod seen;
 mod span;
 mod stepped;
 mod ticks;
@@ -41,6 +43,7 @@ mod zone;
 
 pub(crate) use contacts::{NormalCurvature, curvature_of};
 pub(crate) use course::{Course, follow};
+pub(crate) use flights::{HeldMotion, SupportChange};
 pub(crate) use frame::{
     Arrivals, HoldError, adopt, begin, end, persistent_contacts, start, tick_for_springs,
 };

@@ -12,7 +12,8 @@ use super::timeline::Timeline;
 use crate::contact_time::{self, Reach};
 use crate::detect::contact::Bodies;
 use crate::detect::sphere_surface;
-use crate::surface::Form;
+use crate::norm::Norm;
+use crate::surface::{Form, LastCarriage};
 use crate::system::System;
 
 /// Two bodies that touch, and for how long their meetings need no answer.
@@ -280,6 +281,7 @@ fn meet_surfaces(
     }
     let center = body.position;
     let planes = planes_that_hold(timeline, system, slot);
+    let carriage = LastCarriage::default();
     for (number, shift) in timeline.surfaces_near(slot) {
         let surface = &system.surfaces[number as usize];
         let is_at_rest = surface.motion.is_at_rest();
@@ -297,19 +299,30 @@ fn meet_surfaces(
         }
         // A surface that moves is given as it is at the start of the frame.
         let start = if is_at_rest { body.time } else { body.time.max(timeline.frame[0]) };
-        let (form, motion) = surface.after(start - timeline.frame[0]);
+        let (form, motion) = carriage.after(surface, start - timeline.frame[0]);
         let course = surface.course_after(start - timeline.frame[0]);
         let turns = motion.angular_velocity != DVec3::ZERO;
         // The way of a surface that turns or does not move steadily is searched to the end of the frame at most.
         let until = if course.is_some() {
             timeline.frame[1].min(flight_end)
         } else if turns {
-            timeline.frame[1].min(horizon)
+            timeline.frame[1].min(horizon).min(flight_end)
         } else {
             horizon
         };
         if until < start {
             continue;
+        }
+        if let Some(course) = &course {
+            let length = until - start;
+            let flight = || Reach::of(body.flight(species), species.radius, until - body.time);
+            let bounds = course.bounds(0.0, length);
+            let arm = (center - shift - motion.origin).norm();
+            let reach = reach.unwrap_or_else(flight);
+            let reach = reach.seen_from_moving(bounds.way, bounds.spin * length, arm);
+            if reach.misses(&form, shift) {
+                continue;
+            }
         }
         let track = timeline.flights.track_from(slot, start).shifted(-shift);
         let (radius, horizon) = (species.radius, until - start);

@@ -7,12 +7,13 @@ use super::clearance::{Clearance, Obstacle};
 use super::contact_scale::RESOLVED_PATH;
 use super::contacts::Member;
 use super::events::{Event, NextEvents, PackedTarget, Prediction, Schedule, UpcomingEvent};
-use super::flights::{Flights, JointStep, Species, StepLimits, Support};
+use super::flights::{Flights, JointStep, Species, StepLimits, Support, SupportChange};
 use super::frame_work::FrameWork;
 use super::neighbours::{NeighbourBuffer, Neighbours};
 use super::ticks::{MOST_ZONE_TICKS, tick_for_frames};
 use super::watch::Watch;
 use super::zone::Zone;
+use crate::report::EnergyAccount;
 use crate::settings::Exact;
 use crate::system::System;
 
@@ -50,13 +51,17 @@ pub(crate) struct Timeline {
     pub(super) spring_rate: f64,
     /// Until when the present forces are held, on the world's clock \[s\].
     pub(super) held_until: f64,
+    /// Held forces of nonconservative interactions \[N\], by index; empty where there are none. Only programs define
+    /// such interactions, so no written snapshot has them.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub(super) working_forces: Vec<DVec3>,
     /// Latest end of all curves, as forces applied over a frame need it, on the world's clock \[s\].
     pub(super) curves_until: f64,
     /// When the next spheres are emitted, on the world's clock \[s\].
     pub(super) next_emission: f64,
     /// Slots of spheres whose flights restarted because those of companions did, and which are not predicted yet.
     pub(super) restarted: Vec<u32>,
-    /// The watch over sensors during a step, where there are some.
+    /// Watch over spheres during a step, for sensors and for the work of forces.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) watch: Option<Box<Watch>>,
     /// Events, and cell crossings among them, since the spheres were put in order of place.
@@ -109,10 +114,30 @@ impl Timeline {
         !self.flights.rotations.is_empty()
     }
 
+    /// Whether spheres grow.
+    pub fn has_growth(&self) -> bool {
+        self.flights.growth.is_some()
+    }
+
+    /// Reports the changes of energy in zones up to `time` \[s\].
+    pub fn report_zone_energy(&mut self, time: f64, account: &mut EnergyAccount) {
+        self.zone.report_energy(time, account);
+    }
+
     /// Returns the work that persistent contacts have done up to `time` \[s\] since it was taken last: that of
     /// friction and that of colliders that move \[J\].
     pub fn take_contact_work(&mut self, time: f64) -> [f64; 2] {
         self.flights.take_contact_work(time)
+    }
+
+    /// Starts a log of persistent contacts at `now` \[s\].
+    pub fn begin_support_log(&mut self, now: f64) {
+        self.flights.begin_support_log(now);
+    }
+
+    /// Ends the log of persistent contacts. Returns its changes in order of time.
+    pub fn end_support_log(&mut self) -> Vec<SupportChange> {
+        self.flights.end_support_log()
     }
 
     /// The zone, for a timeline that is made again.
@@ -266,7 +291,7 @@ impl Timeline {
         self.flights.set_supported(support, time);
     }
 
-    /// Notes for sensors that a sphere begins another flight.
+    /// Notes for the watch that a sphere begins another flight.
     #[inline]
     pub(super) fn note_flight(&mut self, slot: u32) {
         if let Some(watch) = &mut self.watch {

@@ -1,13 +1,17 @@
-//! The watch over sensors: the flight of each sphere up to which sensors have looked.
+//! The watch over spheres: the flights along which sensors look and work is counted.
 
-use crate::flight::Flight;
-use crate::polynomial_flight::PolynomialFlight;
+use super::force_work::ForceTally;
+use super::seen::Seen;
+use crate::force_work::ForceWork;
 use crate::sensor::{Presence, Sensors};
 
-/// The flight of each sphere that sensors look along next, and what they saw before.
+/// The current flight of each sphere, and the results along earlier flights.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Watch {
-    pub sensors: Sensors,
+    /// Results of sensors; `None` without sensors.
+    pub sensors: Option<Sensors>,
+    /// Work of nonconservative forces; `None` without such forces.
+    pub(super) tally: Option<ForceTally>,
     /// By index.
     pub(super) flights: Vec<Seen>,
     /// Slots of spheres that began a flight since.
@@ -16,20 +20,17 @@ pub(crate) struct Watch {
     pub(super) step_start: f64,
 }
 
-/// A flight that sensors look along.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Seen {
-    pub flight: Flight,
-    pub curve: Option<PolynomialFlight>,
-    pub flight_start: f64,
-    pub generation: u32,
-    /// Up to when sensors have looked along the flight, on the world's clock \[s\].
-    pub from: f64,
-}
-
 impl Watch {
-    /// A watch over a step that starts at a time \[s\].
-    pub fn new(presence: Presence, step_start: f64) -> Self {
-        Self { sensors: Sensors::with(presence), step_start, ..Self::default() }
+    /// Creates a watch over a step that starts at a time \[s\]: for sensors if their contents are given, and for the
+    /// work of forces if `measures_work`.
+    pub fn new(presence: Option<Presence>, measures_work: bool, step_start: f64) -> Self {
+        let sensors = presence.map(Sensors::with);
+        let tally = measures_work.then(ForceTally::default);
+        Self { sensors, tally, step_start, ..Self::default() }
+    }
+
+    /// Returns the work since the last call.
+    pub fn take_work(&mut self) -> ForceWork {
+        self.tally.as_mut().map(|tally| std::mem::take(&mut tally.work)).unwrap_or_default()
     }
 }

@@ -12,7 +12,7 @@ use crate::interval::Interval;
 use crate::norm::Norm;
 use crate::parallel;
 use crate::persistent_contact::PersistentContact;
-use crate::report::StepReport;
+use crate::report::{EnergyAccount, StepReport};
 use crate::rule::contact::{self, Proximity, Scratch, Solver};
 use crate::rule::periodic;
 use crate::settings::Contact;
@@ -55,6 +55,10 @@ pub(crate) struct Zone {
     /// The last tick, and the next one, on the world's clock \[s\]; the next one is infinite while all
     /// sleep.
     ticks: [f64; 2],
+    /// Changes of energy in the sub-step from the last tick to the next one.
+    account: EnergyAccount,
+    /// Part of them that is reported, 0 to 1.
+    reported: f64,
     /// Number of halvings of a tick that small spheres need.
     halvings: u32,
     /// Held forces between spheres \[N\], by index in the arrays of the world; empty where there are none.
@@ -145,6 +149,16 @@ impl Zone {
         part(tick, self.halvings)
     }
 
+    /// Reports the changes of energy up to `time` \[s\], at most up to the next tick. Between two ticks they grow
+    /// linearly, as velocities do.
+    pub fn report_energy(&mut self, time: f64, account: &mut EnergyAccount) {
+        let [last, next] = self.ticks;
+        let part =
+            if time < next { ((time - last) / (next - last)).max(self.reported) } else { 1.0 };
+        *account += self.account.part(part - self.reported);
+        self.reported = part;
+    }
+
     /// Restarts all spheres that are still there at the first tick after a time \[s\], with these
     /// velocities, by index \[m/s\]; ticks are as in [`Self::expect`].
     pub fn restart(&mut self, system: &System, time: f64, tick: [f64; 2], velocities: &[DVec3]) {
@@ -153,6 +167,8 @@ impl Zone {
         self.index.clear();
         self.properties = Properties::default();
         (self.motion, self.velocity_before, self.free_ticks) = Default::default();
+        // The rest of the sub-step is dropped.
+        self.account = EnergyAccount::default();
         self.near.clear();
         // The held forces may be outdated, and their indices may belong to other spheres now.
         self.held_forces.clear();
@@ -329,6 +345,7 @@ impl Zone {
         report: &mut StepReport,
     ) -> Vec<Stepped> {
         let now = self.ticks[1];
+        let others = std::mem::take(&mut report.energy_account);
         let next = first_tick_after(now, self.part_of(tick));
         self.apply_forces(system);
         let before = self.motion.clone();
@@ -349,6 +366,8 @@ impl Zone {
             contact::tick(&system, parameters, motion, frame, memory, report);
         });
         self.ticks = [now, next];
+        self.account = std::mem::replace(&mut report.energy_account, others);
+        self.reported = 0.0;
         for (place, bears) in contact::bearing(&self.solver) {
             let ticks = &mut self.free_ticks[place as usize];
             *ticks = if bears { 0 } else { *ticks + 1 };
@@ -368,11 +387,14 @@ impl Zone {
     /// Adds the forces applied to single spheres, and the held forces between spheres.
     fn apply_forces(&mut self, system: &System) {
         let applied = &system.spheres.applied_force;
+        self.solver.held_forces.clear();
         if applied.is_empty() && self.held_forces.is_empty() {
             self.properties.applied_force.clear();
             return;
         }
         let of = |forces: &[DVec3], index: u32| forces.get(index as usize).copied();
+        let held = self.index.iter().filter_map(|&index| of(&self.held_forces, index));
+        self.solver.held_forces.extend(held);
         let force = |&index: &u32| {
             let held = of(&self.held_forces, index);
             of(applied, index).map_or(held, |own| Some(held.map_or(own, |held| own + held)))

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use crate::rule::contact::landings::Landed;
 use crate::rule::contact::row::Row;
 use crate::rule::contact::slots::{self, Slots};
 
@@ -24,6 +25,11 @@ pub struct Body {
     pub start: [DVec3; 2],
     /// Centre at the start of the flight before \[m\].
     pub from: DVec3,
+    /// Centre at the start of the sub-step \[m\].
+    pub began: DVec3,
+    /// Sums over the flights so far, as in [`Landed`].
+    pub way: DVec3,
+    pub against_drag: f64,
     /// Whether the sphere pressed on something in the flight before.
     pub bears: bool,
     pub met_surface: bool,
@@ -50,6 +56,9 @@ impl Body {
             drag_rate: acceleration.number(),
             start,
             from: position.vector(),
+            began: position.vector(),
+            way: DVec3::ZERO,
+            against_drag: 0.0,
             bears: slots.bears[slot],
             met_surface: false,
         }
@@ -59,6 +68,20 @@ impl Body {
     pub fn accelerated(&self, h: f64) -> DVec3 {
         let force = Row::new(self.acceleration, self.drag_rate);
         slots::accelerated(Row::new(self.start[0], 0.0), force, h)
+    }
+
+    /// Adds a completed flight of `h` \[s\] to the sums that the work of forces needs.
+    pub fn add_way(&mut self, h: f64) {
+        let mean = 0.5 * (self.start[0] + self.velocity);
+        self.way += h * mean;
+        self.against_drag += h * self.accelerated(h).dot(mean);
+    }
+
+    /// State at the end of the sub-step.
+    pub fn landed(&self) -> Landed {
+        let Self { slot, position, velocity, spin, from, way, against_drag, bears, .. } = *self;
+        let (path, met_surface) = (position - self.began, self.met_surface);
+        Landed { slot, position, path, velocity, spin, from, way, against_drag, bears, met_surface }
     }
 
     /// Acceleration by forces alone; zero for a supported sphere.

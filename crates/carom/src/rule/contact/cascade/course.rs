@@ -112,6 +112,7 @@ impl Course {
         let touched = touched(island);
         for (body, touched) in island.bodies.iter_mut().zip(touched) {
             self.work += work(body, body.accelerated(time));
+            body.add_way(time);
             let path = path(body, touched, time);
             body.from = std::mem::replace(&mut body.position, path.after(time).0);
             body.start = [body.velocity, body.spin];

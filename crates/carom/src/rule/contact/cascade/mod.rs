@@ -12,13 +12,11 @@ mod link;
 mod met;
 
 use super::batch::Impulses;
-use super::landings::Landed;
 use super::solver::Solver;
 use super::sub_step::SubStep;
 use super::swept::FREE;
 use crate::report::StepReport;
 use crate::system::System;
-use body::Body;
 use course::Course;
 use island::{Gathering, Island};
 
@@ -60,8 +58,7 @@ fn withdraw(solver: &mut Solver, island: &Island, last: f64, sub_step: &SubStep)
         if let Some(spin) = slots.spin.get_mut(slot) {
             *spin = slots.spin_before[slot];
         }
-        let Body { slot, position, velocity, spin, from, bears, met_surface, .. } = *body;
-        landings.spheres.push(Landed { slot, position, velocity, spin, from, bears, met_surface });
+        landings.spheres.push(body.landed());
     }
     for link in &island.links {
         landings.contacts.push((link.origin, link.kept(&island.bodies, last, sub_step)));

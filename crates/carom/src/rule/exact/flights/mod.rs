@@ -1,6 +1,7 @@
 //! Flights: where every sphere flies since its last event, and what equal spheres share.
 
 mod at_time;
+mod between;
 mod body;
 mod clusters;
 mod components;
@@ -13,6 +14,8 @@ mod radii;
 mod rotation;
 mod species;
 mod state;
+mod support_change;
+mod support_log;
 mod tie;
 
 pub(super) use at_time::{first_lost, write_motion};
@@ -25,3 +28,4 @@ pub(super) use lanes::FlightLanes;
 pub(super) use rotation::{Rotation, write_spin};
 pub(super) use species::Species;
 pub(super) use state::Flights;
+pub(crate) use support_change::{HeldMotion, SupportChange};

@@ -52,6 +52,11 @@ impl Rotation {
         self.angular_velocity + (time - self.time) * self.angular_acceleration
     }
 
+    /// \[rad/s²\]
+    pub fn angular_acceleration(&self) -> DVec3 {
+        self.angular_acceleration
+    }
+
     /// Orientation at `time` \[s\]: exact where the axis is fixed, else to the fifth order in steps of
     /// [`STEP`] by the expansion of Magnus (Iserles and Nørsett, Phil. Trans. R. Soc. A 357, 983 (1999)).
     pub fn orientation_at(&self, time: f64) -> DQuat {

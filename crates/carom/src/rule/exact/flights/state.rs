@@ -12,6 +12,7 @@ use super::curve::Curve;
 use super::growth::Growth;
 use super::rotation::Rotation;
 use super::species::{Species, SpeciesOfSpheres};
+use super::support_change::SupportChange;
 use crate::bodies::Motion;
 use crate::detect::contact::Bodies;
 use crate::rule::periodic;
@@ -48,6 +49,9 @@ pub(crate) struct Flights {
     pub forces_vary: bool,
     /// Work of persistent contacts since the last report.
     contact_work: WorkDone,
+    /// Log of persistent contacts, during a step that keeps one.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub(super) support_log: Option<Vec<SupportChange>>,
 }
 
 impl Flights {
@@ -89,6 +93,7 @@ impl Flights {
             hold_forces,
             forces_vary,
             contact_work: WorkDone::NONE,
+            support_log: None,
         }
     }
 
@@ -247,6 +252,7 @@ impl Flights {
         self.spare_species.push(self.bodies[slot as usize].species);
         self.bodies[slot as usize].species = species.free;
         self.end_torque(slot, time);
+        self.note_support(slot, time, false);
         true
     }
 
@@ -322,6 +328,7 @@ impl Flights {
                 }
             };
             self.bodies[slot as usize].species = number;
+            self.note_support(slot, time, false);
         }
     }
 

@@ -39,7 +39,9 @@ pub(crate) fn prepare(timeline: &mut Timeline, system: &System, now: f64) {
 pub(crate) fn prepare_zone(timeline: &mut Timeline, system: &System, now: f64) {
     prepare(timeline, system, now);
     if timeline.flights.are_curved() && timeline.zone.is_empty() {
-        timeline.zone.held_forces = forces_between(timeline, system, [now, timeline.held_until]);
+        let interval = [now, timeline.held_until];
+        timeline.zone.held_forces = forces_between(timeline, system, interval);
+        timeline.working_forces = working_forces(timeline, system, interval);
     }
 }
 
@@ -60,6 +62,7 @@ pub(crate) fn renew(timeline: &mut Timeline, system: &System, start: f64) -> Vec
         false => Vec::new(),
     };
     timeline.zone.held_forces.clone_from(&between);
+    timeline.working_forces = working_forces(timeline, system, [start, end]);
     let are_curved = timeline.flights.are_curved();
     // Forces applied over a frame differ in each frame.
     let are_restarted = timeline.curves_until.is_finite() && start == timeline.frame[0];
@@ -110,11 +113,35 @@ fn begin_free(timeline: &mut Timeline, system: &System, slot: u32, start: f64) {
 }
 
 /// The forces between spheres in the middle of an interval \[N\], by index; empty where there are none.
-fn forces_between(timeline: &Timeline, system: &System, [start, end]: [f64; 2]) -> Vec<DVec3> {
+fn forces_between(timeline: &Timeline, system: &System, interval: [f64; 2]) -> Vec<DVec3> {
     let mut forces = Vec::new();
-    if !system.has_interactions() {
-        return forces;
+    if system.has_interactions() {
+        let (positions, velocities) = states_in_the_middle(timeline, system, interval);
+        let middle = interval[0] + 0.5 * (interval[1] - interval[0]);
+        system.forces_between([&positions, &velocities], middle, &mut forces);
     }
+    forces
+}
+
+/// The nonconservative forces between spheres in the middle of an interval \[N\], by index, without dampers; empty
+/// where there are none.
+fn working_forces(timeline: &Timeline, system: &System, interval: [f64; 2]) -> Vec<DVec3> {
+    let mut forces = Vec::new();
+    if system.interactions.is_some_and(|it| !it.are_conservative_but_for_dampers()) {
+        let (positions, velocities) = states_in_the_middle(timeline, system, interval);
+        let middle = interval[0] + 0.5 * (interval[1] - interval[0]);
+        system.nonconservative_interactions([&positions, &velocities], middle, &mut forces);
+    }
+    forces
+}
+
+/// Centres \[m\] and velocities \[m/s\] of all spheres, by index, in the middle of an interval.
+fn states_in_the_middle(
+    timeline: &Timeline,
+    system: &System,
+    [start, end]: [f64; 2],
+) -> (Vec<DVec3>, Vec<DVec3>) {
+    let mut forces = Vec::new();
     let half = 0.5 * (end - start);
     let state_of = |&slot: &u32| timeline.flights.state_of(slot, start);
     let (mut positions, mut velocities): (Vec<DVec3>, Vec<DVec3>) =
@@ -132,8 +159,7 @@ fn forces_between(timeline: &Timeline, system: &System, [start, end]: [f64; 2]) 
     } else {
         positions.iter_mut().zip(&velocities).for_each(|(position, v)| *position += half * *v);
     }
-    system.forces_between([&positions, &velocities], start + half, &mut forces);
-    forces
+    (positions, velocities)
 }
 
 /// The acceleration \[m/s²\] of the sphere with this index: `free` without contacts, less what its persistent

@@ -18,6 +18,8 @@ pub(super) const TURN: f64 = 1e-3;
 /// The turn of a piece where a surface of revolution turns the normal \[rad\]: there a sphere may stay for long,
 /// and the errors of many pieces add up.
 const TURN_ON_BAND: f64 = 0.2 * TURN;
+/// The turn of a piece where a surface turns steadily \[rad\]; shorter where the gap of the middle demands it.
+const TURN_OF_SPIN: f64 = 5e-3;
 /// The turn of a piece as a part of the phase of a driven surface \[rad\]; shorter where the gap of the middle
 /// demands it.
 const TURN_OF_DRIVE: f64 = 0.03;
@@ -29,6 +31,12 @@ const MOST_CLOSED: f64 = 1e-10;
 const MOST_CORRECTED: f64 = 1e-2;
 /// Part of the kinetic energy at the end of a piece of path that may be its error.
 const MOST_GAINED: f64 = 0.1;
+/// Length of the next piece to try, as a part of the longest that keeps its contacts.
+const SAFETY: f64 = 0.9;
+/// Least length of the next piece to try, as a part of the last one.
+const LEAST_PART: f64 = 0.0625;
+/// Part of the force at the beginning of a piece of path by which a contact may pull at its end.
+const MOST_PULLED: f64 = 0.05;
 /// Below this turn \[rad\] a force that ends within a piece of the path ends at its beginning.
 const SHORTEST_TURN: f64 = 1e-6;
 
@@ -46,7 +54,7 @@ pub(super) fn turning_time(
         if touch.drive_rate > 0.0 {
             time = time.min(TURN_OF_DRIVE / touch.drive_rate);
         } else if spin > 0.0 {
-            time = time.min(TURN / spin).min(frame_left);
+            time = time.min(TURN_OF_SPIN / spin).min(frame_left);
         }
         let acceleration = |place: usize| {
             accelerations.each[place] - members[place].species.drag_rate * members[place].velocity
@@ -117,11 +125,20 @@ pub(super) fn through_the_middle(
             })
             .collect();
         let is_shortest = 0.5 * valid_for < turning * (SHORTEST_TURN / TURN);
-        if !released.contains(&true) {
+        let mut part = 0.5;
+        let lift_off = part_before_lift_off(&still, start.forces, &forces);
+        if released.contains(&true) {
+            if is_shortest {
+                return Err(released);
+            }
+        } else if lift_off < 1.0 && !is_shortest {
+            part = lift_off;
+        } else {
             let end = ending_in_contact(context, group, touches, accelerations, valid_for);
-            if end.keeps_energy && end.is_followed {
+            if end.keeps_energy && end.missed <= 1.0 {
                 return Ok((end.accelerations, valid_for));
             }
+            part = end.part_that_follows();
             if is_shortest {
                 let is_jammed = !end.keeps_energy && is_at_rest(&group.members, touches);
                 return Ok(if is_jammed {
@@ -130,21 +147,37 @@ pub(super) fn through_the_middle(
                     (end.accelerations, valid_for)
                 });
             }
-        } else if is_shortest {
-            return Err(released);
         }
-        valid_for *= 0.5;
+        valid_for *= part;
     }
+}
+
+/// Part of a piece of path after which the force of some moving surface reaches zero, taken as linear in time; 1 where
+/// none does. No contact may have parted in the middle.
+fn part_before_lift_off(touches: &[Touch], before: &[f64], in_middle: &[f64]) -> f64 {
+    let parts = touches.iter().zip(before.iter().zip(in_middle)).map(|(touch, (&before, &now))| {
+        let moves = touch.drive_rate > 0.0 || touch.form_spin() != DVec3::ZERO;
+        let ends = 2.0 * now < (1.0 - MOST_PULLED) * before;
+        if moves && before > 0.0 && ends { 0.5 * before / (before - now) } else { 1.0 }
+    });
+    parts.fold(1.0, f64::min)
 }
 
 /// A piece of path that ends in contact.
 struct Ending {
     accelerations: Accelerations,
-    /// Whether the forces of the middle alone keep the contacts to a part of a radius, so that the
-    /// piece is short enough.
-    is_followed: bool,
+    /// How far the forces of the middle alone miss a contact, as a part of what they may; the piece is too long
+    /// above 1.
+    missed: f64,
     /// Whether the piece gains no energy.
     keeps_energy: bool,
+}
+
+impl Ending {
+    /// The part of the piece to try next: what a piece misses is of the third order in its length.
+    fn part_that_follows(&self) -> f64 {
+        if self.missed > 1.0 { (SAFETY / libm::cbrt(self.missed)).max(LEAST_PART) } else { 0.5 }
+    }
 }
 
 /// Whether no sphere in contact moves.
@@ -174,13 +207,13 @@ fn ending_in_contact(
     let members = group.members.iter().zip(&accelerations.each);
     let end: Vec<Member> =
         members.map(|(member, &acceleration)| member.after(acceleration, valid_for)).collect();
-    let mut is_followed = true;
+    let mut missed = 0.0f64;
     let mut at_end = |touch: &Touch| {
         let after = touch.measured_at(context, &end, group.time + valid_for)?;
         let ContactScale { radius, length, .. } = group.scale(touch);
         let closed = (0.5 * touch.gap).clamp(0.0, MOST_CLOSED * radius);
         let excess = after.gap - (touch.gap - closed);
-        is_followed &= excess.abs() <= MOST_MISSED * radius;
+        missed = missed.max(excess.abs() / (MOST_MISSED * radius));
         Some((after, if excess.abs() > TOUCHING * length { excess } else { 0.0 }))
     };
     let (touches, excess): (Vec<Touch>, Vec<f64>) = touches.iter().filter_map(&mut at_end).unzip();
@@ -201,11 +234,11 @@ fn ending_in_contact(
         // Between contacts that all but lock each other, a gap of rounding leads to large moves.
         if keeps(&corrected) {
             accelerations.each = corrected;
-            return Ending { accelerations, is_followed, keeps_energy: true };
+            return Ending { accelerations, missed, keeps_energy: true };
         }
     }
     let keeps_energy = keeps(&accelerations.each);
-    Ending { accelerations, is_followed, keeps_energy }
+    Ending { accelerations, missed, keeps_energy }
 }
 
 /// Whether spheres that fly so for `valid_for` \[s\] rise no higher than their kinetic energy allows, and the

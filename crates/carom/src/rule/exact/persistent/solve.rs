@@ -152,8 +152,8 @@ fn add_closing(
 
 /// Largest turn of a normal in a piece of path of `valid_for` \[s\] \[rad\].
 fn most_turned(touches: &[Touch], valid_for: f64) -> f64 {
-    let driven = touches.iter().filter(|touch| touch.drive_rate > 0.0);
-    driven
+    touches
+        .iter()
         .map(|touch| touch.form_spin().norm().max(touch.drive_rate) * valid_for)
         .fold(TURN, f64::max)
 }

@@ -3,10 +3,13 @@
 use glam::DVec3;
 
 use crate::detect::sphere_surface;
+use crate::force_work::ForceWork;
+use crate::forces::{self, SphereState};
 use crate::norm::Norm;
 use crate::rule::contact::{self, Passage};
 use crate::rule::exact::contacts::{self, Group};
 use crate::rule::exact::context::StepContext;
+use crate::rule::exact::flights::Species;
 use crate::rule::exact::persistent::held_forces;
 use crate::rule::exact::predict;
 use crate::rule::exact::timeline::Timeline;
@@ -142,6 +145,31 @@ fn under_forces(
     [before + 0.5 * gained, velocity + gained]
 }
 
+/// Accounts for the work of nonconservative forces on a sphere with this centre \[m\] and velocity \[m/s\] that moves
+/// under its forces from a time until the next tick \[s\], with a mean velocity \[m/s\].
+fn account_for_forces(
+    timeline: &Timeline,
+    context: &mut StepContext,
+    slot: u32,
+    ([position, velocity], mean): ([DVec3; 2], DVec3),
+    [time, tick]: [f64; 2],
+) {
+    let system = context.system;
+    if !system.has_nonconservative_forces() {
+        return;
+    }
+    let Species { radius, mass, .. } = *timeline.flights.free_species_of(slot);
+    let state = SphereState { position, velocity, radius, mass };
+    let force = forces::total_nonconservative(system.forces, &state, time);
+    let index = timeline.flights.index_of[slot as usize] as usize;
+    let applied = system.spheres.applied_force.get(index).copied().unwrap_or(DVec3::ZERO);
+    let of = |force: DVec3| (tick - time) * force.dot(mean);
+    context
+        .report
+        .energy_account
+        .add_force_work(ForceWork { forces: of(force), applied: of(applied) });
+}
+
 /// Adds a sphere to a zone with this centre \[m\] and velocity \[m/s\]. Until the next tick it moves with the
 /// `common` velocity of others \[m/s\]; if there is none, under its forces.
 fn join(
@@ -163,7 +191,11 @@ fn join(
     let next = timeline.zone.expect(context.system, index, time, tick);
     let [mean, later] = match common {
         Some(common) => [common, velocity],
-        None => under_forces(timeline, context, slot, state, [time, next]),
+        None => {
+            let [mean, later] = under_forces(timeline, context, slot, state, [time, next]);
+            account_for_forces(timeline, context, slot, (state, mean), [time, next]);
+            [mean, later]
+        }
     };
     let sphere = context.system.spheres.id[index as usize];
     timeline.zone.join(sphere, [velocity, later], time);

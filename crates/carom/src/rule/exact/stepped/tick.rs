@@ -7,6 +7,7 @@ use glam::DVec3;
 
 use crate::bodies::Motion;
 use crate::detect::sphere_surface;
+use crate::forces;
 use crate::id::SphereId;
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::events::{NextEvents, Prediction};
@@ -22,6 +23,7 @@ const NEAR: f64 = 0.01;
 /// Steps the zones from the present tick to the next one. Returns the time \[s\].
 pub(crate) fn tick(timeline: &mut Timeline, context: &mut StepContext) -> f64 {
     let (now, tick) = (timeline.zone.next_tick(), context.parameters.zone_tick);
+    timeline.zone.report_energy(now, &mut context.report.energy_account);
     if timeline.zone.is_idle() {
         let resting = timeline.zone.rest();
         fly(timeline, context, &resting, now);
@@ -179,7 +181,11 @@ fn leave(
         if let Some(overlap) = separation.filter(|it| it.distance < 0.0) {
             let lift = -overlap.distance * overlap.normal;
             position += lift;
-            let work = -species.mass * species.acceleration.dot(lift);
+            let (working, _) =
+                forces::nonconservative_linear(context.system.forces, species.radius, species.mass);
+            let own = context.system.spheres.applied_acceleration(index as usize);
+            let working = working.acceleration + own.unwrap_or(DVec3::ZERO);
+            let work = -species.mass * (species.acceleration - working).dot(lift);
             context.report.energy_account.correction += work;
         }
     }

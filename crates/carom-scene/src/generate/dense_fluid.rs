@@ -1,0 +1,156 @@
+//! Dense fluids, by growth.
+
+use carom::packing::{self, Compressed, Compression, Enclosure, Start, Until};
+use carom::{Boundary, DVec3, World, volume};
+
+use super::numbers::{Numbers, radii};
+use crate::bodies::sphere;
+use crate::error::Problem;
+use crate::requirement::{check, check_non_negative, check_vector};
+use crate::scene::values::vector;
+use crate::scene::{DenseFluid, Sphere};
+
+/// Speed at which diameters grow, in parts of the thermal speed: up to packing fractions of about 0.62.
+const GROWTH: f64 = 0.1;
+/// Collisions of each sphere after its growth, in which the fluid forgets that.
+const COLLISIONS: f64 = 20.0;
+/// Spheres grow by this part more than asked for, and are written with the radii asked for, so that rounding leaves
+/// none of them overlapping.
+const SPARE: f64 = 1e-9;
+/// Reduced pressure at which spheres count as jammed.
+const JAMMED: f64 = 1e5;
+
+/// Where a fluid is.
+struct Place {
+    enclosure: Enclosure,
+    /// Edges \[m\].
+    size: DVec3,
+    /// \[m\]
+    middle: DVec3,
+}
+
+/// Returns the spheres of a fluid that stands at `path`. The box of `world` is what it fills by default.
+pub(super) fn spheres(
+    fluid: &DenseFluid,
+    world: &World,
+    path: &str,
+) -> Result<Vec<Sphere>, Problem> {
+    check_non_negative(fluid.temperature, &format!("{path}.temperature"))?;
+    check_vector(fluid.sphere.position, &format!("{path}.sphere.position"))?;
+    let place = place(fluid, world, path)?;
+    let radii = all_radii(fluid, place.size.element_product(), path)?;
+    let spheres = templates(fluid, &radii, path)?;
+    let masses = spheres.iter().map(carom::Sphere::kilograms).collect();
+    let moved = grown(fluid, &place, radii, masses, path)?;
+    let temperature = 2.0 / 3.0 * moved.kinetic_energy() / f64::from(fluid.count);
+    let factor = if temperature > 0.0 { (fluid.temperature / temperature).sqrt() } else { 0.0 };
+    let (positions, velocities) = (moved.spheres().positions(), moved.spheres().velocities());
+    let offset = place.middle + vector(fluid.sphere.position);
+    let own = vector(fluid.sphere.velocity);
+    let made = spheres.iter().zip(positions.iter().zip(velocities));
+    let made = made.map(|(sphere, (&position, &velocity))| Sphere {
+        position: (offset + position).to_array(),
+        velocity: (own + factor * velocity).to_array(),
+        radius: Some(sphere.radius),
+        diameter: None,
+        ..fluid.sphere.clone()
+    });
+    Ok(made.collect())
+}
+
+fn place(fluid: &DenseFluid, world: &World, path: &str) -> Result<Place, Problem> {
+    let Some(min) = fluid.min.or(fluid.max) else {
+        let Boundary::Periodic { size } = world.settings().boundary else {
+            let text = "needs `min` and `max` where the simulation has no periodic box";
+            return Err(Problem::new(path, text));
+        };
+        check(size.is_finite(), "simulation.boundary.periodic.size", || {
+            "must be finite along every axis for a `dense-fluid` without `min` and `max`".into()
+        })?;
+        return Ok(Place { enclosure: Enclosure::Periodic { size }, size, middle: DVec3::ZERO });
+    };
+    let (Some(_), Some(max)) = (fluid.min, fluid.max) else {
+        return Err(Problem::new(path, "needs both `min` and `max`, or neither"));
+    };
+    check_vector(min, &format!("{path}.min"))?;
+    check_vector(max, &format!("{path}.max"))?;
+    let (low, high) = (vector(min), vector(max));
+    let size = high - low;
+    check(size.min_element() > 0.0 && size.is_finite(), &format!("{path}.max"), || {
+        format!("must be above `min` along every axis, not {max:?}")
+    })?;
+    Ok(Place { enclosure: Enclosure::Walls { size }, size, middle: 0.5 * low + 0.5 * high })
+}
+
+/// Radii of all spheres \[m\] in a volume \[m³\].
+fn all_radii(fluid: &DenseFluid, volume: f64, path: &str) -> Result<Vec<f64>, Problem> {
+    let count = fluid.count as usize;
+    let Some(fraction) = fluid.packing_fraction else {
+        let [smallest, largest] = radii(&fluid.sphere, fluid.radius_range, path)?;
+        let mut numbers = Numbers::new(fluid.seed.into());
+        return Ok((0..count).map(|_| smallest + (largest - smallest) * numbers.unit()).collect());
+    };
+    let path = format!("{path}.packing_fraction");
+    check(fraction > 0.0 && fraction < 1.0, &path, || {
+        format!("must be between 0 and 1, not {fraction}")
+    })?;
+    let sizes = (fluid.sphere.radius, fluid.sphere.diameter, fluid.radius_range);
+    check(sizes == (None, None, None), &path, || {
+        "must not be given beside a radius, which says it already".into()
+    })?;
+    let of_unit_radius = carom::volume(1.0);
+    Ok(vec![libm::cbrt(fraction * volume / (count as f64 * of_unit_radius)); count])
+}
+
+/// Spheres with the properties that the scene gives them and these radii \[m\].
+fn templates(fluid: &DenseFluid, radii: &[f64], path: &str) -> Result<Vec<carom::Sphere>, Problem> {
+    let path = format!("{path}.sphere");
+    let with = |&radius: &f64| {
+        let written = Sphere { radius: Some(radius), diameter: None, ..fluid.sphere.clone() };
+        let made = sphere(&written, &path)?;
+        let mass = made.kilograms();
+        check(mass > 0.0 && mass.is_finite(), &format!("{path}.mass"), || {
+            format!("must be positive and finite, not {mass}")
+        })?;
+        Ok(made)
+    };
+    radii.iter().map(with).collect()
+}
+
+/// Returns a world whose spheres have grown to these radii \[m\], and have forgotten it.
+fn grown(
+    fluid: &DenseFluid,
+    place: &Place,
+    radii: Vec<f64>,
+    masses: Vec<f64>,
+    path: &str,
+) -> Result<World, Problem> {
+    let room = place.size.element_product();
+    let fraction = radii.iter().map(|&radius| volume(radius)).sum::<f64>() / room;
+    let name = if fluid.packing_fraction.is_some() { "packing_fraction" } else { "count" };
+    let path = format!("{path}.{name}");
+    let refused = |error: carom::Error| Problem::new(path.clone(), error.to_string());
+    check(fraction < 1.0, &path, || {
+        format!("must leave room: the spheres would fill {fraction:.4} of the box")
+    })?;
+    let start = Start::of(radii, fluid.seed.into()).with_masses(masses).within(place.enclosure);
+    let mut world = packing::start(&start).map_err(refused)?;
+    if fluid.count == 1 {
+        // It has nothing to collide with, and no momentum.
+        return Ok(world);
+    }
+    let compression = Compression::until(Until::PackingFraction(fraction * (1.0 + SPARE)))
+        .with_growth(GROWTH)
+        .with_most_pressure(JAMMED)
+        .with_volume(room);
+    let Compressed { is_reached, packing_fraction, .. } =
+        packing::compress(&mut world, &compression).map_err(refused)?;
+    check(is_reached, &path, || {
+        format!(
+            "asks for {fraction:.4} of the box, but the spheres jam at {packing_fraction:.4}; \
+             `carom pack` grows them more slowly"
+        )
+    })?;
+    packing::equilibrate(&mut world, COLLISIONS, Some(room)).map_err(refused)?;
+    Ok(world)
+}

@@ -1,0 +1,31 @@
+//! Changes of the persistent contacts of spheres.
+
+use glam::DVec3;
+
+use crate::detect::contact::Bodies;
+
+/// Change of the persistent contacts of a sphere.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SupportChange {
+    /// Place of the sphere in the arrays of the world.
+    pub index: u32,
+    /// On the world's clock \[s\].
+    pub time: f64,
+    /// Motion after the change; `None` for a free flight.
+    pub held: Option<HeldMotion>,
+}
+
+/// The motion of a sphere in persistent contact.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct HeldMotion {
+    pub position: DVec3,
+    pub velocity: DVec3,
+    pub angular_velocity: DVec3,
+    /// Of everything but drag \[m/s²\].
+    pub acceleration: DVec3,
+    pub angular_acceleration: DVec3,
+    /// The contact, if it is the only one.
+    pub contact: Option<Bodies>,
+    /// Whether it held before the step, too.
+    pub is_old: bool,
+}

@@ -1,0 +1,125 @@
+//! Spheres before a step, from where it is reconstructed.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::error::DerivativeError;
+use super::known;
+use super::supported::Rates;
+use crate::colliders::Colliders;
+use crate::detect::instant::Instant;
+use crate::forces::{self, LinearForce};
+use crate::id::{ColliderId, SphereId};
+use crate::report::{BodyPair, Impact, StepReport};
+use crate::system::System;
+use crate::world::World;
+
+/// Largest error of a reconstructed position as a fraction of size and way: rounding passes, any other motion than that
+/// of a flight does not.
+pub(super) const ROUNDING: f64 = 1e-9;
+
+/// A world before a step.
+pub(super) struct Start {
+    pub ids: Vec<SphereId>,
+    pub bodies: Vec<Flying>,
+    pub colliders: Arc<Colliders>,
+    /// Start of the step on the world's clock \[s\].
+    pub time: f64,
+}
+
+/// A sphere in flight.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Flying {
+    pub position: DVec3,
+    pub velocity: DVec3,
+    pub angular_velocity: DVec3,
+    pub linear: LinearForce,
+    /// The plane that holds it, if any does.
+    pub held: Option<Held>,
+    /// Time since the start of the step \[s\].
+    pub since: f64,
+    /// Largest error of the position \[m\].
+    pub tolerance: f64,
+}
+
+/// Persistent contact of a sphere with a plane, and its accelerations there.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Held {
+    pub surface: u32,
+    pub collider: ColliderId,
+    pub normal: DVec3,
+    pub acceleration: DVec3,
+    pub angular_acceleration: DVec3,
+}
+
+impl Start {
+    /// Copies the motion of all spheres of a world.
+    ///
+    /// # Errors
+    /// A feature of the world whose derivatives are not known.
+    pub fn of(world: &World) -> Result<Self, DerivativeError> {
+        known::check(world)?;
+        let Instant { system, motion, time } = world.now();
+        let flying = |place: usize| Flying {
+            position: motion.position[place],
+            velocity: motion.velocity[place],
+            angular_velocity: motion.spin.angular_velocity.get(place).copied().unwrap_or_default(),
+            linear: linear_on(&system, place),
+            held: None,
+            since: 0.0,
+            tolerance: ROUNDING * (system.spheres.radius[place] + motion.position[place].length()),
+        };
+        let bodies = (0..motion.position.len()).map(flying).collect();
+        Ok(Self {
+            ids: system.spheres.id.clone(),
+            bodies,
+            colliders: world.shared_colliders(),
+            time,
+        })
+    }
+
+    /// Refuses a step in which spheres were added, removed or stepped in zones.
+    pub fn check(
+        &self,
+        report: &StepReport,
+        system: &System,
+        end: f64,
+    ) -> Result<(), DerivativeError> {
+        if self.ids != system.spheres.id {
+            return Err(DerivativeError::Changed);
+        }
+        if report.zone_account.joined > 0 || report.zone_account.spheres > 0 {
+            let sphere = self.ids.first().copied();
+            let lost =
+                |sphere| DerivativeError::PersistentContact { sphere, from: self.time, to: end };
+            return sphere.map_or(Ok(()), |sphere| Err(lost(sphere)));
+        }
+        Ok(())
+    }
+
+    /// Returns the places of the spheres of an impact in the arrays of the world.
+    pub fn places(&self, impact: &Impact) -> [Option<usize>; 2] {
+        let place = |id: SphereId| self.ids.binary_search(&id).ok();
+        match impact.between {
+            BodyPair::Spheres(first, second) => [place(first), place(second)],
+            BodyPair::Collider { sphere, .. } => [None, place(sphere)],
+        }
+    }
+}
+
+impl Held {
+    /// Returns the accelerations of the sphere, with the drag of these forces.
+    pub fn rates(&self, linear: LinearForce) -> Rates {
+        let Self { acceleration, angular_acceleration, .. } = *self;
+        Rates { linear: LinearForce { acceleration, ..linear }, angular_acceleration }
+    }
+}
+
+/// Returns the forces on a sphere.
+fn linear_on(system: &System, place: usize) -> LinearForce {
+    let (radius, mass) = (system.spheres.radius[place], system.spheres.mass[place]);
+    let (mut linear, _) = forces::total_linear(system.forces, radius, mass);
+    linear.acceleration += system.spheres.applied_acceleration(place).unwrap_or_default();
+    linear
+}

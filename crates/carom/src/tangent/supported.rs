@@ -1,0 +1,423 @@
+//! The derivative of a flight in persistent contact with a plane.
+
+use glam::DVec3;
+
+use super::coefficients::Combined;
+use super::dry_motion::{DryMotion, Moved};
+use super::dual::{Dual, vector};
+use super::state::{NUMBERS, SphereTangent};
+use super::variation::Variation;
+use crate::flight::Propagator;
+use crate::forces::LinearForce;
+use crate::id::{ColliderId, SphereId};
+use crate::real::Vector;
+
+/// A slip below this fraction of the speeds that make it is rounding.
+const SLIP: f64 = 1e-12;
+/// Fraction by which a pull exceeds what friction holds.
+const MORE: f64 = 1e-9;
+/// Largest error of the velocities at the end of a flight as a fraction of them, and of the velocity that friction takes
+/// in the error of its time: the world stops a slip up to a contact duration early.
+const OFF: f64 = 1e-4;
+/// Largest error of an acceleration as a fraction of the free one: the world takes its mean over a turn of 10⁻³ rad.
+const TURN: f64 = 2e-3;
+
+/// A flight of a sphere in contact with one plane at rest: it glides, slides, rolls or rests
+/// (`docs/physics/persistent-contacts.md`, "Friction"), and spins.
+#[derive(Debug, Clone)]
+pub(super) struct SupportedFlight {
+    /// Place of the sphere in the arrays of the world.
+    pub place: usize,
+    pub id: SphereId,
+    pub collider: ColliderId,
+    /// Unit normal out of the plane.
+    pub normal: DVec3,
+    pub radius: f64,
+    pub inertia_factor: f64,
+    pub velocity: DVec3,
+    pub angular_velocity: DVec3,
+    /// Forces other than those of the contact.
+    pub linear: LinearForce,
+    pub sliding: Combined,
+    pub rolling: f64,
+    pub spinning: f64,
+    pub mode: Mode,
+    /// Length \[s\].
+    pub time: f64,
+    /// Start, from where derivatives begin \[s\].
+    pub began: f64,
+    pub ending: Ending,
+    /// Accelerations after it.
+    pub after: Rates,
+}
+
+/// How a sphere moves along a plane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Mode {
+    /// Without friction.
+    Gliding,
+    Sliding,
+    Rolling,
+    Resting,
+}
+
+/// What ends a flight in persistent contact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Ending {
+    /// An event that does not depend on the flight itself.
+    Given,
+    /// The sphere no longer slides.
+    Slip,
+    /// It no longer rolls.
+    Roll,
+    /// It no longer spins.
+    Spin,
+}
+
+/// How velocities change.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rates {
+    /// Acceleration by everything but drag \[m/s²\], and drag \[1/s\].
+    pub linear: LinearForce,
+    /// \[rad/s²\]
+    pub angular_acceleration: DVec3,
+}
+
+impl Rates {
+    /// Returns the acceleration at a velocity \[m/s²\].
+    pub fn acceleration(&self, velocity: DVec3) -> DVec3 {
+        self.linear.acceleration - self.linear.drag_rate * velocity
+    }
+}
+
+/// A small change of everything that the flight depends on.
+#[derive(Debug, Clone, Copy, Default)]
+struct Change {
+    sphere: SphereTangent,
+    radius: f64,
+    sliding: f64,
+    acceleration: DVec3,
+    /// At the start of the flight.
+    surface_position: DVec3,
+    surface_velocity: DVec3,
+}
+
+/// Motion along the plane, seen from it, and what acts on it.
+struct Pressed {
+    velocity: Vector<Dual>,
+    angular_velocity: Vector<Dual>,
+    radius: Dual,
+    /// What presses it on, and what draws it along \[m/s²\].
+    pressing: Dual,
+    pull: Vector<Dual>,
+    /// Velocity along the normal \[m/s\], which the contact takes.
+    parting: Dual,
+    sliding: Dual,
+}
+
+/// Where the flight ends.
+struct End {
+    way: Vector<Dual>,
+    velocity: Vector<Dual>,
+    angular_velocity: Vector<Dual>,
+    time: Dual,
+}
+
+impl SupportedFlight {
+    /// Returns how the sphere moves; `None` where friction does not suffice for its rolling.
+    pub fn mode_of(&self) -> Option<Mode> {
+        let Self { normal, radius, inertia_factor, velocity, angular_velocity, .. } = *self;
+        let sliding = self.sliding.value;
+        if sliding == 0.0 {
+            return Some(Mode::Gliding);
+        }
+        let pressing = -self.linear.acceleration.dot(normal);
+        let pull = self.linear.acceleration + pressing * normal;
+        let rim = radius * angular_velocity.cross(normal);
+        let slip = velocity - rim;
+        let holds = (1.0 + 1.0 / inertia_factor) * sliding * pressing;
+        if slip.length() > SLIP * (velocity.length() + rim.length())
+            || pull.length() > holds * (1.0 + MORE)
+        {
+            return Some(Mode::Sliding);
+        }
+        let loss = self.rolling * pressing;
+        if velocity == DVec3::ZERO && pull.length() <= loss && loss > 0.0 {
+            return Some(Mode::Resting);
+        }
+        let way = if velocity == DVec3::ZERO { pull } else { velocity };
+        let needed = inertia_factor * pull + loss * way.normalize_or_zero();
+        let most = (1.0 + inertia_factor) * sliding * pressing;
+        (needed.length() <= most * (1.0 + MORE)).then_some(Mode::Rolling)
+    }
+
+    /// Returns the accelerations at the start: of Coulomb's law, without the mean that the world takes over a turn.
+    pub fn rates(&self) -> Option<Rates> {
+        let Self { normal, radius, inertia_factor, velocity, angular_velocity, .. } = *self;
+        let pressing = -self.linear.acceleration.dot(normal);
+        let pull = self.linear.acceleration + pressing * normal;
+        let against = |way: DVec3| {
+            let way = if way == DVec3::ZERO { pull } else { way };
+            -way.normalize_or_zero()
+        };
+        let (acceleration, turning) = match self.mode_of()? {
+            Mode::Gliding => (pull, DVec3::ZERO),
+            Mode::Sliding => {
+                let slip = velocity - radius * angular_velocity.cross(normal);
+                let friction = self.sliding.value * pressing * against(slip);
+                (pull + friction, -normal.cross(friction) / (inertia_factor * radius))
+            }
+            Mode::Rolling => {
+                let loss = self.rolling * pressing * against(velocity);
+                let acceleration = (pull + loss) / (1.0 + inertia_factor);
+                (acceleration, normal.cross(acceleration) / radius)
+            }
+            Mode::Resting => (DVec3::ZERO, DVec3::ZERO),
+        };
+        let spin = angular_velocity.dot(normal);
+        let spin_loss = self.spinning * pressing / (inertia_factor * radius);
+        let spinning = if spin == 0.0 { 0.0 } else { -spin.signum() * spin_loss };
+        let linear = LinearForce { acceleration, ..self.linear };
+        Some(Rates { linear, angular_acceleration: turning + spinning * normal })
+    }
+
+    /// Returns what ends the flight, if `next` follows it in this mode.
+    pub fn ending_before(&self, next: &Self, mode: Mode) -> Ending {
+        let spin = |it: &Self| it.angular_velocity.dot(it.normal);
+        match (self.mode, mode) {
+            (Mode::Sliding, Mode::Rolling | Mode::Resting) => Ending::Slip,
+            (Mode::Rolling, Mode::Resting) => Ending::Roll,
+            _ if self.spinning > 0.0 && spin(self) != 0.0 && spin(next) == 0.0 => Ending::Spin,
+            _ => Ending::Given,
+        }
+    }
+
+    /// Returns whether acceleration \[m/s²\] and velocities at the end agree with the flight of the world.
+    pub fn is_that(&self, acceleration: DVec3, [velocity, angular_velocity]: [DVec3; 2]) -> bool {
+        let end = self.end(&Change::default());
+        let mean = (end.velocity.value() - self.velocity) / self.time;
+        let pressing = self.linear.acceleration.length();
+        let is_same = |found: DVec3, given: DVec3, scale: f64| (found - given).length() <= scale;
+        let speeds = self.velocity.length() + velocity.length();
+        let turns = self.angular_velocity.length() + angular_velocity.length();
+        let speed = OFF * (speeds + self.radius * turns);
+        let ends_then =
+            (end.time.value - self.time).abs() * pressing <= speed + OFF * self.time * pressing;
+        let has_drag = self.linear.drag_rate > 0.0;
+        ends_then
+            && is_same(end.velocity.value(), velocity, speed)
+            && is_same(end.angular_velocity.value(), angular_velocity, speed / self.radius)
+            && (has_drag
+                || self.time == 0.0
+                || is_same(mean, acceleration, TURN * pressing + speed / self.time))
+    }
+
+    /// Returns whether `next` continues this flight, so that both are one.
+    pub fn goes_on_with(&self, next: &Self) -> bool {
+        let turns = self.mode == Mode::Sliding || self.mode == Mode::Rolling;
+        let pressing = self.linear.acceleration.dot(self.normal);
+        let pull = self.linear.acceleration - pressing * self.normal;
+        self.ending == Ending::Given
+            && self.mode == next.mode
+            && (self.collider, self.normal) == (next.collider, next.normal)
+            && (!turns || pull.length() <= SLIP * pressing.abs())
+    }
+
+    /// Applies the derivative to the changes of spheres, in a direction.
+    pub fn pass(&self, direction: &Variation, spheres: &mut [SphereTangent]) {
+        let sphere = direction.sphere(self.id);
+        let collider = direction.collider(self.collider);
+        let change = Change {
+            sphere: spheres[self.place],
+            radius: sphere.radius,
+            sliding: self.sliding.change([collider.friction, sphere.friction]),
+            acceleration: direction.acceleration,
+            surface_position: collider.position + self.began * collider.velocity,
+            surface_velocity: collider.velocity,
+        };
+        spheres[self.place] = self.apply(&change);
+    }
+
+    /// Replaces derivatives with respect to the motion at the end by derivatives with respect to the motion at the start,
+    /// and adds the derivatives with respect to all other inputs to a gradient.
+    pub fn pass_back(&self, spheres: &mut [SphereTangent], gradient: &mut Variation) {
+        let after = spheres[self.place];
+        let by = |change: Change| self.apply(&change).dot(&after);
+        let along = |change: &dyn Fn(DVec3) -> Change| {
+            DVec3::from_array(DVec3::AXES.map(|axis| by(change(axis))))
+        };
+        let nothing = Change::default();
+        gradient.acceleration += along(&|acceleration| Change { acceleration, ..nothing });
+        let by_sliding = by(Change { sliding: 1.0, ..nothing });
+        let sphere = gradient.sphere_mut(self.id);
+        sphere.radius += by(Change { radius: 1.0, ..nothing });
+        sphere.friction += self.sliding.by_bodies[1] * by_sliding;
+        let by_place = along(&|surface_position| Change { surface_position, ..nothing });
+        let by_velocity = along(&|surface_velocity| Change { surface_velocity, ..nothing });
+        let collider = gradient.collider_mut(self.collider);
+        collider.position += by_place;
+        collider.velocity += by_velocity + self.began * by_place;
+        collider.friction += self.sliding.by_bodies[0] * by_sliding;
+        let mut before = SphereTangent::default();
+        for number in 0..NUMBERS {
+            *before.number_mut(number) =
+                by(Change { sphere: SphereTangent::unit(number), ..nothing });
+        }
+        spheres[self.place] = before;
+    }
+
+    /// Returns the change of the motion at the end.
+    fn apply(&self, change: &Change) -> SphereTangent {
+        let End { way, velocity, angular_velocity, time } = self.end(change);
+        let later = time.change;
+        let gained = self.after.acceleration(velocity.value());
+        let along = |vector: DVec3| vector - vector.dot(self.normal) * self.normal;
+        let Change { sphere, surface_velocity, .. } = *change;
+        let start = along(sphere.position - change.surface_position);
+        let moved = along(way.change() - later * velocity.value());
+        let shift = change.surface_position + self.time * surface_velocity;
+        SphereTangent {
+            position: start + moved + shift + change.radius * self.normal,
+            velocity: along(velocity.change() - later * gained) + surface_velocity,
+            angular_velocity: angular_velocity.change() - later * self.after.angular_acceleration,
+        }
+    }
+
+    /// Returns the motion at the end, relative to the plane.
+    fn end(&self, change: &Change) -> End {
+        let sphere = self.pressed(change);
+        let [spin, spin_time] = self.spin(&sphere);
+        let given = Dual::constant(self.time);
+        let (dry, time) = match (self.mode, self.ending) {
+            (Mode::Sliding, Ending::Slip) => (true, self.slip(&sphere).stopping_time()),
+            (Mode::Rolling, Ending::Roll) => (true, self.roll(&sphere).stopping_time()),
+            (_, Ending::Spin) => (false, spin_time),
+            _ => (false, given),
+        };
+        let [way, velocity, turning] = match self.mode {
+            Mode::Gliding => self.glided(&sphere),
+            Mode::Sliding => self.slid(&sphere, time, dry),
+            Mode::Rolling => self.rolled(&sphere, time, dry),
+            Mode::Resting => [vector(DVec3::ZERO, DVec3::ZERO); 3],
+        };
+        let normal = vector(self.normal, DVec3::ZERO);
+        let spin = match (self.ending, self.spinning > 0.0) {
+            (Ending::Spin, _) => Dual::constant(0.0),
+            (_, true) if spin.value == 0.0 => Dual::constant(0.0),
+            (_, true) => spin - self.spin_loss(&sphere, spin.value) * time,
+            (_, false) => spin,
+        };
+        End { way, velocity, angular_velocity: turning + normal * spin, time }
+    }
+
+    fn pressed(&self, change: &Change) -> Pressed {
+        let normal = vector(self.normal, DVec3::ZERO);
+        let relative = change.sphere.velocity - change.surface_velocity;
+        let velocity = vector(self.velocity, relative);
+        let parting = Dual::new(0.0, relative.dot(self.normal));
+        let acceleration = vector(self.linear.acceleration, change.acceleration);
+        let pressing = acceleration.dot(normal) * -1.0;
+        // The air is at rest, the plane may not be.
+        let drag = vector(DVec3::ZERO, self.linear.drag_rate * change.surface_velocity);
+        let pull = acceleration + normal * pressing - drag;
+        let across = |it: Vector<Dual>| it - normal * it.dot(normal);
+        Pressed {
+            velocity: across(velocity),
+            angular_velocity: vector(self.angular_velocity, change.sphere.angular_velocity),
+            radius: Dual::new(self.radius, change.radius),
+            pressing,
+            pull: across(pull),
+            parting,
+            sliding: Dual::new(self.sliding.value, change.sliding),
+        }
+    }
+
+    /// Returns the angular velocity about the normal at the start \[rad/s\], and the time at which friction ends it \[s\].
+    fn spin(&self, sphere: &Pressed) -> [Dual; 2] {
+        let spin = sphere.angular_velocity.dot(vector(self.normal, DVec3::ZERO));
+        if self.ending != Ending::Spin {
+            return [spin, Dual::constant(self.time)];
+        }
+        [spin, spin / self.spin_loss(sphere, spin.value)]
+    }
+
+    /// Returns the deceleration of an angular velocity about the normal by friction \[rad/s²\].
+    fn spin_loss(&self, sphere: &Pressed, spin: f64) -> Dual {
+        let loss = sphere.pressing * self.spinning / (sphere.radius * self.inertia_factor);
+        loss * spin.signum()
+    }
+
+    /// Returns the motion of the slip along the plane.
+    fn slip(&self, sphere: &Pressed) -> DryMotion {
+        let normal = vector(self.normal, DVec3::ZERO);
+        let Pressed { velocity, pull, sliding, pressing, .. } = *sphere;
+        let velocity = velocity - sphere.angular_velocity.cross(normal) * sphere.radius;
+        let share = sliding * (1.0 + 1.0 / self.inertia_factor);
+        let motion = DryMotion { velocity, pull, loss: share * pressing };
+        pushed(motion, share * sphere.parting)
+    }
+
+    /// Returns the motion of the rolling velocity.
+    fn roll(&self, sphere: &Pressed) -> DryMotion {
+        let normal = vector(self.normal, DVec3::ZERO);
+        let share = 1.0 / (1.0 + self.inertia_factor);
+        let slip = sphere.velocity - sphere.angular_velocity.cross(normal) * sphere.radius;
+        let velocity = sphere.velocity - slip * Dual::constant(self.inertia_factor * share);
+        let loss = Dual::constant(share * self.rolling);
+        let pull = sphere.pull * Dual::constant(share);
+        let motion = DryMotion { velocity, pull, loss: loss * sphere.pressing };
+        pushed(motion, loss * sphere.parting)
+    }
+
+    /// Returns way, velocity and angular velocity across the normal after gliding.
+    fn glided(&self, sphere: &Pressed) -> [Vector<Dual>; 3] {
+        let over = Propagator::over(self.time, self.linear.drag_rate);
+        let [decay, drift, fall] = [over.decay, over.drift, over.fall].map(Dual::constant);
+        let Pressed { velocity, pull, .. } = *sphere;
+        let way = velocity * drift + pull * fall;
+        [way, velocity * decay + pull * drift, self.turning(sphere)]
+    }
+
+    /// Returns way, velocity and angular velocity after sliding: `v' = (1 - h) p + h s'` with the slip s, the pull p and
+    /// `h = k/(1 + k)`.
+    fn slid(&self, sphere: &Pressed, time: Dual, ends: bool) -> [Vector<Dual>; 3] {
+        let motion = self.slip(sphere);
+        let Moved { velocity: slip, way } = motion.after(time, ends);
+        let normal = vector(self.normal, DVec3::ZERO);
+        let start = sphere.velocity - sphere.angular_velocity.cross(normal) * sphere.radius;
+        let share = Dual::constant(self.inertia_factor / (1.0 + self.inertia_factor));
+        let rest = Dual::constant(1.0 / (1.0 + self.inertia_factor));
+        let pull = sphere.pull;
+        let change = slip - start;
+        let moved = sphere.velocity * time
+            + pull * (rest * time * time * 0.5)
+            + (way - start * time) * share;
+        let velocity = sphere.velocity + pull * (rest * time) + change * share;
+        let turned = normal.cross(change - pull * time) * (rest / sphere.radius);
+        [moved, velocity, self.turning(sphere) - turned]
+    }
+
+    /// Returns way, velocity and angular velocity after rolling.
+    fn rolled(&self, sphere: &Pressed, time: Dual, ends: bool) -> [Vector<Dual>; 3] {
+        let Moved { velocity, way } = self.roll(sphere).after(time, ends);
+        let normal = vector(self.normal, DVec3::ZERO);
+        let turning = normal.cross(velocity) * (Dual::constant(1.0) / sphere.radius);
+        [way, velocity, turning]
+    }
+
+    /// Returns the angular velocity across the normal at the start.
+    fn turning(&self, sphere: &Pressed) -> Vector<Dual> {
+        let normal = vector(self.normal, DVec3::ZERO);
+        let turning = sphere.angular_velocity;
+        turning - normal * turning.dot(normal)
+    }
+}
+
+/// Returns a motion with another impulse of friction: a velocity into the plane presses the sphere on it until the
+/// contact has stopped that velocity.
+fn pushed(motion: DryMotion, less: Dual) -> DryMotion {
+    if less.change == 0.0 || motion.velocity.length_squared().value == 0.0 {
+        return motion;
+    }
+    DryMotion { velocity: motion.velocity + motion.velocity.direction() * less, ..motion }
+}

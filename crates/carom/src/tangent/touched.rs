@@ -1,0 +1,43 @@
+//! The surface that a sphere meets in an impact.
+
+use super::saltation::{Colliding, TouchedSurface};
+use crate::colliders::Colliders;
+use crate::detect::sphere_surface;
+use crate::id::ColliderId;
+use crate::report::Impact;
+use crate::rule::exact::curvature_of;
+use crate::surface::Role;
+
+/// Unit normals of one contact that were found in two ways may differ by this.
+const SAME_NORMAL: f64 = 1e-6;
+
+/// The surface of a collider that a sphere touches in an impact.
+pub(super) fn touched(
+    colliders: &Colliders,
+    (collider, impact): (ColliderId, &Impact),
+    sphere: &Colliding,
+) -> Option<(u32, TouchedSurface)> {
+    let deflecting = colliders.surfaces().iter().enumerate();
+    let candidates = deflecting
+        .filter(|(_, it)| it.collider == collider && it.role == Role::Deflects)
+        .filter_map(|(number, surface)| {
+            let (form, motion) = surface.after(impact.time);
+            let separation = sphere_surface(&form, sphere.position, sphere.radius)?;
+            let off = (separation.normal - impact.normal).length();
+            Some((off, number, form, motion, separation))
+        });
+    let nearest = candidates
+        .filter(|it| it.0 <= SAME_NORMAL && it.4.distance.abs() <= SAME_NORMAL * sphere.radius)
+        .min_by(|a, b| a.0.total_cmp(&b.0));
+    let (_, number, form, motion, separation) = nearest?;
+    let beside = sphere.velocity - motion.velocity_at(separation.point);
+    let curvature = curvature_of(&form, [sphere.position, beside], &separation);
+    let touched = TouchedSurface {
+        collider,
+        origin: motion.origin,
+        velocity: motion.velocity,
+        angular_velocity: motion.angular_velocity,
+        curvature,
+    };
+    Some((number as u32, touched))
+}
