@@ -344,8 +344,8 @@ typedef void (*CaromDestroyFunction)(void *user_data);
 ///
 /// The thread that steps a world calls it; if the library was built with the feature `rayon`, other
 /// threads do so, too. For the same bits everywhere it must not use functions whose result depends
-/// on the platform (sin, exp, ...). Under the rule `exact` such a force is held constant from one
-/// force tick to the next.
+/// on the platform (sin, exp, ...). The rule `exact` calls it some
+/// tens of times in each step of a sphere, not in the order of time.
 typedef struct {
     /// The function.
     CaromForceFunction force;

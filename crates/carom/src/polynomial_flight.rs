@@ -32,6 +32,8 @@ pub(crate) struct PolynomialAcceleration {
     pub length: f64,
     /// c_k \[m/s²\]
     pub coefficients: [DVec3; TERMS],
+    /// Parts of the position \[m\] and of the velocity \[m/s\] at time 0 below their rounding.
+    pub carried: [DVec3; 2],
 }
 
 impl PolynomialFlight {
@@ -39,6 +41,18 @@ impl PolynomialFlight {
     pub fn after(&self, t: f64) -> (DVec3, DVec3) {
         let (way, change) = self.acceleration.gained_until(t);
         (self.position + (t * self.velocity + way), self.velocity + change)
+    }
+
+    /// Parts of the position \[m\] and of the velocity \[m/s\] at a time \[s\] below their rounding (Knuth, *The Art of
+    /// Computer Programming* 2, 4.2.2, theorem B).
+    pub fn left_after(&self, t: f64) -> [DVec3; 2] {
+        let (way, change) = self.acceleration.gained_until(t);
+        let left = |first: DVec3, second: DVec3| {
+            let sum = first + second;
+            let rounded = sum - first;
+            (first - (sum - rounded)) + (second - rounded)
+        };
+        [left(self.position, t * self.velocity + way), left(self.velocity, change)]
     }
 
     /// Largest displacement along each axis in its time \[m\].
@@ -51,7 +65,7 @@ impl PolynomialFlight {
 impl PolynomialAcceleration {
     /// No acceleration for a time \[s\].
     pub fn none(length: f64) -> Self {
-        Self { length, coefficients: [DVec3::ZERO; TERMS] }
+        Self { length, coefficients: [DVec3::ZERO; TERMS], carried: [DVec3::ZERO; 2] }
     }
 
     /// Acceleration at a time \[s\] \[m/s²\].
@@ -68,7 +82,8 @@ impl PolynomialAcceleration {
             way = way * s + c / ((k + 1.0) * (k + 2.0));
             change = change * s + c / (k + 1.0);
         }
-        (t * t * way, t * change)
+        let [place, velocity] = self.carried;
+        (place + (t * velocity + t * t * way), velocity + t * change)
     }
 
     /// Bounds of it along each axis over all its time \[m/s²\].
@@ -95,7 +110,16 @@ impl PolynomialAcceleration {
     pub fn from(&self, time: f64) -> Self {
         let length = self.length - time;
         let rest = shifted(self.coefficients, time / self.length);
-        Self { length, coefficients: scaled(rest, length / self.length) }
+        let coefficients = scaled(rest, length / self.length);
+        Self { length, coefficients, carried: [DVec3::ZERO; 2] }
+    }
+
+    /// Difference from another polynomial over the same time.
+    pub fn minus(&self, other: &Self) -> Self {
+        let mut coefficients = self.coefficients;
+        coefficients.iter_mut().zip(&other.coefficients).for_each(|(c, other)| *c -= *other);
+        let carried = [0, 1].map(|which| self.carried[which] - other.carried[which]);
+        Self { length: self.length, coefficients, carried }
     }
 
     /// Whether all its numbers are finite.
@@ -211,7 +235,8 @@ mod tests {
     #[test]
     fn velocity_and_position_are_integrals_of_the_acceleration() {
         let coefficients = SOME.map(|c| DVec3::new(c, 0.0, -c));
-        let acceleration = PolynomialAcceleration { length: 2.0, coefficients };
+        let acceleration =
+            PolynomialAcceleration { length: 2.0, coefficients, carried: [DVec3::ZERO; 2] };
         let flight = PolynomialFlight { position: DVec3::Y, velocity: DVec3::X, acceleration };
         let h = 1e-3;
         for t in [0.2, 1.0, 1.9] {

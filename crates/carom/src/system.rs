@@ -14,6 +14,11 @@ use crate::settings::Settings;
 use crate::sum::Sum;
 use crate::surface::Surface;
 
+/// Largest number of spheres with forces between them all that take steps of high order together under the rule
+/// `exact`. Each impact restarts all of them, and each step evaluates all forces some tens of times, so that the cost of
+/// a cloud that collides grows with the cube of its number.
+const MOST_TOGETHER: usize = 32;
+
 /// The world during one step, without the motion of its spheres.
 #[derive(Clone, Copy)]
 pub(crate) struct System<'a> {
@@ -70,6 +75,16 @@ impl<'a> System<'a> {
     /// Whether forces act between all spheres, not on springs only.
     pub fn couples_all(&self) -> bool {
         self.interactions.is_some_and(|interactions| !interactions.are_springs())
+    }
+
+    /// Whether forces act between all spheres, and they are few enough to take their steps together.
+    pub fn moves_all_together(&self) -> bool {
+        self.couples_all() && self.spheres.id.len() <= MOST_TOGETHER
+    }
+
+    /// Whether forces act between all spheres, and they are too many to take their steps together.
+    pub fn holds_forces_of_all(&self) -> bool {
+        self.couples_all() && !self.moves_all_together()
     }
 
     /// Whether a force between spheres depends on how they move.

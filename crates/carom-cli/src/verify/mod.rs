@@ -18,6 +18,7 @@ mod friction;
 mod grains;
 mod granular;
 mod motion;
+mod mutual_gravity;
 mod packing;
 mod report;
 mod resting;

@@ -157,8 +157,8 @@ pub struct Exact {
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     #[serde(skip_serializing_if = "is_default_zone_tick")]
     pub zone_tick: f64,
-    /// Time between two force ticks, in s, > 0. Forces on spheres in persistent contact that are not linear, and all in
-    /// a world with mutual gravity, are constant from one to the next. Stiff springs shorten it. By default 1/240.
+    /// Time between two force ticks, in s, > 0. Forces on spheres in persistent contact that are not linear, and mutual
+    /// gravity of more than 32 spheres, are constant from one to the next. Stiff springs shorten it. By default 1/240.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     #[serde(skip_serializing_if = "is_default_force_tick")]
     pub force_tick: f64,

@@ -8,7 +8,9 @@ use crate::settings::nearest_image;
 /// A force between spheres: the force on one depends on the states of others.
 /// [`Force::interaction`](crate::Force::interaction) of a [`Force`](crate::Force) returns it.
 ///
-/// Every rule evaluates it for all spheres at one instant. For reproducible bits sums need a fixed order.
+/// Every rule evaluates it for all spheres at one instant. The rule `exact` does so thirty to sixty times in each step of
+/// up to 32 spheres, not in the order of time, and follows it to rounding; forces between more spheres it holds from one
+/// force tick to the next. For reproducible bits sums need a fixed order.
 ///
 /// ```
 /// use carom::{DVec3, Force, Interaction, Sphere, SphereState, SphereStates, World};
@@ -44,7 +46,7 @@ use crate::settings::nearest_image;
 /// world.add_sphere(Sphere::new(DVec3::ZERO, 0.1))?;
 /// world.add_sphere(Sphere::new(DVec3::X, 0.1))?;
 /// world.step(0.5)?;
-/// assert_eq!(world.spheres().velocities()[1], DVec3::X);
+/// assert!(world.spheres().velocities()[1].distance(DVec3::X) < 1e-14);
 /// assert_eq!(world.momentum(), DVec3::ZERO);
 /// # Ok::<(), carom::Error>(())
 /// ```
@@ -57,8 +59,8 @@ pub trait Interaction: Debug + Send + Sync {
         0.0
     }
 
-    /// Whether the forces depend on velocities (the default). Where they do not, the rule `exact` need not
-    /// evaluate them at the start of a frame, only in its middle.
+    /// Whether the forces depend on velocities (the default). Where the rule `exact` holds forces that do not, it
+    /// evaluates them only in the middle of a force tick.
     fn depends_on_velocity(&self) -> bool {
         true
     }

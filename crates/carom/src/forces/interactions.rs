@@ -21,7 +21,8 @@ impl<'a> Interactions<'a> {
         are_any.then_some(Self { forces, springs })
     }
 
-    fn list(&self) -> impl Iterator<Item = &'a dyn Interaction> {
+    /// Interactions among the forces, in the order in which they entered the world.
+    pub fn list(&self) -> impl Iterator<Item = &'a dyn Interaction> + use<'a> {
         self.forces.iter().filter_map(|(_, force)| force.interaction())
     }
 
@@ -62,7 +63,7 @@ impl<'a> Interactions<'a> {
         self.springs.iter().map(|(_, spring)| spring)
     }
 
-    /// Whether there are none but springs.
+    /// Whether there are only springs.
     pub fn are_springs(&self) -> bool {
         self.list().next().is_none()
     }

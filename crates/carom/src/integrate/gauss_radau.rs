@@ -88,6 +88,8 @@ pub(crate) struct Start<'a> {
     pub positions: &'a [DVec3],
     /// \[m/s\]
     pub velocities: &'a [DVec3],
+    /// Parts of both below their rounding.
+    pub carried: &'a [[DVec3; 2]],
     /// On the world's clock \[s\].
     pub time: f64,
     /// When the step has to end at the latest \[s\].
@@ -157,7 +159,7 @@ pub(crate) fn step(
             if error == f64::INFINITY {
                 attempt.hold();
             }
-            let is_cut = end == start.until;
+            let is_cut = end >= start.until;
             let ratio = growth(error).min(MOST_GROWTH);
             let mut trial = if is_good { ratio * length } else { length };
             if attempt.is_steady() {
@@ -263,8 +265,10 @@ impl<'a> Attempt<'a> {
                 change = change * s + c / (k + 1.0);
             }
             let velocity = self.start.velocities[sphere];
-            positions[sphere] = self.start.positions[sphere] + t * (velocity + t * way);
-            velocities[sphere] = velocity + t * change;
+            let [left, left_velocity] = self.start.carried[sphere];
+            let way = left + t * (velocity + (left_velocity + t * way));
+            positions[sphere] = self.start.positions[sphere] + way;
+            velocities[sphere] = velocity + (left_velocity + t * change);
         }
     }
 
@@ -345,8 +349,9 @@ impl<'a> Attempt<'a> {
 
     fn into_accelerations(self) -> Vec<PolynomialAcceleration> {
         let length = self.length;
-        let of = |coefficients| PolynomialAcceleration { length, coefficients };
-        self.powers.into_iter().map(of).collect()
+        let of =
+            |(coefficients, &carried)| PolynomialAcceleration { length, coefficients, carried };
+        self.powers.into_iter().zip(self.start.carried).map(of).collect()
     }
 }
 
@@ -396,10 +401,11 @@ mod tests {
         let (mut position, mut velocity, mut time) = (DVec3::X, DVec3::Y, 0.0);
         let (mut pace, mut before, mut count) = (Pace::of(0.01), None, 0);
         while time < until {
-            let (positions, velocities) = ([position], [velocity]);
+            let (positions, velocities, carried) = ([position], [velocity], [[DVec3::ZERO; 2]]);
             let start = Start {
                 positions: &positions,
                 velocities: &velocities,
+                carried: &carried,
                 time,
                 until,
                 steady: 1.0,

@@ -29,11 +29,11 @@ pub struct Exact {
     /// while it is longer than four frames.
     pub zone_tick: f64,
     /// Time between two force ticks \[s\], > 0: forces that are not linear on spheres in persistent contact, and all
-    /// forces in a world with mutual gravity or another [`Interaction`](crate::Interaction), are held constant from
-    /// one to the next. Spheres in flight under other forces, on springs among them, do not need it. Ticks are at its
-    /// multiples on the world's clock, whatever the frames; where springs need it, it is halved until they are
-    /// stable. The tick adapts to the frame: doubled while a frame holds more than 64 ticks, halved while it is longer
-    /// than four frames.
+    /// such forces where mutual gravity or another [`Interaction`](crate::Interaction) acts between more than 32
+    /// spheres, are held constant from one to the next. Spheres in flight under other forces, on springs among them, do
+    /// not need it. Ticks are at its multiples on the world's clock, whatever the frames; where springs need it, it is
+    /// halved until they are stable. The tick adapts to the frame: doubled while a frame holds more than 64 ticks,
+    /// halved while it is longer than four frames.
     pub force_tick: f64,
 }
 

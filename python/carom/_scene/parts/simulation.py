@@ -31,8 +31,8 @@ class Exact(Part):
         zone_tick: Time between two ticks, at which zones are stepped [s], > 0. Small spheres
             shorten it, and so do short frames; long frames lengthen it. By default 1/480.
         force_tick: Time between two force ticks [s], > 0. Forces on spheres in persistent contact
-            that are not linear, and all in a world with mutual gravity, are constant from one to
-            the next. Stiff springs shorten it. By default 1/240.
+            that are not linear, and mutual gravity of more than 32 spheres, are constant from one
+            to the next. Stiff springs shorten it. By default 1/240.
     """
 
     impact_law: ImpactLaw = "reflection"

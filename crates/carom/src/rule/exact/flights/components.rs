@@ -1,4 +1,4 @@
-//! Components: spheres on curves that springs connect, whose steps are taken together.
+//! Components: spheres on curves that forces connect, whose steps are taken together.
 
 use std::collections::BTreeMap;
 
@@ -12,11 +12,14 @@ use crate::system::System;
 /// many for each sphere if that is more. Beyond it, rough steps lead to the end of the tick.
 const MOST_EVALUATIONS: u64 = 1 << 16;
 const MOST_FOR_EACH: u64 = 1 << 8;
+/// Allowed evaluations in a tick where forces act between all spheres: close passages take many short steps.
+const MOST_BETWEEN_ALL: u64 = 1 << 18;
 
 /// A sphere that is in no component.
 const NONE: u32 = u32::MAX;
 
-/// Spheres that springs connect, directly or through others; one alone if it has none, or to fixed points only.
+/// Spheres connected by springs, directly or through others, or all spheres where forces act between all; a single
+/// sphere if nothing connects it.
 #[derive(Debug, Clone, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Component {
@@ -62,6 +65,8 @@ pub(crate) struct Components {
     components: Vec<Component>,
     /// Numbers of those that are due.
     due: Vec<u32>,
+    /// Allowed evaluations of a component in a tick, or `MOST_FOR_EACH` times its spheres if that is more.
+    most_evaluations: u64,
 }
 
 impl Components {
@@ -83,6 +88,9 @@ impl Components {
         for &(_, first, second) in &springs {
             connected.join(first, second.unwrap_or(first));
         }
+        if system.moves_all_together() {
+            (0..ids.len()).for_each(|index| connected.join(0, index));
+        }
         let mut components: BTreeMap<usize, Component> = BTreeMap::new();
         let mut place_of = vec![NONE; ids.len()];
         for index in (0..ids.len()).filter(|&index| is_curved(index)) {
@@ -102,7 +110,9 @@ impl Components {
         for (number, component) in (0u32..).zip(&components) {
             component.members.iter().for_each(|&index| of_spheres[index as usize] = number);
         }
-        Self { of_spheres, components, due: Vec::new() }
+        let most_evaluations =
+            if system.moves_all_together() { MOST_BETWEEN_ALL } else { MOST_EVALUATIONS };
+        Self { of_spheres, components, due: Vec::new(), most_evaluations }
     }
 
     pub fn get(&self, number: u32) -> &Component {
@@ -159,7 +169,7 @@ impl Components {
             (component.tick, component.evaluations) = (tick, 0);
         }
         let members = component.members.len() as u64;
-        component.evaluations > MOST_EVALUATIONS.max(MOST_FOR_EACH * members)
+        component.evaluations > self.most_evaluations.max(MOST_FOR_EACH * members)
     }
 
     /// Counts evaluations of the forces on spheres of a component.

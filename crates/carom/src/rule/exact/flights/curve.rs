@@ -1,5 +1,7 @@
 //! One step of an integrator as the flight of a sphere.
 
+use glam::DVec3;
+
 use crate::integrate::gauss_radau::Pace;
 use crate::polynomial_flight::PolynomialAcceleration;
 
@@ -23,6 +25,8 @@ pub(super) struct CurveStep {
     pub is_smooth: bool,
     /// Estimate for the next step.
     pub pace: Pace,
+    /// Parts of the position \[m\] and of the velocity \[m/s\] at its end below their rounding.
+    pub left: [DVec3; 2],
 }
 
 impl CurveStep {

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::between::ForcesBetween;
 use super::body::Body;
 use super::components::{Component, PlacedSpring};
 use super::curve::{Curve, CurveStep};
@@ -130,6 +131,10 @@ impl Flights {
         let index = self.index_of[slot as usize];
         let field = FreeField::of(system, index as usize);
         let alone = field.acceleration_and_size(time, position, velocity).0;
+        if system.moves_all_together() {
+            let state = [position, velocity];
+            return alone + self.force_between(system, index, state, time) / field.mass;
+        }
         let Some(number) = self.components.of_sphere(index) else { return alone };
         let Component { members, springs, .. } = self.components.get(number);
         let state_of = |place: u32| match members[place as usize] {
@@ -151,6 +156,23 @@ impl Flights {
         })
     }
 
+    /// Force \[N\] between a sphere, by its index, and all others at `time` \[s\], with this sphere in a given state \[m\],
+    /// \[m/s\].
+    fn force_between(
+        &self,
+        system: &System,
+        index: u32,
+        [position, velocity]: [DVec3; 2],
+        time: f64,
+    ) -> DVec3 {
+        let states = self.slot_of.iter().map(|&slot| self.state_of(slot, time));
+        let (mut positions, mut velocities): (Vec<DVec3>, Vec<DVec3>) = states.unzip();
+        (positions[index as usize], velocities[index as usize]) = (position, velocity);
+        let mut forces = Vec::new();
+        system.forces_between([&positions, &velocities], time, &mut forces);
+        forces[index as usize]
+    }
+
     /// The step of a component, by its number, from the beginning of the flights of its members on.
     pub fn step_from_start(&self, system: &System, number: u32, limits: StepLimits) -> JointStep {
         let component = self.components.get(number);
@@ -168,9 +190,17 @@ impl Flights {
             field.ties.iter_mut().for_each(|tie| *tie = tie.with_changes());
         }
         let brief = field.brief([&positions, &velocities], time).unwrap_or(limits.tick);
+        // A close passage of two spheres multiplies the rounding of their places.
+        let may_be_close = field.between.is_some();
+        let carried = |&slot: &u32| match self.last_step(slot) {
+            Some(step) if may_be_close && step.end == time => step.left,
+            _ => [DVec3::ZERO; 2],
+        };
+        let carried: Vec<[DVec3; 2]> = slots.iter().map(carried).collect();
         let start = Start {
             positions: &positions,
             velocities: &velocities,
+            carried: &carried,
             time,
             until: limits.until,
             steady: STEADY_RADII * brief,
@@ -194,12 +224,11 @@ impl Flights {
         let change = field.first_change(&start, &step);
         let end =
             change.map_or(step.end, |change| (time + change).max(time.next_up()).min(step.end));
-        let curve_of = |(body, acceleration): (&&Body, PolynomialAcceleration)| CurveStep {
-            generation: body.generation,
-            acceleration,
-            end,
-            is_smooth: change.is_none(),
-            pace: step.pace,
+        let curve_of = |(body, acceleration): (&&Body, PolynomialAcceleration)| {
+            let Body { position, velocity, generation, .. } = **body;
+            let flight = PolynomialFlight { position, velocity, acceleration };
+            let (left, pace) = (flight.left_after(end - time), step.pace);
+            CurveStep { generation, acceleration, end, is_smooth: change.is_none(), pace, left }
         };
         let steps = bodies.iter().zip(step.accelerations).map(curve_of);
         let curves = slots.iter().copied().zip(steps.map(|step| Curve(Some(step)))).collect();
@@ -218,7 +247,8 @@ impl Flights {
         let step = self.step_of(slot, body).filter(|step| time < step.end)?;
         let goes_on = <[DVec3; 2]>::from(self.state_on_curve(slot, time)) == state;
         let acceleration = step.acceleration.from(time - body.time);
-        goes_on.then(|| Curve(Some(CurveStep { acceleration, ..step.clone() })))
+        let left = [DVec3::ZERO; 2];
+        goes_on.then(|| Curve(Some(CurveStep { acceleration, left, ..step.clone() })))
     }
 
     /// Continues a sphere's new flight along the rest of a step.
@@ -299,6 +329,8 @@ struct JointField<'a> {
     place_of: Vec<usize>,
     /// Springs between those places.
     ties: Vec<Tie<'a>>,
+    /// Forces between all spheres of the world, where all are members.
+    between: Option<ForcesBetween<'a>>,
     period: DVec3,
     /// How often the forces on a sphere were evaluated.
     evaluations: u64,
@@ -326,6 +358,7 @@ impl<'a> JointField<'a> {
             others,
             place_of,
             ties: Vec::new(),
+            between: ForcesBetween::of(system),
             period: system.settings.boundary.period(),
             evaluations: 0,
         }
@@ -365,6 +398,30 @@ impl<'a> JointField<'a> {
             TieEnd::Sphere(place) => self.state_of(place, states, time),
             TieEnd::Point(point) => [point, DVec3::ZERO],
         }
+    }
+
+    /// Adds the accelerations by forces between all spheres, with the flying ones in these states \[m\], \[m/s\] at a
+    /// time \[s\].
+    fn add_between(&mut self, states: [&[DVec3]; 2], time: f64, at: &mut Values) {
+        let Some(mut between) = self.between.take() else { return };
+        if self.others.is_empty() {
+            // All spheres fly, in the order of the world.
+            between.add(time, states, at);
+        } else {
+            let state = |&place: &usize| self.state_of(place, states, time).into();
+            let (positions, velocities): (Vec<DVec3>, Vec<DVec3>) =
+                self.place_of.iter().map(state).unzip();
+            let mut of_all = Values::of(positions.len());
+            between.add(time, [&positions, &velocities], &mut of_all);
+            for (index, &place) in self.place_of.iter().enumerate() {
+                if place < self.alone.len() {
+                    at.accelerations[place] += of_all.accelerations[index];
+                    at.sizes[place] += of_all.sizes[index];
+                }
+            }
+        }
+        self.evaluations += between.cost();
+        self.between = Some(between);
     }
 
     /// The shortest time in which one of its spheres moves by its radius \[s\]; `None` if none does.
@@ -411,6 +468,7 @@ impl Field for JointField<'_> {
             (at.accelerations[place], at.sizes[place]) = (acceleration, size);
         }
         let states = [positions, velocities];
+        self.add_between(states, time, at);
         for tie in &self.ties {
             let [from, velocity] = self.state_of(tie.first, states, time);
             let [to, other] = self.state_at(tie.second, states, time);

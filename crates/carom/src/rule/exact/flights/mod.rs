@@ -1,6 +1,7 @@
 //! Flights: where every sphere flies since its last event, and what equal spheres share.
 
 mod at_time;
+mod between;
 mod body;
 mod clusters;
 mod components;

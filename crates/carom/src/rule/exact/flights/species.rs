@@ -80,7 +80,8 @@ impl SpeciesOfSpheres {
         let levels = levels_of(&spheres.radius);
         let mut forces_vary = system.has_interactions();
         let has_own_forces = !spheres.applied_force.is_empty() || forces_vary;
-        let is_on_spring = on_springs(system);
+        let is_held = system.holds_forces_of_all();
+        let is_coupled = coupled(system);
         let mut species: Vec<Species> = Vec::new();
         let mut known = BTreeMap::new();
         let mut number_of = Vec::with_capacity(levels.len());
@@ -108,7 +109,7 @@ impl SpeciesOfSpheres {
                     contact_work: ContactWork::None,
                     free: number,
                     is_stepped: false,
-                    is_curved: (!is_all || is_on_spring[index]) && !system.couples_all(),
+                    is_curved: !is_held && (!is_all || is_coupled[index]),
                 });
             }
             number_of.push(number);
@@ -118,16 +119,16 @@ impl SpeciesOfSpheres {
     }
 }
 
-/// Whether each sphere, by index, is at an end of a spring.
-fn on_springs(system: &System) -> Vec<bool> {
+/// Whether a force between spheres or a spring acts on each sphere, by index.
+fn coupled(system: &System) -> Vec<bool> {
     let ids = &system.spheres.id;
-    let mut is_on_spring = vec![false; ids.len()];
+    let mut is_coupled = vec![system.couples_all(); ids.len()];
     for id in system.springs().flat_map(Spring::spheres) {
         if let Ok(index) = ids.binary_search(&id) {
-            is_on_spring[index] = true;
+            is_coupled[index] = true;
         }
     }
-    is_on_spring
+    is_coupled
 }
 
 /// Level of each radius, from 0 for the largest, with no empty level between.

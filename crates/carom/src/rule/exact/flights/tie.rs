@@ -11,6 +11,8 @@ use crate::settings::nearest_image;
 
 /// In a periodic box a spring changes its image this part of an edge beyond half of it.
 const BEYOND: f64 = 1e-13;
+/// Relative error of positions and velocities: some roundings of this step and of earlier ones.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// A spring from the beginning of a step on, between bodies at two places.
 #[derive(Debug, Clone, Copy)]
@@ -22,6 +24,16 @@ pub(super) struct Tie<'a> {
     /// From the second end to its nearest image \[m\].
     shift: DVec3,
     phase: Phase,
+    resolution: Resolution,
+}
+
+/// Rounding of a thread at its rest length: a smaller stretch or tension counts as none.
+#[derive(Debug, Clone, Copy)]
+struct Resolution {
+    /// Of `l² - l0²` \[m²\].
+    length: f64,
+    /// Of the tension times the length \[N m\].
+    tension: f64,
 }
 
 /// The second end of a tie.
@@ -67,8 +79,9 @@ impl<'a> Tie<'a> {
             let along = offset + DVec3::select(is_periodic, beyond, DVec3::ZERO);
             shift = nearest_image(along, period) - along;
         }
-        let phase = Phase::at(spring, offset + shift, velocity);
-        Self { spring, first, second, shift, phase }
+        let resolution = Resolution::of(spring, states, shift);
+        let phase = Phase::at(spring, [offset + shift, velocity], resolution);
+        Self { spring, first, second, shift, phase, resolution }
     }
 
     /// The tie with changes of its phase inside the step.
@@ -89,17 +102,19 @@ impl<'a> Tie<'a> {
     /// When the spring changes how it acts within `length` \[s\], along the paths of its ends, in a periodic box
     /// with these edges \[m\]; `None` if it does not.
     pub fn change(&self, ends: [TiePath; 2], period: DVec3, length: f64) -> Option<f64> {
-        let apart = Apart { ends, shift: self.shift, length };
-        let rest = self.spring.rest_length;
+        let apart = Apart { ends: relative(ends), shift: self.shift, length };
+        let (rest, Resolution { length, tension }) = (self.spring.rest_length, self.resolution);
+        // The next phase begins at half of this, so that rounding does not end it at once.
+        let (longer, more) = (2.0 * length, 2.0 * tension);
         let of_image = (period != DVec3::INFINITY).then(|| apart.leaves_image(period)).flatten();
         let of_thread = match self.phase {
             Phase::Smooth | Phase::Any => None,
-            Phase::Slack => apart.passes_length(rest, 1.0),
-            Phase::Taut if self.spring.damping == 0.0 => apart.passes_length(rest, -1.0),
-            Phase::Taut => apart.passes_tension(self.spring, -1.0),
+            Phase::Slack => apart.passes_length(rest, (1.0, longer)),
+            Phase::Taut if self.spring.damping == 0.0 => apart.passes_length(rest, (-1.0, 0.0)),
+            Phase::Taut => apart.passes_tension(self.spring, (-1.0, 0.0)),
             Phase::Idle => {
-                let slack = apart.passes_length(rest, -1.0);
-                earlier(slack, apart.passes_tension(self.spring, 1.0))
+                let slack = apart.passes_length(rest, (-1.0, 0.0));
+                earlier(slack, apart.passes_tension(self.spring, (1.0, more)))
             }
         };
         earlier(of_image, of_thread)
@@ -110,13 +125,30 @@ fn earlier(first: Option<f64>, second: Option<f64>) -> Option<f64> {
     [first, second].into_iter().flatten().reduce(f64::min)
 }
 
+impl Resolution {
+    /// Resolution of a spring whose ends have these centres \[m\] and velocities \[m/s\], the second at a shift \[m\].
+    fn of(spring: &Spring, [first, second]: [[DVec3; 2]; 2], shift: DVec3) -> Self {
+        let rest = spring.rest_length;
+        let place = ROUNDING * (first[0].norm() + second[0].norm() + shift.norm() + rest);
+        let speed = ROUNDING * (first[1].norm() + second[1].norm());
+        let damper = rest * speed + place * (second[1] - first[1]).norm();
+        Self {
+            length: place * (2.0 * rest + place),
+            tension: spring.stiffness * place * (rest + place) + spring.damping * damper,
+        }
+    }
+}
+
 impl Phase {
-    fn at(spring: &Spring, offset: DVec3, velocity: DVec3) -> Self {
+    /// How a spring acts at this offset of its ends \[m\] and relative velocity \[m/s\].
+    fn at(spring: &Spring, [offset, velocity]: [DVec3; 2], resolution: Resolution) -> Self {
         if !spring.only_pulls {
             Self::Smooth
-        } else if beyond_length(spring.rest_length, offset) <= 0.0 {
+        } else if beyond_length(spring.rest_length, offset) <= resolution.length {
             Self::Slack
-        } else if spring.damping > 0.0 && tension_by_length(spring, offset, velocity) <= 0.0 {
+        } else if spring.damping > 0.0
+            && tension_by_length(spring, offset, velocity) <= resolution.tension
+        {
             Self::Idle
         } else {
             Self::Taut
@@ -183,6 +215,24 @@ impl TiePath {
     }
 }
 
+/// The ends of a spring without their common motion, where both fly by polynomials over one step. Bounds of the rest are
+/// closer.
+fn relative(ends: [TiePath; 2]) -> [TiePath; 2] {
+    match ends {
+        [TiePath::Polynomial(first), TiePath::Polynomial(second)]
+            if first.acceleration.length == second.acceleration.length =>
+        {
+            let flight = PolynomialFlight {
+                position: second.position - first.position,
+                velocity: second.velocity - first.velocity,
+                acceleration: second.acceleration.minus(&first.acceleration),
+            };
+            [TiePath::Point(DVec3::ZERO), TiePath::Polynomial(flight)]
+        }
+        others => others,
+    }
+}
+
 /// The second end of a spring relative to the first, over a step.
 struct Apart {
     ends: [TiePath; 2],
@@ -206,19 +256,22 @@ impl Apart {
         [distance, speed, first[1] + second[1], first[2] + second[2]]
     }
 
-    /// When the distance passes a length \[m\], getting longer (`sign` 1) or shorter (-1).
-    fn passes_length(&self, rest: f64, sign: f64) -> Option<f64> {
+    /// When the square of the distance is more (`sign` 1) or less (-1) than that of a length \[m\], by more than an
+    /// amount \[m²\].
+    fn passes_length(&self, rest: f64, (sign, amount): (f64, f64)) -> Option<f64> {
         let [distance, speed, acceleration, _] = self.bounds();
         let curvature = 2.0 * (speed * speed + distance * acceleration);
         let function = |t| {
             let [offset, velocity, _] = self.at(t);
-            [sign * beyond_length(rest, offset), sign * 2.0 * offset.dot(velocity)]
+            let beyond = sign * beyond_length(rest, offset) - amount;
+            [beyond, sign * 2.0 * offset.dot(velocity)]
         };
         first_positive(function, curvature, self.length)
     }
 
-    /// When the tension of a spring longer than its rest length rises (`sign` 1) or falls (-1) through 0.
-    fn passes_tension(&self, spring: &Spring, sign: f64) -> Option<f64> {
+    /// When the tension times the length, of a spring longer than its rest length, is above 0 (`sign` 1) or below it (-1)
+    /// by more than an amount \[N m\].
+    fn passes_tension(&self, spring: &Spring, (sign, amount): (f64, f64)) -> Option<f64> {
         let Spring { rest_length: rest, stiffness, damping, .. } = *spring;
         let [distance, speed, acceleration, jerk] = self.bounds();
         // |l''| <= v²/l + a, and l >= l0.
@@ -233,7 +286,7 @@ impl Apart {
             let pull = stiffness * (2.0 * along - rest * lengthening);
             let damper = damping * (velocity.length_squared() + offset.dot(acceleration));
             let tension = tension_by_length(spring, offset, velocity);
-            [sign * tension, sign * (pull + damper)]
+            [sign * tension - amount, sign * (pull + damper)]
         };
         first_positive(function, curvature, self.length)
     }

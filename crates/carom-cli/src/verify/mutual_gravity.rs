@@ -1,0 +1,76 @@
+//! Flights of the rule `exact` under gravity between spheres.
+
+use std::f64::consts::TAU;
+
+use carom::{DVec3, MutualGravity, Rule, Sphere, World};
+
+use super::claim::{Claim, Expected, Measured, Tolerance};
+use super::runs::{change_of_energy, exact};
+use super::setup::world;
+
+/// Eccentricity of the ellipse of the claims, with a semi-major axis of 1 m and a period of 2 pi s.
+const ECCENTRICITY: f64 = 0.9;
+/// Number of periods.
+const PERIODS: u32 = 100;
+
+/// Creates two bodies of half a kilogram in the apocentre of their ellipse.
+fn in_apocentre(rule: Rule) -> Result<World, carom::Error> {
+    let mut world = world(rule)?;
+    world.add_force(MutualGravity::new(1.0))?;
+    let speed = libm::sqrt((1.0 - ECCENTRICITY) / (1.0 + ECCENTRICITY));
+    for side in [0.5, -0.5] {
+        let body = Sphere::new(DVec3::new(side * (1.0 + ECCENTRICITY), 0.0, 0.0), 1e-3);
+        let velocity = DVec3::new(0.0, 0.0, side * speed);
+        world.add_sphere(body.with_mass(0.5).with_velocity(velocity))?;
+    }
+    Ok(world)
+}
+
+pub fn kepler_energy() -> Claim {
+    let claim = Claim::new(
+        "two bodies, e = 0.9, by exact: energy over 100 periods [start]",
+        Expected::no_error("conservation of energy"),
+        Tolerance::absolute(1e-13, "rounding of 10,000 steps, at random"),
+        |rule| change_of_energy(in_apocentre(rule)?, PERIODS * 4, TAU / 4.0),
+    );
+    claim.about(exact())
+}
+
+pub fn kepler_phase() -> Claim {
+    let claim = Claim::new(
+        "two bodies, e = 0.9, by exact: they are back after 100 periods [periods]",
+        Expected::no_error("Kepler's third law"),
+        Tolerance::absolute(1e-10, "the period changes by 3/2 of what the energy does, each time"),
+        |rule| {
+            let mut world = in_apocentre(rule)?;
+            for _ in 0..PERIODS {
+                world.step(TAU)?;
+            }
+            // In the apocentre they move along z.
+            let z = world.spheres().positions()[0].z;
+            let speed = world.spheres().velocities()[0].z;
+            Ok(Measured::in_world(&world, (z / speed / TAU).abs()))
+        },
+    );
+    claim.about(exact())
+}
+
+pub fn pythagorean() -> Claim {
+    let claim = Claim::new(
+        "the Pythagorean problem by exact: energy at 70 s, after the ejection [start]",
+        Expected::no_error(
+            "conservation of energy (Burrau, Astron. Nachr. 195, 113 (1913); Szebehely and Peters, Astron. J. 72, \
+             876 (1967))",
+        ),
+        Tolerance::absolute(2e-10, "rounding of places, which close passages multiply"),
+        |rule| {
+            let mut world = world(rule)?;
+            world.add_force(MutualGravity::new(1.0))?;
+            for (mass, x, y) in [(3.0, 1.0, 3.0), (4.0, -2.0, -1.0), (5.0, 1.0, -1.0)] {
+                world.add_sphere(Sphere::new(DVec3::new(x, y, 0.0), 1e-6).with_mass(mass))?;
+            }
+            change_of_energy(world, 280, 0.25)
+        },
+    );
+    claim.about(exact())
+}
