@@ -30,6 +30,7 @@ export const loading = {
     screen.classList.add("done");
     // Hides the screen from screen readers, too.
     screen.setAttribute("aria-hidden", "true");
+    message.textContent = "";
   },
 
   /**

@@ -49,10 +49,30 @@ export function offerMirror(page) {
   const begin = /** @type {HTMLButtonElement} */ (document.getElementById("mirror-switch"));
   begin.hidden = false;
   nameTheField();
+  leadFirstTabTo(begin);
   begin.addEventListener("click", () => {
     begin.hidden = true;
     start(page);
   });
+}
+
+/**
+ * Leads the first press of Tab to the switch, which stands before the canvas that has the focus for
+ * its keys.
+ *
+ * @param {HTMLElement} begin
+ */
+function leadFirstTabTo(begin) {
+  const lead = (/** @type {KeyboardEvent} */ event) => {
+    if (event.key !== "Tab") return;
+    removeEventListener("keydown", lead, true);
+    const isAtCanvas = ["carom", ""].includes(document.activeElement?.id ?? "");
+    if (event.shiftKey || begin.hidden || !isAtCanvas) return;
+    event.preventDefault();
+    event.stopImmediatePropagation();
+    begin.focus();
+  };
+  addEventListener("keydown", lead, true);
 }
 
 /** Names the interface's own text field for virtual keyboards, which has no label. */
@@ -189,7 +209,9 @@ function describe(element, widget, kind) {
   const isOn = value === "true";
   const isSwitch = isOn || value === "false";
   const name =
-    value && !isSwitch && kind === "button" && value !== label ? `${label}: ${value}` : label;
+    value && !isSwitch && (kind === "button" || kind === "img") && value !== label
+      ? `${label}: ${value}`
+      : label;
   element.setAttribute("aria-label", name);
   if (element instanceof HTMLInputElement || element instanceof HTMLTextAreaElement) {
     if (range && element instanceof HTMLInputElement)

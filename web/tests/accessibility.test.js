@@ -69,6 +69,26 @@ test("an audit finds nothing grave, before the mirror is on and after", async ()
   await viewer.close();
 });
 
+test("the first Tab leads to the switch, and no old message is left", async () => {
+  const viewer = await desk.open("#scene=simtest1");
+  const { page } = viewer;
+  assert.equal(await page.evaluate(() => document.activeElement?.id), "carom");
+  await page.keyboard.press("Tab");
+  assert.equal(await page.evaluate(() => document.activeElement?.id), "mirror-switch");
+  assert.equal(await page.textContent("#message"), "");
+  await viewer.close();
+});
+
+test("menus are named by what they set, and numbers by axis and unit", async () => {
+  const viewer = await mirrored("#scene=simtest1");
+  const { page } = viewer;
+  await page.getByRole("button", { name: "Method (rule): discrete", exact: true }).waitFor();
+  for (const axis of ["x", "y", "z"]) {
+    await page.getByRole("spinbutton", { name: `Force ${axis}, N`, exact: true }).waitFor();
+  }
+  await viewer.close();
+});
+
 test("buttons have their names and states, and do what those of the canvas do", async () => {
   const viewer = await mirrored("#scene=simtest1");
   const { page } = viewer;
@@ -87,7 +107,9 @@ test("buttons have their names and states, and do what those of the canvas do", 
 
 test("a slider is set by its number", async () => {
   const viewer = await mirrored("#scene=simtest1");
-  const slider = viewer.page.getByRole("slider", { name: "Restitution of PlaneCollider" });
+  const slider = viewer.page.getByRole("slider", {
+    name: "Bounciness (restitution) of PlaneCollider",
+  });
   await slider.first().evaluate((element) => {
     /** @type {HTMLInputElement} */ (element).value = "0.25";
     element.dispatchEvent(new Event("input"));

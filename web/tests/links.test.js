@@ -98,9 +98,8 @@ test("the camera is where it was after the page is loaded again", async () => {
 
 test("what was changed by hand goes with the link, and gives the same bits elsewhere", async () => {
   const viewer = await desk.choose("simtest1");
-  await viewer.page.keyboard.press("p");
   await viewer.until(({ watching }) => watching.time > 0.5);
-  await viewer.click("Restitution of PlaneCollider", { role: "Slider", part: 0.25 });
+  await viewer.click("Bounciness (restitution) of PlaneCollider", { role: "Slider", part: 0.1 });
   await viewer.until(({ watching }) => watching.restitutions[0] < 0.5);
   await viewer.until(({ watching }) => watching.time > 1);
   await viewer.page.keyboard.press("u");

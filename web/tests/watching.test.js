@@ -44,8 +44,7 @@ test("a scene that is clicked on is watched, and its balls move", async () => {
   const viewer = await desk.show();
   await viewer.click("cradle", { role: "Button" });
   await viewer.until((status) => status.watching?.scene === "cradle" && !status.choosing);
-  await viewer.page.keyboard.press("p");
-  await viewer.until(({ watching }) => watching.time > 0.5);
+  await viewer.until(({ watching }) => watching.playing && watching.time > 0.5);
   const early = await viewer.keepPicture("cradle-early");
   const { watching: then } = await viewer.until(({ watching }) => watching.time > 2);
   const late = await viewer.keepPicture("cradle-late");
@@ -98,7 +97,7 @@ test("a restitution that is changed while the scene runs stays changed", async (
   const viewer = await desk.watch("simtest1");
   await viewer.page.keyboard.press("p");
   const { watching: before } = await viewer.until(({ watching }) => watching.frame > 5);
-  await viewer.click("Restitution of PlaneCollider", { role: "Slider", part: 0.25 });
+  await viewer.click("Bounciness (restitution) of PlaneCollider", { role: "Slider", part: 0.1 });
   const { watching: changed } = await viewer.until(
     ({ watching }) => watching.restitutions[0] < 0.5 && watching.playing,
   );

@@ -29,6 +29,8 @@ pub struct Drawing {
     pub framing: Option<Framing>,
     /// Whether a grid is drawn below the scene where no floor reaches the horizon.
     pub has_grid: bool,
+    /// Whether surfaces in front of many balls are drawn in full, too, instead of as glass.
+    pub keeps_whole: bool,
 }
 
 /// A pattern painted on a ball.

@@ -87,7 +87,8 @@ impl Instances {
         balls.extend(opaque().filter(|ball| !is_small(ball)).map(packed));
         casting[0] = balls.len();
         balls.extend(drawing.balls.iter().filter(is_mark).map(packed));
-        let is_hiding = |it: &&Panel| it.opacity == 1.0 && cutaway::hides(it, eye, &framing.balls);
+        let may_hide = |it: &&Panel| it.opacity == 1.0 && !drawing.keeps_whole;
+        let is_hiding = |it: &&Panel| may_hide(it) && cutaway::hides(it, eye, &framing.balls);
         let is_solid = |it: &&Panel| it.opacity == 1.0 && !is_hiding(it);
         let solid = drawing.panels.iter().filter(is_solid);
         solid.for_each(|panel| add_panel(panel, eye, faces, boxes));

@@ -29,10 +29,16 @@ pub enum Edit {
     ColliderRestitution(ColliderId, f64),
     /// Sets the coefficient of restitution of all colliders.
     AllColliderRestitutions(f64),
+    /// Sets the coefficient of restitution of all colliders with this group name, see
+    /// [`group_name`](crate::group_name).
+    NamedColliderRestitutions(String, f64),
     /// Sets the friction of a collider.
     ColliderFriction(ColliderId, Friction),
     /// Sets the friction of all colliders.
     AllColliderFrictions(Friction),
+    /// Sets the friction of all colliders with this group name, see
+    /// [`group_name`](crate::group_name).
+    NamedColliderFrictions(String, Friction),
     /// Replaces an emitter. If its period changes, it starts again now.
     Emitter(EmitterId, Box<Emitter>),
     /// Changes a sphere.
@@ -132,6 +138,15 @@ impl Edit {
                 Some(later.clone())
             }
             (Self::ColliderFriction(id, _), Self::ColliderFriction(same, _)) if id == same => {
+                Some(later.clone())
+            }
+            (
+                Self::NamedColliderRestitutions(name, _),
+                Self::NamedColliderRestitutions(same, _),
+            )
+            | (Self::NamedColliderFrictions(name, _), Self::NamedColliderFrictions(same, _))
+                if name == same =>
+            {
                 Some(later.clone())
             }
             _ => None,

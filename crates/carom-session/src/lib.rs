@@ -70,6 +70,6 @@ pub use readings::{PickedReading, RATE_WINDOW, Reading};
 pub use replay::Replay;
 pub use series::MAX_POINTS;
 pub use session::Session;
-pub use setup::Setup;
+pub use setup::{Setup, group_name};
 pub use view::{MARKED, Playback, SphereArrays, View};
 pub use watched::Watched;

@@ -62,3 +62,16 @@ pub(crate) fn describe_emitter(emitter: &carom::Emitter, description: &mut Emitt
     description.count = emitter.count;
     description.needs_room = emitter.needs_room;
 }
+
+/// Returns the name of a collider without the numbers that generators add: "peg" for "peg 3-12".
+/// Colliders of the same group name are changed together.
+pub fn group_name(name: &str) -> &str {
+    let is_number = |text: &str| {
+        let mut parts = text.split('-');
+        parts.all(|it| !it.is_empty() && it.bytes().all(|byte| byte.is_ascii_digit()))
+    };
+    match name.rsplit_once(' ') {
+        Some((group, number)) if !group.is_empty() && is_number(number) => group,
+        _ => name,
+    }
+}

@@ -10,7 +10,7 @@ use crate::change::Change;
 use crate::edit::Edit;
 use crate::error::SessionError;
 use crate::looks::{self, Looks};
-use crate::setup::{Setup, describe_emitter};
+use crate::setup::{Setup, describe_emitter, group_name};
 
 /// Everything that edits change.
 pub(crate) struct Subjects<'a> {
@@ -48,13 +48,19 @@ impl Subjects<'_> {
                 set_collider(*id, world, setup, |it| it.with_restitution(*restitution))
             }
             Edit::AllColliderRestitutions(restitution) => {
-                set_all_colliders(world, setup, |it| it.with_restitution(*restitution))
+                set_colliders(None, world, setup, |it| it.with_restitution(*restitution))
+            }
+            Edit::NamedColliderRestitutions(name, restitution) => {
+                set_colliders(Some(name), world, setup, |it| it.with_restitution(*restitution))
             }
             Edit::ColliderFriction(id, friction) => {
                 set_collider(*id, world, setup, |it| it.with_friction(*friction))
             }
             Edit::AllColliderFrictions(friction) => {
-                set_all_colliders(world, setup, |it| it.with_friction(*friction))
+                set_colliders(None, world, setup, |it| it.with_friction(*friction))
+            }
+            Edit::NamedColliderFrictions(name, friction) => {
+                set_colliders(Some(name), world, setup, |it| it.with_friction(*friction))
             }
             Edit::Emitter(id, emitter) => {
                 set_emitter(*id, emitter, scene, Subjects { world, setup, looks })
@@ -173,14 +179,17 @@ fn set_collider(
     Ok(())
 }
 
-/// Changes restitution or friction of all colliders.
-fn set_all_colliders(
+/// Changes restitution or friction of all colliders with this group name; `None` for all.
+fn set_colliders(
+    name: Option<&String>,
     world: &mut World,
     setup: &mut Arc<Setup>,
     change: impl Fn(Collider) -> Collider,
 ) -> Result<(), SessionError> {
     // A value that one collider refuses is refused by the first, so that none is changed.
-    let ids: Vec<ColliderId> = setup.colliders.iter().map(|(id, _)| *id).collect();
+    let is_changed = |it: &scene::Collider| name.is_none_or(|name| group_name(&it.name) == name);
+    let changed = setup.colliders.iter().filter(|(_, it)| is_changed(it));
+    let ids: Vec<ColliderId> = changed.map(|(id, _)| *id).collect();
     ids.into_iter().try_for_each(|id| set_collider(id, world, setup, &change))
 }
 

@@ -59,9 +59,42 @@ impl Action {
     }
 }
 
+/// What a key is for; the help lists keys in these groups.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Group {
+    /// Playing, and going to other times.
+    Time,
+    /// Cameras.
+    View,
+    /// Panels and marks.
+    Measure,
+    /// Pictures, films and links.
+    Share,
+    /// The window itself.
+    Window,
+}
+
+impl Group {
+    /// All groups, in the order of the help.
+    pub const ALL: [Self; 5] = [Self::Time, Self::View, Self::Measure, Self::Share, Self::Window];
+
+    /// Returns the heading of the group.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Time => "Time and edits",
+            Self::View => "Camera",
+            Self::Measure => "What is shown",
+            Self::Share => "Share",
+            Self::Window => "Window",
+        }
+    }
+}
+
 /// An action with its keys and its text.
 #[derive(Debug, Clone, Copy)]
 pub struct Shortcut {
+    /// The group of the help that lists it.
+    pub group: Group,
     /// The action.
     pub action: Action,
     /// The keys; each of them triggers the action.
@@ -96,45 +129,58 @@ const fn shift(key: KeyboardShortcut) -> KeyboardShortcut {
 }
 
 macro_rules! shortcuts {
-    ($($action:ident: [$($key:expr),*], $text:literal;)*) => {
-        /// All shortcuts, in the order of the help. Keys with Shift come before the same keys
-        /// without, which would match them, too.
-        pub const SHORTCUTS: &[Shortcut] = &[
-            $(Shortcut { action: Action::$action, keys: &[$($key),*], text: $text },)*
-        ];
+    ($($group:ident { $($action:ident: [$($key:expr),*], $text:literal;)* })*) => {
+        /// All shortcuts, in the order of the help. Keys are compared with their modifiers first,
+        /// so that Shift + Home is not Home.
+        pub const SHORTCUTS: &[Shortcut] = &[$($(Shortcut {
+            group: Group::$group,
+            action: Action::$action,
+            keys: &[$($key),*],
+            text: $text,
+        },)*)*];
     };
 }
 
 shortcuts! {
-    Choose: [key(Key::Enter)], "choose a scene";
-    PlayOrPause: [key(Key::P)], "play or pause";
-    Step: [key(Key::Period)], "one frame forward";
-    StepBack: [key(Key::Comma)], "one frame back";
-    RestartWithValues: [shift(key(Key::Home))], "back to the start, with the values set since";
-    Restart: [key(Key::Home)], "back to the start; edits come again at their times";
-    Redo: [shift(command(Key::Z)), command(Key::Y)], "make the edit again that was taken back";
-    Undo: [command(Key::Z)], "take back the last edit, and go where it was made";
-    Faster: [key(Key::Plus), key(Key::Equals)], "faster";
-    Slower: [key(Key::Minus)], "slower";
-    Screenshot: [key(Key::Space)], "save a picture with the time on it";
-    Record: [key(Key::R)], "start or stop recording a film";
-    Save: [command(Key::S)], "save the present state as a scene file";
-    Link: [key(Key::U)], "a link to this run, for others";
-    SceneCamera: [key(Key::Num1)], "the scene's camera";
-    FrontCamera: [key(Key::Num2)], "camera in front";
-    TopCamera: [key(Key::Num3)], "camera above";
-    Fit: [key(Key::Num0)], "keep all there is in the picture, or stop doing so";
-    Follow: [key(Key::F)], "follow the picked ball, or stop following";
-    Inspector: [key(Key::I)], "show or hide the inspector";
-    Plots: [key(Key::G)], "show or hide the plots";
-    Impacts: [key(Key::L)], "show or hide the list of impacts";
-    Velocities: [key(Key::V)], "show or hide velocities";
-    Contacts: [key(Key::K)], "show or hide contacts";
-    Forces: [key(Key::C)], "show or hide contact forces";
-    Compare: [key(Key::X)], "the same scene under two rules, side by side";
-    Theme: [key(Key::T)], "light or dark";
-    Help: [key(Key::F1), key(Key::Questionmark)], "this list";
-    Close: [key(Key::Escape)], "close a dialog or a message";
+    Time {
+        PlayOrPause: [key(Key::P)], "play or pause";
+        Step: [key(Key::Period)], "one frame forward";
+        StepBack: [key(Key::Comma)], "one frame back";
+        Restart: [key(Key::Home)], "back to the start; edits come again at their times";
+        RestartWithValues: [shift(key(Key::Home))], "back to the start, with the values set since";
+        Undo: [command(Key::Z)], "take back the last edit, and go where it was made";
+        Redo: [shift(command(Key::Z)), command(Key::Y)], "make the edit again that was taken back";
+        Faster: [key(Key::Plus), key(Key::Equals)], "faster";
+        Slower: [key(Key::Minus)], "slower";
+    }
+    View {
+        SceneCamera: [key(Key::Num1)], "the scene's camera";
+        FrontCamera: [key(Key::Num2)], "camera in front";
+        TopCamera: [key(Key::Num3)], "camera above";
+        Fit: [key(Key::Num0)], "keep all there is in the picture, or stop doing so";
+        Follow: [key(Key::F)], "follow the picked ball, or stop following";
+    }
+    Measure {
+        Plots: [key(Key::G)], "show or hide the plots";
+        Impacts: [key(Key::L)], "show or hide the list of impacts";
+        Velocities: [key(Key::V)], "show or hide velocities";
+        Contacts: [key(Key::K)], "show or hide contacts";
+        Forces: [key(Key::C)], "show or hide contact forces";
+        Compare: [key(Key::X)], "the same scene under two rules, side by side";
+    }
+    Share {
+        Screenshot: [key(Key::Space)], "save a picture with the time on it";
+        Record: [key(Key::R)], "start or stop recording a film";
+        Save: [command(Key::S)], "save the present state as a scene file";
+        Link: [key(Key::U)], "a link to this run, for others";
+    }
+    Window {
+        Choose: [key(Key::Enter)], "choose a scene";
+        Inspector: [key(Key::I)], "show or hide the inspector";
+        Theme: [key(Key::T)], "light or dark";
+        Help: [key(Key::F1), key(Key::Questionmark)], "this list";
+        Close: [key(Key::Escape)], "close a dialog or a message";
+    }
 }
 
 /// Controls of a maze, for the help.
@@ -177,6 +223,9 @@ pub fn pressed(context: &Context, without_enter: bool) -> Vec<Action> {
             shortcut.keys.iter().filter(is_of_use).any(|key| input.consume_shortcut(key)) && counts
         })
     };
-    let all = SHORTCUTS.iter().filter(|it| !(without_enter && it.action == Action::Choose));
-    all.filter(is_pressed).map(|it| it.action).collect()
+    let mut all: Vec<&Shortcut> =
+        SHORTCUTS.iter().filter(|it| !(without_enter && it.action == Action::Choose)).collect();
+    // Keys without Shift would match those with it, too.
+    all.sort_by_key(|it| !it.keys.iter().any(|key| key.modifiers.shift));
+    all.into_iter().filter(is_pressed).map(|it| it.action).collect()
 }

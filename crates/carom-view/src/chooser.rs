@@ -100,8 +100,16 @@ impl Chooser {
             let name = name.unwrap_or_else(|_| path.display().to_string());
             card(Entry { name, scene, source: Source::File(path.clone()) }, true)
         };
-        let recent = recent.iter().filter(|path| path.is_file()).map(of_file);
-        let all = library.entries()?.into_iter().map(|entry| card(entry, false));
+        let files = recent.iter().filter(|path| path.is_file()).map(of_file);
+        let is_recent = |entry: &Entry| match &entry.source {
+            Source::File(path) => {
+                let path = std::path::absolute(path).unwrap_or_else(|_| path.clone());
+                recent.contains(&path)
+            }
+            _ => false,
+        };
+        let all = library.entries()?.into_iter().filter(|entry| !is_recent(entry));
+        let all = all.map(|entry| card(entry, false));
         let mut before = std::mem::take(&mut self.cards);
         let with_thumbnail = |mut card: Card| {
             if let Some(old) = before.iter_mut().find(|old| old.shows_same(&card)) {
@@ -109,7 +117,7 @@ impl Chooser {
             }
             card
         };
-        self.cards = recent.chain(all).map(with_thumbnail).collect();
+        self.cards = files.chain(all).map(with_thumbnail).collect();
         Ok(())
     }
 

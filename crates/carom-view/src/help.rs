@@ -2,29 +2,62 @@
 
 use egui::{Align2, Context, Grid, RichText, Ui, Window};
 
-use crate::action::{MAZE, MOUSE, SHORTCUTS};
+use crate::action::{Group, MAZE, MOUSE, SHORTCUTS};
 use crate::layout::{scrolled_within, show_closable};
 
-/// Shows all shortcuts and mouse actions; in a maze, first its controls.
+/// Width of the window from which on the list has two columns, in points.
+const TWO_COLUMNS: f32 = 900.0;
+
+/// Shows all shortcuts and mouse actions in groups; in a maze, first its controls.
 pub fn show(context: &Context, open: &mut bool, is_maze: bool) {
     const TITLE: &str = "Keys and mouse";
     let window = Window::new(TITLE).anchor(Align2::CENTER_CENTER, [0.0, 0.0]).resizable(false);
     show_closable(TITLE, window, context, open, |ui| {
         // A small window scrolls the list.
-        let room = (ui.ctx().content_rect().height() - 90.0).max(120.0);
-        scrolled_within(room).show(ui, |ui| list(ui, is_maze));
+        let size = ui.ctx().content_rect().size();
+        let room = (size.y - 90.0).max(120.0);
+        scrolled_within(room).show(ui, |ui| {
+            let groups = groups(is_maze);
+            if size.x < TWO_COLUMNS {
+                groups.iter().for_each(|group| list(ui, group));
+                return;
+            }
+            // What the hand does is the last group, as long as half of the others.
+            let half = groups.len() / 2;
+            ui.horizontal_top(|ui| {
+                for part in [&groups[..half], &groups[half..]] {
+                    ui.vertical(|ui| part.iter().for_each(|group| list(ui, group)));
+                    ui.add_space(12.0);
+                }
+            });
+        });
     });
 }
 
-fn list(ui: &mut Ui, is_maze: bool) {
-    Grid::new("keys").num_columns(2).spacing([24.0, 4.0]).striped(true).show(ui, |ui| {
-        let of_maze = MAZE.iter().filter(|_| is_maze);
-        let steering = of_maze.map(|(how, text)| ((*how).to_owned(), *text));
-        let keys = SHORTCUTS.iter().map(|it| (it.keys_text(), it.text));
-        let gestures = MOUSE.iter().map(|(gesture, text)| ((*gesture).to_owned(), *text));
-        for (how, text) in steering.chain(keys).chain(gestures) {
+/// A heading, and the controls below it with their texts.
+type Listed = (&'static str, Vec<(String, &'static str)>);
+
+/// Returns the groups of the help.
+fn groups(is_maze: bool) -> Vec<Listed> {
+    let plain = |all: &[(&str, &'static str)]| -> Vec<_> {
+        all.iter().map(|(how, text)| ((*how).to_owned(), *text)).collect()
+    };
+    let of_keys = |group: Group| {
+        let own = SHORTCUTS.iter().filter(|it| it.group == group);
+        (group.title(), own.map(|it| (it.keys_text(), it.text)).collect())
+    };
+    let maze = is_maze.then(|| ("Maze", plain(MAZE)));
+    let mouse = ("Mouse and fingers", plain(MOUSE));
+    maze.into_iter().chain(Group::ALL.map(of_keys)).chain([mouse]).collect()
+}
+
+fn list(ui: &mut Ui, (title, rows): &Listed) {
+    ui.add_space(6.0);
+    ui.label(RichText::new(*title).strong().size(15.0));
+    Grid::new(*title).num_columns(2).spacing([16.0, 3.0]).min_col_width(120.0).show(ui, |ui| {
+        for (how, text) in rows {
             ui.label(RichText::new(how).strong());
-            ui.label(text);
+            ui.label(*text);
             ui.end_row();
         }
     });

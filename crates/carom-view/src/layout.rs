@@ -5,21 +5,39 @@ use egui::{Align, Button, Context, Layout, Panel, Rect, ScrollArea, Ui, Vec2, Wi
 /// Width below which a window counts as that of a telephone, in points.
 const NARROW: f32 = 640.0;
 
-/// Part of the picture that a sheet at its lower edge leaves free.
-const FREE: f32 = 0.55;
+/// Width below which panels are sheets over the picture, in points.
+const SHEETS: f32 = 900.0;
 
-/// Returns whether the window is narrow. Then bars take two lines, rare actions move into menus,
-/// and panels are sheets over the lower part of the picture.
+/// Largest part of the picture that a sheet covers.
+const SHEET: f32 = 0.4;
+
+/// Returns whether the window is narrow. Then the transport takes three lines, and all menus of the
+/// top bar are in one.
 pub fn is_narrow(ui: &Ui) -> bool {
     ui.ctx().content_rect().width() < NARROW
+}
+
+/// Returns whether panels are sheets over the picture, one at a time.
+pub fn has_sheets(ui: &Ui) -> bool {
+    ui.ctx().content_rect().width() < SHEETS
+}
+
+/// Returns whether the window is both narrow and low, as where a page embeds it.
+pub fn is_compact(ui: &Ui) -> bool {
+    is_narrow(ui) && is_low(ui)
+}
+
+/// Returns whether the window is as low as that of a telephone held sideways.
+pub fn is_low(ui: &Ui) -> bool {
+    ui.ctx().content_rect().height() < LOW
 }
 
 /// Height below which a window counts as that of a telephone held sideways, in points.
 const LOW: f32 = 480.0;
 
-/// Returns whether the top bar has only one line.
-pub fn bar_has_one_line(ui: &Ui) -> bool {
-    is_narrow(ui) || ui.ctx().content_rect().height() < LOW
+/// Returns whether all menus of the top bar are in one.
+pub fn has_one_menu(ui: &Ui) -> bool {
+    is_narrow(ui)
 }
 
 /// Makes a scrolling list that has this height in points at once; otherwise it would grow from
@@ -108,8 +126,9 @@ pub struct Beside {
 }
 
 impl Beside {
-    /// Shows the panel if it is `open`: beside the picture if the picture keeps half of the window,
-    /// else over the picture. `room` is the width left for panels, in points.
+    /// Shows the panel if it is `open`: beside the picture in a wide window if the picture keeps
+    /// half of it, else over the picture. `room` is the width left for panels, in points. A panel
+    /// with a single width is not resizable.
     pub fn show(
         self,
         ui: &mut Ui,
@@ -121,25 +140,30 @@ impl Beside {
             return;
         }
         let [least, usual, largest] = self.widths;
-        if is_narrow(ui) || *room < least {
+        if has_sheets(ui) || *room < least {
             return self.over(ui, open, contents);
         }
         let largest = largest.min(*room);
         let id = self.title.to_lowercase();
         let panel = if self.is_right { Panel::right(id) } else { Panel::left(id) };
-        let shown =
-            panel.default_size(usual.min(largest)).size_range(least..=largest).show(ui, contents);
+        let panel = if least == largest {
+            panel.resizable(false).exact_size(least)
+        } else {
+            panel.default_size(usual.min(largest)).size_range(least..=largest)
+        };
+        let shown = panel.show(ui, contents);
         *room -= shown.response.rect.width();
     }
 
-    /// Shows the panel over the picture: at its side, in a narrow window at its lower edge.
+    /// Shows the panel over the picture: at its lower edge, in a low window at its side.
     fn over(self, ui: &Ui, open: &mut bool, contents: impl FnOnce(&mut Ui)) {
         let picture = ui.available_rect_before_wrap();
         let mut place = picture.shrink(4.0);
-        if is_narrow(ui) {
-            place.min.y += FREE * picture.height();
+        if has_sheets(ui) && !is_low(ui) {
+            place.min.y = picture.bottom() - SHEET * picture.height();
         } else {
-            let width = self.widths[1].min(place.width());
+            let most = if is_low(ui) { SHEET * picture.width() } else { place.width() };
+            let width = self.widths[1].min(most);
             let left = if self.is_right { place.right() - width } else { place.left() };
             place = Rect::from_min_size(
                 egui::pos2(left, place.top()),

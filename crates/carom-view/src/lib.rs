@@ -24,6 +24,7 @@ mod layout;
 mod link_dialog;
 mod look;
 mod maze_screen;
+mod menu;
 mod naming;
 mod notices;
 mod orbit;
@@ -42,7 +43,7 @@ mod watching;
 pub mod window;
 mod written_scene;
 
-pub use action::{Action, SHORTCUTS, Shortcut};
+pub use action::{Action, Group, SHORTCUTS, Shortcut};
 pub use app::{App, Setup, Start};
 #[cfg(not(target_arch = "wasm32"))]
 pub use desktop::{Desktop, default_folder};

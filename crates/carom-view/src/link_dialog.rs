@@ -83,9 +83,8 @@ impl LinkDialog {
             );
             if is_local(link) {
                 ui.weak(
-                    "The address leads to this machine alone, where `cargo xtask web --serve` \
-                     serves the page. `carom view --page URL`, $CAROM_PAGE or the configuration \
-                     file name one that others reach.",
+                    "This address works on this machine alone. Others can use the command, or a \
+                     page that is published.",
                 );
             }
             let now = ui.input(|input| input.time);

@@ -45,7 +45,6 @@ pub struct DrawOptions {
 const TRIGGER: Color = [0.95, 0.76, 0.20];
 const VELOCITY: Color = [0.13, 0.55, 0.33];
 const CONTACT: Color = [0.93, 0.26, 0.21];
-const PICKED: Color = [1.0, 0.62, 0.10];
 
 /// Length of the normal of a contact, in radii of the sphere.
 const NORMAL_LENGTH: f64 = 1.5;
@@ -97,12 +96,10 @@ fn add_spheres(view: &View, look: &DrawOptions, drawing: &mut Drawing) {
     let spheres = &view.spheres;
     let common =
         view.scene.colors.as_ref().and_then(|colors| colors.spheres).unwrap_or(Palette::SPHERE);
-    let picked = view.picked.and_then(|id| spheres.index_of(id));
     for i in 0..spheres.ids.len() {
         let center = place(view, i, look.blend);
         let paint = spheres.paints[i];
-        let color = if picked == Some(i) { PICKED } else { paint.color.unwrap_or(common) };
-        let coat = Coat { color, finish: paint.finish };
+        let coat = Coat { color: paint.color.unwrap_or(common), finish: paint.finish };
         let orientation = spheres.orientation(i, look.blend);
         drawing.balls.push(Ball::from_sphere(center, spheres.radii[i], coat, orientation));
         if look.marks.velocities {

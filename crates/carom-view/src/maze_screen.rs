@@ -2,7 +2,7 @@
 
 use carom::DVec3;
 use carom_maze::{Game, GameError, GameEvent, GameState, Maze, Options, Steering, Tilt};
-use carom_render::{Camera, Drawing, GpuError, Roll, draw_world};
+use carom_render::{Drawing, GpuError, Roll, draw_world};
 use carom_scene::Palette;
 use carom_session::{Link, Pace};
 use egui::{Align2, Area, Frame, Id, Image, Key, Pos2, Response, RichText, Sense, Ui, Vec2};
@@ -17,6 +17,9 @@ use crate::studio::{Canvas, Studio};
 /// walls.
 const FRICTION: f64 = 0.15;
 
+/// Direction from the maze to the camera: steep, so that walls hide little of the floor.
+const FROM: DVec3 = DVec3::new(0.0, 1.0, 0.45);
+
 /// The player's task, with and without collectibles.
 const GOALS: [&str; 2] =
     ["Touch the red wall; collect all for a best time.", "Touch the red wall."];
@@ -28,7 +31,10 @@ pub struct MazeScreen {
     pace: Pace,
     palette: Palette,
     roll: Roll,
+    /// `None` until there is a picture to fit the maze into.
     orbit: Option<Orbit>,
+    /// The preset that the camera starts from.
+    camera: Preset,
     canvas: Canvas,
     drawing: Drawing,
     dark: bool,
@@ -82,6 +88,7 @@ impl MazeScreen {
             palette,
             roll: Roll::START,
             orbit: None,
+            camera: Preset::Scene,
             canvas: Canvas::default(),
             drawing: Drawing::default(),
             dark: false,
@@ -250,13 +257,17 @@ impl MazeScreen {
 
     /// Moves the camera to a preset.
     pub fn look_from(&mut self, preset: Preset) {
-        self.orbit = Some(self.preset(preset, 16.0 / 9.0));
+        self.orbit = None;
+        self.camera = preset;
     }
 
     fn preset(&mut self, preset: Preset, aspect: f64) -> Orbit {
         self.draw();
         let bounds = self.drawing.bounds().unwrap_or(carom_render::Bounds::UNIT);
-        Orbit::preset(preset, Camera::of_scene(self.game.scene()), &bounds, aspect)
+        if preset == Preset::Scene {
+            return Orbit::fitted(&bounds, FROM, aspect);
+        }
+        Orbit::preset(preset, None, &bounds, aspect)
     }
 
     fn draw(&mut self) {
@@ -269,6 +280,8 @@ impl MazeScreen {
         };
         let Self { game, palette, drawing, .. } = self;
         draw_world(game.scene(), game.world(), palette, |_| Some(rotation), drawing);
+        // A floor that became glass would hide where the ball may go.
+        self.drawing.keeps_whole = true;
         if self.dark {
             self.drawing.light = self.drawing.light.at_dusk();
         }
@@ -288,12 +301,12 @@ impl MazeScreen {
         let aspect = f64::from(size.x / size.y);
         let mut orbit = match self.orbit {
             Some(orbit) => orbit,
-            None => self.preset(Preset::Scene, aspect),
+            None => self.preset(self.camera, aspect),
         };
         self.hand(ui, &response, &mut orbit);
         self.orbit = Some(orbit);
         self.draw();
-        studio.draw(&mut self.canvas, size, &self.drawing, &orbit.camera.in_picture(aspect));
+        studio.draw(&mut self.canvas, size, &self.drawing, &orbit.in_picture(aspect));
         if let Some(texture) = self.canvas.texture() {
             Image::new((texture, rect.size())).paint_at(ui, rect);
         }
@@ -450,9 +463,9 @@ impl MazeScreen {
         let aspect = f64::from(width) / f64::from(height);
         let orbit = match self.orbit {
             Some(orbit) => orbit,
-            None => self.preset(Preset::Scene, aspect),
+            None => self.preset(self.camera, aspect),
         };
-        let camera = orbit.camera.in_picture(aspect);
+        let camera = orbit.in_picture(aspect);
         Ok(Snapshot { parts: vec![studio.picture([width, height], &self.drawing, &camera)?] })
     }
 }

@@ -19,6 +19,15 @@ pub struct Orbit {
 /// would become left.
 const NEAREST_TO_POLE: f64 = 0.01;
 
+/// Ratio of width to height that scenes are made for.
+const WIDE: f64 = 16.0 / 9.0;
+
+/// Largest vertical angle of view to which a narrow picture opens a camera \[°\].
+const WIDEST: f64 = 50.0;
+
+/// Space around fitted bounds, relative to them.
+const MARGIN: f64 = 1.04;
+
 impl Orbit {
     /// Returns an orbit of this camera whose target is the point of its axis nearest to the middle
     /// of `bounds`.
@@ -30,8 +39,48 @@ impl Orbit {
 
     /// Returns a preset that shows `bounds` in a picture with this ratio of width to height.
     pub fn preset(preset: Preset, of_scene: Option<Camera>, bounds: &Bounds, aspect: f64) -> Self {
-        // Narrower pictures show more above and below when they are drawn.
-        Self::about(preset.camera(of_scene, bounds, aspect.max(16.0 / 9.0)), bounds)
+        let wide = preset.camera(of_scene, bounds, aspect.max(WIDE));
+        if preset == Preset::Scene && of_scene.is_some() {
+            return Self::about(wide, bounds);
+        }
+        Self::fitted(bounds, -wide.ahead(), aspect)
+    }
+
+    /// Returns an orbit that shows `bounds` from this direction in a picture with this ratio of
+    /// width to height, see [`Self::in_picture`].
+    pub fn fitted(bounds: &Bounds, direction: DVec3, aspect: f64) -> Self {
+        let wide = Camera::fitted(bounds, direction, aspect.max(WIDE));
+        if aspect >= WIDE {
+            return Self::about(wide, bounds);
+        }
+        // A narrower picture has room above and below.
+        let sideways = (0.5 * wide.vertical_fov).tan() * WIDE / MARGIN;
+        let upward = sideways / aspect;
+        let to_camera = wide.rotation.inverse();
+        let needed = bounds.corners().map(|corner| {
+            let seen = to_camera * (corner - bounds.center());
+            (seen.x.abs() / sideways).max(seen.y.abs() / upward) + seen.z
+        });
+        let distance = needed.into_iter().fold(1e-6, f64::max);
+        let position = bounds.center() - distance * wide.ahead();
+        Self::about(Camera { position, ..wide }, bounds)
+    }
+
+    /// Returns the camera for a picture with this ratio of width to height. Scenes are made for
+    /// 16:9; in a narrower picture the camera shows more above and below instead of less at the
+    /// sides: by a wider angle of view up to [`WIDEST`], beyond that from farther away, because
+    /// balls at the edges of a wide picture look like eggs.
+    pub fn in_picture(&self, aspect: f64) -> Camera {
+        let widened = (WIDE / aspect).max(1.0);
+        let opening = (0.5 * self.camera.vertical_fov).tan();
+        let most = opening.max((0.5 * WIDEST.to_radians()).tan());
+        let upward = (opening * widened).min(most);
+        let back = self.distance * (opening * widened / upward - 1.0);
+        Camera {
+            vertical_fov: 2.0 * upward.atan(),
+            position: self.camera.position - back * self.camera.ahead(),
+            ..self.camera
+        }
     }
 
     /// Returns the camera of a link, with a level horizon.
@@ -87,6 +136,17 @@ impl Orbit {
         }
     }
 
+    /// Moves the camera nearer to a point \[m\] for a factor above 1, away for one below. The point
+    /// keeps its place in the picture.
+    pub fn zoom_on(&mut self, factor: f64, point: DVec3) {
+        let distance = self.distance / factor;
+        if distance.is_finite() && distance > 0.0 {
+            self.distance = distance;
+            self.camera.near = self.camera.near.min(1e-2 * distance);
+            self.camera.position = point + (self.camera.position - point) / factor;
+        }
+    }
+
     /// Moves the camera by this vector \[m\].
     pub fn follow(&mut self, by: DVec3) {
         self.camera.position += by;
@@ -99,7 +159,7 @@ impl Orbit {
         // Largest distance between the target and the middle of `bounds`, in radii.
         const BEHIND: f64 = 0.4;
         let direction = -self.camera.ahead();
-        let fitted = Self::about(Camera::fitted(bounds, direction, aspect.max(16.0 / 9.0)), bounds);
+        let fitted = Self::fitted(bounds, direction, aspect);
         // The camera's field of view may differ from that of fitted cameras.
         let opening = |camera: &Camera| (0.5 * camera.vertical_fov).tan();
         let scale = opening(&fitted.camera) / opening(&self.camera);
@@ -126,4 +186,51 @@ const SCROLL: f64 = if cfg!(target_arch = "wasm32") { 750.0 } else { 300.0 };
 pub fn zoom_asked(ui: &Ui) -> f64 {
     let (scrolled, pinched) = ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
     f64::from(pinched) * (f64::from(scrolled) / SCROLL).exp()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn orbit() -> Orbit {
+        let camera = Camera::looking_at(DVec3::Z * 10.0, DVec3::ZERO, 35f64.to_radians());
+        Orbit { camera, distance: 10.0 }
+    }
+
+    #[test]
+    fn a_zoom_on_a_point_keeps_its_place_in_the_picture() {
+        let mut orbit = orbit();
+        let point = DVec3::new(1.0, 0.5, 2.0);
+        let place = |orbit: &Orbit| orbit.camera.place(point, 1.5).unwrap();
+        let before = place(&orbit);
+        orbit.zoom_on(3.0, point);
+        // The projection has 32 bits.
+        assert!(place(&orbit).distance(before) < 1e-5);
+        let left = (orbit.camera.position - point).length();
+        assert!((left * 3.0 - (DVec3::Z * 10.0 - point).length()).abs() < 1e-9);
+    }
+
+    #[test]
+    fn tall_pictures_show_the_same_width_without_a_wide_angle() {
+        for aspect in [16.0 / 9.0, 1.3, 390.0 / 844.0] {
+            let camera = orbit().in_picture(aspect);
+            // What is at the right edge of a wide picture stays there.
+            let edge = DVec3::X * 10.0 * (0.5 * 35f64.to_radians()).tan() * WIDE;
+            let place = camera.place(edge, aspect).unwrap();
+            assert!((place.x - 1.0).abs() < 1e-5, "{aspect}: {place}");
+            assert!(camera.vertical_fov <= WIDEST.to_radians() + 1e-12, "{aspect}");
+        }
+    }
+
+    #[test]
+    fn fitted_bounds_fill_a_tall_picture_and_none_of_them_is_cut_off() {
+        let bounds = Bounds { min: DVec3::new(-3.0, 0.0, -2.0), max: DVec3::new(3.0, 1.0, 2.0) };
+        for aspect in [2.0, 1.0, 390.0 / 700.0] {
+            let orbit = Orbit::fitted(&bounds, DVec3::new(0.0, 1.3, 0.6), aspect);
+            let camera = orbit.in_picture(aspect);
+            let places = bounds.corners().map(|corner| camera.place(corner, aspect).unwrap());
+            let most = places.iter().map(|it| it.abs().max_element()).fold(0.0, f32::max);
+            assert!(most > 0.8 && most <= 1.0, "{aspect}: {most}");
+        }
+    }
 }

@@ -1,16 +1,16 @@
 //! The transport bar: play, step, and move through time.
 
 use carom_session::{Command, FASTEST, SLOWEST, View};
-use egui::{Align, Layout, Rangef, Rect, RichText, Slider, Stroke, Ui, Widget};
+use egui::{Align, Button, Layout, Rangef, Rect, RichText, Slider, Stroke, Ui, Vec2, Widget};
 
 use crate::action::Action;
-use crate::layout::is_narrow;
+use crate::layout::{is_compact, is_narrow};
 
 /// Speeds that the keys select.
 const SPEEDS: [f64; 9] = [SLOWEST, 0.05, 0.1, 0.25, 0.5, 1.0, 2.0, 5.0, FASTEST];
 
-/// Smallest width of a window with the state hash in the bar, in points.
-const ROOM_FOR_HASH: f32 = 960.0;
+/// Size of the button that plays and pauses, in points: the largest control.
+const PLAY: Vec2 = Vec2::new(92.0, 32.0);
 
 /// Shows the bar below the picture. Returns the actions of the pressed buttons.
 pub fn show(
@@ -21,20 +21,23 @@ pub fn show(
 ) -> Vec<Action> {
     let mut actions = Vec::new();
     let is_narrow = is_narrow(ui);
-    let mut button = |ui: &mut Ui, symbol: &str, text: &str, action: Action| {
-        let response = ui.button(RichText::new(symbol).size(15.0));
-        let response = response.on_hover_text(format!("{text} ({})", action.keys()));
-        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, text));
-        if response.clicked() {
-            actions.push(action);
-        }
-    };
+    // An embedded window has no room for a large button.
+    let has_large = !is_compact(ui);
     ui.horizontal(|ui| {
-        let playing = view.playback.playing;
+        let (symbol, text) = if view.playback.playing { ("⏸", "Pause") } else { ("▶", "Play") };
+        if has_large && large_play_button(ui, symbol, text) {
+            actions.push(Action::PlayOrPause);
+        }
+        let mut button = |ui: &mut Ui, symbol: &str, text: &str, action: Action| {
+            if small_button(ui, symbol, text, action) {
+                actions.push(action);
+            }
+        };
         button(ui, "⏮", "Restart", Action::Restart);
         button(ui, "⏴", "Step back", Action::StepBack);
-        let (symbol, text) = if playing { ("⏸", "Pause") } else { ("▶", "Play") };
-        button(ui, symbol, text, Action::PlayOrPause);
+        if !has_large {
+            button(ui, symbol, text, Action::PlayOrPause);
+        }
         button(ui, "⏵", "Step", Action::Step);
         for (symbol, text, action, count) in
             [("↩", "Undo", Action::Undo, view.undoable), ("↪", "Redo", Action::Redo, view.redoable)]
@@ -44,34 +47,59 @@ pub fn show(
         if !is_narrow {
             speed(ui, view, commands);
             ui.separator();
-            clock(ui, view, is_recording);
-            way(ui, view, commands);
+            clock(ui, view);
+            // What comes and goes is at the far end, so that time and time line keep their places.
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                recording(ui, is_recording);
+                pace(ui, view);
+                way(ui, view, commands);
+            });
         }
     });
     if is_narrow {
         ui.horizontal(|ui| {
             speed(ui, view, commands);
-            clock(ui, view, is_recording);
+            clock(ui, view);
+            recording(ui, is_recording);
+            pace(ui, view);
         });
         ui.horizontal(|ui| way(ui, view, commands));
     }
     actions
 }
 
-/// Shows the time and the speed.
-fn clock(ui: &mut Ui, view: &View, is_recording: bool) {
+/// Shows the button that plays and pauses; returns whether it was pressed.
+fn large_play_button(ui: &mut Ui, symbol: &str, text: &str) -> bool {
+    let selection = ui.visuals().selection;
+    let label = RichText::new(format!("{symbol}  {text}")).size(15.0).color(selection.stroke.color);
+    let size = PLAY.max(ui.spacing().interact_size);
+    let button = Button::new(label).fill(selection.bg_fill).min_size(size);
+    let response = ui.add(button);
+    let hint = Action::PlayOrPause.hint();
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, text));
+    response.on_hover_text(hint).clicked()
+}
+
+/// Shows a button with a symbol; returns whether it was pressed.
+fn small_button(ui: &mut Ui, symbol: &str, text: &str, action: Action) -> bool {
+    let response = ui.button(RichText::new(symbol).size(15.0));
+    let response = response.on_hover_text(format!("{text} ({})", action.keys()));
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, text));
+    response.clicked()
+}
+
+/// Shows the time.
+fn clock(ui: &mut Ui, view: &View) {
     ui.monospace(format!("t = {:9.4} s", view.time)).on_hover_text(format!(
         "frame {} of {} s each",
         view.frame, view.setup.simulation.frame_time
     ));
+}
+
+/// Shows that a film is being recorded.
+fn recording(ui: &mut Ui, is_recording: bool) {
     if is_recording {
         ui.colored_label(ui.visuals().error_fg_color, "⏺ recording");
-    }
-    pace(ui, view);
-    // In a narrow window only the inspector shows it.
-    let has_room = ui.ctx().content_rect().width() >= ROOM_FOR_HASH;
-    if let Some(hash) = view.playback.state_hash.filter(|_| has_room) {
-        ui.monospace(hash.to_string()).on_hover_text("the state as a number: see Link");
     }
 }
 

@@ -95,8 +95,10 @@ enum Written {
     RemoveSpring(u64),
     ColliderRestitution { collider: u64, restitution: f64 },
     AllColliderRestitutions(f64),
+    NamedColliderRestitutions { name: String, restitution: f64 },
     ColliderFriction { collider: u64, friction: SurfaceFriction },
     AllColliderFrictions(SurfaceFriction),
+    NamedColliderFrictions { name: String, friction: SurfaceFriction },
     Emitter { emitter: u64, is: Box<Emitter> },
     Sphere { sphere: u64, changes: Box<SphereFields> },
     Throw { sphere: Box<Sphere>, color: Option<Color> },
@@ -229,10 +231,16 @@ impl From<&Change> for Written {
             Edit::AllColliderRestitutions(restitution) => {
                 Self::AllColliderRestitutions(*restitution)
             }
+            Edit::NamedColliderRestitutions(name, restitution) => {
+                Self::NamedColliderRestitutions { name: name.clone(), restitution: *restitution }
+            }
             Edit::ColliderFriction(id, friction) => {
                 Self::ColliderFriction { collider: id.number(), friction: (*friction).into() }
             }
             Edit::AllColliderFrictions(friction) => Self::AllColliderFrictions((*friction).into()),
+            Edit::NamedColliderFrictions(name, friction) => {
+                Self::NamedColliderFrictions { name: name.clone(), friction: (*friction).into() }
+            }
             Edit::Emitter(id, emitter) => {
                 Self::Emitter { emitter: id.number(), is: Box::new((&**emitter).into()) }
             }
@@ -267,10 +275,16 @@ impl From<Written> for Change {
             Written::AllColliderRestitutions(restitution) => {
                 Edit::AllColliderRestitutions(restitution)
             }
+            Written::NamedColliderRestitutions { name, restitution } => {
+                Edit::NamedColliderRestitutions(name, restitution)
+            }
             Written::ColliderFriction { collider, friction } => {
                 Edit::ColliderFriction(ColliderId::from_number(collider), friction.into())
             }
             Written::AllColliderFrictions(friction) => Edit::AllColliderFrictions(friction.into()),
+            Written::NamedColliderFrictions { name, friction } => {
+                Edit::NamedColliderFrictions(name, friction.into())
+            }
             Written::Emitter { emitter, is } => {
                 Edit::Emitter(EmitterId::from_number(emitter), Box::new((*is).into()))
             }

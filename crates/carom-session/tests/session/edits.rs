@@ -2,7 +2,7 @@
 
 use carom::{Bisect, ConstantForce, DVec3, Exact, Friction, Sphere, Spring, SpringId};
 use carom_scene::scene::{self, Color, Force, ImpactLaw, Integrator};
-use carom_session::{Edit, Session, SphereChange, View};
+use carom_session::{Edit, Session, SphereChange, View, group_name};
 
 use crate::{busy, busy_scene, hashes};
 
@@ -113,6 +113,40 @@ fn restitutions_of_colliders_are_changed_one_by_one_and_together() {
     assert_eq!(restitutions(&session), [0.25, 1.0]);
     session.edit(Edit::AllColliderRestitutions(0.5)).unwrap();
     assert_eq!(restitutions(&session), [0.5, 0.5]);
+}
+
+/// Two pegs and a floor.
+const PEGS: &str = r#"
+name = "pegs"
+[[generators]]
+row = { count = 2, start = [0, 0, 0], step = [1, 0, 0], collider = { name = "peg", shape = { sphere = { radius = 0.1 } } } }
+[[colliders]]
+name = "floor"
+shape = "half-space"
+position = [0, -1, 0]
+"#;
+
+#[test]
+fn colliders_of_one_name_are_changed_together_and_the_others_stay() {
+    let scene = carom_scene::Scene::from_toml(PEGS, "pegs").unwrap();
+    let mut session = Session::new(scene).unwrap();
+    let rough = Friction::sliding(0.3);
+    session.edit(Edit::NamedColliderRestitutions("peg".to_owned(), 0.25)).unwrap();
+    session.edit(Edit::NamedColliderFrictions("peg".to_owned(), rough)).unwrap();
+    for (_, it) in &session.setup().colliders {
+        let is_peg = it.name.starts_with("peg");
+        assert_eq!(it.restitution, if is_peg { 0.25 } else { 1.0 }, "{}", it.name);
+        let friction = if is_peg { rough } else { Friction::default() };
+        assert_eq!(it.surface_friction(), friction, "{}", it.name);
+    }
+    let names: Vec<_> = session.setup().colliders.iter().map(|it| group_name(&it.1.name)).collect();
+    assert_eq!(names.iter().filter(|it| **it == "peg").count(), 2, "{names:?}");
+    // Only numbers after a space are those of generators.
+    for name in ["peg", "peg 3a", "12", "row-1", "left wall", "peg -", ""] {
+        assert_eq!(group_name(name), name);
+    }
+    assert_eq!(group_name("left peg 3-12"), "left peg");
+    assert!(session.edit(Edit::NamedColliderRestitutions("peg".to_owned(), 1.5)).is_err());
 }
 
 #[test]

@@ -1,14 +1,24 @@
 //! The bar at the top of the window.
 
 use carom_maze::{BUILT_IN_DRAWINGS, Maze, MazeError};
-use egui::Ui;
+use carom_session::Command;
+use egui::{Align, Button, Layout, Role, Ui, Vec2, WidgetInfo};
 
 use super::{App, Screen};
 use crate::action::Action;
-use crate::layout::{bar_has_one_line, is_for_fingers, scrolled_within};
+use crate::layout::{has_one_menu, is_for_fingers, scrolled_within};
+use crate::menu::{self, Entry};
+use crate::plots;
+use crate::watching::PRESETS;
 
-/// Space between the buttons of the bar, in points; with it all buttons fit into 1280.
+/// Space around the texts of the menus, in points.
+const LARGE: Vec2 = Vec2::new(9.0, 5.0);
+
+/// Space between the controls of a narrow bar, in points.
 const CLOSE: f32 = 4.0;
+
+/// Shows the contents of a menu; returns the actions of the pressed entries.
+type Menu = fn(&mut App, &mut Ui) -> Vec<Action>;
 
 impl App {
     /// Shows the options of the maze game. Returns another maze if one was chosen.
@@ -45,7 +55,6 @@ impl App {
         if ui.button("Random").on_hover_text("another one each time").clicked() {
             chosen = Some(self.random_maze());
         }
-        ui.separator();
         chosen
     }
 
@@ -76,58 +85,159 @@ impl App {
 
     pub(super) fn bar(&mut self, ui: &mut Ui) -> Vec<Action> {
         let mut actions = Vec::new();
-        ui.horizontal_wrapped(|ui| {
-            if !is_for_fingers(ui.ctx()) {
-                ui.spacing_mut().item_spacing.x = CLOSE;
-            }
-            if ui.button("Scenes").on_hover_text(Action::Choose.hint()).clicked() {
-                actions.push(Action::Choose);
-            }
-            let name = match &self.screen {
-                Screen::Maze(screen) => Some(screen.game().maze().title().to_owned()),
-                _ => self.shown().map(|(name, _)| name),
-            };
-            if let Some(name) = name {
-                ui.strong(name);
-                ui.separator();
-            }
-            if bar_has_one_line(ui) {
-                let height = ui.ctx().content_rect().height() - 2.0 * ui.spacing().interact_size.y;
-                let menu = ui.menu_button("Menu", |ui| {
-                    scrolled_within(height).show(ui, |ui| self.switches(ui)).inner
-                });
+        if has_one_menu(ui) {
+            ui.horizontal_wrapped(|ui| {
+                if !is_for_fingers(ui.ctx()) {
+                    ui.spacing_mut().item_spacing.x = CLOSE;
+                }
+                self.scenes(ui, "Scenes", &mut actions);
+                if let Some((name, _)) = self.shown() {
+                    ui.strong(name);
+                    ui.separator();
+                }
+                let menu = ui.menu_button("Menu", |ui| self.all_menus(ui));
                 actions.extend(menu.inner.unwrap_or_default());
-            } else {
-                actions.extend(self.switches(ui));
+            });
+            return actions;
+        }
+        ui.horizontal(|ui| {
+            if !is_for_fingers(ui.ctx()) {
+                ui.spacing_mut().button_padding = LARGE;
+            }
+            self.scenes(ui, "🗁  Scenes", &mut actions);
+            for (text, name, show) in Self::MENUS {
+                if !self.has_menu(name) {
+                    continue;
+                }
+                let menu = ui.menu_button(text, |ui| show(self, ui));
+                let response = menu.response;
+                response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
+                actions.extend(menu.inner.unwrap_or_default());
+            }
+            ui.separator();
+            if let Some(title) = self.title() {
+                ui.strong(title);
+            }
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                if let Screen::Watching(watching) = &self.screen {
+                    let is_on = watching.shows_inspector();
+                    let button = Button::selectable(is_on, "⚙  Settings");
+                    let response = ui.add(button).on_hover_text(Action::Inspector.hint());
+                    response.widget_info(|| {
+                        WidgetInfo::selected(Role::Button, true, is_on, "Inspector")
+                    });
+                    if response.clicked() {
+                        actions.push(Action::Inspector);
+                    }
+                }
+            });
+        });
+        actions
+    }
+
+    /// The menus beside "Scenes": text with icon, name, and contents.
+    const MENUS: [(&'static str, &'static str, Menu); 4] = [
+        ("👁  View", "View", Self::view_menu),
+        ("📈  Measure", "Measure", Self::measure_menu),
+        ("⚑  Maze", "Maze", Self::maze_menu),
+        ("⬆  Share", "Share", Self::share_menu),
+    ];
+
+    /// Returns whether the present screen has this menu.
+    fn has_menu(&self, name: &str) -> bool {
+        match name {
+            "Maze" => matches!(self.screen, Screen::Maze(_)),
+            "Measure" => matches!(self.screen, Screen::Watching(_)),
+            _ => true,
+        }
+    }
+
+    fn scenes(&self, ui: &mut Ui, text: &str, actions: &mut Vec<Action>) {
+        let response = ui.button(text).on_hover_text(Action::Choose.hint());
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, "Scenes"));
+        if response.clicked() {
+            actions.push(Action::Choose);
+        }
+    }
+
+    /// Returns the title of the present scene or maze.
+    fn title(&self) -> Option<String> {
+        match &self.screen {
+            Screen::Empty => None,
+            Screen::Maze(screen) => Some(screen.game().maze().title().to_owned()),
+            Screen::Watching(watching) => {
+                let scene = &watching.view().scene;
+                let title = if scene.title.is_empty() { &scene.name } else { &scene.title };
+                Some(title.clone())
+            }
+        }
+    }
+
+    /// Shows all menus below each other.
+    fn all_menus(&mut self, ui: &mut Ui) -> Vec<Action> {
+        let height = ui.ctx().content_rect().height() - 2.0 * ui.spacing().interact_size.y;
+        let mut actions = Vec::new();
+        scrolled_within(height).show(ui, |ui| {
+            for (text, name, show) in Self::MENUS {
+                if self.has_menu(name) {
+                    ui.weak(text);
+                    actions.extend(show(self, ui));
+                }
             }
         });
         actions
     }
 
-    /// Shows everything in the bar except the choice of a scene.
-    fn switches(&mut self, ui: &mut Ui) -> Vec<Action> {
-        let mut actions = Vec::new();
-        if let Screen::Watching(watching) = &self.screen {
-            actions.extend(watching.switches(ui));
-            ui.separator();
+    fn view_menu(&mut self, ui: &mut Ui) -> Vec<Action> {
+        let mut entries = match &self.screen {
+            Screen::Watching(watching) => watching.cameras(),
+            Screen::Maze(_) => PRESETS.to_vec(),
+            Screen::Empty => Vec::new(),
+        };
+        entries.push(Entry::once("Light or dark", Action::Theme));
+        entries.push(Entry::once("Keys", Action::Help));
+        menu::show(ui, &entries)
+    }
+
+    fn measure_menu(&mut self, ui: &mut Ui) -> Vec<Action> {
+        let Screen::Watching(watching) = &self.screen else { return Vec::new() };
+        menu::show(ui, &watching.measures())
+    }
+
+    fn share_menu(&mut self, ui: &mut Ui) -> Vec<Action> {
+        let actions = menu::show(
+            ui,
+            &[
+                Entry::once("Picture", Action::Screenshot),
+                Entry::switch("Film", Action::Record, self.is_recording()),
+                Entry::once("Scene file", Action::Save),
+                Entry::once("Link", Action::Link),
+            ],
+        );
+        let Screen::Watching(watching) = &mut self.screen else { return actions };
+        if ui.button("Energies as numbers").on_hover_text("Save them as CSV").clicked() {
+            watching.wanted = Some(plots::energy_table(watching.view()));
         }
+        ui.separator();
+        let hash = watching.view().playback.state_hash;
+        let mut is_shown = hash.is_some();
+        let text = "State hash";
+        let tick = ui.checkbox(&mut is_shown, text);
+        if tick.on_hover_text("The state as a number, to compare machines").changed() {
+            watching.commands.push(Command::ShowStateHash(is_shown));
+        }
+        if let Some(hash) = hash {
+            ui.monospace(hash.to_string());
+        }
+        actions
+    }
+
+    fn maze_menu(&mut self, ui: &mut Ui) -> Vec<Action> {
         match self.mazes(ui) {
             Some(Ok(maze)) => self.play(maze),
             Some(Err(error)) => self.notices.complain(error),
             None => {}
         }
-        for (text, action) in [
-            ("Picture", Action::Screenshot),
-            ("Film", Action::Record),
-            ("Save", Action::Save),
-            ("Link", Action::Link),
-            ("Light/dark", Action::Theme),
-            ("Keys", Action::Help),
-        ] {
-            if ui.button(text).on_hover_text(action.hint()).clicked() {
-                actions.push(action);
-            }
-        }
-        actions
+        Vec::new()
     }
 }

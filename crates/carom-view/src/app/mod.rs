@@ -1,6 +1,7 @@
 //! The whole interface.
 
 mod bar;
+mod choosing;
 mod files;
 mod links;
 mod saving;
@@ -17,10 +18,10 @@ use egui::{Context, Pos2, Rect, Theme, Ui};
 
 use crate::action::{self, Action};
 use crate::address::Address;
-use crate::chooser::{Chooser, Chosen};
+use crate::chooser::Chooser;
 use crate::exports::Exports;
 use crate::help;
-use crate::host::{Host, Inbox, ReadFile};
+use crate::host::{Host, Inbox};
 use crate::layout::{accept_slow_clicks, suit_fingers};
 use crate::link_dialog::LinkDialog;
 use crate::maze_screen::{MazeScreen, Wish};
@@ -72,6 +73,8 @@ pub struct App {
     chooser: Chooser,
     notices: Notices,
     help: bool,
+    /// Whether the scene plays on once the chooser is closed.
+    resumes: bool,
     /// Processor time for the last frame of the interface \[s\].
     cpu_seconds: Option<f32>,
     /// The last error of the physics that has a notice.
@@ -117,6 +120,7 @@ impl App {
             chooser: Chooser::default(),
             notices: Notices::default(),
             help: false,
+            resumes: false,
             cpu_seconds: None,
             told: None,
             tilts_device: false,
@@ -138,18 +142,6 @@ impl App {
             None => app.welcome(),
         }
         Ok(app)
-    }
-
-    /// Plays a scene behind the chooser.
-    fn welcome(&mut self) {
-        let entries = self.library.entries().unwrap_or_default();
-        if let Some((scene, source)) =
-            entries.into_iter().find_map(|it| Some((it.scene.ok()?, it.source)))
-        {
-            self.watch(scene, source);
-            self.command(Command::Play);
-        }
-        self.open_chooser();
     }
 
     /// Opens a scene: plays a maze, watches any other scene.
@@ -213,6 +205,7 @@ impl App {
         self.keep_game();
         self.notices.clear();
         self.chooser.close();
+        self.resumes = false;
         self.exports.end_film();
         self.screen = screen;
     }
@@ -236,6 +229,12 @@ impl App {
     /// `picture`.
     pub fn place_of(&self, index: usize, picture: Rect) -> Option<Pos2> {
         self.watching()?.place_of(index, picture)
+    }
+
+    /// Returns the radius on the screen of the sphere at an index, in points, for a picture that
+    /// fills `picture`.
+    pub fn radius_of(&self, index: usize, picture: Rect) -> Option<f32> {
+        self.watching()?.radius_of(index, picture)
     }
 
     /// Returns the game, if a maze is played.
@@ -270,12 +269,6 @@ impl App {
     /// Returns the messages for the user.
     pub fn notices(&self) -> &Notices {
         &self.notices
-    }
-
-    fn open_chooser(&mut self) {
-        if let Err(error) = self.chooser.open(&self.library, &self.saved.recent) {
-            self.notices.complain(error);
-        }
     }
 
     /// Performs the action of a key or button.
@@ -464,12 +457,7 @@ impl eframe::App for App {
         for action in asked {
             self.act(action);
         }
-        match self.chooser.show(&context, &mut self.studio) {
-            Some(Chosen::Scene(scene, source)) => self.open(*scene, source),
-            Some(Chosen::File(path)) => self.inbox.put(ReadFile::from_disk(&path)),
-            Some(Chosen::AnyFile) => self.host.open_file(&self.inbox),
-            None => {}
-        }
+        self.choose(&context);
         let is_maze = self.maze().is_some();
         help::show(&context, &mut self.help, is_maze);
         self.links();

@@ -3,10 +3,10 @@
 use carom::{DVec3, Mass};
 use carom_scene::scene::Rule;
 use carom_session::{Command, Edit, View};
-use egui::{DragValue, Ui};
+use egui::{DragValue, Role, Ui, WidgetInfo};
 
 use super::friction;
-use super::value::{Field, name, number, number_at_last, vector};
+use super::value::{Field, name, number, number_at_last, tick, vector};
 
 pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     for (id, described) in &view.setup.emitters {
@@ -18,16 +18,19 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
             let Ok(before) = described.emitter() else { return };
             let mut after = before;
             // A new period restarts the emitter, which emits at once.
-            number_at_last(ui, Field::positive("period", "s"), &mut after.period);
-            limit(ui, "at most", 25, &mut after.max_spheres);
-            limit(ui, "in all", 60, &mut after.count);
+            let period = Field::positive("One ball every (period)", "s");
+            let period = period.hint("Time between two balls");
+            number_at_last(ui, period, &mut after.period);
+            limit(ui, "At most at a time", 25, &mut after.max_spheres);
+            limit(ui, "At most in all", 60, &mut after.count);
             room(ui, &mut after.needs_room, view.setup.simulation.rule == Rule::Contact);
             let mut velocity = after.sphere.velocity.to_array();
-            vector(ui, Field::any("velocity", "m/s"), &mut velocity);
+            vector(ui, Field::any("Velocity", "m/s").hint("Velocity of new balls"), &mut velocity);
             after.sphere.velocity = DVec3::from_array(velocity);
-            number(ui, Field::positive("radius", "m"), &mut after.sphere.radius);
+            let radius = Field::positive("Radius", "m").hint("Radius of new balls");
+            number(ui, radius, &mut after.sphere.radius);
             let mut mass = after.sphere.kilograms();
-            if number(ui, Field::positive("mass", "kg"), &mut mass) {
+            if number(ui, Field::positive("Mass", "kg").hint("Mass of new balls"), &mut mass) {
                 after.sphere.mass = Mass::Kilograms(mass);
             }
             number(ui, Field::restitution(), &mut after.sphere.restitution);
@@ -44,27 +47,36 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
 /// Shows whether the emitter leaves out balls that would overlap others. The default is yes under
 /// the rule `contact`.
 fn room(ui: &mut Ui, needs_room: &mut Option<bool>, is_contact: bool) {
-    ui.horizontal(|ui| {
-        name(ui, "needs room");
-        let mut is_needed = needs_room.unwrap_or(is_contact);
-        let hint = "A ball that would overlap another one is left out";
-        if ui.checkbox(&mut is_needed, "").on_hover_text(hint).changed() {
-            *needs_room = Some(is_needed);
-        }
-    });
+    let mut is_needed = needs_room.unwrap_or(is_contact);
+    let hint = "A ball that would overlap another one is left out";
+    if tick(ui, "Only where there is room", hint, &mut is_needed) {
+        *needs_room = Some(is_needed);
+    }
 }
 
 /// Shows a limit on balls, at a time or in all; `usual` is the first value of a new limit.
 fn limit(ui: &mut Ui, what: &str, usual: u32, limit: &mut Option<u32>) {
     ui.horizontal(|ui| {
-        name(ui, what);
+        name(ui, what, "Largest number of balls of this emitter; without a tick any number");
         let mut is_limited = limit.is_some();
-        if ui.checkbox(&mut is_limited, "limited").changed() {
+        let tick = ui.checkbox(&mut is_limited, "");
+        let text = format!("{what} is limited");
+        tick.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, is_limited, &text));
+        if tick.changed() {
             *limit = is_limited.then_some(usual);
         }
         match limit {
-            Some(most) => ui.add(DragValue::new(most).range(1..=u32::MAX).suffix(" balls")),
-            None => ui.weak("any number"),
-        };
+            Some(most) => {
+                let drag = DragValue::new(most).range(1..=u32::MAX).suffix(" balls");
+                let response = ui.add(drag);
+                response.widget_info(|| WidgetInfo {
+                    label: Some(format!("{what}, balls")),
+                    ..WidgetInfo::drag_value(true, f64::from(*most))
+                });
+            }
+            None => {
+                ui.weak("any number");
+            }
+        }
     });
 }

@@ -2,7 +2,7 @@
 
 use carom_scene::scene::Force;
 use carom_session::{Command, Edit, View};
-use egui::Ui;
+use egui::{Align, Layout, Role, Ui, WidgetInfo};
 
 use super::value::{Field, number, vector};
 
@@ -10,11 +10,19 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     for (id, force) in &view.setup.forces {
         ui.push_id(("force", *id), |ui| {
             let mut changed = force.clone();
+            ui.horizontal(|ui| {
+                ui.strong(title(force));
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                    let button = ui.small_button("Remove");
+                    let text = format!("Remove {}", title(force));
+                    button.widget_info(|| WidgetInfo::labeled(Role::Button, true, &text));
+                    if button.clicked() {
+                        commands.push(Command::Edit(Edit::RemoveForce(*id)));
+                    }
+                });
+            });
             if rows(ui, &mut changed) {
                 commands.push(Command::Edit(Edit::Force(*id, changed)));
-            }
-            if ui.small_button("Remove").clicked() {
-                commands.push(Command::Edit(Edit::RemoveForce(*id)));
             }
         });
     }
@@ -28,7 +36,7 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
         add(ui, "+ drag", Force::ViscousDrag { coefficient: 0.1 });
         add(ui, "+ force", Force::Constant { force: [0.0; 3] });
     });
-    ui.menu_button("+ other force", |ui| {
+    ui.menu_button("+ another", |ui| {
         for (text, force) in others() {
             if ui.button(text).clicked() {
                 commands.push(Command::Edit(Edit::AddForce(force)));
@@ -71,46 +79,98 @@ fn others() -> [(&'static str, Force); 6] {
     ]
 }
 
+/// Returns the name of a force.
+fn title(force: &Force) -> &'static str {
+    match force {
+        Force::Constant { .. } => "Constant force",
+        Force::Gravity { .. } => "Gravity",
+        Force::ViscousDrag { .. } => "Drag (viscous)",
+        Force::PointAttractor { .. } => "Point attractor",
+        Force::MutualGravity { .. } => "Gravity between balls",
+        Force::Wind { .. } => "Wind",
+        Force::Vortex { .. } => "Vortex",
+        Force::QuadraticDrag { .. } => "Drag (quadratic)",
+        Force::Buoyancy { .. } => "Buoyancy",
+    }
+}
+
+const SOFTENING: Field = Field {
+    name: "Softening",
+    unit: "m",
+    hint: "Distance below which the pull stops growing",
+    min: 0.0,
+    max: f64::INFINITY,
+    is_whole: false,
+};
+const DRAG: Field = Field {
+    name: "Drag coefficient",
+    unit: "kg/s",
+    hint: "Force against the motion, per speed relative to the medium",
+    ..SOFTENING
+};
+
 /// Shows the values of a force. Returns whether one was changed.
 fn rows(ui: &mut Ui, force: &mut Force) -> bool {
+    let any = |name, unit, hint| Field::any(name, unit).hint(hint);
+    let not_negative = |name, unit, hint| Field::not_negative(name, unit).hint(hint);
     match force {
-        Force::Constant { force } => vector(ui, Field::any("force", "N"), force),
-        Force::Gravity { acceleration } => vector(ui, Field::any("gravity", "m/s²"), acceleration),
-        Force::ViscousDrag { coefficient } => {
-            number(ui, Field::not_negative("drag", "kg/s"), coefficient)
+        Force::Constant { force } => {
+            vector(ui, any("Force", "N", "The same force on every ball"), force)
         }
+        Force::Gravity { acceleration } => {
+            vector(ui, any("Acceleration", "m/s²", "Acceleration of free fall"), acceleration)
+        }
+        Force::ViscousDrag { coefficient } => number(ui, DRAG, coefficient),
         Force::PointAttractor { position, gravitational_parameter, softening } => {
-            vector(ui, Field::any("attractor", "m"), position)
-                | number(ui, Field::any("G M", "m³/s²"), gravitational_parameter)
-                | number(ui, Field::not_negative("softening", "m"), softening)
+            vector(ui, any("Position", "m", "Place of the attractor"), position)
+                | number(
+                    ui,
+                    any("Strength (G M)", "m³/s²", "Gravitational parameter"),
+                    gravitational_parameter,
+                )
+                | number(ui, SOFTENING, softening)
         }
         Force::MutualGravity { constant, softening, opening_angle } => {
-            let angle = Field { max: 1.0, ..Field::not_negative("opening angle", "") };
-            number(ui, Field::any("G", "m³/(kg s²)"), constant)
-                | number(ui, Field::not_negative("softening", "m"), softening)
-                | number(ui, angle, opening_angle)
+            let angle = not_negative("Opening angle", "", "Accuracy for far groups; 0: all pairs");
+            let constant_of = any("Strength (G)", "m³/(kg s²)", "Gravitational constant");
+            number(ui, constant_of, constant)
+                | number(ui, SOFTENING, softening)
+                | number(ui, Field { max: 1.0, ..angle }, opening_angle)
         }
         Force::Wind { velocity, coefficient } => {
-            vector(ui, Field::any("wind", "m/s"), velocity)
-                | number(ui, Field::not_negative("drag", "kg/s"), coefficient)
+            vector(ui, any("Velocity", "m/s", "Velocity of the air"), velocity)
+                | number(ui, DRAG, coefficient)
         }
         Force::Vortex { position, axis, circulation, core_radius, coefficient } => {
-            vector(ui, Field::any("vortex", "m"), position)
-                | vector(ui, Field::any("axis", ""), axis)
-                | number(ui, Field::any("circulation", "m²/s"), circulation)
-                | number(ui, Field::positive("core radius", "m"), core_radius)
-                | number(ui, Field::not_negative("drag", "kg/s"), coefficient)
+            let core = Field::positive("Core radius", "m").hint("Within it, air turns as a whole");
+            vector(ui, any("Position", "m", "A point of the axis"), position)
+                | vector(ui, any("Axis", "", "Direction about which the air turns"), axis)
+                | number(
+                    ui,
+                    any("Circulation", "m²/s", "Speed of the air times the way round"),
+                    circulation,
+                )
+                | number(ui, core, core_radius)
+                | number(ui, DRAG, coefficient)
         }
         Force::QuadraticDrag { density, drag_coefficient, viscosity, wind } => {
-            number(ui, Field::not_negative("medium", "kg/m³"), density)
-                | number(ui, Field::not_negative("drag coefficient", ""), drag_coefficient)
-                | number(ui, Field::not_negative("viscosity", "Pa s"), viscosity)
-                | vector(ui, Field::any("wind", "m/s"), wind)
+            number(ui, not_negative("Density", "kg/m³", "Density of the medium"), density)
+                | number(
+                    ui,
+                    not_negative("Drag coefficient", "", "0.44 for a ball in fast flow"),
+                    drag_coefficient,
+                )
+                | number(
+                    ui,
+                    not_negative("Viscosity", "Pa s", "Viscosity of the medium"),
+                    viscosity,
+                )
+                | vector(ui, any("Wind", "m/s", "Velocity of the medium"), wind)
         }
         Force::Buoyancy { density, surface_height, gravity } => {
-            number(ui, Field::not_negative("fluid", "kg/m³"), density)
-                | number(ui, Field::any("surface at", "m"), surface_height)
-                | vector(ui, Field::any("gravity", "m/s²"), gravity)
+            number(ui, not_negative("Density", "kg/m³", "Density of the fluid"), density)
+                | number(ui, any("Surface at", "m", "Height of the surface"), surface_height)
+                | vector(ui, any("Gravity", "m/s²", "Acceleration of free fall"), gravity)
         }
     }
 }

@@ -18,11 +18,22 @@ pub(super) fn show(ui: &mut Ui, title: &str, friction: &mut Friction) -> bool {
 }
 
 fn rows(ui: &mut Ui, friction: &mut Friction) -> bool {
-    let tangential = Field { name: "tangential", unit: "restitution", ..Field::restitution() };
+    let tangential = Field {
+        name: "Grip (tang. restitution)",
+        hint: "Tangential restitution: part of the slip that an impact turns round",
+        ..Field::restitution()
+    };
+    let of = |name, hint| Field::not_negative(name, "").hint(hint);
     let rows = [
-        (Field::not_negative("sliding", "friction"), &mut friction.sliding),
-        (Field::not_negative("rolling", "friction"), &mut friction.rolling),
-        (Field::not_negative("spinning", "friction"), &mut friction.spinning),
+        (of("Sliding friction", "Force along the surface over force onto it"), {
+            &mut friction.sliding
+        }),
+        (of("Rolling friction", "Resistance to rolling over weight times radius"), {
+            &mut friction.rolling
+        }),
+        (of("Spinning friction", "Resistance to spinning over weight times radius"), {
+            &mut friction.spinning
+        }),
         (tangential, &mut friction.tangential_restitution),
     ];
     rows.into_iter().fold(false, |changed, (field, value)| optional(ui, field, value) | changed)

@@ -14,7 +14,12 @@ use carom_scene::Parameter;
 use carom_session::{Command, View};
 use egui::{CollapsingHeader, ScrollArea, Ui};
 
+use crate::layout::press_word;
+
 pub use ball::Throw;
+
+/// Indent of the rows of a group, in points.
+const INDENT: f32 = 13.0;
 
 /// Shows the panel beside the picture. Returns a parameter of the scene file if its value was
 /// changed.
@@ -26,46 +31,50 @@ pub fn show(
     commands: &mut Vec<Command>,
 ) -> Option<Parameter> {
     let mut changed = None;
+    ui.spacing_mut().indent = INDENT;
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         if !parameters.is_empty() {
             section(ui, "Parameters", true, |ui| changed = parameters::show(ui, parameters));
         }
-        section(ui, "Ball", true, |ui| ball::show(ui, view, commands));
-        section(ui, "Simulation", true, |ui| simulation::show(ui, view, commands));
-        section(ui, "Forces", true, |ui| force::show(ui, view, commands));
-        if !view.springs.is_empty() || view.picked.is_some() {
-            section(ui, "Springs", true, |ui| spring::show(ui, view, commands));
+        match view.picked {
+            Some(id) => {
+                // The number stands in the group, so that another ball keeps it open.
+                section(ui, "Ball", true, |ui| ball::show(ui, view, id, commands));
+            }
+            None => {
+                ui.weak(format!("{} a ball to see and change it.", press_word(ui)));
+            }
         }
         if !view.setup.colliders.is_empty() {
             section(ui, "Surfaces", true, |ui| collider::show(ui, view, commands));
         }
+        section(ui, "Forces", true, |ui| force::show(ui, view, commands));
+        if !view.springs.is_empty() || view.picked.is_some() {
+            section(ui, "Springs", true, |ui| spring::show(ui, view, commands));
+        }
         if !view.setup.emitters.is_empty() {
             section(ui, "Emitters", true, |ui| emitter::show(ui, view, commands));
         }
-        section(ui, "Throw", false, |ui| ball::show_throw(ui, throw));
-        section(ui, "State", false, |ui| state(ui, view, commands));
+        section(ui, "Simulation", true, |ui| simulation::show(ui, view, commands));
+        section(ui, "Throw", false, |ui| ball::show_throw(ui, view, throw));
+        section(ui, "State", false, |ui| state(ui, view));
     });
     changed
 }
 
 fn section(ui: &mut Ui, title: &str, open: bool, contents: impl FnOnce(&mut Ui)) {
-    CollapsingHeader::new(title).default_open(open).show(ui, contents);
+    let header = CollapsingHeader::new(egui::RichText::new(title).strong()).id_salt(title);
+    header.default_open(open).show(ui, contents);
 }
 
-/// Shows numbers about the state, and its hash for comparison with other machines.
-fn state(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
+/// Shows numbers about the state.
+fn state(ui: &mut Ui, view: &View) {
     ui.label(format!("{} balls, {} impacts", view.spheres.ids.len(), view.now.impacts));
     ui.label(format!("energy {:.9e} J", view.now.total_energy()));
     if view.now.stepped > 0 {
         ui.label(format!("{} balls are stepped, not exact", view.now.stepped)).on_hover_text(
-            "Their contacts would take too long one by one. Simulation, stepped zones: never.",
+            "Their contacts would take too long one by one. Simulation, more settings, stepped \
+             zones: never.",
         );
-    }
-    let mut shown = view.playback.state_hash.is_some();
-    if ui.checkbox(&mut shown, "Show the state hash").changed() {
-        commands.push(Command::ShowStateHash(shown));
-    }
-    if let Some(hash) = view.playback.state_hash {
-        ui.monospace(hash.to_string());
     }
 }

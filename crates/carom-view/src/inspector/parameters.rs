@@ -9,11 +9,10 @@ use super::value::{Field, derived_number, number_at_last};
 pub(super) fn show(ui: &mut Ui, parameters: &[Parameter]) -> Option<Parameter> {
     let mut changed = None;
     for parameter in parameters {
-        let mut field = Field::any(&parameter.name, "");
+        let hint = "A parameter of the scene file";
+        let field = Field::any(&parameter.name, "").hint(hint);
+        let field = Field { is_whole: parameter.is_whole, ..field };
         let mut value = parameter.value;
-        if parameter.is_whole {
-            field.decimals = 0;
-        }
         if parameter.is_formula {
             derived_number(ui, field, value);
         } else if number_at_last(ui, field, &mut value) {

@@ -13,6 +13,19 @@ const LISTED: usize = 24;
 /// second.
 const NEW_STIFFNESS: f64 = 40.0;
 
+const REST_LENGTH: Field = Field {
+    name: "Rest length",
+    unit: "m",
+    hint: "Length at which it neither pulls nor pushes",
+    min: 0.0,
+    max: f64::INFINITY,
+    is_whole: false,
+};
+const STIFFNESS: Field =
+    Field { name: "Stiffness", unit: "N/m", hint: "Force per extension", ..REST_LENGTH };
+const DAMPING: Field =
+    Field { name: "Damping", unit: "kg/s", hint: "Force per speed of extension", ..REST_LENGTH };
+
 pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     let is_at_picked = |spring: &Spring| spring.spheres().any(|id| view.picked == Some(id));
     let (at_picked, others): (Vec<_>, Vec<_>) =
@@ -36,14 +49,18 @@ fn row(ui: &mut Ui, id: SpringId, before: &Spring, commands: &mut Vec<Command>) 
     header.show(ui, |ui| {
         if let SpringEnd::Point(point) = &mut spring.to {
             let mut place = point.to_array();
-            if vector(ui, Field::any("fixed at", "m"), &mut place) {
+            if vector(
+                ui,
+                Field::any("Fixed at", "m").hint("Point that holds the spring"),
+                &mut place,
+            ) {
                 *point = DVec3::from_array(place);
             }
         }
-        number(ui, Field::not_negative("rest length", "m"), &mut spring.rest_length);
-        number(ui, Field::not_negative("stiffness", "N/m"), &mut spring.stiffness);
-        number(ui, Field::not_negative("damping", "kg/s"), &mut spring.damping);
-        tick(ui, "only pulls", "A thread: slack up to its rest length", &mut spring.only_pulls);
+        number(ui, REST_LENGTH, &mut spring.rest_length);
+        number(ui, STIFFNESS, &mut spring.stiffness);
+        number(ui, DAMPING, &mut spring.damping);
+        tick(ui, "Only pulls", "A thread: slack up to its rest length", &mut spring.only_pulls);
         if spring != *before {
             commands.push(Command::Edit(Edit::Spring(id, spring)));
         }

@@ -198,6 +198,11 @@ fn energies(view: &View) -> Figure {
     Figure::over_time("Energy", "J", view.time, curves)
 }
 
+/// Returns the table of energies over time.
+pub fn energy_table(view: &View) -> Wanted {
+    Wanted::Table { name: "energy".to_owned(), csv: energies(view).to_csv() }
+}
+
 fn momenta(view: &View) -> Figure {
     let readings = &view.readings;
     let curves = vec![

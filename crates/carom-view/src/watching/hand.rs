@@ -1,14 +1,15 @@
 //! Mouse and fingers in the picture of a scene.
 
-use carom::Sphere;
+use carom::{DVec3, Sphere};
 use carom_session::{Command, Edit};
-use egui::{Modifiers, PointerButton, Pos2, Rect, Response, Ui, Vec2};
+use egui::{Modifiers, PointerButton, Pos2, Rect, Response, Ui};
 
 use super::Watching;
+use super::marker::Projection;
 use super::sides::side_of;
 use crate::inspector::Throw;
 use crate::look;
-use crate::orbit::zoom_asked;
+use crate::orbit::{Orbit, zoom_asked};
 
 impl Watching {
     /// Handles mouse and fingers in the picture.
@@ -26,8 +27,12 @@ impl Watching {
         } else if response.dragged() {
             orbit.pan(right, -down);
         }
-        if response.hovered() {
-            orbit.zoom(zoom_asked(ui));
+        let factor = zoom_asked(ui);
+        if response.hovered() && factor != 1.0 {
+            match self.subject(ui, response, side) {
+                Some(subject) => orbit.zoom_on(factor, subject),
+                None => orbit.zoom(factor),
+            }
         }
         self.viewpoint.take(orbit);
         if let Some(pointer) = response.interact_pointer_pos()
@@ -39,12 +44,7 @@ impl Watching {
 
     fn click(&mut self, response: &Response, pointer: Pos2, modifiers: Modifiers, side: usize) {
         let Some(mut orbit) = self.viewpoint.orbit() else { return };
-        let rect = response.rect;
-        let place = (pointer - rect.center()) / (0.5 * rect.size());
-        let aspect = f64::from(rect.width() / rect.height());
-        let direction =
-            orbit.camera.in_picture(aspect).ray(glam::Vec2::new(place.x, -place.y), aspect);
-        let origin = orbit.camera.position;
+        let (origin, direction) = ray(orbit, response.rect, pointer);
         if modifiers.command {
             let Throw { radius, mass, speed, restitution } = self.throw;
             // In front of the camera, so that the user sees it fly away.
@@ -70,13 +70,62 @@ impl Watching {
         self.commands.push(Command::Pick(picked));
     }
 
+    /// Returns what a zoom is about \[m\]: the ball under the pointer, else the picked one, else the
+    /// middle of those in the picture; `None` without any.
+    fn subject(&self, ui: &Ui, response: &Response, side: usize) -> Option<DVec3> {
+        let orbit = self.viewpoint.orbit()?;
+        let blend = self.driver.blend();
+        let view = side_of(self.driver.view(), side);
+        let projection = self.projection(response.rect)?;
+        let is_seen = |place: &DVec3| {
+            projection.place(*place).is_some_and(|place| response.rect.contains(place))
+        };
+        let pointed = ui.input(|input| input.pointer.hover_pos()).and_then(|pointer| {
+            let (origin, direction) = ray(orbit, response.rect, pointer);
+            look::sphere_at(view, blend, origin, direction)
+        });
+        let one = pointed.or(view.picked).and_then(|id| view.spheres.index_of(id));
+        let one = one.map(|index| look::place(view, index, blend)).filter(is_seen);
+        one.or_else(|| middle(view.spheres.positions.iter().copied().filter(is_seen)))
+    }
+
+    /// Returns the camera of a picture that fills `picture`.
+    pub(super) fn projection(&self, picture: Rect) -> Option<Projection> {
+        let aspect = f64::from(picture.width() / picture.height());
+        let camera = self.viewpoint.orbit()?.in_picture(aspect);
+        Some(Projection { camera, rect: picture })
+    }
+
     /// Returns the position on the screen of the sphere at an index, for a picture that fills
     /// `picture`; `None` behind the camera.
     pub fn place_of(&self, index: usize, picture: Rect) -> Option<Pos2> {
-        let aspect = f64::from(picture.width() / picture.height());
-        let camera = self.viewpoint.orbit()?.camera.in_picture(aspect);
         let center = look::place(self.view(), index, self.driver.blend());
-        let place = camera.place(center, aspect)?;
-        Some(picture.center() + Vec2::new(place.x, -place.y) * 0.5 * picture.size())
+        self.projection(picture)?.place(center)
     }
+
+    /// Returns the radius on the screen of the sphere at an index, in points, for a picture that
+    /// fills `picture`; `None` if the camera is within it.
+    pub fn radius_of(&self, index: usize, picture: Rect) -> Option<f32> {
+        let center = look::place(self.view(), index, self.driver.blend());
+        self.projection(picture)?.radius(center, self.view().spheres.radii[index])
+    }
+}
+
+/// Returns origin \[m\] and direction of the ray through a place of the picture in `rect`.
+fn ray(orbit: Orbit, rect: Rect, pointer: Pos2) -> (DVec3, DVec3) {
+    let place = (pointer - rect.center()) / (0.5 * rect.size());
+    let aspect = f64::from(rect.width() / rect.height());
+    let camera = orbit.in_picture(aspect);
+    (camera.position, camera.ray(glam::Vec2::new(place.x, -place.y), aspect))
+}
+
+/// Returns the point whose coordinates are the medians of those of all points.
+fn middle(points: impl Iterator<Item = DVec3>) -> Option<DVec3> {
+    let points: Vec<DVec3> = points.collect();
+    let along = |axis: usize| {
+        let mut values: Vec<f64> = points.iter().map(|it| it[axis]).collect();
+        values.sort_by(f64::total_cmp);
+        values.get(values.len() / 2).copied()
+    };
+    Some(DVec3::new(along(0)?, along(1)?, along(2)?))
 }

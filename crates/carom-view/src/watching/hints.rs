@@ -6,7 +6,7 @@ use egui::{Align2, Area, Button, Frame, Id, Label, Rect, RichText, Role, Ui, Vec
 use web_time::Instant;
 
 use crate::action::Action;
-use crate::layout::is_for_fingers;
+use crate::layout::is_compact;
 
 /// Width of the text about a seek, in points.
 const WAY_WIDTH: f32 = 270.0;
@@ -147,7 +147,7 @@ pub(super) fn show(
                 button(ui, "▶ Play", Action::PlayOrPause);
             }
         });
-    } else if is_at_start {
+    } else if is_at_start && is_compact(ui) {
         actions.extend(large_play_button(ui, rect));
     } else if all_have_left(view, camera, aspect) {
         card(ui, rect, |ui| {
@@ -159,16 +159,13 @@ pub(super) fn show(
     actions
 }
 
-/// Shows the large button that plays the scene.
+/// Shows the large button that plays the scene, where the transport has no large one.
 fn large_play_button(ui: &Ui, rect: Rect) -> Option<Action> {
     let shown = area(rect).show(ui.ctx(), |ui| {
-        let text = RichText::new("▶  Play").size(22.0).strong();
-        let large = Button::new(text).min_size(Vec2::new(150.0, 48.0)).corner_radius(24);
-        let response = ui.add(if is_for_fingers(ui.ctx()) {
-            large
-        } else {
-            large.shortcut_text(Action::PlayOrPause.keys())
-        });
+        let selection = ui.visuals().selection;
+        let text = RichText::new("▶  Play").size(22.0).color(selection.stroke.color);
+        let large = Button::new(text).fill(selection.bg_fill).corner_radius(24);
+        let response = ui.add(large.min_size(Vec2::new(150.0, 48.0)));
         response.widget_info(|| WidgetInfo::labeled(Role::Button, true, "Play the scene"));
         response.clicked()
     });

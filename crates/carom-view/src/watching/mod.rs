@@ -1,10 +1,13 @@
 //! The screen of a watched scene: its picture and panels.
 
 mod departures;
+mod entries;
 mod hand;
 mod hints;
+mod marker;
 mod sides;
 mod text;
+mod verdict;
 mod viewpoint;
 
 use std::sync::Arc;
@@ -19,8 +22,8 @@ use web_time::Instant;
 
 use crate::action::Action;
 use crate::inspector::{self, Throw};
-use crate::layout::{Beside, is_narrow};
-use crate::look::{self, DrawOptions, Marks};
+use crate::layout::{Beside, has_sheets};
+use crate::look::{self, DrawOptions};
 use crate::orbit::Preset;
 use crate::plots;
 use crate::saved::{Layout, Panels};
@@ -29,6 +32,7 @@ use crate::studio::{Canvas, Studio};
 use crate::written_scene::WrittenScene;
 use crate::{impact_list, transport};
 use departures::Departures;
+pub use entries::PRESETS;
 use hints::{Restarted, Way};
 use sides::side_of;
 use viewpoint::Viewpoint;
@@ -54,9 +58,9 @@ pub struct Watching {
     /// Time at the last frame, by the clock of the interface \[s\].
     clock: f64,
     layout: Layout,
-    /// Whether the window was narrow in the last frame.
-    is_narrow: bool,
-    /// The open sheet of a narrow window.
+    /// Whether panels were sheets in the last frame.
+    has_sheets: bool,
+    /// The open sheet of such a window.
     sheet: Panels,
     throw: Throw,
     /// The pictures of both rules; one rule uses the first.
@@ -88,8 +92,7 @@ pub struct Manner {
     pub recording: bool,
 }
 
-const INSPECTOR: Beside =
-    Beside { title: "Inspector", is_right: true, widths: [240.0, 290.0, 460.0] };
+const INSPECTOR: Beside = Beside { title: "Inspector", is_right: true, widths: [300.0; 3] };
 const PLOTS: Beside = Beside { title: "Plots", is_right: false, widths: [200.0, 330.0, 700.0] };
 
 /// Longest time for physics in a frame if both share a thread \[s\].
@@ -145,6 +148,7 @@ impl Watching {
         context: &egui::Context,
     ) -> Result<Self, SessionError> {
         let driver = driver(session.into(), threaded, context)?;
+        let throw = Throw::like_those_of(driver.view());
         Ok(Self {
             link: (driver.view().scene.clone(), link),
             driver,
@@ -158,9 +162,9 @@ impl Watching {
             departures: Departures::default(),
             clock: 0.0,
             layout: Layout::default(),
-            is_narrow: false,
+            has_sheets: false,
             sheet: Panels::NONE,
-            throw: Throw::default(),
+            throw,
             canvases: Default::default(),
             drawing: Drawing::default(),
             drawn: [None; 2],
@@ -173,6 +177,11 @@ impl Watching {
     /// Returns the view.
     pub fn view(&self) -> &View {
         self.driver.view()
+    }
+
+    /// Returns the camera of the last picture, before it adapts to the shape of the window.
+    pub fn camera(&self) -> Option<Camera> {
+        self.viewpoint.orbit().map(|orbit| orbit.camera)
     }
 
     /// Returns the layout.
@@ -264,17 +273,17 @@ impl Watching {
     }
 
     fn toggle_panel(&mut self, action: Action) {
-        // A narrow window has space for one panel; the layout of wide windows is kept.
-        let before = if self.is_narrow { self.sheet } else { self.layout.panels };
+        // A small window has space for one panel; the layout of large ones is kept.
+        let before = if self.has_sheets { self.sheet } else { self.layout.panels };
         let is_one = |of: Action, is_open: bool| {
-            if of == action { !is_open } else { is_open && !self.is_narrow }
+            if of == action { !is_open } else { is_open && !self.has_sheets }
         };
         let after = Panels {
             inspector: is_one(Action::Inspector, before.inspector),
             plots: is_one(Action::Plots, before.plots),
             impacts: is_one(Action::Impacts, before.impacts),
         };
-        *(if self.is_narrow { &mut self.sheet } else { &mut self.layout.panels }) = after;
+        *(if self.has_sheets { &mut self.sheet } else { &mut self.layout.panels }) = after;
     }
 
     /// Shows the scene under two rules, or under one if there are two.
@@ -296,12 +305,12 @@ impl Watching {
 
     /// Shows the panels around the picture. Returns the actions of their buttons.
     pub fn panels(&mut self, ui: &mut Ui, manner: Manner) -> Vec<Action> {
-        self.is_narrow = is_narrow(ui);
+        self.has_sheets = has_sheets(ui);
         let parameters = self.parameters();
         let Self { driver, commands, layout, throw, departures, wanted, sheet, .. } = self;
         let mut changed = None;
         let Layout { panels, plots, .. } = layout;
-        let panels = if self.is_narrow { sheet } else { panels };
+        let panels = if self.has_sheets { sheet } else { panels };
         let view = driver.view();
         let transport = egui::Panel::bottom("transport").show(ui, |ui| {
             ui.add_space(3.0);
@@ -330,48 +339,13 @@ impl Watching {
         transport.inner
     }
 
-    /// Shows buttons for panels and marks in the top bar. Returns their actions.
-    pub fn switches(&self, ui: &mut Ui) -> Vec<Action> {
-        let mut actions = Vec::new();
-        let panels = if self.is_narrow { self.sheet } else { self.layout.panels };
-        let Panels { inspector, plots, impacts } = panels;
-        let Marks { velocities, contacts, forces, .. } = self.layout.marks;
-        let switches = [
-            ("Inspector", inspector, Action::Inspector),
-            ("Plots", plots, Action::Plots),
-            ("Impacts", impacts, Action::Impacts),
-            ("Velocities", velocities, Action::Velocities),
-            ("Contacts", contacts, Action::Contacts),
-            ("Contact forces", forces, Action::Forces),
-            ("Two rules", self.view().other.is_some(), Action::Compare),
-            ("Follow", self.viewpoint.follows(), Action::Follow),
-            ("Fit", self.viewpoint.fits(), Action::Fit),
-        ];
-        for (text, is_on, action) in switches {
-            if ui.selectable_label(is_on, text).on_hover_text(action.hint()).clicked() {
-                actions.push(action);
-            }
-        }
-        ui.separator();
-        for (text, action) in [
-            ("Scene", Action::SceneCamera),
-            ("Front", Action::FrontCamera),
-            ("Top", Action::TopCamera),
-        ] {
-            if ui.button(text).on_hover_text(action.hint()).clicked() {
-                actions.push(action);
-            }
-        }
-        actions
-    }
-
     /// Returns the camera for the next picture with this ratio of width to height, `seconds` after
     /// the last one.
-    fn camera(&mut self, aspect: f64, seconds: f64) -> Camera {
+    fn next_camera(&mut self, aspect: f64, seconds: f64) -> Camera {
         let (picked, blend) = (self.picked_place(), self.driver.blend());
         let view = self.driver.view();
         let orbit = self.viewpoint.next(view, blend, picked, (aspect, seconds));
-        orbit.camera.in_picture(aspect)
+        orbit.in_picture(aspect)
     }
 
     /// Shows the picture, or two side by side. Returns the actions of the buttons over it.
@@ -386,7 +360,10 @@ impl Watching {
             let response = ui.allocate_rect(rect, Sense::click_and_drag());
             self.hand(ui, &response, side);
             self.draw(ui, studio, manner, side, rect);
-            response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Scene"));
+            response.widget_info(|| egui::WidgetInfo {
+                current_text_value: marker::label(side_of(self.driver.view(), side)),
+                ..egui::WidgetInfo::labeled(egui::Role::Image, true, "Scene")
+            });
         }
         let actions = self.hints(ui, whole);
         self.send();
@@ -396,7 +373,7 @@ impl Watching {
     /// Shows the hints over the picture. Returns the actions of their buttons.
     fn hints(&mut self, ui: &mut Ui, picture: Rect) -> Vec<Action> {
         let Some(orbit) = self.viewpoint.orbit() else { return Vec::new() };
-        let camera = orbit.camera.in_picture(f64::from(picture.width() / picture.height()));
+        let camera = orbit.in_picture(f64::from(picture.width() / picture.height()));
         let Self { driver, commands, way, restarted, .. } = self;
         *way = Way::of(driver.view(), *way);
         let told = hints::HintState {
@@ -419,7 +396,7 @@ impl Watching {
         }
         let aspect = f64::from(size.x / size.y);
         let seconds = ui.input(|input| f64::from(input.stable_dt));
-        let camera = self.camera(aspect, seconds);
+        let camera = self.next_camera(aspect, seconds);
         let look = self.look(manner);
         let drawn = Drawn { news: self.news, camera, look, size };
         if self.drawn[side] != Some(drawn) {
@@ -435,6 +412,10 @@ impl Watching {
         }
         if let Some(texture) = self.canvases[side].texture() {
             Image::new((texture, rect.size())).paint_at(ui, rect);
+        }
+        if let Some(projection) = self.projection(rect) {
+            let (view, blend) = (side_of(self.driver.view(), side), self.driver.blend());
+            marker::draw(&ui.painter_at(rect), view, blend, &projection);
         }
         if self.view().other.is_some() {
             sides::show(ui, rect, self.driver.view(), side, &mut self.commands);
@@ -463,7 +444,7 @@ impl Watching {
         let look = self.look(manner);
         let count = if self.view().other.is_some() { 2 } else { 1 };
         let size = [width / count, height];
-        let camera = self.camera(f64::from(size[0]) / f64::from(size[1]), 0.0);
+        let camera = self.next_camera(f64::from(size[0]) / f64::from(size[1]), 0.0);
         let Self { driver, drawing, .. } = self;
         let view = driver.view();
         let sides: Vec<&View> = [Some(view), view.other.as_deref()].into_iter().flatten().collect();

@@ -4,6 +4,7 @@ use carom_scene::scene::{Rule, Simulation};
 use carom_session::{Command, View};
 use egui::{ComboBox, Frame, Id, Rect, Stroke, Ui, UiBuilder, Vec2};
 
+use super::verdict::Verdict;
 use crate::inspector;
 
 const RULES: [Rule; 4] = [Rule::Exact, Rule::Contact, Rule::Bisect, Rule::Discrete];
@@ -46,6 +47,9 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, view: &View, side: usize, commands: 
                     }
                 });
                 ui.toggle_value(&mut is_open, "Settings");
+                if let Some(verdict) = Verdict::of(side_of(view, side)) {
+                    verdict.show(ui);
+                }
             });
             if is_open {
                 ui.set_max_width(300.0);

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use carom::DVec3;
-use carom_render::{Camera, Drawing, Framing};
+use carom_render::{Bounds, Camera, Drawing, Framing, Panel, Pattern};
 use carom_scene::Scene;
 use carom_session::{LinkCamera, View};
 
@@ -29,6 +29,23 @@ pub(super) struct Viewpoint {
 
 /// Time in which the distance of a fitting camera from its goal falls by a factor e \[s\].
 const FITTING_TIME: f64 = 0.25;
+
+/// Size of the space that a scene sweeps at first, relative to which balls that are spread farther
+/// have left: in a picture of all, each would be a speck.
+const SPREAD: f64 = 6.0;
+
+/// Returns the bounds that the camera keeps in the picture: those of the surfaces and the crowd of
+/// balls. Once balls are spread far beyond `first`, which the first seconds sweep, those are the
+/// surfaces, where there are any.
+fn fitted_bounds(first: Option<Framing>, now: &Drawing) -> Bounds {
+    let all = Framing::of_drawing(now).unwrap_or(Framing::UNIT).whole;
+    let surfaces = Bounds::around(now.panels.iter().filter_map(Panel::bounds));
+    let fixed = now.balls.iter().filter(|ball| ball.pattern == Pattern::Fixed);
+    let fixed = Bounds::around(fixed.map(|ball| Bounds::from_sphere(ball.center, ball.radius)));
+    let surfaces = Bounds::around([surfaces, fixed].into_iter().flatten());
+    let is_spread = first.is_some_and(|it| all.radius() > SPREAD * it.whole.radius());
+    surfaces.filter(|_| is_spread).unwrap_or(all)
+}
 
 impl Viewpoint {
     /// Returns the scene's own camera.
@@ -134,7 +151,7 @@ impl Viewpoint {
             Orbit::preset(self.preset.unwrap_or(Preset::Scene), of_scene(), &bounds, aspect)
         });
         if self.fits {
-            let bounds = Framing::of_drawing(&now()).unwrap_or(Framing::UNIT).whole;
+            let bounds = fitted_bounds(first, &now());
             orbit.approach(&bounds, aspect, 1.0 - (-seconds / FITTING_TIME).exp());
         }
         if let (Some(before), Some(now)) = (self.followed, followed) {

@@ -56,6 +56,8 @@ fn arrows_are_in_the_picture_while_they_are_switched_on() {
     assert!(scene(&desk).view().contacts.len() >= 5);
     let shown = purple_pixels(&mut desk);
     assert!(shown > before + 500, "{before} {shown}");
+    desk.get_by_label("Measure").click();
+    desk.run_steps(3);
     desk.get_by_label("Contact forces").click();
     desk.run_steps(3);
     assert!(scene(&desk).view().contacts.is_empty());

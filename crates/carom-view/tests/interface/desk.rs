@@ -8,8 +8,8 @@ use egui_kittest::Harness;
 
 pub type Desk = Harness<'static, App>;
 
-/// In points; small, so that the pictures in the repository are small.
-const SIZE: [f32; 2] = [1000.0, 620.0];
+/// In points.
+pub const SIZE: [f32; 2] = [1000.0, 620.0];
 
 /// The cheapest quality: software drivers spend most of the time of these tests on shadows and
 /// smooth edges. Such a desk has half a pixel per point, with the same layout.
@@ -51,6 +51,20 @@ pub fn desk_of(size: [f32; 2], setup: Setup) -> Desk {
 /// Opens a window of this size in points and draws one frame.
 pub fn just_opened(size: [f32; 2], setup: Setup) -> Desk {
     let pixels_per_point = if setup.quality == PLAIN { 0.5 } else { 1.0 };
+    just_opened_in(size, pixels_per_point, setup)
+}
+
+/// Opens a window of this size in points for a picture in the repository, which has few pixels per
+/// point so that it is small. With $CAROM_FINE it is as fine as on a screen, to be looked at; it
+/// then matches no approved picture.
+pub fn desk_for_picture(size: [f32; 2], pixels_per_point: f32, setup: Setup) -> Desk {
+    let is_fine = std::env::var_os("CAROM_FINE").is_some();
+    let mut desk = just_opened_in(size, if is_fine { 1.0 } else { pixels_per_point }, setup);
+    desk.run_steps(4);
+    desk
+}
+
+fn just_opened_in(size: [f32; 2], pixels_per_point: f32, setup: Setup) -> Desk {
     let builder = Harness::builder().with_size(size).with_pixels_per_point(pixels_per_point);
     let builder = builder.with_max_steps(1).wgpu();
     builder.build_eframe(|host| App::new(host, setup).expect("wgpu is there"))

@@ -223,6 +223,24 @@ fn parameters_of_a_file_are_changed_in_the_inspector_and_stay_in_links() {
 }
 
 #[test]
+fn a_file_that_is_recent_and_in_a_folder_of_scenes_is_listed_once() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("one.toml");
+    std::fs::write(&path, BALL).expect("written");
+    let mut library = Library::new();
+    library.add_folder(folder.path()).expect("readable");
+    let mut desk = desk(Setup { library, ..setup() });
+    press(&mut desk, Key::Escape);
+    let one = Scene::from_file(&path, &[]).expect("a scene");
+    desk.state_mut().watch(one, Source::File(path));
+    desk.run_steps(2);
+    press(&mut desk, Key::Enter);
+    desk.get_by_label("Recent");
+    assert_eq!(desk.query_all_by_role_and_label(Role::Button, "one").count(), 1);
+    assert!(desk.query_by_label("Your scenes").is_none());
+}
+
+#[test]
 fn a_path_that_is_typed_in_the_chooser_opens_and_is_found_under_recent() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("mine.toml");

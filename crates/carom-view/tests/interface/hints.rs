@@ -7,7 +7,7 @@ use carom_view::{Setup, Start};
 use egui::Key;
 use egui_kittest::kittest::Queryable;
 
-use crate::desk::{Desk, desk, go_to, press, scene, setup, watching};
+use crate::desk::{Desk, desk, go_to, press, scene, setup, watching, watching_at};
 
 const LEFT: &str = "All balls have left the picture.";
 
@@ -20,14 +20,15 @@ fn flying() -> Desk {
 }
 
 #[test]
-fn a_large_button_plays_a_scene_that_stands_at_its_start() {
-    let mut desk = watching("simtest1");
+fn an_embedded_window_has_a_large_button_at_the_start_and_a_large_window_none_over_the_picture() {
+    let mut desk = watching_at([440.0, 330.0], "simtest1");
     desk.get_by_label("Play the scene").click();
     desk.run_steps(10);
     assert!(scene(&desk).view().playback.playing && scene(&desk).view().frame > 0);
     assert!(desk.query_by_label("Play the scene").is_none());
     press(&mut desk, Key::P);
     assert!(desk.query_by_label("Play the scene").is_none());
+    assert!(watching("simtest1").query_by_label("Play the scene").is_none());
 }
 
 #[test]
@@ -90,12 +91,37 @@ fn balls_that_have_all_left_can_be_brought_back_into_the_picture() {
 }
 
 #[test]
-fn a_scene_plays_behind_the_chooser() {
+fn nothing_runs_behind_the_chooser_and_the_scene_goes_on_after_it() {
     let mut desk = desk(setup());
     desk.get_by_label("Choose a scene");
     desk.run_steps(10);
+    assert_eq!(scene(&desk).view().frame, 0);
     press(&mut desk, Key::Escape);
     assert!(desk.query_by_label("Choose a scene").is_none());
+    desk.run_steps(4);
     let view = scene(&desk).view();
     assert!(view.playback.playing && view.frame > 0, "{}", view.frame);
+    press(&mut desk, Key::Enter);
+    let frame = scene(&desk).view().frame;
+    desk.run_steps(10);
+    assert_eq!(scene(&desk).view().frame, frame);
+    // A scene that was paused stays paused.
+    press(&mut desk, Key::Escape);
+    press(&mut desk, Key::P);
+    press(&mut desk, Key::Enter);
+    press(&mut desk, Key::Escape);
+    assert!(!scene(&desk).view().playback.playing);
+}
+
+#[test]
+fn a_fitting_camera_shows_the_surfaces_of_a_scene_whose_balls_have_left() {
+    let mut desk = watching("tutorial4");
+    press(&mut desk, Key::Num0);
+    go_to(&mut desk, 40.0);
+    desk.run_steps(60);
+    let camera = scene(&desk).camera().expect("a camera");
+    // The large ball is at the origin.
+    let place = camera.place(carom::DVec3::ZERO, 1.25).expect("it is before the camera");
+    assert!(place.abs().max_element() < 0.9, "{place}");
+    assert!(camera.position.length() < 100.0, "{camera:?}");
 }

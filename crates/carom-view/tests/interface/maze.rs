@@ -11,11 +11,7 @@ use crate::desk::{Desk, desk, setup};
 pub const SHORT: &str = "#######\n#S o E#\n#######\n";
 
 pub fn playing(maze: Maze) -> Desk {
-    playing_on(setup(), maze)
-}
-
-pub fn playing_on(setup: Setup, maze: Maze) -> Desk {
-    desk(Setup { start: Some(Start::Maze(Box::new(maze))), ..setup })
+    desk(Setup { start: Some(Start::Maze(Box::new(maze))), ..setup() })
 }
 
 /// Holds the right arrow until the game is won.

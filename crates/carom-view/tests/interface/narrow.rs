@@ -1,12 +1,13 @@
 //! Windows as narrow as those of telephones.
 
 use carom_scene::{Library, Source};
+use carom_session::Command;
 use carom_view::{FilmMaker, Host, Inbox, Setup, Start};
 use egui::accesskit::Role;
 use egui::{DroppedFileHandle, Key, Rect};
 use egui_kittest::kittest::{By, Queryable};
 
-use crate::desk::{Desk, desk_of, press, setup};
+use crate::desk::{Desk, desk_of, press, scene, setup, watching_at};
 
 const TELEPHONE: [f32; 2] = [390.0, 760.0];
 
@@ -113,33 +114,60 @@ fn the_menu_has_what_the_bar_has_elsewhere() {
     }
     desk.get_by_label("Inspector").click();
     desk.run_steps(3);
-    desk.get_by_label("rule");
+    desk.get_by_role_and_label(Role::Window, "Inspector");
 }
 
 #[test]
-fn in_small_windows_the_picture_keeps_half_of_the_room_beside_two_panels() {
-    for size in [[800.0, 600.0], [640.0, 640.0], [1000.0, 620.0]] {
-        let (simtest, _) = Library::new().find("simtest3", &[]).expect("a built-in scene");
-        let start = Some(Start::Scene(Box::new(simtest), Source::BuiltIn));
-        let mut desk = desk_of(size, Setup { start, ..setup() });
-        press(&mut desk, Key::G);
-        // Both panels are open, over the picture if there is no space beside it.
-        desk.get_by_label("rule");
-        assert!(desk.query_by_label_contains("Energy, J").is_some(), "{size:?}");
-        let picture = desk.get_by_role_and_label(Role::Image, "Scene").rect();
-        assert!(picture.width() >= 0.49 * size[0], "{size:?}: {picture}");
-        assert!(picture.height() >= 0.75 * size[1], "{size:?}: {picture}");
+fn in_a_large_window_the_inspector_is_beside_the_picture_and_has_one_width() {
+    let mut desk = watching_at([1280.0, 800.0], "gas");
+    let right = |desk: &Desk| desk.get_by_role_and_label(Role::Image, "Scene").rect().right();
+    let before = right(&desk);
+    assert!((1280.0 - before - 300.0).abs() < 2.0, "{before}");
+    // A picked ball fills it with numbers whose digits change.
+    let ball = scene(&desk).view().spheres.ids[0];
+    desk.state_mut().command(Command::Pick(Some(ball)));
+    press(&mut desk, Key::P);
+    for _ in 0..20 {
+        desk.run_steps(1);
+        assert_eq!(right(&desk), before);
     }
 }
 
 #[test]
-fn on_a_telephone_one_sheet_at_a_time_lies_over_the_foot_of_the_picture() {
-    let mut desk = on_a_telephone();
-    press(&mut desk, Key::I);
-    let rule = desk.get_by_label("rule").rect();
-    assert!(rule.top() > 0.5 * TELEPHONE[1] && rule.right() <= TELEPHONE[0], "{rule}");
-    press(&mut desk, Key::G);
-    assert!(desk.query_by_label("rule").is_none());
-    let energy = desk.get_by_label_contains("Energy, J").rect();
-    assert!(energy.top() > 0.5 * TELEPHONE[1], "{energy}");
+fn below_nine_hundred_points_one_sheet_covers_two_fifths_of_the_picture_at_most() {
+    for size in [[800.0, 600.0], [640.0, 640.0], TELEPHONE, [844.0, 390.0]] {
+        let mut desk = watching_at(size, "simtest3");
+        let picture = desk.get_by_role_and_label(Role::Image, "Scene").rect();
+        assert!(picture.width() > 0.99 * size[0], "{size:?}: {picture}");
+        let assert_covers_little = |desk: &Desk, label: &str| {
+            let rect = desk.get_by_role_and_label(Role::Window, label).rect();
+            let covered = rect.intersect(picture).area() / picture.area();
+            // The frame of the sheet is a few points wide.
+            assert!(covered > 0.1 && covered < 0.42, "{label} at {size:?}: {covered}");
+        };
+        press(&mut desk, Key::I);
+        assert_covers_little(&desk, "Inspector");
+        press(&mut desk, Key::G);
+        assert_covers_little(&desk, "Plots");
+        assert!(desk.query_by_role_and_label(Role::Window, "Inspector").is_none(), "{size:?}");
+    }
+}
+
+#[test]
+fn play_is_the_largest_control_and_stays_where_it_is() {
+    for size in [[1280.0, 800.0], [800.0, 600.0], TELEPHONE, [844.0, 390.0]] {
+        let mut desk = watching_at(size, "simtest1");
+        let play = desk.get_by_label("Play").rect();
+        for other in ["Restart", "Step back", "Step", "Undo", "Redo"] {
+            let other = desk.get_by_label(other).rect();
+            assert!(play.area() > 2.0 * other.area(), "{size:?}: {play} {other}");
+        }
+        let line = desk.get_by_label("Time line").rect().left();
+        press(&mut desk, Key::P);
+        assert_eq!(desk.get_by_label("Pause").rect(), play, "{size:?}");
+        desk.state_mut().command(Command::ShowStateHash(true));
+        press(&mut desk, Key::P);
+        assert_eq!(desk.get_by_label("Play").rect(), play, "{size:?}");
+        assert_eq!(desk.get_by_label("Time line").rect().left(), line, "{size:?}");
+    }
 }

@@ -4,16 +4,21 @@
 
 use carom_maze::Maze;
 use carom_session::Command;
+use carom_view::{Setup, Start};
 use egui::{Key, Theme};
 use egui_kittest::{SnapshotOptions, SnapshotResults};
 
-use crate::desk::{Desk, desk, go_to, press, setup_for_pictures, watching_on};
-use crate::maze::{SHORT, playing_on, win};
+use crate::desk::{Desk, SIZE, desk_for_picture, go_to, press, scene, setup_for_pictures, start};
+use crate::maze::{SHORT, win};
 
 /// Versions of the software driver round differently at edges of shapes, text and shadows: a
 /// thousandth of the pixels may differ. A visible change - another colour, a panel that moved, a
 /// ball elsewhere - changes several times as many.
 const PIXELS_THAT_MAY_DIFFER: usize = 620;
+
+/// Pixels per point of pictures of a window, and of several windows of one kind.
+const COARSE: f32 = 0.6;
+const COARSEST: f32 = 0.4;
 
 pub fn compare(desk: &mut Desk, name: &str, results: &mut SnapshotResults) {
     desk.remove_cursor();
@@ -46,21 +51,38 @@ macro_rules! in_light_and_dark {
 }
 pub(crate) use in_light_and_dark;
 
-in_light_and_dark!(the_chooser, the_window_with_plots, two_rules, the_maze, the_win_screen);
+in_light_and_dark!(
+    the_chooser,
+    the_window_with_plots,
+    windows_of_four_sizes,
+    two_rules,
+    the_maze,
+    the_win_screen
+);
 
 /// Compares the window with the picture of this name and theme.
 fn compare_in(theme: Theme, desk: &mut Desk, name: &str) {
     let mut results = SnapshotResults::new();
-    let suffix = if theme == Theme::Dark { "dark" } else { "light" };
-    compare(desk, &format!("{name}_{suffix}"), &mut results);
+    compare(desk, &format!("{name}_{}", name_of(theme)), &mut results);
     results.unwrap();
 }
 
+fn name_of(theme: Theme) -> &'static str {
+    if theme == Theme::Dark { "dark" } else { "light" }
+}
+
+/// Opens a built-in scene.
+pub fn watched(size: [f32; 2], name: &str) -> Desk {
+    desk_for_picture(size, COARSE, Setup { start: start(name), ..setup_for_pictures() })
+}
+
+fn played(maze: Maze) -> Desk {
+    let start = Some(Start::Maze(Box::new(maze)));
+    desk_for_picture(SIZE, COARSE, Setup { start, ..setup_for_pictures() })
+}
+
 fn the_chooser(theme: Theme) {
-    let mut desk = desk(setup_for_pictures());
-    // The scene behind it is paused at its start.
-    desk.state_mut().command(Command::Pause);
-    go_to(&mut desk, 0.0);
+    let mut desk = desk_for_picture(SIZE, COARSE, setup_for_pictures());
     set_theme(&mut desk, theme);
     // One thumbnail appears per frame.
     desk.run_steps(24);
@@ -68,7 +90,7 @@ fn the_chooser(theme: Theme) {
 }
 
 fn the_window_with_plots(theme: Theme) {
-    let mut desk = watching_on(setup_for_pictures(), "simtest1");
+    let mut desk = watched(SIZE, "simtest1");
     set_theme(&mut desk, theme);
     go_to(&mut desk, 6.0);
     for key in [Key::G, Key::V, Key::K, Key::L] {
@@ -77,8 +99,26 @@ fn the_window_with_plots(theme: Theme) {
     compare_in(theme, &mut desk, "window");
 }
 
+/// A cradle with a picked ball; in small windows with the sheet of the inspector.
+fn windows_of_four_sizes(theme: Theme) {
+    let mut results = SnapshotResults::new();
+    for [width, height] in [[1280.0, 800.0], [800.0, 600.0], [390.0, 844.0], [844.0, 390.0]] {
+        let setup = Setup { start: start("cradle"), ..setup_for_pictures() };
+        let mut desk = desk_for_picture([width, height], COARSEST, setup);
+        set_theme(&mut desk, theme);
+        go_to(&mut desk, 1.0);
+        let ball = scene(&desk).view().spheres.ids[3];
+        desk.state_mut().command(Command::Pick(Some(ball)));
+        if width < 900.0 {
+            press(&mut desk, Key::I);
+        }
+        compare(&mut desk, &format!("cradle_{width}_{}", name_of(theme)), &mut results);
+    }
+    results.unwrap();
+}
+
 fn two_rules(theme: Theme) {
-    let mut desk = watching_on(setup_for_pictures(), "tutorial3");
+    let mut desk = watched(SIZE, "tutorial3");
     set_theme(&mut desk, theme);
     for key in [Key::X, Key::I, Key::G] {
         press(&mut desk, key);
@@ -89,14 +129,14 @@ fn two_rules(theme: Theme) {
 
 fn the_maze(theme: Theme) {
     let maze = Maze::course().expect("the course's maze");
-    let mut desk = playing_on(setup_for_pictures(), maze);
+    let mut desk = played(maze);
     set_theme(&mut desk, theme);
     compare_in(theme, &mut desk, "maze");
 }
 
 fn the_win_screen(theme: Theme) {
     let maze = Maze::from_text(SHORT, "short").expect("a maze");
-    let mut desk = playing_on(setup_for_pictures(), maze);
+    let mut desk = played(maze);
     set_theme(&mut desk, theme);
     win(&mut desk);
     compare_in(theme, &mut desk, "won");

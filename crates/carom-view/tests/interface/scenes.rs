@@ -7,7 +7,9 @@ use carom_view::{Setup, Start};
 use egui::{Key, Role};
 use egui_kittest::kittest::{NodeT, Queryable};
 
-use crate::desk::{Desk, desk, go_to, just_opened, press, scene, setup, watching};
+use crate::desk::{
+    Desk, desk, go_to, just_opened, press, scene, setup, setup_for_pixels, watching, watching_on,
+};
 
 #[test]
 fn the_chooser_is_there_at_the_start_and_comes_back_on_enter() {
@@ -47,6 +49,9 @@ fn what_is_typed_filters_by_name_and_description() {
     assert!(desk.query_by_label("simtest1").is_none());
     press(&mut desk, Key::Enter);
     assert_eq!(scene(&desk).view().scene.name, "cradle");
+    desk.run_steps(4);
+    let view = scene(&desk).view();
+    assert!(view.playback.playing && view.frame > 0, "a chosen scene plays");
 }
 
 mod every_scene_opens_from_the_chooser {
@@ -85,7 +90,7 @@ fn restitution_changes_while_the_scene_runs() {
     let mut desk = watching("simtest1");
     press(&mut desk, Key::P);
     desk.run_steps(30);
-    type_into(&mut desk, "Restitution of PlaneCollider", "0.05");
+    type_into(&mut desk, "Bounciness (restitution) of PlaneCollider", "0.05");
     let view = scene(&desk).view();
     let (_, plane) = &view.setup.colliders[0];
     assert_eq!(plane.restitution, 0.05);
@@ -117,15 +122,15 @@ fn friction_of_a_surface_changes_while_the_scene_runs() {
     let mut desk = watching_contacts();
     desk.get_by_label("Friction of PlaneCollider").click();
     desk.run_steps(30);
-    desk.get_by_label("sliding friction is given").click();
+    desk.get_by_label("Sliding friction is given").click();
     desk.run_steps(4);
-    type_into(&mut desk, "sliding", "0.35");
+    type_into(&mut desk, "Sliding friction", "0.35");
     let view = scene(&desk).view();
     let plane = view.setup.colliders[0].1.clone();
     assert_eq!((plane.friction, plane.rolling_friction), (Some(0.35), None));
     assert!(view.playback.playing && view.time > 0.3, "it went on");
     // Without a tick the value is absent again.
-    desk.get_by_label("sliding friction is given").click();
+    desk.get_by_label("Sliding friction is given").click();
     desk.run_steps(4);
     assert_eq!(scene(&desk).view().setup.colliders[0].1.friction, None);
 }
@@ -140,14 +145,13 @@ fn friction_and_spin_of_the_picked_ball_change() {
     desk.run_steps(4);
     desk.get_by_label(&format!("Friction of ball {id}")).click();
     desk.run_steps(30);
-    desk.get_by_label("rolling friction is given").click();
+    desk.get_by_label("Rolling friction is given").click();
     desk.run_steps(4);
-    type_into(&mut desk, "rolling", "0.02");
+    type_into(&mut desk, "Rolling friction", "0.02");
     let spheres = &scene(&desk).view().spheres;
     let friction = spheres.friction(spheres.index_of(id).unwrap());
     assert_eq!((friction.rolling, friction.sliding), (Some(0.02), None));
-    // The last of its three numbers is z.
-    type_into(&mut desk, "spin", "7.5");
+    type_into(&mut desk, "Spin (angular velocity) z, rad/s", "7.5");
     let spheres = &scene(&desk).view().spheres;
     assert_eq!(spheres.angular_velocity(spheres.index_of(id).unwrap()).z, 7.5);
 }
@@ -229,7 +233,7 @@ fn every_shortcut_is_in_the_help() {
 #[test]
 fn the_help_opens_while_a_number_is_being_typed() {
     let mut desk = watching("simtest1");
-    desk.get_all_by_label("Restitution of PlaneCollider").last().unwrap().click();
+    desk.get_all_by_label("Bounciness (restitution) of PlaneCollider").last().unwrap().click();
     desk.run_steps(2);
     press(&mut desk, Key::F1);
     desk.get_by_label("Keys and mouse");
@@ -246,7 +250,7 @@ fn panels_that_were_opened_stay_open_in_the_next_scene() {
     press(&mut desk, Key::Enter);
     assert_eq!(scene(&desk).view().scene.name, "tutorial1");
     desk.get_by_label("Approach, m/s");
-    assert!(desk.query_by_label("rule").is_none());
+    assert!(desk.query_by_label("Method (rule)").is_none());
 }
 
 #[test]
@@ -254,12 +258,33 @@ fn a_number_of_many_digits_that_is_clicked_on_and_left_stays_as_it_is() {
     let mut desk = watching("tutorial1");
     let before = scene(&desk).view().setup.simulation.frame_time;
     assert_eq!(before, 1.0 / 60.0, "more digits than are shown");
-    desk.get_by_role_and_label(Role::SpinButton, "frame time").click();
+    desk.get_by_label("More settings").click();
+    desk.run_steps(30);
+    desk.get_by_role_and_label(Role::SpinButton, "Frame time, s").click();
     desk.run_steps(3);
     press(&mut desk, Key::Enter);
     desk.run_steps(3);
     assert_eq!(scene(&desk).view().setup.simulation.frame_time, before);
     assert_eq!(scene(&desk).view().undoable, 0);
+}
+
+/// Throws a ball towards a place on the screen.
+fn throw_at(desk: &mut Desk, place: egui::Pos2) {
+    let control = egui::Modifiers::COMMAND;
+    desk.event(egui::Event::ModifiersChanged(control));
+    desk.hover_at(place);
+    desk.run_steps(1);
+    for pressed in [true, false] {
+        let event = egui::Event::PointerButton {
+            pos: place,
+            button: egui::PointerButton::Primary,
+            pressed,
+            modifiers: control,
+        };
+        desk.event(event);
+        desk.run_steps(1);
+    }
+    desk.run_steps(4);
 }
 
 #[test]
@@ -275,22 +300,7 @@ fn a_ball_that_is_clicked_is_picked_and_one_is_thrown_with_control() {
     desk.run_steps(4);
     assert_eq!(scene(&desk).view().picked, scene(&desk).view().spheres.ids.first().copied());
 
-    let corner = picture.left_top() + egui::Vec2::splat(30.0);
-    let control = egui::Modifiers::COMMAND;
-    desk.event(egui::Event::ModifiersChanged(control));
-    desk.hover_at(corner);
-    desk.run_steps(1);
-    for pressed in [true, false] {
-        let event = egui::Event::PointerButton {
-            pos: corner,
-            button: egui::PointerButton::Primary,
-            pressed,
-            modifiers: control,
-        };
-        desk.event(event);
-        desk.run_steps(1);
-    }
-    desk.run_steps(4);
+    throw_at(&mut desk, picture.left_top() + egui::Vec2::splat(30.0));
     assert_eq!(scene(&desk).view().spheres.ids.len(), balls + 1);
     assert!(!desk.root().accesskit_node().is_hidden());
 }
@@ -307,4 +317,71 @@ fn a_picked_ball_shows_the_restitution_of_its_contacts() {
     // 0.8 times 0.5, and 0.2 times 0.5.
     desk.get_by_label(&format!("with ball {ball}: 0.40"));
     desk.get_by_label(&format!("with ball {ball}: 0.10"));
+}
+
+#[test]
+fn surfaces_of_one_name_are_one_row_and_change_together() {
+    let mut desk = watching("galton");
+    desk.get_by_label("peg, 148");
+    assert!(desk.query_by_label_contains("peg 1-1").is_none());
+    type_into(&mut desk, "Bounciness (restitution) of peg", "0.25");
+    let view = scene(&desk).view();
+    for (_, collider) in &view.setup.colliders {
+        assert_eq!(
+            collider.restitution == 0.25,
+            collider.name.starts_with("peg"),
+            "{}",
+            collider.name
+        );
+    }
+    assert_eq!(view.undoable, 1);
+}
+
+#[test]
+fn a_thrown_ball_is_as_large_as_the_others() {
+    for name in ["gas", "tutorial4"] {
+        let mut desk = watching(name);
+        let mut radii = scene(&desk).view().spheres.radii.clone();
+        radii.sort_by(f64::total_cmp);
+        let usual = radii[radii.len() / 2];
+        let picture = desk.get_by_role_and_label(Role::Image, "Scene").rect();
+        throw_at(&mut desk, picture.left_top() + egui::Vec2::splat(30.0));
+        let thrown = *scene(&desk).view().spheres.radii.last().expect("a ball");
+        assert_eq!(thrown, usual, "{name}");
+    }
+}
+
+#[test]
+fn a_picked_ball_has_a_ring_and_a_label_with_its_speed() {
+    let mut desk = watching_on(setup_for_pixels(), "gas");
+    go_to(&mut desk, 0.2);
+    // A ball in the middle of the others, which hide it.
+    let id = scene(&desk).view().spheres.ids[99];
+    desk.state_mut().command(Command::Pick(Some(id)));
+    desk.remove_cursor();
+    desk.run_steps(4);
+    let (rect, label) = {
+        let picture = desk.get_by_role_and_label(Role::Image, "Scene");
+        (picture.rect(), picture.value().expect("a label"))
+    };
+    assert!(label.starts_with("ball 99, ") && label.ends_with(" m/s"), "{label}");
+    let place = desk.state().place_of(99, rect).expect("it is in the picture");
+    let radius = desk.state().radius_of(99, rect).expect("it is before the camera").max(7.0) + 2.0;
+    let pixels = desk.render().expect("a picture");
+    // All around, a light and a dark line lie side by side; the label covers a part.
+    let (mut light, mut dark) = (0, 0);
+    for degrees in (0..360).step_by(5) {
+        let (sine, cosine) = f64::from(degrees).to_radians().sin_cos();
+        let direction = egui::Vec2::new(cosine as f32, sine as f32);
+        let seen: Vec<u32> = (-3..=3)
+            .map(|offset| {
+                let at = place + direction * (radius + offset as f32);
+                let pixel = pixels.get_pixel(at.x.round() as u32, at.y.round() as u32);
+                pixel.0[..3].iter().map(|part| u32::from(*part)).sum()
+            })
+            .collect();
+        light += usize::from(seen.iter().any(|it| *it > 690));
+        dark += usize::from(seen.iter().any(|it| *it < 250));
+    }
+    assert!(light > 60 && dark > 60, "{light} {dark} of 72");
 }

@@ -46,6 +46,19 @@ fn curves_of_two_rules_say_whose_they_are() {
 }
 
 #[test]
+fn each_half_says_how_much_energy_its_rule_keeps() {
+    let mut desk = watching("tutorial3");
+    press(&mut desk, Key::X);
+    go_to(&mut desk, 3.0);
+    desk.run_steps(3);
+    let kept = desk.query_all_by_label_contains("energy kept: ");
+    let kept: Vec<String> = kept.map(|it| it.value().unwrap_or_default()).collect();
+    assert_eq!(kept.len(), 2, "{kept:?}");
+    let of_exact = scene(&desk).view().setup.simulation.rule == Rule::Exact;
+    assert_eq!(kept[usize::from(!of_exact)], "energy kept: 100 %", "{kept:?}");
+}
+
+#[test]
 fn settings_of_one_half_are_chosen_there_and_the_other_half_keeps_its_own() {
     let mut desk = watching("tutorial1");
     // With two exact simulations, both halves show the settings of that rule.
@@ -57,7 +70,7 @@ fn settings_of_one_half_are_chosen_there_and_the_other_half_keeps_its_own() {
     go_to(&mut desk, 0.5);
     desk.get_all_by_label("Settings").last().expect("of the right half").click();
     desk.run_steps(4);
-    desk.get_all_by_label("impact law").last().expect("a choice").click();
+    desk.get_all_by_label("Impacts (impact law)").last().expect("a choice").click();
     desk.run_steps(4);
     desk.get_by_label("sequential").click();
     desk.run_steps(30);

@@ -6,8 +6,8 @@ use egui::{Key, Modifiers, Role, Theme};
 use egui_kittest::SnapshotResults;
 use egui_kittest::kittest::Queryable;
 
-use crate::desk::{Desk, press, scene, setup_for_pictures, watching, watching_on};
-use crate::pictures::{compare, set_theme};
+use crate::desk::{Desk, SIZE, press, scene, watching};
+use crate::pictures::{compare, set_theme, watched};
 
 fn springs(desk: &Desk) -> Vec<Spring> {
     scene(desk).view().springs.iter().map(|(_, spring)| *spring).collect()
@@ -49,10 +49,10 @@ fn a_spring_that_is_unfolded_changes_and_the_change_is_taken_back() {
     let mut desk = watching("spring-chain");
     let before = springs(&desk);
     click(&mut desk, "ball 0 to ball 1");
-    type_into(&mut desk, "rest length", "0.25");
-    type_into(&mut desk, "stiffness", "12.5");
-    type_into(&mut desk, "damping", "0.75");
-    desk.get_by_role_and_label(Role::CheckBox, "only pulls").click();
+    type_into(&mut desk, "Rest length, m", "0.25");
+    type_into(&mut desk, "Stiffness, N/m", "12.5");
+    type_into(&mut desk, "Damping, kg/s", "0.75");
+    desk.get_by_role_and_label(Role::CheckBox, "Only pulls").click();
     desk.run_steps(4);
     let after = springs(&desk);
     let spring =
@@ -131,13 +131,13 @@ fn a_new_spring_swings_its_ball_and_comes_again_on_a_restart() {
 #[test]
 fn the_inspector_of_springs() {
     let mut results = SnapshotResults::new();
-    let mut desk = watching_on(setup_for_pictures(), "cradle-on-threads");
+    let mut desk = watched(SIZE, "cradle-on-threads");
     set_theme(&mut desk, Theme::Light);
-    for section in ["Simulation", "Ball", "Forces"] {
+    pick(&mut desk, 0);
+    for section in ["Ball", "Forces"] {
         desk.get_by_label(section).click();
         desk.run_steps(30);
     }
-    pick(&mut desk, 0);
     click(&mut desk, "ball 0 to (-0.4, 1, 0.3)");
     compare(&mut desk, "springs_light", &mut results);
     results.unwrap();
