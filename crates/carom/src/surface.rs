@@ -161,6 +161,9 @@ pub(crate) enum Form {
     Corner(Corner),
 }
 
+/// Difference between unit normals of parallel planes, at most: their rounding.
+pub(crate) const PARALLEL: f64 = 8.0 * f64::EPSILON;
+
 impl Form {
     /// Whether the turning of a motion leaves it as it is.
     fn is_turned_in_place_by(&self, motion: &SurfaceMotion) -> bool {
@@ -236,7 +239,9 @@ impl Form {
         let height = |place: DVec3| (place - point).dot(normal);
         match *self {
             Self::Sphere { center, radius } => height(center) + radius,
-            Self::HalfSpace { point, normal: own } if own == normal => height(point),
+            Self::HalfSpace { point, normal: own } if (own - normal).norm() <= PARALLEL => {
+                height(point)
+            }
             Self::HalfSpace { .. } => f64::INFINITY,
             Self::Rectangle(Rectangle { center, axis_x, axis_z, half_x, half_z, .. }) => {
                 let rise = |axis: DVec3, half: f64| half * axis.dot(normal).abs();

@@ -17,6 +17,7 @@ use crate::rule::exact::flights::Cluster;
 use crate::rule::exact::neighbours::NeighbourBuffer;
 use crate::rule::exact::timeline::Timeline;
 use crate::rule::periodic;
+use crate::surface::PARALLEL;
 
 /// Angle \[rad\] between the normals of flush faces, at most, rounding included.
 const FLUSH: f64 = 2e-9;
@@ -263,8 +264,8 @@ impl<'a> Gathering<'a> {
     }
 }
 
-/// Removes all but one of the flush faces that a sphere touches. The face under its centre stays; of several, the
-/// one it has been on, or the first.
+/// Removes all but one of the flush faces that a sphere touches. The face under its centre stays. Of several that lie
+/// upon each other in the same place, the one it has been on stays, or the first.
 fn leave_out_doubles(context: &StepContext, members: &[Member], touches: &mut Vec<Touch>) {
     let surface = |touch: &Touch| match touch.bodies {
         Bodies::Surface { surface, .. } => Some(&context.system.surfaces[surface as usize]),
@@ -278,17 +279,27 @@ fn leave_out_doubles(context: &StepContext, members: &[Member], touches: &mut Ve
             && !other.is_curved()
             && (one.normal - other.normal).norm() <= FLUSH
     };
-    let rank = |touch: &Touch| {
+    let is_under = |touch: &Touch| {
         let Member { position, velocity, .. } = members[touch.second];
         let state = [position + touch.shift, velocity - touch.form_velocity()];
-        let is_under = surface(touch).is_some_and(|it| has(&it.form, state));
-        (!is_under, !touch.has_persisted, touch.bodies)
+        surface(touch).is_some_and(|it| has(&it.form, state))
     };
+    let are_one = |one: &Touch, other: &Touch| {
+        let Member { position, species, .. } = &members[one.second];
+        let coordinates = position.norm() + species.radius + one.point.norm();
+        (one.normal - other.normal).norm() <= PARALLEL
+            && (one.gap - other.gap).abs() <= 2.0 * TOUCHING * coordinates
+    };
+    let rank = |touch: &Touch| (!is_under(touch), !touch.has_persisted, touch.bodies);
     let mut left: Vec<Touch> = Vec::with_capacity(touches.len());
     for touch in touches.iter() {
         let of_sphere = left.iter_mut().rev().take_while(|it| it.second == touch.second);
         let is_surface = surface(touch).is_some();
-        match of_sphere.into_iter().find(|it| is_surface && are_flush(it, touch)) {
+        let is_double = |it: &Touch| {
+            let are_both_under = || is_under(it) && is_under(touch);
+            are_flush(it, touch) && (!are_both_under() || are_one(it, touch))
+        };
+        match of_sphere.into_iter().find(|it| is_surface && is_double(it)) {
             Some(other) if rank(touch) < rank(other) => *other = *touch,
             Some(_) => {}
             None => left.push(*touch),

@@ -169,6 +169,8 @@ fn tension_by_length(spring: &Spring, offset: DVec3, velocity: DVec3) -> f64 {
 }
 
 /// The path of one end of a spring over a step.
+// Two of them at a time, on the stack.
+#[allow(clippy::large_enum_variant)]
 #[derive(Debug, Clone, Copy)]
 pub(super) enum TiePath {
     Polynomial(PolynomialFlight),
