@@ -1,5 +1,6 @@
 //! All colliders of a world, with the surfaces and trees made of them.
 
+use std::mem::{self, Discriminant};
 use std::sync::{Arc, OnceLock};
 
 use crate::collider::Collider;
@@ -7,7 +8,7 @@ use crate::detect::surface_tree::SurfaceTree;
 use crate::id::ColliderId;
 use crate::numbered::Numbered;
 use crate::seams::Seams;
-use crate::surface::{self, Role, Surface};
+use crate::surface::{self, Form, Role, Surface};
 
 /// Colliders in their order, and the surfaces made of them.
 #[derive(Debug, Clone, Default)]
@@ -80,8 +81,11 @@ impl Colliders {
         self.surfaces().iter().any(|surface| !surface.motion.is_at_rest())
     }
 
-    /// Advances moving colliders by `h` \[s\], to `time` \[s\].
-    pub fn advance(&mut self, h: f64, time: f64) {
+    /// Advances moving colliders by `h` \[s\], to `time` \[s\]. Returns whether surfaces have other numbers then, as
+    /// seams may depend on the rounding of poses.
+    pub fn advance(&mut self, h: f64, time: f64) -> bool {
+        let are_seams_of_now = self.seams.get().is_some_and(|it| it.are_of_now);
+        let before = are_seams_of_now.then(|| kinds(self.surfaces()));
         for collider in self.list.values_mut() {
             if collider.motion.is_empty() {
                 let Collider { velocity, angular_velocity, .. } = *collider;
@@ -89,10 +93,11 @@ impl Colliders {
             }
         }
         self.set_time(time);
-        if self.seams.get().is_some_and(|it| it.are_of_now) {
+        if are_seams_of_now {
             self.forget_seams();
         }
         self.forget_surfaces();
+        before.is_some_and(|before| before != kinds(self.surfaces()))
     }
 
     /// Moves colliders with a motion, and their surfaces, to their places at `time` \[s\].
@@ -119,6 +124,11 @@ impl Colliders {
         self.tree.take();
         self.trigger_tree.take();
     }
+}
+
+/// Collider and kind of form of each surface.
+fn kinds(surfaces: &[Surface]) -> Vec<(ColliderId, Discriminant<Form>)> {
+    surfaces.iter().map(|it| (it.collider, mem::discriminant(&it.form))).collect()
 }
 
 /// Serialized colliders: surfaces and trees follow from them.

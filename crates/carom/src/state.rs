@@ -160,11 +160,14 @@ impl State {
         self.solver.is_idle() && !any_due
     }
 
-    /// Moves on by `h` \[s\] the colliders that move.
+    /// Advances moving colliders by `h` \[s\].
     pub fn advance_colliders(&mut self, h: f64) {
-        if self.colliders.any_moving() {
-            let time = self.clock.seconds();
-            Arc::make_mut(&mut self.colliders).advance(h, time);
+        if !self.colliders.any_moving() {
+            return;
+        }
+        let time = self.clock.seconds();
+        if Arc::make_mut(&mut self.colliders).advance(h, time) {
+            self.changed();
         }
     }
 

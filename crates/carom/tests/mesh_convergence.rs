@@ -75,7 +75,7 @@ fn impacts(shape: Shape) -> Vec<Impact> {
 /// Exponent of the power of a length by which errors fall, by least squares.
 fn order(errors: &[f64]) -> f64 {
     // Lengths are halved from one to the next.
-    let logs: Vec<f64> = errors.iter().map(|it| -it.log2()).collect();
+    let logs: Vec<f64> = errors.iter().map(|it| -libm::log2(*it)).collect();
     let middle = 0.5 * (logs.len() - 1) as f64;
     let weights = || (0..logs.len()).map(|it| it as f64 - middle);
     let slope: f64 = weights().zip(&logs).map(|(weight, log)| weight * log).sum();
@@ -92,7 +92,8 @@ fn contacts_converge_with_the_square_of_the_edges_and_bounces_with_their_length(
         let found = impacts(Shape::Mesh(icosphere(cuts)));
         assert_eq!(found.len(), SHOTS);
         let mean = |of: &dyn Fn(&Impact, &Impact) -> f64| {
-            let squares = exact.iter().zip(&found).map(|(one, other)| of(one, other).powi(2));
+            let errors = exact.iter().zip(&found).map(|(one, other)| of(one, other));
+            let squares = errors.map(|error| error * error);
             (squares.sum::<f64>() / SHOTS as f64).sqrt()
         };
         // At a speed of 1 m/s, times are ways.

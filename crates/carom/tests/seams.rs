@@ -329,6 +329,37 @@ fn tiles_that_share_a_motion_are_one_plate() {
 }
 
 #[test]
+fn a_wall_of_turned_boxes_that_move_together_is_the_same_at_any_size() {
+    // Each step rounds the poses of the boxes, and their seams follow; powers of two round nothing.
+    let state_after = |length: f64, time: f64| {
+        let exact = Exact::default();
+        let mut world = world(exact.with_contact_duration(exact.contact_duration * time));
+        let turn = DQuat::from_rotation_z(1.429_303_5);
+        let velocity = 0.353_967_976_149_224_76 * length / time * DVec3::Z;
+        for number in 0..7 {
+            let place = turn * vec(0.4 * f64::from(number) - 1.2, -0.8, 0.0);
+            let shape = Shape::Box { size: length * vec(0.4, 0.4, 2.0) };
+            let wall = Collider::new(shape, Pose::at(length * place).rotated(turn));
+            world.add_collider(wall.moving(velocity, DVec3::ZERO)).unwrap();
+        }
+        let towards = turn * vec(0.7, -1.3, 0.2) * length / time;
+        let ball = Sphere::new(DVec3::ZERO, 0.2 * length).with_velocity(velocity + towards);
+        let ball = world.add_sphere(ball).unwrap();
+        let mut impacts = 0;
+        for _ in 0..60 {
+            impacts += world.step(0.011_718_75 * time).unwrap().impacts.len();
+        }
+        assert_eq!(impacts, 1);
+        let Sphere { position, velocity, .. } = world.sphere(ball).unwrap();
+        (position / length, velocity * (time / length))
+    };
+    let large = f64::from(1 << 20);
+    let at_one = state_after(1.0, 1.0);
+    assert_eq!(state_after(large, f64::from(1 << 17)), at_one);
+    assert_eq!(state_after(large.recip(), f64::from(1 << 14).recip()), at_one);
+}
+
+#[test]
 fn a_ball_that_passes_through_the_next_tile_leaves_its_own_over_the_edge() {
     let tile = |x: f64| a_box([1.0; 3], [x, -0.5, 0.0]);
     let other = tile(1.0).with_groups(Groups { groups: 2, collides_with: 2 });

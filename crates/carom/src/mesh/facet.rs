@@ -112,8 +112,12 @@ impl Facet {
 
     /// Coordinates of the foot of a point in the plane \[m\].
     pub fn local(&self, point: DVec3) -> DVec2 {
-        let offset = point - self.frame.center;
-        DVec2::new(offset.dot(self.frame.axis_x), offset.dot(self.frame.axis_z))
+        self.local_direction(point - self.frame.center)
+    }
+
+    /// A direction of the world along the axes of the plane.
+    pub fn local_direction(&self, direction: DVec3) -> DVec2 {
+        DVec2::new(direction.dot(self.frame.axis_x), direction.dot(self.frame.axis_z))
     }
 
     /// A direction of the plane in the world.

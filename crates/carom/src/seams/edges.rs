@@ -60,7 +60,7 @@ fn intervals(edge: &Edge, face: &FlushFace) -> Vec<[f64; 2]> {
 /// most.
 fn under(facet: &Facet, edge: &Edge, through: DVec3, gap: f64) -> Vec<[f64; 2]> {
     let start = facet.local(through);
-    let along = facet.local(through + edge.axis) - start;
+    let along = facet.local_direction(edge.axis);
     let mut breaks = vec![-edge.half, edge.half];
     for side in facet.outline.sides() {
         let [first, second] = side.ends.map(|end| (end - start).perp_dot(along));
