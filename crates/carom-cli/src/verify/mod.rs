@@ -12,6 +12,7 @@ mod coupled_flights;
 mod course;
 mod curved_flights;
 mod dense;
+mod derivatives;
 mod fluid;
 mod forces;
 mod friction;
@@ -66,7 +67,7 @@ pub fn verify(args: &Verify) -> Result<(), Failure> {
 type Topic = (&'static str, fn() -> Vec<Claim>);
 
 /// All topics, in the order in which their claims are printed.
-const TOPICS: [Topic; 18] = [
+const TOPICS: [Topic; 19] = [
     ("motion", motion::claims),
     ("forces", forces::claims),
     ("impacts", single_impacts::claims),
@@ -79,6 +80,7 @@ const TOPICS: [Topic; 18] = [
     ("resting", resting::claims),
     ("friction", friction::claims),
     ("rolling", rolling::claims),
+    ("derivatives", derivatives::claims),
     ("surfaces", surfaces::claims),
     ("convergence", convergence::claims),
     ("packing", packing::claims),
