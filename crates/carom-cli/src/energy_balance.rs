@@ -30,25 +30,42 @@ pub struct EnergyBalance {
     /// Change of energy in no other account \[J\]: the error of the integration, and what
     /// `integration_is` names besides.
     integration: f64,
-    /// Its size as a part of the largest energy.
+    /// Its size as a part of the largest energy: of all entries, and of kinetic and potential energy
+    /// at the start and the end.
     integration_part: f64,
     /// Origin of the entry before, in words.
     integration_is: &'static str,
 }
 
+/// Energies of a world at one time.
+#[derive(Debug, Clone, Copy)]
+pub struct Energies {
+    /// Sum of kinetic and potential energy \[J\].
+    pub total: f64,
+    /// Size of the larger one of the two \[J\].
+    largest: f64,
+}
+
+impl Energies {
+    pub fn of(world: &World) -> Self {
+        let [kinetic, potential] = [world.kinetic_energy(), world.potential_energy()];
+        Self { total: world.total_energy(), largest: kinetic.abs().max(potential.abs()) }
+    }
+}
+
 impl EnergyBalance {
-    /// Creates the balance from the accounts and the total energies at the start and the end \[J\].
+    /// Creates the balance from the accounts and the energies at the start and the end.
     pub fn new(
         account: EnergyAccount,
-        [start, end]: [f64; 2],
+        [start, end]: [Energies; 2],
         integration_is: &'static str,
     ) -> Self {
         let EnergyAccount { contacts, colliders, kicks, growth, forces, applied, .. } = account;
         let EnergyAccount { correction, emission, .. } = account;
-        let integration = end - start - account.total();
+        let integration = end.total - start.total - account.total();
         let given = [contacts, colliders, kicks, growth, forces, applied, correction, emission];
         let largest =
-            given.iter().chain(&[start, end]).fold(0.0, |most: f64, it| most.max(it.abs()));
+            given.iter().fold(start.largest.max(end.largest), |most, it| most.max(it.abs()));
         let integration_part = if integration == 0.0 { 0.0 } else { integration.abs() / largest };
         Self {
             contacts,

@@ -11,7 +11,7 @@ use serde::Serialize;
 use crate::advice::{Conduct, advice, unread};
 use crate::breach::{Course, breaches};
 use crate::contact_totals::ContactTotals;
-use crate::energy_balance::{EnergyBalance, rest_of};
+use crate::energy_balance::{Energies, EnergyBalance, rest_of};
 use crate::escapes::Escapes;
 use crate::failure::Failure;
 use crate::stage_work::StageWork;
@@ -33,7 +33,7 @@ const INTO_ANOTHER: f64 = 1e-3;
 pub struct Observer {
     began: Instant,
     stepping: Duration,
-    energy_at_start: f64,
+    energies_at_start: Energies,
     momentum_at_start: DVec3,
     frames: u64,
     impacts: u64,
@@ -66,7 +66,7 @@ impl Observer {
         Self {
             began: Instant::now(),
             stepping: Duration::ZERO,
-            energy_at_start: world.total_energy(),
+            energies_at_start: Energies::of(world),
             momentum_at_start: world.momentum(),
             frames: 0,
             impacts: 0,
@@ -249,7 +249,7 @@ impl Summary {
         let is_bisect = simulation.rule == Rule::Bisect;
         let is_exact = simulation.rule == Rule::Exact;
         let is_contact = simulation.rule == Rule::Contact;
-        let energy_at_end = world.total_energy();
+        let energies = [observer.energies_at_start, Energies::of(world)];
         let advice = advice(Conduct::of(replay, &observer));
         let mut broken = breaches(Course::of(replay, &observer));
         let name_of = |id: ColliderId| match replay.scene().colliders.get(id.number() as usize) {
@@ -283,11 +283,11 @@ impl Summary {
             trigger_contacts: observer.trigger_contacts,
             unfinished_islands: observer.unfinished_islands,
             work: observer.work.into(),
-            energy_at_start: observer.energy_at_start,
-            energy_at_end,
+            energy_at_start: energies[0].total,
+            energy_at_end: energies[1].total,
             energy_balance: EnergyBalance::new(
                 observer.energy,
-                [observer.energy_at_start, energy_at_end],
+                energies,
                 rest_of(replay.scene(), world, replay.edits()),
             ),
             momentum_at_start: observer.momentum_at_start.to_array(),
