@@ -69,6 +69,8 @@ fn balls_that_have_all_left_can_be_brought_back_into_the_picture() {
     assert!(desk.query_by_label(LEFT).is_none());
     // The ball is then a thousand radii away.
     go_to(&mut desk, 20.0);
+    // The card needs two frames to find its place.
+    desk.run_steps(3);
     desk.get_by_label(LEFT);
     // "Fit" is a button of the bar as well.
     press(&mut desk, Key::Num0);
