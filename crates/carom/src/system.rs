@@ -113,6 +113,11 @@ impl<'a> System<'a> {
         }
     }
 
+    /// Whether forces between spheres other than dampers are nonconservative.
+    pub fn has_nonconservative_interactions(&self) -> bool {
+        self.interactions.is_some_and(|it| !it.are_conservative_but_for_dampers())
+    }
+
     /// The nonconservative forces between spheres \[N\] without dampers, as in
     /// [`Self::nonconservative_forces_between`].
     pub fn nonconservative_interactions(

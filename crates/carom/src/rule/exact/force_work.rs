@@ -27,6 +27,9 @@ pub(super) struct ForceTally {
     dampers: Vec<Damper>,
     /// Numbers of the dampers at each sphere, by its index; empty without dampers.
     dampers_at: Vec<Vec<u32>>,
+    /// Time up to which the work of interactions on curved flights is counted, on the world's clock \[s\]; `None`
+    /// without nonconservative ones.
+    interactions_until: Option<f64>,
 }
 
 /// The damper of a spring.
@@ -41,9 +44,10 @@ struct Damper {
 }
 
 impl ForceTally {
-    /// Starts to count for all springs at `now` \[s\], and keeps the work so far.
+    /// Starts to count for all springs and interactions at `now` \[s\], and keeps the work so far.
     pub fn restart(&mut self, system: &System, now: f64) {
         let ids = &system.spheres.id;
+        self.interactions_until = system.has_nonconservative_interactions().then_some(now);
         self.dampers.clear();
         self.dampers_at.clear();
         for &spring in system.springs().filter(|spring| spring.damping > 0.0) {
@@ -115,6 +119,26 @@ impl ForceTally {
         for &number in numbers {
             self.work.forces += self.dampers[number as usize].work_until(now, seen, system);
         }
+    }
+
+    /// Counts the work of interactions on spheres that fly on curves up to `now` \[s\], along the flights that were
+    /// seen. The forces on other spheres are held.
+    pub fn follow_interactions(&mut self, seen: &[Seen], system: &System, now: f64) {
+        let Some(until) = self.interactions_until.filter(|&until| until < now) else { return };
+        self.interactions_until = Some(now);
+        if seen.iter().all(|it| it.curve.is_none()) {
+            return;
+        }
+        self.work.forces += integral([until, now], |time| {
+            let (positions, velocities): (Vec<DVec3>, Vec<DVec3>) =
+                seen.iter().map(|it| it.state_at(time)).unzip();
+            let mut forces = Vec::new();
+            system.nonconservative_interactions([&positions, &velocities], time, &mut forces);
+            let powers =
+                forces.iter().zip(&velocities).map(|(force, velocity)| force.dot(*velocity));
+            let is_curved = |(_, seen): &(f64, &Seen)| seen.curve.is_some();
+            powers.zip(seen).filter(is_curved).map(|(power, _)| power).sum()
+        });
     }
 
     /// Counts the work of all dampers up to `now` \[s\].

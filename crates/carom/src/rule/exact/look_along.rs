@@ -39,13 +39,14 @@ fn look_along_ended(timeline: &mut Timeline, system: &System) {
         let index = index_of[slot as usize] as usize;
         bodies[slot as usize].generation != watch.flights[index].generation
     });
-    // A damper needs the old flights of both of its ends.
+    // A damper needs the old flights of both of its ends, an interaction those of all spheres.
     for &slot in &begun {
         let index = index_of[slot as usize];
         look_along(&mut watch, timeline, system, index as usize, bodies[slot as usize].time);
         if let Some(tally) = &mut watch.tally {
             let now = watch.flights[index as usize].from;
             tally.follow_dampers(index, &watch.flights, system, now);
+            tally.follow_interactions(&watch.flights, system, now);
         }
     }
     for &slot in &begun {
@@ -66,6 +67,7 @@ pub(crate) fn end(timeline: &mut Timeline, system: &System, now: f64) -> Option<
     }
     if let Some(tally) = &mut watch.tally {
         tally.follow_all_dampers(&watch.flights, system, now);
+        tally.follow_interactions(&watch.flights, system, now);
     }
     Some(watch)
 }
@@ -95,13 +97,14 @@ fn seen(timeline: &Timeline, slot: u32, from: f64) -> Seen {
     let species = timeline.flights.species_of(slot);
     let index = timeline.flights.index_of[slot as usize] as usize;
     let curve = timeline.flights.curve_of(slot).map(|curve| curve.0);
+    let held = timeline.working_forces.get(index).filter(|_| curve.is_none());
     Seen {
         flight: body.flight(species),
         curve,
         flight_start: body.time,
         generation: body.generation,
         is_stepped: species.is_stepped,
-        held_force: timeline.working_forces.get(index).copied().unwrap_or(DVec3::ZERO),
+        held_force: held.copied().unwrap_or(DVec3::ZERO),
         from: body.time.max(from),
     }
 }

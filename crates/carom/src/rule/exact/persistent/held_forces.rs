@@ -127,7 +127,7 @@ fn forces_between(timeline: &Timeline, system: &System, interval: [f64; 2]) -> V
 /// where there are none.
 fn working_forces(timeline: &Timeline, system: &System, interval: [f64; 2]) -> Vec<DVec3> {
     let mut forces = Vec::new();
-    if system.interactions.is_some_and(|it| !it.are_conservative_but_for_dampers()) {
+    if system.has_nonconservative_interactions() {
         let (positions, velocities) = states_in_the_middle(timeline, system, interval);
         let middle = interval[0] + 0.5 * (interval[1] - interval[0]);
         system.nonconservative_interactions([&positions, &velocities], middle, &mut forces);
