@@ -277,10 +277,12 @@ fn what_the_first_step_would_refuse_is_refused_before_it() {
     assert!(refused.starts_with(place), "{refused}");
     let spring = "[[springs]]\nspheres = [0, 1]\nstiffness = 1e15\n";
     let stiff = format!("name = 'test'\n{balls}{spring}");
-    let refused = refusal(&stiff);
-    assert!(refused.starts_with("test.toml:3: springs: `stiffness` must be"), "{refused}");
-    read(&format!("{stiff}[simulation]\nrule = 'contact'\n")).unwrap();
-    read(&stiff.replace("1e15", "1e5")).unwrap();
+    for rule in ["exact", "contact"] {
+        let stiff = format!("{stiff}[simulation]\nrule = '{rule}'\n");
+        let refused = refusal(&stiff);
+        assert!(refused.starts_with("test.toml:3: springs: `stiffness` must be"), "{refused}");
+        read(&stiff.replace("1e15", "1e5")).unwrap();
+    }
 }
 
 #[test]
