@@ -8,10 +8,10 @@ mod common;
 use std::f64::consts::{PI, TAU};
 
 use carom::{
-    BodyPair, Collider, Contact, DQuat, DVec3, EnergyAccount, Exact, Gravity, Impact, Motion,
-    MotionPart, Pose, Rule, Shape, Sides, Sphere, World,
+    BodyPair, Collider, Contact, DQuat, DVec3, Exact, Gravity, Impact, Motion, MotionPart, Pose,
+    Rule, Shape, Sides, Sphere, World,
 };
-use common::{G, Numbers, assert_close, bisect, discrete, vec, world};
+use common::{G, Numbers, account_of_run, assert_close, bisect, discrete, vec, world};
 
 const SIZES: [f64; 3] = [1e-6, 1.0, 1e6];
 
@@ -60,16 +60,6 @@ fn run(world: &mut World, frames: usize) {
     for _ in 0..frames {
         world.step(1.0 / 60.0).unwrap();
     }
-}
-
-/// The sum of the accounts of a run, and what is left of the change of energy.
-fn account(world: &mut World, frames: usize, frame: f64) -> (EnergyAccount, f64) {
-    let before = world.total_energy();
-    let mut sum = EnergyAccount::default();
-    for _ in 0..frames {
-        sum += world.step(frame).unwrap().energy_account;
-    }
-    (sum, world.total_energy() - before - sum.total())
 }
 
 /// The first root of a function in steps of `step` from `from` on, by halving.
@@ -323,7 +313,7 @@ fn energy_account_closes_beside_all_motions_under_exact_and_contact() {
             let ball = Sphere::new(center, 0.08).with_velocity(numbers.vector());
             world.add_sphere(ball.with_restitution(0.8)).unwrap();
         }
-        let (account, remainder) = account(&mut world, 180, 1.0 / 60.0);
+        let (account, remainder) = account_of_run(&mut world, 180, 1.0 / 60.0);
         assert!(account.colliders.abs() > 0.1, "{account:?}");
         // Pieces of path on what accelerates; in sub-steps all paths are straight or parabolas.
         let part = if matches!(rule, Rule::Exact(_)) { 1e-7 } else { 1e-12 };
@@ -353,7 +343,7 @@ fn energy_account_of_contact_closes_for_rough_balls_on_a_vibrating_plate() {
             let ball = Sphere::new(center, 0.06).with_restitution(0.8).with_friction(friction);
             world.add_sphere(ball).unwrap();
         }
-        let (account, rest) = account(&mut world, 120, 1.0 / 60.0);
+        let (account, rest) = account_of_run(&mut world, 120, 1.0 / 60.0);
         assert!(account.colliders > 1.0, "{account:?}");
         // Rounding of some ten thousand impulses.
         assert!(rest.abs() < 1e-13 * account.colliders, "{friction}: {rest} {account:?}");

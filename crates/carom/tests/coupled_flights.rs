@@ -9,21 +9,12 @@ mod common;
 use std::f64::consts::PI;
 
 use carom::{
-    Boundary, Collider, DQuat, DVec3, Emitter, Exact, Gravity, PointAttractor, Pose, QuadraticDrag,
+    Boundary, Collider, DQuat, DVec3, Emitter, Gravity, PointAttractor, Pose, QuadraticDrag,
     Settings, Shape, Sphere, SphereId, Spring, World,
 };
-use common::{G, Numbers, assert_close, vec, world};
+use common::{G, Numbers, assert_close, exact, run, vec};
 
 const FRAME: f64 = 1.0 / 64.0;
-
-fn exact() -> World {
-    world(Exact::default())
-}
-
-fn run(world: &mut World, duration: f64, h: f64) -> usize {
-    let frames = (duration / h).round() as usize;
-    (0..frames).map(|_| world.step(h).unwrap().impacts.len()).sum()
-}
 
 fn elastic(place: DVec3, radius: f64) -> Sphere {
     Sphere::new(place, radius).with_restitution(1.0)

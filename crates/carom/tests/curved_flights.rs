@@ -14,19 +14,10 @@ use carom::{
     Boundary, Buoyancy, Collider, DQuat, DVec3, Error, Exact, Force, Gravity, PointAttractor, Pose,
     QuadraticDrag, Settings, Shape, Sphere, SphereState, Vortex, World,
 };
-use common::{G, Numbers, assert_close, vec, world};
+use common::{G, Numbers, assert_close, exact, run, vec, world};
 
 const DOWN: DVec3 = DVec3::new(0.0, -G, 0.0);
 const FRAME: f64 = 1.0 / 64.0;
-
-fn exact() -> World {
-    world(Exact::default())
-}
-
-fn run(world: &mut World, duration: f64, h: f64) -> usize {
-    let frames = (duration / h).round() as usize;
-    (0..frames).map(|_| world.step(h).unwrap().impacts.len()).sum()
-}
 
 fn fixed_ball(center: DVec3, radius: f64) -> Collider {
     Collider::new(Shape::Sphere { radius }, Pose::at(center))

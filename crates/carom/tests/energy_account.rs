@@ -4,10 +4,9 @@
 mod common;
 
 use carom::{
-    Collider, Contact, DQuat, DVec3, Emitter, EnergyAccount, Exact, Gravity, Pose, Rule, Shape,
-    Sphere, World,
+    Collider, Contact, DQuat, DVec3, Emitter, Exact, Gravity, Pose, Rule, Shape, Sphere, World,
 };
-use common::{G, Numbers, assert_close, bisect, discrete, vec, world};
+use common::{G, Numbers, account_of_run, assert_close, bisect, discrete, vec, world};
 
 const DOWN: DVec3 = DVec3::new(0.0, -G, 0.0);
 const FRAME: f64 = 1.0 / 60.0;
@@ -34,16 +33,6 @@ fn at_origin(shape: Shape) -> Collider {
     Collider::new(shape, Pose::at(DVec3::ZERO))
 }
 
-/// Runs a number of frames. Returns the sum of their accounts, and what is left of the change of energy.
-fn run(world: &mut World, frames: usize, dt: f64) -> (EnergyAccount, f64) {
-    let before = world.total_energy();
-    let mut sum = EnergyAccount::default();
-    for _ in 0..frames {
-        sum += world.step(dt).unwrap().energy_account;
-    }
-    (sum, world.total_energy() - before - sum.total())
-}
-
 /// A ball that slides and rolls over a floor into others, bounces, and a box that a ball falls into.
 fn busy_world(rule: Rule) -> World {
     let mut world = heavy_world(rule);
@@ -63,7 +52,7 @@ fn busy_world(rule: Rule) -> World {
 fn under_exact_and_gravity_impacts_and_friction_are_all_that_takes_energy() {
     let mut world = busy_world(exact());
     let largest = world.total_energy();
-    let (account, remainder) = run(&mut world, 240, FRAME);
+    let (account, remainder) = account_of_run(&mut world, 240, FRAME);
     // One in a million of sliding paths over edges is the error of their pieces.
     assert!(remainder.abs() < 1e-9 * largest, "{remainder} of {largest}: {account:?}");
     assert!(account.contacts < -0.2 * largest, "{account:?}");
@@ -74,7 +63,7 @@ fn under_exact_and_gravity_impacts_and_friction_are_all_that_takes_energy() {
 fn the_account_does_not_depend_on_how_frames_cut_the_motion() {
     let [fine, coarse] = [1.0 / 240.0, 1.0 / 4.0].map(|dt| {
         let mut world = busy_world(exact());
-        run(&mut world, (4.0 / dt) as usize, dt).0
+        account_of_run(&mut world, (4.0 / dt) as usize, dt).0
     });
     assert_close(fine.contacts, coarse.contacts, 1e-12 * fine.contacts.abs());
 }
@@ -89,7 +78,7 @@ fn what_rests_takes_nothing() {
             world.add_sphere(Sphere::new(place, 0.1).with_restitution(0.9)).unwrap();
         }
         // In a sub-step a ball gains a speed of 0.02 m/s, which the floor takes.
-        let (account, remainder) = run(&mut world, 120, FRAME);
+        let (account, remainder) = account_of_run(&mut world, 120, FRAME);
         assert!(account.contacts.abs() < 1e-15, "{rule:?}: {account:?}");
         assert!(remainder.abs() < 1e-15, "{rule:?}: {remainder}");
     }
@@ -102,7 +91,7 @@ fn a_ball_that_slides_until_it_rolls_loses_two_sevenths_of_its_energy() {
         world.add_collider(floor().with_friction(0.4)).unwrap();
         let ball = Sphere::new(vec(0.0, 0.1, 0.0), 0.1).with_mass(2.0);
         world.add_sphere(ball.with_velocity(vec(1.0, 0.0, 0.0))).unwrap();
-        let (account, remainder) = run(&mut world, 60, FRAME);
+        let (account, remainder) = account_of_run(&mut world, 60, FRAME);
         assert_close(account.contacts, -2.0 / 7.0, tolerance);
         assert_close(remainder, 0.0, tolerance);
     }
@@ -121,7 +110,7 @@ fn balls_that_push_each_other_lose_what_friction_takes() {
         let rolling = ahead.with_velocity(vec(0.9, 0.0, 0.0));
         world.add_sphere(rolling.with_angular_velocity(vec(0.0, 0.0, -9.0))).unwrap();
         let largest = world.total_energy();
-        let (account, remainder) = run(&mut world, 120, FRAME);
+        let (account, remainder) = account_of_run(&mut world, 120, FRAME);
         assert!(!world.was_stepped());
         assert!(account.contacts < 0.0);
         // To this their pieces of path are right.
@@ -136,7 +125,7 @@ fn a_belt_gives_what_its_ball_gets_and_friction_takes_half() {
         let belt = floor().with_friction(0.4).moving(vec(1.0, 0.0, 0.0), DVec3::ZERO);
         world.add_collider(belt).unwrap();
         world.add_sphere(Sphere::new(vec(0.0, 0.1, 0.0), 0.1).with_mass(0.2)).unwrap();
-        let (account, remainder) = run(&mut world, 60, FRAME);
+        let (account, remainder) = account_of_run(&mut world, 60, FRAME);
         // It comes to roll on the belt, with 2/7 of its speed.
         assert_close(account.colliders, 0.2 * 2.0 / 7.0, tolerance * 0.06);
         assert_close(account.contacts, -0.1 * 2.0 / 7.0, tolerance * 0.03);
@@ -156,7 +145,7 @@ fn a_wall_does_the_work_of_its_impulse() {
         world.add_collider(wall.moving(vec(speed, 0.0, 0.0), DVec3::ZERO)).unwrap();
         let ball = Sphere::new(DVec3::ZERO, 0.1).with_mass(3.0).with_restitution(0.5);
         world.add_sphere(ball).unwrap();
-        let (account, remainder) = run(&mut world, 30, FRAME);
+        let (account, remainder) = account_of_run(&mut world, 30, FRAME);
         // From rest to (1 + e) w: the impulse is m (1 + e) w, and its work that times w.
         let given = 3.0 * 1.5 * speed * speed;
         let is_given = (account.colliders - given).abs() < 1e-14 * given;
@@ -189,7 +178,7 @@ fn bounces_take_what_restitution_demands_under_every_rule() {
         let ball = Sphere::new(vec(0.0, 1.1, 0.0), 0.1).with_mass(2.0).with_restitution(0.9);
         world.add_sphere(ball).unwrap();
         // Falls 1 m, in 0.45 s.
-        let (account, _) = run(&mut world, 30, FRAME);
+        let (account, _) = account_of_run(&mut world, 30, FRAME);
         let demanded = -2.0 * G * (1.0 - 0.81);
         assert_close(account.contacts, demanded, tolerance * demanded.abs());
     }
@@ -209,7 +198,7 @@ fn an_elastic_gas_closes_its_account_under_the_rules_with_impacts() {
             world.add_sphere(sphere).unwrap();
         }
         let largest = world.total_energy();
-        let (account, remainder) = run(&mut world, 100, FRAME);
+        let (account, remainder) = account_of_run(&mut world, 100, FRAME);
         assert!(account.contacts.abs() < 1e-12 * largest, "{rule:?}: {account:?}");
         assert!(remainder.abs() < 1e-12 * largest, "{rule:?}: {remainder}");
     }
@@ -223,7 +212,7 @@ fn emitted_and_retired_balls_are_an_entry() {
         let emitter = Emitter::new(thrown.with_angular_velocity(vec(0.0, 9.0, 0.0)), 0.3);
         let emitter = emitter.with_position(vec(0.0, 3.0, 0.0)).with_max_spheres(4);
         world.add_emitter(emitter).unwrap();
-        let (account, remainder) = run(&mut world, 180, FRAME);
+        let (account, remainder) = account_of_run(&mut world, 180, FRAME);
         let kinetic = 0.5 * 2.0 * 26.0 + 0.5 * (0.4 * 2.0 * 0.01) * 81.0;
         let each = kinetic + 2.0 * G * 3.0;
         let count = 10.0;

@@ -6,11 +6,11 @@ mod common;
 use std::f64::consts::PI;
 
 use carom::{
-    Bisect, Buoyancy, Collider, Contact, DVec3, Discrete, EnergyAccount, Exact, Force, Gravity,
-    Integrator, Interaction, Pose, QuadraticDrag, Rule, Shape, Sides, Sphere, SphereState,
-    SphereStates, Spring, ViscousDrag, Vortex, Wind, World,
+    Bisect, Buoyancy, Collider, Contact, DVec3, Discrete, Exact, Force, Gravity, Integrator,
+    Interaction, Pose, QuadraticDrag, Rule, Shape, Sides, Sphere, SphereState, SphereStates,
+    Spring, ViscousDrag, Vortex, Wind, World,
 };
-use common::{Numbers, assert_close, vec, world};
+use common::{Numbers, account_of_run, assert_close, vec, world};
 
 const FRAME: f64 = 1.0 / 60.0;
 
@@ -20,16 +20,6 @@ fn exact() -> Rule {
 
 fn contact() -> Rule {
     Contact::default().into()
-}
-
-/// Runs a number of frames. Returns the sum of their accounts, and the error of the integration.
-fn run(world: &mut World, frames: usize, dt: f64) -> (EnergyAccount, f64) {
-    let before = world.total_energy();
-    let mut sum = EnergyAccount::default();
-    for _ in 0..frames {
-        sum += world.step(dt).unwrap().energy_account;
-    }
-    (sum, world.total_energy() - before - sum.total())
 }
 
 /// A ball of 2 kg and 0.1 m that flies at 3 m/s.
@@ -42,7 +32,7 @@ fn linear_drag_takes_what_the_exponential_loses() {
     let mut world = world(exact());
     world.add_force(ViscousDrag::new(0.8)).unwrap();
     world.add_sphere(ball()).unwrap();
-    let (account, rest) = run(&mut world, 90, FRAME);
+    let (account, rest) = account_of_run(&mut world, 90, FRAME);
     // v = v0 e^-γt with γ = 0.4/s, over 1.5 s.
     assert_close(account.forces, 9.0 * libm::expm1(-2.0 * 0.4 * 1.5), 1e-14 * 9.0);
     assert_close(rest, 0.0, 1e-14 * 9.0);
@@ -54,7 +44,7 @@ fn quadratic_drag_takes_what_the_hyperbola_loses() {
         let mut world = world(exact());
         world.add_force(QuadraticDrag::new(5.0)).unwrap();
         world.add_sphere(ball()).unwrap();
-        let (account, rest) = run(&mut world, (1.5 / frame) as usize, frame);
+        let (account, rest) = account_of_run(&mut world, (1.5 / frame) as usize, frame);
         // v = v0 / (1 + v0 t k / m) with k = rho c A / 2.
         let k = 0.5 * 5.0 * 0.44 * PI * 0.01;
         let v = 3.0 / (1.0 + 3.0 * 1.5 * k / 2.0);
@@ -68,7 +58,7 @@ fn wind_gives_a_ball_at_rest_its_energy() {
     let mut world = world(exact());
     world.add_force(Wind::new(vec(2.0, 0.0, 1.0), 0.5)).unwrap();
     world.add_sphere(Sphere::new(DVec3::ZERO, 0.1).with_mass(0.7)).unwrap();
-    let (account, _) = run(&mut world, 60, FRAME);
+    let (account, _) = account_of_run(&mut world, 60, FRAME);
     // v = u (1 - e^-γt)
     let part = -libm::expm1(-0.5 / 0.7);
     assert_close(account.forces, 0.5 * 0.7 * 5.0 * part * part, 1e-14);
@@ -81,7 +71,7 @@ fn vortex_does_the_work_that_becomes_kinetic_energy() {
     world.add_force(vortex.with_core_radius(0.4)).unwrap();
     world.add_sphere(ball()).unwrap();
     let before = world.kinetic_energy();
-    let (account, _) = run(&mut world, 180, FRAME);
+    let (account, _) = account_of_run(&mut world, 180, FRAME);
     assert!((world.kinetic_energy() - before).abs() > 0.1 * before);
     assert_close(account.forces, world.kinetic_energy() - before, 1e-12 * before);
 }
@@ -97,7 +87,7 @@ fn damper_takes_what_the_damped_oscillation_loses() {
         let second = world.add_sphere(at(1.2)).unwrap();
         let spring = Spring::between(first, second, 1.0).with_stiffness(50.0);
         world.add_spring(spring.with_damping(damping)).unwrap();
-        let (account, rest) = run(&mut world, 120, FRAME);
+        let (account, rest) = account_of_run(&mut world, 120, FRAME);
         let (b, t) = (damping, 2.0);
         let w = (100.0 - b * b).sqrt();
         let (sin, cos) = (libm::sin(w * t), libm::cos(w * t));
@@ -115,9 +105,9 @@ fn damper_of_a_thread_works_only_while_it_pulls() {
     let ball = world.add_sphere(ball()).unwrap();
     let thread = Spring::to_point(ball, vec(0.0, 0.5, 0.0), 1.0).with_stiffness(200.0);
     world.add_spring(thread.with_damping(4.0).with_only_pulls(true)).unwrap();
-    let slack = run(&mut world, 15, FRAME).0;
+    let slack = account_of_run(&mut world, 15, FRAME).0;
     assert_eq!(slack.forces, 0.0);
-    let (account, rest) = run(&mut world, 120, FRAME);
+    let (account, rest) = account_of_run(&mut world, 120, FRAME);
     assert!(account.forces < -0.1 * 9.0);
     assert_close(rest, 0.0, 1e-11 * 9.0);
 }
@@ -128,7 +118,7 @@ fn applied_force_does_the_work_of_its_way_under_every_rule() {
         let mut world = world(rule);
         world.add_sphere(ball()).unwrap();
         world.set_applied_forces(&[vec(4.0, 2.0, 0.0)]).unwrap();
-        let (account, rest) = run(&mut world, 60, FRAME);
+        let (account, rest) = account_of_run(&mut world, 60, FRAME);
         // v = (3, 0) + (2, 1) t
         assert_close(account.applied, 25.0 + 1.0 - 9.0, 1e-12);
         assert_eq!(account.forces, 0.0);
@@ -166,7 +156,7 @@ fn work_of_a_force_of_a_program_is_what_its_potential_leaves() {
         let mut world = world(exact());
         world.add_force(MovingTrap { is_conservative }).unwrap();
         world.add_sphere(Sphere::new(DVec3::ZERO, 0.1).with_mass(m)).unwrap();
-        let (account, rest) = run(&mut world, 60, FRAME);
+        let (account, rest) = account_of_run(&mut world, 60, FRAME);
         assert_close(account.forces, own, 1e-12);
         assert_close(rest, energy - own, 1e-12);
     }
@@ -204,7 +194,7 @@ fn interaction_of_a_program_is_accounted_for_under_every_rule() {
         let mut world = gas(rule, 12, 1.0);
         world.add_force(Alignment(0.05)).unwrap();
         let largest = world.total_energy();
-        let (account, rest) = run(&mut world, 30, FRAME);
+        let (account, rest) = account_of_run(&mut world, 30, FRAME);
         assert!(account.forces < -0.1 * largest, "{rule:?}: {account:?}");
         // Impacts under `contact` move spheres at their own times.
         assert_close(rest, 0.0, 1e-12 * largest);
@@ -262,7 +252,7 @@ fn account_of_exact_closes_beside_each_force() {
                 world.set_sphere(id, sphere.with_friction(friction)).unwrap();
             }
             let largest = world.total_energy().abs() + world.kinetic_energy();
-            let (account, rest) = run(&mut world, 24, FRAME);
+            let (account, rest) = account_of_run(&mut world, 24, FRAME);
             assert!(account.forces != 0.0 || account.applied != 0.0, "{name}");
             assert!(!world.was_stepped());
             assert!(rest.abs() < 1e-9 * largest, "{name}: {rest} of {largest}: {account:?}");
@@ -286,7 +276,7 @@ fn account_of_stepped_rules_closes_beside_each_force_that_is_alone() {
             let mut world = gas(rule, 12, 0.8);
             add_force(&mut world, name);
             let largest = world.total_energy();
-            let (account, rest) = run(&mut world, 30, FRAME);
+            let (account, rest) = account_of_run(&mut world, 30, FRAME);
             assert!(account.forces != 0.0 || account.applied != 0.0, "{name}");
             let error = rest.abs() / largest;
             assert!(error < 1e-12, "{rule:?}, {name}: {error:e}: {account:?}");
@@ -301,7 +291,7 @@ fn what_runge_and_kutta_leave_of_the_account_falls_with_the_fourth_order() {
             let rule = Discrete::default().with_integrator(Integrator::RungeKutta4);
             let mut world = gas(rule.into(), 2, 1.0);
             add_force(&mut world, name);
-            run(&mut world, (24.0 * parts) as usize, 0.02 / parts).1
+            account_of_run(&mut world, (24.0 * parts) as usize, 0.02 / parts).1
         };
         let [coarse, fine] = [1.0, 2.0].map(rest);
         // The ratio is 16 for small steps; the rest is rounding of energies of 3 J.
@@ -317,7 +307,7 @@ fn a_ball_that_wind_presses_to_a_wall_gets_nothing_from_it() {
         world.add_force(Wind::new(vec(0.0, -5.0, 0.0), 2.0)).unwrap();
         let resting = Sphere::new(vec(0.0, 0.1, 0.0), 0.1).with_restitution(0.3);
         world.add_sphere(resting).unwrap();
-        let (account, rest) = run(&mut world, 60, FRAME);
+        let (account, rest) = account_of_run(&mut world, 60, FRAME);
         assert_close(account.forces, 0.0, 1e-13);
         assert_close(rest, 0.0, 1e-13);
     }
@@ -333,7 +323,7 @@ fn a_ball_that_rolls_in_air_loses_what_friction_and_drag_take() {
     let ball = ball().with_position(vec(0.0, 0.1, 0.0));
     world.add_sphere(ball).unwrap();
     let largest = world.kinetic_energy();
-    let (account, rest) = run(&mut world, 120, FRAME);
+    let (account, rest) = account_of_run(&mut world, 120, FRAME);
     assert!(account.forces < -0.1 * largest && account.contacts < -0.1 * largest, "{account:?}");
     assert!(rest.abs() < 1e-9 * largest, "{rest} of {largest}: {account:?}");
 }

@@ -9,22 +9,12 @@ mod common;
 use std::f64::consts::TAU;
 
 use carom::{
-    Boundary, Collider, DVec3, Emitter, Exact, Force, Gravity, Interaction, MutualGravity,
-    PointAttractor, Pose, QuadraticDrag, Settings, Shape, Sphere, SphereState, SphereStates,
-    Spring, World,
+    Boundary, Collider, DVec3, Emitter, Force, Gravity, Interaction, MutualGravity, PointAttractor,
+    Pose, QuadraticDrag, Settings, Shape, Sphere, SphereState, SphereStates, Spring, World,
 };
-use common::{G, Numbers, assert_close, vec, world};
+use common::{G, Numbers, assert_close, exact, run, vec};
 
 const FRAME: f64 = 1.0 / 64.0;
-
-fn exact() -> World {
-    world(Exact::default())
-}
-
-fn run(world: &mut World, duration: f64, h: f64) -> usize {
-    let frames = (duration / h).round() as usize;
-    (0..frames).map(|_| world.step(h).unwrap().impacts.len()).sum()
-}
 
 /// Two bodies of half a unit of mass in the apocentre of an ellipse with a semi-major axis of 1, and the period 2 pi.
 fn ellipse(eccentricity: f64, scale: f64) -> World {

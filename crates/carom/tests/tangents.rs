@@ -7,6 +7,9 @@ use carom::{
     Shape, Sides, Sphere, SphereId, SphereTangent, SphereVariation, Spring, Tangents, Tape,
     Variation, ViscousDrag, World,
 };
+use common::derivatives::{
+    assert_agree_with_differences, assert_backwards_equals_forwards, varied,
+};
 use common::{G, Numbers, vec};
 
 /// Two balls head-on along x, in a world without anything else.
@@ -161,38 +164,6 @@ fn some_direction(
     direction
 }
 
-/// A world that begins this far along a direction.
-fn varied(world: &World, direction: &Variation, by: f64) -> World {
-    let mut varied = world.clone();
-    for (force, _) in world.forces() {
-        if force == world.forces().next().unwrap().0 {
-            let gravity = vec(0.3, -2.0, 0.1) + by * direction.acceleration;
-            varied.set_force(force, Gravity::new(gravity)).unwrap();
-        }
-    }
-    for (id, change) in direction.spheres() {
-        let mut sphere = world.sphere(id).unwrap();
-        sphere.position += by * change.position;
-        sphere.velocity += by * change.velocity;
-        sphere.angular_velocity += by * change.angular_velocity;
-        sphere.radius += by * change.radius;
-        sphere.restitution += by * change.restitution;
-        sphere.friction.sliding = sphere.friction.sliding.map(|it| it + by * change.friction);
-        let index = world.spheres().index_of(id).unwrap();
-        let sphere = sphere.with_mass(world.spheres().masses()[index] + by * change.mass);
-        varied.set_sphere(id, sphere).unwrap();
-    }
-    for (id, change) in direction.colliders() {
-        let mut collider = world.collider(id).unwrap();
-        collider.pose.position += by * change.position;
-        collider.velocity += by * change.velocity;
-        collider.restitution += by * change.restitution;
-        collider.friction.sliding = collider.friction.sliding.map(|it| it + by * change.friction);
-        varied.set_collider(id, collider).unwrap();
-    }
-    varied
-}
-
 #[test]
 fn derivatives_agree_with_differences_of_runs_and_with_the_gradient() {
     let (mut compared, mut impacts) = (0, 0);
@@ -209,50 +180,22 @@ fn derivatives_agree_with_differences_of_runs_and_with_the_gradient() {
         }
         impacts += tape.impacts();
         // Backwards as forwards.
-        for &ball in &balls {
-            let by = SphereTangent {
-                position: numbers.vector(),
-                velocity: numbers.vector(),
-                angular_velocity: numbers.vector(),
-            };
-            let forwards = tangents.of_sphere(0, ball).unwrap().dot(&by);
-            let backwards = tape.gradient(&[(ball, by)]).unwrap().dot(&direction);
-            let scale = tangents.of_spheres(0).iter().map(|it| it.dot(it).sqrt()).sum::<f64>();
-            assert!(
-                (forwards - backwards).abs() <= 1e-12 * scale,
-                "{number}: {forwards} {backwards}"
-            );
-        }
+        assert_backwards_equals_forwards((&tangents, &tape), &direction, &balls, &mut numbers);
         // Differences of the fourth order, of runs that stay clear of grazing and of other orders of impacts.
         let margin = tangents.margin();
         if margin.directness < 0.05 || margin.interval < 1e-3 {
             continue;
         }
-        let h = 2e-5;
-        let ends = [-2.0, -1.0, 1.0, 2.0].map(|steps| {
-            let mut other = varied(&world, &direction, steps * h);
+        let gravity = world.forces().next().map(|(force, _)| (force, vec(0.3, -2.0, 0.1)));
+        let end = |by| {
+            let mut other = varied(&world, &direction, by, gravity);
             for _ in 0..8 {
                 other.step(0.1).unwrap();
             }
             other
-        });
-        for &ball in &balls {
-            let of = |pick: fn(&Sphere) -> DVec3| {
-                let [a, b, c, d] = ends.each_ref().map(|end| pick(&end.sphere(ball).unwrap()));
-                (8.0 * (c - b) - (d - a)) / (12.0 * h)
-            };
-            let found = tangents.of_sphere(0, ball).unwrap();
-            let scale = 1.0 + found.position.length() + found.velocity.length();
-            for (difference, found) in [
-                (of(|it| it.position), found.position),
-                (of(|it| it.velocity), found.velocity),
-                (of(|it| it.angular_velocity), found.angular_velocity),
-            ] {
-                // Rounding of 1e-16 over the step, and its fourth power times derivatives that impacts make large.
-                let off = (difference - found).length() / (scale + found.length());
-                assert!(off < 1e-8, "{number}, {ball}: {off:e} {difference} {found}");
-            }
-        }
+        };
+        // Rounding of 1e-16 over the step, and its fourth power times derivatives that impacts make large.
+        assert_agree_with_differences(&tangents, &balls, [2e-5, 1e-8], end);
         compared += 1;
     }
     assert!(compared > 25 && impacts > 200, "{compared} {impacts}");

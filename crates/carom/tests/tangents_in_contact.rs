@@ -4,9 +4,11 @@
 mod common;
 
 use carom::{
-    Collider, CombineRule, DQuat, DVec3, DerivativeError, ForceId, Friction, Gravity, Pose,
-    Settings, Shape, Sides, Sphere, SphereId, SphereTangent, Tangents, Tape, Variation,
-    ViscousDrag, World,
+    Collider, CombineRule, DQuat, DVec3, DerivativeError, Friction, Gravity, Pose, Settings, Shape,
+    Sides, Sphere, SphereId, SphereTangent, Tangents, Tape, Variation, ViscousDrag, World,
+};
+use common::derivatives::{
+    assert_agree_with_differences, assert_backwards_equals_forwards, varied,
 };
 use common::{G, Numbers, vec};
 
@@ -150,33 +152,9 @@ fn along_the_table(numbers: &mut Numbers, world: &World, balls: &[SphereId]) -> 
     direction
 }
 
-/// A world that begins this far along a direction; its gravity is of this force.
-fn varied(world: &World, direction: &Variation, by: f64, gravity: (ForceId, DVec3)) -> World {
-    let mut varied = world.clone();
-    varied.set_force(gravity.0, Gravity::new(gravity.1 + by * direction.acceleration)).unwrap();
-    for (id, change) in direction.spheres() {
-        let mut sphere = world.sphere(id).unwrap();
-        sphere.position += by * change.position;
-        sphere.velocity += by * change.velocity;
-        sphere.angular_velocity += by * change.angular_velocity;
-        sphere.restitution += by * change.restitution;
-        let index = world.spheres().index_of(id).unwrap();
-        let sphere = sphere.with_mass(world.spheres().masses()[index] + by * change.mass);
-        varied.set_sphere(id, sphere).unwrap();
-    }
-    for (id, change) in direction.colliders() {
-        let mut collider = world.collider(id).unwrap();
-        collider.pose.position += by * change.position;
-        collider.restitution += by * change.restitution;
-        collider.friction.sliding = collider.friction.sliding.map(|it| it + by * change.friction);
-        varied.set_collider(id, collider).unwrap();
-    }
-    varied
-}
-
 /// Compares derivatives of balls on a table, tilted by an angle, with the gradient and with differences of runs, up to
 /// this part. Returns the number of runs that it compared with differences, and of their impacts.
-fn compare(tilt: f64, count: usize, [h, part]: [f64; 2]) -> (u32, usize) {
+fn compare(tilt: f64, count: usize, step_and_part: [f64; 2]) -> (u32, usize) {
     let (mut compared, mut impacts) = (0, 0);
     for number in 0..60 {
         let (world, balls) = table(number, tilt, count);
@@ -195,48 +173,20 @@ fn compare(tilt: f64, count: usize, [h, part]: [f64; 2]) -> (u32, usize) {
         if followed.is_err() {
             continue;
         }
-        for &ball in &balls {
-            let by = SphereTangent {
-                position: numbers.vector(),
-                velocity: numbers.vector(),
-                angular_velocity: numbers.vector(),
-            };
-            let forwards = tangents.of_sphere(0, ball).unwrap().dot(&by);
-            let backwards = tape.gradient(&[(ball, by)]).unwrap().dot(&direction);
-            let scale = tangents.of_spheres(0).iter().map(|it| it.dot(it).sqrt()).sum::<f64>();
-            assert!(
-                (forwards - backwards).abs() <= 1e-12 * scale,
-                "{number}: {forwards} {backwards} {scale}"
-            );
-        }
+        assert_backwards_equals_forwards((&tangents, &tape), &direction, &balls, &mut numbers);
         let margin = tangents.margin();
         if margin.directness < 0.1 || margin.interval < 1e-2 {
             continue;
         }
         impacts += tape.impacts();
-        let ends = [-2.0, -1.0, 1.0, 2.0].map(|steps| {
-            let mut other = varied(&world, &direction, steps * h, gravity);
+        let end = |by| {
+            let mut other = varied(&world, &direction, by, Some(gravity));
             for _ in 0..6 {
                 other.step(0.25).unwrap();
             }
             other
-        });
-        for &ball in &balls {
-            let of = |pick: fn(&Sphere) -> DVec3| {
-                let [a, b, c, d] = ends.each_ref().map(|end| pick(&end.sphere(ball).unwrap()));
-                (8.0 * (c - b) - (d - a)) / (12.0 * h)
-            };
-            let found = tangents.of_sphere(0, ball).unwrap();
-            let scale = 1.0 + found.position.length() + found.velocity.length();
-            for (difference, found) in [
-                (of(|it| it.position), found.position),
-                (of(|it| it.velocity), found.velocity),
-                (of(|it| it.angular_velocity), found.angular_velocity),
-            ] {
-                let off = (difference - found).length() / (scale + found.length());
-                assert!(off < part, "{number}, {ball}: {off:e} {difference} {found}");
-            }
-        }
+        };
+        assert_agree_with_differences(&tangents, &balls, step_and_part, end);
         compared += 1;
     }
     (compared, impacts)

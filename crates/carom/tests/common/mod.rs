@@ -1,11 +1,14 @@
 //! What several test files need.
 #![allow(dead_code)]
 
+pub mod derivatives;
 pub mod group;
 pub mod rough_mesh;
 pub mod solid_mesh;
 
-use carom::{Bisect, DVec3, Discrete, Integrator, Rule, Settings, WindBack, World};
+use carom::{
+    Bisect, DVec3, Discrete, EnergyAccount, Exact, Integrator, Rule, Settings, WindBack, World,
+};
 
 pub const G: f64 = 9.81;
 
@@ -15,6 +18,10 @@ pub fn vec(x: f64, y: f64, z: f64) -> DVec3 {
 
 pub fn world(rule: impl Into<Rule>) -> World {
     World::new(Settings::default().with_rule(rule)).unwrap()
+}
+
+pub fn exact() -> World {
+    world(Exact::default())
 }
 
 pub fn world_with(integrator: Integrator) -> World {
@@ -60,6 +67,22 @@ impl Numbers {
             }
         }
     }
+}
+
+/// Advances a world in frames of `h` \[s\], and counts the impacts.
+pub fn run(world: &mut World, duration: f64, h: f64) -> usize {
+    let frames = (duration / h).round() as usize;
+    (0..frames).map(|_| world.step(h).unwrap().impacts.len()).sum()
+}
+
+/// Runs a number of frames. Returns the sum of their accounts \[J\], and what is left of the change of energy \[J\].
+pub fn account_of_run(world: &mut World, frames: usize, dt: f64) -> (EnergyAccount, f64) {
+    let before = world.total_energy();
+    let mut sum = EnergyAccount::default();
+    for _ in 0..frames {
+        sum += world.step(dt).unwrap().energy_account;
+    }
+    (sum, world.total_energy() - before - sum.total())
 }
 
 /// Asserts `|a - b| <= tolerance`, and says by how much it fails.
