@@ -110,18 +110,9 @@ impl EnergyBalance {
 
 /// Describes the origin of the energy that is in no account of its own.
 pub fn rest_of(scene: &Scene, world: &World, edits: usize) -> &'static str {
-    let has_potential = |force: &Force| {
-        matches!(
-            force,
-            Force::Constant { .. }
-                | Force::Gravity { .. }
-                | Force::PointAttractor { .. }
-                | Force::MutualGravity { .. }
-                | Force::Buoyancy { .. }
-        )
-    };
     // Potentials jump at the faces of a periodic box.
-    let jumps = world.settings().boundary.is_periodic() && scene.forces.iter().any(has_potential);
+    let jumps =
+        world.settings().boundary.is_periodic() && scene.forces.iter().any(Force::has_potential);
     match (edits > 0, jumps) {
         (true, _) => "by edits, and error of integration",
         (false, true) => "by potentials at the faces of the box, and error of integration",

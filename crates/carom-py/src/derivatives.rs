@@ -3,19 +3,19 @@
 // Python shows these comments as docstrings: units in plain brackets.
 #![allow(rustdoc::broken_intra_doc_links)]
 
-use std::sync::{Mutex, MutexGuard};
+use std::sync::Mutex;
 
 use carom::{
     ColliderId, ColliderVariation, DVec3, Margin, SphereId, SphereTangent, SphereVariation,
     Variation, World,
 };
 use numpy::{PyArray1, PyReadonlyArray1};
-use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
 use crate::arguments;
 use crate::engine::Engine;
 use crate::failure::Failure;
+use crate::in_use::lock;
 
 type Numbers<'py> = PyReadonlyArray1<'py, f64>;
 type Row<'py> = Bound<'py, PyArray1<f64>>;
@@ -216,11 +216,6 @@ impl Engine {
         drop(guard);
         Ok(taken.map_err(Failure::from)?)
     }
-}
-
-fn lock<T>(mutex: &Mutex<T>) -> PyResult<MutexGuard<'_, T>> {
-    let at_work = |_| PyRuntimeError::new_err("this is in use by another thread");
-    mutex.try_lock().map_err(at_work)
 }
 
 fn vectors(numbers: &Numbers<'_>) -> PyResult<Vec<DVec3>> {

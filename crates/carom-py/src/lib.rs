@@ -30,6 +30,7 @@ mod film;
 #[cfg(feature = "pictures")]
 mod graphics_failure;
 mod imports;
+mod in_use;
 mod maze;
 mod motion;
 mod next_event;

@@ -3,14 +3,14 @@
 // Python shows these comments as docstrings, with units in plain brackets.
 #![allow(rustdoc::broken_intra_doc_links)]
 
-use std::sync::{Mutex, MutexGuard};
+use std::sync::Mutex;
 
 use carom::DMat3;
-use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
 use crate::engine::Engine;
 use crate::failure::Failure;
+use crate::in_use::lock;
 
 /// Rows of a tensor [Pa].
 type Rows = [[f64; 3]; 3];
@@ -37,7 +37,7 @@ impl StressEngine {
         dt: Option<&Bound<'_, PyAny>>,
         frames: &Bound<'_, PyAny>,
     ) -> PyResult<()> {
-        let mut meter = self.meter()?;
+        let mut meter = lock(&self.0)?;
         let meter = &mut *meter;
         world.follow(py, (dt, frames), |world, dt| {
             world.step(dt).map(drop)?;
@@ -49,20 +49,13 @@ impl StressEngine {
     /// Time measured so far [s].
     #[getter]
     fn time(&self) -> PyResult<f64> {
-        Ok(self.meter()?.time())
+        Ok(lock(&self.0)?.time())
     }
 
     /// Returns the kinetic, the collisional and the contact stress.
     fn stress(&self, volume: Option<f64>) -> PyResult<[Rows; 3]> {
-        let stress = self.meter()?.stress(volume).map_err(Failure::from)?;
+        let stress = lock(&self.0)?.stress(volume).map_err(Failure::from)?;
         let rows = |tensor: DMat3| tensor.transpose().to_cols_array_2d();
         Ok([stress.kinetic, stress.collisional, stress.contact].map(rows))
-    }
-}
-
-impl StressEngine {
-    fn meter(&self) -> PyResult<MutexGuard<'_, carom::StressMeter>> {
-        let at_work = |_| PyRuntimeError::new_err("this is in use by another thread");
-        self.0.try_lock().map_err(at_work)
     }
 }

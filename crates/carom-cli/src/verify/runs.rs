@@ -1,5 +1,7 @@
 //! Runs under the rule `exact` that several claims measure alike.
 
+use std::f64::consts::TAU;
+
 use carom::{Error, Exact, Rule, StateHash, World};
 
 use super::claim::{Measured, Outcome};
@@ -17,6 +19,22 @@ pub fn change_of_energy(mut world: World, frames: u32, frame: f64) -> Outcome {
         largest = largest.max((world.total_energy() / before - 1.0).abs());
     }
     Ok(Measured::in_world(&world, largest))
+}
+
+/// Measures by how many periods the first sphere, which starts in the apocentre of its ellipse and moves along z there,
+/// is off after `periods` of 2 pi s.
+pub fn periods_off(mut world: World, periods: u32) -> Outcome {
+    for _ in 0..periods {
+        world.step(TAU)?;
+    }
+    let z = world.spheres().positions()[0].z;
+    let speed = world.spheres().velocities()[0].z;
+    Ok(Measured::in_world(&world, (z / speed / TAU).abs()))
+}
+
+/// Returns the speed \[m/s\] in the apocentre of an ellipse with a semi-major axis of 1 m and a period of 2 pi s.
+pub fn speed_in_apocentre(eccentricity: f64) -> f64 {
+    libm::sqrt((1.0 - eccentricity) / (1.0 + eccentricity))
 }
 
 /// Counts the runs of 10 s in frames of 1/32, 1/64 and 1/256 s that end in another state than the first.

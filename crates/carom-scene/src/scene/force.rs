@@ -111,6 +111,21 @@ pub enum Force {
 }
 
 impl Force {
+    /// Returns whether it has a potential: it does no work along a closed path.
+    pub fn has_potential(&self) -> bool {
+        match self {
+            Self::Constant { .. }
+            | Self::Gravity { .. }
+            | Self::PointAttractor { .. }
+            | Self::MutualGravity { .. }
+            | Self::Buoyancy { .. } => true,
+            Self::ViscousDrag { .. }
+            | Self::Wind { .. }
+            | Self::Vortex { .. }
+            | Self::QuadraticDrag { .. } => false,
+        }
+    }
+
     /// Name of its kind, as it is written.
     pub(crate) fn kind(&self) -> &'static str {
         match self {

@@ -1,6 +1,5 @@
 //! Whether a rule keeps the energy that the scene should keep.
 
-use carom_scene::scene::Force;
 use carom_session::View;
 use egui::{Color32, RichText, Ui};
 
@@ -69,21 +68,12 @@ fn has_sources(view: &View) -> bool {
 /// Returns whether nothing in the scene takes energy: no loss in impacts, drag, friction or damping.
 fn is_lossless(view: &View) -> bool {
     let setup = &view.setup;
-    let keeps = |force: &Force| {
-        matches!(
-            force,
-            Force::Constant { .. }
-                | Force::Gravity { .. }
-                | Force::PointAttractor { .. }
-                | Force::MutualGravity { .. }
-        )
-    };
     let has_friction = setup.simulation.rule.has_friction()
         && setup
             .colliders
             .iter()
             .any(|(_, it)| it.surface_friction() != carom::Friction::default());
-    setup.forces.iter().all(|(_, it)| keeps(it))
+    setup.forces.iter().all(|(_, it)| it.has_potential())
         && setup.colliders.iter().all(|(_, it)| it.trigger || it.restitution == 1.0)
         && !has_friction
         && view.spheres.restitutions.iter().all(|it| *it == 1.0)

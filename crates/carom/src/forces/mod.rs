@@ -161,10 +161,20 @@ pub(crate) fn total_linear(
     radius: f64,
     mass: f64,
 ) -> (LinearForce, bool) {
+    sum_of_linear(forces.iter().map(|(_, force)| &**force), radius, mass)
+}
+
+/// Sum of those of some forces that are linear for spheres of this `radius` \[m\] and `mass` \[kg\], added in
+/// their order, and whether there are no others.
+fn sum_of_linear<'a>(
+    forces: impl Iterator<Item = &'a dyn Force>,
+    radius: f64,
+    mass: f64,
+) -> (LinearForce, bool) {
     let mut total = LinearForce { acceleration: DVec3::ZERO, drag_rate: 0.0 };
     let mut is_all = true;
-    for (_, force) in forces.iter() {
-        match linear_form(&**force, radius, mass) {
+    for force in forces {
+        match linear_form(force, radius, mass) {
             Some(linear) => {
                 total.acceleration += linear.acceleration;
                 total.drag_rate += linear.drag_rate;

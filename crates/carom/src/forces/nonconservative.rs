@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Force, LinearForce, SphereState, linear_form};
+use super::{Force, LinearForce, SphereState, linear_form, sum_of_linear};
 use crate::numbered::Numbered;
 
 /// The nonconservative forces, in the order in which they entered the world.
@@ -33,18 +33,7 @@ pub(crate) fn nonconservative_linear(
     radius: f64,
     mass: f64,
 ) -> (LinearForce, bool) {
-    let mut total = LinearForce { acceleration: DVec3::ZERO, drag_rate: 0.0 };
-    let mut is_all = true;
-    for force in nonconservative(forces) {
-        match linear_form(force, radius, mass) {
-            Some(linear) => {
-                total.acceleration += linear.acceleration;
-                total.drag_rate += linear.drag_rate;
-            }
-            None => is_all = false,
-        }
-    }
-    (total, is_all)
+    sum_of_linear(nonconservative(forces), radius, mass)
 }
 
 /// Sum of the nonconservative forces \[N\] on a sphere that are not linear.

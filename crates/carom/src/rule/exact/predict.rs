@@ -152,8 +152,8 @@ fn prediction_after(
     Prediction { events, cell_crossing }
 }
 
-/// Lets a sphere pass over meetings that need no answer `now` \[s\], and begin another flight after them. Earlier
-/// events happen as predicted.
+/// Removes those meetings from the next events of a sphere that need no answer `now` \[s\]. Another flight begins after
+/// them; earlier events stay as predicted.
 pub(super) fn pass_over(
     timeline: &mut Timeline,
     context: &mut StepContext,
