@@ -327,6 +327,12 @@ impl Collider {
         (!self.motion.is_empty()).then(|| Course::new(self.motion.clone(), self.pose, time))
     }
 
+    /// Whether it does not stay where it is.
+    pub(crate) fn moves(&self) -> bool {
+        let has_velocity = self.velocity != DVec3::ZERO || self.angular_velocity != DVec3::ZERO;
+        has_velocity || !self.motion.is_empty()
+    }
+
     /// Moves the collider to its place at `time` \[s\] by its motion. A new collider rests at its pose; one with a
     /// new pose takes its motion along.
     pub(crate) fn follow_motion(&mut self, time: f64) {

@@ -78,7 +78,7 @@ impl Colliders {
 
     /// Whether any of them moves.
     pub fn any_moving(&self) -> bool {
-        self.surfaces().iter().any(|surface| !surface.motion.is_at_rest())
+        self.list.iter().any(|(_, collider)| collider.moves())
     }
 
     /// Advances moving colliders by `h` \[s\], to `time` \[s\]. Returns whether surfaces have other numbers then, as

@@ -26,6 +26,7 @@ pub(crate) struct System<'a> {
     pub forces: &'a Numbered<Arc<dyn Force>>,
     /// Forces between spheres; `None` where there are none.
     pub interactions: Option<Interactions<'a>>,
+    pub colliders: &'a Colliders,
     pub surfaces: &'a [Surface],
     pub tree: &'a SurfaceTree,
     /// Of the surfaces that report contact and deflect nothing.
@@ -44,7 +45,12 @@ impl<'a> System<'a> {
         let (surfaces, tree) = (colliders.surfaces(), colliders.tree());
         let trigger_tree = colliders.trigger_tree();
         let interactions = Interactions::of(forces, springs);
-        Self { settings, forces, interactions, surfaces, tree, trigger_tree, spheres }
+        Self { settings, forces, interactions, colliders, surfaces, tree, trigger_tree, spheres }
+    }
+
+    /// Whether any collider moves.
+    pub fn has_moving_surfaces(&self) -> bool {
+        self.colliders.any_moving()
     }
 
     /// Whether two spheres collide, by their groups.
@@ -186,7 +192,7 @@ impl<'a> System<'a> {
 
     /// The friction of all bodies that have some.
     pub fn frictions(&self) -> impl Iterator<Item = Friction> {
-        let of_surfaces = self.surfaces.iter().map(|surface| surface.friction);
-        self.spheres.friction.iter().copied().chain(of_surfaces)
+        let of_colliders = self.colliders.list().iter().map(|(_, collider)| collider.friction);
+        self.spheres.friction.iter().copied().chain(of_colliders)
     }
 }

@@ -20,7 +20,8 @@ use crate::system::System;
 pub(super) fn begin(system: &System, motion: &mut Motion, h: f64, solver: &mut Solver) {
     let ids = &system.spheres.id;
     let kinds = kinds_of(system);
-    solver.has_moving_surfaces = system.surfaces.iter().any(|it| !it.motion.is_at_rest());
+    solver.has_moving_surfaces = system.has_moving_surfaces();
+    let may_surfaces_differ = solver.is_changed || solver.has_moving_surfaces;
     if solver.is_changed || solver.has_moving_surfaces || !system.spheres.applied_force.is_empty() {
         wake::all(solver);
     }
@@ -61,7 +62,9 @@ pub(super) fn begin(system: &System, motion: &mut Motion, h: f64, solver: &mut S
         && system.spheres.applied_force.is_empty();
     // Bounds of moving surfaces are present ones.
     solver.is_stale |= solver.has_moving_surfaces;
-    solver.places.begin_frame(system.surfaces, h);
+    if may_surfaces_differ || !solver.places.are_of(system.surfaces) {
+        solver.places.begin_frame(system.surfaces, h);
+    }
 }
 
 /// Copies from the world what the solver does not have from the frame before, which wrote it to the world.

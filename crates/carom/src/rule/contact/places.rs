@@ -45,6 +45,11 @@ pub(super) struct Places {
 }
 
 impl Places {
+    /// Whether it holds as many surfaces, none of which moves: as long as no collider changes, these.
+    pub fn are_of(&self, surfaces: &[Surface]) -> bool {
+        self.moving.is_empty() && self.starts.len() == surfaces.len() + self.images.len()
+    }
+
     /// Copies the surfaces for a frame of `h` \[s\] that begins.
     pub fn begin_frame(&mut self, surfaces: &[Surface], h: f64) {
         place_all(surfaces, 0.0, &mut self.starts);

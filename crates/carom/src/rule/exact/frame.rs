@@ -6,7 +6,7 @@ use super::clearance::Clearance;
 use super::context::StepContext;
 use super::events::{Prediction, Schedule};
 use super::flights::{self, Body, Flights, Growth, Rotation};
-use super::neighbours::{Contents, Neighbours};
+use super::neighbours::{Contents, Neighbours, SURFACES_PER_SPHERE};
 use super::pair_times::PairSearch;
 use super::persistent::{self, held_forces, piece_end};
 use super::predict;
@@ -379,7 +379,9 @@ pub(super) struct ArrangementDue {
 impl ArrangementDue {
     /// The numbers for these spheres.
     pub fn of(timeline: &Timeline, system: &System) -> Self {
-        let count = timeline.flights.bodies.len() as u64;
+        // Finding the surfaces near each cell takes long where there are many.
+        let of_surfaces = system.surfaces.len() / SURFACES_PER_SPHERE;
+        let count = timeline.flights.bodies.len().max(of_surfaces) as u64;
         let is_closed = system.settings.boundary.period().is_finite();
         match (is_closed, timeline.are_many()) {
             (true, true) => Self::after_crossings(CROSSINGS_PER_ARRANGEMENT * count),

@@ -350,10 +350,15 @@ impl Zone {
         self.apply_forces(system);
         let before = self.motion.clone();
         self.velocity_before.clone_from(&self.motion.velocity);
-        self.place_surfaces(system, offset);
+        let surfaces = if system.has_moving_surfaces() {
+            self.place_surfaces(system, offset);
+            &self.surfaces
+        } else {
+            system.surfaces
+        };
         let system = System {
             spheres: &self.properties,
-            surfaces: &self.surfaces,
+            surfaces,
             // Forces between spheres are held.
             interactions: None,
             ..*system
@@ -422,7 +427,12 @@ fn rotation_between(
 
 /// Number of halvings of a tick \[s\] for springs, with a rate of motion \[1/s\], and for turning surfaces.
 fn halvings_for_all(system: &System, [tick, spring_rate]: [f64; 2]) -> u32 {
-    halvings_for_springs(spring_rate, tick).max(halvings_for_turning(system.surfaces, tick))
+    let for_springs = halvings_for_springs(spring_rate, tick);
+    if system.has_moving_surfaces() {
+        for_springs.max(halvings_for_turning(system.surfaces, tick))
+    } else {
+        for_springs
+    }
 }
 
 /// Number of halvings of a tick \[s\] for turning surfaces.

@@ -6,7 +6,8 @@ use glam::DVec3;
 
 use super::grid::Grid;
 use super::region::OVERHANG;
-use crate::detect::surface_tree::SurfaceTree;
+use crate::bounds::Bounds;
+use crate::detect::surface_tree::{SurfaceTree, bounds};
 use crate::groups::Groups;
 use crate::rule::exact::flights::{Flights, Species};
 use crate::rule::periodic::wrapped;
@@ -17,6 +18,8 @@ use crate::surface::Surface;
 const CROWDED: f64 = 0.55;
 /// Where there are lists, cells are wider than a diameter by this part of it, at least.
 const LIST_MARGIN: f64 = 0.28;
+/// Where there are more surfaces than this for each sphere, as in a mesh of many facets, cells divide the surfaces.
+pub(crate) const SURFACES_PER_SPHERE: usize = 16;
 /// Distances are compared with this margin, more than their rounding.
 pub(super) const SLACK: f64 = 1.0 + 1e-9;
 
@@ -97,13 +100,26 @@ impl Contents<'_> {
         }
         let is_held = |&slot: &u32| self.flights.species_of(slot).level >= level;
         let diameter = 2.0 * radius / (1.0 - 2.0 * OVERHANG) * SLACK;
-        (diameter, self.slots().filter(is_held).count())
+        let spheres = self.slots().filter(is_held).count();
+        let seek =
+            if self.is_of_surfaces() { self.surfaces.len() / SURFACES_PER_SPHERE } else { spheres };
+        (diameter, seek)
     }
 
-    /// A grid over all spheres.
+    /// Whether there are so many surfaces for each sphere that cells divide these.
+    fn is_of_surfaces(&self) -> bool {
+        self.surfaces.len() / SURFACES_PER_SPHERE > self.flights.bodies.len()
+    }
+
+    /// A grid over all spheres; over surfaces, too, where cells divide these.
     fn grid(&self, min_width: f64, seek: usize) -> Grid {
         let positions = self.slots().map(|slot| wrapped(self.position_of(slot), self.period));
-        Grid::over(positions, self.period, min_width, seek)
+        if !self.is_of_surfaces() {
+            return Grid::over(positions, self.period, min_width, seek);
+        }
+        let bounds = self.surfaces.iter().filter_map(|surface| bounds(&surface.form));
+        let corners = bounds.flat_map(|Bounds { min, max }| [min, max]);
+        Grid::over(positions.chain(corners), self.period, min_width, seek)
     }
 
     /// A grid for lists of neighbours, if spheres are of one level and crowded in `grid`.

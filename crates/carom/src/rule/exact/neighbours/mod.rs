@@ -33,7 +33,7 @@ mod region;
 mod surfaces;
 
 pub(super) use buffer::NeighbourBuffer;
-pub(super) use contents::Contents;
+pub(super) use contents::{Contents, SURFACES_PER_SPHERE};
 pub(super) use hierarchy::Neighbours;
 pub(super) use images::Images;
 pub(crate) use neighbour::MAX_SPHERES;
