@@ -67,8 +67,8 @@ make: Any = carom
             lambda: make.Collider("box"),
             "Collider.shape: must be a carom.Ball, carom.Rectangle, carom.HalfSpace, carom.Box, "
             "carom.Container, carom.Cylinder, carom.Cone, carom.Capsule, carom.Disc, carom.Torus, "
-            "carom.Pipe, carom.Bowl, carom.Funnel, carom.Mesh or carom.HeightField, not 'box'; "
-            "write carom.Box(...)",
+            "carom.Pipe, carom.Bowl, carom.Funnel, carom.Mesh, carom.HeightField or carom.Track, "
+            "not 'box'; write carom.Box(...)",
         ),
         (lambda: make.Collider({"sphere": {"radius": 1}}), "; write carom.Ball(...)"),
         (lambda: make.Collider(carom.HalfSpace), "; write carom.HalfSpace(...)"),

@@ -3,10 +3,10 @@
 use carom::{Ends, Friction, Groups, Mass, Pose, Sides, World};
 
 use crate::error::{Problem, SceneError};
-use crate::meshes;
 use crate::requirement::{check, check_positive};
 use crate::scene::values::{quaternion, vector};
 use crate::scene::{Collider, Emitter, End, Shape, Side, Sphere};
+use crate::{meshes, track};
 
 /// Adds the sphere that stands at `path` in the scene.
 pub(crate) fn add_sphere(world: &mut World, sphere: &Sphere, path: &str) -> Result<(), Problem> {
@@ -167,6 +167,7 @@ impl Shape {
             },
             Self::Mesh(mesh) => carom::Shape::Mesh(mesh.mesh(meshes::made)?),
             Self::HeightField(heights) => carom::Shape::Mesh(heights.mesh()?),
+            Self::Track(track) => carom::Shape::Mesh(track.mesh(track::mesh)?),
         })
     }
 }

@@ -23,6 +23,7 @@ embed!(
     "hourglass.toml",
     "avalanche.toml",
     "granular-column.toml",
+    "marble-run.toml",
     "bowl.toml",
     "drum.toml",
     "terrain.toml",

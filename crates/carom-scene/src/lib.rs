@@ -55,6 +55,7 @@ mod settings;
 mod springs;
 mod table;
 mod text;
+mod track;
 mod tries;
 pub mod unfinished;
 mod units;

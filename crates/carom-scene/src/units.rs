@@ -71,12 +71,14 @@ const DEGREES: &str = "degrees";
 const RADIANS: &str = "rad";
 
 /// Unit of each field that has one.
-const FIELDS: [(&str, &str); 62] = [
+const FIELDS: [(&str, &str); 68] = [
     ("acceleration", "m/s²"),
     ("amplitude", "m"),
     ("amplitude_degrees", DEGREES),
     ("anchor", "m"),
     ("angular_velocity", "rad/s"),
+    ("arc_degrees", DEGREES),
+    ("bank_degrees", DEGREES),
     ("bottom_radius", "m"),
     ("center", "m"),
     ("coefficient", "kg/s"),
@@ -86,8 +88,10 @@ const FIELDS: [(&str, &str); 62] = [
     ("degrees", DEGREES),
     ("density", "kg/m³"),
     ("diameter", "m"),
+    ("drop", "m"),
     ("duration", "s"),
     ("euler_degrees", DEGREES),
+    ("facet_degrees", DEGREES),
     ("far", "m"),
     ("force", "N"),
     ("force_tick", "s"),
@@ -106,6 +110,7 @@ const FIELDS: [(&str, &str); 62] = [
     ("opening_degrees", DEGREES),
     ("period", "s"),
     ("phase_degrees", DEGREES),
+    ("pitch_degrees", DEGREES),
     ("pivot", "m"),
     ("position", "m"),
     ("radius", "m"),
@@ -114,6 +119,7 @@ const FIELDS: [(&str, &str); 62] = [
     ("rest_length", "m"),
     ("ring_radius", "m"),
     ("row_step", "m"),
+    ("shift", "m"),
     ("size", "m"),
     ("size_x", "m"),
     ("size_z", "m"),

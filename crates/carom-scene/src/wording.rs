@@ -48,7 +48,7 @@ const SYNONYMS: [(&str, &str); 35] = [
 pub(crate) const DECIMAL_POINT: &str = "decimals have a point, not a comma";
 
 /// Tables for which authors may write a number or a list, with an example of each.
-const TABLES: [(&str, &str); 19] = [
+const TABLES: [(&str, &str); 20] = [
     ("bowl", "{ radius = 1.0 }"),
     ("box", "{ size = [1.0, 1.0, 1.0] }"),
     ("camera", "[camera]"),
@@ -67,6 +67,7 @@ const TABLES: [(&str, &str); 19] = [
     ("sphere", "{ radius = 0.5 }"),
     ("sun", "[sun]"),
     ("torus", "{ ring_radius = 1.0, tube_radius = 0.2 }"),
+    ("track", "{ radius = 0.05, pieces = [{ straight = { length = 1.0 } }] }"),
     ("viscous-drag", "{ coefficient = 0.1 }"),
 ];
 

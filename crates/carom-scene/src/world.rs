@@ -155,6 +155,7 @@ fn kind_of(shape: &Shape) -> &'static str {
         Shape::Container { .. } => "container",
         Shape::Mesh(_) => "mesh",
         Shape::HeightField(_) => "height-field",
+        Shape::Track(_) => "track",
         Shape::Cylinder { .. } => "cylinder",
         Shape::Cone { .. } => "cone",
         Shape::Capsule { .. } => "capsule",

@@ -189,6 +189,20 @@ export type Shape =
     }
   /** Rows of heights along x [m], over a rectangle about the origin; met from above. */
   | { "height-field": { sizeX: number; sizeZ: number; heights: number[][] } }
+  /** A gutter along a path from the origin towards local +x; 180 degrees of a circle by default. */
+  | {
+      track: {
+        radius: number;
+        pieces: Piece[];
+        arcDegrees?: number;
+        /** Facets across, an odd number; default: 21. */
+        sides?: number;
+        /** Largest angle between neighbouring facets along the path; default: 3. */
+        facetDegrees?: number;
+        /** Slope at the beginning; default: 0. */
+        pitchDegrees?: number;
+      };
+    }
   /** Solids of revolution about local y; one radius of a cone may be 0. */
   | { cylinder: { radius: number; height: number } }
   | { cone: { bottomRadius: number; topRadius?: number; height: number } }
@@ -201,6 +215,16 @@ export type Shape =
   | { pipe: { radius: number; length: number; closed?: End | End[] } }
   | { bowl: { radius: number; openingDegrees?: number } }
   | { funnel: { bottomRadius: number; topRadius: number; height: number } };
+
+/**
+ * A part of the path of a track [m, degrees]. A curve is positive to the left, a bend upward; a
+ * shift goes to the left, a drop down.
+ */
+export type Piece =
+  | { straight: { length: number } }
+  | { curve: { radius: number; degrees: number; bankDegrees?: number } }
+  | { bend: { radius: number; degrees: number; shift?: number } }
+  | { gap: { length: number; drop?: number; pitchDegrees?: number } };
 
 /** An end of a pipe in its own frame: towards -y, +y. */
 export type End = "bottom" | "top";

@@ -204,7 +204,11 @@ fn passes(collider: &Collider) -> bool {
     let shape = &collider.shape;
     matches!(
         shape,
-        Shape::Rectangle { .. } | Shape::Disc { .. } | Shape::HeightField(_) | Shape::Mesh(_)
+        Shape::Rectangle { .. }
+            | Shape::Disc { .. }
+            | Shape::HeightField(_)
+            | Shape::Mesh(_)
+            | Shape::Track(_)
     )
 }
 

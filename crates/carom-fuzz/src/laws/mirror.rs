@@ -13,8 +13,8 @@ fn pair(scene: &Scene, _: &Trace) -> Option<Pair> {
     if scene.simulation.rule == Rule::Contact {
         return None;
     }
-    // The cells of a height field are divided along the diagonals of one direction.
-    let has_cells = |it: &Collider| matches!(it.shape, Shape::HeightField(_));
+    // The cells of height fields and tracks are divided along the diagonals of one direction.
+    let has_cells = |it: &Collider| matches!(it.shape, Shape::HeightField(_) | Shape::Track(_));
     if scene.colliders.iter().any(has_cells) {
         return None;
     }

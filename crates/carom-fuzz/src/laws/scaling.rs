@@ -3,7 +3,9 @@
 
 use carom::DVec3;
 use carom_scene::Scene;
-use carom_scene::scene::{Boundary, Collider, Emitter, Force, Motion, Shape, Sphere, Spring};
+use carom_scene::scene::{
+    Boundary, Collider, Emitter, Force, Motion, Piece, Shape, Sphere, Spring,
+};
 
 use super::pair::{Agreement, Law, Pair};
 use super::trace::Frame;
@@ -123,6 +125,10 @@ fn scale_collider(collider: &mut Collider, scale: Scale) {
             field.size_z *= length;
             field.heights.iter_mut().flatten().for_each(|height| *height *= length);
         }
+        Shape::Track(track) => {
+            track.radius *= length;
+            track.pieces.iter_mut().for_each(|it| scale_piece(it, length));
+        }
         Shape::Box { size } | Shape::Container { size, .. } => scale_vector(size, length),
         Shape::Disc { radius } | Shape::Bowl { radius, .. } => *radius *= length,
         Shape::Cylinder { radius: a, height: b }
@@ -137,6 +143,21 @@ fn scale_collider(collider: &mut Collider, scale: Scale) {
             *bottom_radius *= length;
             *top_radius *= length;
             *height *= length;
+        }
+    }
+}
+
+fn scale_piece(piece: &mut Piece, factor: f64) {
+    match piece {
+        Piece::Straight { length } => *length *= factor,
+        Piece::Curve { radius, .. } => *radius *= factor,
+        Piece::Bend { radius, shift, .. } => {
+            *radius *= factor;
+            *shift *= factor;
+        }
+        Piece::Gap { length, drop, .. } => {
+            *length *= factor;
+            *drop *= factor;
         }
     }
 }

@@ -7,6 +7,7 @@ use super::finish::Finish;
 use super::mesh::{self, HeightField, Mesh};
 use super::motion::{self, Motion};
 use super::rotation;
+use super::track::Track;
 use super::values::{
     Color, Quaternion, Vector, all_groups, are_all_groups, first_group, is_default, is_first_group,
     one, unturned,
@@ -159,6 +160,8 @@ pub enum Shape {
     ),
     /// Ground over a rectangle in the local xz plane about the origin, given by heights.
     HeightField(HeightField),
+    /// A gutter along a path, as of a marble run.
+    Track(Track),
     /// A solid cylinder about local y.
     Cylinder {
         /// In m, > 0.

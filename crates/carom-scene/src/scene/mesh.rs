@@ -69,10 +69,10 @@ impl HeightField {
 
 /// What was made of a description, as long as that is the same. Copies of the description share it.
 #[derive(Clone)]
-struct Made<T>(Arc<OnceLock<(T, Result<carom::Mesh, String>)>>);
+pub(super) struct Made<T>(Arc<OnceLock<(T, Result<carom::Mesh, String>)>>);
 
 impl<T: PartialEq> Made<T> {
-    fn get(
+    pub(super) fn get(
         &self,
         now: &T,
         alone: impl FnOnce() -> T,

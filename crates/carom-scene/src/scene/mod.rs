@@ -15,6 +15,7 @@ mod simulation;
 mod sphere;
 mod spring;
 mod suggestion;
+mod track;
 pub(crate) mod values;
 
 use schemars::JsonSchema;
@@ -35,6 +36,7 @@ pub use simulation::{
 pub use sphere::Sphere;
 pub use spring::Spring;
 pub use suggestion::Try;
+pub use track::{Piece, Track};
 pub use values::{Color, Quaternion, Vector};
 
 /// A Carom scene: spheres, forces, surfaces, and how the scene looks. The coordinate system is right-handed, y is up,

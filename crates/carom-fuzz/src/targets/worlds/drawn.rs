@@ -272,14 +272,17 @@ const ROUND: [&str; 10] = [
     "{ funnel = { bottom_radius = 0.15, top_radius = 0.7, height = 0.6 } }",
 ];
 
-/// A tetrahedron, two triangles with a valley between them, and ground.
-const MESHES: [&str; 3] = [
+/// A tetrahedron, two triangles with a valley between them, ground, and a track with a loop and a gap.
+const MESHES: [&str; 4] = [
     "{ mesh = { vertices = [[0.5, -0.3, 0.0], [-0.3, -0.3, 0.4], [-0.3, -0.3, -0.4], [0.0, 0.5, 0.0]], \
      triangles = [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]] } }",
     "{ mesh = { vertices = [[0.0, 0.0, -0.7], [0.0, 0.0, 0.7], [0.7, 0.3, 0.0], [-0.7, 0.2, 0.0]], \
      triangles = [[0, 1, 2], [1, 0, 3]] } }",
     "{ height-field = { size_x = 1.6, size_z = 1.6, heights = [[0.3, 0.2, 0.2, 0.3], [0.2, -0.1, 0.0, 0.2], \
      [0.2, 0.1, -0.1, 0.2], [0.3, 0.2, 0.2, 0.3]] } }",
+    "{ track = { radius = 0.15, sides = 9, facet_degrees = 20.0, pitch_degrees = -20.0, pieces = [{ straight = { length = 0.3 } }, \
+     { curve = { radius = 0.3, degrees = 90.0, bank_degrees = 20.0 } }, { gap = { length = 0.1, drop = 0.05 } }, \
+     { bend = { radius = 0.2, degrees = 360.0, shift = 0.3 } }] } }",
 ];
 
 fn obstacle() -> impl Strategy<Value = Obstacle> {
