@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import disjoint_base
 
+from carom._run.particles import Particles
 from carom._run.queries import PathEnd, QueryFilter
 from carom._run.trajectory import RunRecord, Selection
 from carom._scene.parts import Finish
@@ -18,6 +19,7 @@ __all__ = [
     "BatchEngine",
     "Engine",
     "MazeEpisodes",
+    "NeighbourLists",
     "Painter",
     "Path",
     "Snapshot",
@@ -28,15 +30,19 @@ __all__ = [
     "film_scene",
     "find_scene",
     "import_gltf",
+    "import_particle_file",
     "import_unity",
+    "label_clusters",
     "list_scenes",
     "pack_spheres",
     "pair_histogram",
     "pairs_within",
     "radii_of_sizes",
+    "read_particle_file",
     "read_scene",
     "read_scene_file",
     "run_command",
+    "write_particle_file",
 ]
 
 @final
@@ -317,6 +323,8 @@ class Engine:
         every: int,
         selection: Selection,
     ) -> RunRecord: ...
+    @property
+    def _box_sides(self) -> list[float] | None: ...
     def _simulation_json(self) -> str: ...
     def _forces_json(self) -> str: ...
     def _colliders_json(self) -> str: ...
@@ -393,6 +401,20 @@ class MazeEpisodes:
     def _seconds_in_engine(self) -> float: ...
 
 @final
+class NeighbourLists:
+    """Neighbours of points: what `carom.analysis.bond_order` stands on."""
+
+    def __new__(
+        cls,
+        points: NDArray[np.float64],
+        sides: Sequence[float],
+        distance: float | None,
+        nearest: int,
+    ) -> Self: ...
+    def bond_order(self, degree: int, is_averaged: bool) -> tuple[NDArray[np.float64], float]: ...
+    def structures(self, distance: float | None) -> NDArray[np.int64]: ...
+
+@final
 class Painter:
     """What `carom.Renderer` stands on: a graphics device that is kept open, and a camera."""
 
@@ -414,12 +436,27 @@ def import_unity(
     path: str | PathLike[str], scene: str | None, mapping: str | PathLike[str] | None
 ) -> tuple[str, list[str]]: ...
 def import_gltf(path: str | PathLike[str]) -> tuple[str, list[str]]: ...
+def import_particle_file(
+    path: str | PathLike[str], frame: int | None, radius: float | None
+) -> tuple[str, list[str]]: ...
+def label_clusters(count: int, pairs: list[list[int]]) -> NDArray[np.int64]: ...
 def pair_histogram(
     points: NDArray[np.float64], sides: Sequence[float], r_max: float, bins: int
 ) -> NDArray[np.uint64]: ...
 def pairs_within(
     points: NDArray[np.float64], sides: Sequence[float], distance: float
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]: ...
+def read_particle_file(
+    path: str | PathLike[str],
+) -> tuple[
+    NDArray[np.float64],
+    NDArray[np.uint64],
+    NDArray[np.float64] | None,
+    NDArray[np.float64] | None,
+    list[float],
+    list[tuple[str, NDArray[np.float64]]],
+]: ...
+def write_particle_file(path: str | PathLike[str], particles: Particles) -> None: ...
 def radii_of_sizes(sizes: str, count: int, seed: int) -> NDArray[np.float64]: ...
 def pack_spheres(
     radii: list[float],

@@ -1,4 +1,4 @@
-//! Analysis of recorded states over pairs of spheres, which would be slow in Python.
+//! Analysis of recorded states over neighbours, which would be slow in Python.
 //!
 //! ```
 //! let points = [[0.0, 0.0, 0.0], [9.0, 0.0, 0.0]];
@@ -8,9 +8,17 @@
 
 #![warn(clippy::unwrap_used)]
 
+mod bond_order;
 mod cells;
+mod clusters;
+mod common_neighbours;
+mod neighbours;
 mod pairs;
 
+pub use bond_order::{BondOrder, bond_order};
+pub use clusters::cluster_labels;
+pub use common_neighbours::{Structure, adaptive_structures, structures_within};
+pub use neighbours::{Bond, Neighbours};
 pub use pairs::{Pair, pair_histogram, pairs_within};
 
 /// The program of the README, compiled and run as a documentation test.

@@ -40,7 +40,8 @@ pub fn pair_histogram(points: &[[f64; 3]], sides: [f64; 3], r_max: f64, bins: us
     counts
 }
 
-fn for_each_pair(
+/// Visits every pair of points closer than a distance, as [`pairs_within`] finds them.
+pub(crate) fn for_each_pair(
     points: &[[f64; 3]],
     sides: [f64; 3],
     distance: f64,

@@ -182,8 +182,11 @@ pub struct New {
 #[derive(Debug, clap::Args)]
 pub struct Import {
     /// A scene of Unity (.unity, saved as text), a folder such as Assets: every scene of Unity in it, a
-    /// glTF file (.gltf, .glb), or a particle file (.xyz, .extxyz, .lammpstrj, .dump).
+    /// glTF file (.gltf, .glb), or a particle file (.xyz, .extxyz, .lammpstrj, .dump, .gsd).
     pub path: PathBuf,
+    /// Frame of a particle file that the scene begins with, from 0; the last one by default.
+    #[arg(long, value_name = "N")]
+    pub frame: Option<u64>,
     /// Radius of every particle in m, for a particle file without radii.
     #[arg(long, value_name = "M", value_parser = positive)]
     pub radius: Option<f64>,
@@ -250,7 +253,7 @@ pub struct Run {
     pub length: Length,
     /// Write the trajectory; the ending selects the format: .csv, .npz (NumPy), .pvd (a series
     /// of .vtp files for ParaView, in a folder beside it), .xyz (extended XYZ, for OVITO and ASE), .lammpstrj (a
-    /// dump of LAMMPS), or .glb (an animation in glTF, for Blender, three.js and Unity). `-` writes CSV to the standard output, and
+    /// dump of LAMMPS), .gsd (of HOOMD-blue), or .glb (an animation in glTF, for Blender, three.js and Unity). `-` writes CSV to the standard output, and
     /// the summary to the standard error stream.
     #[arg(long, short, value_name = "PATH")]
     pub out: Option<PathBuf>,

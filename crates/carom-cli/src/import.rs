@@ -23,9 +23,12 @@ pub fn import(import: &Import) -> Result<(), Failure> {
     if let Some(format) = ParticleFormat::of(&import.path).filter(|_| import.path.is_file()) {
         return of_particles(import, format);
     }
-    if import.radius.is_some() {
-        let message = "--radius is for particle files: .xyz, .extxyz, .lammpstrj, .dump";
-        return Err(Failure::Usage(message.to_owned()));
+    let particles_only =
+        [("--radius", import.radius.is_some()), ("--frame", import.frame.is_some())];
+    if let Some((option, _)) = particles_only.iter().find(|(_, is_given)| *is_given) {
+        let message =
+            format!("{option} is for particle files: .xyz, .extxyz, .lammpstrj, .dump, .gsd");
+        return Err(Failure::Usage(message));
     }
     if is_gltf(&import.path) {
         let Imported { scene, omissions } = of_gltf(import)?;
@@ -93,17 +96,17 @@ fn refuse_map(import: &Import, format: &str) -> Result<(), Failure> {
     }
 }
 
-/// Imports the last frame of a particle file.
+/// Imports a frame of a particle file.
 fn of_particles(import: &Import, format: ParticleFormat) -> Result<(), Failure> {
     refuse_map(import, "a particle file")?;
     let (frame_time, duration) = (import.frame_time, import.seconds);
-    let options =
-        ParticleOptions { radius: import.radius, rule: rule(import), frame_time, duration };
+    let (frame, radius) = (import.frame, import.radius);
+    let options = ParticleOptions { frame, radius, rule: rule(import), frame_time, duration };
     let imported = import_particles(&import.path, format, &options);
     let ParticleImport { scene, omissions, .. } = imported.map_err(|error| match error {
-        ParticleError::Unreadable { .. } | ParticleError::Radius { .. } => {
-            Failure::Usage(error.to_string())
-        }
+        ParticleError::Unreadable { .. }
+        | ParticleError::Radius { .. }
+        | ParticleError::NoFrame { .. } => Failure::Usage(error.to_string()),
         _ => Failure::Fault(error.to_string()),
     })?;
     list(&import.path, &omissions);

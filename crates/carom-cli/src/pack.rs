@@ -41,7 +41,7 @@ pub struct Pack {
     /// Collisions of each sphere after that, without growth, in which the pressure of the fluid is measured.
     #[arg(long, value_name = "COLLISIONS", value_parser = positive)]
     pub equilibrate: Option<f64>,
-    /// The file to write: a scene (.toml), or places, radii, masses and velocities (.xyz, .lammpstrj, .npz, .csv).
+    /// The file to write: a scene (.toml), or places, radii, masses and velocities (.xyz, .lammpstrj, .gsd, .npz, .csv).
     #[arg(long, short, value_name = "PATH")]
     pub out: Option<PathBuf>,
     /// Whether an existing file is replaced.

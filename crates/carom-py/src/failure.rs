@@ -101,6 +101,11 @@ impl Failure {
         Self::new(Kind::Scene, error)
     }
 
+    /// Returns a failure about a file of states that cannot be read or written.
+    pub fn of_file(problem: impl ToString) -> Self {
+        Self { field: Some("path".to_owned()), ..Self::new(Kind::Value, problem) }
+    }
+
     /// Returns a failure about a scene described in code, which has neither lines nor a name.
     pub fn of_part(error: SceneError) -> Self {
         PartError::from(error).into()

@@ -1,9 +1,13 @@
 //! Imports of scenes from other programs.
 
+// Python shows these comments as docstrings, with units in plain brackets.
+#![allow(rustdoc::broken_intra_doc_links)]
+
 use std::path::{Path, PathBuf};
 
 use carom_scene::Scene;
 use carom_scene::import::Omission;
+use carom_scene::recording::{ParticleFormat, ParticleOptions, import_particles};
 use pyo3::prelude::*;
 
 use crate::failure::Failure;
@@ -44,6 +48,23 @@ pub fn import_unity(
 pub fn import_gltf(path: PathBuf) -> Result<Imported, Failure> {
     let imported = carom_gltf::import(&path, &carom_gltf::Options::default());
     let imported = imported.map_err(Failure::of_import)?;
+    answer(&imported.scene, &imported.omissions)
+}
+
+/// Imports a frame of a particle file, from 0; the last one unless given. `radius` [m] is that of
+/// every particle, for a file without radii.
+#[pyfunction]
+pub fn import_particle_file(
+    path: PathBuf,
+    frame: Option<u64>,
+    radius: Option<f64>,
+) -> Result<Imported, Failure> {
+    let format = ParticleFormat::of(&path).ok_or_else(|| {
+        let endings = "use .xyz, .extxyz, .lammpstrj, .dump or .gsd";
+        Failure::of_file(format!("cannot tell the format of {}: {endings}", path.display()))
+    })?;
+    let options = ParticleOptions { frame, radius, ..ParticleOptions::default() };
+    let imported = import_particles(&path, format, &options).map_err(Failure::of_import)?;
     answer(&imported.scene, &imported.omissions)
 }
 

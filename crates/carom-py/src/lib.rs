@@ -33,12 +33,14 @@ mod imports;
 mod in_use;
 mod maze;
 mod motion;
+mod neighbours;
 mod next_event;
 mod packing;
 #[cfg(feature = "pictures")]
 mod painter;
 mod pairs;
 mod part;
+mod particles;
 #[cfg(feature = "pictures")]
 mod picture_settings;
 mod points;
@@ -62,6 +64,7 @@ pub use batch::BatchEngine;
 pub use derivatives::{TangentsEngine, TapeEngine};
 pub use engine::Engine;
 pub use maze::MazeEpisodes;
+pub use neighbours::NeighbourLists;
 #[cfg(feature = "pictures")]
 pub use painter::Painter;
 pub use predicted_path::Path;
@@ -82,6 +85,8 @@ mod _carom {
     use crate::Engine;
     #[pymodule_export]
     use crate::MazeEpisodes;
+    #[pymodule_export]
+    use crate::NeighbourLists;
     #[cfg(feature = "pictures")]
     #[pymodule_export]
     use crate::Painter;
@@ -101,11 +106,15 @@ mod _carom {
     #[pymodule_export]
     use crate::film::film_scene;
     #[pymodule_export]
-    use crate::imports::{import_gltf, import_unity};
+    use crate::imports::{import_gltf, import_particle_file, import_unity};
+    #[pymodule_export]
+    use crate::neighbours::label_clusters;
     #[pymodule_export]
     use crate::packing::{pack_spheres, radii_of_sizes};
     #[pymodule_export]
     use crate::pairs::{pair_histogram, pairs_within};
+    #[pymodule_export]
+    use crate::particles::{read_particle_file, write_particle_file};
     #[pymodule_export]
     use crate::scenes::{canonical_toml, find_scene, list_scenes, read_scene, read_scene_file};
 

@@ -42,7 +42,7 @@ pub fn pairs_within<'py>(
 }
 
 /// Returns the rows of an array of shape (n, 3).
-fn rows(points: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<[f64; 3]>> {
+pub fn rows(points: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<[f64; 3]>> {
     let wrong = || Failure::value("points", "must have the shape (n, 3)");
     let numbers = points.to_vec().map_err(|_| wrong())?;
     let (rows, rest) = numbers.as_chunks::<3>();

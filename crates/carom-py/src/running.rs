@@ -6,6 +6,7 @@
 use std::ops::Range;
 use std::time::Instant;
 
+use carom::Boundary;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
@@ -55,6 +56,15 @@ impl Engine {
         let inner = &*self.lock(py)?;
         let seconds = seconds.unwrap_or(inner.described.simulation.duration);
         Ok(whole_frames(seconds, inner.frame_time(dt))?)
+    }
+
+    /// Sides of the periodic box [m], infinite along open axes; `None` if nothing is periodic.
+    #[getter]
+    fn _box_sides(&self, py: Python<'_>) -> PyResult<Option<[f64; 3]>> {
+        Ok(match self.lock(py)?.world.settings().boundary {
+            Boundary::Periodic { size } => Some(size.to_array()),
+            Boundary::Open => None,
+        })
     }
 
     /// Takes `frames` frames of `dt` [s]. Records the selected parts of the present state and of

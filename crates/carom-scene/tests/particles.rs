@@ -7,12 +7,13 @@ use std::path::{Path, PathBuf};
 use carom::World;
 use carom_scene::recording::{
     ParticleError, ParticleFormat, ParticleImport, ParticleOptions, Trajectory, import_particles,
-    recover_particles,
+    read_particles, recover_particles,
 };
 use carom_scene::{Library, Scene};
 use tempfile::TempDir;
 
-const ENDINGS: [&str; 2] = ["xyz", "lammpstrj"];
+const TEXTS: [&str; 2] = ["xyz", "lammpstrj"];
+const ENDINGS: [&str; 3] = ["xyz", "lammpstrj", "gsd"];
 
 /// A built-in scene, or balls in a box that is periodic along two axes.
 fn scene(name: &str) -> Scene {
@@ -41,8 +42,11 @@ fn recorded(name: &str, frames: usize, path: &Path) -> World {
 }
 
 fn import(path: &Path, radius: Option<f64>) -> Result<ParticleImport, ParticleError> {
-    let format = ParticleFormat::of(path).unwrap();
-    import_particles(path, format, &ParticleOptions { radius, ..ParticleOptions::default() })
+    imported(path, ParticleOptions { radius, ..ParticleOptions::default() })
+}
+
+fn imported(path: &Path, options: ParticleOptions) -> Result<ParticleImport, ParticleError> {
+    import_particles(path, ParticleFormat::of(path).unwrap(), &options)
 }
 
 fn written(folder: &TempDir, name: &str, text: &str) -> PathBuf {
@@ -83,6 +87,96 @@ fn the_last_frame_of_a_run_begins_a_scene_to_the_bit() {
 }
 
 #[test]
+fn any_frame_of_a_run_begins_a_scene() {
+    let folder = TempDir::new().unwrap();
+    for ending in ENDINGS {
+        let path = folder.path().join(format!("run.{ending}"));
+        recorded("periodic", 30, &path);
+        let earlier = folder.path().join(format!("earlier.{ending}"));
+        let world = recorded("periodic", 8, &earlier);
+        let options = ParticleOptions { frame: Some(7), ..ParticleOptions::default() };
+        let frame = imported(&path, options).unwrap();
+        assert_eq!((frame.time, frame.frames), (Some(world.time()), 30), "{ending}");
+        let after = frame.scene.world().unwrap();
+        assert_eq!(after.spheres().positions(), world.spheres().positions(), "{ending}");
+        let options = ParticleOptions { frame: Some(30), ..ParticleOptions::default() };
+        let refused = imported(&path, options).unwrap_err().to_string();
+        assert!(refused.ends_with("has no frame 30: its last whole frame is 29"), "{refused}");
+        let frames = read_particles(&path, ParticleFormat::of(&path).unwrap()).unwrap();
+        assert_eq!((frames.len(), frames[7].time), (30, Some(world.time())));
+        assert_eq!(frames[29].sides, [3.0, 3.3, f64::INFINITY]);
+        assert_eq!(frames[29].ids, [0, 1]);
+    }
+}
+
+#[test]
+fn an_empty_world_is_a_frame_of_every_format() {
+    let folder = TempDir::new().unwrap();
+    for ending in ENDINGS {
+        let path = folder.path().join(format!("empty.{ending}"));
+        let mut trajectory = Trajectory::create(&path).unwrap();
+        trajectory.write(&World::default()).unwrap();
+        trajectory.finish().unwrap();
+        let frames = read_particles(&path, ParticleFormat::of(&path).unwrap()).unwrap();
+        assert_eq!((frames.len(), frames[0].ids.len()), (1, 0), "{ending}");
+    }
+}
+
+#[test]
+fn gsd_keeps_every_bit_unless_another_program_changed_the_numbers() {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("run.gsd");
+    let before = recorded("billiards", 2, &path);
+    let format = ParticleFormat::Gsd;
+    let exact = read_particles(&path, format).unwrap().remove(1);
+    assert_eq!(exact.positions[0], before.spheres().positions()[0].to_array());
+    // The first particle moves by a metre in single precision, as a program would write it.
+    let mut bytes = fs::read(&path).unwrap();
+    let single = (exact.positions[0][0] as f32).to_le_bytes();
+    let place = (0..bytes.len() - 3).rfind(|&at| bytes[at..at + 4] == single).unwrap();
+    let moved = exact.positions[0][0] as f32 + 1.0;
+    bytes[place..place + 4].copy_from_slice(&moved.to_le_bytes());
+    fs::write(&path, &bytes).unwrap();
+    let changed = read_particles(&path, format).unwrap().remove(1);
+    assert_eq!(changed.positions[0][0], f64::from(moved));
+    assert_eq!(changed.velocities, exact.velocities);
+}
+
+#[test]
+fn a_gsd_file_that_is_damaged_is_refused_and_one_cut_short_keeps_its_frames() {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("run.gsd");
+    recorded("simtest4", 3, &path);
+    let whole = fs::read(&path).unwrap();
+    let refused = |change: &dyn Fn(&mut Vec<u8>)| {
+        let mut bytes = whole.clone();
+        change(&mut bytes);
+        fs::write(&path, &bytes).unwrap();
+        let error = import(&path, None).unwrap_err().to_string();
+        error.strip_prefix(&format!("{}: ", path.display())).unwrap().to_owned()
+    };
+    assert_eq!(refused(&|bytes| bytes.truncate(100)), "is no GSD file");
+    assert_eq!(refused(&|bytes| bytes[0] = 0), "is no GSD file");
+    assert_eq!(refused(&|bytes| bytes[46] = 9), "version 9.0 of GSD is not read");
+    assert_eq!(refused(&|bytes| bytes[112] = b'x'), "its schema is \"xoomd\", expected \"hoomd\"");
+    assert_eq!(refused(&|bytes| bytes[15] = 1), "its index reaches beyond the end of the file");
+    assert_eq!(refused(&|bytes| bytes[256 + 30] = 99), "entry 0 of its index makes no sense");
+    // The fourth chunk of a frame holds the positions: whole numbers are none.
+    let is_used = |entry: &usize| whole[256 + entry * 32 + 16..][..8] != [0; 8];
+    let entries = (0..128).take_while(is_used).count();
+    assert_eq!(
+        refused(&|bytes| bytes[256 + (entries / 3 * 2 + 3) * 32 + 30] = 3),
+        "frame 2: particles/position must be finite real numbers"
+    );
+    // A frame whose data are there and whose entries are not.
+    let mut bytes = whole.clone();
+    bytes.extend([7; 1000]);
+    fs::write(&path, &bytes).unwrap();
+    assert_eq!(import(&path, None).unwrap().frames, 3);
+    assert_eq!(recover_particles(&path, ParticleFormat::Gsd).unwrap(), 0);
+}
+
+#[test]
 fn files_of_other_programs_are_read() {
     let folder = TempDir::new().unwrap();
     let plain = written(&folder, "plain.xyz", "2\nwater\nO 0 0 0\nH 0 0 3");
@@ -110,12 +204,16 @@ fn files_of_other_programs_are_read() {
     assert_eq!([spheres[0].radius, spheres[1].radius], [Some(0.25), Some(0.5)]);
     assert_eq!(spheres[1].position, [1.0, 0.0, 0.5]);
     assert_eq!(spheres[0].position, [-1.0, -2.0, 0.0]);
+    // Without numbers, LAMMPS writes 0 for all atoms.
+    let dump = "ITEM: NUMBER OF ATOMS\n2\nITEM: ATOMS id x y z radius\n0 5 0 0 1\n0 1 0 0 1\n";
+    let scene = import(&written(&folder, "unnumbered.dump", dump), None).unwrap().scene;
+    assert_eq!(scene.spheres[0].position, [5.0, 0.0, 0.0]);
 }
 
 #[test]
 fn a_frame_that_is_cut_short_is_left_out_and_can_be_removed() {
     let folder = TempDir::new().unwrap();
-    for ending in ENDINGS {
+    for ending in TEXTS {
         let path = folder.path().join(format!("run.{ending}"));
         recorded("simtest4", 3, &path);
         let whole = fs::read(&path).unwrap();
@@ -143,7 +241,10 @@ fn what_makes_no_sense_is_refused_with_its_line() {
     let folder = TempDir::new().unwrap();
     let of = |text: &str| problem(&folder, "a.xyz", text);
     let radii = "Properties=species:S:1:pos:R:3:radius:R:1";
-    assert_eq!(of("1\n\nX 0 0 0\n"), "a.xyz: its particles have no radius: name one with --radius");
+    assert_eq!(
+        of("1\n\nX 0 0 0\n"),
+        "a.xyz: its particles have no radius: name one (--radius, radius=)"
+    );
     assert_eq!(of("two\n"), "a.xyz:1: expected the number of particles, not \"two\"");
     assert_eq!(
         of(&format!("1\n{radii}\nX 0 0 nan 1\n")),
@@ -169,6 +270,15 @@ fn what_makes_no_sense_is_refused_with_its_line() {
     assert_eq!(
         of("ITEM: ATOMS id x y z\n"),
         "a.dump:1: ITEM: NUMBER OF ATOMS is missing before this line"
+    );
+    let atoms = "ITEM: NUMBER OF ATOMS\n2\nITEM: ATOMS id x y z\n";
+    assert_eq!(
+        of(&format!("{atoms}3 0 0 0\n3 1 0 0\n")),
+        "a.dump:5: another particle has the id 3, too"
+    );
+    assert_eq!(
+        of(&format!("{atoms}3 0 0 0\n0.5 1 0 0\n")),
+        "a.dump:5: the id of a particle must be a whole number, not 0.5"
     );
     let negative = format!("1\n{radii}\nX 0 0 0 -1\n");
     let refused = problem(&folder, "scene.xyz", &negative);

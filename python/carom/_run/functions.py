@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from carom._carom import Engine
 from carom._run.tables import IMPACT, SENSOR_EVENT, records
-from carom._run.trajectory import RunRecord, Selection, Trajectory
+from carom._run.trajectory import RunRecord, Selection, Trajectory, box_of
 from carom._scene.points import spread
 from carom._scene.text import read_part
 from carom.errors import CaromError
@@ -114,7 +114,7 @@ class Functions:
             except BaseException:
                 world.restore(before)
                 raise
-        trajectory = _joined(states, events)
+        trajectory = _joined(states, events, box_of(world))
         if stopped is not None:
             stopped.trajectory = trajectory  # type: ignore[attr-defined]
             raise stopped
@@ -206,7 +206,11 @@ def count(name: str, given: object) -> int:
     return number
 
 
-def _joined(states: list[RunRecord], events: dict[str, list[NDArray[np.void]]]) -> Trajectory:
+def _joined(
+    states: list[RunRecord],
+    events: dict[str, list[NDArray[np.void]]],
+    box: NDArray[np.float64] | None,
+) -> Trajectory:
     """A trajectory of single states, each as the engine records it."""
     known: dict[int, tuple[float, float]] = {}
     for state in states:
@@ -225,5 +229,6 @@ def _joined(states: list[RunRecord], events: dict[str, list[NDArray[np.void]]]) 
         ids=all_ids,
         radii=np.array([known[number][0] for number in all_ids.tolist()]),
         masses=np.array([known[number][1] for number in all_ids.tolist()]),
+        box=box,
         **motion,
     )

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from carom._carom import Engine
+from carom._run import particles
 from carom._run.tables import IMPACT, SENSOR_EVENT, flat_columns
 from carom._scene.above import above
 from carom._scene.scene import Scene
@@ -72,6 +74,12 @@ _REQUIRED = ("positions", "velocities", "impacts", "sensor_events")
 """What is there unless it was not recorded."""
 
 
+def box_of(world: Engine) -> NDArray[np.float64] | None:
+    """The sides of the periodic box of a world, if it has one."""
+    sides = world._box_sides
+    return None if sides is None else np.array(sides)
+
+
 def _not_recorded() -> Any:
     """Stands for what was not recorded, until it is taken out."""
     return None
@@ -101,6 +109,8 @@ class Trajectory:
             sphere turned at the beginning, and no friction could make one turn.
         angular_velocities: Angular velocities, along the axes [rad/s], shape (t, n, 3), or None, as
             the orientations.
+        box: Sides of the periodic box around the origin [m], shape (3,), infinite along an axis
+            that is open; None where no axis is periodic.
     """
 
     time: NDArray[np.float64]
@@ -113,6 +123,7 @@ class Trajectory:
     velocities: NDArray[np.float64] = field(default_factory=_not_recorded)
     orientations: NDArray[np.float64] | None = None
     angular_velocities: NDArray[np.float64] | None = None
+    box: NDArray[np.float64] | None = None
 
     def __post_init__(self) -> None:
         for name in _REQUIRED:
@@ -173,15 +184,19 @@ class Trajectory:
         return above.notebook.show_trajectory(self, scene, size, camera)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes an .npz file, which `load` reads: to the bit what this is.
+        """Writes a file, which `load` reads: to the bit what this is.
 
-        It has the arrays that ``carom run --out`` writes, one row for each sphere that is there at
-        each time, and the events besides, as records of `carom.IMPACT` and `carom.SENSOR_EVENT`.
+        An .npz file has the arrays that ``carom run --out`` writes, one row for each sphere that is
+        there at each time, and the events besides, as records of `carom.IMPACT` and
+        `carom.SENSOR_EVENT`. Extended XYZ (.xyz, .extxyz), dumps of LAMMPS (.lammpstrj, .dump) and
+        GSD (.gsd) are for other programs: they hold the states and the box, but no events.
 
         Args:
-            path: Of the file, with its ending; one that is there is replaced.
+            path: Of the file, with its ending; any other than these is that of an .npz file. A file
+                that is there is replaced.
 
         Raises:
+            CaromError: If positions were not recorded, for a format of other programs.
             OSError: If it cannot be written.
 
         >>> import carom, tempfile, pathlib
@@ -193,6 +208,9 @@ class Trajectory:
         >>> bool((again.positions == run.positions).all())
         True
         """
+        if particles.is_particle_file(path):
+            particles.write(path, self._particles())
+            return
         is_there = self._is_there()
         row, column = np.nonzero(is_there)
         arrays: dict[str, NDArray[Any]] = {
@@ -204,6 +222,8 @@ class Trajectory:
             "radius": self.radii,
             "mass": self.masses,
         }
+        if self.box is not None:
+            arrays["box"] = self.box
         arrays.update({name: self.__dict__[name] for name in _EVENTS if name in self.__dict__})
         for name, column_name in _COLUMNS.items():
             values = self._recorded(name)
@@ -212,14 +232,51 @@ class Trajectory:
         with open(path, "wb") as file:
             np.savez(file, **arrays)  # type: ignore[arg-type]  # Names are no options of it.
 
+    def _particles(self) -> particles.Particles:
+        """The states, for other programs."""
+        if self._recorded("positions") is None:
+            raise CaromError("positions: were not recorded by the run", "positions")
+
+        def double(values: NDArray[np.float64]) -> NDArray[np.float64]:
+            return np.ascontiguousarray(values, dtype=np.float64)
+
+        def doubles(name: Recorded) -> NDArray[np.float64] | None:
+            values = self._recorded(name)
+            return None if values is None else double(values)
+
+        return particles.Particles(
+            time=double(self.time),
+            ids=np.ascontiguousarray(self.ids, dtype=np.uint64),
+            radii=double(self.radii),
+            masses=double(self.masses),
+            sides=[np.inf] * 3 if self.box is None else [float(side) for side in self.box],
+            positions=double(self.positions),
+            velocities=doubles("velocities"),
+            orientations=doubles("orientations"),
+            angular_velocities=doubles("angular_velocities"),
+        )
+
     @classmethod
-    def load(cls, path: str | os.PathLike[str]) -> Trajectory:
-        """Reads an .npz file of `save`, or of ``carom run --out``, which has no events.
+    def load(cls, path: str | os.PathLike[str], *, radius: float | None = None) -> Trajectory:
+        """Reads a file of `save`, of ``carom run --out``, or of another program.
+
+        Only `save` writes events, into .npz files. Of extended XYZ, dumps of LAMMPS and GSD, times
+        that the file lacks are the numbers of its frames, a mass that it lacks is 1 kg, and the
+        periodic box is moved to the origin, so that positions of `save` keep their bits.
+
+        Args:
+            path: Of the file; its ending tells the format, .npz unless it is another one of `save`.
+            radius: Radius of every particle [m], for a file of another program without radii.
 
         Raises:
-            CaromError: If it is no such file.
+            CaromError: If it is no such file, with the line in its message, or if it is not clear
+                which radius particles have.
             OSError: If it cannot be read.
         """
+        if particles.is_particle_file(path):
+            return cls(**particles.read(path, radius))
+        if radius is not None:
+            raise CaromError("radius: .npz files have radii of their own", "radius")
         with open(path, "rb") as file:
             if not zipfile.is_zipfile(file):
                 raise CaromError(f"{os.fspath(path)}: no trajectory of carom: no .npz file", "path")
@@ -255,6 +312,7 @@ class Trajectory:
             ids=ids,
             radii=arrays["radius"],
             masses=arrays["mass"],
+            box=arrays.get("box"),
             **motion,
         )
 
@@ -311,7 +369,8 @@ class Trajectory:
     def to_xarray(self) -> xarray.Dataset:
         """Positions and velocities over ``time``, ``sphere`` and ``axis``; the arrays are shared.
 
-        Radii and masses are there, too, over ``sphere``. With rotation so are angular velocities,
+        Radii and masses are there, too, over ``sphere``, and the sides of a periodic box over
+        ``axis``. With rotation so are angular velocities,
         and orientations over ``part``, that of a quaternion.
 
         Raises:
@@ -343,4 +402,6 @@ class Trajectory:
             quaternions = ("time", "sphere", "part")
             variables["orientation"] = (quaternions, self.orientations, {"units": "1"})
             coordinates["part"] = list(_PARTS)
+        if self.box is not None:
+            variables["box"] = ("axis", self.box, {"units": "m"})
         return xarray.Dataset(variables, coordinates)

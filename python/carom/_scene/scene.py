@@ -18,6 +18,7 @@ from numpy.typing import DTypeLike, NDArray
 from carom._carom import (
     canonical_toml,
     import_gltf,
+    import_particle_file,
     import_unity,
     read_scene,
     read_scene_file,
@@ -175,6 +176,36 @@ class Scene(parts.Part):
         with Path(path).open("rb"):
             pass  # An error of the system stays one.
         return cls._imported(import_gltf(path))
+
+    @classmethod
+    def from_particles(
+        cls,
+        path: str | os.PathLike[str],
+        *,
+        frame: int | None = None,
+        radius: float | None = None,
+    ) -> Scene:
+        """Imports a frame of extended XYZ, a dump of LAMMPS or GSD, as ``carom import`` does.
+
+        The scene begins at the time 0 with positions, velocities, rotations, radii, masses and the
+        periodic box of the file, to the bit where Carom wrote it. What is left out or replaced is
+        an `OmissionWarning`.
+
+        Args:
+            path: Of the file (.xyz, .extxyz, .lammpstrj, .dump, .gsd).
+            frame: Which frame, from 0; the last whole one unless given.
+            radius: Radius of every particle [m], for a file without radii.
+
+        Raises:
+            CaromError: If the ending is that of no such format, or an argument makes no sense.
+            OSError: If it cannot be read.
+            SceneError: With the file and line of what is wrong.
+        """
+        with Path(path).open("rb"):
+            pass  # An error of the system stays one.
+        if frame is not None and frame < 0:
+            raise CaromError(f"frame: must be >= 0, not {frame}", "frame")
+        return cls._imported(import_particle_file(path, frame, radius))
 
     @classmethod
     def _imported(cls, imported: tuple[str, list[str]]) -> Scene:

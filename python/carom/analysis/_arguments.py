@@ -45,6 +45,15 @@ def frames(values: Trajectory | ArrayLike, name: Literal["positions", "velocitie
     return vectors
 
 
+def one_frame(positions: ArrayLike) -> Floats:
+    """Centres of one frame, shape (n, 3)."""
+    if np.ndim(positions) != 2:
+        shape = np.shape(positions)
+        raise CaromError(f"positions: must have the shape (n, 3), not {shape}", "positions")
+    points: Floats = frames(positions, "positions")[0]
+    return points
+
+
 def path(values: Trajectory | ArrayLike, name: Literal["positions", "velocities"]) -> Floats:
     """Vectors of spheres over time, shape (t, n, 3)."""
     vectors = frames(values, name)
@@ -86,8 +95,13 @@ def recorded_impacts(run: Trajectory, name: str) -> RecordedImpacts:
     return RecordedImpacts(impacts[impacts["time"] <= run.time[-1]], duration)
 
 
-def box_sides(box: Box | None) -> Floats:
-    """Sides of a periodic box, shape (3,); infinite along each axis without a box."""
+def box_sides(box: Box | None, run: Trajectory | ArrayLike = ()) -> Floats:
+    """Sides of a periodic box, shape (3,): that of the run unless one is given.
+
+    They are infinite along each axis without a box.
+    """
+    if box is None and isinstance(run, Trajectory):
+        box = run.box
     if box is None:
         return np.full(3, np.inf)
     sides = floats(box.size if isinstance(box, Periodic) else box, "box")

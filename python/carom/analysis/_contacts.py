@@ -44,10 +44,7 @@ def contact_network(
     >>> analysis.contact_network([[0, 0, 0], [1, 0, 0], [3, 0, 0]], 0.5, tolerance=1e-9).tolist()
     [[0, 1]]
     """
-    if np.ndim(positions) != 2:
-        shape = np.shape(positions)
-        raise CaromError(f"positions: must have the shape (n, 3), not {shape}", "positions")
-    points = arguments.frames(positions, "positions")[0]
+    points = arguments.one_frame(positions)
     sizes, sides = arguments.per_sphere(radii, "radii", len(points)), arguments.box_sides(box)
     if not (np.isfinite(tolerance) and tolerance >= 0):
         raise CaromError(f"tolerance: must be finite and >= 0, not {tolerance}", "tolerance")
@@ -60,7 +57,7 @@ def contact_network(
     first, second, squares = pairs_within(points[there], sides.tolist(), distance)
     one, other = there[first], there[second]
     touch = np.sqrt(squares) <= sizes[one] + sizes[other] + tolerance
-    return _ascending(np.stack([one[touch], other[touch]], axis=1))
+    return ascending(np.stack([one[touch], other[touch]], axis=1))
 
 
 def pairs_in_contact(contacts: NDArray[np.void], ids: ArrayLike) -> Indices:
@@ -85,7 +82,7 @@ def pairs_in_contact(contacts: NDArray[np.void], ids: ArrayLike) -> Indices:
     pairs = np.stack([between["sphere_1"], between["sphere_2"]], axis=1)
     if not np.isin(pairs, numbers).all():
         raise CaromError("ids: must have every sphere of the contacts", "ids")
-    return np.unique(_ascending(np.searchsorted(numbers, pairs)), axis=0)
+    return np.unique(ascending(np.searchsorted(numbers, pairs)), axis=0)
 
 
 def coordination_numbers(pairs: ArrayLike, count: int) -> Indices:
@@ -106,6 +103,16 @@ def coordination_numbers(pairs: ArrayLike, count: int) -> Indices:
     >>> analysis.coordination_numbers([[0, 1], [1, 2]], count=4).tolist()
     [1, 2, 1, 0]
     """
+    indices = index_pairs(pairs, count).reshape(-1)
+    return np.bincount(indices, minlength=count).astype(np.int64)
+
+
+def index_pairs(pairs: ArrayLike, count: int) -> Indices:
+    """Pairs of indices below a count, shape (m, 2).
+
+    Raises:
+        CaromError: For something else.
+    """
     if arguments.whole(count, "count") < 0:
         raise CaromError(f"count: must be >= 0, not {count}", "count")
     indices = np.asarray(pairs).reshape(-1)
@@ -113,9 +120,10 @@ def coordination_numbers(pairs: ArrayLike, count: int) -> Indices:
         raise CaromError(f"pairs: must have the shape (m, 2), not {np.shape(pairs)}", "pairs")
     if not np.isin(indices, np.arange(count)).all():
         raise CaromError(f"pairs: must be indices from 0 to {count - 1}", "pairs")
-    return np.bincount(indices.astype(np.int64), minlength=count).astype(np.int64)
+    return indices.astype(np.int64).reshape(-1, 2)
 
 
-def _ascending(pairs: Indices) -> Indices:
+def ascending(pairs: Indices) -> Indices:
+    """Pairs with the smaller index first, in ascending order."""
     pairs = np.sort(pairs, axis=1)
     return pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]

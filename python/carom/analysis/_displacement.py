@@ -12,7 +12,7 @@ from carom.analysis._lags import blocks, correlate
 from carom.errors import CaromError
 
 
-def unwrap(positions: Trajectory | ArrayLike, box: arguments.Box) -> Floats:
+def unwrap(positions: Trajectory | ArrayLike, box: arguments.Box | None = None) -> Floats:
     """Continuous paths from positions that were wrapped into a periodic box.
 
     Each coordinate must move by less than half a side from frame to frame; if one moves farther,
@@ -21,7 +21,8 @@ def unwrap(positions: Trajectory | ArrayLike, box: arguments.Box) -> Floats:
 
     Args:
         positions: Centres [m], shape (t, n, 3), or a run.
-        box: Sides of the periodic box [m], shape (3,); infinite along an axis that is open.
+        box: Sides of the periodic box [m], shape (3,); infinite along an axis that is open. That of
+            a run unless given.
 
     Returns:
         Positions [m], shape (t, n, 3); those of the first frame are unchanged.
@@ -33,7 +34,7 @@ def unwrap(positions: Trajectory | ArrayLike, box: arguments.Box) -> Floats:
     >>> analysis.unwrap([[[4, 0, 0]], [[-4, 0, 0]]], (10, 10, 10))[:, 0, 0].tolist()
     [4.0, 6.0]
     """
-    points, sides = arguments.path(positions, "positions"), arguments.box_sides(box)
+    points, sides = arguments.path(positions, "positions"), arguments.box_sides(box, positions)
     # Along an open axis there is nothing to unwrap: no step is half of it.
     images = np.rint(np.diff(points, axis=0) / sides)
     images = np.cumsum(np.nan_to_num(images), axis=0)
@@ -55,8 +56,8 @@ def mean_square_displacement(
 
     Args:
         positions: Centres [m], shape (t, n, 3), or a run.
-        box: Sides of the periodic box [m], by which positions are unwrapped first; without one they
-            are taken as they are.
+        box: Sides of the periodic box [m], by which positions are unwrapped first; that of a run
+            unless given. Without one they are taken as they are.
         lags: How many lags, from 0; as many as there are frames unless given.
 
     Returns:
@@ -73,8 +74,9 @@ def mean_square_displacement(
     """
     paths = arguments.path(positions, "positions")
     count = arguments.lag_count(lags, len(paths))
-    if box is not None:
-        paths = unwrap(paths, box)
+    sides = arguments.box_sides(box, positions)
+    if np.isfinite(sides).any():
+        paths = unwrap(paths, sides)
     sums, samples = np.zeros(count), np.zeros(count)
     for block in blocks(paths):
         there = arguments.is_there(block).astype(np.float64)
@@ -107,8 +109,8 @@ def diffusion_coefficient(
     Frenkel and B. Smit, Understanding Molecular Simulation, 2nd ed. (2002), section 4.4. The fit is
     to begin when motion is diffusive, after some ten collisions of a sphere. In a cubic periodic
     box of side L, D is smaller than that of an infinite fluid by ``2.837297 kT / (6π η L)``, with η
-    the viscosity: I.-C. Yeh and G. Hummer, J. Phys. Chem. B 108, 15873 (2004). Add that before
-    comparing it with other sizes, or published values for an infinite fluid.
+    the viscosity: I.-C. Yeh and G. Hummer, J. Phys. Chem. B 108, 15873 (2004); `infinite_diffusion`
+    adds that.
 
     Args:
         time: Lags [s], shape (t,).

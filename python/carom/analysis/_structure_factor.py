@@ -44,7 +44,11 @@ class _Plane(NamedTuple):
 
 
 def structure_factor(
-    positions: Trajectory | ArrayLike, box: arguments.Box, *, q_max: float, bins: int = 100
+    positions: Trajectory | ArrayLike,
+    box: arguments.Box | None = None,
+    *,
+    q_max: float,
+    bins: int = 100,
 ) -> StructureFactor:
     """The static structure factor S(q), averaged over shells of wave vectors and over frames.
 
@@ -57,7 +61,7 @@ def structure_factor(
 
     Args:
         positions: Centres [m], shape (t, n, 3) or (n, 3), or a run; wrapped into the box or not.
-        box: Sides of the periodic box [m], finite, shape (3,).
+        box: Sides of the periodic box [m], finite, shape (3,); that of a run unless given.
         q_max: Largest wave number [rad/m], at least that of the longest side, 2π/L.
         bins: Into how many shells of the same width, from 0 to ``q_max``.
 
@@ -75,7 +79,7 @@ def structure_factor(
     np.float64(0.0)
     """
     points = arguments.frames(positions, "positions")
-    sides = arguments.box_sides(box)
+    sides = arguments.box_sides(box, positions)
     if not np.isfinite(sides).all():
         raise CaromError(f"box: must have finite sides, not {sides.tolist()}", "box")
     q_max, bins = arguments.positive(q_max, "q_max"), arguments.bin_count(bins)

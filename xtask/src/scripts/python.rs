@@ -15,7 +15,7 @@ const BASE: [&str; 2] = ["carom._carom", "carom.errors"];
 /// which imports nothing when it runs.
 const FORWARD: &str = "carom._scene.above";
 /// What is imported where it is needed, since the package does without it elsewhere.
-const OPTIONAL: [&str; 5] = ["carom.notebook", "distributed", "pandas", "tqdm", "xarray"];
+const OPTIONAL: [&str; 6] = ["carom.notebook", "distributed", "pandas", "scipy", "tqdm", "xarray"];
 
 /// One name that a module imports.
 #[derive(Debug, PartialEq, Eq)]

@@ -21,12 +21,15 @@ pub const TARGET: Target = Target {
     check,
 };
 
-/// Files of runs with balls that turn and that do not, in both formats, and one with a periodic box.
+/// First bytes of GSD files.
+const GSD: &[u8] = &0x65DF_65DF_65DF_65DF_u64.to_le_bytes();
+
+/// Files of runs with balls that turn and that do not, in all formats, and one with a periodic box.
 fn files() -> Vec<Vec<u8>> {
     let scenes = [("simtest4", 3), ("billiards", 2)];
-    let files = scenes
-        .iter()
-        .flat_map(|(name, frames)| ["xyz", "lammpstrj"].map(|ending| file(name, *frames, ending)));
+    let files = scenes.iter().flat_map(|(name, frames)| {
+        ["xyz", "lammpstrj", "gsd"].map(|ending| file(name, *frames, ending))
+    });
     let periodic = "2\nLattice=\"2 0 0 0 2 0 0 0 2\" pbc=\"T F T\" \
                     Properties=species:S:1:id:I:1:pos:R:3:radius:R:1\nX 1 0 0 0 0.2\nX 0 1 1 1 0.3\n";
     files.flatten().chain([periodic.as_bytes().to_vec()]).collect()
@@ -50,9 +53,13 @@ fn check(case: &[u8]) -> Result<Answer, Fault> {
     let failed = |it: &dyn std::fmt::Display| Fault::Law(format!("cannot be tried: {it}"));
     let folder = tempfile::tempdir().map_err(|it| failed(&it))?;
     let text = text(case);
-    let is_dump = text.contains("ITEM:");
-    let path = folder.path().join(if is_dump { "case.dump" } else { "case.xyz" });
-    fs::write(&path, text.as_bytes()).map_err(|it| failed(&it))?;
+    let (name, content) = match case {
+        _ if case.starts_with(GSD) => ("case.gsd", case),
+        _ if text.contains("ITEM:") => ("case.dump", text.as_bytes()),
+        _ => ("case.xyz", text.as_bytes()),
+    };
+    let path = folder.path().join(name);
+    fs::write(&path, content).map_err(|it| failed(&it))?;
     let format = ParticleFormat::of(&path).ok_or_else(|| failed(&"no format"))?;
     let options = ParticleOptions::default();
     match import_particles(&path, format, &options) {

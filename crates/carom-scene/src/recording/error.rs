@@ -26,7 +26,7 @@ pub enum RecordingError {
 }
 
 const ENDINGS: &str =
-    ".csv, .npz, .pvd (a series of .vtp files for ParaView), .xyz (extended), or .lammpstrj";
+    ".csv, .npz, .pvd (a series of .vtp files for ParaView), .xyz (extended), .lammpstrj, or .gsd";
 
 /// Converts an error of writing to `path`.
 pub(super) fn unwritable(path: &Path, source: io::Error) -> RecordingError {

@@ -1,5 +1,5 @@
-//! Recordings on disk: trajectories as CSV, NPZ, VTK, extended XYZ or dumps of LAMMPS, impacts as
-//! CSV. Trajectories in CSV can be played back; a scene can begin with the last frame of a particle
+//! Recordings on disk: trajectories as CSV, NPZ, VTK, extended XYZ, dumps of LAMMPS or GSD, impacts
+//! as CSV. Trajectories in CSV can be played back; a scene can begin with a frame of a particle
 //! file. If spheres rotate at the first frame, or friction can make them rotate,
 //! trajectories also contain orientations and angular velocities.
 
@@ -34,8 +34,8 @@ pub use format::Format;
 pub use impacts::ImpactTable;
 pub use ledger::LedgerTable;
 pub use particles::{
-    ParticleError, ParticleFormat, ParticleImport, ParticleOptions, import_particles,
-    recover_particles,
+    ParticleError, ParticleFormat, ParticleFrame, ParticleImport, ParticleOptions, ParticleTable,
+    import_particles, read_particles, recover_particles,
 };
 pub use playback::Playback;
 pub use recovered::{Recovered, RecoveryError, complete, recover_by};
@@ -43,7 +43,6 @@ pub use recovery::{recover, recover_table};
 pub use replay::{LineProblem, Replay, ReplayBall, ReplayError, ReplayFrame};
 
 use error::unwritable;
-use particles::ParticleTable;
 
 /// Writes the states of a world, frame by frame.
 ///
@@ -78,8 +77,8 @@ impl std::fmt::Debug for Trajectory {
 
 impl Trajectory {
     /// Creates the file, and missing folders above it. The ending selects the format: `.csv`,
-    /// `.npz`, `.pvd` / `.vtp`, `.xyz` / `.extxyz`, or `.lammpstrj` / `.dump`. A pipe or device with
-    /// another ending gets CSV.
+    /// `.npz`, `.pvd` / `.vtp`, `.xyz` / `.extxyz`, `.lammpstrj` / `.dump`, or `.gsd`. A pipe or device
+    /// with another ending gets CSV.
     ///
     /// # Errors
     /// [`RecordingError`] for another ending, or if the file cannot be written.
@@ -87,7 +86,7 @@ impl Trajectory {
         let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         let particles = ParticleFormat::of(path);
         let format: io::Result<Box<dyn Format>> = match (ending.as_str(), particles) {
-            (_, Some(format)) => ParticleTable::create(path, format).map(|it| Box::new(it) as _),
+            (_, Some(format)) => ParticleTable::new(path, format).map(|it| Box::new(it) as _),
             ("csv", _) => csv_table::CsvTable::create(path).map(|format| Box::new(format) as _),
             ("npz", _) => npz::Npz::create(path).map(|format| Box::new(format) as _),
             ("pvd" | "vtp", _) => vtk::Series::create(path).map(|format| Box::new(format) as _),

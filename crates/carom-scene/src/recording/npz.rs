@@ -3,7 +3,8 @@
 //! Arrays: `t` and `ball` (rows), `position` and `velocity` (rows, 3), and `frame_start` (frames +
 //! 1): the rows of frame k are `frame_start[k] .. frame_start[k + 1]`. If spheres can rotate, also
 //! `orientation` (rows, 4; x, y, z, w) and `angular_velocity` (rows, 3). Then `time` (frames), and
-//! `id`, `radius` and `mass` with the last values of every sphere of any frame.
+//! `id`, `radius` and `mass` with the last values of every sphere of any frame, and `box` (3) with
+//! the sides of the periodic box, if there is one, infinite along open axes.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -91,6 +92,9 @@ fn write_archive(journal: &mut Journal, file: impl Write + Seek) -> io::Result<(
     append_all(&mut zip, "id", known.keys().map(|&id| id as i64))?;
     append_all(&mut zip, "radius", known.values().map(|[radius, _]| *radius))?;
     append_all(&mut zip, "mass", known.values().map(|[_, mass]| *mass))?;
+    if let Some(sides) = sides(journal)? {
+        append_all(&mut zip, "box", sides.into_iter())?;
+    }
     zip.finish()?.flush()
 }
 
@@ -118,6 +122,18 @@ fn bodies(journal: &mut Journal) -> io::Result<BTreeMap<u64, [f64; 2]>> {
         Ok(())
     })?;
     Ok(known)
+}
+
+/// Last sides of the periodic box \[m\].
+fn sides(journal: &mut Journal) -> io::Result<Option<[f64; 3]>> {
+    let mut words = Vec::new();
+    journal.frames(|_, columns| {
+        columns.words(Column::Box, |word| {
+            words.push(f64::from_le_bytes(word));
+            Ok(())
+        })
+    })?;
+    Ok(words.last_chunk().copied())
 }
 
 type Zip<W> = zip::ZipWriter<FailingOnce<BufWriter<W>>>;

@@ -1,12 +1,12 @@
 //! The journal of an NPZ file: a file to which frames are appended.
 //!
-//! The head of a frame contains its time \[s\], the number of spheres, and the bits [`ROTATION`]
-//! and [`BODIES`]. The body contains its columns one after the other.
+//! The head of a frame contains its time \[s\], the number of spheres, and the bits [`ROTATION`],
+//! [`BODIES`] and [`BOX`]. The body contains its columns one after the other.
 
 use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
 
-use carom::World;
+use carom::{Boundary, World};
 
 use super::records::{self, CHUNK, HEAD, Magic, RecordWriter, WORD, Words, parse_head};
 use super::rotation::{angular_velocity, orientation};
@@ -17,8 +17,10 @@ const MAGIC: &Magic = b"carom npz 1\x1a\r\n\0\0";
 const ROTATION: u64 = 1;
 /// Bit of a frame that has radii and masses, which replace the earlier ones.
 const BODIES: u64 = 2;
+/// Bit of a frame that has the sides of a periodic box, which replace the earlier ones.
+const BOX: u64 = 4;
 
-/// A column of a frame, with values for every sphere.
+/// A column of a frame, with values for every sphere or, of the box, for all of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Column {
     Ball,
@@ -28,11 +30,13 @@ pub(super) enum Column {
     AngularVelocity,
     Radius,
     Mass,
+    /// Sides of the periodic box.
+    Box,
 }
 
 impl Column {
     /// All columns, in the order of the file.
-    const ALL: [Self; 7] = [
+    const ALL: [Self; 8] = [
         Self::Ball,
         Self::Position,
         Self::Velocity,
@@ -40,13 +44,14 @@ impl Column {
         Self::AngularVelocity,
         Self::Radius,
         Self::Mass,
+        Self::Box,
     ];
 
-    /// Number of values per sphere.
+    /// Number of values per sphere, or of all values of the box.
     pub const fn width(self) -> u64 {
         match self {
             Self::Ball | Self::Radius | Self::Mass => 1,
-            Self::Position | Self::Velocity | Self::AngularVelocity => 3,
+            Self::Position | Self::Velocity | Self::AngularVelocity | Self::Box => 3,
             Self::Orientation => 4,
         }
     }
@@ -56,7 +61,14 @@ impl Column {
             Self::Ball | Self::Position | Self::Velocity => true,
             Self::Orientation | Self::AngularVelocity => bits & ROTATION != 0,
             Self::Radius | Self::Mass => bits & BODIES != 0,
+            Self::Box => bits & BOX != 0,
         }
+    }
+
+    /// Length in a frame of `count` spheres \[bytes\]; `None` if it overflows.
+    fn length(self, count: u64) -> Option<u64> {
+        let rows = if self == Self::Box { 1 } else { count };
+        rows.checked_mul(WORD * self.width())
     }
 }
 
@@ -68,6 +80,8 @@ pub(super) struct JournalWriter {
     has_rotation: Option<bool>,
     /// Numbers, radii \[m\] and masses \[kg\] in the last frame.
     bodies: (Vec<u64>, Vec<f64>, Vec<f64>),
+    /// Sides of the periodic box in the last frame \[m\].
+    sides: Option<[f64; 3]>,
     chunk: Vec<u8>,
 }
 
@@ -75,13 +89,18 @@ impl JournalWriter {
     pub fn begin(out: &mut impl Write) -> io::Result<Self> {
         out.write_all(MAGIC)?;
         let bodies = (Vec::new(), Vec::new(), Vec::new());
-        Ok(Self { has_rotation: None, bodies, chunk: Vec::new() })
+        Ok(Self { has_rotation: None, bodies, sides: None, chunk: Vec::new() })
     }
 
     /// Appends the current state of all spheres.
     pub fn write(&mut self, world: &World, out: &mut impl Write) -> io::Result<()> {
         let has_rotation = *self.has_rotation.get_or_insert_with(|| world.has_spin());
-        let bits = u64::from(has_rotation) * ROTATION + u64::from(self.renew(world)) * BODIES;
+        let sides = sides(world);
+        let has_box = sides.is_some() && sides != self.sides;
+        self.sides = sides;
+        let bits = u64::from(has_rotation) * ROTATION
+            + u64::from(self.renew(world)) * BODIES
+            + u64::from(has_box) * BOX;
         let words = [world.time().to_bits(), world.spheres().len() as u64, bits];
         let mut record = RecordWriter::begin(&mut self.chunk, out, words);
         for column in Column::ALL.into_iter().filter(|it| it.is_in(bits)) {
@@ -108,12 +127,23 @@ impl JournalWriter {
     }
 }
 
+/// Sides of the periodic box of a world \[m\], infinite along open axes.
+fn sides(world: &World) -> Option<[f64; 3]> {
+    match world.settings().boundary {
+        Boundary::Periodic { size } => Some(size.to_array()),
+        _ => None,
+    }
+}
+
 fn write_column(
     record: &mut RecordWriter<impl Write>,
     column: Column,
     world: &World,
 ) -> io::Result<()> {
     let spheres = world.spheres();
+    if column == Column::Box {
+        return push_numbers(record, &sides(world).unwrap_or([f64::INFINITY; 3]));
+    }
     for i in 0..spheres.len() {
         match column {
             Column::Ball => record.push(&spheres.ids()[i].number().to_le_bytes())?,
@@ -123,6 +153,7 @@ fn write_column(
             Column::AngularVelocity => push_numbers(record, &angular_velocity(world, i))?,
             Column::Radius => push_numbers(record, &[spheres.radii()[i]])?,
             Column::Mass => push_numbers(record, &[spheres.masses()[i]])?,
+            Column::Box => {}
         }
     }
     Ok(())
@@ -151,15 +182,15 @@ impl Head {
     /// have the column.
     fn place(self, column: Column) -> Option<(u64, u64)> {
         let before = Column::ALL.into_iter().take_while(|it| *it != column);
-        let before = before.filter(|it| it.is_in(self.bits)).map(Column::width);
-        let bytes = |width: u64| WORD * width * self.count;
-        column.is_in(self.bits).then(|| (bytes(before.sum()), bytes(column.width())))
+        let mut before = before.filter(|it| it.is_in(self.bits));
+        let start = before.try_fold(0_u64, |sum, it| sum.checked_add(it.length(self.count)?))?;
+        column.is_in(self.bits).then_some((start, column.length(self.count)?))
     }
 
     /// Length of all columns \[bytes\]; `None` if it overflows.
     fn body(self) -> Option<u64> {
-        let columns = Column::ALL.into_iter().filter(|it| it.is_in(self.bits));
-        self.count.checked_mul(WORD * columns.map(Column::width).sum::<u64>())
+        let mut columns = Column::ALL.into_iter().filter(|it| it.is_in(self.bits));
+        columns.try_fold(0_u64, |sum, it| sum.checked_add(it.length(self.count)?))
     }
 
     pub fn has_rotation(self) -> bool {

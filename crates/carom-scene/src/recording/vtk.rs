@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use carom::{DVec3, World};
+use carom::{Boundary, DVec3, World};
 use vtkio::model::{
     Attribute, Attributes, ByteOrder, DataSet, PolyDataPiece, Version, VertexNumbers, Vtk,
 };
@@ -89,6 +89,7 @@ impl Format for Series {
         let path = self.path.with_file_name(&name);
         let mut text = Vec::new();
         frame(world, self.has_rotation).write_xml(&mut text).map_err(io::Error::other)?;
+        let text = with_box(text, world)?;
         std::fs::write(&path, text).map_err(|error| {
             remove_part(&path);
             io::Error::new(error.kind(), format!("{name}: {error}"))
@@ -105,6 +106,22 @@ impl Format for Series {
         while std::fs::remove_file(later.next().unwrap_or_default()).is_ok() {}
         Ok(())
     }
+}
+
+/// Adds the periodic box of a world to a frame, as field data with the sides \[m\], 0 along open
+/// axes. vtkio writes no field data beside points.
+fn with_box(frame: Vec<u8>, world: &World) -> io::Result<Vec<u8>> {
+    let Boundary::Periodic { size } = world.settings().boundary else { return Ok(frame) };
+    let text = String::from_utf8(frame).map_err(io::Error::other)?;
+    let place = text.find("<Piece").ok_or_else(|| io::Error::other("the frame has no piece"))?;
+    let sides = size.to_array().map(|side| if side.is_finite() { side } else { 0.0 });
+    let [x, y, z] = sides;
+    let (before, after) = text.split_at(place);
+    Ok(format!(
+        "{before}<FieldData><DataArray type=\"Float64\" Name=\"box\" NumberOfTuples=\"1\" \
+         NumberOfComponents=\"3\" format=\"ascii\">{x} {y} {z}</DataArray></FieldData>{after}"
+    )
+    .into_bytes())
 }
 
 /// Removes a partly written file. Errors are ignored, because an earlier error is being reported.

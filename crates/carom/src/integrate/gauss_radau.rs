@@ -4,13 +4,15 @@
 //! acceleration is a polynomial through its values at eight nodes of a step. The step is a good one where its
 //! highest term is small.
 
+use std::ops::{Add, Div, Mul, Sub};
+
 use glam::DVec3;
 
 use crate::norm::Norm;
 use crate::polynomial_flight::{ORDERS, PolynomialAcceleration, TERMS};
 
 /// Nodes of the Gauss-Radau quadrature of order 15 on `[0, 1]`.
-const NODES: [f64; TERMS] = [
+pub(crate) const NODES: [f64; TERMS] = [
     0.0,
     0.056_262_560_536_922_15,
     0.180_240_691_736_892_36,
@@ -353,6 +355,23 @@ impl<'a> Attempt<'a> {
             |(coefficients, &carried)| PolynomialAcceleration { length, coefficients, carried };
         self.powers.into_iter().zip(self.start.carried).map(of).collect()
     }
+}
+
+/// The polynomial with these values at the nodes, as a sum of powers of the part of the step.
+pub(crate) fn through_nodes<T>(values: [T; TERMS]) -> [T; TERMS]
+where
+    T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T> + Div<f64, Output = T>,
+{
+    let mut newton = values;
+    for node in 1..TERMS {
+        for before in 0..node {
+            newton[node] = (newton[node] - newton[before]) / (NODES[node] - NODES[before]);
+        }
+    }
+    std::array::from_fn(|power| {
+        let terms = (power + 1..TERMS).map(|n| newton[n] * NEWTON[n][power]);
+        terms.fold(newton[power] * NEWTON[power][power], |sum, term| sum + term)
+    })
 }
 
 /// A sum of powers as one of products of nodes: repeated division by `s - h_n`, with the remainders.

@@ -2,32 +2,40 @@
 
 use std::io::{self, Read, Write};
 
-use carom::{DVec3, World};
+use carom::DVec3;
 
 use super::columns::{Columns, Quantity};
 use super::error::{Fault, Problem, shown};
-use super::frame::{FrameBox, Header};
+use super::frame::{FrameBox, Header, ParticleFrame};
 use super::lines::Lines;
-use crate::recording::table_file::digits;
 
 pub(super) fn write_header(
     out: &mut impl Write,
-    world: &World,
+    frame: &ParticleFrame,
     cell: &FrameBox,
-    frame: u64,
+    number: u64,
 ) -> io::Result<()> {
-    writeln!(out, "ITEM: UNITS\nsi\nITEM: TIME\n{:?}", world.time())?;
-    writeln!(out, "ITEM: TIMESTEP\n{frame}")?;
-    writeln!(out, "ITEM: NUMBER OF ATOMS\n{}", world.spheres().len())?;
+    writeln!(out, "ITEM: UNITS\nsi")?;
+    if let Some(time) = frame.time {
+        writeln!(out, "ITEM: TIME\n{time:?}")?;
+    }
+    writeln!(out, "ITEM: TIMESTEP\n{number}")?;
+    writeln!(out, "ITEM: NUMBER OF ATOMS\n{}", frame.ids.len())?;
     let kinds = cell.is_periodic.map(|it| if it { "pp" } else { "ff" });
     writeln!(out, "ITEM: BOX BOUNDS {}", kinds.join(" "))?;
     for axis in 0..3 {
-        writeln!(out, "{} {}", digits(cell.low[axis]), digits(cell.high[axis]))?;
+        writeln!(out, "{:?} {:?}", cell.low[axis], cell.high[axis])?;
     }
-    write!(out, "ITEM: ATOMS id type x y z radius mass vx vy vz")?;
-    if world.has_spin() {
-        write!(out, " omegax omegay omegaz quatw quati quatj quatk")?;
-    }
+    write!(out, "ITEM: ATOMS id type x y z")?;
+    let others = [
+        (frame.radii.is_some(), " radius"),
+        (frame.masses.is_some(), " mass"),
+        (frame.velocities.is_some(), " vx vy vz"),
+        (frame.angular_velocities.is_some(), " omegax omegay omegaz"),
+        (frame.orientations.is_some(), " quatw quati quatj quatk"),
+    ];
+    let present = others.iter().filter(|(is_there, _)| *is_there);
+    present.map(|(_, names)| *names).try_for_each(|names| out.write_all(names.as_bytes()))?;
     writeln!(out)
 }
 

@@ -54,6 +54,24 @@ pub enum ParticleError {
         /// What is wrong.
         problem: String,
     },
+    /// A part of a binary file is wrong.
+    #[error("{path}: {problem}")]
+    Binary {
+        /// Path of the file.
+        path: PathBuf,
+        /// Where, and what is wrong.
+        problem: String,
+    },
+    /// The file has no frame with this number.
+    #[error("{path} has no frame {frame}: its last whole frame is {last}")]
+    NoFrame {
+        /// Path of the file.
+        path: PathBuf,
+        /// The number, from 0.
+        frame: u64,
+        /// Number of the last whole frame.
+        last: u64,
+    },
     /// The file has no complete frame.
     #[error("{path} has no whole frame")]
     Empty {

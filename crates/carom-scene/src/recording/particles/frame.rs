@@ -1,9 +1,69 @@
-//! One frame of a particle file.
+//! Frames of particle files.
 
-use carom::{Boundary, DVec3, World};
+use carom::{Boundary, DVec3, SOLID_BALL, World};
 
 use super::columns::Columns;
 use super::error::Problem;
+use crate::recording::rotation;
+
+/// State of all particles at one time.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ParticleFrame {
+    /// Time \[s\], if the file has it.
+    pub time: Option<f64>,
+    /// Sides of the periodic box around the origin \[m\], infinite along open axes.
+    pub sides: [f64; 3],
+    /// Numbers of the particles, ascending.
+    pub ids: Vec<u64>,
+    /// Centres \[m\].
+    pub positions: Vec<[f64; 3]>,
+    /// Velocities \[m/s\].
+    pub velocities: Option<Vec<[f64; 3]>>,
+    /// Radii \[m\].
+    pub radii: Option<Vec<f64>>,
+    /// Masses \[kg\].
+    pub masses: Option<Vec<f64>>,
+    /// Moments of inertia \[kg m²\], which only GSD files hold.
+    pub inertias: Option<Vec<f64>>,
+    /// Quaternions x, y, z, w.
+    pub orientations: Option<Vec<[f64; 4]>>,
+    /// Angular velocities along the axes \[rad/s\].
+    pub angular_velocities: Option<Vec<[f64; 3]>>,
+}
+
+impl ParticleFrame {
+    /// Returns the state of a world, with rotations or without.
+    pub fn of(world: &World, has_rotation: bool) -> Self {
+        let spheres = world.spheres();
+        let all = 0..spheres.len();
+        let vectors = |values: &[DVec3]| values.iter().map(DVec3::to_array).collect();
+        let (radii, masses) = (spheres.radii().to_vec(), spheres.masses().to_vec());
+        let factors = spheres.inertia_factors();
+        let inertia = |index: usize| {
+            let factor = factors.get(index).copied().unwrap_or(SOLID_BALL);
+            factor * masses[index] * radii[index] * radii[index]
+        };
+        let rotations = has_rotation.then(|| all.clone());
+        Self {
+            time: Some(world.time()),
+            sides: match world.settings().boundary {
+                Boundary::Periodic { size } => size.to_array(),
+                _ => [f64::INFINITY; 3],
+            },
+            ids: spheres.ids().iter().map(|id| id.number()).collect(),
+            positions: vectors(spheres.positions()),
+            velocities: Some(vectors(spheres.velocities())),
+            inertias: rotations.clone().map(|all| all.map(inertia).collect()),
+            orientations: rotations
+                .clone()
+                .map(|all| all.map(|index| rotation::orientation(world, index)).collect()),
+            angular_velocities: rotations
+                .map(|all| all.map(|index| rotation::angular_velocity(world, index)).collect()),
+            radii: Some(radii),
+            masses: Some(masses),
+        }
+    }
+}
 
 /// The box of a frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,19 +77,15 @@ pub(super) struct FrameBox {
 }
 
 impl FrameBox {
-    /// Returns the box of a world: the periodic box, and along open axes what all spheres fill.
-    pub fn of(world: &World) -> Self {
-        let spheres = world.spheres();
-        let radii = spheres.radii().iter().map(|&radius| DVec3::splat(radius));
-        let reaches = || spheres.positions().iter().zip(radii.clone());
-        let low = reaches().map(|(center, radius)| center - radius).reduce(DVec3::min);
-        let high = reaches().map(|(center, radius)| center + radius).reduce(DVec3::max);
-        let size = match world.settings().boundary {
-            Boundary::Periodic { size } => size,
-            _ => DVec3::INFINITY,
-        };
+    /// Returns the box of a frame: the periodic box, and along open axes what all spheres fill.
+    pub fn of(frame: &ParticleFrame) -> Self {
+        let radius = |index: usize| frame.radii.as_ref().map_or(0.0, |radii| radii[index]);
+        let centers = || frame.positions.iter().copied().map(DVec3::from_array).enumerate();
+        let low = centers().map(|(index, center)| center - radius(index)).reduce(DVec3::min);
+        let high = centers().map(|(index, center)| center + radius(index)).reduce(DVec3::max);
+        let size = DVec3::from_array(frame.sides);
         let is_finite = size.is_finite_mask();
-        let is_periodic = [0, 1, 2].map(|axis| size[axis].is_finite());
+        let is_periodic = frame.sides.map(f64::is_finite);
         let low = DVec3::select(is_finite, -0.5 * size, low.unwrap_or_default());
         let high = DVec3::select(is_finite, 0.5 * size, high.unwrap_or_default());
         Self { low, high, is_periodic }
@@ -41,11 +97,9 @@ impl FrameBox {
     }
 
     /// Returns the edges \[m\], infinite along open axes.
-    pub fn period(&self) -> DVec3 {
+    pub fn period(&self) -> [f64; 3] {
         let size = (self.high - self.low).to_array();
-        let periods =
-            [0, 1, 2].map(|axis| if self.is_periodic[axis] { size[axis] } else { f64::INFINITY });
-        DVec3::from_array(periods)
+        [0, 1, 2].map(|axis| if self.is_periodic[axis] { size[axis] } else { f64::INFINITY })
     }
 
     /// Returns the vector from the middle of the box to the origin \[m\], 0 along open axes.

@@ -3,16 +3,17 @@
 use std::path::Path;
 
 use super::ParticleFormat;
-use super::columns::{Columns, Quantity};
-use super::error::{ParticleError, Problem};
-use super::frame::{Header, RawFrame};
-use super::reader::{LastFrame, last_frame};
+use super::error::ParticleError;
+use super::frame::ParticleFrame;
+use super::reader::{OneFrame, one_frame};
 use crate::import::{Omission, made_runnable, omit, plain_name};
 use crate::scene::{Boundary, Rule, Scene, Sphere};
 
 /// What a particle file does not state.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ParticleOptions {
+    /// The frame, from 0; the default is the last one.
+    pub frame: Option<u64>,
     /// Radius of every particle \[m\], for a file without radii.
     pub radius: Option<f64>,
     /// Rule; the default is `exact`.
@@ -36,100 +37,68 @@ pub struct ParticleImport {
     pub frames: u64,
 }
 
-/// Creates a scene from the last whole frame of a particle file.
+/// Creates a scene from a whole frame of a particle file.
 ///
-/// Numbers are taken as SI units, to the bit. Spheres are in the order of the column `id`, else in
+/// Numbers are taken as SI units, to the bit. Spheres are in the order of their numbers, else in
 /// that of the file. A periodic box is moved to the origin. A mass that the file lacks is 1 kg.
 ///
 /// # Errors
-/// [`ParticleError`] if the file cannot be read, a line is wrong, the particles have no radius, or
-/// the scene is invalid.
+/// [`ParticleError`] if the file cannot be read, a line is wrong, the frame does not exist, the
+/// particles have no radius, or the scene is invalid.
 pub fn import_particles(
     path: &Path,
     format: ParticleFormat,
     options: &ParticleOptions,
 ) -> Result<ParticleImport, ParticleError> {
-    let LastFrame { frame, frames, is_cut } = last_frame(path, format)?;
-    let columns = &frame.header.columns;
-    let has_radius = columns.has(Quantity::Radius) || columns.has(Quantity::Diameter);
+    let OneFrame { frame, frames, is_cut } = one_frame(path, format, options.frame)?;
     let radius = |problem| Err(ParticleError::Radius { path: path.to_owned(), problem });
-    match (has_radius, options.radius) {
-        (false, None) => return radius("its particles have no radius: name one with --radius"),
-        (true, Some(_)) => return radius("its particles have radii: leave --radius out"),
+    match (frame.radii.is_some(), options.radius) {
+        (false, None) => {
+            return radius("its particles have no radius: name one (--radius, radius=)");
+        }
+        (true, Some(_)) => {
+            return radius("its particles have radii of their own: leave the radius out");
+        }
         _ => {}
     }
-    let spheres = spheres(&frame, options.radius).map_err(|(line, Problem(problem))| {
-        ParticleError::Line { path: path.to_owned(), line, problem }
-    })?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
     let mut scene = Scene::new(plain_name(&name));
     let file = path.file_name().unwrap_or_default().to_string_lossy();
-    scene.origin = plain_name(&format!("last frame of {file}"));
-    scene.spheres = spheres;
+    let which = options.frame.map_or("last frame".to_owned(), |frame| format!("frame {frame}"));
+    scene.origin = plain_name(&format!("{which} of {file}"));
+    scene.spheres = spheres(&frame, options.radius);
     let simulation = &mut scene.simulation;
     simulation.rule = options.rule.unwrap_or_default();
     simulation.frame_time = options.frame_time.unwrap_or(simulation.frame_time);
     simulation.duration = options.duration.unwrap_or(10.0);
-    let cell = frame.header.cell.filter(|cell| cell.repeats());
-    if let Some(cell) = cell {
-        simulation.boundary = Boundary::Periodic { size: cell.period().to_array() };
+    if frame.sides.iter().any(|side| side.is_finite()) {
+        simulation.boundary = Boundary::Periodic { size: frame.sides };
     }
     let mut omissions = Vec::new();
-    if is_cut {
+    if is_cut && options.frame.is_none() {
         let reason = "is cut short; the scene begins with the one before";
         omit(&mut omissions, &scene.name, "last frame", reason);
     }
     if let Err(refused) = made_runnable(&mut scene, &mut omissions) {
         return Err(ParticleError::Scene { path: path.to_owned(), source: Box::new(refused) });
     }
-    Ok(ParticleImport { scene, omissions, time: frame.header.time, frames })
+    Ok(ParticleImport { scene, omissions, time: frame.time, frames })
 }
 
-/// Reads the particles of a frame in the order of their numbers, or says which line is wrong.
-fn spheres(frame: &RawFrame, radius: Option<f64>) -> Result<Vec<Sphere>, (u64, Problem)> {
-    let mut spheres = Vec::new();
-    for (line, row) in (frame.first_row..).zip(&frame.rows) {
-        let read = sphere(row, &frame.header, radius).map_err(|problem| (line, problem))?;
-        spheres.push(read);
-    }
-    spheres.sort_by(|(one, _), (other, _)| one.total_cmp(other));
-    Ok(spheres.into_iter().map(|(_, sphere)| sphere).collect())
-}
-
-/// Reads a particle and its number, 0 where the file has none.
-fn sphere(row: &str, header: &Header, radius: Option<f64>) -> Result<(f64, Sphere), Problem> {
-    let columns = &header.columns;
-    let row: Vec<&str> = row.split_whitespace().collect();
-    if row.len() < columns.width {
-        let (width, found) = (columns.width, row.len());
-        return Err(format!("expected {width} columns, found {found}").into());
-    }
-    let position = position(columns, header, &row)?;
-    let own = columns.read::<1>(Quantity::Radius, &row)?.map(|[radius]| radius);
-    let half = columns.read::<1>(Quantity::Diameter, &row)?.map(|[diameter]| 0.5 * diameter);
-    let radius = own.or(half).or(radius).unwrap_or_default();
-    let mut sphere = Sphere::at(position, radius);
-    sphere.velocity = columns.read(Quantity::Velocity, &row)?.unwrap_or_default();
-    sphere.mass = columns.read::<1>(Quantity::Mass, &row)?.map(|[mass]| mass);
-    if let Some(orientation) = columns.read(Quantity::Orientation, &row)? {
-        sphere.orientation = orientation;
-    }
-    let angular_velocity = columns.read(Quantity::AngularVelocity, &row)?;
-    sphere.angular_velocity = angular_velocity.unwrap_or_default();
-    let number = columns.read::<1>(Quantity::Id, &row)?.map_or(0.0, |[id]| id);
-    Ok((number, sphere))
-}
-
-/// Reads a position, with a periodic box moved to the origin \[m\].
-fn position(columns: &Columns, header: &Header, row: &[&str]) -> Result<[f64; 3], Problem> {
-    let read = columns.read::<3>(Quantity::Position, row)?.unwrap_or_default();
-    let Some(cell) = header.cell else { return Ok(read) };
-    let mut position = carom::DVec3::from_array(read);
-    if columns.is_scaled {
-        position = cell.low + position * (cell.high - cell.low);
-    }
-    let shift = cell.shift_to_origin();
-    // Where nothing is moved, -0 stays -0.
-    let moved = if shift == carom::DVec3::ZERO { position } else { position + shift };
-    Ok(moved.to_array())
+/// Converts the particles of a frame.
+fn spheres(frame: &ParticleFrame, radius: Option<f64>) -> Vec<Sphere> {
+    let sphere = |(index, &position): (usize, &[f64; 3])| {
+        let own = frame.radii.as_ref().map(|radii| radii[index]);
+        let mut sphere = Sphere::at(position, own.or(radius).unwrap_or_default());
+        sphere.velocity = frame.velocities.as_ref().map_or([0.0; 3], |all| all[index]);
+        sphere.mass = frame.masses.as_ref().map(|masses| masses[index]);
+        if let Some(orientations) = &frame.orientations {
+            sphere.orientation = orientations[index];
+        }
+        if let Some(angular_velocities) = &frame.angular_velocities {
+            sphere.angular_velocity = angular_velocities[index];
+        }
+        sphere
+    };
+    frame.positions.iter().enumerate().map(sphere).collect()
 }

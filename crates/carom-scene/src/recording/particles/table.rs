@@ -5,52 +5,97 @@ use std::path::Path;
 
 use carom::World;
 
-use super::frame::FrameBox;
-use super::{ParticleFormat, dump, xyz};
+use super::frame::{FrameBox, ParticleFrame};
+use super::gsd::GsdWriter;
+use super::{ParticleFormat, dump, rows, xyz};
+use crate::recording::error::{RecordingError, unwritable};
 use crate::recording::format::Format;
-use crate::recording::rotation;
-use crate::recording::table_file::{TableFile, digits};
+use crate::recording::table_file::TableFile;
 
-/// A particle file that a run writes, frame by frame.
-pub(in crate::recording) struct ParticleTable {
-    format: ParticleFormat,
-    out: BufWriter<TableFile>,
-    frames: u64,
+/// A particle file that is written frame by frame. Every frame can be read as soon as it is written.
+#[derive(Debug)]
+pub struct ParticleTable(Target);
+
+#[derive(Debug)]
+enum Target {
+    Text(TextTable),
+    Gsd(GsdWriter),
 }
 
 impl ParticleTable {
-    pub fn create(path: &Path, format: ParticleFormat) -> io::Result<Self> {
-        Ok(Self { format, out: BufWriter::new(TableFile::create(path)?), frames: 0 })
+    /// Creates the file, and missing folders above it.
+    ///
+    /// # Errors
+    /// [`RecordingError::Unwritable`] if the file cannot be written.
+    pub fn create(path: &Path, format: ParticleFormat) -> Result<Self, RecordingError> {
+        Self::new(path, format).map_err(|source| unwritable(path, source))
+    }
+
+    pub(in crate::recording) fn new(path: &Path, format: ParticleFormat) -> io::Result<Self> {
+        Ok(Self(match format {
+            ParticleFormat::Gsd => Target::Gsd(GsdWriter::create(path)?),
+            _ => Target::Text(TextTable::create(path, format)?),
+        }))
+    }
+
+    /// Appends a frame.
+    ///
+    /// # Errors
+    /// [`io::Error`] if the disk is full or gone.
+    pub fn push(&mut self, frame: &ParticleFrame) -> io::Result<()> {
+        match &mut self.0 {
+            Target::Text(table) => table.push(frame),
+            Target::Gsd(writer) => writer.push(frame),
+        }
     }
 }
 
 impl Format for ParticleTable {
     fn write(&mut self, world: &World) -> io::Result<()> {
-        let cell = FrameBox::of(world);
+        self.push(&ParticleFrame::of(world, world.has_spin()))
+    }
+
+    fn finish(self: Box<Self>) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// A particle file in text.
+#[derive(Debug)]
+struct TextTable {
+    format: ParticleFormat,
+    out: BufWriter<TableFile>,
+    frames: u64,
+}
+
+impl TextTable {
+    fn create(path: &Path, format: ParticleFormat) -> io::Result<Self> {
+        Ok(Self { format, out: BufWriter::new(TableFile::create(path)?), frames: 0 })
+    }
+
+    fn push(&mut self, frame: &ParticleFrame) -> io::Result<()> {
+        let cell = FrameBox::of(frame);
         match self.format {
-            ParticleFormat::Xyz => xyz::write_header(&mut self.out, world, &cell)?,
-            ParticleFormat::Dump => dump::write_header(&mut self.out, world, &cell, self.frames)?,
+            ParticleFormat::Dump => dump::write_header(&mut self.out, frame, &cell, self.frames)?,
+            _ => xyz::write_header(&mut self.out, frame, &cell)?,
         }
-        let (spheres, has_rotation) = (world.spheres(), world.has_spin());
-        for (i, id) in spheres.ids().iter().enumerate() {
-            let names = match self.format {
-                ParticleFormat::Xyz => format!("{} {}", xyz::SPECIES, id.number()),
-                // Numbers of atoms begin with 1.
-                ParticleFormat::Dump => format!("{} 1", id.number() + 1),
-            };
-            self.out.write_all(names.as_bytes())?;
-            let center = spheres.positions()[i].to_array();
-            write_numbers(&mut self.out, &center)?;
-            write_numbers(&mut self.out, &[spheres.radii()[i], spheres.masses()[i]])?;
-            write_numbers(&mut self.out, &spheres.velocities()[i].to_array())?;
-            if has_rotation {
-                let [x, y, z, w] = rotation::orientation(world, i);
-                let quaternion = match self.format {
-                    ParticleFormat::Xyz => [x, y, z, w],
-                    ParticleFormat::Dump => [w, x, y, z],
-                };
-                write_numbers(&mut self.out, &rotation::angular_velocity(world, i))?;
-                write_numbers(&mut self.out, &quaternion)?;
+        for (i, id) in frame.ids.iter().enumerate() {
+            let number = id + rows::first_number(self.format);
+            match self.format {
+                ParticleFormat::Dump => write!(self.out, "{number} 1")?,
+                _ => write!(self.out, "{} {number}", xyz::SPECIES)?,
+            }
+            self.numbers(&frame.positions[i])?;
+            self.numbers(of(frame.radii.as_deref(), i))?;
+            self.numbers(of(frame.masses.as_deref(), i))?;
+            self.numbers(of(frame.velocities.as_deref(), i).as_flattened())?;
+            self.numbers(of(frame.angular_velocities.as_deref(), i).as_flattened())?;
+            if let Some(orientations) = &frame.orientations {
+                let [x, y, z, w] = orientations[i];
+                match self.format {
+                    ParticleFormat::Dump => self.numbers(&[w, x, y, z])?,
+                    _ => self.numbers(&[x, y, z, w])?,
+                }
             }
             self.out.write_all(b"\n")?;
         }
@@ -58,12 +103,13 @@ impl Format for ParticleTable {
         self.out.flush()
     }
 
-    fn finish(mut self: Box<Self>) -> io::Result<()> {
-        self.out.flush()
+    /// Writes numbers, each after a space, in the fewest digits that give the same bits when read.
+    fn numbers(&mut self, values: &[f64]) -> io::Result<()> {
+        values.iter().try_for_each(|value| write!(self.out, " {value:?}"))
     }
 }
 
-/// Writes numbers, each after a space.
-pub(super) fn write_numbers(out: &mut impl Write, values: &[f64]) -> io::Result<()> {
-    values.iter().try_for_each(|&value| write!(out, " {}", digits(value)))
+/// The value of a particle, or nothing.
+fn of<T>(values: Option<&[T]>, index: usize) -> &[T] {
+    values.map_or(&[], |values| &values[index..=index])
 }

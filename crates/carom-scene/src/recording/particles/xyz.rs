@@ -2,30 +2,45 @@
 
 use std::io::{self, Read, Write};
 
-use carom::{DVec3, World};
+use carom::DVec3;
 
 use super::columns::{Columns, Quantity};
 use super::error::{Fault, Problem, shown};
-use super::frame::{FrameBox, Header};
+use super::frame::{FrameBox, Header, ParticleFrame};
 use super::lines::Lines;
-use crate::recording::table_file::digits;
 
 /// The symbol of a particle that is no atom.
 pub(super) const SPECIES: &str = "X";
 
-pub(super) fn write_header(out: &mut impl Write, world: &World, cell: &FrameBox) -> io::Result<()> {
-    writeln!(out, "{}", world.spheres().len())?;
+pub(super) fn write_header(
+    out: &mut impl Write,
+    frame: &ParticleFrame,
+    cell: &FrameBox,
+) -> io::Result<()> {
+    writeln!(out, "{}", frame.ids.len())?;
     if cell.repeats() {
-        let [x, y, z] = (cell.high - cell.low).to_array().map(digits);
-        let origin = cell.low.to_array().map(digits).join(" ");
+        let [x, y, z] = (cell.high - cell.low).to_array();
+        let origin = cell.low.to_array().map(|it| format!("{it:?}")).join(" ");
         let letters = cell.is_periodic.map(|it| if it { "T" } else { "F" }).join(" ");
-        write!(out, "Lattice=\"{x} 0 0 0 {y} 0 0 0 {z}\" Origin=\"{origin}\" pbc=\"{letters}\" ")?;
+        write!(
+            out,
+            "Lattice=\"{x:?} 0 0 0 {y:?} 0 0 0 {z:?}\" Origin=\"{origin}\" pbc=\"{letters}\" "
+        )?;
     }
-    out.write_all(b"Properties=species:S:1:id:I:1:pos:R:3:radius:R:1:mass:R:1:velo:R:3")?;
-    if world.has_spin() {
-        out.write_all(b":angular_velocity:R:3:orientation:R:4")?;
+    out.write_all(b"Properties=species:S:1:id:I:1:pos:R:3")?;
+    let others = [
+        (frame.radii.is_some(), ":radius:R:1"),
+        (frame.masses.is_some(), ":mass:R:1"),
+        (frame.velocities.is_some(), ":velo:R:3"),
+        (frame.angular_velocities.is_some(), ":angular_velocity:R:3"),
+        (frame.orientations.is_some(), ":orientation:R:4"),
+    ];
+    let present = others.iter().filter(|(is_there, _)| *is_there);
+    present.map(|(_, names)| *names).try_for_each(|names| out.write_all(names.as_bytes()))?;
+    match frame.time {
+        Some(time) => writeln!(out, " Time={time:?}"),
+        None => writeln!(out),
     }
-    writeln!(out, " Time={:?}", world.time())
 }
 
 /// Reads the two lines before the particles; `None` at the end of the file.

@@ -71,7 +71,7 @@ fn answer(
     Event { time, target, .. }: Event,
 ) -> Result<(), Unfinished> {
     let target = target.unpacked();
-    if matches!(target, EventTarget::Sphere(_) | EventTarget::Surface(_)) {
+    if !matches!(target, EventTarget::Restart | EventTarget::StepEnd) {
         held_forces::prepare(timeline, context.system, time);
     }
     match target {

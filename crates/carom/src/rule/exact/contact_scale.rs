@@ -33,6 +33,8 @@ pub(super) struct ContactScale {
     pub is_curved: bool,
     /// Whether impacts are elastic: their bounces never end, however low they are.
     pub is_elastic: bool,
+    /// Whether all spheres fly on curves of an integrator, also in persistent contact.
+    pub is_on_curves: bool,
 }
 
 impl ContactScale {
@@ -53,14 +55,15 @@ impl ContactScale {
             acceleration: self.acceleration + free.norm(),
             radius: if is_first { species.radius } else { self.radius.min(species.radius) },
             is_curved: self.is_curved || !is_first,
-            is_elastic: self.is_elastic,
+            ..self
         }
     }
 
     /// A gap \[m\] that cannot be distinguished from none.
     pub fn resolved_gap(&self) -> f64 {
         let rounding = TOUCHING * self.length;
-        if self.is_curved { rounding.max(CURVE_RESOLUTION * self.radius) } else { rounding }
+        let is_in_pieces = self.is_curved && !(self.is_elastic && self.is_on_curves);
+        if is_in_pieces { rounding.max(CURVE_RESOLUTION * self.radius) } else { rounding }
     }
 
     /// How long a contact lasts \[s\]: at least the setting, and the rounding of the clock at `time`

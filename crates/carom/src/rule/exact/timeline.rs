@@ -7,7 +7,7 @@ use super::clearance::{Clearance, Obstacle};
 use super::contact_scale::RESOLVED_PATH;
 use super::contacts::Member;
 use super::events::{Event, NextEvents, PackedTarget, Prediction, Schedule, UpcomingEvent};
-use super::flights::{Flights, JointStep, Species, StepLimits, Support, SupportChange};
+use super::flights::{Component, Flights, JointStep, Species, StepLimits, Support, SupportChange};
 use super::frame_work::FrameWork;
 use super::neighbours::{NeighbourBuffer, Neighbours};
 use super::ticks::{MOST_ZONE_TICKS, tick_for_frames};
@@ -88,7 +88,7 @@ impl Timeline {
     /// Whether forces are held on some spheres: on all where none flies on a curve, else on those in persistent
     /// contact and in zones.
     pub(super) fn holds_forces(&self) -> bool {
-        let is_free = self.flights.clusters.is_empty() && self.zone.is_empty();
+        let is_free = !self.flights.clusters.hold_forces() && self.zone.is_empty();
         !(is_free && self.flights.are_curved())
     }
 
@@ -224,9 +224,11 @@ impl Timeline {
     /// Takes the next step of a component, by its number, from the latest start of its members' flights.
     #[inline(never)]
     fn take_step(&mut self, system: &System, number: u32) {
-        let members = self.flights.components.get(number).members.clone();
-        let slots: Vec<u32> =
-            members.iter().map(|&index| self.flights.slot_of[index as usize]).collect();
+        let [numbers, clusters] = self.flights.connected_components(number);
+        let parts = numbers.iter().map(|&number| self.flights.components.get(number));
+        let component = Component::joined(parts);
+        let slot_of = |&index: &u32| self.flights.slot_of[index as usize];
+        let slots: Vec<u32> = component.members.iter().map(slot_of).collect();
         let begun = |&slot: &u32| self.flights.bodies[slot as usize].time;
         let now = slots.iter().map(begun).fold(f64::NEG_INFINITY, f64::max);
         for &slot in &slots {
@@ -238,15 +240,22 @@ impl Timeline {
         let given = slots.iter().filter(|&&slot| !self.flights.species_of(slot).is_curved);
         let ends = given.map(|&slot| self.flight_end(slot, self.flights.species_of(slot)));
         let until = ends.fold(self.curves_until, f64::min);
-        let is_rough = self.flights.components.begin_step(number, (now / self.work_tick).floor());
+        let tick_number = (now / self.work_tick).floor();
+        let mut is_rough = false;
+        for &number in &numbers {
+            is_rough |= self.flights.components.begin_step(number, tick_number);
+        }
         let tick = match self.spring_rate > 0.0 {
             true => self.force_tick,
             false => self.parameters.force_tick,
         };
         let limits = StepLimits { until, tick, is_rough };
-        let JointStep { curves, evaluations } =
-            self.flights.step_from_start(system, number, limits);
+        let JointStep { curves, evaluations, release } =
+            self.flights.step_from_start(system, (&component, &clusters), limits);
         curves.into_iter().for_each(|(slot, curve)| self.flights.set_curve(slot, curve));
+        for number in clusters {
+            self.flights.clusters.get_mut(number).renewal = release;
+        }
         self.flights.components.charge(number, evaluations);
     }
 

@@ -27,12 +27,14 @@ impl Group {
     /// of its path in all their contacts.
     pub fn scale(&self, touch: &Touch) -> ContactScale {
         let is_curved = self.touches.iter().any(Touch::is_curved);
-        touch
-            .places()
-            .map(|place| &self.members[place])
-            .fold(ContactScale { is_curved, ..ContactScale::default() }, |scale, member| {
-                scale.with(member.position, member.velocity, &member.species)
-            })
+        let is_on_curve = |place: usize| self.members[place].species.is_curved;
+        let is_on_curves = self.touches.iter().all(|touch| {
+            (touch.first.is_some() || !touch.is_curved()) && touch.places().all(is_on_curve)
+        });
+        touch.places().map(|place| &self.members[place]).fold(
+            ContactScale { is_curved, is_on_curves, ..ContactScale::default() },
+            |scale, member| scale.with(member.position, member.velocity, &member.species),
+        )
     }
 
     /// Whether two bodies touch in the group.

@@ -17,6 +17,10 @@ pub(crate) struct Cluster {
     pub contacts: Vec<Bodies>,
     /// When the forces of the cluster are computed again, on the world's clock \[s\].
     pub renewal: f64,
+    /// Whether the spheres fly on curves with these contacts, so that no forces are held.
+    pub is_curved: bool,
+    /// Unit normals of the contacts with planes, where the spheres fly on curves.
+    pub normals: Vec<DVec3>,
 }
 
 /// A cluster that is about to be made, with the effect of its contact forces.
@@ -28,6 +32,8 @@ pub(crate) struct Support {
     pub contacts: Vec<Bodies>,
     /// When the forces are computed again, on the world's clock \[s\].
     pub renewal: f64,
+    /// The normals of planes among the contacts, one per contact, if the spheres fly on curves.
+    pub normals: Option<Vec<DVec3>>,
 }
 
 /// A sphere of a cluster that is about to be made.
@@ -64,6 +70,8 @@ impl Cluster {
 pub(crate) struct Clusters {
     clusters: Vec<Cluster>,
     free: Vec<u32>,
+    /// How many hold their forces for a time.
+    held: usize,
 }
 
 impl Clusters {
@@ -76,6 +84,7 @@ impl Clusters {
     }
 
     pub fn add(&mut self, cluster: Cluster) -> u32 {
+        self.held += usize::from(!cluster.is_curved);
         match self.free.pop() {
             Some(number) => {
                 self.clusters[number as usize] = cluster;
@@ -88,9 +97,9 @@ impl Clusters {
         }
     }
 
-    /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
-        self.clusters.len() == self.free.len()
+    /// Whether one holds its forces for a time.
+    pub fn hold_forces(&self) -> bool {
+        self.held > 0
     }
 
     /// The clusters that there are.
@@ -102,6 +111,7 @@ impl Clusters {
     pub fn remove(&mut self, number: u32) {
         let cluster = &mut self.clusters[number as usize];
         if !cluster.members.is_empty() {
+            self.held -= usize::from(!cluster.is_curved);
             *cluster = Cluster::default();
             self.free.push(number);
         }

@@ -45,6 +45,24 @@ pub(crate) struct PlacedSpring {
     pub second: Option<u32>,
 }
 
+impl Component {
+    /// Several components as one, for a step.
+    pub fn joined<'a>(components: impl Iterator<Item = &'a Self>) -> Self {
+        let mut joined = Self::default();
+        for Self { members, springs, .. } in components {
+            let before = joined.members.len() as u32;
+            let moved = springs.iter().map(|placed| PlacedSpring {
+                first: placed.first + before,
+                second: placed.second.map(|second| second + before),
+                ..*placed
+            });
+            joined.springs.extend(moved);
+            joined.members.extend_from_slice(members);
+        }
+        joined
+    }
+}
+
 impl PlacedSpring {
     /// Place \[m\] and velocity \[m/s\] of the second end; `state_of` returns those of a sphere by its place.
     pub fn state_of_second(&self, state_of: impl Fn(u32) -> [DVec3; 2]) -> [DVec3; 2] {

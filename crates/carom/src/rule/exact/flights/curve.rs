@@ -27,6 +27,8 @@ pub(super) struct CurveStep {
     pub pace: Pace,
     /// Parts of the position \[m\] and of the velocity \[m/s\] at its end below their rounding.
     pub left: [DVec3; 2],
+    /// The acceleration without persistent contacts, where the sphere has some \[m/s²\].
+    pub free: Option<Box<PolynomialAcceleration>>,
 }
 
 impl CurveStep {
@@ -40,8 +42,17 @@ impl CurveStep {
 impl Curve {
     /// A curve whose flight has not begun, with steps like those of this one.
     pub fn to_begin(&self) -> Self {
-        // No flight has this generation: those that events begin are even, those that impacts begin are one more.
-        let step = self.0.clone().map(|step| CurveStep { generation: u32::MAX, ..step });
-        Self(step)
+        let mut curve = self.clone();
+        curve.end();
+        curve
+    }
+
+    /// Ends the flight. The next one has steps like this one.
+    pub fn end(&mut self) {
+        if let Some(step) = &mut self.0 {
+            // No flight has this generation: those that events begin are even, those that impacts begin are one more.
+            step.generation = u32::MAX;
+            step.free = None;
+        }
     }
 }

@@ -2,17 +2,14 @@
 
 use glam::DVec3;
 
-use super::between::ForcesBetween;
 use super::body::Body;
-use super::components::{Component, PlacedSpring};
+use super::components::Component;
 use super::curve::{Curve, CurveStep};
+use super::joint_field::{FreeField, JointField};
 use super::species::Species;
 use super::state::Flights;
-use super::tie::{Tie, TieEnd, TiePath};
 use crate::contact_time::{PolynomialTrack, Track};
-use crate::forces::{self, Force, SphereState, SpringEnd};
-use crate::integrate::gauss_radau::{self, Field, Pace, Start, Step, Values};
-use crate::norm::Norm;
+use crate::integrate::gauss_radau::{self, Pace, Start};
 use crate::polynomial_flight::{PolynomialAcceleration, PolynomialFlight};
 use crate::settings::nearest_image;
 use crate::system::System;
@@ -32,17 +29,19 @@ pub(crate) struct StepLimits {
     pub is_rough: bool,
 }
 
-/// Steps of the spheres of a component that have no persistent contacts.
+/// Steps of the spheres of a component whose forces are not held.
 pub(crate) struct JointStep {
     /// Of each sphere, by slot.
     pub curves: Vec<(u32, Curve)>,
     /// How often the forces on a sphere were evaluated.
     pub evaluations: u64,
+    /// When a persistent contact of them opens, on the world's clock \[s\]; infinite if none does.
+    pub release: f64,
 }
 
 impl Flights {
     /// The polynomial flight of a sphere and its end on the world's clock \[s\]; `None` if its forces have a closed
-    /// form or it has persistent contacts.
+    /// form or are held.
     pub fn curve_of(&self, slot: u32) -> Option<(PolynomialFlight, f64)> {
         let body = &self.bodies[slot as usize];
         let step = self.step_of(slot, body)?;
@@ -79,7 +78,36 @@ impl Flights {
     /// Whether a sphere takes its steps together with others.
     #[inline]
     pub fn has_companions(&self, slot: u32) -> bool {
-        self.are_curved() && self.components.has_companions(self.index_of[slot as usize])
+        self.are_curved()
+            && (self.components.has_companions(self.index_of[slot as usize])
+                || self.cluster_on_curves(slot).is_some())
+    }
+
+    /// The number of the cluster of a sphere, if its spheres fly on curves.
+    pub fn cluster_on_curves(&self, slot: u32) -> Option<u32> {
+        let species = self.species_of(slot);
+        species.cluster.filter(|_| species.is_curved)
+    }
+
+    /// The numbers of all components that clusters on curves connect with one, ascending, and of these clusters.
+    pub fn connected_components(&self, number: u32) -> [Vec<u32>; 2] {
+        let (mut components, mut clusters) = (vec![number], Vec::new());
+        let mut next = 0;
+        while let Some(&number) = components.get(next) {
+            next += 1;
+            for &index in &self.components.get(number).members {
+                let cluster = self.cluster_on_curves(self.slot_of[index as usize]);
+                let Some(cluster) = cluster.filter(|it| !clusters.contains(it)) else { continue };
+                clusters.push(cluster);
+                for &member in &self.clusters.get(cluster).members {
+                    let other = self.components.of_sphere(self.index_of[member as usize]);
+                    components.extend(other.filter(|it| !components.contains(it)));
+                }
+            }
+        }
+        components.sort_unstable();
+        clusters.sort_unstable();
+        [components, clusters]
     }
 
     /// Centre \[m\] and velocity \[m/s\] of a sphere on a curve at `time` \[s\].
@@ -107,13 +135,14 @@ impl Flights {
     /// The species of a sphere without the forces of its persistent contacts, at `time` \[s\].
     pub fn free_species_at(&self, slot: u32, time: f64) -> Species {
         let free = *self.free_species_of(slot);
-        match self.curve_of(slot) {
-            Some((flight, _)) => {
-                let body = &self.bodies[slot as usize];
+        let body = &self.bodies[slot as usize];
+        match self.step_of(slot, body) {
+            Some(step) => {
                 let age = time - body.time;
+                let acceleration = step.free.as_deref().unwrap_or(&step.acceleration).at(age);
                 // Drag in closed form is no part of the acceleration of a species.
-                let drag = free.drag_rate * flight.after(age).1;
-                Species { acceleration: flight.acceleration.at(age) + drag, ..free }
+                let drag = free.drag_rate * self.state_on_curve(slot, time).1;
+                Species { acceleration: acceleration + drag, ..free }
             }
             None => free,
         }
@@ -173,13 +202,19 @@ impl Flights {
         forces[index as usize]
     }
 
-    /// The step of a component, by its number, from the beginning of the flights of its members on.
-    pub fn step_from_start(&self, system: &System, number: u32, limits: StepLimits) -> JointStep {
-        let component = self.components.get(number);
+    /// The step of a component, with these clusters of its spheres, from the beginning of the flights of its members
+    /// on.
+    pub fn step_from_start(
+        &self,
+        system: &System,
+        (component, clusters): (&Component, &[u32]),
+        limits: StepLimits,
+    ) -> JointStep {
         let mut field = JointField::of(system, self, component);
+        field.hold(self, component, clusters);
         let slots = std::mem::take(&mut field.flying);
         let Some(&first) = slots.first() else {
-            return JointStep { curves: Vec::new(), evaluations: 0 };
+            return JointStep { curves: Vec::new(), evaluations: 0, release: f64::INFINITY };
         };
         let bodies: Vec<&Body> = slots.iter().map(|&slot| &self.bodies[slot as usize]).collect();
         let positions: Vec<DVec3> = bodies.iter().map(|body| body.position).collect();
@@ -221,18 +256,22 @@ impl Flights {
         let before: Option<Vec<PolynomialAcceleration>> =
             continues.map(|steps| steps.iter().map(|step| step.acceleration).collect());
         let step = gauss_radau::step(&start, before.as_deref(), pace, &mut field);
+        let held = field.held_over(&start, &step);
+        let release = held.release.map_or(f64::INFINITY, |release| time + release);
         let change = field.first_change(&start, &step);
         let end =
             change.map_or(step.end, |change| (time + change).max(time.next_up()).min(step.end));
+        let mut free = held.free.into_iter();
         let curve_of = |(body, acceleration): (&&Body, PolynomialAcceleration)| {
             let Body { position, velocity, generation, .. } = **body;
             let flight = PolynomialFlight { position, velocity, acceleration };
             let (left, pace) = (flight.left_after(end - time), step.pace);
-            CurveStep { generation, acceleration, end, is_smooth: change.is_none(), pace, left }
+            let (is_smooth, free) = (change.is_none(), free.next().map(Box::new));
+            CurveStep { generation, acceleration, end, is_smooth, pace, left, free }
         };
         let steps = bodies.iter().zip(step.accelerations).map(curve_of);
         let curves = slots.iter().copied().zip(steps.map(|step| Curve(Some(step)))).collect();
-        JointStep { curves, evaluations: field.evaluations }
+        JointStep { curves, evaluations: field.evaluations, release }
     }
 
     /// The last step of a sphere on a curve, even if its flight ended early.
@@ -246,9 +285,11 @@ impl Flights {
         let body = &self.bodies[slot as usize];
         let step = self.step_of(slot, body).filter(|step| time < step.end)?;
         let goes_on = <[DVec3; 2]>::from(self.state_on_curve(slot, time)) == state;
-        let acceleration = step.acceleration.from(time - body.time);
+        let age = time - body.time;
+        let acceleration = step.acceleration.from(age);
+        let free = step.free.as_deref().map(|free| Box::new(free.from(age)));
         let left = [DVec3::ZERO; 2];
-        goes_on.then(|| Curve(Some(CurveStep { acceleration, left, ..step.clone() })))
+        goes_on.then(|| Curve(Some(CurveStep { acceleration, free, left, ..step.clone() })))
     }
 
     /// Continues a sphere's new flight along the rest of a step.
@@ -257,6 +298,11 @@ impl Flights {
             step.generation = self.bodies[slot as usize].generation;
         }
         self.curves[self.index_of[slot as usize] as usize] = rest;
+    }
+
+    /// Ends the flight of a sphere, whose persistent contacts end.
+    pub(super) fn end_curve(&mut self, slot: u32) {
+        self.curves[self.index_of[slot as usize] as usize].end();
     }
 
     /// Sets the step of a sphere. A sphere whose forces are not finite is noted as lost.
@@ -269,221 +315,5 @@ impl Flights {
             step.acceleration = PolynomialAcceleration::none(step.acceleration.length);
         }
         self.curves[index as usize] = curve;
-    }
-}
-
-/// Time in which a sphere moves by its radius \[s\].
-fn time_of_a_radius(radius: f64, velocity: DVec3, acceleration: DVec3) -> f64 {
-    let by_speed = radius / velocity.norm();
-    by_speed.min((2.0 * radius / acceleration.norm()).sqrt())
-}
-
-/// The forces on one sphere.
-pub(crate) struct FreeField<'a> {
-    /// Constant acceleration \[m/s²\].
-    uniform: DVec3,
-    /// \[1/s\]
-    drag_rate: f64,
-    radius: f64,
-    mass: f64,
-    /// Forces that are not linear.
-    others: Vec<&'a dyn Force>,
-}
-
-impl<'a> FreeField<'a> {
-    /// The forces on the sphere with this index of the world's arrays.
-    pub fn of(system: &System<'a>, index: usize) -> Self {
-        let (radius, mass) = (system.spheres.radius[index], system.spheres.mass[index]);
-        let (linear, _) = forces::total_linear(system.forces, radius, mass);
-        let applied = system.spheres.applied_acceleration(index).unwrap_or(DVec3::ZERO);
-        Self {
-            uniform: linear.acceleration + applied,
-            drag_rate: linear.drag_rate,
-            radius,
-            mass,
-            others: forces::without_linear_form(system.forces, radius, mass),
-        }
-    }
-
-    fn acceleration_and_size(&self, time: f64, position: DVec3, velocity: DVec3) -> (DVec3, f64) {
-        let Self { uniform, drag_rate, radius, mass, .. } = *self;
-        let state = SphereState { position, velocity, radius, mass };
-        let start = (uniform - drag_rate * velocity, uniform.norm() + drag_rate * velocity.norm());
-        self.others.iter().fold(start, |(sum, size), force| {
-            let own = force.on(&state, time) / mass;
-            (sum + own, size + own.norm())
-        })
-    }
-}
-
-/// The forces on the spheres of a component that have no persistent contacts.
-struct JointField<'a> {
-    flights: &'a Flights,
-    /// Slots of the spheres that it acts on.
-    flying: Vec<u32>,
-    /// Forces on each sphere by itself.
-    alone: Vec<FreeField<'a>>,
-    /// Slots of the other members, whose motion is given.
-    others: Vec<u32>,
-    /// Place of each member in `flying` followed by `others`.
-    place_of: Vec<usize>,
-    /// Springs between those places.
-    ties: Vec<Tie<'a>>,
-    /// Forces between all spheres of the world, where all are members.
-    between: Option<ForcesBetween<'a>>,
-    period: DVec3,
-    /// How often the forces on a sphere were evaluated.
-    evaluations: u64,
-}
-
-impl<'a> JointField<'a> {
-    /// The field without its ties.
-    fn of(system: &System<'a>, flights: &'a Flights, component: &Component) -> Self {
-        let slot_of = |&index: &u32| flights.slot_of[index as usize];
-        let slots: Vec<u32> = component.members.iter().map(slot_of).collect();
-        let flies = |slot: &u32| flights.species_of(*slot).is_curved;
-        let (flying, others): (Vec<u32>, Vec<u32>) = slots.iter().partition(|slot| flies(slot));
-        let (mut next, mut next_other) = (0, flying.len());
-        let place = |slot| {
-            let place = if flies(slot) { &mut next } else { &mut next_other };
-            *place += 1;
-            *place - 1
-        };
-        let place_of = slots.iter().map(place).collect();
-        let field = |&slot: &u32| FreeField::of(system, flights.index_of[slot as usize] as usize);
-        Self {
-            flights,
-            alone: flying.iter().map(field).collect(),
-            flying,
-            others,
-            place_of,
-            ties: Vec::new(),
-            between: ForcesBetween::of(system),
-            period: system.settings.boundary.period(),
-            evaluations: 0,
-        }
-    }
-
-    /// Begins a step with the spheres in these states \[m\], \[m/s\] at a time \[s\].
-    fn begin(&mut self, component: &'a Component, states: [&[DVec3]; 2], time: f64) {
-        let tie = |placed: &'a PlacedSpring| {
-            let first = self.place_of[placed.first as usize];
-            let second = match (placed.second, placed.spring.to) {
-                (Some(second), _) => TieEnd::Sphere(self.place_of[second as usize]),
-                (None, SpringEnd::Point(point)) => TieEnd::Point(point),
-                (None, SpringEnd::Sphere(_)) => return None,
-            };
-            let ends = [self.state_of(first, states, time), self.state_at(second, states, time)];
-            Some(Tie::begin(&placed.spring, (first, second), ends, self.period))
-        };
-        self.ties = component.springs.iter().filter_map(tie).collect();
-    }
-
-    /// Centre \[m\] and velocity \[m/s\] of the sphere at a place.
-    fn state_of(
-        &self,
-        place: usize,
-        [positions, velocities]: [&[DVec3]; 2],
-        time: f64,
-    ) -> [DVec3; 2] {
-        match self.others.get(place.wrapping_sub(positions.len())) {
-            Some(&other) => self.flights.state_of(other, time).into(),
-            None => [positions[place], velocities[place]],
-        }
-    }
-
-    /// Centre \[m\] and velocity \[m/s\] of the second end of a tie.
-    fn state_at(&self, end: TieEnd, states: [&[DVec3]; 2], time: f64) -> [DVec3; 2] {
-        match end {
-            TieEnd::Sphere(place) => self.state_of(place, states, time),
-            TieEnd::Point(point) => [point, DVec3::ZERO],
-        }
-    }
-
-    /// Adds the accelerations by forces between all spheres, with the flying ones in these states \[m\], \[m/s\] at a
-    /// time \[s\].
-    fn add_between(&mut self, states: [&[DVec3]; 2], time: f64, at: &mut Values) {
-        let Some(mut between) = self.between.take() else { return };
-        if self.others.is_empty() {
-            // All spheres fly, in the order of the world.
-            between.add(time, states, at);
-        } else {
-            let state = |&place: &usize| self.state_of(place, states, time).into();
-            let (positions, velocities): (Vec<DVec3>, Vec<DVec3>) =
-                self.place_of.iter().map(state).unzip();
-            let mut of_all = Values::of(positions.len());
-            between.add(time, [&positions, &velocities], &mut of_all);
-            for (index, &place) in self.place_of.iter().enumerate() {
-                if place < self.alone.len() {
-                    at.accelerations[place] += of_all.accelerations[index];
-                    at.sizes[place] += of_all.sizes[index];
-                }
-            }
-        }
-        self.evaluations += between.cost();
-        self.between = Some(between);
-    }
-
-    /// The shortest time in which one of its spheres moves by its radius \[s\]; `None` if none does.
-    fn brief(&mut self, [positions, velocities]: [&[DVec3]; 2], time: f64) -> Option<f64> {
-        let mut values = Values::of(positions.len());
-        self.evaluate(time, positions, velocities, &mut values);
-        let of_each = self.alone.iter().zip(velocities).zip(values.accelerations);
-        let times = of_each.map(|((alone, &velocity), acceleration)| {
-            time_of_a_radius(alone.radius, velocity, acceleration)
-        });
-        times.reduce(f64::min).filter(|time| time.is_finite() && *time > 0.0)
-    }
-
-    /// First time, from the start of a step \[s\], at which a spring changes how it acts; `None` if none does.
-    fn first_change(&self, start: &Start, step: &Step) -> Option<f64> {
-        let path = |place: usize| match self.others.get(place.wrapping_sub(self.alone.len())) {
-            Some(&other) => {
-                let body = &self.flights.bodies[other as usize];
-                TiePath::Flight(body.flight_from(self.flights.species_of(other), start.time))
-            }
-            None => TiePath::Polynomial(PolynomialFlight {
-                position: start.positions[place],
-                velocity: start.velocities[place],
-                acceleration: step.accelerations[place],
-            }),
-        };
-        let changes = self.ties.iter().filter_map(|tie| {
-            let second = match tie.second {
-                TieEnd::Sphere(place) => path(place),
-                TieEnd::Point(point) => TiePath::Point(point),
-            };
-            tie.change([path(tie.first), second], self.period, step.end - start.time)
-        });
-        changes.reduce(f64::min)
-    }
-}
-
-impl Field for JointField<'_> {
-    fn evaluate(&mut self, time: f64, positions: &[DVec3], velocities: &[DVec3], at: &mut Values) {
-        self.evaluations += self.alone.len() as u64;
-        for (place, alone) in self.alone.iter().enumerate() {
-            let (position, velocity) = (positions[place], velocities[place]);
-            let (acceleration, size) = alone.acceleration_and_size(time, position, velocity);
-            (at.accelerations[place], at.sizes[place]) = (acceleration, size);
-        }
-        let states = [positions, velocities];
-        self.add_between(states, time, at);
-        for tie in &self.ties {
-            let [from, velocity] = self.state_of(tie.first, states, time);
-            let [to, other] = self.state_at(tie.second, states, time);
-            let pull = tie.pull([from, to], [velocity, other]);
-            let second = match tie.second {
-                TieEnd::Sphere(place) => Some((place, -pull)),
-                TieEnd::Point(_) => None,
-            };
-            for (place, force) in [(tie.first, pull)].into_iter().chain(second) {
-                if let Some(alone) = self.alone.get(place) {
-                    let own = force / alone.mass;
-                    at.accelerations[place] += own;
-                    at.sizes[place] += own.norm();
-                }
-            }
-        }
     }
 }

@@ -266,6 +266,9 @@ impl Flights {
         self.spare_species.push(self.bodies[slot as usize].species);
         self.bodies[slot as usize].species = species.free;
         self.end_torque(slot, time);
+        if species.is_curved {
+            self.end_curve(slot);
+        }
         self.note_support(slot, time, false);
         true
     }
@@ -316,21 +319,19 @@ impl Flights {
 
     /// Makes a cluster of free spheres from `time` \[s\] on.
     pub fn set_supported(&mut self, support: Support, time: f64) {
-        let Support { members, contacts, renewal } = support;
+        let Support { members, contacts, renewal, normals } = support;
         let slots = members.iter().map(|member| member.slot).collect();
-        let cluster = self.clusters.add(Cluster { members: slots, contacts, renewal });
+        let is_curved = normals.is_some();
+        let normals = normals.unwrap_or_default();
+        let cluster = Cluster { members: slots, contacts, renewal, is_curved, normals };
+        let cluster = self.clusters.add(cluster);
         for Supported { slot, acceleration, rotation, contact_work } in members {
             if let Some(rotation) = rotation {
                 self.rotate(slot, rotation, time);
             }
             let free = *self.species_of(slot);
-            let species = Species {
-                acceleration,
-                cluster: Some(cluster),
-                contact_work,
-                is_curved: false,
-                ..free
-            };
+            let species =
+                Species { acceleration, cluster: Some(cluster), contact_work, is_curved, ..free };
             let number = match self.spare_species.pop() {
                 Some(number) => {
                     self.species[number as usize] = species;

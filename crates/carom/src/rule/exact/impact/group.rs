@@ -14,6 +14,7 @@ use crate::norm::Norm;
 use crate::report::{BodyPair, Impact, ImpactGroup};
 use crate::respond;
 use crate::respond::TouchingContact;
+use crate::rule::exact::contact_scale::ContactScale;
 use crate::rule::exact::contacts::{self, Group, Member, Touch};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::flights::Support;
@@ -209,7 +210,8 @@ fn unresolved_time(
     let first = touch.first.map_or(DVec3::ZERO, acceleration);
     let pull = (first - acceleration(touch.second)).dot(touch.normal).max(0.0);
     let closing = (-touch.normal_velocity(&group.members)).max(0.0);
-    let scale = group.scale(touch);
+    let is_elastic = respond::restitution_of(touch.bodies, context.system) == 1.0;
+    let scale = ContactScale { is_elastic, ..group.scale(touch) };
     let gap = scale.resolved_gap();
     let speed = touch.relative_velocity(&group.members).norm();
     let closed = 2.0 * gap / (closing + (closing * closing + 2.0 * pull * gap).sqrt());

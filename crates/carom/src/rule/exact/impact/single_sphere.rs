@@ -64,7 +64,7 @@ pub(crate) fn answer_single(
         let lasting = corner.planes().zip(persists).filter(|it| it.1).map(|it| it.0.surface);
         let contacts = lasting.map(|surface| Bodies::Surface { sphere, surface }).collect();
         let members = vec![planar.supported(slot)];
-        let support = Support { members, contacts, renewal: time + valid_for };
+        let support = Support { members, contacts, renewal: time + valid_for, normals: None };
         timeline.set_supported(support, time);
     }
     predict::predict(timeline, context, slot, time);

@@ -69,7 +69,8 @@ pub(crate) fn renew(timeline: &mut Timeline, system: &System, start: f64) -> Vec
     let mut renewed = Vec::new();
     for slot in 0..timeline.flights.bodies.len() as u32 {
         let species = *timeline.flights.free_species_of(slot);
-        let is_free = timeline.flights.species_of(slot).cluster.is_none();
+        let present = timeline.flights.species_of(slot);
+        let is_free = present.cluster.is_none() || present.is_curved;
         if are_curved && is_free && !timeline.flights.is_stepped(slot) {
             if are_restarted {
                 begin_free(timeline, system, slot, start);

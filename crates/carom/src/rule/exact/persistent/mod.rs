@@ -4,6 +4,7 @@ mod accelerations;
 mod correction;
 pub(super) mod held_forces;
 mod listing;
+mod on_curves;
 mod piece;
 pub(super) mod piece_end;
 pub(super) mod planar;

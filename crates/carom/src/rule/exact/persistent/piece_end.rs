@@ -36,7 +36,10 @@ pub(crate) fn settle(timeline: &Timeline, context: &StepContext, group: &mut Gro
     let mut clusters: BTreeMap<u32, Cluster> = BTreeMap::new();
     for (place, member) in members.iter().enumerate() {
         if let Some(number) = timeline.flights.species_of(member.slot).cluster {
-            clusters.entry(number).or_default().members.push(place);
+            let cluster = clusters.entry(number).or_default();
+            cluster.members.push(place);
+            // An integrator keeps the energy of its curves.
+            cluster.is_on_curves |= timeline.flights.species_of(member.slot).is_curved;
         }
     }
     for touch in touches.iter().filter(|touch| touch.has_persisted) {
@@ -52,7 +55,8 @@ pub(crate) fn settle(timeline: &Timeline, context: &StepContext, group: &mut Gro
             cluster.gets_work |= touch.does_work() || (timeline.has_friction() && has_friction());
         }
     }
-    let is_restored = |cluster: &&Cluster| cluster.is_curved && !cluster.gets_work;
+    let is_restored =
+        |cluster: &&Cluster| cluster.is_curved && !cluster.gets_work && !cluster.is_on_curves;
     for cluster in clusters.values().filter(is_restored) {
         restore_energy(timeline, members, cluster, *time);
     }
@@ -95,6 +99,8 @@ struct Cluster {
     held: Vec<DVec3>,
     /// Whether a moving surface, or friction, does work on the cluster.
     gets_work: bool,
+    /// Whether the spheres fly on curves.
+    is_on_curves: bool,
 }
 
 impl Cluster {

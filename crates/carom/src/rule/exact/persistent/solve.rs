@@ -9,6 +9,7 @@ use super::accelerations::{
     is_idle,
 };
 use super::correction::correct;
+use super::on_curves;
 use super::piece::{TURN, TurnStart, through_the_middle, turning_time};
 use super::sliding::sliding_time;
 use super::{NoClosedForm, with_friction};
@@ -63,6 +64,9 @@ fn find_smooth(
             group,
             accelerations_under(&group.members, &persistent, &forces),
         );
+        if on_curves::fly_so(context, &group.members, &persistent) {
+            return connected(group, &persistent, &accelerations, None);
+        }
         let frame_left = (context.start + context.length - group.time).max(0.0);
         let turning = turning_time(&group.members, &persistent, &accelerations, frame_left);
         let (accelerations, valid_for) = if turning == f64::INFINITY {
@@ -88,7 +92,7 @@ fn find_smooth(
         let valid_for = valid_for.min(sliding_time(context, group, &persistent, &accelerations));
         // A validity below a contact's duration comes from rounding.
         let valid_for = valid_for.max(context.parameters.contact_duration);
-        return connected(group, &persistent, &accelerations, group.time + valid_for);
+        return connected(group, &persistent, &accelerations, Some(group.time + valid_for));
     }
     Vec::new()
 }
@@ -177,12 +181,12 @@ fn zero_roundoff(
     accelerations
 }
 
-/// The connected sets of spheres and contacts.
+/// The connected sets of spheres and contacts. Without a `renewal` \[s\] they fly on curves.
 fn connected(
     group: &Group,
     touches: &[Touch],
     accelerations: &Accelerations,
-    renewal: f64,
+    renewal: Option<f64>,
 ) -> Vec<Support> {
     let mut connected = Connected::new(group.members.len());
     let mut is_carried = vec![false; group.members.len()];
@@ -197,7 +201,9 @@ fn connected(
     let contact_work = if does_work { ContactWork::Colliders } else { ContactWork::None };
     let mut supports: BTreeMap<usize, Support> = BTreeMap::new();
     let mut of = |supports: &mut BTreeMap<usize, Support>, place: usize| {
-        let empty = || Support { members: Vec::new(), contacts: Vec::new(), renewal };
+        let normals = if renewal.is_none() { Some(Vec::new()) } else { None };
+        let renewal = renewal.unwrap_or(f64::INFINITY);
+        let empty = || Support { members: Vec::new(), contacts: Vec::new(), renewal, normals };
         let root = connected.root_of(place);
         supports.entry(root).or_insert_with(empty);
         root
@@ -215,6 +221,7 @@ fn connected(
         let root = of(&mut supports, touch.second);
         if let Some(support) = supports.get_mut(&root) {
             support.contacts.push(touch.bodies);
+            support.normals.iter_mut().for_each(|normals| normals.push(touch.normal));
         }
     }
     supports.into_values().collect()

@@ -1,0 +1,349 @@
+//! The forces on spheres that take their steps together.
+
+use glam::DVec3;
+
+use super::between::ForcesBetween;
+use super::components::{Component, PlacedSpring};
+use super::curve_contacts::{CurveContact, CurveContacts};
+use super::state::Flights;
+use super::tie::{Tie, TieEnd, TiePath};
+use crate::detect::contact::Bodies;
+use crate::forces::{self, Force, SphereState, SpringEnd};
+use crate::integrate::crossing::first_positive;
+use crate::integrate::gauss_radau::{self, Field, NODES, Start, Step, Values};
+use crate::norm::Norm;
+use crate::polynomial_flight::{ORDERS, PolynomialAcceleration, PolynomialFlight, TERMS};
+use crate::system::System;
+
+/// A persistent contact opens where it pulls with more than this part of the forces at work: the spheres then part for
+/// certain. Until then its force does no work.
+const OPENS: f64 = 1e-9;
+/// Part of a step after which a contact that pulls from the start opens.
+const SOONEST: f64 = 1e-6;
+
+/// What persistent contacts do in a step.
+#[derive(Default)]
+pub(super) struct HeldOver {
+    /// Accelerations without contacts, by place; empty without contacts.
+    pub free: Vec<PolynomialAcceleration>,
+    /// Time from the start \[s\] at which one opens.
+    pub release: Option<f64>,
+}
+
+/// Time in which a sphere moves by its radius \[s\].
+fn time_of_a_radius(radius: f64, velocity: DVec3, acceleration: DVec3) -> f64 {
+    let by_speed = radius / velocity.norm();
+    by_speed.min((2.0 * radius / acceleration.norm()).sqrt())
+}
+
+/// The forces on one sphere.
+pub(crate) struct FreeField<'a> {
+    /// Constant acceleration \[m/s²\].
+    uniform: DVec3,
+    /// \[1/s\]
+    drag_rate: f64,
+    radius: f64,
+    pub mass: f64,
+    /// Forces that are not linear.
+    others: Vec<&'a dyn Force>,
+}
+
+impl<'a> FreeField<'a> {
+    /// The forces on the sphere with this index of the world's arrays.
+    pub fn of(system: &System<'a>, index: usize) -> Self {
+        let (radius, mass) = (system.spheres.radius[index], system.spheres.mass[index]);
+        let (linear, _) = forces::total_linear(system.forces, radius, mass);
+        let applied = system.spheres.applied_acceleration(index).unwrap_or(DVec3::ZERO);
+        Self {
+            uniform: linear.acceleration + applied,
+            drag_rate: linear.drag_rate,
+            radius,
+            mass,
+            others: forces::without_linear_form(system.forces, radius, mass),
+        }
+    }
+
+    pub fn acceleration_and_size(
+        &self,
+        time: f64,
+        position: DVec3,
+        velocity: DVec3,
+    ) -> (DVec3, f64) {
+        let Self { uniform, drag_rate, radius, mass, .. } = *self;
+        let state = SphereState { position, velocity, radius, mass };
+        let start = (uniform - drag_rate * velocity, uniform.norm() + drag_rate * velocity.norm());
+        self.others.iter().fold(start, |(sum, size), force| {
+            let own = force.on(&state, time) / mass;
+            (sum + own, size + own.norm())
+        })
+    }
+}
+
+/// The forces on the spheres of a component whose forces are not held.
+pub(super) struct JointField<'a> {
+    flights: &'a Flights,
+    /// Slots of the spheres that it acts on.
+    pub flying: Vec<u32>,
+    /// Forces on each sphere by itself.
+    alone: Vec<FreeField<'a>>,
+    /// Slots of the other members, whose motion is given.
+    others: Vec<u32>,
+    /// Place of each member in `flying` followed by `others`.
+    place_of: Vec<usize>,
+    /// Springs between those places.
+    pub ties: Vec<Tie<'a>>,
+    /// Persistent contacts between those places.
+    contacts: CurveContacts,
+    /// Forces between all spheres of the world, where all are members.
+    pub between: Option<ForcesBetween<'a>>,
+    period: DVec3,
+    /// How often the forces on a sphere were evaluated.
+    pub evaluations: u64,
+}
+
+impl<'a> JointField<'a> {
+    /// The field without its ties.
+    pub fn of(system: &System<'a>, flights: &'a Flights, component: &Component) -> Self {
+        let slot_of = |&index: &u32| flights.slot_of[index as usize];
+        let slots: Vec<u32> = component.members.iter().map(slot_of).collect();
+        let flies = |slot: &u32| flights.species_of(*slot).is_curved;
+        let (flying, others): (Vec<u32>, Vec<u32>) = slots.iter().partition(|slot| flies(slot));
+        let (mut next, mut next_other) = (0, flying.len());
+        let place = |slot| {
+            let place = if flies(slot) { &mut next } else { &mut next_other };
+            *place += 1;
+            *place - 1
+        };
+        let place_of = slots.iter().map(place).collect();
+        let field = |&slot: &u32| FreeField::of(system, flights.index_of[slot as usize] as usize);
+        Self {
+            flights,
+            alone: flying.iter().map(field).collect(),
+            flying,
+            others,
+            place_of,
+            ties: Vec::new(),
+            contacts: CurveContacts::new(Vec::new()),
+            between: ForcesBetween::of(system),
+            period: system.settings.boundary.period(),
+            evaluations: 0,
+        }
+    }
+
+    /// Adds the persistent contacts of clusters.
+    pub fn hold(&mut self, flights: &Flights, component: &Component, clusters: &[u32]) {
+        let place_of = |index: u32| {
+            let place = component.members.iter().position(|&member| member == index)?;
+            Some(self.place_of[place])
+        };
+        let contacts = clusters.iter().flat_map(|&number| {
+            let cluster = flights.clusters.get(number);
+            cluster.contacts.iter().zip(&cluster.normals)
+        });
+        let contact = |(bodies, &normal): (&Bodies, &DVec3)| {
+            let (first, second) = match *bodies {
+                Bodies::Pair(first, second) => (Some(place_of(first)?), place_of(second)?),
+                Bodies::Surface { sphere, .. } => (None, place_of(sphere)?),
+            };
+            Some(CurveContact { first, second, normal })
+        };
+        self.contacts = CurveContacts::new(contacts.filter_map(contact).collect());
+    }
+
+    /// Begins a step with the spheres in these states \[m\], \[m/s\] at a time \[s\].
+    pub fn begin(&mut self, component: &'a Component, states: [&[DVec3]; 2], time: f64) {
+        let tie = |placed: &'a PlacedSpring| {
+            let first = self.place_of[placed.first as usize];
+            let second = match (placed.second, placed.spring.to) {
+                (Some(second), _) => TieEnd::Sphere(self.place_of[second as usize]),
+                (None, SpringEnd::Point(point)) => TieEnd::Point(point),
+                (None, SpringEnd::Sphere(_)) => return None,
+            };
+            let ends = [self.state_of(first, states, time), self.state_at(second, states, time)];
+            Some(Tie::begin(&placed.spring, (first, second), ends, self.period))
+        };
+        self.ties = component.springs.iter().filter_map(tie).collect();
+    }
+
+    /// Centre \[m\] and velocity \[m/s\] of the sphere at a place.
+    fn state_of(
+        &self,
+        place: usize,
+        [positions, velocities]: [&[DVec3]; 2],
+        time: f64,
+    ) -> [DVec3; 2] {
+        match self.others.get(place.wrapping_sub(positions.len())) {
+            Some(&other) => self.flights.state_of(other, time).into(),
+            None => [positions[place], velocities[place]],
+        }
+    }
+
+    /// Centre \[m\] and velocity \[m/s\] of the second end of a tie.
+    fn state_at(&self, end: TieEnd, states: [&[DVec3]; 2], time: f64) -> [DVec3; 2] {
+        match end {
+            TieEnd::Sphere(place) => self.state_of(place, states, time),
+            TieEnd::Point(point) => [point, DVec3::ZERO],
+        }
+    }
+
+    /// Adds the accelerations by forces between all spheres, with the flying ones in these states \[m\], \[m/s\] at a
+    /// time \[s\].
+    fn add_between(&mut self, states: [&[DVec3]; 2], time: f64, at: &mut Values) {
+        let Some(mut between) = self.between.take() else { return };
+        if self.others.is_empty() {
+            // All spheres fly, in the order of the world.
+            between.add(time, states, at);
+        } else {
+            let state = |&place: &usize| self.state_of(place, states, time).into();
+            let (positions, velocities): (Vec<DVec3>, Vec<DVec3>) =
+                self.place_of.iter().map(state).unzip();
+            let mut of_all = Values::of(positions.len());
+            between.add(time, [&positions, &velocities], &mut of_all);
+            for (index, &place) in self.place_of.iter().enumerate() {
+                if place < self.alone.len() {
+                    at.accelerations[place] += of_all.accelerations[index];
+                    at.sizes[place] += of_all.sizes[index];
+                }
+            }
+        }
+        self.evaluations += between.cost();
+        self.between = Some(between);
+    }
+
+    /// The shortest time in which one of its spheres moves by its radius \[s\]; `None` if none does.
+    pub fn brief(&mut self, [positions, velocities]: [&[DVec3]; 2], time: f64) -> Option<f64> {
+        let mut values = Values::of(positions.len());
+        self.evaluate(time, positions, velocities, &mut values);
+        let of_each = self.alone.iter().zip(velocities).zip(values.accelerations);
+        let times = of_each.map(|((alone, &velocity), acceleration)| {
+            time_of_a_radius(alone.radius, velocity, acceleration)
+        });
+        times.reduce(f64::min).filter(|time| time.is_finite() && *time > 0.0)
+    }
+
+    /// First time, from the start of a step \[s\], at which a spring changes how it acts; `None` if none does.
+    pub fn first_change(&self, start: &Start, step: &Step) -> Option<f64> {
+        let path = |place: usize| match self.others.get(place.wrapping_sub(self.alone.len())) {
+            Some(&other) => {
+                let body = &self.flights.bodies[other as usize];
+                TiePath::Flight(body.flight_from(self.flights.species_of(other), start.time))
+            }
+            None => TiePath::Polynomial(PolynomialFlight {
+                position: start.positions[place],
+                velocity: start.velocities[place],
+                acceleration: step.accelerations[place],
+            }),
+        };
+        let changes = self.ties.iter().filter_map(|tie| {
+            let second = match tie.second {
+                TieEnd::Sphere(place) => path(place),
+                TieEnd::Point(point) => TiePath::Point(point),
+            };
+            tie.change([path(tie.first), second], self.period, step.end - start.time)
+        });
+        changes.reduce(f64::min)
+    }
+}
+
+impl JointField<'_> {
+    /// Follows the persistent contacts over a step.
+    pub fn held_over(&mut self, start: &Start, step: &Step) -> HeldOver {
+        if self.contacts.is_empty() {
+            return HeldOver::default();
+        }
+        let count = self.alone.len();
+        let length = step.accelerations[0].length;
+        let mut free = vec![[DVec3::ZERO; TERMS]; count];
+        let mut forces = vec![[0.0; TERMS]; self.contacts.forces.len()];
+        let mut least = Vec::new();
+        for (node, &s) in NODES.iter().enumerate() {
+            let state = |place: usize| {
+                let (position, velocity) = (start.positions[place], start.velocities[place]);
+                let acceleration = step.accelerations[place];
+                PolynomialFlight { position, velocity, acceleration }.after(s * length)
+            };
+            let (positions, velocities): (Vec<DVec3>, Vec<DVec3>) = (0..count).map(state).unzip();
+            let mut values = Values::of(count);
+            self.evaluate_free(start.time + s * length, &positions, &velocities, &mut values);
+            free.iter_mut().zip(&values.accelerations).for_each(|(free, &at)| free[node] = at);
+            let (alone, contacts) = (&self.alone, &mut self.contacts);
+            contacts.add([&positions, &velocities], |place| alone[place].mass, &mut values);
+            forces.iter_mut().zip(&contacts.forces).for_each(|(forces, &at)| forces[node] = at);
+            if node == 0 {
+                let size = |contact: &CurveContact| {
+                    alone[contact.second].mass * values.sizes[contact.second]
+                };
+                least = contacts.iter().map(|(contact, _)| OPENS * size(contact)).collect();
+            }
+        }
+        let carried = [DVec3::ZERO; 2];
+        let polynomial = |values| {
+            let coefficients = gauss_radau::through_nodes(values);
+            PolynomialAcceleration { length, coefficients, carried }
+        };
+        let free = free.into_iter().map(polynomial).collect();
+        let releases = forces.into_iter().zip(least).filter_map(|(forces, least)| {
+            first_below(gauss_radau::through_nodes(forces), -least).map(|part| part * length)
+        });
+        HeldOver { free, release: releases.reduce(f64::min) }
+    }
+
+    /// The accelerations without persistent contacts.
+    fn evaluate_free(
+        &mut self,
+        time: f64,
+        positions: &[DVec3],
+        velocities: &[DVec3],
+        at: &mut Values,
+    ) {
+        self.evaluations += self.alone.len() as u64;
+        for (place, alone) in self.alone.iter().enumerate() {
+            let (position, velocity) = (positions[place], velocities[place]);
+            let (acceleration, size) = alone.acceleration_and_size(time, position, velocity);
+            (at.accelerations[place], at.sizes[place]) = (acceleration, size);
+        }
+        let states = [positions, velocities];
+        self.add_between(states, time, at);
+        for tie in &self.ties {
+            let [from, velocity] = self.state_of(tie.first, states, time);
+            let [to, other] = self.state_at(tie.second, states, time);
+            let pull = tie.pull([from, to], [velocity, other]);
+            let second = match tie.second {
+                TieEnd::Sphere(place) => Some((place, -pull)),
+                TieEnd::Point(_) => None,
+            };
+            for (place, force) in [(tie.first, pull)].into_iter().chain(second) {
+                if let Some(alone) = self.alone.get(place) {
+                    let own = force / alone.mass;
+                    at.accelerations[place] += own;
+                    at.sizes[place] += own.norm();
+                }
+            }
+        }
+    }
+}
+
+impl Field for JointField<'_> {
+    fn evaluate(&mut self, time: f64, positions: &[DVec3], velocities: &[DVec3], at: &mut Values) {
+        self.evaluate_free(time, positions, velocities, at);
+        if !self.contacts.is_empty() {
+            let alone = &self.alone;
+            self.contacts.add([positions, velocities], |place| alone[place].mass, at);
+        }
+    }
+}
+
+/// First `s` in `[0, 1]` at which a polynomial is below a bound, a moment later at least than 0.
+fn first_below(coefficients: [f64; TERMS], bound: f64) -> Option<f64> {
+    let value = |s: f64| coefficients.iter().rev().fold(0.0, |sum, c| sum * s + c);
+    let slope = |s: f64| {
+        let terms = coefficients.iter().zip(ORDERS).skip(1).rev();
+        terms.fold(0.0, |sum, (c, k)| sum * s + k * c)
+    };
+    if value(0.0) < bound {
+        return Some(SOONEST);
+    }
+    let terms = coefficients.iter().zip(ORDERS);
+    let curvature = terms.map(|(c, k)| k * (k - 1.0).max(0.0) * c.abs()).sum();
+    first_positive(|s| [bound - value(s), -slope(s)], curvature, 1.0)
+}
