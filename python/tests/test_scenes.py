@@ -84,6 +84,7 @@ def test_every_kind_of_part_survives_text() -> None:
         camera=carom.Camera((0, 0, 9)),
         sun=carom.Sun((0, 0, 0, 1), (1, 1, 1), 0.5),
         colors=carom.Colors((0, 0, 0), densities=[carom.DensityColor(3.0, (1, 1, 0))]),
+        tries=[carom.Try("Fall slowly", "forces.0.gravity.acceleration.1", (-20, 0))],
     )
     assert carom.Scene.from_toml(scene.to_toml()) == scene
     world = scene.world()

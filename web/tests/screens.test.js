@@ -78,6 +78,9 @@ test("fine pixels are used", async () => {
 
 test("on a phone a tap chooses, a finger turns the camera, and two come nearer", async () => {
   const viewer = await desk.open("", PHONE);
+  await viewer.keepPicture("phone-first");
+  await viewer.tap("All scenes", { role: "Button" });
+  await viewer.until(({ choosing }) => choosing);
   await viewer.keepPicture("phone-chooser");
   await viewer.tap("cradle", { role: "Button" });
   await viewer.until((status) => status.watching?.scene === "cradle" && !status.choosing);

@@ -95,6 +95,9 @@ export class Desk {
       return this.shared;
     }
     const viewer = await this.open(fragment, options);
+    if (fragment === "") {
+      await viewer.openChooser();
+    }
     viewer.isShared = true;
     [this.shared, this.sharedOptions] = [viewer, asked];
     return viewer;
@@ -163,15 +166,20 @@ export class Viewer {
       // Another scene removes messages and an open chooser.
       await this.goOn("#scene=simtest1");
       await this.redraw();
-      await this.page.keyboard.press("Enter");
-      await this.until(({ choosing }) => choosing);
-      return this.redraw();
+      return this.openChooser();
     }
     // Directly, because the same address would change nothing.
     await this.page.evaluate((fragment) => {
       history.replaceState(null, "", fragment);
       /** @type {any} */ (globalThis).carom.openFragment(fragment.slice(1));
     }, fragment);
+  }
+
+  /** Opens the chooser by its key. */
+  async openChooser() {
+    await this.page.keyboard.press("Enter");
+    await this.until(({ choosing }) => choosing);
+    await this.redraw();
   }
 
   /** @param {number} time [ms] */

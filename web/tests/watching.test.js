@@ -25,6 +25,7 @@ after(() => desk?.clear());
 
 test("the chooser lists every scene", async () => {
   const viewer = await desk.open();
+  await viewer.openChooser();
   const files = await readdir(SCENES);
   const names = files.filter((file) => file.endsWith(".toml")).map((file) => file.slice(0, -5));
   const { choosing, scenes } = await viewer.status();
@@ -37,6 +38,25 @@ test("the chooser lists every scene", async () => {
     [],
   );
   await viewer.keepPicture("chooser");
+  await viewer.close();
+});
+
+test("at the first visit a scene plays, with the others below it", async () => {
+  const viewer = await desk.open();
+  const { choosing } = await viewer.until(({ watching }) => watching?.playing && watching.time > 0.3);
+  assert.equal(choosing, false);
+  await viewer.widget("Drag to look. Click a ball. Ctrl-click throws one.");
+  await viewer.keepPicture("first-visit");
+  await viewer.click("Pour", { role: "Button" });
+  await viewer.until(({ watching }) => watching?.scene === "pour" && watching.playing);
+  await viewer.close();
+});
+
+test("nothing moves by itself where the system asks for little motion", async () => {
+  const viewer = await desk.open("", { reducedMotion: "reduce" });
+  await viewer.widget("Close the list of scenes");
+  const { watching } = await viewer.status();
+  assert.deepEqual([watching.playing, watching.frame], [false, 0]);
   await viewer.close();
 });
 

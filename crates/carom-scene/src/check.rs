@@ -3,6 +3,7 @@
 use crate::error::Problem;
 use crate::requirement::{check, check_non_negative, check_positive, check_rotation, check_vector};
 use crate::scene::{Color, DensityColor, Generator, Rule, Scene, Simulation};
+use crate::tries::check_tries;
 
 /// Checks the numbers that do not go into the world: times, camera, colours and tolerance.
 pub(crate) fn check_numbers(scene: &Scene) -> Result<(), Problem> {
@@ -47,6 +48,7 @@ pub(crate) fn check_texts(scene: &Scene) -> Result<(), Problem> {
     check_text("title", &scene.title, of_title)?;
     check_text("description", &scene.description, of_description)?;
     check_text("origin", &scene.origin, of_description)?;
+    check_tries(&scene.tries)?;
     for (i, collider) in scene.colliders.iter().enumerate() {
         check_text(&format!("colliders[{i}].name"), &collider.name, of_name)?;
     }

@@ -55,6 +55,7 @@ mod settings;
 mod springs;
 mod table;
 mod text;
+mod tries;
 pub mod unfinished;
 mod units;
 mod wording;
@@ -76,6 +77,7 @@ pub use plain_text::{NotText, text_of};
 pub use scene::Scene;
 pub use schema::json_schema;
 pub use text::SceneText;
+pub use tries::Tried;
 
 /// The program of the README, compiled and run as a documentation test.
 #[cfg(doctest)]

@@ -14,7 +14,7 @@ use crate::units::{self, Place};
 pub(crate) const TABLE: &str = "parameters";
 
 /// Fields with text for people, and names of parts: they are never read as formulas.
-const TEXTS: [&str; 4] = [NAME, "title", "description", "origin"];
+const TEXTS: [&str; 5] = [NAME, "title", "description", "origin", "try"];
 const NAME: &str = "name";
 
 /// Most parameters: each name in a formula is searched among all of them.

@@ -76,6 +76,11 @@ pub trait Host {
         false
     }
 
+    /// Returns whether the user asked their system for little motion.
+    fn reduces_motion(&self) -> bool {
+        false
+    }
+
     /// Returns the tilt by a gamepad's stick or a tilted device: right and down, each in \[-1, 1\].
     fn stick(&mut self) -> Option<Vec2> {
         None

@@ -91,8 +91,11 @@ impl Host for PageHost {
     }
 
     fn has_coarse_pointer(&self) -> bool {
-        let query = web_sys::window().and_then(|it| it.match_media("(pointer: coarse)").ok());
-        query.flatten().is_some_and(|query| query.matches())
+        matches("(pointer: coarse)")
+    }
+
+    fn reduces_motion(&self) -> bool {
+        matches("(prefers-reduced-motion: reduce)")
     }
 
     fn stick(&mut self) -> Option<Vec2> {
@@ -125,4 +128,10 @@ impl FilmMaker for PageFilm {
     fn finish(self: Box<Self>) -> Result<String, String> {
         self.film.finish(&self.name).map_err(message)
     }
+}
+
+/// Returns whether a media query holds for the page.
+fn matches(query: &str) -> bool {
+    let query = web_sys::window().and_then(|it| it.match_media(query).ok());
+    query.flatten().is_some_and(|query| query.matches())
 }

@@ -54,6 +54,7 @@ class Scene(parts.Part):
         title: Name as shown to people; the scene is found by it too.
         description: What there is to see, in a sentence or two.
         origin: Where the scene comes from.
+        tries: Up to three things to try, as ``[[try]]`` in scene files.
         simulation: How it is stepped.
         forces: Forces on every sphere; they add up.
         spheres: Single spheres; many of them as `Points`.
@@ -91,6 +92,7 @@ class Scene(parts.Part):
     camera: parts.Camera | None = None
     sun: parts.Sun | None = None
     colors: parts.Colors | None = None
+    tries: Sequence[parts.Try] = ()
 
     def __repr__(self) -> str:
         parts = {

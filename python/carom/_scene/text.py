@@ -73,8 +73,14 @@ def _fields(part: parts.Part) -> dict[str, object]:
     """Names and values; what is ``None`` is left out."""
     assert dataclasses.is_dataclass(part)
     pairs = [(field.name, getattr(part, field.name)) for field in dataclasses.fields(part)]
+    pairs = [(_RENAMED.get(name, name), value) for name, value in pairs]
     return {name: value for name, value in pairs if value is not None}
 
+
+_RENAMED = {"tries": "try"}
+"""Fields whose names in scene files are words of the language."""
+
+_NAMES = {name: field for field, name in _RENAMED.items()}
 
 _KINDS: dict[str, type[parts.Part]] = {
     "bisect": parts.Bisect,
@@ -92,6 +98,7 @@ _KINDS: dict[str, type[parts.Part]] = {
     "spheres": parts.Sphere,
     "springs": parts.Spring,
     "sun": parts.Sun,
+    "tries": parts.Try,
 }
 """What is described under a name."""
 
@@ -131,4 +138,5 @@ def part_of(key: str, value: Any) -> Any:
 
 def fields_of(values: Mapping[str, Any]) -> dict[str, Any]:
     """The arguments that make a part."""
-    return {name: part_of(name, value) for name, value in values.items()}
+    named = {_NAMES.get(name, name): value for name, value in values.items()}
+    return {name: part_of(name, value) for name, value in named.items()}

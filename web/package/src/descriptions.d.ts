@@ -479,6 +479,8 @@ export interface Scene {
   };
   /** Shines along its local -z. */
   sun?: { rotation: [number, number, number, number]; color: Color; intensity: number };
+  /** What to try: a path of the scene file, and the ends of a slider. */
+  try?: { text: string; path: string; range: [number, number] }[];
   colors?: {
     background?: Color;
     colliders?: Color;

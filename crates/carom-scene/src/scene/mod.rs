@@ -14,6 +14,7 @@ mod rotation;
 mod simulation;
 mod sphere;
 mod spring;
+mod suggestion;
 pub(crate) mod values;
 
 use schemars::JsonSchema;
@@ -33,6 +34,7 @@ pub use simulation::{
 };
 pub use sphere::Sphere;
 pub use spring::Spring;
+pub use suggestion::Try;
 pub use values::{Color, Quaternion, Vector};
 
 /// A Carom scene: spheres, forces, surfaces, and how the scene looks. The coordinate system is right-handed, y is up,
@@ -52,6 +54,9 @@ pub struct Scene {
     /// Source of the scene.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub origin: String,
+    /// Up to three things to try.
+    #[serde(default, rename = "try", skip_serializing_if = "Vec::is_empty")]
+    pub tries: Vec<Try>,
     /// Rule, frame and other settings of the simulation.
     #[serde(default)]
     pub simulation: Simulation,
@@ -92,6 +97,7 @@ impl Scene {
             title: String::new(),
             description: String::new(),
             origin: String::new(),
+            tries: Vec::new(),
             simulation: Simulation::default(),
             forces: Vec::new(),
             spheres: Vec::new(),

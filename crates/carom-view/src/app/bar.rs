@@ -119,8 +119,8 @@ impl App {
                 ui.strong(title);
             }
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                if let Screen::Watching(watching) = &self.screen {
-                    let is_on = watching.shows_inspector();
+                if let Screen::Watching(_) = &self.screen {
+                    let is_on = self.shows_inspector();
                     let button = Button::selectable(is_on, "⚙  Settings");
                     let response = ui.add(button).on_hover_text(Action::Inspector.hint());
                     response.widget_info(|| {

@@ -8,7 +8,8 @@ use crate::chooser::Chosen;
 use crate::host::ReadFile;
 
 impl App {
-    /// Opens the chooser over a scene, which plays once the chooser is closed.
+    /// Plays the first scene, with the others as a strip below it. A page in a document has no space
+    /// for the strip and opens the dialog.
     pub(super) fn welcome(&mut self) {
         let entries = self.library.entries().unwrap_or_default();
         if let Some((scene, source)) =
@@ -17,7 +18,14 @@ impl App {
             self.watch(scene, source);
             self.resumes = true;
         }
-        self.open_chooser();
+        if self.host.is_embedded() {
+            return self.open_chooser();
+        }
+        if let Err(error) = self.chooser.open_strip(&self.library, &self.saved.recent) {
+            self.notices.complain(error);
+        }
+        // A user who wants little motion starts it.
+        self.resumes &= !self.host.reduces_motion();
     }
 
     /// Opens the chooser, and stops the present scene.
@@ -34,18 +42,24 @@ impl App {
 
     /// Shows the chooser if it is open, and opens what was chosen. A chosen scene plays.
     pub(super) fn choose(&mut self, context: &Context) {
-        match self.chooser.show(context, &mut self.studio) {
-            Some(Chosen::Scene(scene, source)) => {
-                self.open(*scene, source);
-                self.command(Command::Play);
-            }
-            Some(Chosen::File(path)) => self.inbox.put(ReadFile::from_disk(&path)),
-            Some(Chosen::AnyFile) => self.host.open_file(&self.inbox),
-            None => {}
+        if let Some(chosen) = self.chooser.show(context, &mut self.studio) {
+            self.take(chosen);
         }
         if self.resumes && !self.chooser.is_open() {
             self.resumes = false;
             self.command(Command::Play);
+        }
+    }
+
+    /// Opens what was chosen; a scene plays.
+    pub(super) fn take(&mut self, chosen: Chosen) {
+        match chosen {
+            Chosen::Scene(scene, source) => {
+                self.open(*scene, source);
+                self.command(Command::Play);
+            }
+            Chosen::File(path) => self.inbox.put(ReadFile::from_disk(&path)),
+            Chosen::AnyFile => self.host.open_file(&self.inbox),
         }
     }
 }

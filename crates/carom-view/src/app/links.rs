@@ -32,6 +32,7 @@ impl App {
     pub fn refuse_link(&mut self, why: &str) {
         if matches!(self.screen, Screen::Empty) {
             self.welcome();
+            self.open_chooser();
         }
         if self.chooser.is_open() {
             self.chooser.complain(why);

@@ -18,7 +18,7 @@ use egui::{Context, Pos2, Rect, Theme, Ui};
 
 use crate::action::{self, Action};
 use crate::address::Address;
-use crate::chooser::Chooser;
+use crate::chooser::{Asked, Chooser, invite};
 use crate::exports::Exports;
 use crate::help;
 use crate::host::{Host, Inbox};
@@ -204,7 +204,7 @@ impl App {
     fn show(&mut self, screen: Screen) {
         self.keep_game();
         self.notices.clear();
-        self.chooser.close();
+        self.chooser.close_all();
         self.resumes = false;
         self.exports.end_film();
         self.screen = screen;
@@ -273,6 +273,14 @@ impl App {
 
     /// Performs the action of a key or button.
     pub fn act(&mut self, action: Action) {
+        let is_panel = matches!(action, Action::Inspector | Action::Plots | Action::Impacts);
+        if is_panel && self.chooser.is_strip() {
+            // Panels have their place once the strip is closed.
+            self.chooser.close_all();
+            if action == Action::Inspector && self.shows_inspector() {
+                return;
+            }
+        }
         match action {
             Action::Choose => self.open_chooser(),
             Action::Help => self.help ^= true,
@@ -299,6 +307,11 @@ impl App {
         }
     }
 
+    /// Returns whether the inspector is in the window.
+    fn shows_inspector(&self) -> bool {
+        !self.chooser.is_strip() && self.watching().is_some_and(Watching::shows_inspector)
+    }
+
     /// Stops a seek at the time reached, unless a dialog is open that the key is for.
     fn stop_seeking(&mut self) {
         let has_dialog = self.help || self.link.is_open() || self.chooser.is_open();
@@ -310,7 +323,8 @@ impl App {
     /// Returns the settings of the interface that pictures depend on.
     fn manner(&self) -> Manner {
         let recording = self.exports.is_recording();
-        Manner { dark: self.context.theme() == Theme::Dark, recording }
+        let has_card = !self.chooser.is_strip();
+        Manner { dark: self.context.theme() == Theme::Dark, recording, has_card }
     }
 
     /// Returns the name of the present scene and its time \[s\].
@@ -355,7 +369,8 @@ impl App {
     fn screen(&mut self, ui: &mut Ui) {
         let manner = self.manner();
         let margin = egui::Frame::NONE.fill(ui.visuals().panel_fill);
-        let (mut wish, mut wanted) = (None, None);
+        let (mut wish, mut wanted, mut asked) = (None, None, None);
+        let is_strip = self.chooser.is_strip();
         match &mut self.screen {
             Screen::Empty => {
                 egui::CentralPanel::default().show(ui, |ui| {
@@ -363,8 +378,13 @@ impl App {
                 });
             }
             Screen::Watching(watching) => {
-                for action in watching.panels(ui, manner) {
+                for action in watching.transport(ui, manner) {
                     watching.act(action);
+                }
+                asked = self.chooser.show_strip(ui, &mut self.studio);
+                // The first picture has the full width.
+                if !is_strip {
+                    watching.panels(ui);
                 }
                 wanted = watching.wanted.take();
                 self.saved.layout = watching.layout();
@@ -372,6 +392,9 @@ impl App {
                 let shown = egui::CentralPanel::default()
                     .frame(margin)
                     .show(ui, |ui| watching.picture(ui, studio, manner));
+                if is_strip {
+                    invite(ui, shown.response.rect);
+                }
                 shown.inner.into_iter().for_each(|action| watching.act(action));
             }
             Screen::Maze(screen) => {
@@ -384,6 +407,11 @@ impl App {
         }
         if let Some(wanted) = wanted {
             self.save_plots(wanted);
+        }
+        match asked {
+            Some(Asked::All) => self.open_chooser(),
+            Some(Asked::Chosen(chosen)) => self.take(chosen),
+            None => {}
         }
         let Screen::Maze(screen) = &self.screen else { return };
         match wish {
@@ -439,10 +467,11 @@ impl eframe::App for App {
         self.cpu_seconds = frame.info().cpu_usage;
         let context = ui.ctx().clone();
         self.studio.begin_frame();
-        // A dialog takes the keys; on the win screen Enter starts again.
+        // A dialog takes the keys; on the win screen Enter starts again, and in the strip it chooses.
         let is_won = self.maze().is_some_and(MazeScreen::is_won);
+        let is_taken = is_won || self.chooser.has_focus();
         if !self.chooser.is_open() {
-            for action in action::pressed(&context, is_won) {
+            for action in action::pressed(&context, is_taken) {
                 self.act(action);
             }
         }

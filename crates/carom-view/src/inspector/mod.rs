@@ -17,6 +17,7 @@ use egui::{CollapsingHeader, ScrollArea, Ui};
 use crate::layout::press_word;
 
 pub use ball::Throw;
+pub use value::significant;
 
 /// Indent of the rows of a group, in points.
 const INDENT: f32 = 13.0;

@@ -68,7 +68,7 @@ impl<'a> Field<'a> {
 }
 
 /// Formats a number with four significant digits, without zeros at the end.
-pub(super) fn significant(number: f64) -> String {
+pub fn significant(number: f64) -> String {
     if number == 0.0 || !number.is_finite() {
         return format!("{number}");
     }

@@ -1,5 +1,6 @@
 //! The screen of a watched scene: its picture and panels.
 
+mod card;
 mod departures;
 mod entries;
 mod hand;
@@ -22,7 +23,7 @@ use web_time::Instant;
 
 use crate::action::Action;
 use crate::inspector::{self, Throw};
-use crate::layout::{Beside, has_sheets};
+use crate::layout::{Beside, has_sheets, is_compact};
 use crate::look::{self, DrawOptions};
 use crate::orbit::Preset;
 use crate::plots;
@@ -31,6 +32,7 @@ use crate::snapshot::Snapshot;
 use crate::studio::{Canvas, Studio};
 use crate::written_scene::WrittenScene;
 use crate::{impact_list, transport};
+use card::Card;
 use departures::Departures;
 pub use entries::PRESETS;
 use hints::{Restarted, Way};
@@ -63,6 +65,7 @@ pub struct Watching {
     /// The open sheet of such a window.
     sheet: Panels,
     throw: Throw,
+    card: Card,
     /// The pictures of both rules; one rule uses the first.
     canvases: [Canvas; 2],
     drawing: Drawing,
@@ -90,6 +93,8 @@ pub struct Manner {
     pub dark: bool,
     /// Whether a film is being recorded.
     pub recording: bool,
+    /// Whether the card of the scene has its place.
+    pub has_card: bool,
 }
 
 const INSPECTOR: Beside = Beside { title: "Inspector", is_right: true, widths: [300.0; 3] };
@@ -165,6 +170,7 @@ impl Watching {
             has_sheets: false,
             sheet: Panels::NONE,
             throw,
+            card: Card::default(),
             canvases: Default::default(),
             drawing: Drawing::default(),
             drawn: [None; 2],
@@ -303,8 +309,20 @@ impl Watching {
         Some(look::place(view, index, self.driver.blend()))
     }
 
-    /// Shows the panels around the picture. Returns the actions of their buttons.
-    pub fn panels(&mut self, ui: &mut Ui, manner: Manner) -> Vec<Action> {
+    /// Shows the bar that plays the scene. Returns the actions of its buttons.
+    pub fn transport(&mut self, ui: &mut Ui, manner: Manner) -> Vec<Action> {
+        let (view, commands) = (self.driver.view(), &mut self.commands);
+        let shown = egui::Panel::bottom("transport").show(ui, |ui| {
+            ui.add_space(3.0);
+            let actions = transport::show(ui, view, manner.recording, commands);
+            ui.add_space(3.0);
+            actions
+        });
+        shown.inner
+    }
+
+    /// Shows the panels around the picture.
+    pub fn panels(&mut self, ui: &mut Ui) {
         self.has_sheets = has_sheets(ui);
         let parameters = self.parameters();
         let Self { driver, commands, layout, throw, departures, wanted, sheet, .. } = self;
@@ -312,12 +330,6 @@ impl Watching {
         let Layout { panels, plots, .. } = layout;
         let panels = if self.has_sheets { sheet } else { panels };
         let view = driver.view();
-        let transport = egui::Panel::bottom("transport").show(ui, |ui| {
-            ui.add_space(3.0);
-            let actions = transport::show(ui, view, manner.recording, commands);
-            ui.add_space(3.0);
-            actions
-        });
         let whole = ui.available_size();
         let mut room = 0.5 * whole.x;
         INSPECTOR.show(ui, &mut room, &mut panels.inspector, |ui| {
@@ -336,7 +348,6 @@ impl Watching {
         if let Some(parameter) = changed {
             self.set_parameter(&parameter);
         }
-        transport.inner
     }
 
     /// Returns the camera for the next picture with this ratio of width to height, `seconds` after
@@ -366,8 +377,24 @@ impl Watching {
             });
         }
         let actions = self.hints(ui, whole);
+        if manner.has_card {
+            self.card(ui, whole);
+        }
         self.send();
         actions
+    }
+
+    /// Shows the card of the scene over a picture, and does what its sliders ask for.
+    fn card(&mut self, ui: &Ui, picture: Rect) {
+        let view = self.driver.view();
+        if view.scene.tries.is_empty() || view.other.is_some() || is_compact(ui) {
+            return;
+        }
+        let Some((index, number)) = self.card.show(ui, picture, view) else { return };
+        match card::commands(view, index, number) {
+            Ok(commands) => self.commands.extend(commands),
+            Err(error) => self.refused = Some(SessionError::from(error)),
+        }
     }
 
     /// Shows the hints over the picture. Returns the actions of their buttons.

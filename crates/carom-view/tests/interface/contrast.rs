@@ -9,7 +9,7 @@ use egui::epaint::{Shape, TextShape};
 use egui::{Color32, Key, Rect, Theme, Vec2};
 use egui_kittest::kittest::Queryable;
 
-use crate::desk::{Desk, desk, desk_of, go_to, press, setup_for_pixels, watching_on};
+use crate::desk::{Desk, choosing, desk, desk_of, go_to, press, setup_for_pixels, watching_on};
 use crate::maze::{SHORT, win};
 use crate::pictures::{in_light_and_dark, set_theme};
 
@@ -147,7 +147,8 @@ fn assert_readable(screens: Vec<(Desk, &str)>, theme: Theme, least: usize) {
 }
 
 fn every_text_has_a_contrast_of_four_and_a_half(theme: Theme) {
-    let chooser = desk(setup_for_pixels());
+    let first = desk(setup_for_pixels());
+    let chooser = choosing(setup_for_pixels());
     let mut plots = watching_on(setup_for_pixels(), "simtest1");
     go_to(&mut plots, 3.0);
     for key in [Key::G, Key::V, Key::K, Key::L] {
@@ -160,6 +161,7 @@ fn every_text_has_a_contrast_of_four_and_a_half(theme: Theme) {
     let mut refused = watching_on(setup_for_pixels(), "cradle");
     refused.state_mut().refuse_link("no such link");
     let screens = vec![
+        (first, "first visit"),
         (chooser, "chooser"),
         (plots, "plots and impacts"),
         (help, "help"),

@@ -41,6 +41,14 @@ pub fn desk(setup: Setup) -> Desk {
     desk_of(SIZE, setup)
 }
 
+/// Opens a window with the chooser over the first scene.
+pub fn choosing(setup: Setup) -> Desk {
+    let mut desk = desk(setup);
+    press(&mut desk, egui::Key::Enter);
+    desk.run_steps(1);
+    desk
+}
+
 /// Opens a window of this size in points.
 pub fn desk_of(size: [f32; 2], setup: Setup) -> Desk {
     let mut desk = just_opened(size, setup);

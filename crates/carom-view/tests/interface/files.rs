@@ -12,7 +12,7 @@ use egui::Key;
 use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
 
-use crate::desk::{Desk, desk, go_to, press, scene, setup, watching};
+use crate::desk::{Desk, choosing, desk, go_to, press, scene, setup, watching};
 
 const BALL: &str = "name = \"one\"\n[[spheres]]\nradius = 0.5\n";
 
@@ -138,7 +138,7 @@ fn a_broken_scene_in_the_chooser_says_what_is_wrong() {
     std::fs::write(folder.path().join("broken.toml"), "name = 3\n").expect("written");
     let mut library = Library::new();
     library.add_folder(folder.path()).expect("readable");
-    let mut desk = desk(Setup { library, ..setup() });
+    let mut desk = choosing(Setup { library, ..setup() });
     assert!(desk.query_by_label_contains("broken.toml:1").is_some());
     press(&mut desk, Key::Enter);
     desk.get_by_label("Choose a scene");
@@ -245,7 +245,7 @@ fn a_path_that_is_typed_in_the_chooser_opens_and_is_found_under_recent() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("mine.toml");
     std::fs::write(&path, BALL).expect("written");
-    let mut desk = desk(setup());
+    let mut desk = choosing(setup());
     desk.event(egui::Event::Text(path.display().to_string()));
     desk.run_steps(3);
     press(&mut desk, Key::Enter);

@@ -84,8 +84,9 @@ fn played(maze: Maze) -> Desk {
 fn the_chooser(theme: Theme) {
     let mut desk = desk_for_picture(SIZE, COARSE, setup_for_pictures());
     set_theme(&mut desk, theme);
-    // One thumbnail appears per frame.
-    desk.run_steps(24);
+    press(&mut desk, Key::Enter);
+    // Until the thumbnails are drawn.
+    desk.run_steps(40);
     compare_in(theme, &mut desk, "chooser");
 }
 

@@ -81,7 +81,7 @@ from carom._scene.parts.kinds import (
     TwoNumbers,
     Vector,
 )
-from carom._scene.parts.looks import Camera, Colors, DensityColor, Sun
+from carom._scene.parts.looks import Camera, Colors, DensityColor, Sun, Try
 from carom._scene.parts.part import Part, expect
 from carom._scene.parts.simulation import Bisect, Contact, Discrete, Exact, Periodic, Simulation
 from carom._scene.parts.spheres import SizedSphere, Sphere
@@ -165,6 +165,7 @@ __all__ = [
     "Swing",
     "ThreeCounts",
     "Torus",
+    "Try",
     "Turn",
     "TwoNumbers",
     "Vector",

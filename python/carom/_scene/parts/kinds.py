@@ -95,6 +95,12 @@ Seed: TypeAlias = Annotated[int, _IN_32_BITS]
 """The seed of something random."""
 FieldOfView: TypeAlias = Annotated[float, _FIELD_OF_VIEW]
 """An angle in degrees, in (0, 180)."""
+Ends: TypeAlias = Annotated[
+    Sequence[float],
+    Numbers("two numbers", 2),
+    Requirement("the smaller first", lambda ends: ends[0] < ends[1]),
+]
+"""The ends of a slider."""
 TwoNumbers: TypeAlias = Annotated[
     Sequence[int] | NDArray[Any],
     Numbers("two whole numbers", 2, are_whole=True),

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from carom._scene.parts.kinds import (
     UNTURNED,
     Color,
+    Ends,
     FieldOfView,
     NonNegative,
     Positive,
@@ -74,6 +75,24 @@ class DensityColor(Part):
 
     density: Positive
     color: Color
+
+
+@dataclass(frozen=True)
+class Try(Part):
+    """Something to try: a number of the scene that its viewers change with a slider.
+
+    A path at which the scene has no number shows no slider.
+
+    Attributes:
+        text: What to try, as an invitation: "Make the floor bouncier".
+        path: Path of the number, as in ``colliders.0.restitution`` or
+            ``forces.0.gravity.acceleration.1``.
+        range: Ends of the slider, in the unit of the number.
+    """
+
+    text: str
+    path: str
+    range: Ends
 
 
 @dataclass(frozen=True)

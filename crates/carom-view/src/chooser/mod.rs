@@ -1,25 +1,33 @@
-//! The dialog that chooses a scene.
+//! The choice of a scene: a strip of pictures at the first visit, and a dialog.
+
+mod strip;
+mod thumbnail;
 
 use std::path::{Path, PathBuf};
 
-use carom_render::{Camera, Drawing, Framing};
 use carom_scene::scene::Scene;
 use carom_scene::{Entry, Library, Source};
-use carom_session::{Session, View};
 use egui::{
-    Align, Align2, Context, Id, Image, Key, Label, Layout, Modal, Modifiers, RichText, Sense,
-    TextEdit, Ui, Vec2,
+    Align, Align2, Context, Id, Key, Label, Layout, Modal, Modifiers, Response, RichText, Sense,
+    TextEdit, Ui,
 };
 
 use crate::layout::{is_for_fingers, is_touched, scrolled_within};
-use crate::look::{self, DrawOptions, Marks};
-use crate::orbit::{Orbit, Preset};
 use crate::studio::{Canvas, Studio};
+pub use strip::{Asked, invite};
+use thumbnail::{Running, THUMBNAIL, Thumbnail};
 
-/// The dialog; it reads all scenes whenever it opens.
+/// The strip and the dialog; they read all scenes whenever one of them opens.
 #[derive(Default)]
 pub struct Chooser {
     open: bool,
+    is_strip: bool,
+    /// Whether a scene of the strip has the keyboard.
+    has_focus: bool,
+    /// The scene that runs in the card with this index, under the pointer.
+    running: Option<(usize, Box<Running>)>,
+    /// The scene that goes to the time of its thumbnail.
+    prepared: Option<(usize, Box<Running>)>,
     just_opened: bool,
     /// Whether an arrow key was pressed in this frame.
     moved: bool,
@@ -56,23 +64,6 @@ impl Card {
     }
 }
 
-enum Thumbnail {
-    Missing,
-    Drawn(Box<Canvas>),
-    /// The scene cannot be read.
-    Impossible,
-}
-
-/// Size of a thumbnail in points.
-const THUMBNAIL: Vec2 = Vec2::new(176.0, 99.0);
-
-/// A thumbnail shows the scene at this part of its duration, but at most `LATEST` \[s\] after the
-/// start, ...
-const THUMBNAIL_PART: f64 = 0.25;
-const LATEST: f64 = 3.0;
-/// ... and at the start if more than this many frames times spheres would be needed.
-const MOST_WORK: f64 = 40_000.0;
-
 impl Chooser {
     /// Opens the dialog with all present scenes, recent files first. Thumbnails of unchanged scenes
     /// are kept.
@@ -84,11 +75,45 @@ impl Chooser {
         library: &Library,
         recent: &[PathBuf],
     ) -> Result<(), carom_scene::SceneError> {
+        self.read(library, recent)?;
         self.open = true;
         self.just_opened = true;
         self.filter.clear();
         self.selected = 0;
         self.trouble = None;
+        Ok(())
+    }
+
+    /// Opens the strip with all present scenes.
+    ///
+    /// # Errors
+    /// If a folder of scenes can no longer be read; the strip then stays closed.
+    pub fn open_strip(
+        &mut self,
+        library: &Library,
+        recent: &[PathBuf],
+    ) -> Result<(), carom_scene::SceneError> {
+        self.read(library, recent)?;
+        self.is_strip = true;
+        Ok(())
+    }
+
+    /// Returns whether the strip is open.
+    pub fn is_strip(&self) -> bool {
+        self.is_strip
+    }
+
+    /// Returns whether a scene of the strip has the keyboard.
+    pub fn has_focus(&self) -> bool {
+        self.is_strip && self.has_focus
+    }
+
+    /// Reads all scenes; keeps the thumbnails of unchanged ones.
+    fn read(
+        &mut self,
+        library: &Library,
+        recent: &[PathBuf],
+    ) -> Result<(), carom_scene::SceneError> {
         let card = |entry: Entry, is_recent| {
             let thumbnail =
                 if entry.scene.is_ok() { Thumbnail::Missing } else { Thumbnail::Impossible };
@@ -118,6 +143,7 @@ impl Chooser {
             card
         };
         self.cards = files.chain(all).map(with_thumbnail).collect();
+        (self.running, self.prepared) = (None, None);
         Ok(())
     }
 
@@ -131,9 +157,17 @@ impl Chooser {
         self.open
     }
 
-    /// Closes the dialog without a choice.
+    /// Closes the dialog without a choice; without a dialog, the strip.
     pub fn close(&mut self) {
+        self.is_strip &= self.open;
         self.open = false;
+        (self.running, self.prepared) = (None, None);
+    }
+
+    /// Closes dialog and strip.
+    pub fn close_all(&mut self) {
+        (self.open, self.is_strip) = (false, false);
+        (self.running, self.prepared) = (None, None);
     }
 
     /// Shows the open dialog. Returns the choice, which closes the dialog.
@@ -141,10 +175,10 @@ impl Chooser {
         if !self.open {
             return None;
         }
-        self.draw_a_thumbnail(context, studio);
         let found = self.found();
         let entered = self.keys(context, &found);
         let (mut chosen, mut file) = (entered.flatten(), None);
+        let (mut pointed, mut seen) = (None, Vec::new());
         let modal = Modal::new(Id::unique("scenes")).show(context, |ui| {
             let size = ui.ctx().content_rect().size();
             ui.set_width((size.x - 40.0).clamp(240.0, 880.0));
@@ -174,7 +208,14 @@ impl Chooser {
                         ui.strong(&next);
                         group = next;
                     }
-                    if self.card(ui, index, place == self.selected) {
+                    let response = self.card(ui, index, place == self.selected);
+                    if ui.is_rect_visible(response.rect) {
+                        seen.push(index);
+                    }
+                    if response.contains_pointer() {
+                        pointed = Some(index);
+                    }
+                    if response.clicked() {
                         chosen = Some(index);
                     }
                 }
@@ -187,6 +228,8 @@ impl Chooser {
             });
         });
         self.just_opened = false;
+        self.draw_missing(context, studio, &seen);
+        self.run_pointed(context, studio, pointed);
         if modal.should_close() {
             self.open = false;
         }
@@ -261,8 +304,8 @@ impl Chooser {
         entered
     }
 
-    /// Shows a scene; returns whether it was clicked.
-    fn card(&mut self, ui: &mut Ui, index: usize, is_selected: bool) -> bool {
+    /// Shows a scene in the dialog.
+    fn card(&self, ui: &mut Ui, index: usize, is_selected: bool) -> Response {
         let card = &self.cards[index];
         let fill = if is_selected {
             ui.visuals().selection.bg_fill.gamma_multiply(0.45)
@@ -272,7 +315,7 @@ impl Chooser {
         let frame = egui::Frame::group(ui.style()).fill(fill);
         let shown = frame.show(ui, |ui| {
             ui.horizontal(|ui| {
-                picture(ui, &card.thumbnail);
+                card.thumbnail.show(ui, THUMBNAIL, Sense::hover());
                 ui.vertical(|ui| {
                     ui.set_width(ui.available_width());
                     ui.add_space(4.0);
@@ -294,7 +337,7 @@ impl Chooser {
         if is_selected && (self.just_opened || self.moved) {
             response.scroll_to_me(None);
         }
-        response.clicked()
+        response
     }
 
     /// Closes the dialog with the choice of this scene. A scene that cannot be read cannot be
@@ -306,22 +349,42 @@ impl Chooser {
         Some(Chosen::Scene(Box::new(scene), entry.source.clone()))
     }
 
-    /// Draws one of the missing thumbnails: one per frame, so that the dialog opens at once.
-    fn draw_a_thumbnail(&mut self, context: &Context, studio: &mut Studio) {
-        let missing =
-            self.cards.iter_mut().find(|card| matches!(card.thumbnail, Thumbnail::Missing));
-        let Some(card) = missing else { return };
-        let scene = card.entry.scene.as_ref().ok();
-        let drawn = scene.and_then(drawing_of);
-        card.thumbnail = match drawn {
-            Some((drawing, camera)) => {
-                let mut canvas = Canvas::default();
-                let size = THUMBNAIL * context.pixels_per_point();
-                studio.draw(&mut canvas, size, &drawing, &camera);
-                Thumbnail::Drawn(Box::new(canvas))
-            }
-            None => Thumbnail::Impossible,
+    /// Works on the first missing thumbnail of the cards that are `seen`, a little in each frame, so
+    /// that the interface goes on.
+    fn draw_missing(&mut self, context: &Context, studio: &mut Studio, seen: &[usize]) {
+        let is_missing = |it: &usize| matches!(self.cards[*it].thumbnail, Thumbnail::Missing);
+        let Some(index) = seen.iter().copied().find(is_missing) else { return };
+        context.request_repaint();
+        let before = self.prepared.take().filter(|it| it.0 == index);
+        let Card { entry, thumbnail, .. } = &mut self.cards[index];
+        let running = match before {
+            Some((_, running)) => Some(running),
+            None => entry.scene.as_ref().ok().and_then(Running::new).map(Box::new),
         };
+        let Some(mut running) = running else {
+            *thumbnail = Thumbnail::Impossible;
+            return;
+        };
+        if !running.prepare() {
+            self.prepared = Some((index, running));
+            return;
+        }
+        let mut canvas = Canvas::default();
+        running.draw(studio, &mut canvas, context.pixels_per_point());
+        *thumbnail = Thumbnail::Drawn(Box::new(canvas));
+    }
+
+    /// Lets the scene of the card under the pointer run in its thumbnail, and no other.
+    fn run_pointed(&mut self, context: &Context, studio: &mut Studio, pointed: Option<usize>) {
+        if self.running.as_ref().map(|it| it.0) != pointed {
+            let scene = pointed.and_then(|index| self.cards[index].entry.scene.as_ref().ok());
+            let running = scene.and_then(Running::new).map(Box::new);
+            self.running = pointed.zip(running);
+        }
+        let Some((index, running)) = &mut self.running else { return };
+        let Thumbnail::Drawn(canvas) = &mut self.cards[*index].thumbnail else { return };
+        running.advance(context.input(|input| f64::from(input.stable_dt)));
+        running.draw(studio, canvas, context.pixels_per_point());
         context.request_repaint();
     }
 }
@@ -339,26 +402,18 @@ fn group_of(card: &Card) -> String {
     }
 }
 
-fn picture(ui: &mut Ui, thumbnail: &Thumbnail) {
-    match thumbnail {
-        Thumbnail::Drawn(canvas) if canvas.texture().is_some() => {
-            if let Some(texture) = canvas.texture() {
-                ui.add(Image::new((texture, THUMBNAIL)).corner_radius(4));
-            }
-        }
-        _ => {
-            ui.allocate_space(THUMBNAIL);
-        }
-    }
+/// Returns the title of a scene, or its name if it has none.
+fn title_of(scene: &Scene) -> &str {
+    if scene.title.is_empty() { &scene.name } else { &scene.title }
 }
 
 fn about(ui: &mut Ui, scene: &Scene, source: &Source) {
-    let title = if scene.title.is_empty() { &scene.name } else { &scene.title };
+    let title = title_of(scene);
     // Lines of text need no space for fingers.
     ui.spacing_mut().interact_size.y = 0.0;
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new(title).strong().size(15.0));
-        if *title != scene.name {
+        if title != scene.name {
             ui.weak(&scene.name);
         }
         let rule = RichText::new(format!(" {} ", scene.simulation.rule));
@@ -370,25 +425,4 @@ fn about(ui: &mut Ui, scene: &Scene, source: &Source) {
     if let Source::File(path) = source {
         ui.weak(path.display().to_string());
     }
-}
-
-/// Draws a scene a little after its start, with its own camera.
-fn drawing_of(scene: &Scene) -> Option<(Drawing, Camera)> {
-    let mut session = Session::new(scene.clone()).ok()?;
-    let time = (THUMBNAIL_PART * scene.simulation.duration).min(LATEST);
-    let frames = (time / scene.simulation.frame_time).floor();
-    if frames * session.world().spheres().len().max(1) as f64 <= MOST_WORK {
-        // If a step fails, the state before it is drawn.
-        (0..frames as u64).try_for_each(|_| session.step()).ok();
-    }
-    let mut view = View::default();
-    session.fill(&mut view);
-    let mut drawing = Drawing::default();
-    let look = DrawOptions { marks: Marks::default(), dark: false, blend: 1.0 };
-    look::draw(&view, &look, &mut drawing);
-    let framing = Framing::of_run(Framing::of_scene(scene), &drawing);
-    drawing.framing = Some(framing);
-    let aspect = f64::from(THUMBNAIL.x / THUMBNAIL.y);
-    let orbit = Orbit::preset(Preset::Scene, Camera::of_scene(scene), &framing.whole, aspect);
-    Some((drawing, orbit.camera))
 }
