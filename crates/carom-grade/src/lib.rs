@@ -40,6 +40,7 @@ mod grader;
 mod heading;
 mod mistake;
 mod number;
+mod particles;
 mod program;
 mod quantity;
 mod real;

@@ -7,9 +7,11 @@ use std::path::{Path, PathBuf};
 
 use carom::DVec3;
 use carom_scene::legible;
+use carom_scene::recording::ParticleFormat;
 
 use crate::error::GradeError;
 use crate::number::{decimals, number};
+use crate::particles;
 use crate::table::{Columns, Places, Table, broken};
 
 /// Most rows of a table.
@@ -89,11 +91,19 @@ pub struct Recorded {
 }
 
 impl Recorded {
-    /// Reads the table of a run.
+    /// Reads the table or the particle file of a run.
     ///
     /// # Errors
     /// [`GradeError`] for a file that cannot be read, or for an invalid line, with its number.
     pub fn read(path: &Path, reading: &Reading) -> Result<Self, GradeError> {
+        if let Some(format) = ParticleFormat::of(path) {
+            let bytes = particles::table(path, format)?.into_bytes();
+            return Self::parse(
+                path,
+                &bytes,
+                &Reading { columns: Columns::default(), ..reading.clone() },
+            );
+        }
         let unreadable = |source| GradeError::Unreadable { path: path.to_owned(), source };
         let mut bytes = Vec::new();
         // The limit also stops the reading of endless devices.

@@ -9,6 +9,7 @@ use std::io::Write;
 use std::path::Path;
 
 use carom_grade::{Course, Grader, Reading, Recorded, TOLERANCE, Verdict};
+use carom_scene::recording::Trajectory;
 use planting::{said, scene};
 use simulator::{Plan, Row, simulate};
 
@@ -32,6 +33,33 @@ fn passes(text: &str) {
 
 fn lines(row: impl Fn(&Row) -> String) -> String {
     ball().iter().map(|it| row(it) + "\n").collect()
+}
+
+#[test]
+fn particle_files_of_a_run_are_graded_as_its_table() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = scene("simtest1");
+    let course = || Course::of(&scene).unwrap();
+    for ending in ["csv", "xyz", "lammpstrj", "gsd"] {
+        let path = folder.path().join("run").with_extension(ending);
+        let mut world = scene.world().unwrap();
+        let mut trajectory = Trajectory::create(&path).unwrap();
+        for _ in 0..200 {
+            world.step(scene.simulation.frame_time).unwrap();
+            trajectory.write(&world).unwrap();
+        }
+        trajectory.finish().unwrap();
+        let recorded = Recorded::read(&path, &Reading::default()).unwrap();
+        let verdict = Grader::new(course(), TOLERANCE).grade(&recorded).verdict;
+        assert!(verdict.same, "{ending}: {}", said(&verdict));
+    }
+    let path = folder.path().join("bare.xyz");
+    std::fs::write(&path, "1\n\nX 0 0 0\n").unwrap();
+    let refused = Recorded::read(&path, &Reading::default()).unwrap_err().to_string();
+    assert!(refused.ends_with("bare.xyz: frame 0 has no time"), "{refused}");
+    std::fs::write(&path, "1\n\nX 0 0 no\n").unwrap();
+    let refused = Recorded::read(&path, &Reading::default()).unwrap_err().to_string();
+    assert!(refused.contains("bare.xyz:3: column 4 is no finite number"), "{refused}");
 }
 
 #[test]

@@ -33,6 +33,8 @@ pub enum Command {
     /// Makes an edit. An edit of the same thing within a second of the last one continues it, as
     /// dragging a slider does; see [`Session::edit_further`](crate::Session::edit_further).
     Edit(Edit),
+    /// Makes an edit that continues the last one, whatever it was; both are undone together.
+    EditFurther(Edit),
     /// Undoes the last manual edit and goes to its frame; does nothing if there is none.
     Undo,
     /// Repeats the edit that was undone last and goes to its frame; does nothing if there is none.
@@ -65,7 +67,7 @@ impl Command {
             Self::Restart | Self::Seek(_) | Self::StopSeeking => true,
             Self::Open(_) | Self::Replay(..) => true,
             Self::Play | Self::Pause | Self::Step | Self::StepBack | Self::Speed(_) => false,
-            Self::Edit(_) | Self::Pick(_) => false,
+            Self::Edit(_) | Self::EditFurther(_) | Self::Pick(_) => false,
             Self::Undo | Self::Redo | Self::RestartWithValues | Self::Compare(_) => false,
             Self::ShowStateHash(_) | Self::ShowContacts(_) => false,
         }
@@ -89,6 +91,9 @@ impl Command {
     pub(crate) fn merged(&self, later: &Self) -> Option<Self> {
         match (self, later) {
             (Self::Edit(edit), Self::Edit(next)) => edit.merged(next).map(Self::Edit),
+            (Self::EditFurther(edit), Self::EditFurther(next)) => {
+                edit.merged(next).map(Self::EditFurther)
+            }
             (Self::Play | Self::Pause, Self::Play | Self::Pause)
             | (Self::Restart | Self::Seek(_), Self::Restart | Self::Seek(_))
             | (Self::Speed(_), Self::Speed(_))

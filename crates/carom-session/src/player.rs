@@ -133,6 +133,11 @@ impl Player {
                 self.error = self.edit(edit).err().map(Arc::new);
                 self.pace.show_whole_frame();
             }
+            Command::EditFurther(edit) => {
+                self.last_edit = None;
+                self.error = self.watched.edit_further(edit).err().map(Arc::new);
+                self.pace.show_whole_frame();
+            }
             Command::Undo => self.revise(Watched::undo),
             Command::Redo => self.revise(Watched::redo),
             Command::RestartWithValues => self.revise(|watched| {

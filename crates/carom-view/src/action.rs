@@ -197,6 +197,7 @@ pub const MOUSE: &[(&str, &str)] = &[
     ("right drag, or Shift + drag", "move the camera"),
     ("wheel", "come nearer or go away"),
     ("click on a ball", "pick it; beside all balls: pick none"),
+    ("drag the picked ball", "pull it by a spring; let go to throw it"),
     ("Ctrl + click", "throw a new ball that way"),
     ("double click", "turn about what was clicked"),
     ("drop a file", "open it as a scene or maze"),

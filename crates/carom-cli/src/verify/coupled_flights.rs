@@ -90,6 +90,77 @@ pub fn bungee() -> Claim {
     claim.about(exact())
 }
 
+/// Time in which a pendulum on a spring of 1 m, let go at an angle \[rad\], comes down \[s\]. The stiffness is `k`
+/// weights by metre.
+fn quarter_period(rule: Rule, angle: f64, k: f64) -> Result<(World, f64), carom::Error> {
+    let mut world = world(rule)?;
+    world.add_force(Gravity::new(DVec3::new(0.0, -G, 0.0)))?;
+    // The spring bears the ball from the start.
+    let length = 1.0 + libm::cos(angle) / k;
+    let start = length * DVec3::new(libm::sin(angle), -libm::cos(angle), 0.0);
+    let ball = world.add_sphere(Sphere::new(start, 0.1).with_mass(1.0))?;
+    world.add_spring(Spring::to_point(ball, DVec3::ZERO, 1.0).with_stiffness(k * G))?;
+    let state = |world: &World| (world.spheres().positions()[0], world.spheres().velocities()[0]);
+    while state(&world).0.y > -0.999 {
+        world.step(1.0 / 64.0)?;
+    }
+    // Newton's method: the speed hardly changes there.
+    let left = |world: &World| state(world).0.x / -state(world).1.x;
+    while left(&world).abs() > 1e-4 {
+        world.step(left(&world).max(1e-4))?;
+    }
+    let time = world.time() + left(&world);
+    Ok((world, time))
+}
+
+pub fn pendulum() -> Claim {
+    let angle = 170.0_f64.to_radians();
+    // K(sin(angle/2)) by the arithmetic-geometric mean.
+    let (mut a, mut b) = (1.0, libm::cos(0.5 * angle));
+    for _ in 0..8 {
+        (a, b) = (0.5 * (a + b), libm::sqrt(a * b));
+    }
+    let claim = Claim::new(
+        "pendulum at 170 degrees by exact: a quarter of the period is sqrt(l/g) K(sin 85 degrees) [s]",
+        Expected::value(
+            libm::sqrt(1.0 / G) * 0.5 * PI / a,
+            "elliptic integral (Landau and Lifshitz, Mechanics, section 11)",
+        ),
+        Tolerance::relative(1e-10, "of two springs, whose give falls with their stiffness"),
+        move |rule| {
+            let (_, soft) = quarter_period(rule, angle, 1e6)?;
+            let (world, stiff) = quarter_period(rule, angle, 2e6)?;
+            Ok(Measured::in_world(&world, 2.0 * stiff - soft))
+        },
+    );
+    claim.about(exact())
+}
+
+pub fn cradle() -> Claim {
+    let claim = Claim::new(
+        "cradle on threads by exact: balls that touch keep the energy for 20 s [start]",
+        Expected::no_error("conservation of energy"),
+        Tolerance::absolute(1e-11, "rounding of some ten thousand steps, and of low bounces"),
+        |rule| {
+            let mut world = world(rule)?;
+            world.add_force(Gravity::new(DVec3::new(0.0, -G, 0.0)))?;
+            for number in 0..5 {
+                let hook = DVec3::new(0.2 * f64::from(number), 0.0, 0.0);
+                let (x, y) = if number == 0 { (-0.55, -0.78) } else { (0.0, -0.954) };
+                let ball = Sphere::new(hook + DVec3::new(x, y, 0.0), 0.1).with_restitution(1.0);
+                let ball = world.add_sphere(ball.with_mass(1.0))?;
+                for side in [-0.3, 0.3] {
+                    let hook = hook + side * DVec3::Z;
+                    let thread = Spring::to_point(ball, hook, 1.0).with_stiffness(2e4);
+                    world.add_spring(thread.with_only_pulls(true))?;
+                }
+            }
+            change_of_energy(world, 1200, 1.0 / 60.0)
+        },
+    );
+    claim.about(exact())
+}
+
 /// Balls of the chain of the claim, each 1 kg, and stiffness of its springs \[N/m\].
 const CHAIN: usize = 7;
 const STIFFNESS: f64 = 40.0;

@@ -11,6 +11,7 @@ mod convergence;
 mod coupled_flights;
 mod course;
 mod curved_flights;
+mod dem;
 mod dense;
 mod derivatives;
 mod fluid;
@@ -67,7 +68,7 @@ pub fn verify(args: &Verify) -> Result<(), Failure> {
 type Topic = (&'static str, fn() -> Vec<Claim>);
 
 /// All topics, in the order in which their claims are printed.
-const TOPICS: [Topic; 19] = [
+const TOPICS: [Topic; 20] = [
     ("motion", motion::claims),
     ("forces", forces::claims),
     ("impacts", single_impacts::claims),
@@ -80,6 +81,7 @@ const TOPICS: [Topic; 19] = [
     ("resting", resting::claims),
     ("friction", friction::claims),
     ("rolling", rolling::claims),
+    ("dem", dem::claims),
     ("derivatives", derivatives::claims),
     ("surfaces", surfaces::claims),
     ("convergence", convergence::claims),

@@ -2,18 +2,25 @@
 
 use carom::{DVec3, Sphere};
 use carom_session::{Command, Edit};
-use egui::{Modifiers, PointerButton, Pos2, Rect, Response, Ui};
+use egui::{CursorIcon, Modifiers, PointerButton, Pos2, Rect, Response, Ui};
 
 use super::Watching;
+use super::grab::Grab;
 use super::marker::Projection;
 use super::sides::side_of;
 use crate::inspector::Throw;
 use crate::look;
 use crate::orbit::{Orbit, zoom_asked};
 
+/// Distance from the picked ball within which the pointer takes it, in points.
+const REACH: f32 = 8.0;
+
 impl Watching {
     /// Handles mouse and fingers in the picture.
     pub(super) fn hand(&mut self, ui: &Ui, response: &Response, side: usize) {
+        if self.grab(ui, response, side) {
+            return;
+        }
         let Some(mut orbit) = self.viewpoint.orbit() else { return };
         let height = f64::from(response.rect.height().max(1.0));
         let drag = response.drag_delta();
@@ -40,6 +47,64 @@ impl Watching {
         {
             self.click(response, pointer, modifiers, side);
         }
+    }
+
+    /// Handles a drag of the picked ball; returns whether the drag is one.
+    fn grab(&mut self, ui: &Ui, response: &Response, side: usize) -> bool {
+        let rect = response.rect;
+        if self.grabbed.is_some_and(|grab| grab.side != side) {
+            return false;
+        }
+        if self.grabbed.is_none() {
+            let (pointer, pressed) =
+                ui.input(|input| (input.pointer.hover_pos(), input.pointer.press_origin()));
+            let is_near = |place: &Pos2| self.is_at_picked(rect, *place, side);
+            if response.hovered() && pointer.is_some_and(|it| is_near(&it)) {
+                ui.ctx().set_cursor_icon(CursorIcon::Grab);
+            }
+            let begins = response.drag_started_by(PointerButton::Primary);
+            let Some(pressed) = pressed.filter(is_near).filter(|_| begins) else { return false };
+            self.grabbed = self.taken(rect, pressed, side);
+        }
+        let (Some(mut grab), Some(orbit)) = (self.grabbed.take(), self.viewpoint.orbit()) else {
+            return false;
+        };
+        let view = self.driver.view();
+        grab.see_spring(view);
+        let is_held = response.dragged_by(PointerButton::Primary);
+        if is_held {
+            ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
+        }
+        let moved = response.interact_pointer_pos().filter(|_| is_held).and_then(|pointer| {
+            let (origin, direction) = ray(orbit, rect, pointer);
+            grab.anchor_on(origin, direction)
+        });
+        self.grabbed = grab.go_on(moved, is_held, view, &mut self.commands);
+        true
+    }
+
+    /// Returns whether a place on the screen is at the picked ball.
+    fn is_at_picked(&self, rect: Rect, place: Pos2, side: usize) -> bool {
+        let (view, blend) = (side_of(self.driver.view(), side), self.driver.blend());
+        let found = view.picked.and_then(|id| view.spheres.index_of(id)).and_then(|index| {
+            let (center, radius) = (look::place(view, index, blend), view.spheres.radii[index]);
+            let projection = self.projection(rect)?;
+            Some((projection.place(center)?, projection.radius(center, radius)?))
+        });
+        found.is_some_and(|(center, radius)| center.distance(place) <= radius.max(REACH))
+    }
+
+    /// Takes the picked ball at a place on the screen into the hand.
+    fn taken(&mut self, rect: Rect, place: Pos2, side: usize) -> Option<Grab> {
+        let (orbit, blend) = (self.viewpoint.orbit()?, self.driver.blend());
+        let view = side_of(self.driver.view(), side);
+        let index = view.spheres.index_of(view.picked.filter(|_| view.seeking.is_none())?)?;
+        let center = look::place(view, index, blend);
+        let normal = ray(orbit, rect, rect.center()).1;
+        let grab = Grab::new(view, index, center, normal, &mut self.commands);
+        let (origin, direction) = ray(orbit, rect, place);
+        let under = grab.anchor_on(origin, direction).unwrap_or(center);
+        Some(grab.held_at(under, side))
     }
 
     fn click(&mut self, response: &Response, pointer: Pos2, modifiers: Modifiers, side: usize) {

@@ -3,9 +3,11 @@
 mod card;
 mod departures;
 mod entries;
+mod grab;
 mod hand;
 mod hints;
 mod marker;
+mod over;
 mod sides;
 mod text;
 mod verdict;
@@ -23,7 +25,7 @@ use web_time::Instant;
 
 use crate::action::Action;
 use crate::inspector::{self, Throw};
-use crate::layout::{Beside, has_sheets, is_compact};
+use crate::layout::{Beside, has_sheets};
 use crate::look::{self, DrawOptions};
 use crate::orbit::Preset;
 use crate::plots;
@@ -35,6 +37,7 @@ use crate::{impact_list, transport};
 use card::Card;
 use departures::Departures;
 pub use entries::PRESETS;
+use grab::Grab;
 use hints::{Restarted, Way};
 use sides::side_of;
 use viewpoint::Viewpoint;
@@ -66,6 +69,8 @@ pub struct Watching {
     sheet: Panels,
     throw: Throw,
     card: Card,
+    /// The ball in the hand.
+    grabbed: Option<Grab>,
     /// The pictures of both rules; one rule uses the first.
     canvases: [Canvas; 2],
     drawing: Drawing,
@@ -171,6 +176,7 @@ impl Watching {
             sheet: Panels::NONE,
             throw,
             card: Card::default(),
+            grabbed: None,
             canvases: Default::default(),
             drawing: Drawing::default(),
             drawn: [None; 2],
@@ -382,33 +388,6 @@ impl Watching {
         }
         self.send();
         actions
-    }
-
-    /// Shows the card of the scene over a picture, and does what its sliders ask for.
-    fn card(&mut self, ui: &Ui, picture: Rect) {
-        let view = self.driver.view();
-        if view.scene.tries.is_empty() || view.other.is_some() || is_compact(ui) {
-            return;
-        }
-        let Some((index, number)) = self.card.show(ui, picture, view) else { return };
-        match card::commands(view, index, number) {
-            Ok(commands) => self.commands.extend(commands),
-            Err(error) => self.refused = Some(SessionError::from(error)),
-        }
-    }
-
-    /// Shows the hints over the picture. Returns the actions of their buttons.
-    fn hints(&mut self, ui: &mut Ui, picture: Rect) -> Vec<Action> {
-        let Some(orbit) = self.viewpoint.orbit() else { return Vec::new() };
-        let camera = orbit.in_picture(f64::from(picture.width() / picture.height()));
-        let Self { driver, commands, way, restarted, .. } = self;
-        *way = Way::of(driver.view(), *way);
-        let told = hints::HintState {
-            way: way.as_ref(),
-            restarted: *restarted,
-            seconds_at_work: driver.seconds_at_work(),
-        };
-        hints::show(ui, picture, driver.view(), told, &camera, commands)
     }
 
     fn look(&self, manner: Manner) -> DrawOptions {

@@ -72,6 +72,15 @@ pub fn desk_for_picture(size: [f32; 2], pixels_per_point: f32, setup: Setup) -> 
     desk
 }
 
+/// Opens a window that draws sixty frames a second, as a hand needs it.
+pub fn quick_desk(setup: Setup) -> Desk {
+    let builder = Harness::builder().with_size(SIZE).with_pixels_per_point(0.5);
+    let builder = builder.with_max_steps(1).with_step_dt(1.0 / 60.0).wgpu();
+    let mut desk = builder.build_eframe(|host| App::new(host, setup).expect("wgpu is there"));
+    desk.run_steps(4);
+    desk
+}
+
 fn just_opened_in(size: [f32; 2], pixels_per_point: f32, setup: Setup) -> Desk {
     let builder = Harness::builder().with_size(size).with_pixels_per_point(pixels_per_point);
     let builder = builder.with_max_steps(1).wgpu();

@@ -7,6 +7,7 @@ mod contrast;
 mod desk;
 mod every_scene;
 mod files;
+mod grab;
 mod hints;
 mod links;
 mod maze;

@@ -302,7 +302,7 @@ fn a_ball_that_is_clicked_is_picked_and_one_is_thrown_with_control() {
     desk.run_steps(4);
     assert_eq!(scene(&desk).view().picked, scene(&desk).view().spheres.ids.first().copied());
 
-    throw_at(&mut desk, picture.left_top() + egui::Vec2::splat(30.0));
+    throw_at(&mut desk, picture.left_bottom() + egui::Vec2::new(30.0, -30.0));
     assert_eq!(scene(&desk).view().spheres.ids.len(), balls + 1);
     assert!(!desk.root().accesskit_node().is_hidden());
 }
@@ -347,7 +347,7 @@ fn a_thrown_ball_is_as_large_as_the_others() {
         radii.sort_by(f64::total_cmp);
         let usual = radii[radii.len() / 2];
         let picture = desk.get_by_role_and_label(Role::Image, "Scene").rect();
-        throw_at(&mut desk, picture.left_top() + egui::Vec2::splat(30.0));
+        throw_at(&mut desk, picture.left_bottom() + egui::Vec2::new(30.0, -30.0));
         let thrown = *scene(&desk).view().spheres.radii.last().expect("a ball");
         assert_eq!(thrown, usual, "{name}");
     }
