@@ -43,7 +43,9 @@ test("the chooser lists every scene", async () => {
 
 test("at the first visit a scene plays, with the others below it", async () => {
   const viewer = await desk.open();
-  const { choosing } = await viewer.until(({ watching }) => watching?.playing && watching.time > 0.3);
+  const { choosing } = await viewer.until(
+    ({ watching }) => watching?.playing && watching.time > 0.3,
+  );
   assert.equal(choosing, false);
   await viewer.widget("Drag to look. Click a ball. Ctrl-click throws one.");
   await viewer.keepPicture("first-visit");
