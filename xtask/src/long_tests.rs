@@ -16,7 +16,9 @@ pub fn run() -> Outcome {
         let heaps = [package, "--test", "heaps", "--", "--ignored"];
         cargo(&[&OPTIMISED[..], &heaps].concat())?;
     }
-    cargo(&[&OPTIMISED[..], &["carom", "--test", "rough_meshes", "--", "--ignored"]].concat())?;
+    for (package, test) in [("carom", "rough_meshes"), ("carom-scene", "scenes")] {
+        cargo(&[&OPTIMISED[..], &[package, "--test", test, "--", "--ignored"]].concat())?;
+    }
     let grading = ["carom-grade", "--", "--ignored"];
     cargo(&[&OPTIMISED[..], &grading].concat())?;
     tests_of_releases()?;

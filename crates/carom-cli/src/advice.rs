@@ -26,8 +26,6 @@ pub struct Conduct {
     pub impact_rate: f64,
     /// Whether an emitter put a ball into another one.
     pub emitted_into_another: bool,
-    /// Length of a frame, and the longest one for which springs are stable \[s\].
-    pub frames: [f64; 2],
 }
 
 /// Advice for a run, in a sentence; `None` if there is none.
@@ -37,9 +35,6 @@ pub fn advice(conduct: Conduct) -> Option<String> {
         let text = "nothing can move: there are no balls, and no emitters that give some; `carom new NAME` writes \
                     a scene to start from";
         return Some(text.to_owned());
-    }
-    if let Some(text) = advice_for_springs(conduct.frames) {
-        return Some(text);
     }
     match rule {
         Rule::Exact if conduct.emitted_into_another => Some(
@@ -75,16 +70,4 @@ pub fn unread(simulation: &Simulation, world: &World) -> Option<String> {
     let all: Vec<String> = friction.into_iter().chain(tables).collect();
     (!all.is_empty())
         .then(|| format!("the rule {} does not read {}", written(rule), all.join(", ")))
-}
-
-/// Advice if frames are too long for springs. Takes the length of a frame and the longest stable
-/// length \[s\].
-pub fn advice_for_springs([frame, stable]: [f64; 2]) -> Option<String> {
-    let text = || {
-        format!(
-            "frames of {frame:.3e} s are too long for the springs, whose motion may grow without bound: \
-             `frame_time` has to be below {stable:.4e} s; the rule `exact` takes any"
-        )
-    };
-    (frame >= stable).then(text)
 }

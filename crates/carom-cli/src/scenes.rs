@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use carom_scene::{Budget, Entry, Library, Scene, SceneText};
 use serde_json::json;
 
-use crate::advice::{advice_for_springs, unread};
+use crate::advice::unread;
 use crate::args::Show;
 use crate::failure::{Failure, complain, legible};
 use crate::standard_input::{self, STANDARD};
@@ -115,11 +115,9 @@ fn mesh_remarks_of(scene: &Scene) -> Vec<String> {
     world.colliders().enumerate().flat_map(of_collider).collect()
 }
 
-/// Advice for a valid scene, and the fields that its rule ignores.
-fn advice_for(scene: &Scene) -> Vec<String> {
-    let Ok(world) = scene.world() else { return Vec::new() };
-    let frames = [scene.simulation.frame_time, world.longest_stable_frame()];
-    advice_for_springs(frames).into_iter().chain(unread(&scene.simulation, &world)).collect()
+/// The fields of a valid scene that its rule ignores, in a sentence.
+fn advice_for(scene: &Scene) -> Option<String> {
+    unread(&scene.simulation, &scene.world().ok()?)
 }
 
 /// Prints a scene as TOML.

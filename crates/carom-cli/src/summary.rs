@@ -237,7 +237,6 @@ impl Conduct {
             overlap: if radius > 0.0 { observer.largest_overlap / radius } else { 0.0 },
             impact_rate: observer.impacts as f64 / (spheres * world.time().max(f64::MIN_POSITIVE)),
             emitted_into_another: observer.emitted_into_another,
-            frames: [replay.simulation().frame_time, world.longest_stable_frame()],
         }
     }
 }

@@ -266,16 +266,19 @@ const STIFF: &str = "[simulation]\nrule = 'discrete'\nduration = 20\n\
                      [[springs]]\nsphere = 0\nanchor = [0, 0, 0]\nrest_length = 0.5\nstiffness = 1e5\n";
 
 #[test]
-fn frames_too_long_for_springs_are_named_by_check_by_the_error_and_by_the_summary() {
-    let checked = fed(&["check", "-"], STIFF);
-    assert!(checked.status.success());
-    assert!(text(&checked.stdout).contains("has to be below 2.0000e-3 s"), "{checked:?}");
-    // The numbers become infinite.
-    let ended = fed(&["run", "-"], STIFF);
-    assert_eq!(ended.status.code(), Some(1));
-    assert!(text(&ended.stderr).contains("frames below 2.0000e-3 s"), "{ended:?}");
-    let short = fed(&["run", "-", "--seconds", "0.1"], STIFF);
-    assert!(text(&short.stdout).contains("has to be below 2.0000e-3 s"), "{short:?}");
+fn frames_too_long_for_springs_are_refused_in_one_line() {
+    for rule in ["discrete", "bisect"] {
+        let stiff = STIFF.replace("discrete", rule);
+        for line in [&["check", "-"][..], &["run", "-"]] {
+            let refused = fed(line, &stiff);
+            assert_eq!(refused.status.code(), Some(1), "{refused:?}");
+            let told = text(&refused.stderr);
+            assert!(told.contains("stdin:8: springs: `stiffness` must be"), "{told}");
+            assert!(told.contains("at most 2 divided by the frame"), "{told}");
+        }
+        let fine = stiff.replace("duration", "frame_time = 1.9e-3\nduration");
+        assert!(fed(&["run", "-", "--seconds", "0.1"], &fine).status.success());
+    }
     for fine in [STIFF.replace("discrete", "exact"), STIFF.replace("1e5", "1e2")] {
         let checked = fed(&["check", "-"], &fine);
         assert_eq!(text(&checked.stdout).lines().count(), 1, "{checked:?}");

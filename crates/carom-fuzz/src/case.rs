@@ -1,14 +1,15 @@
 //! What targets make of their cases.
 
 use std::borrow::Cow;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use carom::{StopRequest, World};
 use carom_scene::BUILT_IN_FILES;
 
 use crate::fault::Fault;
+use crate::stopwatch::Stopwatch;
 
-/// How long frames of a case may go on until they are stopped.
+/// Processor time of the frames of a case after which they are stopped.
 const FRAME_PATIENCE: Duration = Duration::from_secs(1);
 
 /// The texts of the built-in scenes.
@@ -18,8 +19,8 @@ pub fn built_in() -> Vec<Vec<u8>> {
 
 /// A request that stands once [`FRAME_PATIENCE`] is over.
 pub fn soon() -> StopRequest {
-    let began = Instant::now();
-    StopRequest::new(move || began.elapsed() > FRAME_PATIENCE)
+    let stopwatch = Stopwatch::start();
+    StopRequest::new(move || stopwatch.is_over(FRAME_PATIENCE))
 }
 
 /// Checks that the motion of a world consists of numbers.

@@ -12,6 +12,7 @@ mod fault;
 mod laws;
 mod memory;
 mod mutation;
+mod stopwatch;
 mod target;
 mod targets;
 

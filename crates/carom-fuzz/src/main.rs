@@ -26,6 +26,9 @@ struct Arguments {
     /// Other seeds draw other cases.
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// File that holds a case, instead of cases that are drawn.
+    #[arg(long, conflicts_with_all = ["cases", "first", "hours", "seed"])]
+    file: Option<PathBuf>,
     /// Folder for cases that break a promise.
     #[arg(long)]
     out: Option<PathBuf>,
@@ -47,6 +50,10 @@ fn run(arguments: &Arguments) -> Result<usize, Box<dyn Error>> {
     // Findings say what panicked.
     std::panic::set_hook(Box::new(|_| {}));
     let targets = chosen(&arguments.targets)?;
+    if let Some(file) = &arguments.file {
+        let case = fs::read(file)?;
+        return Ok(targets.iter().filter(|target| is_broken(target, &case)).count());
+    }
     let end = arguments.hours.map(|hours| Instant::now() + duration(hours));
     let mut findings = 0;
     for (index, target) in targets.iter().enumerate() {
@@ -78,6 +85,16 @@ fn chosen(names: &[String]) -> Result<Vec<&'static Target>, Box<dyn Error>> {
             .ok_or_else(|| format!("there is no target \"{name}\"; targets are {}", names()).into())
     };
     if names.is_empty() { Ok(TARGETS.iter().collect()) } else { names.iter().map(find).collect() }
+}
+
+/// Tries a case, and says what came of it. Returns whether it breaks a promise.
+fn is_broken(target: &Target, case: &[u8]) -> bool {
+    let answer = target.try_case(case);
+    match &answer {
+        Ok(answer) => println!("{}: {answer:?}", target.name),
+        Err(fault) => println!("{}: {fault}", target.name),
+    }
+    answer.is_err()
 }
 
 /// So many hours, a year at most: what is longer is a slip.

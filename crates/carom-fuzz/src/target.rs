@@ -1,14 +1,15 @@
 //! One reader, or the engine: how its cases are drawn, and what must hold of each.
 
 use std::panic::{self, AssertUnwindSafe};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use proptest::strategy::BoxedStrategy;
 
 use crate::fault::Fault;
 use crate::memory;
+use crate::stopwatch::Stopwatch;
 
-/// Longest that a case may take.
+/// Longest processor time that a case may take.
 pub const PATIENCE: Duration = Duration::from_secs(5);
 
 /// A reader, or the engine.
@@ -41,9 +42,9 @@ impl Target {
     /// # Errors
     /// What it breaks.
     pub fn try_case(&self, case: &[u8]) -> Result<Answer, Fault> {
-        let began = Instant::now();
+        let stopwatch = Stopwatch::start();
         let answer = panic::catch_unwind(AssertUnwindSafe(|| (self.check)(case)));
-        let took = began.elapsed();
+        let took = stopwatch.elapsed();
         let answer = answer.map_err(|payload| Fault::Panic(message(&*payload)))??;
         memory::check_peak()?;
         if took > PATIENCE { Err(Fault::Slow(took)) } else { Ok(answer) }

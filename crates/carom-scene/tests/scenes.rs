@@ -56,20 +56,43 @@ mod every_scene_runs_under_every_rule {
     use super::{BUILT_IN_FILES, Scene};
 
     /// Most impacts of a run. Under `bisect` the balls of a heap sink into each other, and deeper
-    /// overlaps cause more impacts, up to a million in a second. The first 20,000 exercise all
+    /// overlaps cause more impacts, up to a million in a second. The first 10,000 exercise all
     /// code.
-    const IMPACTS: usize = 20_000;
+    const IMPACTS: usize = 10_000;
 
-    /// Runs every scene for two seconds, or for [`IMPACTS`] impacts.
+    /// Largest counted work of a frame for each sphere, per impact of the frame and one more: no scene may hang.
+    const WORK: u64 = 20_000;
+
+    /// Runs every scene for a second, or for [`IMPACTS`] impacts.
     fn holds(rule: &str) {
+        runs(rule, 1.0, IMPACTS);
+    }
+
+    /// Runs every scene for some time \[s\], or for a number of impacts. A scene with springs that are too stiff for the
+    /// rule is refused.
+    fn runs(rule: &str, seconds: f64, most_impacts: usize) {
         for (file, text) in BUILT_IN_FILES {
-            let rule = format!("simulation.rule={rule}").parse().unwrap();
-            let scene = Scene::from_toml_with(text, file, &[rule]).unwrap();
-            let mut world = scene.world().unwrap();
-            let mut impacts = 0;
-            while world.time() < 2.0 && impacts < IMPACTS {
-                impacts += world.step(scene.simulation.frame_time).unwrap().impacts.len();
+            let override_rule = format!("simulation.rule={rule}").parse().unwrap();
+            let read = Scene::from_toml_with(text, file, &[override_rule]);
+            if let Err(refused) = &read {
+                assert!(refused.to_string().contains("springs: `stiffness` must be"), "{refused}");
+                assert_eq!((*file, rule == "contact"), ("cradle-on-threads.toml", false));
+                continue;
             }
+            let scene = read.unwrap();
+            let mut world = scene.world().unwrap();
+            let (mut impacts, mut busiest) = (0, 0);
+            while world.time() < seconds && impacts < most_impacts {
+                let report = world.step(scene.simulation.frame_time).unwrap();
+                let (work, of_frame) = (report.work, report.impacts.len());
+                let events = work.predictions + work.events + work.groups;
+                let tests = work.pair_tests + work.solver_iterations + work.sweeps * work.contacts;
+                let shares = (world.spheres().len() + 1) as u64 * (of_frame + 1) as u64;
+                busiest = busiest.max((events + tests) / shares);
+                impacts += of_frame;
+            }
+            println!("{file}, {rule}: {busiest}");
+            assert!(busiest < WORK, "{file}, {rule}: {busiest}");
             assert!(!world.spheres().is_empty());
         }
     }
@@ -87,6 +110,14 @@ mod every_scene_runs_under_every_rule {
     #[test]
     fn contact() {
         holds("contact");
+    }
+
+    #[test]
+    #[ignore = "takes minutes"]
+    fn for_twenty_seconds() {
+        for rule in ["exact", "contact", "discrete", "bisect"] {
+            runs(rule, 20.0, 10 * IMPACTS);
+        }
     }
 }
 

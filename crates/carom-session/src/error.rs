@@ -3,6 +3,9 @@
 use carom_scene::SceneError;
 use thiserror::Error;
 
+/// Names of a scene that a message lists at most.
+const MOST_NAMES: usize = 8;
+
 impl SessionError {
     /// Whether the error means that a request ended the step early.
     pub fn is_stop(&self) -> bool {
@@ -28,6 +31,14 @@ pub enum SessionError {
         /// Error of the change.
         source: Box<SessionError>,
     },
+    /// An edit of colliders by a [group name](crate::group_name) that none has.
+    #[error("no collider has the name {name:?}{}", others(.known))]
+    NoCollider {
+        /// The group name of the edit.
+        name: String,
+        /// Group names of the scene, each once.
+        known: Vec<String>,
+    },
     /// The time is negative or not finite.
     #[error("cannot go to {seconds} s: the time must be zero or positive, and finite")]
     Time {
@@ -49,4 +60,17 @@ pub enum SessionError {
     /// The thread of the driver has ended.
     #[error("nothing moves any more: the thread that moves the spheres has ended")]
     Ended,
+}
+
+/// The names that colliders have, for a message of one line.
+fn others(known: &[String]) -> String {
+    let named: Vec<String> =
+        known.iter().filter(|name| !name.is_empty()).map(|name| format!("{name:?}")).collect();
+    match &named[..] {
+        [] => "; none has a name".to_owned(),
+        all if all.len() > MOST_NAMES => {
+            format!("; there are {}, and others", all[..MOST_NAMES].join(", "))
+        }
+        all => format!("; there are {}", all.join(", ")),
+    }
 }

@@ -179,7 +179,7 @@ fn set_collider(
     Ok(())
 }
 
-/// Changes restitution or friction of all colliders with this group name; `None` for all.
+/// Changes restitution or friction of all colliders with this group name, which one has at least; `None` for all.
 fn set_colliders(
     name: Option<&String>,
     world: &mut World,
@@ -190,6 +190,13 @@ fn set_colliders(
     let is_changed = |it: &scene::Collider| name.is_none_or(|name| group_name(&it.name) == name);
     let changed = setup.colliders.iter().filter(|(_, it)| is_changed(it));
     let ids: Vec<ColliderId> = changed.map(|(id, _)| *id).collect();
+    if let Some(name) = name.filter(|_| ids.is_empty()) {
+        let mut known: Vec<String> =
+            setup.colliders.iter().map(|(_, it)| group_name(&it.name).to_owned()).collect();
+        known.sort_unstable();
+        known.dedup();
+        return Err(SessionError::NoCollider { name: name.clone(), known });
+    }
     ids.into_iter().try_for_each(|id| set_collider(id, world, setup, &change))
 }
 

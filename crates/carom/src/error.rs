@@ -24,7 +24,7 @@ pub enum Error {
     /// Forces or speeds grew past what a number can hold.
     #[error(
         "sphere {sphere}: {quantity} is no longer finite in the step that starts at {time} s; \
-         the state before the step was kept{}", for_springs(*stable_frame)
+         the state before the step was kept"
     )]
     NonFiniteState {
         /// The first sphere it happened to.
@@ -33,8 +33,6 @@ pub enum Error {
         quantity: &'static str,
         /// Start of the refused step \[s\].
         time: f64,
-        /// The longest frame in which motion on springs is stable \[s\], if the step was longer.
-        stable_frame: Option<f64>,
     },
     /// A step took more work than [`Exact::max_impacts`](crate::Exact::max_impacts) allows.
     #[error(
@@ -90,16 +88,6 @@ pub enum Error {
         /// Start of the step \[s\].
         time: f64,
     },
-}
-
-/// How long frames may be for springs, for a message.
-fn for_springs(stable_frame: Option<f64>) -> String {
-    let text = |frame| {
-        format!(
-            ". Springs may need frames below {frame:.4e} s under this rule; the rule `exact` takes any"
-        )
-    };
-    stable_frame.map(text).unwrap_or_default()
 }
 
 /// The number of contacts, for a message.

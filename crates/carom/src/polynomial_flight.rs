@@ -101,8 +101,8 @@ impl PolynomialAcceleration {
 
     /// Largest distance in its time from the parabola of its first acceleration \[m\].
     pub fn beyond_parabola(&self) -> f64 {
-        let terms = self.coefficients.iter().zip(ORDERS).skip(1);
-        let way: f64 = terms.map(|(c, k)| c.norm() / ((k + 1.0) * (k + 2.0))).sum();
+        let terms = self.coefficients.iter().zip(WAYS).skip(1);
+        let way: f64 = terms.map(|(c, weight)| c.norm() * weight).sum();
         self.length * self.length * way
     }
 
@@ -134,6 +134,17 @@ impl PolynomialAcceleration {
         scaled(shifted(self.coefficients, 1.0), length / self.length)
     }
 }
+
+/// `1/((k + 1)(k + 2))`, rounded.
+const WAYS: [f64; TERMS] = {
+    let mut weights = [0.0; TERMS];
+    let mut k = 0;
+    while k < TERMS {
+        weights[k] = 1.0 / ((ORDERS[k] + 1.0) * (ORDERS[k] + 2.0));
+        k += 1;
+    }
+    weights
+};
 
 /// 0, 1, ..., 7
 pub(crate) const ORDERS: [f64; TERMS] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];

@@ -116,8 +116,8 @@ pub struct EnergyAccount {
     /// Work of the forces applied to single spheres
     /// ([`World::set_applied_forces`](crate::World::set_applied_forces)) \[J\].
     pub applied: f64,
-    /// Work of moving spheres out of what they overlap \[J\], against forces that have a potential or
-    /// are linear.
+    /// Work of moving spheres out of what they overlap \[J\], or in front of it and with what they touch until the
+    /// first tick of a stepped zone, against forces that have a potential or are linear.
     pub correction: f64,
     /// Energy of the spheres that emitters put into the world, less that of those they took out \[J\].
     pub emission: f64,

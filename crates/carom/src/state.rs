@@ -216,26 +216,32 @@ impl State {
         }
     }
 
-    /// Refuses springs that the sub-steps of the rule `contact` do not follow in frames of `h` \[s\].
+    /// Refuses springs that a rule with frames does not follow in frames of `h` \[s\].
     pub fn check_springs(&self, h: f64) -> Result<(), Error> {
-        let requirement = "of springs, with their damping and the masses of their spheres, such that motion on them \
-                           has a rate of at most 64 times the `sub_steps` of the rule contact divided by the frame, \
-                           in 1/s";
+        let requirement = match self.settings.rule {
+            Rule::Contact(_) => {
+                "of springs, with their damping and the masses of their spheres, such that motion on them has a rate of \
+                 at most 64 times the `sub_steps` of the rule contact divided by the frame, in 1/s"
+            }
+            _ => {
+                "of springs, with their damping and the masses of their spheres, such that motion on them has a rate of \
+                 at most 2 divided by the frame, in 1/s, which the rule exact does not need"
+            }
+        };
         let rate = self.now().system.fastest_spring_rate();
         validate::require(h <= self.longest_stable_frame(), "stiffness", requirement, rate)
             .map_err(|invalid| invalid.about(Subject::Step))
     }
 
-    /// Refuses positions or velocities that are not finite, after a frame of `h` \[s\].
-    pub fn check_finite(&self, h: f64) -> Result<(), Error> {
+    /// Refuses positions or velocities that are not finite.
+    pub fn check_finite(&self) -> Result<(), Error> {
         let quantities =
             [("velocity", self.spheres.velocities()), ("position", self.spheres.positions())];
         for (quantity, values) in quantities {
             if let Some(index) = values.iter().position(|value| !value.is_finite()) {
                 let sphere = self.spheres.ids()[index];
                 let time = self.clock.seconds();
-                let stable_frame = Some(self.longest_stable_frame()).filter(|&stable| stable <= h);
-                return Err(Error::NonFiniteState { sphere, quantity, time, stable_frame });
+                return Err(Error::NonFiniteState { sphere, quantity, time });
             }
         }
         Ok(())

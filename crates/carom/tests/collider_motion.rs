@@ -325,9 +325,9 @@ fn energy_account_closes_beside_all_motions_under_exact_and_contact() {
 }
 
 #[test]
-fn energy_account_of_contact_closes_for_rough_balls_on_a_vibrating_plate() {
-    for friction in [0.0, 0.4] {
-        let mut world = heavy_world(contact(), 1.0);
+fn energy_account_closes_for_rough_balls_on_a_vibrating_plate() {
+    for (rule, friction) in [(contact(), 0.0), (contact(), 0.4), (exact(), 0.0), (exact(), 0.4)] {
+        let mut world = heavy_world(rule, 1.0);
         let shape = Shape::Container { size: vec(1.0, 2.0, 1.0), open: Sides::NONE };
         let walls = Collider::new(shape, Pose::at(vec(0.0, 0.9, 0.0))).with_friction(friction);
         world.add_collider(walls.with_restitution(0.7)).unwrap();

@@ -3,8 +3,8 @@
 //! Some laws hold to the bit. Where two worlds round otherwise, they come apart, as any two runs of colliding spheres
 //! do: each impact makes what is between them larger by some way over radius. How much rounding has grown is seen of two
 //! more runs, of the same world with its spheres 10⁻¹² elsewhere, drawn out and drawn together ([`perturbed`]). That is
-//! thousands of roundings. So the rule is: **at each frame, the pair of a world is no farther from it than the farther
-//! of the perturbed worlds was so far**. Where one of these is more than 10⁻⁶ away, having grown a million times or
+//! thousands of roundings. So the rule is: **at each frame, the pair of a world is no farther from it than twice as far as
+//! the farther of the perturbed worlds was so far**: two directions do not show what grows most. Where one of these is more than 10⁻⁶ away, having grown a million times or
 //! having taken another order of events, a world shows nothing more, and the comparison ends.
 //!
 //! Distances are those of positions and velocities, as parts of the largest coordinate and the largest speed of both, and
@@ -19,6 +19,9 @@ use crate::fault::Fault;
 
 /// Distance of a perturbed world from which on nothing is compared.
 const MOST: f64 = 1e-6;
+
+/// Allowed distance of a pair by that of the farther of two perturbed worlds: a third may be somewhat farther.
+const OF_TWO: f64 = 2.0;
 
 /// Events and sweeps after which nothing is compared: that much work is not done again for every law.
 const MOST_WORK: u64 = 10_000;
@@ -142,7 +145,7 @@ fn check_rounding(pair: &Pair, trace: &Trace, grown: &[f64]) -> Result<(), Fault
         if is_over(number) || (pair.ends)(frame) {
             return Ok(false);
         }
-        let (away, most) = (distance(trace, number, frame), grown[number]);
+        let (away, most) = (distance(trace, number, frame), OF_TWO * grown[number]);
         let time = trace.frames[number].time;
         law(away <= most, || {
             format!("is {away:e} away, rounding having grown to {most:e}, at {time} s")

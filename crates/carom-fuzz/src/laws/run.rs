@@ -1,13 +1,12 @@
 //! Running a world of a scene.
 
-use std::time::Instant;
-
 use carom::{StopRequest, World};
 use carom_scene::{Checkpoint, Palette, Scene};
 
 use super::keeps::Keeps;
 use super::trace::{Frame, Trace};
 use crate::fault::Fault;
+use crate::stopwatch::Stopwatch;
 use crate::target::PATIENCE;
 
 /// Frames that a world is taken.
@@ -19,8 +18,8 @@ pub fn law(holds: bool, broken: impl FnOnce() -> String) -> Result<(), Fault> {
 
 pub fn world(scene: &Scene) -> Result<World, Fault> {
     let mut world = scene.world().map_err(|it| Fault::Law(format!("makes no world: {it}")))?;
-    let began = Instant::now();
-    world.set_stop_request(Some(StopRequest::new(move || began.elapsed() > PATIENCE)));
+    let stopwatch = Stopwatch::start();
+    world.set_stop_request(Some(StopRequest::new(move || stopwatch.is_over(PATIENCE))));
     Ok(world)
 }
 

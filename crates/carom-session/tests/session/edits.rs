@@ -147,6 +147,9 @@ fn colliders_of_one_name_are_changed_together_and_the_others_stay() {
     }
     assert_eq!(group_name("left peg 3-12"), "left peg");
     assert!(session.edit(Edit::NamedColliderRestitutions("peg".to_owned(), 1.5)).is_err());
+    let refused = session.edit(Edit::NamedColliderFrictions("pge".to_owned(), rough)).unwrap_err();
+    let told = "no collider has the name \"pge\"; there are \"floor\", \"peg\"";
+    assert_eq!(refused.to_string(), told);
 }
 
 #[test]

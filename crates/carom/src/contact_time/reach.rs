@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::flight::Flight;
 use crate::norm::Norm;
-use crate::polynomial_flight::PolynomialFlight;
+use crate::polynomial_flight::PolynomialAcceleration;
 use crate::surface::{Form, Rectangle};
 
 /// Distances are compared with this part of the coordinates to spare: far more than their rounding,
@@ -33,9 +33,13 @@ impl Reach {
         Self { flight, radius, horizon, way, beside: 0.0 }
     }
 
-    /// The reach of a sphere of this `radius` \[m\], > 0, over a whole polynomial flight.
-    pub fn of_polynomial(flight: &PolynomialFlight, radius: f64) -> Self {
-        let PolynomialFlight { position, velocity, acceleration } = *flight;
+    /// The reach of a sphere of this `radius` \[m\], > 0, over a whole polynomial flight from a place \[m\] with a
+    /// velocity \[m/s\].
+    pub fn of_polynomial(
+        [position, velocity]: [DVec3; 2],
+        acceleration: &PolynomialAcceleration,
+        radius: f64,
+    ) -> Self {
         let [first, ..] = acceleration.coefficients;
         let parabola = Flight { position, velocity, acceleration: first, drag_rate: 0.0 };
         let beside = acceleration.beyond_parabola() * (1.0 + MARGIN);

@@ -202,9 +202,9 @@ fn refusal(unfinished: Unfinished, time: f64) -> Error {
 }
 
 /// The error for a sphere with a quantity that exceeded the range of numbers, in a step that starts at `time`
-/// \[s\]. Springs are stable in frames of any length.
+/// \[s\].
 fn no_longer_finite(sphere: SphereId, quantity: &'static str, time: f64) -> Error {
-    Error::NonFiniteState { sphere, quantity, time, stable_frame: None }
+    Error::NonFiniteState { sphere, quantity, time }
 }
 
 /// Returns the errors of a step of this length \[s\] that do not depend on forces.

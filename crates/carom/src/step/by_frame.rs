@@ -19,6 +19,7 @@ pub(super) fn step(
     let frame = Interval { time: attempt.start, h: attempt.length };
     let due = emitter::due_with_frame(frame.time, frame.h);
     attempt.state.check_emitters(due)?;
+    attempt.state.check_springs(frame.h)?;
     attempt.take(|attempt| {
         attempt.scratch.start.copy_all(&attempt.state.spheres.motion);
         attempt.emit(due);
@@ -26,7 +27,7 @@ pub(super) fn step(
         let Attempt { state, scratch, report, .. } = attempt;
         let is_done = advance(state, frame, scratch, report);
         let stopped = Error::Stopped { time: frame.time };
-        let checked = if is_done { state.check_finite(frame.h) } else { Err(stopped) };
+        let checked = if is_done { state.check_finite() } else { Err(stopped) };
         if checked.is_err() {
             std::mem::swap(&mut state.spheres.motion, &mut scratch.start);
         } else {

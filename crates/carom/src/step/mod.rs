@@ -34,7 +34,7 @@ pub(crate) fn check(state: &State, dt: f64) -> Result<(), Error> {
     match state.settings.rule {
         Rule::Exact(parameters) => by_event::check(state, parameters, dt),
         Rule::Contact(_) => state.check_box().and_then(|()| state.check_springs(dt)),
-        Rule::Discrete(_) | Rule::Bisect(_) => Ok(()),
+        Rule::Discrete(_) | Rule::Bisect(_) => state.check_springs(dt),
     }
 }
 
@@ -112,7 +112,6 @@ pub(crate) fn step(
         }
         Rule::Contact(parameters) => {
             attempt.state.check_box()?;
-            attempt.state.check_springs(dt)?;
             by_frame::step(&mut attempt, |state, frame, scratch, report| {
                 let (system, motion, solver) = state.split_with_solver();
                 let (scratch, tracks) = (&mut scratch.contact, &mut scratch.tracks);

@@ -42,9 +42,8 @@ impl World {
     }
 
     /// The longest frame \[s\] in which motion on springs is certainly stable. It is infinite without springs, and
-    /// under the rule `exact`, which shortens its force ticks for them. The rule `contact` shortens its sub-steps, and
-    /// refuses longer frames. Under the other rules the motion may grow without bound in those; by explicit Euler it
-    /// grows in all, unless it is damped.
+    /// under the rule `exact`, which shortens its force ticks for them. The other rules refuse longer frames; `contact`
+    /// shortens its sub-steps. By explicit Euler the motion grows in all frames, unless it is damped.
     ///
     /// A frame has to be shorter than `2 / w`, with the fastest frequency w (Hairer, Lubich, Wanner, *Geometric
     /// Numerical Integration*, I.5.2); sub-steps are at most `1 / w`.

@@ -271,11 +271,7 @@ fn meet_surfaces(
     let sphere = timeline.flights.index_of[slot as usize];
     let flight_end = timeline.flight_end(slot, species);
     let horizon = if species.is_curved { flight_end } else { timeline.horizon() };
-    let reach = match timeline.flights.curve_of(slot) {
-        Some((flight, _)) => Some(Reach::of_polynomial(&flight, species.radius)),
-        None => (flight_end < f64::INFINITY)
-            .then(|| Reach::of(body.flight(species), species.radius, flight_end - body.time)),
-    };
+    let reach = (flight_end < f64::INFINITY).then(|| timeline.flights.reach_of(slot, flight_end));
     if timeline.flights.growth.is_some() {
         return meet_surfaces_growing(timeline, system, slot, events);
     }

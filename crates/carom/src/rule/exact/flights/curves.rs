@@ -56,7 +56,7 @@ impl Flights {
         self.step_of(slot, body).map_or(f64::INFINITY, |step| step.end)
     }
 
-    fn step_of(&self, slot: u32, body: &Body) -> Option<&CurveStep> {
+    pub(super) fn step_of(&self, slot: u32, body: &Body) -> Option<&CurveStep> {
         if !self.species[body.species as usize].is_curved {
             return None;
         }

@@ -14,6 +14,7 @@ use super::rotation::Rotation;
 use super::species::{Species, SpeciesOfSpheres};
 use super::support_change::SupportChange;
 use crate::bodies::Motion;
+use crate::contact_time::Reach;
 use crate::detect::contact::Bodies;
 use crate::rule::periodic;
 use crate::system::System;
@@ -193,6 +194,19 @@ impl Flights {
     pub fn set_acceleration(&mut self, slot: u32, acceleration: DVec3) {
         let species = self.bodies[slot as usize].species;
         self.species[species as usize].acceleration = acceleration;
+    }
+
+    /// Bounds of the flight of a sphere up to its `end` on the world's clock \[s\], or over its step if it is on a curve.
+    pub fn reach_of(&self, slot: u32, end: f64) -> Reach {
+        let body = &self.bodies[slot as usize];
+        let species = self.species_of(slot);
+        match self.step_of(slot, body) {
+            Some(step) => {
+                let state = [body.position, body.velocity];
+                Reach::of_polynomial(state, &step.acceleration, species.radius)
+            }
+            None => Reach::of(body.flight(species), species.radius, end - body.time),
+        }
     }
 
     /// Sets the acceleration of a sphere without the forces of its persistent contacts \[m/s²\].

@@ -4,7 +4,7 @@ use glam::DVec3;
 use prefetch_index::prefetch_index;
 
 use super::kernel::{Meeting, PairQuery};
-use crate::contact_time::{self, Reach};
+use crate::contact_time;
 use crate::detect::contact::Bodies;
 use crate::rule::exact::events::NextEvents;
 use crate::rule::exact::flights::{Body, Species};
@@ -217,14 +217,8 @@ fn time_of_meeting(timeline: &Timeline, slot: u32, neighbour: Neighbour) -> f64 
     let [end, other_end] = [0, 1].map(|one| timeline.flight_end(slots[one], species[one]));
     let end = end.min(other_end);
     if end < f64::INFINITY {
-        let reach = |one: usize| {
-            let (body, species) = (bodies[one], species[one]);
-            match flights.curve_of(slots[one]) {
-                Some((flight, _)) => Reach::of_polynomial(&flight, species.radius),
-                None => Reach::of(body.flight(species), species.radius, end - body.time),
-            }
-        };
-        if reach(0).misses_sphere(&reach(1), shift) {
+        let [reach, other_reach] = slots.map(|slot| flights.reach_of(slot, end));
+        if reach.misses_sphere(&other_reach, shift) {
             return f64::INFINITY;
         }
     }

@@ -145,29 +145,32 @@ fn under_forces(
     [before + 0.5 * gained, velocity + gained]
 }
 
-/// Accounts for the work of nonconservative forces on a sphere with this centre \[m\] and velocity \[m/s\] that moves
-/// under its forces from a time until the next tick \[s\], with a mean velocity \[m/s\].
-fn account_for_forces(
+/// Accounts for the energy that a sphere with this centre \[m\] gains as it moves with a mean velocity from a time until
+/// the next tick \[s\], while its velocity changes from one to another \[m/s\]: what its forces do not do, the spheres or
+/// surfaces do with which it moves.
+fn account_for_motion(
     timeline: &Timeline,
     context: &mut StepContext,
     slot: u32,
-    ([position, velocity], mean): ([DVec3; 2], DVec3),
+    ([position, mean], [before, after]): ([DVec3; 2], [DVec3; 2]),
     [time, tick]: [f64; 2],
 ) {
     let system = context.system;
-    if !system.has_nonconservative_forces() {
-        return;
+    let Species { radius, mass, acceleration, drag_rate, .. } =
+        *timeline.flights.free_species_of(slot);
+    let way = (tick - time) * mean;
+    let gained = 0.5 * mass * (after - before).dot(after + before);
+    let force = mass * (acceleration - drag_rate * before);
+    let account = &mut context.report.energy_account;
+    account.correction += gained - force.dot(way);
+    if system.has_nonconservative_forces() {
+        let state = SphereState { position, velocity: before, radius, mass };
+        let force = forces::total_nonconservative(system.forces, &state, time);
+        let index = timeline.flights.index_of[slot as usize] as usize;
+        let applied = system.spheres.applied_force.get(index).copied().unwrap_or(DVec3::ZERO);
+        let [forces, applied] = [force, applied].map(|force| force.dot(way));
+        account.add_force_work(ForceWork { forces, applied });
     }
-    let Species { radius, mass, .. } = *timeline.flights.free_species_of(slot);
-    let state = SphereState { position, velocity, radius, mass };
-    let force = forces::total_nonconservative(system.forces, &state, time);
-    let index = timeline.flights.index_of[slot as usize] as usize;
-    let applied = system.spheres.applied_force.get(index).copied().unwrap_or(DVec3::ZERO);
-    let of = |force: DVec3| (tick - time) * force.dot(mean);
-    context
-        .report
-        .energy_account
-        .add_force_work(ForceWork { forces: of(force), applied: of(applied) });
 }
 
 /// Adds a sphere to a zone with this centre \[m\] and velocity \[m/s\]. Until the next tick it moves with the
@@ -191,15 +194,13 @@ fn join(
     let next = timeline.zone.expect(context.system, index, time, tick);
     let [mean, later] = match common {
         Some(common) => [common, velocity],
-        None => {
-            let [mean, later] = under_forces(timeline, context, slot, state, [time, next]);
-            account_for_forces(timeline, context, slot, (state, mean), [time, next]);
-            [mean, later]
-        }
+        None => under_forces(timeline, context, slot, state, [time, next]),
     };
     let sphere = context.system.spheres.id[index as usize];
     timeline.zone.join(sphere, [velocity, later], time);
     let mean = in_front(timeline, context, slot, [position, mean], time);
+    let motion = ([position, mean], [velocity, later]);
+    account_for_motion(timeline, context, slot, motion, [time, next]);
     timeline.flights.enter_zone(slot, [position, mean], time);
     timeline.note_flight(slot);
     timeline.note_for_companions(slot);
