@@ -37,6 +37,7 @@ import type {
 export * from "./descriptions.js";
 export * from "./queries.js";
 export * from "./reports.js";
+export * from "./shapes.js";
 
 /** Positions of the values in a row of `World.impactTable`; vectors take three numbers. */
 export const IMPACT_COLUMNS: Readonly<{

@@ -11,32 +11,26 @@ world.
 from carom._scene.parts.choices import CombineRule, End, Finish, ImpactLaw, Integrator, Rule, Side
 from carom._scene.parts.colliders import (
     Ball,
-    Bend,
     Bowl,
     Box,
     Capsule,
     Collider,
     Cone,
     Container,
-    Curve,
     Cylinder,
     Disc,
     Funnel,
-    Gap,
     HalfSpace,
     HeightField,
     Mesh,
     Motion,
     Oscillate,
-    Piece,
     Pipe,
     Rectangle,
     Shape,
     Steady,
-    Straight,
     Swing,
     Torus,
-    Track,
     Turn,
 )
 from carom._scene.parts.forces import (
@@ -91,6 +85,7 @@ from carom._scene.parts.looks import Camera, Colors, DensityColor, Sun, Try
 from carom._scene.parts.part import Part, expect
 from carom._scene.parts.simulation import Bisect, Contact, Discrete, Exact, Periodic, Simulation
 from carom._scene.parts.spheres import SizedSphere, Sphere
+from carom._scene.parts.tracks import Bend, Curve, Gap, Piece, Straight, Track
 
 __all__ = [
     "FORCES",
