@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::group::Group;
 use super::member::Member;
-use super::separation::{has, has_at, holding_mesh, touches_surface, touching_gap};
+use super::separation::{has, has_at, holding_mesh, touching_distance, touching_gap};
 use super::touch::{Touch, TouchOrigin};
 use crate::detect::contact::Bodies;
 use crate::detect::sphere_surface;
@@ -195,7 +195,9 @@ impl<'a> Gathering<'a> {
             let mesh = mesh.filter(|mesh| mesh.whole == whole);
             let (is_handed_over, is_left) = (mesh.is_some(), mesh.is_some_and(|it| it.is_left));
             let missed = if is_left { MOST_MISSED * member.species.radius } else { 0.0 };
-            if touches_surface(self.context, &member, near, missed, self.time) {
+            let distance = touching_distance(self.context, &member, near, missed, self.time);
+            // A part that the sphere came behind does not hold it: a one-sided mesh is passed from there.
+            if distance.is_some_and(|it| !is_left || it >= -2.0 * missed) {
                 let bodies = Bodies::Surface { sphere, surface };
                 let found = TouchOrigin { shift: -shift, is_predicted: false, is_handed_over };
                 self.touches.entry(bodies).or_insert(found);

@@ -145,15 +145,26 @@ fn is_part(form: &Form) -> bool {
     matches!(form, Form::Facet(_) | Form::Edge(_) | Form::Corner(_))
 }
 
-/// Whether a sphere touches a surface, or its image at the offset `shift` \[m\], at `time` \[s\]. A gap of `missed`
-/// \[m\], the error of a path along a curve, counts as a touch.
+/// Whether a sphere touches a surface, or its image at the offset `shift` \[m\], at `time` \[s\], however deep it
+/// overlaps.
 pub(crate) fn touches_surface(
+    context: &StepContext,
+    member: &Member,
+    near: (u32, DVec3),
+    time: f64,
+) -> bool {
+    touching_distance(context, member, near, 0.0, time).is_some()
+}
+
+/// The distance of a sphere from a surface, or from its image at the offset `shift` \[m\], that it touches at `time`
+/// \[s\]: negative where they overlap. A gap of `missed` \[m\], the error of a path along a curve, counts as a touch.
+pub(super) fn touching_distance(
     context: &StepContext,
     member: &Member,
     (surface, shift): (u32, DVec3),
     missed: f64,
     time: f64,
-) -> bool {
+) -> Option<f64> {
     let Member { position: center, velocity, species, .. } = *member;
     let radius = species.radius;
     let Surface { form, motion, .. } = &context.system.surfaces[surface as usize];
@@ -162,18 +173,19 @@ pub(crate) fn touches_surface(
         let coordinates = 2.0 * (center.norm() + shift.norm() + radius);
         let gap = 2.0 * touching_gap(coordinates, velocity.norm(), time) + missed;
         if is_above(form, center - shift, radius + gap) {
-            return false;
+            return None;
         }
     }
     let (form, motion) = context.surface_at(surface, time);
     let state = [center - shift, velocity - motion.velocity_at(center - shift)];
     if !has(&form, state) {
-        return false;
+        return None;
     }
-    let Some(separation) = sphere_surface(&form, center - shift, radius) else { return false };
+    let separation = sphere_surface(&form, center - shift, radius)?;
     let speed = (velocity - motion.velocity_at(separation.point)).norm();
     let coordinates = center.norm() + separation.point.norm() + radius;
-    separation.distance <= touching_gap(coordinates, speed, time) + missed
+    let is_near = separation.distance <= touching_gap(coordinates, speed, time) + missed;
+    is_near.then_some(separation.distance)
 }
 
 /// Whether the distance of a point from a surface is above `height` \[m\]; for a plane, behind it too.

@@ -142,7 +142,7 @@ pub(super) fn single_sphere<'a>(
     let mut touched = SurfaceContacts::default();
     for found @ (near, _) in timeline.surfaces_near(slot) {
         let is_known = surface == Some(near) || timeline.flights.is_held_by(slot, near);
-        if is_known || contacts::touches_surface(context, &member, found, 0.0, time) {
+        if is_known || contacts::touches_surface(context, &member, found, time) {
             touched.add(context, &member, near)?;
         }
     }
