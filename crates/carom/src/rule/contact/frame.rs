@@ -75,6 +75,10 @@ pub(super) fn go_on(system: &System, motion: &mut Motion, h: f64, solver: &mut S
         || solver.has_other_forces
         || !system.spheres.applied_force.is_empty());
     if is_known && solver.slots.are_of(&system.spheres.id) {
+        if !solver.places.are_of(system.surfaces) {
+            // A snapshot that was read does not hold them.
+            solver.places.begin_frame(system.surfaces, h);
+        }
         solver.slots.turn.fill(Row::default());
     } else {
         begin(system, motion, h, solver);

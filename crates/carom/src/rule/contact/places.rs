@@ -1,6 +1,7 @@
 //! Surfaces at both ends of a sub-step.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use glam::DVec3;
 
@@ -25,8 +26,11 @@ type ImageKey = (u32, [i8; 3]);
 #[derive(Debug, Clone, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Places {
-    /// At the start of the sub-step.
-    starts: Vec<Place>,
+    /// At the start of the sub-step. A snapshot shares those of surfaces at rest.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    starts: Arc<Vec<Place>>,
+    /// How many of them are not images.
+    own: usize,
     /// At its end; empty where all are at rest.
     #[cfg_attr(feature = "serde", serde(skip))]
     ends: Vec<Place>,
@@ -52,8 +56,10 @@ impl Places {
 
     /// Copies the surfaces for a frame of `h` \[s\] that begins.
     pub fn begin_frame(&mut self, surfaces: &[Surface], h: f64) {
-        place_all(surfaces, 0.0, &mut self.starts);
-        place_images(surfaces, &self.images, &mut self.starts);
+        let starts = Arc::make_mut(&mut self.starts);
+        place_all(surfaces, 0.0, starts);
+        place_images(surfaces, &self.images, starts);
+        self.own = surfaces.len();
         self.ends.clear();
         let moves =
             |(_, it): &(u32, &Surface)| it.role == Role::Deflects && !it.motion.is_at_rest();
@@ -74,7 +80,7 @@ impl Places {
             place_images(surfaces, &self.images, &mut self.ends);
             for &number in &self.moving {
                 let mean = surfaces[number as usize].mean_motion(times);
-                let (_, motion) = &mut self.starts[number as usize];
+                let (_, motion) = &mut Arc::make_mut(&mut self.starts)[number as usize];
                 *motion = mean.unwrap_or(*motion);
             }
         }
@@ -83,7 +89,7 @@ impl Places {
     /// Moves on to the next sub-step.
     pub fn end_sub_step(&mut self) {
         if !self.moving.is_empty() {
-            std::mem::swap(&mut self.starts, &mut self.ends);
+            std::mem::swap(Arc::make_mut(&mut self.starts), &mut self.ends);
         }
     }
 
@@ -95,6 +101,7 @@ impl Places {
         }
         self.image_reach = IMAGES_FARTHER * reach;
         let Self { starts, ends, images, number_of, image_reach, .. } = self;
+        let starts = Arc::make_mut(starts);
         let near = Bounds::around(DVec3::ZERO, 0.5 * period).widened(*image_reach);
         for (number, surface) in (0..).zip(surfaces) {
             let bounds = bounds(&surface.form).filter(|_| surface.motion.is_at_rest());
@@ -130,9 +137,8 @@ impl Places {
 
     /// The surface of which this is the image, with the offset from it \[m\]; of a surface itself, its own number.
     pub fn image(&self, number: u32) -> (u32, DVec3) {
-        let own = self.starts.len() - self.images.len();
-        match self.images.get((number as usize).wrapping_sub(own)) {
-            Some(&((surface, _), shift)) if number as usize >= own => (surface, shift),
+        match self.images.get((number as usize).wrapping_sub(self.own)) {
+            Some(&((surface, _), shift)) if number as usize >= self.own => (surface, shift),
             _ => (number, DVec3::ZERO),
         }
     }
@@ -144,7 +150,7 @@ impl Places {
 
     /// How many there are, with images.
     pub fn len(&self) -> usize {
-        self.starts.len()
+        self.own + self.images.len()
     }
 
     /// The numbers of those that move, ascending.
