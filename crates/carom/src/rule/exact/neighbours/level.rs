@@ -1,5 +1,7 @@
 //! A level of the hierarchy of cell lists.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use super::cells::Cells;
@@ -19,7 +21,8 @@ pub(super) struct Level {
     pub own: Cells,
     /// Smaller ones, if there are any.
     pub visitors: Option<Cells>,
-    pub surfaces: NearSurfaces,
+    /// Shared by snapshots, as it may be large.
+    pub surfaces: Arc<NearSurfaces>,
 }
 
 /// The cells of all levels, still empty.
@@ -53,7 +56,7 @@ impl Levels {
             Level {
                 own: cells(),
                 visitors: (number as usize + 1 < count).then(cells),
-                surfaces: NearSurfaces::new(contents, &grid, overhang, radius),
+                surfaces: Arc::new(NearSurfaces::new(contents, &grid, overhang, radius)),
                 half_edges,
                 grid,
             }
