@@ -28,10 +28,12 @@ impl App {
         }
     }
 
-    /// Shows why a link cannot be opened: in the chooser if it is open, else as a notice.
+    /// Shows why a link cannot be opened: in the chooser if nothing was chosen yet, else as a notice.
     pub fn refuse_link(&mut self, why: &str) {
         if matches!(self.screen, Screen::Empty) {
             self.welcome();
+        }
+        if self.chooser.is_strip() {
             self.open_chooser();
         }
         if self.chooser.is_open() {
