@@ -107,6 +107,7 @@ _CHOICES: dict[str, tuple[type[parts.Part], ...]] = {
     "forces": parts.FORCES,
     "generators": get_args(parts.Generator),
     "motion": get_args(parts.Motion),
+    "pieces": get_args(parts.Piece),
     "shape": get_args(parts.Shape),
 }
 """What may be described under a name; tags distinguish the variants."""
