@@ -21,7 +21,7 @@ use carom_render::Quality;
 use carom_render::wgpu::Backend;
 use carom_scene::{Budget, Library};
 use carom_session::Link;
-use carom_view::{App, Setup};
+use carom_view::{App, Setup, Start};
 use eframe::{CreationContext, WebOptions, WebRunner};
 use egui::accesskit::ActionData;
 use egui::{Context, Ui};
@@ -147,17 +147,22 @@ fn started_on(
     let graphics = if backend == Some(Backend::BrowserWebGpu) { "WebGPU" } else { "WebGL2" };
     let spheres = services.max_spheres().map_or(Budget::LINK.spheres, |most| most as u64);
     let spheres = spheres.clamp(1, Budget::MOST.spheres);
+    let (start, refusal) = match Link::parse(fragment) {
+        _ if fragment.is_empty() => (None, None),
+        Ok(link) => (Some(Start::Link(Box::new(link))), None),
+        Err(error) => (None, Some(error.to_string())),
+    };
     let setup = Setup {
         library: Library::new(),
-        start: None,
+        start,
         host: Box::new(PageHost::new(services, context.clone())),
         quality: Quality::default(),
         threaded: false,
         link_budget: Budget { spheres, ..Budget::LINK },
     };
     let mut app = App::new(host, setup)?;
-    if !fragment.is_empty() {
-        follow(&mut app, fragment);
+    if let Some(why) = refusal {
+        app.refuse_link(&why);
     }
     let app = Rc::new(RefCell::new(app));
     Ok(Started { app, context, graphics })

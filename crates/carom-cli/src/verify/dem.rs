@@ -183,7 +183,7 @@ impl Hit {
     }
 }
 
-/// Lets two spheres meet in empty space.
+/// Runs two spheres in empty space until they have met.
 fn meet(spheres: [Sphere; 2]) -> Result<Hit, Fault> {
     let mut world = world(Exact::default().into())?;
     let ids = [world.add_sphere(spheres[0])?, world.add_sphere(spheres[1])?];
@@ -191,7 +191,7 @@ fn meet(spheres: [Sphere; 2]) -> Result<Hit, Fault> {
     Ok(Hit { world, ids })
 }
 
-/// Lets a sphere fall on a plane without gravity, with a tangential speed and a spin about z.
+/// Runs a sphere against a plane without gravity, with a tangential speed and a spin about z.
 fn bounce(restitution: f64, speed: f64, spin: f64) -> Result<Hit, Fault> {
     let mut world = world(Exact::default().into())?;
     let plane = half_space(DVec3::ZERO, DVec3::Y).with_restitution(restitution);
@@ -202,7 +202,7 @@ fn bounce(restitution: f64, speed: f64, spin: f64) -> Result<Hit, Fault> {
     Ok(Hit { world, ids: [id; 2] })
 }
 
-/// Lets a sphere slide or roll on a floor for `time` \[s\].
+/// Runs a sphere that slides or rolls on a floor for `time` \[s\].
 fn rolled(friction: impl Into<Friction>, speed: f64, spin: f64, time: f64) -> Result<Hit, Fault> {
     let mut world = world(Exact::default().into())?;
     world.add_force(Gravity::new(-G * DVec3::Y))?;

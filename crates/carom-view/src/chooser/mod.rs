@@ -374,7 +374,7 @@ impl Chooser {
         *thumbnail = Thumbnail::Drawn(Box::new(canvas));
     }
 
-    /// Lets the scene of the card under the pointer run in its thumbnail, and no other.
+    /// Runs the scene of the card under the pointer in its thumbnail, and no other.
     fn run_pointed(&mut self, context: &Context, studio: &mut Studio, pointed: Option<usize>) {
         if self.running.as_ref().map(|it| it.0) != pointed {
             let scene = pointed.and_then(|index| self.cards[index].entry.scene.as_ref().ok());

@@ -3,7 +3,8 @@
 use carom_render::Quality;
 use carom_scene::{Budget, Library, Source};
 use carom_session::Command;
-use carom_view::{App, Desktop, Setup, Start, Watching};
+use carom_view::{App, Desktop, FilmMaker, Host, Inbox, Setup, Start, Watching};
+use egui::DroppedFileHandle;
 use egui_kittest::Harness;
 
 pub type Desk = Harness<'static, App>;
@@ -34,6 +35,35 @@ pub fn setup_for_pictures() -> Setup {
         quality: Quality::GOOD,
         threaded: false,
         link_budget: Budget::LINK,
+    }
+}
+
+/// A host without files and films, with these answers to what a page asks its browser.
+#[derive(Default)]
+pub struct PlainHost {
+    pub has_coarse_pointer: bool,
+    pub reduces_motion: bool,
+}
+
+impl Host for PlainHost {
+    fn save(&mut self, _: &str, _: &str, _: &[u8]) -> Result<String, String> {
+        Err("it keeps nothing".to_owned())
+    }
+
+    fn read(&mut self, _: &DroppedFileHandle, _: &Inbox) {}
+
+    fn open_file(&mut self, _: &Inbox) {}
+
+    fn begin_film(&mut self, _: &str, _: [u32; 2], _: u32) -> Result<Box<dyn FilmMaker>, String> {
+        Err("it makes no films".to_owned())
+    }
+
+    fn has_coarse_pointer(&self) -> bool {
+        self.has_coarse_pointer
+    }
+
+    fn reduces_motion(&self) -> bool {
+        self.reduces_motion
     }
 }
 

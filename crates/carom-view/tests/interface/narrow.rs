@@ -2,12 +2,12 @@
 
 use carom_scene::{Library, Source};
 use carom_session::Command;
-use carom_view::{FilmMaker, Host, Inbox, Setup, Start};
+use carom_view::{Setup, Start};
 use egui::accesskit::Role;
-use egui::{DroppedFileHandle, Key, Rect};
+use egui::{Key, Rect};
 use egui_kittest::kittest::{By, Queryable};
 
-use crate::desk::{Desk, desk_of, press, scene, setup, watching_at};
+use crate::desk::{Desk, PlainHost, desk_of, press, scene, setup, watching_at};
 
 const TELEPHONE: [f32; 2] = [390.0, 760.0];
 
@@ -28,32 +28,18 @@ fn nothing_to_press_lies_outside_and_the_picture_has_most_of_the_room() {
     assert!(picture.area() > 0.8 * TELEPHONE[0] * TELEPHONE[1], "{picture}");
 }
 
-/// A telephone as its browser reports it.
-struct Telephone;
-
-impl Host for Telephone {
-    fn save(&mut self, _: &str, _: &str, _: &[u8]) -> Result<String, String> {
-        Err("it keeps nothing".to_owned())
-    }
-
-    fn read(&mut self, _: &DroppedFileHandle, _: &Inbox) {}
-
-    fn open_file(&mut self, _: &Inbox) {}
-
-    fn begin_film(&mut self, _: &str, _: [u32; 2], _: u32) -> Result<Box<dyn FilmMaker>, String> {
-        Err("it makes no films".to_owned())
-    }
-
-    fn has_coarse_pointer(&self) -> bool {
-        true
-    }
-}
-
 #[test]
 fn what_fingers_press_is_large_enough_for_them_and_the_picture_keeps_half() {
     let (scene, _) = Library::new().find("simtest3", &[]).expect("a built-in scene");
     let start = Some(Start::Scene(Box::new(scene), Source::BuiltIn));
-    let mut desk = desk_of(TELEPHONE, Setup { start, host: Box::new(Telephone), ..setup() });
+    let mut desk = desk_of(
+        TELEPHONE,
+        Setup {
+            start,
+            host: Box::new(PlainHost { has_coarse_pointer: true, ..PlainHost::default() }),
+            ..setup()
+        },
+    );
     let assert_large = |desk: &Desk, least: usize| {
         let all = desk.query_all(
             By::new()
@@ -89,7 +75,14 @@ fn what_fingers_press_is_large_enough_for_them_and_the_picture_keeps_half() {
 fn fingers_close_sheets_and_dialogs_and_these_stay_in_the_window() {
     let (scene, _) = Library::new().find("simtest3", &[]).expect("a built-in scene");
     let start = Some(Start::Scene(Box::new(scene), Source::BuiltIn));
-    let mut desk = desk_of(TELEPHONE, Setup { start, host: Box::new(Telephone), ..setup() });
+    let mut desk = desk_of(
+        TELEPHONE,
+        Setup {
+            start,
+            host: Box::new(PlainHost { has_coarse_pointer: true, ..PlainHost::default() }),
+            ..setup()
+        },
+    );
     for key in [Key::I, Key::G, Key::F1, Key::U] {
         press(&mut desk, key);
         desk.run_steps(3);

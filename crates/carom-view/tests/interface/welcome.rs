@@ -1,13 +1,14 @@
 //! The first visit: a scene plays, a line tells what can be done, and the others lie below it.
 
-use carom_view::{FilmMaker, Host, Inbox, Setup};
+use carom_view::Setup;
 use egui::accesskit::Role;
-use egui::{DroppedFileHandle, Key, Theme};
+use egui::{Key, Theme};
 use egui_kittest::SnapshotResults;
 use egui_kittest::kittest::Queryable;
 
 use crate::desk::{
-    Desk, desk, desk_for_picture, desk_of, go_to, press, scene, setup, setup_for_pictures,
+    Desk, PlainHost, desk, desk_for_picture, desk_of, go_to, press, scene, setup,
+    setup_for_pictures,
 };
 use crate::pictures::{compare, in_light_and_dark, set_theme};
 
@@ -78,30 +79,12 @@ fn the_strip_is_used_by_keyboard_alone() {
     assert_eq!(scene(&desk).view().scene.name, "pour");
 }
 
-/// A system whose user wants little motion.
-struct Calm;
-
-impl Host for Calm {
-    fn save(&mut self, _: &str, _: &str, _: &[u8]) -> Result<String, String> {
-        Err("it keeps nothing".to_owned())
-    }
-
-    fn read(&mut self, _: &DroppedFileHandle, _: &Inbox) {}
-
-    fn open_file(&mut self, _: &Inbox) {}
-
-    fn begin_film(&mut self, _: &str, _: [u32; 2], _: u32) -> Result<Box<dyn FilmMaker>, String> {
-        Err("it makes no films".to_owned())
-    }
-
-    fn reduces_motion(&self) -> bool {
-        true
-    }
-}
-
 #[test]
 fn nothing_moves_by_itself_for_users_who_want_little_motion() {
-    let mut desk = desk(Setup { host: Box::new(Calm), ..setup() });
+    let mut desk = desk(Setup {
+        host: Box::new(PlainHost { reduces_motion: true, ..PlainHost::default() }),
+        ..setup()
+    });
     desk.run_steps(10);
     assert_eq!(scene(&desk).view().frame, 0);
     desk.get_by_label(CLOSE);

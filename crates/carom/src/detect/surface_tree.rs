@@ -120,6 +120,11 @@ impl SurfaceTree {
         self.nodes[node].next = self.nodes.len() as u32;
     }
 
+    /// Bounds of all surfaces that have some \[m\].
+    pub fn bounds(&self) -> Option<Bounds> {
+        self.nodes.first().map(|root| root.bounds)
+    }
+
     /// Indices of the surfaces whose bounds overlap `query`, ascending, into `near`.
     pub fn near(&self, query: &Bounds, near: &mut Vec<u32>) {
         near.clear();

@@ -122,7 +122,7 @@ fn shown_box(frame: &ParticleFrame) -> [f64; 6] {
 pub(super) fn frame(chunks: &mut Chunks, frame: u64) -> Result<ParticleFrame, Fault> {
     let mut source = Source { chunks, frame };
     let count = source.whole("particles/N", 1)?.map_or(0, |all| all[0]);
-    // Chunks that are as long show that the file has room for so many.
+    // A count beyond the chunks of the file is refused before memory is taken for it.
     let positions =
         match source.exact("particles/position", "log/particles/position", 1.0, count)? {
             // The library of GSD leaves out positions that are all 0.
@@ -169,8 +169,8 @@ struct Source<'a> {
 }
 
 impl Source<'_> {
-    /// Reads a chunk of so many rows and columns. A chunk that the frame does not have is that of
-    /// the first frame, if it has as many rows.
+    /// Reads a chunk with this number of rows and columns. Where the frame has none, that of the first
+    /// frame counts, if its number of rows is the same.
     fn chunk(&mut self, name: &str, rows: u64, columns: u32) -> Result<Option<Chunk>, Fault> {
         let chunk = match self.chunks.read(self.frame, name)? {
             None => self.chunks.read(0, name)?.filter(|chunk| chunk.rows == rows),

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::grid::Grid;
 use super::region::OVERHANG;
 use crate::bounds::Bounds;
-use crate::detect::surface_tree::{SurfaceTree, bounds};
+use crate::detect::surface_tree::SurfaceTree;
 use crate::groups::Groups;
 use crate::rule::exact::flights::{Flights, Species};
 use crate::rule::periodic::wrapped;
@@ -106,7 +106,7 @@ impl Contents<'_> {
         (diameter, seek)
     }
 
-    /// Whether there are so many surfaces for each sphere that cells divide these.
+    /// Whether there are more than [`SURFACES_PER_SPHERE`] surfaces for each sphere.
     fn is_of_surfaces(&self) -> bool {
         self.surfaces.len() / SURFACES_PER_SPHERE > self.flights.bodies.len()
     }
@@ -117,8 +117,7 @@ impl Contents<'_> {
         if !self.is_of_surfaces() {
             return Grid::over(positions, self.period, min_width, seek);
         }
-        let bounds = self.surfaces.iter().filter_map(|surface| bounds(&surface.form));
-        let corners = bounds.flat_map(|Bounds { min, max }| [min, max]);
+        let corners = self.tree.bounds().into_iter().flat_map(|Bounds { min, max }| [min, max]);
         Grid::over(positions.chain(corners), self.period, min_width, seek)
     }
 
