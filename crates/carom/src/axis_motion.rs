@@ -8,6 +8,28 @@ pub(crate) struct AxisMotion {
     pub drag_rate: f64,
 }
 
+/// A motion along one axis for some time.
+pub(crate) trait AlongAxis {
+    /// A lower bound of the time \[s\] at which the motion leaves the interval from `low` < 0 to `high` > 0 \[m\]
+    /// about its start; infinite if it does not within its time.
+    fn leaves(&self, low: f64, high: f64) -> f64;
+
+    /// Displacement in a time \[m\]; `None` where that has no simple form.
+    fn way(&self, time: f64) -> Option<f64>;
+}
+
+impl AlongAxis for AxisMotion {
+    #[inline(always)]
+    fn leaves(&self, low: f64, high: f64) -> f64 {
+        self.leaves(low, high)
+    }
+
+    fn way(&self, time: f64) -> Option<f64> {
+        let way = time * (self.velocity + 0.5 * self.acceleration * time);
+        (self.drag_rate == 0.0).then_some(way)
+    }
+}
+
 impl AxisMotion {
     /// A lower bound of the time \[s\] at which the motion leaves the interval from `low` < 0 to `high` > 0 \[m\]
     /// about its start. Without drag it is the time itself.
@@ -18,11 +40,6 @@ impl AxisMotion {
             return if self.velocity == 0.0 { f64::INFINITY } else { distance / self.velocity };
         }
         self.reaches(high, 1.0).min(self.reaches(-low, -1.0))
-    }
-
-    /// Displacement in a time \[m\], without drag.
-    pub fn way(&self, time: f64) -> f64 {
-        time * (self.velocity + 0.5 * self.acceleration * time)
     }
 
     /// A lower bound of the time \[s\] at which the motion reaches one side, `distance` \[m\] away in the direction

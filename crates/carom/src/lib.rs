@@ -28,6 +28,7 @@
 #![warn(clippy::unwrap_used)]
 
 mod axis_motion;
+mod axis_polynomial;
 mod band;
 mod bodies;
 mod bounds;

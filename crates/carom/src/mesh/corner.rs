@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 
 use super::facet::{ROUNDING, ahead};
-use crate::axis_motion::AxisMotion;
+use crate::axis_motion::AlongAxis;
 use crate::norm::Norm;
 
 /// A corner, met where it is nearer than the edges and faces that end there.
@@ -38,7 +38,7 @@ impl Corner {
     }
 
     /// Time \[s\] until a centre \[m\], by its motion along directions, may come to what is beside it.
-    pub fn time_on(&self, center: DVec3, motion: impl Fn(DVec3) -> AxisMotion) -> f64 {
+    pub fn time_on<M: AlongAxis>(&self, center: DVec3, motion: impl Fn(DVec3) -> M) -> f64 {
         let (offset, slack) = (center - self.point, self.slack(center));
         self.rays.iter().fold(f64::INFINITY, |time, &ray| {
             let ray = self.rotation * ray;

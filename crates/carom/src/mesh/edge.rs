@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::facet::{ROUNDING, ahead};
-use crate::axis_motion::AxisMotion;
+use crate::axis_motion::AlongAxis;
 use crate::norm::Norm;
 
 /// A straight edge, met where it is nearer than the faces beside it and the corners at its ends.
@@ -44,7 +44,7 @@ impl Edge {
     }
 
     /// Time \[s\] until a centre \[m\], by its motion along directions, may come to what is beside it.
-    pub fn time_on(&self, center: DVec3, motion: impl Fn(DVec3) -> AxisMotion) -> f64 {
+    pub fn time_on<M: AlongAxis>(&self, center: DVec3, motion: impl Fn(DVec3) -> M) -> f64 {
         let (offset, slack) = (center - self.center, self.slack(center));
         let along = offset.dot(self.axis);
         let end = self.half + slack;

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::outline::{Outline, Side};
-use crate::axis_motion::AxisMotion;
+use crate::axis_motion::AlongAxis;
 use crate::norm::Norm;
 use crate::rectangle::Rectangle;
 
@@ -55,7 +55,7 @@ impl Facet {
 
     /// Time \[s\] until a centre \[m\], by its motion along directions, may come past the outline: it may be said
     /// too early, never too late.
-    pub fn time_on(&self, center: DVec3, motion: impl Fn(DVec3) -> AxisMotion) -> f64 {
+    pub fn time_on<M: AlongAxis>(&self, center: DVec3, motion: impl Fn(DVec3) -> M) -> f64 {
         let (place, slack) = (self.local(center), self.slack(center));
         let mut time = f64::INFINITY;
         for side in self.outline.sides() {
@@ -72,9 +72,11 @@ impl Facet {
                 continue;
             }
             let along = motion(self.world(side.along));
-            let there = (place - start).dot(side.along) + along.way(leaves);
-            let is_beside = there < -slack || there > side.length + slack;
-            if along.drag_rate > 0.0 || !is_beside {
+            let is_beside = along.way(leaves).is_some_and(|way| {
+                let there = (place - start).dot(side.along) + way;
+                there < -slack || there > side.length + slack
+            });
+            if !is_beside {
                 time = leaves;
             }
         }

@@ -2,12 +2,10 @@
 
 use glam::DVec3;
 
+pub(super) use super::features::TOUCHING;
 use super::flights::{Flights, Species};
 use crate::norm::Norm;
 
-/// Bodies touch when the gap between them is below this many roundings of their coordinates: the uncertainty of the
-/// time of an impact and of the path to it.
-pub(super) const TOUCHING: f64 = 256.0 * f64::EPSILON;
 /// Relative rounding of the time of a contact: that of the clock and of the sums that lead to the time.
 pub(super) const CLOCK_ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// A persistent contact of spheres, or on a curve, is followed to this part of the radius: the error

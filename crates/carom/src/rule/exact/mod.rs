@@ -21,6 +21,7 @@ mod contacts;
 mod context;
 mod course;
 mod events;
+mod features;
 mod flights;
 mod force_work;
 mod frame;
@@ -41,8 +42,8 @@ mod unfinished;
 mod watch;
 mod zone;
 
-pub(crate) use contacts::{NormalCurvature, curvature_of};
 pub(crate) use course::{Course, follow};
+pub(crate) use features::{NormalCurvature, curvature_of};
 pub(crate) use flights::{HeldMotion, SupportChange};
 pub(crate) use frame::{
     Arrivals, HoldError, adopt, begin, end, persistent_contacts, start, tick_for_springs,

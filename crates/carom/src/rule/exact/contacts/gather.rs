@@ -6,13 +6,14 @@ use glam::DVec3;
 
 use super::group::Group;
 use super::member::Member;
-use super::separation::{has, has_at, holding_mesh, touching_distance, touching_gap};
+use super::separation::{has_at, holding_mesh, touching_distance, touching_gap};
 use super::touch::{Touch, TouchOrigin};
 use crate::detect::contact::Bodies;
 use crate::detect::sphere_surface;
 use crate::norm::Norm;
 use crate::rule::exact::contact_scale::{MOST_MISSED, TOUCHING};
 use crate::rule::exact::context::StepContext;
+use crate::rule::exact::features::has;
 use crate::rule::exact::flights::Cluster;
 use crate::rule::exact::neighbours::NeighbourBuffer;
 use crate::rule::exact::timeline::Timeline;

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use super::separation::{are_within, is_over_face, separation};
 use crate::norm::Norm;
 use crate::rule::exact::contact_scale::TOUCHING;
+use crate::rule::exact::features::{are_within, is_over_face, separation};
 use crate::surface::{Form, Surface};
 
 /// Planes at right angles to each other, at most.

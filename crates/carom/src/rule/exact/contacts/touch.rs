@@ -2,14 +2,13 @@
 
 use glam::DVec3;
 
-use super::curvature::{NormalCurvature, curvature_of};
 use super::member::Member;
-use super::separation::separation;
 use crate::detect::contact::Bodies;
 use crate::detect::{Separation, sphere_sphere};
 use crate::norm::Norm;
 use crate::respond::TouchingContact;
 use crate::rule::exact::context::StepContext;
+use crate::rule::exact::features::{NormalCurvature, curvature_of, separation};
 use crate::surface::{Form, SurfaceMotion};
 
 /// Two bodies that touch.

@@ -10,8 +10,11 @@ use crate::detect::contact::Bodies;
 use crate::norm::Norm;
 use crate::respond;
 use crate::rule::exact::contact_scale::ContactScale;
-use crate::rule::exact::contacts::{self, Corner, HoldingMesh, MOST_PLANES, Member, Plane};
+use crate::rule::exact::contacts::{
+    Corner, HoldingMesh, MOST_PLANES, Member, Plane, holding_mesh, touches_surface,
+};
 use crate::rule::exact::context::StepContext;
+use crate::rule::exact::features;
 use crate::rule::exact::pair_times::Neighbourhood;
 use crate::rule::exact::persistent::{free_acceleration, is_back_within};
 use crate::rule::exact::timeline::Timeline;
@@ -68,7 +71,7 @@ impl<'a> SurfaceContacts<'a> {
             return None;
         }
         let separation =
-            contacts::separation(&it.form, member.position, member.species.radius, true)?;
+            features::separation(&it.form, member.position, member.species.radius, true)?;
         let Separation { normal, point, .. } = separation;
         let surfaces = match self.round {
             _ if !it.motion.is_at_rest() => return None,
@@ -135,14 +138,14 @@ pub(super) fn single_sphere<'a>(
     }
     let whole = |surface: u32| context.system.surfaces[surface as usize].whole;
     let goes_on = |mesh: HoldingMesh| mesh.is_left || surface.map(whole) == Some(mesh.whole);
-    if contacts::holding_mesh(timeline, context, slot, time).is_some_and(goes_on) {
+    if holding_mesh(timeline, context, slot, time).is_some_and(goes_on) {
         return None;
     }
     let member = Member::at(&timeline.flights, slot, time);
     let mut touched = SurfaceContacts::default();
     for found @ (near, _) in timeline.surfaces_near(slot) {
         let is_known = surface == Some(near) || timeline.flights.is_held_by(slot, near);
-        if is_known || contacts::touches_surface(context, &member, found, time) {
+        if is_known || touches_surface(context, &member, found, time) {
             touched.add(context, &member, near)?;
         }
     }

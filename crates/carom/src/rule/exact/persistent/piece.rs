@@ -7,8 +7,9 @@ use super::correction::corrections;
 use crate::flight::Propagator;
 use crate::norm::Norm;
 use crate::rule::exact::contact_scale::{ContactScale, MOST_MISSED, TOUCHING};
-use crate::rule::exact::contacts::{Group, Member, NormalCurvature, Touch};
+use crate::rule::exact::contacts::{Group, Member, Touch};
 use crate::rule::exact::context::StepContext;
+use crate::rule::exact::features::NormalCurvature;
 use crate::sum::Sum;
 
 /// How far the normal of a persistent contact turns before its force is computed again \[rad\]. The path between is

@@ -7,12 +7,12 @@ use super::NoClosedForm;
 use super::accelerations::{Accelerations, bias};
 use super::piece::turning_time;
 use super::rolling::{PressedSphere, Rolling, on_plane};
-use super::sliding::time_on;
 use crate::axis_motion::AxisMotion;
 use crate::detect::contact::Bodies;
 use crate::friction::ContactFriction;
 use crate::rule::exact::contacts::{Member, Touch};
 use crate::rule::exact::context::StepContext;
+use crate::rule::exact::features::time_on;
 use crate::surface::Form;
 
 /// The motion of a sphere over a piece of path.
