@@ -250,10 +250,10 @@ impl Timeline {
             false => self.parameters.force_tick,
         };
         let limits = StepLimits { until, tick, is_rough };
-        let JointStep { curves, evaluations, release } =
+        let JointStep { curves, evaluations, releases } =
             self.flights.step_from_start(system, (&component, &clusters), limits);
         curves.into_iter().for_each(|(slot, curve)| self.flights.set_curve(slot, curve));
-        for number in clusters {
+        for (number, release) in clusters.into_iter().zip(releases) {
             self.flights.clusters.get_mut(number).renewal = release;
         }
         self.flights.components.charge(number, evaluations);

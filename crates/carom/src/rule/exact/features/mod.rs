@@ -1,10 +1,12 @@
 //! Features of surfaces: the part of a surface that has a sphere, how the normal turns there, and how long the sphere stays.
 
 mod curvature;
+mod feature;
 mod separation;
 mod time_on;
 
 pub(crate) use curvature::{NormalCurvature, curvature_of};
+pub(crate) use feature::Feature;
 pub(super) use separation::TOUCHING;
 pub(crate) use separation::{are_within, beyond, has, is_above, is_over_face, is_part, separation};
-pub(crate) use time_on::time_on;
+pub(crate) use time_on::{time_on, time_on_curve};

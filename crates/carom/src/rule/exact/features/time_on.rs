@@ -4,7 +4,10 @@ use glam::DVec3;
 
 use super::separation::{TOUCHING, are_within, is_over_face, slack_of};
 use crate::axis_motion::AlongAxis;
+use crate::axis_polynomial::AxisPolynomial;
 use crate::band::Band;
+use crate::norm::Norm;
+use crate::polynomial_flight::PolynomialFlight;
 use crate::surface::{Form, Rectangle};
 
 /// Time \[s\] until a sphere with this centre \[m\] and velocity relative to a surface \[m/s\] may slide off the part of
@@ -62,4 +65,54 @@ fn time_on_face<M: AlongAxis>(
         time = time.min(motion(axis).leaves(-half - place, half - place));
     }
     time
+}
+
+/// Least step towards the end of a face, as a part of the time of a flight: how briefly a sphere may be past it
+/// unseen.
+const LEAST_PART: f64 = 1e-3;
+
+/// Time \[s\] until a sphere with this flight, relative to a surface, may slide off the part of it that it is in
+/// contact with; infinite if it does not in the time of the flight.
+pub(crate) fn time_on_curve(form: &Form, flight: &PolynomialFlight) -> f64 {
+    let state = [flight.position, flight.velocity];
+    match form {
+        Form::Band(band) => time_beside_rim(band, flight),
+        form => time_on(form, state, |axis| AxisPolynomial::of(flight, axis)),
+    }
+}
+
+/// Time \[s\] until a sphere with this flight changes between the face of a band and a rim.
+fn time_beside_rim(band: &Band, flight: &PolynomialFlight) -> f64 {
+    // Up to where the other part certainly has the sphere.
+    let slack = 2.0 * TOUCHING * band.coordinates();
+    let side = if is_over_face(band, [flight.position, flight.velocity]) { 1.0 } else { -1.0 };
+    let room = |time: f64| side * band.face_seen_from(flight.after(time).0).room + slack;
+    let end = flight.acceleration.length;
+    // The room changes no faster than the sphere moves.
+    let fastest = flight.farthest().norm() / end;
+    let (mut time, mut left) = (0.0, room(0.0));
+    while time < end {
+        let next = (time + (left / fastest).max(LEAST_PART * end)).min(end);
+        left = room(next);
+        if left <= 0.0 {
+            return first_without(room, [time, next]);
+        }
+        time = next;
+    }
+    f64::INFINITY
+}
+
+/// The first number in an interval at which a function is not positive: it is so at the beginning, not at the end.
+fn first_without(function: impl Fn(f64) -> f64, [mut before, mut after]: [f64; 2]) -> f64 {
+    loop {
+        let middle = before + 0.5 * (after - before);
+        if middle <= before || middle >= after {
+            return after;
+        }
+        if function(middle) > 0.0 {
+            before = middle;
+        } else {
+            after = middle;
+        }
+    }
 }

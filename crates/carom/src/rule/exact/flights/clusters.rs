@@ -19,8 +19,6 @@ pub(crate) struct Cluster {
     pub renewal: f64,
     /// Whether the spheres fly on curves with these contacts, so that no forces are held.
     pub is_curved: bool,
-    /// Unit normals of the contacts with planes, where the spheres fly on curves.
-    pub normals: Vec<DVec3>,
 }
 
 /// A cluster that is about to be made, with the effect of its contact forces.
@@ -32,8 +30,8 @@ pub(crate) struct Support {
     pub contacts: Vec<Bodies>,
     /// When the forces are computed again, on the world's clock \[s\].
     pub renewal: f64,
-    /// The normals of planes among the contacts, one per contact, if the spheres fly on curves.
-    pub normals: Option<Vec<DVec3>>,
+    /// Whether the spheres fly on curves with these contacts.
+    pub is_curved: bool,
 }
 
 /// A sphere of a cluster that is about to be made.

@@ -9,7 +9,8 @@ use crate::forces::{Spring, SpringEnd};
 use crate::system::System;
 
 /// Evaluations of the forces on the spheres of a component that are allowed in a tick: this many in total, or this
-/// many for each sphere if that is more. Beyond it, rough steps lead to the end of the tick.
+/// many for each sphere if that is more, and as many for each sphere again with each event that begins new steps.
+/// Beyond it, rough steps lead to the end of the tick.
 const MOST_EVALUATIONS: u64 = 1 << 16;
 const MOST_FOR_EACH: u64 = 1 << 8;
 /// Allowed evaluations in a tick where forces act between all spheres: close passages take many short steps.
@@ -33,6 +34,8 @@ pub(crate) struct Component {
     tick: f64,
     /// Evaluations of the forces on a sphere in this tick.
     evaluations: u64,
+    /// How many more are allowed in this tick, for its events.
+    allowed_for_events: u64,
 }
 
 /// A spring, with the places of its ends among the members.
@@ -179,15 +182,18 @@ impl Components {
     /// rough one, because the work of the tick is spent.
     pub fn begin_step(&mut self, number: u32, tick: f64) -> bool {
         let component = &mut self.components[number as usize];
-        if component.is_due {
-            component.is_due = false;
-            self.due.retain(|&other| other != number);
-        }
+        let for_each = MOST_FOR_EACH * component.members.len() as u64;
         if component.tick != tick {
             (component.tick, component.evaluations) = (tick, 0);
+            component.allowed_for_events = 0;
         }
-        let members = component.members.len() as u64;
-        component.evaluations > self.most_evaluations.max(MOST_FOR_EACH * members)
+        if component.is_due {
+            component.is_due = false;
+            component.allowed_for_events += for_each;
+            self.due.retain(|&other| other != number);
+        }
+        let allowed = self.most_evaluations.max(for_each) + component.allowed_for_events;
+        component.evaluations > allowed
     }
 
     /// Counts evaluations of the forces on spheres of a component.

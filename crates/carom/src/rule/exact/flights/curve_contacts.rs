@@ -3,34 +3,61 @@
 use glam::DVec3;
 
 use crate::integrate::gauss_radau::Values;
-use crate::norm::Norm;
+use crate::rule::exact::features::{Feature, NormalCurvature};
 
 /// Most contacts whose forces are solved for at once: the work grows with the third power of their number.
 pub(crate) const MOST_CONTACTS: usize = 32;
 /// Contacts depend on each other where what one adds to the others is below this part of it.
 const DEPENDENT: f64 = 1e-8;
 
-/// A persistent contact between bodies at places.
+/// A persistent contact of the sphere at a place.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct CurveContact {
-    /// The place of body 1; `None` for a plane at rest.
-    pub first: Option<usize>,
+    pub first: CurveBody,
     pub second: usize,
-    /// Unit normal of the plane; not read between spheres.
-    pub normal: DVec3,
+}
+
+/// What a sphere touches.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum CurveBody {
+    /// The sphere at a place.
+    Sphere(usize),
+    /// A part of a surface at rest.
+    Feature(Feature),
+}
+
+impl CurveContact {
+    /// Its place, if body 1 is a sphere.
+    fn first_place(&self) -> Option<usize> {
+        match self.first {
+            CurveBody::Sphere(place) => Some(place),
+            CurveBody::Feature(_) => None,
+        }
+    }
+
+    /// Unit normal from body 1 to body 2, and how it turns, with the spheres at these positions \[m\].
+    fn normal_at(&self, positions: &[DVec3]) -> (DVec3, NormalCurvature) {
+        let center = positions[self.second];
+        match &self.first {
+            CurveBody::Sphere(first) => Feature::Point(positions[*first]).normal_at(center),
+            CurveBody::Feature(feature) => feature.normal_at(center),
+        }
+    }
 }
 
 /// Contacts whose forces follow from where the spheres are.
 ///
-/// With `r = x2 − x1`, `n = r/|r|`, relative velocity `v` and the part `v_t` of it across `n`, the gap stays where
-/// `n·(a2 − a1) + v_t²/|r| = 0`. The accelerations without contacts and the forces `λ n` give `A λ = -b` for all
-/// contacts, by Cholesky's method.
+/// With the normal `n`, the relative velocity `v` and the part `v_t` of it across `n`, the gap stays where
+/// `n·(a2 − a1) + κ v_t² = 0`, with the curvature κ: `1/|x2 − x1|` between spheres. The accelerations without contacts
+/// and the forces `λ n` give `A λ = -b` for all contacts, by Cholesky's method.
 ///
 /// Source: Baraff, Computer Graphics 23, 223 (1989), section 5, with equalities.
 pub(crate) struct CurveContacts {
     contacts: Vec<CurveContact>,
     /// One per contact.
     normals: Vec<DVec3>,
+    /// How each normal turns.
+    curvatures: Vec<NormalCurvature>,
     /// One per contact \[N\]
     pub forces: Vec<f64>,
     /// Cholesky's factor, by rows.
@@ -40,12 +67,13 @@ pub(crate) struct CurveContacts {
 impl CurveContacts {
     pub fn new(contacts: Vec<CurveContact>) -> Self {
         let count = contacts.len();
-        let (normals, forces) = (vec![DVec3::ZERO; count], vec![0.0; count]);
-        Self { contacts, normals, forces, factor: vec![0.0; count * count] }
-    }
-
-    pub fn is_empty(&self) -> bool {
-        self.contacts.is_empty()
+        Self {
+            contacts,
+            normals: vec![DVec3::ZERO; count],
+            curvatures: vec![NormalCurvature::Flat; count],
+            forces: vec![0.0; count],
+            factor: vec![0.0; count * count],
+        }
     }
 
     /// The contacts, with their forces \[N\].
@@ -73,25 +101,34 @@ impl CurveContacts {
     ) {
         self.find_normals(positions);
         self.factorize(mass_of);
+        // The second time removes what rounding left of the first: what rests does not drift.
+        self.remove_openings(velocities, mass_of, at);
+        let forces = self.forces.clone();
+        self.remove_openings(velocities, mass_of, at);
+        self.forces.iter_mut().zip(forces).for_each(|(force, first)| *force += first);
+    }
+
+    /// Adds the accelerations \[m/s²\] of the forces under which no gap opens or closes.
+    fn remove_openings(
+        &mut self,
+        velocities: &[DVec3],
+        mass_of: impl Fn(usize) -> f64,
+        at: &mut Values,
+    ) {
         for (number, contact) in self.contacts.iter().enumerate() {
             let normal = self.normals[number];
-            let relative =
-                |of: &[DVec3]| of[contact.second] - contact.first.map_or(DVec3::ZERO, |it| of[it]);
-            let velocity = relative(velocities);
-            let turning = match contact.first {
-                Some(_) => {
-                    let along = velocity.dot(normal);
-                    (velocity - along * normal).length_squared() / relative(positions).norm()
-                }
-                None => 0.0,
-            };
-            self.forces[number] = -(relative(&at.accelerations).dot(normal) + turning);
+            let first = |of: &[DVec3]| contact.first_place().map_or(DVec3::ZERO, |it| of[it]);
+            let velocity = velocities[contact.second] - first(velocities);
+            let across = velocity - velocity.dot(normal) * normal;
+            let acceleration = at.accelerations[contact.second] - first(&at.accelerations);
+            let turning = self.curvatures[number].acceleration(across);
+            self.forces[number] = -(acceleration.dot(normal) + turning);
         }
         self.solve();
         for ((contact, &normal), &force) in
             self.contacts.iter().zip(&self.normals).zip(&self.forces)
         {
-            let ends = contact.first.map(|first| (first, -force)).into_iter();
+            let ends = contact.first_place().map(|first| (first, -force)).into_iter();
             for (place, force) in ends.chain([(contact.second, force)]) {
                 let part = force / mass_of(place);
                 at.accelerations[place] += part * normal;
@@ -101,21 +138,15 @@ impl CurveContacts {
     }
 
     fn find_normals(&mut self, positions: &[DVec3]) {
-        for (normal, contact) in self.normals.iter_mut().zip(&self.contacts) {
-            *normal = match contact.first {
-                Some(first) => {
-                    let offset = positions[contact.second] - positions[first];
-                    offset / offset.norm()
-                }
-                None => contact.normal,
-            };
+        for (number, contact) in self.contacts.iter().enumerate() {
+            (self.normals[number], self.curvatures[number]) = contact.normal_at(positions);
         }
     }
 
     /// The acceleration of a gap for a unit of force at another contact \[1/kg\].
     fn coupling(&self, one: usize, other: usize, mass_of: impl Fn(usize) -> f64) -> f64 {
         let [a, b] = [one, other].map(|number| &self.contacts[number]);
-        let ends = |it: &CurveContact| [(Some(it.second), 1.0), (it.first, -1.0)];
+        let ends = |it: &CurveContact| [(Some(it.second), 1.0), (it.first_place(), -1.0)];
         let mut sum = 0.0;
         for (place, sign) in ends(a) {
             for (other, other_sign) in ends(b) {

@@ -35,8 +35,8 @@ pub(crate) struct JointStep {
     pub curves: Vec<(u32, Curve)>,
     /// How often the forces on a sphere were evaluated.
     pub evaluations: u64,
-    /// When a persistent contact of them opens, on the world's clock \[s\]; infinite if none does.
-    pub release: f64,
+    /// By cluster, when one of its persistent contacts opens, on the world's clock \[s\]; infinite if none does.
+    pub releases: Vec<f64>,
 }
 
 impl Flights {
@@ -211,16 +211,17 @@ impl Flights {
         limits: StepLimits,
     ) -> JointStep {
         let mut field = JointField::of(system, self, component);
-        field.hold(self, component, clusters);
         let slots = std::mem::take(&mut field.flying);
         let Some(&first) = slots.first() else {
-            return JointStep { curves: Vec::new(), evaluations: 0, release: f64::INFINITY };
+            return JointStep { curves: Vec::new(), evaluations: 0, releases: Vec::new() };
         };
         let bodies: Vec<&Body> = slots.iter().map(|&slot| &self.bodies[slot as usize]).collect();
         let positions: Vec<DVec3> = bodies.iter().map(|body| body.position).collect();
         let velocities: Vec<DVec3> = bodies.iter().map(|body| body.velocity).collect();
         let time = self.bodies[first as usize].time;
-        field.begin(component, [&positions, &velocities], time);
+        let states = [&positions[..], &velocities[..]];
+        field.hold(system.surfaces, (component, clusters), states);
+        field.begin(component, states, time);
         if limits.is_rough {
             field.ties.iter_mut().for_each(|tie| *tie = tie.with_changes());
         }
@@ -257,7 +258,7 @@ impl Flights {
             continues.map(|steps| steps.iter().map(|step| step.acceleration).collect());
         let step = gauss_radau::step(&start, before.as_deref(), pace, &mut field);
         let held = field.held_over(&start, &step);
-        let release = held.release.map_or(f64::INFINITY, |release| time + release);
+        let releases = held.releases.into_iter().map(|release| time + release).collect();
         let change = field.first_change(&start, &step);
         let end =
             change.map_or(step.end, |change| (time + change).max(time.next_up()).min(step.end));
@@ -271,7 +272,7 @@ impl Flights {
         };
         let steps = bodies.iter().zip(step.accelerations).map(curve_of);
         let curves = slots.iter().copied().zip(steps.map(|step| Curve(Some(step)))).collect();
-        JointStep { curves, evaluations: field.evaluations, release }
+        JointStep { curves, evaluations: field.evaluations, releases }
     }
 
     /// The last step of a sphere on a curve, even if its flight ended early.

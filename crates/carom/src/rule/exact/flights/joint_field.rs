@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::between::ForcesBetween;
 use super::components::{Component, PlacedSpring};
-use super::curve_contacts::{CurveContact, CurveContacts};
+use super::curve_contacts::{CurveBody, CurveContact, CurveContacts};
 use super::state::Flights;
 use super::tie::{Tie, TieEnd, TiePath};
 use crate::detect::contact::Bodies;
@@ -13,12 +13,14 @@ use crate::integrate::crossing::first_positive;
 use crate::integrate::gauss_radau::{self, Field, NODES, Start, Step, Values};
 use crate::norm::Norm;
 use crate::polynomial_flight::{ORDERS, PolynomialAcceleration, PolynomialFlight, TERMS};
+use crate::rule::exact::features::{Feature, time_on_curve};
+use crate::surface::{Form, Surface};
 use crate::system::System;
 
 /// A persistent contact opens where it pulls with more than this part of the forces at work: the spheres then part for
 /// certain. Until then its force does no work.
 const OPENS: f64 = 1e-9;
-/// Part of a step after which a contact that pulls from the start opens.
+/// Part of a step after which a contact that pulls from the start opens, and a sphere at the end of a face leaves it.
 const SOONEST: f64 = 1e-6;
 
 /// What persistent contacts do in a step.
@@ -26,8 +28,9 @@ const SOONEST: f64 = 1e-6;
 pub(super) struct HeldOver {
     /// Accelerations without contacts, by place; empty without contacts.
     pub free: Vec<PolynomialAcceleration>,
-    /// Time from the start \[s\] at which one opens.
-    pub release: Option<f64>,
+    /// By cluster, time from the start \[s\] at which a contact opens, or a sphere comes to another part of a
+    /// surface; infinite where none does.
+    pub releases: Vec<f64>,
 }
 
 /// Time in which a sphere moves by its radius \[s\].
@@ -79,6 +82,15 @@ impl<'a> FreeField<'a> {
     }
 }
 
+/// A surface at rest that a sphere touches.
+struct Touched<'a> {
+    /// Place of its cluster.
+    cluster: usize,
+    /// Place of the sphere.
+    sphere: usize,
+    form: &'a Form,
+}
+
 /// The forces on the spheres of a component whose forces are not held.
 pub(super) struct JointField<'a> {
     flights: &'a Flights,
@@ -92,8 +104,10 @@ pub(super) struct JointField<'a> {
     place_of: Vec<usize>,
     /// Springs between those places.
     pub ties: Vec<Tie<'a>>,
-    /// Persistent contacts between those places.
-    contacts: CurveContacts,
+    /// Persistent contacts between those places; those of different clusters have no sphere in common.
+    contacts: Vec<CurveContacts>,
+    /// Surfaces at rest that spheres touch.
+    touched: Vec<Touched<'a>>,
     /// Forces between all spheres of the world, where all are members.
     pub between: Option<ForcesBetween<'a>>,
     period: DVec3,
@@ -123,31 +137,45 @@ impl<'a> JointField<'a> {
             others,
             place_of,
             ties: Vec::new(),
-            contacts: CurveContacts::new(Vec::new()),
+            contacts: Vec::new(),
+            touched: Vec::new(),
             between: ForcesBetween::of(system),
             period: system.settings.boundary.period(),
             evaluations: 0,
         }
     }
 
-    /// Adds the persistent contacts of clusters.
-    pub fn hold(&mut self, flights: &Flights, component: &Component, clusters: &[u32]) {
+    /// Adds the persistent contacts of clusters, of spheres in these states \[m\], \[m/s\].
+    pub fn hold(
+        &mut self,
+        surfaces: &'a [Surface],
+        (component, clusters): (&Component, &[u32]),
+        [positions, velocities]: [&[DVec3]; 2],
+    ) {
+        let flights = self.flights;
         let place_of = |index: u32| {
             let place = component.members.iter().position(|&member| member == index)?;
             Some(self.place_of[place])
         };
-        let contacts = clusters.iter().flat_map(|&number| {
-            let cluster = flights.clusters.get(number);
-            cluster.contacts.iter().zip(&cluster.normals)
-        });
-        let contact = |(bodies, &normal): (&Bodies, &DVec3)| {
-            let (first, second) = match *bodies {
-                Bodies::Pair(first, second) => (Some(place_of(first)?), place_of(second)?),
-                Bodies::Surface { sphere, .. } => (None, place_of(sphere)?),
+        let mut touched = Vec::new();
+        for (cluster, &number) in clusters.iter().enumerate() {
+            let contact = |bodies: &Bodies| match *bodies {
+                Bodies::Pair(first, second) => {
+                    let first = CurveBody::Sphere(place_of(first)?);
+                    Some(CurveContact { first, second: place_of(second)? })
+                }
+                Bodies::Surface { sphere, surface } => {
+                    let (second, form) = (place_of(sphere)?, &surfaces[surface as usize].form);
+                    let state = [positions[second], velocities[second]];
+                    let feature = Feature::under(form, state, self.alone[second].radius)?;
+                    touched.push(Touched { cluster, sphere: second, form });
+                    Some(CurveContact { first: CurveBody::Feature(feature), second })
+                }
             };
-            Some(CurveContact { first, second, normal })
-        };
-        self.contacts = CurveContacts::new(contacts.filter_map(contact).collect());
+            let contacts = flights.clusters.get(number).contacts.iter().filter_map(contact);
+            self.contacts.push(CurveContacts::new(contacts.collect()));
+        }
+        self.touched = touched;
     }
 
     /// Begins a step with the spheres in these states \[m\], \[m/s\] at a time \[s\].
@@ -254,7 +282,8 @@ impl JointField<'_> {
         let count = self.alone.len();
         let length = step.accelerations[0].length;
         let mut free = vec![[DVec3::ZERO; TERMS]; count];
-        let mut forces = vec![[0.0; TERMS]; self.contacts.forces.len()];
+        let contacts = self.contacts.iter().map(|contacts| contacts.forces.len()).sum();
+        let mut forces = vec![[0.0; TERMS]; contacts];
         let mut least = Vec::new();
         for (node, &s) in NODES.iter().enumerate() {
             let state = |place: usize| {
@@ -266,14 +295,14 @@ impl JointField<'_> {
             let mut values = Values::of(count);
             self.evaluate_free(start.time + s * length, &positions, &velocities, &mut values);
             free.iter_mut().zip(&values.accelerations).for_each(|(free, &at)| free[node] = at);
-            let (alone, contacts) = (&self.alone, &mut self.contacts);
-            contacts.add([&positions, &velocities], |place| alone[place].mass, &mut values);
-            forces.iter_mut().zip(&contacts.forces).for_each(|(forces, &at)| forces[node] = at);
+            self.add_contacts([&positions, &velocities], &mut values);
+            let at_node = self.contacts.iter().flat_map(|contacts| &contacts.forces);
+            forces.iter_mut().zip(at_node).for_each(|(forces, &at)| forces[node] = at);
             if node == 0 {
-                let size = |contact: &CurveContact| {
-                    alone[contact.second].mass * values.sizes[contact.second]
+                let size = |(contact, _): (&CurveContact, f64)| {
+                    OPENS * self.alone[contact.second].mass * values.sizes[contact.second]
                 };
-                least = contacts.iter().map(|(contact, _)| OPENS * size(contact)).collect();
+                least = self.contacts.iter().flat_map(CurveContacts::iter).map(size).collect();
             }
         }
         let carried = [DVec3::ZERO; 2];
@@ -282,10 +311,32 @@ impl JointField<'_> {
             PolynomialAcceleration { length, coefficients, carried }
         };
         let free = free.into_iter().map(polynomial).collect();
-        let releases = forces.into_iter().zip(least).filter_map(|(forces, least)| {
-            first_below(gauss_radau::through_nodes(forces), -least).map(|part| part * length)
+        let mut openings = forces.into_iter().zip(least).map(|(forces, least)| {
+            let part = first_below(gauss_radau::through_nodes(forces), -least);
+            part.map_or(f64::INFINITY, |part| part * length)
         });
-        HeldOver { free, release: releases.reduce(f64::min) }
+        let first_of = |contacts: &CurveContacts| {
+            let own = openings.by_ref().take(contacts.forces.len());
+            own.fold(f64::INFINITY, f64::min)
+        };
+        let mut releases: Vec<f64> = self.contacts.iter().map(first_of).collect();
+        for &Touched { cluster, sphere, form } in &self.touched {
+            let (position, velocity) = (start.positions[sphere], start.velocities[sphere]);
+            let acceleration = step.accelerations[sphere];
+            let time = time_on_curve(form, &PolynomialFlight { position, velocity, acceleration });
+            if time < length {
+                releases[cluster] = releases[cluster].min(time.max(SOONEST * length));
+            }
+        }
+        HeldOver { free, releases }
+    }
+
+    /// Adds the accelerations of persistent contacts.
+    fn add_contacts(&mut self, states: [&[DVec3]; 2], at: &mut Values) {
+        let alone = &self.alone;
+        for contacts in &mut self.contacts {
+            contacts.add(states, |place| alone[place].mass, at);
+        }
     }
 
     /// The accelerations without persistent contacts.
@@ -326,10 +377,7 @@ impl JointField<'_> {
 impl Field for JointField<'_> {
     fn evaluate(&mut self, time: f64, positions: &[DVec3], velocities: &[DVec3], at: &mut Values) {
         self.evaluate_free(time, positions, velocities, at);
-        if !self.contacts.is_empty() {
-            let alone = &self.alone;
-            self.contacts.add([positions, velocities], |place| alone[place].mass, at);
-        }
+        self.add_contacts([positions, velocities], at);
     }
 }
 

@@ -25,7 +25,7 @@ pub(super) use body::Body;
 pub(super) use clusters::{Cluster, Support, Supported};
 pub(super) use components::Component;
 pub(super) use contact_work::ContactWork;
-pub(super) use curve_contacts::{CurveContact, CurveContacts, MOST_CONTACTS};
+pub(super) use curve_contacts::{CurveBody, CurveContact, CurveContacts, MOST_CONTACTS};
 pub(super) use curves::{JointStep, StepLimits};
 pub(super) use growth::Growth;
 pub(super) use lanes::FlightLanes;

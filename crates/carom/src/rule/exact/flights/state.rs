@@ -319,11 +319,9 @@ impl Flights {
 
     /// Makes a cluster of free spheres from `time` \[s\] on.
     pub fn set_supported(&mut self, support: Support, time: f64) {
-        let Support { members, contacts, renewal, normals } = support;
+        let Support { members, contacts, renewal, is_curved } = support;
         let slots = members.iter().map(|member| member.slot).collect();
-        let is_curved = normals.is_some();
-        let normals = normals.unwrap_or_default();
-        let cluster = Cluster { members: slots, contacts, renewal, is_curved, normals };
+        let cluster = Cluster { members: slots, contacts, renewal, is_curved };
         let cluster = self.clusters.add(cluster);
         for Supported { slot, acceleration, rotation, contact_work } in members {
             if let Some(rotation) = rotation {

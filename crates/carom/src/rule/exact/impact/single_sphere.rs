@@ -16,7 +16,7 @@ use crate::report::{BodyPair, Impact, ImpactGroup};
 use crate::respond;
 use crate::rule::exact::contacts::Member;
 use crate::rule::exact::context::StepContext;
-use crate::rule::exact::flights::Support;
+use crate::rule::exact::flights::{ContactWork, Species, Support, Supported};
 use crate::rule::exact::persistent::REST;
 use crate::rule::exact::persistent::planar::{self, PlanarSupport};
 use crate::rule::exact::predict::{self, Unresolved};
@@ -62,9 +62,17 @@ pub(crate) fn answer_single(
     if let Some(planar) = planar {
         let PlanarSupport { valid_for, persists, .. } = planar;
         let lasting = corner.planes().zip(persists).filter(|it| it.1).map(|it| it.0.surface);
-        let contacts = lasting.map(|surface| Bodies::Surface { sphere, surface }).collect();
-        let members = vec![planar.supported(slot)];
-        let support = Support { members, contacts, renewal: time + valid_for, normals: None };
+        let contacts: Vec<Bodies> =
+            lasting.map(|surface| Bodies::Surface { sphere, surface }).collect();
+        let supported = planar.supported(slot);
+        let support = if is_on_curve(context, &member, &contacts) {
+            let (rotation, contact_work) = (None, ContactWork::None);
+            let members = vec![Supported { rotation, contact_work, ..supported }];
+            Support { members, contacts, renewal: f64::INFINITY, is_curved: true }
+        } else {
+            let renewal = time + valid_for;
+            Support { members: vec![supported], contacts, renewal, is_curved: false }
+        };
         timeline.set_supported(support, time);
     }
     predict::predict(timeline, context, slot, time);
@@ -81,6 +89,13 @@ pub(crate) fn answer_single(
         .map(|bodies| Unresolved { bodies, until: time + contact_duration })
         .collect();
     predict::pass_over(timeline, context, slot, &unresolved, time);
+}
+
+/// Whether a sphere flies on a curve with these contacts.
+fn is_on_curve(context: &StepContext, member: &Member, contacts: &[Bodies]) -> bool {
+    let acts = |&bodies: &Bodies| respond::friction_of(bodies, context.system).acts();
+    let Species { is_curved, growth_speed, .. } = member.species;
+    is_curved && growth_speed == 0.0 && !contacts.iter().any(acts)
 }
 
 /// Applies the impulses of the surfaces on which the sphere closes, by Newton's law, and records them. All impact

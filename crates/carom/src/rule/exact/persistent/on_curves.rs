@@ -6,44 +6,46 @@ use crate::detect::contact::Bodies;
 use crate::respond::friction_of;
 use crate::rule::exact::contacts::{Member, Touch};
 use crate::rule::exact::context::StepContext;
-use crate::rule::exact::flights::{CurveContact, CurveContacts, MOST_CONTACTS};
-use crate::surface::Form;
+use crate::rule::exact::features::Feature;
+use crate::rule::exact::flights::{CurveBody, CurveContact, CurveContacts, MOST_CONTACTS};
 
-/// Whether all spheres in these contacts fly on curves with them: some touch each other, without friction, the
-/// others planes without edges at rest, and no contact follows from others.
+/// Whether all spheres in these contacts fly on curves with them: they touch each other and surfaces at rest, without
+/// friction, and no contact follows from others.
 pub(super) fn fly_so(context: &StepContext, members: &[Member], touches: &[Touch]) -> bool {
-    let are_few = touches.len() <= MOST_CONTACTS;
-    let is_between_spheres = |touch: &Touch| touch.first.is_some();
-    are_few
-        && context.period == DVec3::INFINITY
-        && touches.iter().any(is_between_spheres)
-        && touches.iter().all(|touch| is_smooth(context, members, touch))
-        && are_independent(members, touches)
+    if touches.len() > MOST_CONTACTS || context.period != DVec3::INFINITY {
+        return false;
+    }
+    let contacts = touches.iter().map(|touch| smooth_contact(context, members, touch)).collect();
+    let contacts: Option<Vec<CurveContact>> = contacts;
+    let positions: Vec<DVec3> = members.iter().map(|member| member.position).collect();
+    contacts.is_some_and(|contacts| {
+        CurveContacts::new(contacts)
+            .are_independent(&positions, |place| members[place].species.mass)
+    })
 }
 
-/// Whether a contact has no friction, of spheres on curves with each other or with a plane without edges at rest.
-fn is_smooth(context: &StepContext, members: &[Member], touch: &Touch) -> bool {
+/// A contact without friction, of spheres on curves with each other or with a surface at rest.
+fn smooth_contact(
+    context: &StepContext,
+    members: &[Member],
+    touch: &Touch,
+) -> Option<CurveContact> {
     let is_curved = |place: usize| {
         let species = &members[place].species;
         species.is_curved && species.growth_speed == 0.0
     };
-    let is_simple = match touch.bodies {
-        Bodies::Pair(..) => true,
+    if !touch.places().all(is_curved) || friction_of(touch.bodies, context.system).acts() {
+        return None;
+    }
+    let second = touch.second;
+    let first = match touch.bodies {
+        Bodies::Pair(..) => CurveBody::Sphere(touch.first?),
+        Bodies::Surface { .. } if touch.does_work() => return None,
         Bodies::Surface { surface, .. } => {
             let form = &context.system.surfaces[surface as usize].form;
-            matches!(form, Form::HalfSpace { .. }) && !touch.does_work()
+            let Member { position, velocity, species, .. } = members[second];
+            CurveBody::Feature(Feature::under(form, [position, velocity], species.radius)?)
         }
     };
-    is_simple && touch.places().all(is_curved) && !friction_of(touch.bodies, context.system).acts()
-}
-
-fn are_independent(members: &[Member], touches: &[Touch]) -> bool {
-    let contact = |touch: &Touch| CurveContact {
-        first: touch.first,
-        second: touch.second,
-        normal: touch.normal,
-    };
-    let positions: Vec<DVec3> = members.iter().map(|member| member.position).collect();
-    CurveContacts::new(touches.iter().map(contact).collect())
-        .are_independent(&positions, |place| members[place].species.mass)
+    Some(CurveContact { first, second })
 }

@@ -201,9 +201,9 @@ fn connected(
     let contact_work = if does_work { ContactWork::Colliders } else { ContactWork::None };
     let mut supports: BTreeMap<usize, Support> = BTreeMap::new();
     let mut of = |supports: &mut BTreeMap<usize, Support>, place: usize| {
-        let normals = if renewal.is_none() { Some(Vec::new()) } else { None };
+        let is_curved = renewal.is_none();
         let renewal = renewal.unwrap_or(f64::INFINITY);
-        let empty = || Support { members: Vec::new(), contacts: Vec::new(), renewal, normals };
+        let empty = || Support { members: Vec::new(), contacts: Vec::new(), renewal, is_curved };
         let root = connected.root_of(place);
         supports.entry(root).or_insert_with(empty);
         root
@@ -221,7 +221,6 @@ fn connected(
         let root = of(&mut supports, touch.second);
         if let Some(support) = supports.get_mut(&root) {
             support.contacts.push(touch.bodies);
-            support.normals.iter_mut().for_each(|normals| normals.push(touch.normal));
         }
     }
     supports.into_values().collect()

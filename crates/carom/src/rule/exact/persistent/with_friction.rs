@@ -221,7 +221,7 @@ fn support_pushed(group: &mut Group, pushed: PushedSpheres) -> Result<Support, N
         members: members.iter().zip(rates).map(supported).collect(),
         contacts,
         renewal: group.time + valid_for,
-        normals: None,
+        is_curved: false,
     })
 }
 
@@ -244,7 +244,7 @@ fn on_planes(
         members: vec![planar.supported(member.slot)],
         contacts: lasting.map(bodies).collect(),
         renewal: group.time + valid_for,
-        normals: None,
+        is_curved: false,
     };
     (member.velocity, member.angular_velocity) = (velocity, angular_velocity);
     Ok(Some(support))
@@ -295,7 +295,7 @@ fn over_curve(
         }],
         contacts: own.iter().map(|touch| touch.bodies).collect(),
         renewal: group.time + piece.valid_for,
-        normals: None,
+        is_curved: false,
     })
 }
 
