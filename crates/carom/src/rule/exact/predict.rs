@@ -235,7 +235,14 @@ pub(super) fn restart(timeline: &mut Timeline, context: &mut StepContext, slot: 
 }
 
 /// Begins the next step of the curve of a sphere, where one ends `now` \[s\].
+///
+/// Where a companion that flies on no curve ends its flight now, its event restarts this sphere, whichever comes first
+/// in the order of spheres. Until then nothing is known of the companion's next flight.
 pub(super) fn next_step(timeline: &mut Timeline, context: &mut StepContext, slot: u32, now: f64) {
+    if timeline.companion_ends(slot, now) {
+        let later = Event::at(now.next_up(), PackedTarget::STEP_END);
+        return timeline.reschedule(slot, NextEvents::only(later));
+    }
     timeline.go_on(slot, now);
     timeline.find_curve(context.system, slot);
     timeline.find_clearance(context.system, slot);
