@@ -1,4 +1,4 @@
-//! Coefficients of contacts, and how they change with those of the bodies.
+//! Coefficients of contacts, and their derivatives by the coefficients of the bodies.
 
 use crate::detect::contact::Bodies;
 use crate::respond;
@@ -12,13 +12,13 @@ pub(super) struct Combined {
 }
 
 impl Combined {
-    /// How it changes with those of the two bodies.
+    /// Returns the change of the coefficient, given the changes of the coefficients of the two bodies.
     pub fn change(&self, bodies: [f64; 2]) -> f64 {
         self.by_bodies[0] * bodies[0] + self.by_bodies[1] * bodies[1]
     }
 }
 
-/// The coefficient of restitution of a contact.
+/// Returns the coefficient of restitution of a contact.
 pub(super) fn restitution_of(system: &System, bodies: Bodies) -> Combined {
     let of_sphere = |sphere: u32| system.spheres.restitution[sphere as usize];
     let both = match bodies {
@@ -31,7 +31,7 @@ pub(super) fn restitution_of(system: &System, bodies: Bodies) -> Combined {
     Combined { value: rule.combine(both[0], both[1]), by_bodies: rule.derivatives(both) }
 }
 
-/// The coefficient of sliding friction of a contact.
+/// Returns the coefficient of sliding friction of a contact.
 pub(super) fn sliding_of(system: &System, bodies: Bodies) -> Combined {
     let of_sphere = |sphere: u32| system.spheres.friction(sphere as usize);
     let both = match bodies {
