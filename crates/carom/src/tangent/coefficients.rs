@@ -20,11 +20,11 @@ impl Combined {
 
 /// Returns the coefficient of restitution of a contact.
 pub(super) fn restitution_of(system: &System, bodies: Bodies) -> Combined {
-    let of_sphere = |sphere: u32| system.spheres.restitution[sphere as usize];
+    let sphere_restitution = |sphere: u32| system.spheres.restitution[sphere as usize];
     let both = match bodies {
-        Bodies::Pair(first, second) => [first, second].map(of_sphere),
+        Bodies::Pair(first, second) => [first, second].map(sphere_restitution),
         Bodies::Surface { sphere, surface } => {
-            [system.surfaces[surface as usize].restitution, of_sphere(sphere)]
+            [system.surfaces[surface as usize].restitution, sphere_restitution(sphere)]
         }
     };
     let rule = system.settings.combine_rule;
@@ -33,11 +33,11 @@ pub(super) fn restitution_of(system: &System, bodies: Bodies) -> Combined {
 
 /// Returns the coefficient of sliding friction of a contact.
 pub(super) fn sliding_of(system: &System, bodies: Bodies) -> Combined {
-    let of_sphere = |sphere: u32| system.spheres.friction(sphere as usize);
+    let sphere_friction = |sphere: u32| system.spheres.friction(sphere as usize);
     let both = match bodies {
-        Bodies::Pair(first, second) => [first, second].map(of_sphere),
+        Bodies::Pair(first, second) => [first, second].map(sphere_friction),
         Bodies::Surface { sphere, surface } => {
-            [system.surfaces[surface as usize].friction, of_sphere(sphere)]
+            [system.surfaces[surface as usize].friction, sphere_friction(sphere)]
         }
     };
     let by_bodies = match both.map(|it| it.sliding) {

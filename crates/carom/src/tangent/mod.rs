@@ -52,7 +52,7 @@ use replay::Piece;
 /// let mut tangents = Tangents::new(&world, vec![higher])?;
 /// tangents.step(&mut world, 2.0)?;
 /// // A ball that starts higher comes later, and is lower after its bounce.
-/// assert_eq!(tangents.of_sphere(0, ball)?.position, DVec3::NEG_Y);
+/// assert_eq!(tangents.sphere(0, ball)?.position, DVec3::NEG_Y);
 /// # Ok::<(), carom::DerivativeError>(())
 /// ```
 #[derive(Debug, Clone)]
@@ -103,7 +103,7 @@ impl Tangents {
     ///
     /// # Panics
     /// If there is no such direction.
-    pub fn of_sphere(
+    pub fn sphere(
         &self,
         direction: usize,
         sphere: SphereId,
@@ -116,7 +116,7 @@ impl Tangents {
     ///
     /// # Panics
     /// If there is no such direction.
-    pub fn of_spheres(&self, direction: usize) -> &[SphereTangent] {
+    pub fn spheres(&self, direction: usize) -> &[SphereTangent] {
         &self.spheres[direction]
     }
 
@@ -141,11 +141,11 @@ impl Tangents {
     /// are the Lyapunov exponents (Benettin, Galgani, Giorgilli and Strelcyn, Meccanica 15, 9 (1980)).
     pub fn orthonormalize(&mut self, length: f64, speed: f64) -> Vec<f64> {
         let dot = |one: &[SphereTangent], other: &[SphereTangent]| -> f64 {
-            let of_sphere = |(a, b): (&SphereTangent, &SphereTangent)| {
+            let product = |(a, b): (&SphereTangent, &SphereTangent)| {
                 a.position.dot(b.position) / (length * length)
                     + a.velocity.dot(b.velocity) / (speed * speed)
             };
-            one.iter().zip(other).map(of_sphere).sum()
+            one.iter().zip(other).map(product).sum()
         };
         let mut lengths = Vec::with_capacity(self.spheres.len());
         for number in 0..self.spheres.len() {

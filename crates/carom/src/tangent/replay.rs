@@ -352,7 +352,7 @@ impl Replay<'_> {
             body.position += off;
             is_there.then(|| Colliding {
                 position: touching,
-                ..of_sphere(system, (place, ids[place]), body, rates)
+                ..colliding_sphere(system, (place, ids[place]), body, rates)
             })
         };
         let second_place = places[1]?;
@@ -413,7 +413,7 @@ fn since(change: &SupportChange, [start, end]: [f64; 2]) -> f64 {
     (change.time - start).clamp(0.0, end - start)
 }
 
-fn of_sphere(
+fn colliding_sphere(
     system: &System,
     (place, id): (usize, SphereId),
     body: &Flying,

@@ -119,10 +119,10 @@ impl Variation {
 
     /// Returns the derivative in a direction, if this is a gradient.
     pub fn dot(&self, direction: &Self) -> f64 {
-        let of_spheres = direction.spheres().map(|(id, it)| self.sphere(id).dot(it));
+        let by_spheres = direction.spheres().map(|(id, it)| self.sphere(id).dot(it));
         let of_colliders = direction.colliders().map(|(id, it)| self.collider(id).dot(it));
         self.acceleration.dot(direction.acceleration)
-            + of_spheres.sum::<f64>()
+            + by_spheres.sum::<f64>()
             + of_colliders.sum::<f64>()
     }
 }
