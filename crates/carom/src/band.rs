@@ -73,7 +73,7 @@ pub(crate) struct View {
     pub front_normal: DVec3,
     /// How far the point may go with the face nearest \[m\]; negative where a rim is.
     pub room: f64,
-    /// Unit vectors along the profile and about the axis.
+    /// Unit vectors along the profile and about the axis, at the nearest point of the surface.
     pub directions: [DVec3; 2],
     /// Second derivatives of the distance along them \[1/m\].
     pub curvatures: [f64; 2],

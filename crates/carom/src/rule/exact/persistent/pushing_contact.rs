@@ -244,7 +244,7 @@ impl Pair<'_> {
         None
     }
 
-    /// Acceleration of the gap, along the normal, and of the slip under a force on body 2 \[m/s²\].
+    /// Computes the accelerations of the gap and of the slip that a force on body 2 causes \[m/s²\].
     fn rate(&self, force: DVec3) -> DVec3 {
         let Self { contact, first, second } = self;
         let responds = |side: &Side, push: Push| {

@@ -12,7 +12,7 @@ import traitlets
 from carom.errors import CaromError
 
 
-class Shown(anywidget.AnyWidget):
+class Widget(anywidget.AnyWidget):
     """A widget with a picture, which shows where it cannot."""
 
     time = traitlets.Float(0.0).tag(sync=True)
