@@ -106,7 +106,7 @@ impl<'a, P: Path> Driven<'a, P> {
         }
     }
 
-    /// The rotation since the start, the other way.
+    /// Returns the inverse of the rotation since the start.
     fn back(&self, body: &Kinematics) -> Option<DQuat> {
         self.course.turns().then(|| self.start.rotation * body.rotation.conjugate())
     }

@@ -59,17 +59,17 @@ impl Default for Exact {
 }
 
 impl Exact {
-    /// The same parameters with this impact law.
+    /// Returns the parameters with this impact law.
     pub fn with_impact_law(self, impact_law: ImpactLaw) -> Self {
         Self { impact_law, ..self }
     }
 
-    /// The same parameters with this least duration of a contact \[s\].
+    /// Returns the parameters with this least duration of a contact \[s\].
     pub fn with_contact_duration(self, contact_duration: f64) -> Self {
         Self { contact_duration, ..self }
     }
 
-    /// The same parameters with this bound for the work of a sphere in a frame.
+    /// Returns the parameters with this bound for the work of a sphere in a frame.
     pub fn with_max_impacts(self, max_impacts: u32) -> Self {
         Self { max_impacts, ..self }
     }
