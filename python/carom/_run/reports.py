@@ -21,7 +21,7 @@ class StageCounts(NamedTuple):
     solver_iterations: int
     """Iterations of the solvers of these groups, each counted once for every contact."""
     searches: int
-    """How often neighbours were found anew, under the rule ``contact``."""
+    """How often neighbours were searched for, under the rule ``contact``."""
     sweeps: int
     """How often all contacts were gone through, under the rule ``contact``."""
     contacts: int
