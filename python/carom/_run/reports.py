@@ -29,7 +29,7 @@ class StageCounts(NamedTuple):
 
 
 class EnergyAccount(NamedTuple):
-    """What became of the energy of a world in a frame, under any rule.
+    """Changes of the energy of a world in a frame, by cause, under any rule.
 
     The total energy after the frame is that before it, the sum of these, and the error of the
     integration, which is what is left.

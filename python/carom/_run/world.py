@@ -272,7 +272,7 @@ class World(Strict, Queries, Bodies):
 
     @property
     def energy_account(self) -> EnergyAccount:
-        """What became of the energy in the last frame."""
+        """Changes of the energy in the last frame, by cause."""
         return EnergyAccount(*self._energy_account())
 
     @property

@@ -74,22 +74,22 @@ impl Exact {
         Self { max_impacts, ..self }
     }
 
-    /// These parameters with stepped zones, or without.
+    /// Returns the parameters with stepped zones, or without.
     pub fn with_zones(self, zones: Zones) -> Self {
         Self { zones, ..self }
     }
 
-    /// These parameters with another [`Self::zone_budget`].
+    /// Returns the parameters with this [`Self::zone_budget`].
     pub fn with_zone_budget(self, zone_budget: u32) -> Self {
         Self { zone_budget, ..self }
     }
 
-    /// These parameters with another [`Self::zone_tick`] \[s\].
+    /// Returns the parameters with this [`Self::zone_tick`] \[s\].
     pub fn with_zone_tick(self, zone_tick: f64) -> Self {
         Self { zone_tick, ..self }
     }
 
-    /// These parameters with another [`Self::force_tick`] \[s\].
+    /// Returns the parameters with this [`Self::force_tick`] \[s\].
     pub fn with_force_tick(self, force_tick: f64) -> Self {
         Self { force_tick, ..self }
     }
