@@ -38,7 +38,7 @@ pub(crate) enum Profile {
         /// Unit vectors from the centre to the ends, the second one counterclockwise from the first; equal for a
         /// whole circle.
         ends: [DVec2; 2],
-        /// Whether it faces its centre.
+        /// Whether the surface faces the centre of its arc.
         is_hollow: bool,
     },
 }
@@ -276,7 +276,7 @@ impl Profile {
         Self::Line { from, direction: way / length, length, thickness: 0.0 }
     }
 
-    /// The same profile, facing the other way.
+    /// Returns the profile facing the other way.
     pub fn turned(self) -> Self {
         match self {
             Self::Line { from, direction, length, thickness } => Self::Line {

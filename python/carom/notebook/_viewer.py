@@ -185,7 +185,7 @@ class Viewer(Widget):
 
     @traitlets.observe("time", "playing", "picked")
     def _command(self, change: dict[str, Any]) -> None:
-        """Has the browser show what Python set; what the browser reported it shows already."""
+        """Sends what Python set to the browser, but not what the browser reported itself."""
         # Where there is no interface yet, it begins with the traits as they are then.
         if self._ready and not self._is_reporting:
             self._tell("set", {change["name"]: change["new"]})

@@ -28,11 +28,11 @@ class Widget(anywidget.AnyWidget):
         return time
 
     def play(self) -> None:
-        """Lets time go on."""
+        """Plays."""
         self.playing = True
 
     def pause(self) -> None:
-        """Lets time stand still."""
+        """Pauses."""
         self.playing = False
 
     def seek(self, time: float) -> None:

@@ -41,7 +41,6 @@ use topology::Topology;
 /// neighbours in one plane, within 1e-9 rad, form one face: a floor of many triangles is as smooth as one
 /// rectangle. The front of a triangle is the side from which its vertices go round counter-clockwise.
 ///
-/// A closed mesh, each of whose edges has two triangles that go round alike, is met from the side that its
 /// A mesh is closed if each edge belongs to two triangles with the same orientation. A closed mesh is met from the
 /// front of its triangles only: a solid, or a room. Where its triangles face outward it encloses a volume, and a
 /// sphere whose centre is inside overlaps it. An open mesh has no inside and is met from both sides, unless it is
