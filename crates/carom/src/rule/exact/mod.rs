@@ -27,6 +27,7 @@ mod frame;
 mod frame_work;
 mod impact;
 mod look_along;
+mod moving;
 mod neighbours;
 mod pair_times;
 mod persistent;

@@ -1,5 +1,7 @@
 //! The timeline: the flights of all spheres and their next events.
 
+use std::borrow::Borrow;
+
 use glam::DVec3;
 
 use super::budget::Budget;
@@ -31,7 +33,7 @@ pub(crate) struct Timeline {
     pub(super) flights: Flights,
     pub(super) neighbours: Neighbours,
     pub(super) schedule: Schedule,
-    /// Moving surfaces, which count as near every sphere.
+    /// Moving surfaces that deflect spheres.
     pub(super) moving_surfaces: Vec<u32>,
     /// By slot, where flights restart often near surfaces that do not move; else empty.
     pub(super) clearances: Vec<Clearance>,
@@ -361,14 +363,38 @@ impl Timeline {
         self.drop_clearance(slot);
     }
 
-    /// Surfaces that a sphere may meet in its neighbour region, with the shift \[m\] that brings them to
+    /// Surfaces at rest that a sphere may meet in its neighbour region, with the shift \[m\] that brings them to
     /// where its position counts.
-    pub(super) fn surfaces_near(&self, slot: u32) -> impl Iterator<Item = (u32, DVec3)> {
+    pub(super) fn surfaces_at_rest_near(&self, slot: u32) -> impl Iterator<Item = (u32, DVec3)> {
         let level = self.flights.species_of(slot).level;
-        let shift = self.neighbours.shift_from_box(slot);
-        let moving = self.moving_surfaces.iter().map(move |&surface| (surface, shift));
-        let near = self.neighbours.surfaces_near(slot, level).chain(moving);
+        let near = self.neighbours.surfaces_near(slot, level);
         near.filter(move |near| self.neighbours.meets_surface(slot, near.0))
+    }
+
+    /// Surfaces at rest that a sphere may meet in its neighbour region, and then these moving ones, with the shift
+    /// \[m\] that brings them to where its position counts.
+    pub(super) fn surfaces_with<T: Borrow<u32>>(
+        &self,
+        slot: u32,
+        moving: impl IntoIterator<Item = T>,
+    ) -> impl Iterator<Item = (u32, DVec3)> {
+        let shift = self.neighbours.shift_from_box(slot);
+        let moving = moving.into_iter().map(move |surface| (*surface.borrow(), shift));
+        let meets = move |near: &(u32, DVec3)| self.neighbours.meets_surface(slot, near.0);
+        self.surfaces_at_rest_near(slot).chain(moving.filter(meets))
+    }
+
+    /// The images of a surface that a sphere may meet, with the shift \[m\] that brings each to where its position
+    /// counts.
+    pub(super) fn images_of(
+        &self,
+        system: &System,
+        slot: u32,
+        surface: u32,
+    ) -> impl Iterator<Item = (u32, DVec3)> {
+        let moves = !system.surfaces[surface as usize].motion.is_at_rest();
+        let all = self.surfaces_with(slot, moves.then_some(surface));
+        all.filter(move |near| near.0 == surface)
     }
 
     /// Whether a sphere cannot meet a surface on its flight, other than those in persistent contact with it.
@@ -393,7 +419,7 @@ impl Timeline {
             return;
         }
         let obstacles = self
-            .surfaces_near(slot)
+            .surfaces_at_rest_near(slot)
             .filter(|&(surface, _)| !self.flights.is_held_by(slot, surface))
             .map(|(surface, shift)| Obstacle {
                 form: &system.surfaces[surface as usize].form,
