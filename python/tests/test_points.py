@@ -38,11 +38,11 @@ def everything() -> carom.Points:
 @pytest.mark.parametrize("points", [crystal(), everything()])
 def test_a_scene_of_points_is_that_of_its_spheres(points: carom.Points) -> None:
     simulation = carom.Simulation(rule="contact")
-    of_points = carom.Scene(name="many", spheres=points, simulation=simulation)
-    of_spheres = carom.Scene(name="many", spheres=list(points), simulation=simulation)
-    assert of_points == of_spheres
-    assert of_points.to_toml() == of_spheres.to_toml()
-    one, other = of_points.world(), of_spheres.world()
+    from_points = carom.Scene(name="many", spheres=points, simulation=simulation)
+    from_spheres = carom.Scene(name="many", spheres=list(points), simulation=simulation)
+    assert from_points == from_spheres
+    assert from_points.to_toml() == from_spheres.to_toml()
+    one, other = from_points.world(), from_spheres.world()
     assert one.state_hash == other.state_hash
     for world in (one, other):
         world.step(frames=5)
@@ -91,13 +91,13 @@ def test_densities_give_the_masses_of_spheres_with_them() -> None:
         carom.Sphere(position=place, radius=radius, density=density)
         for place, radius, density in zip(places, radii, densities, strict=True)
     ]
-    of_points, of_spheres = carom.World(), carom.World()
-    of_points.add_spheres(points)
-    of_spheres.add_spheres(spheres)
-    assert of_points.masses.tolist() == of_spheres.masses.tolist()
+    from_points, from_spheres = carom.World(), carom.World()
+    from_points.add_spheres(points)
+    from_spheres.add_spheres(spheres)
+    assert from_points.masses.tolist() == from_spheres.masses.tolist()
     by_arrays = carom.World()
     by_arrays.add_spheres(places, radii, densities=densities)
-    assert by_arrays.masses.tolist() == of_spheres.masses.tolist()
+    assert by_arrays.masses.tolist() == from_spheres.masses.tolist()
 
 
 @pytest.mark.parametrize(

@@ -27,7 +27,7 @@ pub fn check() -> Outcome {
     Err(format!("the interface of carom changed; `cargo xtask interface` lists it:\n{changes}"))
 }
 
-/// Writes the listing anew.
+/// Writes the listing.
 pub fn write() -> Outcome {
     let file = root().join(LISTING);
     fs::write(&file, listing()?).map_err(|error| format!("{}: {error}", file.display()))

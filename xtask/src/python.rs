@@ -113,7 +113,7 @@ pub struct Environment {
 }
 
 impl Environment {
-    /// Makes it anew, in a folder among what is built.
+    /// Creates the environment in a folder of the build.
     pub fn new(name: &str) -> Outcome<Self> {
         setup::python()?;
         // The package draws.

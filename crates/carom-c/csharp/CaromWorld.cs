@@ -916,11 +916,11 @@ namespace Carom
             var cause = thrown;
             thrown = null;
             if (status == CaromStatus.Ok && cause == null) return;
-            string message = status == CaromStatus.Ok ? "a function of a force has thrown" : Told(carom_last_error());
+            string message = status == CaromStatus.Ok ? "a function of a force has thrown" : TextAt(carom_last_error());
             throw new CaromException(status, cause == null ? message : cause.Message, cause);
         }
 
-        static string Told(IntPtr text)
+        static string TextAt(IntPtr text)
         {
             int length = 0;
             while (Marshal.ReadByte(text, length) != 0) length++;

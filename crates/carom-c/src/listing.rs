@@ -50,7 +50,7 @@ pub unsafe extern "C" fn carom_world_ids(
 
 fn of_list(inner: &Inner, list: i32) -> Result<Vec<u64>, Failure> {
     let (world, report) = (&inner.world, inner.world.report());
-    let of_spheres = |ids: &[SphereId]| ids.iter().map(|id| id.number()).collect();
+    let sphere_numbers = |ids: &[SphereId]| ids.iter().map(|id| id.number()).collect();
     let lists = [
         CaromList::Spheres,
         CaromList::Colliders,
@@ -63,13 +63,13 @@ fn of_list(inner: &Inner, list: i32) -> Result<Vec<u64>, Failure> {
     ];
     let found = lists.into_iter().find(|it| *it as i32 == list);
     Ok(match found {
-        Some(CaromList::Spheres) => of_spheres(world.spheres().ids()),
+        Some(CaromList::Spheres) => sphere_numbers(world.spheres().ids()),
         Some(CaromList::Colliders) => world.colliders().map(|(id, _)| id.number()).collect(),
         Some(CaromList::Forces) => world.forces().map(|(id, _)| id.number()).collect(),
         Some(CaromList::Emitters) => world.emitters().map(|(id, _)| id.number()).collect(),
-        Some(CaromList::Emitted) => of_spheres(&report.emitted),
-        Some(CaromList::Retired) => of_spheres(&report.retired),
-        Some(CaromList::LeftOut) => of_spheres(&report.left_out),
+        Some(CaromList::Emitted) => sphere_numbers(&report.emitted),
+        Some(CaromList::Retired) => sphere_numbers(&report.retired),
+        Some(CaromList::LeftOut) => sphere_numbers(&report.left_out),
         Some(CaromList::Springs) => world.springs().map(|(id, _)| id.number()).collect(),
         None => {
             let problem = format!("there is no list {list}");

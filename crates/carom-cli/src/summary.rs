@@ -195,7 +195,7 @@ pub struct Summary {
     contact: Option<ContactTotals>,
     /// Only if `exact` had stepped zones.
     zones: Option<ZoneTotals>,
-    /// Only if it was asked for, and after a frame at least.
+    /// Only with `--stress`, and after at least one frame.
     #[serde(skip_serializing_if = "Option::is_none")]
     stress: Option<MeanStress>,
     wall_time: f64,

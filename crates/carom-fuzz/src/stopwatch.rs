@@ -17,7 +17,7 @@ impl Stopwatch {
         Self { began: Instant::now(), processor: processor_time() }
     }
 
-    /// Processor time since the start; time on the clock where the system tells none.
+    /// Processor time since the start; time on the clock if the system has no such figure.
     pub fn elapsed(&self) -> Duration {
         let computed = self.processor.zip(processor_time());
         let clock = self.began.elapsed();

@@ -80,12 +80,12 @@ impl<N: Real> Surface<N> {
     /// takes `radius` \[m\] as its radius.
     pub fn contact(&self, position: Vec3<N>, radius: N, mistakes: Mistakes) -> Option<Contact<N>> {
         match self.extent {
-            Extent::Sphere(own) => self.of_sphere(position, [own, radius], mistakes),
-            Extent::Rectangle(half) => self.of_rectangle(half, position, radius, mistakes),
+            Extent::Sphere(own) => self.sphere_contact(position, [own, radius], mistakes),
+            Extent::Rectangle(half) => self.rectangle_contact(half, position, radius, mistakes),
         }
     }
 
-    fn of_sphere(
+    fn sphere_contact(
         &self,
         position: Vec3<N>,
         [own, radius]: [N; 2],
@@ -101,7 +101,7 @@ impl<N: Real> Surface<N> {
         touches.then_some(Contact { kind: ContactKind::Sphere, normal, place })
     }
 
-    fn of_rectangle(
+    fn rectangle_contact(
         &self,
         half: [N; 2],
         position: Vec3<N>,

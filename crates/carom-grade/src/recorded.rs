@@ -49,12 +49,12 @@ impl Default for Reading {
 }
 
 impl Reading {
-    /// Unit of length \[m\]: as asked for, or as the heading says.
+    /// Unit of length \[m\]: of the option, or else of the heading.
     fn length_unit(&self, places: &Places) -> f64 {
         if self.length_unit == 1.0 { places.length_unit.unwrap_or(1.0) } else { self.length_unit }
     }
 
-    /// Unit of time \[s\]: as asked for, or as the heading says.
+    /// Unit of time \[s\]: of the option, or else of the heading.
     fn time_unit(&self, places: &Places) -> f64 {
         if self.time_unit == 1.0 { places.time_unit.unwrap_or(1.0) } else { self.time_unit }
     }

@@ -73,9 +73,9 @@ pub struct Tracks {
 /// Meaning of a label in a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Key {
-    /// Its number in order of emission.
+    /// Number of the ball in the order of emission.
     Number(usize),
-    /// The slot that it has, which it shares with earlier and later ones.
+    /// Slot of the ball; an emitter with a limit gives the slot of the oldest ball to the next one.
     Slot(usize),
 }
 

@@ -96,24 +96,24 @@ impl TapeEngine {
 
 impl TapeEngine {
     fn rows(&self, gradient: &Variation) -> Vec<Vec<f64>> {
-        let of_spheres = |part: fn(&SphereVariation) -> Vec<f64>| -> Vec<f64> {
+        let sphere_rows = |part: fn(&SphereVariation) -> Vec<f64>| -> Vec<f64> {
             self.ids.iter().flat_map(|&id| part(&gradient.sphere(id))).collect()
         };
-        let of_colliders = |part: fn(&ColliderVariation) -> Vec<f64>| -> Vec<f64> {
+        let collider_rows = |part: fn(&ColliderVariation) -> Vec<f64>| -> Vec<f64> {
             self.colliders.iter().flat_map(|&id| part(&gradient.collider(id))).collect()
         };
         vec![
-            of_spheres(|it| it.position.to_array().to_vec()),
-            of_spheres(|it| it.velocity.to_array().to_vec()),
-            of_spheres(|it| it.angular_velocity.to_array().to_vec()),
-            of_spheres(|it| vec![it.radius]),
-            of_spheres(|it| vec![it.mass]),
-            of_spheres(|it| vec![it.restitution]),
-            of_spheres(|it| vec![it.friction]),
-            of_colliders(|it| it.position.to_array().to_vec()),
-            of_colliders(|it| it.velocity.to_array().to_vec()),
-            of_colliders(|it| vec![it.restitution]),
-            of_colliders(|it| vec![it.friction]),
+            sphere_rows(|it| it.position.to_array().to_vec()),
+            sphere_rows(|it| it.velocity.to_array().to_vec()),
+            sphere_rows(|it| it.angular_velocity.to_array().to_vec()),
+            sphere_rows(|it| vec![it.radius]),
+            sphere_rows(|it| vec![it.mass]),
+            sphere_rows(|it| vec![it.restitution]),
+            sphere_rows(|it| vec![it.friction]),
+            collider_rows(|it| it.position.to_array().to_vec()),
+            collider_rows(|it| it.velocity.to_array().to_vec()),
+            collider_rows(|it| vec![it.restitution]),
+            collider_rows(|it| vec![it.friction]),
             gradient.acceleration.to_array().to_vec(),
         ]
     }
@@ -171,7 +171,7 @@ impl TangentsEngine {
     fn motion<'py>(&self, py: Python<'py>) -> PyResult<[Row<'py>; 3]> {
         let tangents = lock(&self.0)?;
         let row = |part: fn(&SphereTangent) -> DVec3| {
-            let all = (0..tangents.len()).flat_map(|number| tangents.of_spheres(number));
+            let all = (0..tangents.len()).flat_map(|number| tangents.spheres(number));
             PyArray1::from_vec(py, all.flat_map(|tangent| part(tangent).to_array()).collect())
         };
         Ok([row(|it| it.position), row(|it| it.velocity), row(|it| it.angular_velocity)])

@@ -65,15 +65,15 @@ fn with_lowest(world: &World, overlap: carom::Overlap) -> carom::Overlap {
 fn rounding(world: &World, overlap: &carom::Overlap) -> f64 {
     const OF_RADIUS: f64 = 1e-9;
     const OF_COORDINATES: f64 = 8.0 * f64::EPSILON;
-    let of_sphere = |id: carom::SphereId| {
+    let sizes = |id: carom::SphereId| {
         let index = id.number() as usize;
         let (radius, center) = (world.spheres().radii()[index], world.spheres().positions()[index]);
         (radius, center.abs().max_element())
     };
     let (radius, coordinate) = match overlap.between {
-        carom::BodyPair::Collider { sphere, .. } => of_sphere(sphere),
+        carom::BodyPair::Collider { sphere, .. } => sizes(sphere),
         carom::BodyPair::Spheres(first, second) => {
-            let (first, second) = (of_sphere(first), of_sphere(second));
+            let (first, second) = (sizes(first), sizes(second));
             (first.0.min(second.0), first.1.max(second.1))
         }
     };

@@ -87,7 +87,7 @@ pub struct Palette {
     /// Paint of each single sphere of the scene.
     spheres: Vec<Paint>,
     generators: Vec<Paint>,
-    /// Paint of each emitter, by the indices of `origins`.
+    /// Paint of each emitter, in the order of the emitters of `origins`.
     emitters: Vec<Paint>,
     colliders: Vec<Paint>,
     /// Default colours of the scene.

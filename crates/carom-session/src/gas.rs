@@ -50,7 +50,7 @@ impl Plane {
     }
 }
 
-/// Closed space around the spheres, which defines a pressure.
+/// Closed space around the spheres, in which the pressure is measured.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Enclosure {
     /// A closed container with an inner surface of `area` \[m²\].

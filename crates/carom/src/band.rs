@@ -38,7 +38,7 @@ pub(crate) enum Profile {
         /// Unit vectors from the centre to the ends, the second one counterclockwise from the first; equal for a
         /// whole circle.
         ends: [DVec2; 2],
-        /// Whether it faces its centre.
+        /// Whether the surface faces the centre of its arc.
         is_hollow: bool,
     },
 }
@@ -73,7 +73,7 @@ pub(crate) struct View {
     pub front_normal: DVec3,
     /// How far the point may go with the face nearest \[m\]; negative where a rim is.
     pub room: f64,
-    /// Unit vectors along the profile and about the axis.
+    /// Unit vectors along the profile and about the axis, at the nearest point of the surface.
     pub directions: [DVec3; 2],
     /// Second derivatives of the distance along them \[1/m\].
     pub curvatures: [f64; 2],
@@ -276,7 +276,7 @@ impl Profile {
         Self::Line { from, direction: way / length, length, thickness: 0.0 }
     }
 
-    /// The same profile, facing the other way.
+    /// Returns the profile facing the other way.
     pub fn turned(self) -> Self {
         match self {
             Self::Line { from, direction, length, thickness } => Self::Line {

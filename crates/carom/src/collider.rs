@@ -240,53 +240,53 @@ impl Collider {
         }
     }
 
-    /// The same collider with another form.
+    /// Returns the collider with this shape.
     pub fn with_shape(self, shape: Shape) -> Self {
         Self { shape, ..self }
     }
 
-    /// The same collider elsewhere.
+    /// Returns the collider in this pose.
     pub fn with_pose(self, pose: Pose) -> Self {
         Self { pose, ..self }
     }
 
-    /// The same collider, moving: velocity \[m/s\] of its origin, angular velocity \[rad/s\]
+    /// Returns the collider with this motion: velocity \[m/s\] of its origin, angular velocity \[rad/s\]
     /// about it. Spheres feel the velocity of the surface where they meet it.
     pub fn moving(self, velocity: DVec3, angular_velocity: DVec3) -> Self {
         Self { velocity, angular_velocity, ..self }
     }
 
-    /// The same collider with this motion; several motions act one after the other.
+    /// Returns the collider with this motion; several motions act one after the other.
     pub fn with_motion(self, motion: impl Into<Motion>) -> Self {
         Self { motion: motion.into(), velocity: DVec3::ZERO, angular_velocity: DVec3::ZERO, ..self }
     }
 
-    /// The same collider with this coefficient of restitution.
+    /// Returns the collider with this coefficient of restitution.
     pub fn with_restitution(self, restitution: f64) -> Self {
         Self { restitution, ..self }
     }
 
-    /// The same collider with this friction: a coefficient, or a [`Friction`].
+    /// Returns the collider with this friction: a coefficient, or a [`Friction`].
     pub fn with_friction(self, friction: impl Into<Friction>) -> Self {
         Self { friction: friction.into(), ..self }
     }
 
-    /// The same collider as a trigger.
+    /// Returns the collider as a trigger.
     pub fn as_trigger(self) -> Self {
         Self { trigger: true, ..self }
     }
 
-    /// The same collider, which adds a speed \[m/s\] along the normal in every impact.
+    /// Returns the collider with a kick: it adds this speed \[m/s\] along the normal in every impact.
     pub fn with_kick(self, kick: f64) -> Self {
         Self { kick, ..self }
     }
 
-    /// The same collider in these groups.
+    /// Returns the collider in these groups.
     pub fn with_groups(self, groups: Groups) -> Self {
         Self { groups, ..self }
     }
 
-    /// The same collider with this number of the program's own.
+    /// Returns the collider with this number of the program's own.
     pub fn with_user_data(self, user_data: u64) -> Self {
         Self { user_data, ..self }
     }

@@ -78,17 +78,17 @@ impl Emitter {
         Self { sphere, position, rotation, period, max_spheres, count, needs_room }
     }
 
-    /// The same emitter with its origin at this place in the world \[m\].
+    /// Returns the emitter with its origin at this place in the world \[m\].
     pub fn with_position(self, position: DVec3) -> Self {
         Self { position, ..self }
     }
 
-    /// The same emitter with this rotation from its frame to the world.
+    /// Returns the emitter with this rotation from its frame to the world.
     pub fn with_rotation(self, rotation: DQuat) -> Self {
         Self { rotation, ..self }
     }
 
-    /// The same emitter with at most this many of its spheres alive; `None`: no limit.
+    /// Returns the emitter with at most this many of its spheres alive; `None`: no limit.
     pub fn with_max_spheres(self, max_spheres: impl Into<Option<u32>>) -> Self {
         Self { max_spheres: max_spheres.into(), ..self }
     }
@@ -103,12 +103,12 @@ impl Emitter {
         Self { needs_room: needs_room.into(), ..self }
     }
 
-    /// The same emitter with this sphere to emit.
+    /// Returns the emitter with this sphere to emit.
     pub fn with_sphere(self, sphere: Sphere) -> Self {
         Self { sphere, ..self }
     }
 
-    /// The same emitter with this time between two spheres \[s\].
+    /// Returns the emitter with this time between two spheres \[s\].
     pub fn with_period(self, period: f64) -> Self {
         Self { period, ..self }
     }

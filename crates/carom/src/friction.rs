@@ -47,17 +47,17 @@ impl Friction {
         Self { sliding: Some(coefficient), ..Self::default() }
     }
 
-    /// The same friction with this coefficient of rolling friction.
+    /// Returns the friction with this coefficient of rolling friction.
     pub fn with_rolling(self, coefficient: f64) -> Self {
         Self { rolling: Some(coefficient), ..self }
     }
 
-    /// The same friction with this coefficient of spinning friction.
+    /// Returns the friction with this coefficient of spinning friction.
     pub fn with_spinning(self, coefficient: f64) -> Self {
         Self { spinning: Some(coefficient), ..self }
     }
 
-    /// The same friction with this coefficient of tangential restitution.
+    /// Returns the friction with this coefficient of tangential restitution.
     pub fn with_tangential_restitution(self, coefficient: f64) -> Self {
         Self { tangential_restitution: Some(coefficient), ..self }
     }

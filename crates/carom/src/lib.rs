@@ -11,10 +11,10 @@
 //! 4. find the **time of contact** ([`contact_time`])
 //! 5. **respond** with impulses, or with forces where contacts persist ([`respond`])
 //!
-//! [`Rule::Discrete`] and [`Rule::Bisect`] take a frame so. The default, [`Rule::Exact`], knows the
-//! motion between impacts in closed form ([`Flight`]) and takes it from event to event: **predict**
-//! what each sphere meets next, take the first from a **queue**, **respond**, and predict
-//! anew what changed. Spheres are emitted on the way, each at its own time.
+//! [`Rule::Discrete`] and [`Rule::Bisect`] go through a frame in these stages. The default, [`Rule::Exact`], has the
+//! motion between impacts in closed form ([`Flight`]) and goes from event to event: **predict** the next event of
+//! each sphere, take the first one from a **queue**, **respond**, and predict again what changed. Each sphere is
+//! emitted at its own time.
 //!
 //! Right-handed coordinate system, y up, SI units, double precision. The same input gives the same
 //! bits on every platform: only `+ - * /`, `sqrt` and the `libm` crate are used, in a fixed order

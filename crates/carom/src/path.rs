@@ -23,9 +23,9 @@ pub struct PathLeg {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum PathEnd {
-    /// At the end of the time asked for.
+    /// At the end of the requested time.
     Horizon,
-    /// At the last impact asked for. A leg without length there has the velocity after it.
+    /// At the last requested impact. A leg of zero length has the velocity after it.
     Impacts,
     /// Where the motion has no closed form any more: a step would put the sphere into a stepped zone, or fail.
     NoClosedForm,

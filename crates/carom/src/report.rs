@@ -49,9 +49,9 @@ pub struct StepReport {
     pub unfinished_islands: u32,
     /// The work of the step, by stage.
     pub work: StageCounts,
-    /// What became of the energy.
+    /// Changes of the energy, by cause.
     pub energy_account: EnergyAccount,
-    /// Under the rule `contact`, and in the stepped zones of `exact`, how good the solution is.
+    /// Quality of the solution under the rule `contact`, and in the stepped zones of `exact`.
     pub contact_account: ContactAccount,
     /// Under the rule `exact`, the spheres that were stepped and not moved from impact to impact.
     pub zone_account: ZoneAccount,
@@ -76,10 +76,10 @@ pub struct ZoneAccount {
     pub left: u32,
 }
 
-/// What became of the energy of a world in a step, under any rule.
+/// Changes of the energy of a world in a step, by cause, under any rule.
 ///
-/// [`World::total_energy`](crate::World::total_energy) after the step is that before it, and the sum of these,
-/// and the error of the integration, which is what is left. Flights in closed form have none but rounding.
+/// [`World::total_energy`](crate::World::total_energy) after the step is the energy before it, plus the sum of
+/// these, plus the error of the integration. Flights in closed form have no error but rounding.
 ///
 /// ```
 /// use carom::{Collider, DVec3, Gravity, Pose, Shape, Sphere, World};
@@ -100,9 +100,9 @@ pub struct ZoneAccount {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct EnergyAccount {
-    /// Work of contacts \[J\]: what restitution and friction took, in impacts and in contacts that persist.
-    /// <= 0 but for rounding, and under the rule `contact` for the error of a sub-step. What bears a sphere
-    /// at rest does none.
+    /// Work of contacts \[J\]: the energy that restitution and friction took, in impacts and in persistent
+    /// contacts. It is <= 0 up to rounding, and under the rule `contact` up to the error of a sub-step. The contact
+    /// forces on a sphere at rest do no work.
     pub contacts: f64,
     /// Work of moving colliders \[J\].
     pub colliders: f64,
@@ -116,10 +116,10 @@ pub struct EnergyAccount {
     /// Work of the forces applied to single spheres
     /// ([`World::set_applied_forces`](crate::World::set_applied_forces)) \[J\].
     pub applied: f64,
-    /// Work of moving spheres out of what they overlap \[J\], or in front of it and with what they touch until the
-    /// first tick of a stepped zone, against forces that have a potential or are linear.
+    /// Work \[J\], against forces that have a potential or are linear, of moving spheres out of overlaps, or in
+    /// front of a surface, or along with a stepped zone until its first tick.
     pub correction: f64,
-    /// Energy of the spheres that emitters put into the world, less that of those they took out \[J\].
+    /// Energy of the spheres that emitters added, minus the energy of those that they removed \[J\].
     pub emission: f64,
 }
 
@@ -263,19 +263,18 @@ pub struct LedgerEntry<'a> {
     pub group: &'a ImpactGroup,
 }
 
-/// Impacts at one instant among bodies that touch each other, and what they did together.
+/// Impacts at one instant among bodies that touch each other, with their common momentum and energy.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct ImpactGroup {
-    /// Its first impact in [`StepReport::impacts`].
+    /// Index of its first impact in [`StepReport::impacts`].
     pub first: usize,
-    /// How many impacts it is made of.
+    /// Number of its impacts.
     pub count: usize,
-    /// How it was answered. A single impact is the same under every law.
+    /// Law by which it was answered. A single impact is the same under every law.
     pub law: ImpactLaw,
     /// Momentum of its spheres before \[kg m/s\].
     pub momentum_before: DVec3,
-    /// Momentum after, less what colliders gave \[kg m/s\]: it differs from that before by
-    /// rounding only.
+    /// Momentum after, less what colliders gave \[kg m/s\]: it differs from the momentum before by rounding only.
     pub momentum_after: DVec3,
     /// Sum of the magnitudes of the momenta before, for the relative error; with more than two spheres or with
     /// colliders, of those after if that is more \[kg m/s\].
@@ -345,7 +344,7 @@ pub struct Impact {
     pub time: f64,
     /// The two bodies.
     pub between: BodyPair,
-    /// Where on the surface of body 1 \[m\].
+    /// Contact point on the surface of body 1 \[m\].
     pub point: DVec3,
     /// Unit normal from body 1 to body 2.
     pub normal: DVec3,
@@ -373,7 +372,7 @@ pub struct TriggerContact {
     pub sphere: SphereId,
     /// Unit normal from the trigger's surface to the sphere.
     pub normal: DVec3,
-    /// Where on the trigger's surface \[m\].
+    /// Contact point on the surface of the trigger \[m\].
     pub point: DVec3,
 }
 

@@ -95,67 +95,67 @@ impl Sphere {
         }
     }
 
-    /// The same sphere with its centre at this place \[m\].
+    /// Returns the sphere with its centre at this place \[m\].
     pub fn with_position(self, position: DVec3) -> Self {
         Self { position, ..self }
     }
 
-    /// The same sphere with this radius \[m\].
+    /// Returns the sphere with this radius \[m\].
     pub fn with_radius(self, radius: f64) -> Self {
         Self { radius, ..self }
     }
 
-    /// The same sphere with this velocity \[m/s\].
+    /// Returns the sphere with this velocity \[m/s\].
     pub fn with_velocity(self, velocity: DVec3) -> Self {
         Self { velocity, ..self }
     }
 
-    /// The same sphere with this mass: a number \[kg\], or a [`Mass`].
+    /// Returns the sphere with this mass: a number \[kg\], or a [`Mass`].
     pub fn with_mass(self, mass: impl Into<Mass>) -> Self {
         Self { mass: mass.into(), ..self }
     }
 
-    /// The same sphere with the mass of this density \[kg/m³\].
+    /// Returns the sphere with the mass of this density \[kg/m³\].
     pub fn with_density(self, density: f64) -> Self {
         Self { mass: Mass::Density(density), ..self }
     }
 
-    /// The same sphere with this coefficient of restitution.
+    /// Returns the sphere with this coefficient of restitution.
     pub fn with_restitution(self, restitution: f64) -> Self {
         Self { restitution, ..self }
     }
 
-    /// The same sphere with this friction: a coefficient, or a [`Friction`].
+    /// Returns the sphere with this friction: a coefficient, or a [`Friction`].
     pub fn with_friction(self, friction: impl Into<Friction>) -> Self {
         Self { friction: friction.into(), ..self }
     }
 
-    /// The same sphere, turned.
+    /// Returns the sphere with this orientation.
     pub fn with_orientation(self, orientation: DQuat) -> Self {
         Self { orientation, ..self }
     }
 
-    /// The same sphere with this angular velocity \[rad/s\].
+    /// Returns the sphere with this angular velocity \[rad/s\].
     pub fn with_angular_velocity(self, angular_velocity: DVec3) -> Self {
         Self { angular_velocity, ..self }
     }
 
-    /// The same sphere with this moment of inertia, divided by m r².
+    /// Returns the sphere with this moment of inertia, divided by m r².
     pub fn with_inertia_factor(self, inertia_factor: f64) -> Self {
         Self { inertia_factor, ..self }
     }
 
-    /// The same sphere in these groups.
+    /// Returns the sphere in these groups.
     pub fn with_groups(self, groups: Groups) -> Self {
         Self { groups, ..self }
     }
 
-    /// The same sphere with a radius that grows at this speed \[m/s\].
+    /// Returns the sphere with a radius that grows at this speed \[m/s\].
     pub fn with_growth_speed(self, growth_speed: f64) -> Self {
         Self { growth_speed, ..self }
     }
 
-    /// The same sphere with this number of the program's own.
+    /// Returns the sphere with this number of the program's own.
     pub fn with_user_data(self, user_data: u64) -> Self {
         Self { user_data, ..self }
     }

@@ -38,8 +38,8 @@ pub(crate) struct State {
     pub spheres: Spheres,
     /// The id of the next sphere.
     pub next_id: u64,
-    /// Under the rule `exact`, the flights of the spheres; `None` where they have to begin anew,
-    /// from the spheres as they are.
+    /// Flights of the spheres under the rule `exact`; `None` if they must start again from the
+    /// present state.
     pub timeline: Option<Timeline>,
     /// Under the rule `exact`, what was stepped before the flights were dropped.
     pub zone: Zone,
@@ -194,8 +194,8 @@ impl State {
         }
     }
 
-    /// The flights, if all begin anew in each frame: then a change from outside to some of them leaves
-    /// the others good. Any others are dropped.
+    /// Returns the flights if all of them start again in each frame, so that a change from outside to some
+    /// of them does not affect the others. Otherwise drops them.
     fn renewed_flights(&mut self) -> Option<&mut Timeline> {
         let are_applied = !self.spheres.applied_forces().is_empty();
         if !self.timeline.as_ref().is_some_and(|it| it.is_renewed_each_frame(are_applied)) {

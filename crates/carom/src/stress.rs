@@ -64,9 +64,9 @@ impl Stress {
 /// ```
 #[derive(Debug, Clone)]
 pub struct StressMeter {
-    /// Time of the world when it was looked at last \[s\].
+    /// Time of the world at the last measurement \[s\].
     last: f64,
-    /// Σ m v v then \[J\].
+    /// Σ m v v at the last measurement \[J\].
     last_kinetic: DMat3,
     /// Time measured \[s\].
     time: f64,

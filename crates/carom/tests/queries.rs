@@ -232,11 +232,11 @@ fn overlapping_bodies_come_once_and_in_order() {
             sphere.position.distance(center) <= sphere.radius + 1.0
         })
         .collect();
-    let of_spheres = found.iter().filter_map(|near| match near.body {
+    let near_spheres = found.iter().filter_map(|near| match near.body {
         Body::Sphere(id) => Some(id),
         Body::Collider(_) => None,
     });
-    assert_eq!(of_spheres.collect::<Vec<_>>(), spheres);
+    assert_eq!(near_spheres.collect::<Vec<_>>(), spheres);
     assert_eq!(found.len(), spheres.len() + 1, "the solid box, once");
     assert!(found.last().unwrap().distance < -1.0, "the place is in it");
 }

@@ -41,7 +41,7 @@ class Batch(Strict, BatchEngine):
     and ``applied_forces`` (n, spheres, 3); ``orientations`` (n, spheres, 4); ``radii``, ``masses``,
     ``restitutions``, ``inertia_factors``, ``frictions``, ``rolling_frictions``,
     ``spinning_frictions`` and ``tangential_restitutions`` (n, spheres). They are kept as those of a
-    `World` are: made at the first read, written anew by every step, read without copying. To set
+    `World` are: made at the first read, written by every step, read without copying. To set
     one, assign to it or write into it: ``batch.velocities = 0``, ``batch.velocities[3] = 0``.
 
     A row has places for as many spheres as there are in the world with the most (``counts``, and
@@ -126,7 +126,7 @@ class Batch(Strict, BatchEngine):
         raise failure from None
 
     def reset(self, worlds: ArrayLike | None = None) -> None:
-        """Has worlds return to where they started, in microseconds each.
+        """Returns worlds to their initial states, in microseconds each.
 
         Args:
             worlds: Their numbers, or n truth values; all of them unless given.

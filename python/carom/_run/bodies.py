@@ -314,6 +314,6 @@ class Bodies(Engine):
         return self._add_emitter(f"emitters = [{toml_value(emitter, 'emitter')}]")
 
     def set_emitter(self, id: int, emitter: parts.Emitter) -> None:
-        """Changes an emitter; with another period it starts anew, now."""
+        """Changes an emitter. With another period it starts again at the present time."""
         parts.expect("emitter", emitter, parts.Emitter)
         self._set_emitter(id, f"emitters = [{toml_value(emitter, 'emitter')}]")

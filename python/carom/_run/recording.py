@@ -68,10 +68,10 @@ def run_into(
 
     Args:
         world: What moves.
-        take: Takes so many frames of it, and records them.
+        take: Takes a number of frames, and records them.
         out: The arrays.
         frames: How many in all.
-        every: A state is recorded after so many of them.
+        every: A state is recorded after this number of frames.
         selection: Which events are recorded, too; of states it is what there are arrays for.
     """
     rows = frames // every + 1

@@ -21,7 +21,7 @@ class StageCounts(NamedTuple):
     solver_iterations: int
     """Iterations of the solvers of these groups, each counted once for every contact."""
     searches: int
-    """How often neighbours were found anew, under the rule ``contact``."""
+    """How often neighbours were searched for, under the rule ``contact``."""
     sweeps: int
     """How often all contacts were gone through, under the rule ``contact``."""
     contacts: int
@@ -29,7 +29,7 @@ class StageCounts(NamedTuple):
 
 
 class EnergyAccount(NamedTuple):
-    """What became of the energy of a world in a frame, under any rule.
+    """Changes of the energy of a world in a frame, by cause, under any rule.
 
     The total energy after the frame is that before it, the sum of these, and the error of the
     integration, which is what is left.

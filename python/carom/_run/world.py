@@ -171,8 +171,8 @@ class World(Strict, Queries, Bodies):
             seconds: How long [s], up to whole frames; the scene's own duration unless given.
             frames: How many frames instead.
             dt: Length of a frame [s]; the scene's own unless given.
-            every: States are recorded after every so many frames, and at the beginning; at most as
-                many as there are frames.
+            every: States are recorded after this number of frames, and at the beginning; at most
+                the number of frames.
             quantities: What is recorded of each state; unless given, positions, velocities and,
                 where spheres may turn, orientations and angular velocities.
             dtype: Of what is recorded; float64 unless given, ``"float32"`` takes half the memory.
@@ -272,7 +272,7 @@ class World(Strict, Queries, Bodies):
 
     @property
     def energy_account(self) -> EnergyAccount:
-        """What became of the energy in the last frame."""
+        """Changes of the energy in the last frame, by cause."""
         return EnergyAccount(*self._energy_account())
 
     @property
@@ -417,7 +417,7 @@ class World(Strict, Queries, Bodies):
         self._set_simulation(f"simulation = {toml_value(simulation, 'simulation')}")
 
     def to_scene(self) -> Scene:
-        """A scene that begins as the world is now: time begins at 0 there, emitters begin anew.
+        """A scene that begins as the world is now: its time begins at 0, its emitters start again.
 
         Its spheres are `Points`, which read like a list of `Sphere`. Forces that are applied to
         single spheres are no part of a scene.

@@ -41,7 +41,7 @@ class Listed(NamedTuple):
 
 
 def scene(name: str, description: str = "") -> Callable[[_Maker], _Maker]:
-    """Has a function that returns a `Scene` found by name, by `load` and ``python -m carom``.
+    """Registers a function that returns a `Scene`, for `load` and ``python -m carom``.
 
     The scene gets this name, and this description if it has none. A later one of the same name
     takes its place. Parameters of the function are given to `load`; each needs a default. Other

@@ -34,7 +34,7 @@ class UnguardedError(RunError, SystemExit):
 
 
 def check_not_in_worker() -> None:
-    """Ends a process that comes to a sweep while it imports the script that started it."""
+    """Ends a process that reaches a sweep while it imports the script that started it."""
     is_importing = getattr(multiprocessing.current_process(), "_inheriting", False)
     if is_importing and (mark := os.environ.get(_MARK)) is not None:
         # The process that started this one tells.

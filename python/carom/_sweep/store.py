@@ -22,7 +22,7 @@ from carom._sweep.plan import canonical_text
 from carom.errors import CaromError
 
 _APPLICATION = 0x4361_726F
-"""Tells stores from other files of SQLite: "Caro"."""
+"""Distinguishes stores from other files of SQLite: "Caro"."""
 _FORMAT = 1
 _PATIENCE = 60.0
 """How long to wait [s] for another process that writes into the same store."""

@@ -61,8 +61,8 @@ def bond_order(
         box: Sides of the periodic box [m], shape (3,); infinite along an axis that is open.
         degree: l, from 0 to 40.
         distance: Neighbours are nearer than this [m], at most half the smallest side.
-        nearest: Or neighbours are so many nearest ones, 12 unless given; of those at one distance
-            the ones that come first.
+        nearest: Or this number of nearest spheres are neighbours, 12 unless given; of those at one
+            distance the ones that come first.
         averaged: Whether ``q_lm`` are averaged over neighbours first.
 
     Returns:

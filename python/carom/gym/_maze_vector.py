@@ -91,7 +91,7 @@ class MazeVectorEnv(_Base):
             seed: Of the random places to start from: one for each environment, or s for s, s + 1,
                 s + 2, ...; as they go on, unless given.
             options: ``"start"``: ``"maze"`` or ``"random"``, for these episodes; ``"reset_mask"``,
-                bool (num_envs,): which environments start anew, the others go on.
+                bool (num_envs,): which environments start again; the others go on.
 
         Returns:
             Observations (num_envs, 6 + c), and infos.

@@ -10,10 +10,10 @@ import traitlets
 
 from carom._pictures.stage import Stage
 from carom.errors import CaromError
-from carom.notebook._shown import Shown
+from carom.notebook._widget import Widget
 
 
-class AnimatedTrajectory(Shown):
+class AnimatedTrajectory(Widget):
     """A player of a recorded run, in the output of a cell: `Trajectory.show` makes it.
 
     It shows the recorded states and nothing else: whatever moved the spheres, each is drawn as

@@ -18,7 +18,7 @@ from carom._scene.scene import Scene
 from carom._scene.text import toml_value
 from carom.errors import CaromError
 from carom.notebook._built import built_interface
-from carom.notebook._shown import Shown, checked_height
+from carom.notebook._widget import Widget, checked_height
 
 _LARGEST = 16 * 2**20
 """Text of a scene that a link holds at most [bytes]: `MAX_UNPACKED` of the engine."""
@@ -34,7 +34,7 @@ _SPHERE_FIELDS = (
 """What `Viewer.set_sphere` changes."""
 
 
-class Viewer(Shown):
+class Viewer(Widget):
     """The viewer of the page, in the output of a cell: `Scene.show` and `World.show` make it.
 
     What happens in it and what Python sets are the same: ``viewer.time = 2.5`` goes there, and
@@ -185,7 +185,7 @@ class Viewer(Shown):
 
     @traitlets.observe("time", "playing", "picked")
     def _command(self, change: dict[str, Any]) -> None:
-        """Has the browser show what Python set; what the browser reported it shows already."""
+        """Sends what Python set to the browser, but not what the browser reported itself."""
         # Where there is no interface yet, it begins with the traits as they are then.
         if self._ready and not self._is_reporting:
             self._tell("set", {change["name"]: change["new"]})

@@ -52,7 +52,7 @@ fn built(targets: &[&str]) -> Outcome<Vec<Program>> {
     Ok(output.lines().filter_map(program).collect())
 }
 
-/// The test program that a message of cargo tells of.
+/// Returns the test program that a message of cargo describes.
 fn program(message: &str) -> Option<Program> {
     let message: Value = serde_json::from_str(message).ok()?;
     let is_test = message["profile"]["test"].as_bool()?;

@@ -28,7 +28,7 @@ const LAYOUT: &str = include_str!("layout.json");
 /// Modules of the folder that are written by hand and used by those that are made.
 const BY_HAND: [&str; 3] = ["kinds", "part", "together"];
 
-/// Writes the classes anew.
+/// Writes the classes.
 pub fn write() -> Outcome {
     for (file, text) in made()? {
         fs::write(&file, text).map_err(|error| said(&file, &error))?;

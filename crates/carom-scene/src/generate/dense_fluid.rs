@@ -12,10 +12,10 @@ use crate::scene::{DenseFluid, Sphere};
 
 /// Speed at which diameters grow, in parts of the thermal speed: up to packing fractions of about 0.62.
 const GROWTH: f64 = 0.1;
-/// Collisions of each sphere after its growth, in which the fluid forgets that.
+/// Collisions of each sphere after its growth, which bring the fluid to equilibrium.
 const COLLISIONS: f64 = 20.0;
-/// Spheres grow by this part more than asked for, and are written with the radii asked for, so that rounding leaves
-/// none of them overlapping.
+/// Relative excess of the radii after the growth. The scene gets the requested radii, so that rounding makes no
+/// spheres overlap.
 const SPARE: f64 = 1e-9;
 /// Reduced pressure at which spheres count as jammed.
 const JAMMED: f64 = 1e5;

@@ -4,7 +4,7 @@ use std::io::Write;
 
 use base64::Engine;
 use base64::engine::general_purpose::URL_SAFE_NO_PAD;
-use carom_session::{Link, LinkSource, MAX_UNPACKED};
+use carom_session::{Edit, Link, LinkSource, MAX_UNPACKED, Session, SessionError};
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use proptest::prelude::*;
@@ -225,5 +225,30 @@ proptest! {
             let link = link.with_overrides([it]);
             prop_assert_eq!(Link::parse(&link.to_fragment()).unwrap(), link);
         }
+    }
+}
+
+#[test]
+fn a_time_that_cannot_be_counted_in_frames_is_refused() {
+    let link = Link::parse("scene=simtest1&t=1e300").unwrap();
+    let error = Session::replay(link.open().unwrap(), &link).unwrap_err();
+    assert!(matches!(error, SessionError::TooFar { .. }), "{error}");
+}
+
+#[test]
+fn what_is_no_edit_is_refused_in_a_line_that_says_why() {
+    let refused = |text: &str| Edit::from_toml(text).unwrap_err();
+    assert!(refused("change = { explode = 1 }").contains("explode"));
+    assert!(refused("change = { all-collider-restitutions = \"high\" }").contains("line 1"));
+    assert_eq!(refused("change = \"failed-step\""), "a failed step is no edit");
+    assert!(refused("").contains("change"));
+}
+
+#[test]
+fn a_link_reaches_for_no_file() {
+    for name in ["scenes/simtest1.toml", "../../scenes/simtest1.toml", "/etc/passwd", "a.toml"] {
+        let link = Link::new(LinkSource::BuiltIn(name.to_owned()));
+        let error = link.open().unwrap_err().to_string();
+        assert_eq!(error, format!("there is no scene \"{name}\""));
     }
 }

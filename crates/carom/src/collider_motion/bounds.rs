@@ -1,4 +1,4 @@
-//! Upper bounds of how a motion changes over some time.
+//! Upper bounds of the derivatives of a motion over a time.
 
 use std::f64::consts::TAU;
 
@@ -6,27 +6,27 @@ use super::kinematics::Moment;
 use super::{Kinematics, Motion, MotionPart};
 use crate::norm::Norm;
 
-/// Upper bounds of the derivatives of a motion over some time, whichever way.
+/// Upper bounds of the derivatives of a motion over a time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct MotionBounds {
-    /// How far the origin comes from where it is at the start \[m\].
+    /// Largest distance of the origin from its position at the start \[m\].
     pub way: f64,
-    /// Of the origin \[m/s\].
+    /// Speed of the origin \[m/s\].
     pub speed: f64,
-    /// \[m/s²\]
+    /// Acceleration of the origin \[m/s²\].
     pub acceleration: f64,
-    /// \[m/s³\]
+    /// Third derivative of the position of the origin \[m/s³\].
     pub jerk: f64,
-    /// \[rad/s\]
+    /// Angular velocity \[rad/s\].
     pub spin: f64,
-    /// \[rad/s²\]
+    /// Angular acceleration \[rad/s²\].
     pub spin_growth: f64,
-    /// \[rad/s³\]
+    /// Second derivative of the angular velocity \[rad/s³\].
     pub spin_jerk: f64,
 }
 
 impl MotionBounds {
-    /// Of a motion from a time on, for `length` \[s\].
+    /// Returns the bounds of a motion from a time on, for `length` \[s\].
     pub fn of(motion: &Motion, time: Moment, length: f64) -> Self {
         let (mut state, mut bounds) = (Kinematics::REST, Self::default());
         let last = motion.parts().len().saturating_sub(1);
@@ -58,7 +58,7 @@ impl MotionBounds {
         bounds
     }
 
-    /// Carried by a way, by its derivatives.
+    /// Adds a translation of at most `way` \[m\] with these bounds of its derivatives.
     fn shifted(self, way: f64, [speed, acceleration, jerk]: [f64; 3]) -> Self {
         Self {
             way: self.way + way,
@@ -69,8 +69,8 @@ impl MotionBounds {
         }
     }
 
-    /// Carried by a rotation by up to an angle \[rad\], with an arm \[m\] at the start, by the derivatives of its
-    /// angle: the norms of the terms of [`Kinematics`], and of their derivatives.
+    /// Adds a rotation by at most an angle \[rad\], with bounds of its derivatives; `arm` is the distance from the
+    /// pivot at the start \[m\]. The bounds are the norms of the terms of [`Kinematics`] and of their derivatives.
     fn turned(self, arm: f64, angle: f64, [rate, growth, jerk]: [f64; 3]) -> Self {
         let Self { way, speed, acceleration, spin, spin_growth, .. } = self;
         // A chord is no longer than its arc, nor than the diameter.
@@ -92,7 +92,7 @@ impl MotionBounds {
     }
 }
 
-/// The largest derivatives of `A sin(2π f t + φ)`.
+/// Returns the largest values of the derivatives of `A sin(2π f t + φ)`.
 fn sine(amplitude: f64, frequency: f64) -> [f64; 3] {
     let (size, rate) = (amplitude.abs(), TAU * frequency);
     [size * rate, size * rate * rate, size * rate * rate * rate]
@@ -139,7 +139,7 @@ mod tests {
                 // Differences carry the rounding of 1e-16 over h.
                 assert!(most <= bound + 1e-11, "{most} {bounds:?}");
             }
-            // The bound of a speed is that of a sum of speeds.
+            // The bound of a speed is the sum of the bounds of the parts.
             assert!(most[0] >= 0.2 * speed, "{most:?} {bounds:?}");
         }
     }

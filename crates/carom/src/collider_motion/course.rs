@@ -1,4 +1,4 @@
-//! The motion of a collider from some time on.
+//! The motion of a collider from a time on.
 
 use glam::{DQuat, DVec3};
 
@@ -8,29 +8,29 @@ use crate::pose::Pose;
 use crate::rotation;
 use crate::surface_motion::{Drive, SurfaceMotion};
 
-/// The motion of a collider from some time on.
+/// The motion of a collider from a time on.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Course {
     motion: Motion,
     rest: Pose,
-    /// When it begins, on the world's clock \[s\].
+    /// Start on the world's clock \[s\].
     time: Moment,
 }
 
-/// Motion of a collider since an earlier time.
+/// Displacement and motion of a collider after some time.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Carriage {
-    /// Place of its origin \[m\].
+    /// Position of its origin \[m\].
     pub to: DVec3,
-    /// Rotation since then, if it turns at all.
+    /// Rotation since the start; `None` if it never turns.
     pub turn: Option<DQuat>,
     pub motion: SurfaceMotion,
 }
 
 impl Course {
-    /// Of a collider that is in a pose now, at `time` \[s\]. If its motion has not put it there, its pose at rest is
-    /// elsewhere, so that it is there.
+    /// Starts at `time` \[s\] with the present pose of a collider. If the pose was set from outside, the pose at
+    /// rest changes to match it.
     pub fn new(motion: Motion, pose: Pose, time: f64) -> Self {
         let rest = motion.rest().unwrap_or(pose);
         let is_elsewhere = motion.rest().is_some() && !motion.has_put(pose);
@@ -39,7 +39,7 @@ impl Course {
         Self { rest, ..course }
     }
 
-    /// The same motion from `h` \[s\] later on.
+    /// Returns the motion from `h` \[s\] later on.
     pub fn after(&self, h: f64) -> Self {
         Self { time: self.moment(h), ..self.clone() }
     }
@@ -48,17 +48,17 @@ impl Course {
         [self.time[0], self.time[1] + h]
     }
 
-    /// How far it has brought the collider from rest after `h` \[s\].
+    /// Returns the displacement from rest and its derivatives after `h` \[s\].
     pub fn state(&self, h: f64) -> Kinematics {
         Kinematics::of(&self.motion, self.moment(h))
     }
 
-    /// Where the collider is after `h` \[s\], and how its surfaces move there.
+    /// Returns the pose of the collider after `h` \[s\], and the motion of its surfaces then.
     pub fn place(&self, h: f64) -> (Pose, SurfaceMotion) {
         self.place_in(&self.state(h))
     }
 
-    /// Motion of the collider within `h` \[s\].
+    /// Returns the displacement and motion of the collider after `h` \[s\].
     pub fn carriage(&self, h: f64) -> Carriage {
         let state = self.state(h);
         let (pose, motion) = self.place_in(&state);
@@ -87,12 +87,13 @@ impl Course {
         (Pose { position: origin, rotation }, motion)
     }
 
-    /// Rotation from the present directions to those of a state.
+    /// Returns the rotation from the present orientation to that of a state.
     fn turn_in(&self, state: &Kinematics) -> Option<DQuat> {
         self.turns().then(|| state.rotation * self.state(0.0).rotation.conjugate())
     }
 
-    /// The steady motion that takes the collider from where it is after `from` \[s\] to where it is after `to` \[s\].
+    /// Returns the steady motion that takes the collider from its pose after `from` \[s\] to its pose after `to`
+    /// \[s\].
     pub fn mean_motion(&self, [from, to]: [f64; 2]) -> SurfaceMotion {
         let (start, motion) = self.place(from);
         let (end, _) = self.place(to);
@@ -106,27 +107,27 @@ impl Course {
         SurfaceMotion { velocity, angular_velocity, ..motion }
     }
 
-    /// Bounds from `from` \[s\] on, for `length` \[s\].
+    /// Returns bounds of the derivatives from `from` \[s\] on, for `length` \[s\].
     pub fn bounds(&self, from: f64, length: f64) -> MotionBounds {
         MotionBounds::of(&self.motion, self.moment(from), length)
     }
 
-    /// Whether directions change with it.
+    /// Returns whether the orientation changes.
     pub fn turns(&self) -> bool {
         self.motion.turns()
     }
 
-    /// A bound of the rate at which something of it repeats or turns \[rad/s\].
+    /// Returns an upper bound of the angular frequency of oscillations and rotations \[rad/s\].
     pub fn rate(&self) -> f64 {
         self.motion.rate()
     }
 
-    /// The pose of the collider without its motion.
+    /// Returns the pose of the collider at rest.
     pub fn rest(&self) -> Pose {
         self.rest
     }
 
-    /// The pose at rest that has the collider in this pose now.
+    /// Returns the pose at rest for which the motion gives this present pose.
     fn rest_for(&self, pose: Pose) -> Pose {
         let state = self.state(0.0);
         let rotation = if self.turns() {

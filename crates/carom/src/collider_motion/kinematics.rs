@@ -1,4 +1,4 @@
-//! Where a motion has brought a collider, and how fast that changes.
+//! Displacement of a collider by its motion, and its derivatives.
 
 use std::f64::consts::TAU;
 
@@ -6,29 +6,29 @@ use glam::{DQuat, DVec3};
 
 use super::{Motion, MotionPart};
 
-/// Time as a start on the world's clock, and what has gone since \[s\]: phases of a long run keep the digits of the
-/// second.
+/// A time as the sum of a start on the world's clock and the time since then \[s\], so that phases of long runs are
+/// not rounded.
 pub(crate) type Moment = [f64; 2];
 
-/// Where a motion has brought a collider from rest, with derivatives in time.
+/// Displacement of a collider from rest, with its derivatives in time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Kinematics {
-    /// From the origin at rest to the origin \[m\].
+    /// Vector from the origin at rest to the present origin \[m\].
     pub offset: DVec3,
-    /// \[m/s\]
+    /// Velocity of the origin \[m/s\].
     pub velocity: DVec3,
-    /// \[m/s²\]
+    /// Acceleration of the origin \[m/s²\].
     pub acceleration: DVec3,
-    /// From the directions at rest.
+    /// Rotation from the orientation at rest.
     pub rotation: DQuat,
-    /// \[rad/s\]
+    /// Angular velocity \[rad/s\].
     pub angular_velocity: DVec3,
-    /// \[rad/s²\]
+    /// Angular acceleration \[rad/s²\].
     pub angular_acceleration: DVec3,
 }
 
 impl Kinematics {
-    /// Of a collider at rest.
+    /// State of a collider at rest.
     pub(super) const REST: Self = Self {
         offset: DVec3::ZERO,
         velocity: DVec3::ZERO,
@@ -38,12 +38,12 @@ impl Kinematics {
         angular_acceleration: DVec3::ZERO,
     };
 
-    /// Of a motion at some time.
+    /// Evaluates a motion at a time.
     pub fn of(motion: &Motion, time: Moment) -> Self {
         motion.parts().iter().fold(Self::REST, |state, part| state.carried_by(part, time))
     }
 
-    /// The same, carried along by one more part.
+    /// Adds one more part, which carries the earlier ones along.
     pub(super) fn carried_by(self, part: &MotionPart, time: Moment) -> Self {
         match *part {
             MotionPart::Steady { velocity } => {
@@ -64,7 +64,7 @@ impl Kinematics {
         }
     }
 
-    /// Carried by a way and its derivatives.
+    /// Adds a translation, given by the displacement and its derivatives.
     fn shifted(self, [way, velocity, acceleration]: [DVec3; 3]) -> Self {
         Self {
             offset: self.offset + way,
@@ -74,7 +74,7 @@ impl Kinematics {
         }
     }
 
-    /// Carried by a rotation Q about an axis k through a pivot, by an angle θ with its derivatives. With r from the
+    /// Adds a rotation Q about an axis k through a pivot by an angle θ, given with its derivatives. With r from the
     /// pivot and `w = θ' k`,
     ///
     /// ```text
@@ -101,7 +101,7 @@ impl Kinematics {
     }
 }
 
-/// `A sin(2π f t + φ)` and its two derivatives.
+/// Returns `A sin(2π f t + φ)` and its first two derivatives.
 fn sine(amplitude: f64, frequency: f64, phase: f64, [start, gone]: Moment) -> [f64; 3] {
     let cycles = frequency * start;
     let rate = TAU * frequency;
@@ -127,7 +127,8 @@ mod tests {
         let h = 1e-4;
         for time in [0.0, 0.7, 5.3] {
             let [before, now, after] = [-h, 0.0, h].map(|t| Kinematics::of(&motion, [time, t]));
-            // Differences in the middle are off by h²/6 of third derivatives of some 10, and by rounding over h.
+            // Central differences are off by h²/6 of the third derivatives, which are about 10, and by rounding
+            // over h.
             let slope = |a: DVec3, b: DVec3| (b - a) / (2.0 * h);
             assert!((slope(before.offset, after.offset) - now.velocity).length() < 1e-6);
             assert!((slope(before.velocity, after.velocity) - now.acceleration).length() < 1e-6);

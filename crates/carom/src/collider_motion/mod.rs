@@ -20,56 +20,56 @@ use crate::validate;
 
 /// A part of the motion of a collider.
 ///
-/// Axes are directions in the world, of any length but zero. A pivot is where the axis goes through, from the
-/// position of the collider at rest, along the axes of the world. `t` is the time on the world's clock.
+/// Axes are directions in the world, of any length but zero. A pivot is a point of the axis, relative to the
+/// position of the collider at rest, in the coordinates of the world. `t` is the time on the world's clock.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum MotionPart {
     /// Moves by `velocity t`.
     Steady {
-        /// \[m/s\]
+        /// Velocity \[m/s\].
         velocity: DVec3,
     },
     /// Moves along an axis by `amplitude sin(2π frequency t + phase)`.
     Oscillate {
-        /// Direction.
+        /// Direction of the axis.
         axis: DVec3,
-        /// \[m\]
+        /// Amplitude \[m\].
         amplitude: f64,
-        /// \[Hz\], >= 0
+        /// Frequency \[Hz\], >= 0.
         frequency: f64,
-        /// \[rad\]
+        /// Phase \[rad\].
         phase: f64,
     },
     /// Turns about an axis by `rate t`.
     Turn {
-        /// Direction.
+        /// Direction of the axis.
         axis: DVec3,
-        /// Where the axis goes through, from the position at rest \[m\].
+        /// Point of the axis, relative to the position at rest \[m\].
         pivot: DVec3,
-        /// \[rad/s\]
+        /// Angular velocity \[rad/s\].
         rate: f64,
     },
     /// Turns about an axis by `amplitude sin(2π frequency t + phase)`.
     Swing {
-        /// Direction.
+        /// Direction of the axis.
         axis: DVec3,
-        /// Where the axis goes through, from the position at rest \[m\].
+        /// Point of the axis, relative to the position at rest \[m\].
         pivot: DVec3,
-        /// \[rad\]
+        /// Amplitude \[rad\].
         amplitude: f64,
-        /// \[Hz\], >= 0
+        /// Frequency \[Hz\], >= 0.
         frequency: f64,
-        /// \[rad\]
+        /// Phase \[rad\].
         phase: f64,
     },
 }
 
 /// How a collider moves, as a function of the time on the world's clock.
 ///
-/// Its parts act one after the other on the collider at rest: each carries all parts before it along. So `[turn,
-/// oscillate]` is a wheel that is shaken, and `[oscillate, turn]` a piston that goes round.
+/// Its parts act one after the other: each carries all parts before it along. So `[turn, oscillate]` is a wheel
+/// that is shaken, and `[oscillate, turn]` a piston that goes round.
 ///
 /// ```
 /// use carom::{Collider, DVec3, Motion, MotionPart, Pose, Shape, World};
@@ -88,53 +88,53 @@ pub enum MotionPart {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Motion {
     parts: Arc<[MotionPart]>,
-    /// Once the collider is in a world, where it is at rest, and where the motion has put it.
+    /// Poses of a collider that is in a world: at rest, and as the motion last set it.
     poses: Option<[Pose; 2]>,
 }
 
 impl Motion {
-    /// These parts, one after the other.
+    /// Creates a motion from its parts, which act one after the other.
     pub fn new(parts: impl IntoIterator<Item = MotionPart>) -> Self {
         Self { parts: parts.into_iter().collect(), poses: None }
     }
 
-    /// Its parts, in the order in which they act.
+    /// Returns the parts in the order in which they act.
     pub fn parts(&self) -> &[MotionPart] {
         &self.parts
     }
 
-    /// The same motion on a clock that shows 0 when the clock of this one shows `time` \[s\].
+    /// Returns the same motion for a clock that shows 0 when the present clock shows `time` \[s\].
     pub fn beginning_at(&self, time: f64) -> Self {
         let parts = self.parts.iter().flat_map(|part| part.beginning_at(time));
         Self { parts: parts.collect(), poses: self.poses }
     }
 
-    /// Whether it has no parts. Then velocity and angular velocity of the collider say how it moves.
+    /// Returns whether it has no parts. Such a collider moves by its velocity and angular velocity.
     pub fn is_empty(&self) -> bool {
         self.parts.is_empty()
     }
 
-    /// Where the collider is without this motion, once it is in a world.
+    /// Returns the pose of the collider at rest, once it is in a world.
     pub fn rest(&self) -> Option<Pose> {
         self.poses.map(|[rest, _]| rest)
     }
 
-    /// Whether the motion has put the collider in this pose.
+    /// Returns whether the motion set this pose of the collider, not a call from outside.
     pub(crate) fn has_put(&self, pose: Pose) -> bool {
         self.poses.is_some_and(|[_, put]| put == pose)
     }
 
-    /// The same motion about a pose at rest, having put the collider in another.
+    /// Returns the same motion with the pose at rest and the pose that it last set.
     pub(crate) fn about(&self, rest: Pose, put: Pose) -> Self {
         Self { parts: self.parts.clone(), poses: Some([rest, put]) }
     }
 
-    /// A bound of the rate at which something of it repeats or turns \[rad/s\].
+    /// Returns an upper bound of the angular frequency of oscillations and rotations \[rad/s\].
     pub(crate) fn rate(&self) -> f64 {
         self.parts.iter().map(MotionPart::rate).sum()
     }
 
-    /// Whether directions change with it.
+    /// Returns whether the orientation changes.
     pub(crate) fn turns(&self) -> bool {
         self.parts.iter().any(|part| match part {
             MotionPart::Steady { .. } | MotionPart::Oscillate { .. } => false,
@@ -154,7 +154,8 @@ impl<I: IntoIterator<Item = MotionPart>> From<I> for Motion {
 }
 
 impl MotionPart {
-    /// The same part on a clock that begins at `time` \[s\], with a constant one for what it has done by then.
+    /// Returns the same part for a clock that begins at `time` \[s\], and a constant part for the displacement at
+    /// that time.
     fn beginning_at(&self, time: f64) -> impl Iterator<Item = Self> + use<> {
         // A sine of frequency 0 and phase π/2 is 1.
         let (frequency, phase) = (0.0, FRAC_PI_2);

@@ -23,7 +23,7 @@ pub(super) struct Driven<'a, P> {
     start: Kinematics,
     /// Where positions count from, in the coordinates of the body \[m\].
     about: DVec3,
-    /// The last time that was asked for \[s\], with the motion of the body then.
+    /// Time of the last evaluation \[s\], with the motion of the body then.
     last: Cell<(f64, Kinematics)>,
 }
 
@@ -106,7 +106,7 @@ impl<'a, P: Path> Driven<'a, P> {
         }
     }
 
-    /// The rotation since the start, the other way.
+    /// Returns the inverse of the rotation since the start.
     fn back(&self, body: &Kinematics) -> Option<DQuat> {
         self.course.turns().then(|| self.start.rotation * body.rotation.conjugate())
     }

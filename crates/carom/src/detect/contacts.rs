@@ -134,7 +134,7 @@ pub(crate) fn of_overlapping_surfaces(
     }
 }
 
-/// Contacts that are not `Separate` among some spheres, and of those with solid surfaces.
+/// Collects the contacts that are not `Separate`, between these spheres, and between them and solid surfaces.
 pub(crate) fn of_some(
     instant: &Instant,
     members: &[u32],

@@ -10,7 +10,7 @@ pub(super) const MOST_STAGES: usize = 4;
 /// An explicit scheme. It is the same for one sphere by itself and for all of them side by side: the state
 /// of each follows from its own start and its own accelerations.
 pub(super) trait Scheme {
-    /// How often a step asks for the acceleration, up to [`MOST_STAGES`].
+    /// Number of evaluations of the acceleration in a step, up to [`MOST_STAGES`].
     const STAGES: usize;
     /// Order of the error over a given time.
     const ORDER: u32;

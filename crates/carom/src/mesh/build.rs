@@ -1,4 +1,4 @@
-//! Faces, edges and corners of a mesh, each with where it is nearest.
+//! Computes the faces, edges and corners of a mesh, and the regions in which each is nearest.
 
 mod borders;
 mod corners;
@@ -11,20 +11,21 @@ use super::{Corner, Edge, Facet};
 use borders::Borders;
 use faces::Faces;
 
-/// What spheres meet of a mesh, in its own frame. A flat face counts where a foot falls on it, an edge beyond
-/// the faces beside it, a corner beyond the edges that end there; so what a sphere touches first is one of them.
+/// Features of a mesh that spheres meet, in the coordinates of the mesh. A face counts for points above it, an edge
+/// for points beyond its faces, a corner for points beyond its edges. So the part of the mesh that a sphere touches
+/// first is always one of them.
 #[derive(Debug)]
 pub(crate) struct Features {
-    /// Facing as their triangles do.
+    /// Faces, which face the same side as their triangles.
     pub facets: Vec<Facet>,
     pub edges: Vec<Edge>,
     pub corners: Vec<Corner>,
-    /// Whether faces are met from behind, too.
+    /// Whether faces are also met from behind.
     pub is_two_sided: bool,
 }
 
 impl Features {
-    /// Of a mesh that is met from one side, or from both unless it is closed.
+    /// Computes the features of a mesh, met from both sides if it is neither closed nor one-sided.
     pub(in crate::mesh) fn of(topology: &Topology, is_one_sided: bool) -> Self {
         let is_two_sided = !(is_one_sided || topology.is_closed);
         let faces = Faces::of(topology);

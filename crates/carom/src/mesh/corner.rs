@@ -8,26 +8,27 @@ use super::facet::{ROUNDING, ahead};
 use crate::axis_motion::AxisMotion;
 use crate::norm::Norm;
 
-/// A corner, met where it is nearer than the edges and faces that end there.
+/// A corner, which counts for points that are nearer to it than to its edges and faces.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Corner {
-    /// \[m\]
+    /// Position \[m\].
     pub point: DVec3,
-    /// From the frame of the mesh.
+    /// Rotation from the coordinates of the mesh.
     pub rotation: DQuat,
-    /// Unit vectors along what ends there, in the frame of the mesh: what is ahead along none of them is nearest
-    /// to the corner.
+    /// Unit vectors along the edges that end here, in the coordinates of the mesh. The corner is the nearest
+    /// feature for points that lie ahead along none of them.
     pub rays: Arc<[DVec3]>,
 }
 
 impl Corner {
-    /// Whether the corner is what of the mesh is nearest to a centre \[m\], but for rounding.
+    /// Returns whether the corner is the nearest feature of the mesh to a centre \[m\], up to rounding.
     pub fn is_nearest(&self, center: DVec3) -> bool {
         self.is_behind(center, self.slack(center))
     }
 
-    /// Whether it has a sphere with this centre \[m\] and velocity relative to it \[m/s\], as faces do.
+    /// Returns whether a sphere with this centre \[m\] and relative velocity \[m/s\] belongs to the corner, by the
+    /// rule of [`Facet::holds`](super::Facet::holds).
     pub fn holds(&self, [center, velocity]: [DVec3; 2]) -> bool {
         self.is_behind(ahead([center, velocity], self.slack(center)), 0.0)
     }
@@ -37,7 +38,8 @@ impl Corner {
         self.rays.iter().all(|ray| offset.dot(*ray) <= slack)
     }
 
-    /// Time \[s\] until a centre \[m\], by its motion along directions, may come to what is beside it.
+    /// Returns the time \[s\] at which a centre \[m\] may leave the region of the corner, given its motion along a
+    /// direction.
     pub fn time_on(&self, center: DVec3, motion: impl Fn(DVec3) -> AxisMotion) -> f64 {
         let (offset, slack) = (center - self.point, self.slack(center));
         self.rays.iter().fold(f64::INFINITY, |time, &ray| {
@@ -46,7 +48,8 @@ impl Corner {
         })
     }
 
-    /// How far a centre \[m\] is at least from where the corner is what of the mesh is nearest; 0 there.
+    /// Returns a lower bound of the distance \[m\] of a centre from the region in which the corner is the nearest
+    /// feature; 0 inside.
     pub fn distance_beside(&self, center: DVec3) -> f64 {
         let offset = self.rotation.conjugate() * (center - self.point);
         self.rays.iter().map(|ray| offset.dot(*ray)).fold(0.0, f64::max)

@@ -1,4 +1,4 @@
-//! Edges of a mesh, without their ends.
+//! Edges of a mesh, without their end points.
 
 use glam::DVec3;
 
@@ -6,28 +6,29 @@ use super::facet::{ROUNDING, ahead};
 use crate::axis_motion::AxisMotion;
 use crate::norm::Norm;
 
-/// A straight edge, met where it is nearer than the faces beside it and the corners at its ends.
+/// A straight edge, which counts for points that are nearer to it than to its faces and end points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Edge {
-    /// \[m\]
+    /// Middle of the edge \[m\].
     pub center: DVec3,
-    /// Unit vector along it.
+    /// Unit vector along the edge.
     pub axis: DVec3,
-    /// Half its length \[m\].
+    /// Half the length \[m\].
     pub half: f64,
-    /// Unit vectors across it, each out of one of its faces: what is beyond both is nearest to the edge. The
-    /// same one twice where that is all.
+    /// Unit vectors across the edge, each away from one of its faces. The edge is the nearest feature for points
+    /// beyond both. An edge of one face has the same vector twice.
     pub outward: [DVec3; 2],
 }
 
 impl Edge {
-    /// Whether the edge is what of the mesh is nearest to a centre \[m\], but for rounding.
+    /// Returns whether the edge is the nearest feature of the mesh to a centre \[m\], up to rounding.
     pub fn is_nearest(&self, center: DVec3) -> bool {
         self.is_beyond(center, self.slack(center))
     }
 
-    /// Whether it has a sphere with this centre \[m\] and velocity relative to it \[m/s\], as faces do.
+    /// Returns whether a sphere with this centre \[m\] and relative velocity \[m/s\] belongs to the edge, by the
+    /// rule of [`Facet::holds`](super::Facet::holds).
     pub fn holds(&self, [center, velocity]: [DVec3; 2]) -> bool {
         self.is_beyond(ahead([center, velocity], self.slack(center)), 0.0)
     }
@@ -38,12 +39,13 @@ impl Edge {
             && self.outward.iter().all(|outward| offset.dot(*outward) >= -slack)
     }
 
-    /// The point of its line that is nearest to another one \[m\].
+    /// Returns the point of its line that is nearest to a point \[m\].
     pub fn foot_of(&self, point: DVec3) -> DVec3 {
         self.center + (point - self.center).dot(self.axis) * self.axis
     }
 
-    /// Time \[s\] until a centre \[m\], by its motion along directions, may come to what is beside it.
+    /// Returns the time \[s\] at which a centre \[m\] may leave the region of the edge, given its motion along a
+    /// direction.
     pub fn time_on(&self, center: DVec3, motion: impl Fn(DVec3) -> AxisMotion) -> f64 {
         let (offset, slack) = (center - self.center, self.slack(center));
         let along = offset.dot(self.axis);
@@ -55,19 +57,20 @@ impl Edge {
         })
     }
 
-    /// Height of its highest point above a plane, which is given by a point \[m\] and its normal.
+    /// Returns the height \[m\] of its highest point above a plane, given by a point \[m\] and a normal.
     pub fn height_above(&self, [point, normal]: [DVec3; 2]) -> f64 {
         (self.center - point).dot(normal) + self.half * self.axis.dot(normal).abs()
     }
 
-    /// Distance of a point from it \[m\].
+    /// Returns the distance of a point \[m\] from the edge \[m\].
     pub fn distance_of(&self, point: DVec3) -> f64 {
         let offset = point - self.center;
         let along = offset.dot(self.axis).clamp(-self.half, self.half);
         (offset - along * self.axis).norm()
     }
 
-    /// How far a centre \[m\] is at least from where the edge is what of the mesh is nearest; 0 there.
+    /// Returns a lower bound of the distance \[m\] of a centre from the region in which the edge is the nearest
+    /// feature; 0 inside.
     pub fn distance_beside(&self, center: DVec3) -> f64 {
         let offset = center - self.center;
         let past_ends = offset.dot(self.axis).abs() - self.half;

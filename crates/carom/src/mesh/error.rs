@@ -1,4 +1,4 @@
-//! What cannot be a mesh.
+//! Errors of meshes.
 
 use glam::DVec3;
 use thiserror::Error;
@@ -7,55 +7,55 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum MeshError {
-    /// A vertex has a coordinate that is not finite.
+    /// A coordinate of a vertex is not finite.
     #[error("vertex {vertex} of the mesh must be finite, not {position}")]
     VertexNotFinite {
-        /// Its number, from 0.
+        /// Index of the vertex.
         vertex: usize,
-        /// Where it was said to be.
+        /// Its coordinates.
         position: DVec3,
     },
-    /// A triangle names a vertex that is not there.
+    /// A triangle names a vertex that does not exist.
     #[error("triangle {triangle} of the mesh names vertex {vertex}, and there are {count}, from 0")]
     UnknownVertex {
-        /// Its number, from 0.
+        /// Index of the triangle.
         triangle: usize,
-        /// The vertex that it names.
+        /// The missing vertex.
         vertex: u32,
-        /// How many vertices there are.
+        /// Number of vertices.
         count: usize,
     },
-    /// No triangle has an area.
+    /// Every triangle has zero area.
     #[error("the mesh must have a triangle with an area, and has none")]
     NoArea,
-    /// Heights are no grid.
+    /// Heights do not form a grid.
     #[error(
         "heights must be at least two rows of at least two numbers each, not {rows} of {columns}"
     )]
     FewHeights {
-        /// How many rows there are.
+        /// Number of rows.
         rows: usize,
-        /// How many numbers the first one has.
+        /// Number of heights in the first row.
         columns: usize,
     },
     /// Rows of heights differ in length.
     #[error("row {row} of the heights must have {columns} numbers as the first has, not {found}")]
     UnequalRows {
-        /// Its number, from 0.
+        /// Index of the row.
         row: usize,
-        /// How many numbers the first one has.
+        /// Number of heights in the first row.
         columns: usize,
-        /// How many it has.
+        /// Number of heights in this row.
         found: usize,
     },
     /// A height is not finite.
     #[error("number {column} in row {row} of the heights must be finite, not {height}")]
     HeightNotFinite {
-        /// Of the row, from 0.
+        /// Index of the row.
         row: usize,
-        /// Of the number in it, from 0.
+        /// Index in the row.
         column: usize,
-        /// What it was.
+        /// The height.
         height: f64,
     },
     /// The size of a height field is not positive.

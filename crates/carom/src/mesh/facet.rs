@@ -7,17 +7,17 @@ use crate::axis_motion::AxisMotion;
 use crate::norm::Norm;
 use crate::rectangle::Rectangle;
 
-/// A flat face, met from its front where the foot of a sphere's centre is inside its outline.
+/// A flat face, which counts for points on its front side that project into its outline.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Facet {
-    /// Rectangle about the outline, whose coordinates count from its centre along its axes.
+    /// Bounding rectangle of the outline, which defines the coordinates in the plane.
     pub frame: Rectangle,
     pub outline: Outline,
 }
 
 impl Facet {
-    /// A whole rectangle.
+    /// Creates a face that fills a rectangle.
     pub fn of_rectangle(frame: Rectangle) -> Self {
         let half = DVec2::new(frame.half_x, frame.half_z);
         let [a, b, c, d] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
@@ -31,30 +31,30 @@ impl Facet {
         Self { frame, outline: Outline::new(sides, vec![[a, b, c], [a, c, d]]) }
     }
 
-    /// The same face, met from behind.
+    /// Returns the same face, met from the other side.
     pub fn turned(&self) -> Self {
         let frame = Rectangle { normal: -self.frame.normal, ..self.frame };
         Self { frame, outline: self.outline.clone() }
     }
 
-    /// Height of a point above its plane \[m\].
+    /// Returns the height of a point above the plane \[m\].
     pub fn height_of(&self, point: DVec3) -> f64 {
         (point - self.frame.center).dot(self.frame.normal)
     }
 
-    /// Whether the foot of a centre \[m\] is inside the outline, or outside by no more than rounding.
+    /// Returns whether a centre \[m\] projects into the outline, up to rounding.
     pub fn is_under(&self, center: DVec3) -> bool {
         self.outline.is_within(self.local(center), self.slack(center))
     }
 
-    /// Whether it has a sphere with this centre \[m\] and velocity relative to it \[m/s\]. At the very outline it
-    /// has those that move inward; of it and what is beyond, one has the sphere.
+    /// Returns whether a sphere with this centre \[m\] and relative velocity \[m/s\] belongs to the face. On the
+    /// outline it belongs to the face if it moves inward, so that exactly one of the two neighbours has it.
     pub fn holds(&self, [center, velocity]: [DVec3; 2]) -> bool {
         self.outline.contains(self.local(ahead([center, velocity], self.slack(center))))
     }
 
-    /// Time \[s\] until a centre \[m\], by its motion along directions, may come past the outline: it may be said
-    /// too early, never too late.
+    /// Returns a lower bound of the time \[s\] at which a centre \[m\] passes the outline, given its motion along a
+    /// direction.
     pub fn time_on(&self, center: DVec3, motion: impl Fn(DVec3) -> AxisMotion) -> f64 {
         let (place, slack) = (self.local(center), self.slack(center));
         let mut time = f64::INFINITY;
@@ -63,7 +63,8 @@ impl Facet {
             let beyond = (place - start).dot(side.outward);
             let outward = motion(self.world(side.outward));
             if beyond > slack {
-                // Around a bend of the outline; looked at again when it has come to the line.
+                // Near a corner of the outline the time is that of the line of a side; the face is tested again
+                // then.
                 time = time.min(outward.leaves(slack - beyond, f64::INFINITY));
                 continue;
             }
@@ -81,7 +82,7 @@ impl Facet {
         time
     }
 
-    /// Height of its highest point above a plane, which is given by a point \[m\] and its normal.
+    /// Returns the height \[m\] of its highest point above a plane, given by a point \[m\] and a normal.
     pub fn height_above(&self, [point, normal]: [DVec3; 2]) -> f64 {
         let Rectangle { center, axis_x, axis_z, .. } = self.frame;
         let base = (center - point).dot(normal);
@@ -97,60 +98,61 @@ impl Facet {
         sides.into_iter().any(|ends| other.outline.is_crossed_by(ends))
     }
 
-    /// The triangles that cover it, in the world \[m\].
+    /// Returns the triangles that cover the face, in the world \[m\].
     pub fn triangles(&self) -> impl Iterator<Item = [DVec3; 3]> {
         let Rectangle { center, axis_x, axis_z, .. } = self.frame;
         let place = move |it: DVec2| center + it.x * axis_x + it.y * axis_z;
         self.outline.triangles().iter().map(move |corners| corners.map(place))
     }
 
-    /// Its vertices in the world \[m\], each at least once.
+    /// Returns the vertices in the world \[m\], each at least once.
     pub fn vertices(&self) -> impl Iterator<Item = DVec3> {
         let Rectangle { center, axis_x, axis_z, .. } = self.frame;
         self.outline.ends().map(move |end| center + end.x * axis_x + end.y * axis_z)
     }
 
-    /// Coordinates of the foot of a point in the plane \[m\].
+    /// Returns the coordinates in the plane of the projection of a point \[m\].
     pub fn local(&self, point: DVec3) -> DVec2 {
         self.local_direction(point - self.frame.center)
     }
 
-    /// A direction of the world along the axes of the plane.
+    /// Converts a direction of the world to coordinates of the plane.
     pub fn local_direction(&self, direction: DVec3) -> DVec2 {
         DVec2::new(direction.dot(self.frame.axis_x), direction.dot(self.frame.axis_z))
     }
 
-    /// A direction of the plane in the world.
+    /// Converts a direction of the plane to the world.
     pub fn world(&self, direction: DVec2) -> DVec3 {
         direction.x * self.frame.axis_x + direction.y * self.frame.axis_z
     }
 
-    /// Whether the foot of a point \[m\] is inside the outline, or no farther beside it than that \[m\].
+    /// Returns whether a point \[m\] projects into the outline, or at most this far \[m\] outside.
     pub fn is_beside(&self, point: DVec3, beside: f64) -> bool {
         self.outline.is_within(self.local(point), beside)
     }
 
-    /// How far the foot of a centre \[m\] is outside the outline; 0 inside.
+    /// Returns the distance of the projection of a centre from the outline \[m\]; 0 inside.
     pub fn distance_beside(&self, center: DVec3) -> f64 {
         self.outline.distance(self.local(center))
     }
 
-    /// Rounding of a place beside it \[m\].
+    /// Returns the rounding error of the position of a point beside the face \[m\].
     fn slack(&self, point: DVec3) -> f64 {
         let Rectangle { center, half_x, half_z, .. } = self.frame;
         ROUNDING * (point.norm() + center.norm() + half_x + half_z)
     }
 }
 
-/// What is closer to a border than this part of its coordinates may be on either side: what the time of a contact
-/// and the way to it leave uncertain.
+/// Uncertainty of a position relative to a border, as a fraction of the coordinates: rounding of the time of a
+/// contact and of the path to it.
 pub(super) const ROUNDING: f64 = 256.0 * f64::EPSILON;
 
-/// A direction that no feature is made for: it decides where a sphere that moves along a border belongs.
+/// A direction unlikely to be along any feature. It decides which feature a sphere belongs to that moves along a
+/// border.
 const LEAD: DVec3 = DVec3::new(0.8, 0.36, 0.48);
 
-/// A place \[m\] so little ahead of a centre on its way that only a border between features lies between, of
-/// which rounding \[m\] leaves the side open.
+/// Returns a point \[m\] ahead of a centre by a few times the rounding error `slack` \[m\], so that it lies clearly
+/// on one side of a border.
 pub(super) fn ahead([center, velocity]: [DVec3; 2], slack: f64) -> DVec3 {
     let speed = velocity.norm();
     let way = if speed > 0.0 { velocity / speed } else { DVec3::ZERO };

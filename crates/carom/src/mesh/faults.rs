@@ -1,22 +1,22 @@
-//! What of a mesh may not be as meant.
+//! Probable mistakes in a mesh.
 
 use super::topology::Topology;
 
-/// Probable mistakes in a mesh, by the numbers of its triangles and vertices, from 0. A mesh with faults is met
-/// as it is.
+/// Probable mistakes in a mesh, by the indices of its triangles and vertices. They change nothing in how spheres
+/// meet the mesh.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub struct MeshFaults {
-    /// Triangles without an area, which are left out.
+    /// Triangles with zero area, which are left out.
     pub degenerate: Vec<usize>,
-    /// Triangles of the same three places as one before, which are left out.
+    /// Triangles with the same three vertices as an earlier one, which are left out.
     pub repeated: Vec<usize>,
-    /// Triangles that face otherwise than a neighbour across an edge does; of two, the one with the higher
-    /// number.
+    /// Triangles whose orientation differs from that of a neighbour; of two neighbours, the one with the higher
+    /// index.
     pub flipped: Vec<usize>,
-    /// Edges of one triangle only, by their vertices: holes, and the rim of an open mesh.
+    /// Edges that belong to one triangle only, as pairs of vertices: holes, and the rim of an open mesh.
     pub open_edges: Vec<[usize; 2]>,
-    /// Edges of more than two triangles, by their vertices.
+    /// Edges that belong to more than two triangles, as pairs of vertices.
     pub crowded_edges: Vec<[usize; 2]>,
 }
 

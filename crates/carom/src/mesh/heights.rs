@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use super::MeshError;
 
-/// Vertices \[m\] and triangles, facing up, of rows of heights over a rectangle of this `size` along x and z
-/// \[m\].
+/// Returns vertices \[m\] and triangles, facing up, for rows of heights over a rectangle of this `size` along x and
+/// z \[m\].
 pub(super) fn grid(
     size: [f64; 2],
     rows: &[Vec<f64>],

@@ -1,4 +1,4 @@
-//! What a closed mesh encloses.
+//! The volume that a closed mesh encloses.
 
 use glam::{DQuat, DVec3};
 
@@ -7,25 +7,27 @@ use crate::bounds::Bounds;
 use crate::bounds_tree::{Bounded, BoundsTree};
 use crate::norm::Norm;
 
-/// The places that a closed mesh winds around at least once, as its triangles face outward there.
+/// The volume that a closed mesh encloses: points with a winding number of at least 1, where triangles that face
+/// outward count positive.
 ///
-/// Triangles are held in coordinates whose z axis is the direction of a ray that no mesh is made for.
+/// Coordinates are rotated so that z is the direction of the ray that tests a point. The direction is unlikely to
+/// be along any feature.
 #[derive(Debug)]
 pub(super) struct Interior {
     vertices: Vec<DVec3>,
     triangles: BoundsTree<Triangle>,
 }
 
-/// A place inside, by what of the surface is nearest to it.
+/// Depth of a point inside a mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Depth {
-    /// Distance from the surface \[m\], >= 0.
+    /// Distance to the surface \[m\], >= 0.
     pub depth: f64,
-    /// Unit vector to the nearest place of the surface.
+    /// Unit vector to the nearest point of the surface.
     pub normal: DVec3,
 }
 
-/// A triangle by the numbers of its vertices.
+/// A triangle, by the indices of its vertices.
 #[derive(Debug, Clone)]
 struct Triangle {
     number: u32,
@@ -45,13 +47,13 @@ impl Bounded for Triangle {
     }
 }
 
-/// From the frame of a mesh to that of the ray, which then leads along z: no axis or diagonal of a mesh does.
+/// Returns the rotation from the coordinates of a mesh to those of the ray, which points along z.
 fn view() -> DQuat {
     DQuat::from_xyzw(0.31, 0.52, -0.23, 0.76).normalize()
 }
 
 impl Interior {
-    /// Of a closed mesh.
+    /// Creates the volume of a closed mesh.
     pub fn of(topology: &Topology) -> Self {
         let view = view();
         let vertices: Vec<DVec3> = topology.vertices.iter().map(|&it| view * it).collect();
@@ -65,7 +67,7 @@ impl Interior {
         Self { vertices, triangles }
     }
 
-    /// How deep a point \[m\] is inside; `None` outside.
+    /// Returns the depth of a point \[m\]; `None` outside.
     pub fn depth_at(&self, point: DVec3) -> Option<Depth> {
         let view = view();
         let point = view * point;
@@ -87,10 +89,11 @@ impl Interior {
         nearest.map(|(depth, _, normal)| Depth { depth, normal: view.conjugate() * normal })
     }
 
-    /// How often the surface goes round a point \[m\]: as often as a ray from there leaves it more than enters it.
+    /// Returns the winding number of the surface about a point \[m\]: how often a ray from there leaves the
+    /// surface, minus how often it enters.
     ///
-    /// The triangles beside an edge decide by one comparison on which side of the edge the ray is, so it passes
-    /// between no two of them and through no two at once.
+    /// For the two triangles at an edge, the same comparison decides on which side of the edge the ray is, so the
+    /// ray hits exactly one of them.
     fn winding_number(&self, point: DVec3) -> i32 {
         let ray = Bounds { min: point, max: point.with_z(f64::INFINITY) };
         let bound = |bounds: &Bounds| if bounds.overlap(&ray) { 0.0 } else { f64::INFINITY };
@@ -99,7 +102,8 @@ impl Interior {
             let corners @ [a, b, c] = self.corners_of(triangle);
             let turn = turn_about(point, corners);
             let height = (point - a).dot((b - a).cross(c - a));
-            // The ray comes to the triangle if the point is behind one that it leaves by, and else in front.
+            // A triangle that faces along the ray is hit if the point is behind it, any other if the point is in
+            // front.
             if turn != 0 && (height < 0.0) == (turn > 0) {
                 winding_number += turn;
             }
@@ -112,15 +116,16 @@ impl Interior {
     }
 }
 
-/// 1 where a triangle, seen against the ray, goes against the clock about a point, -1 where it goes with it, 0 where it
-/// does not go round it.
+/// Returns 1 if a triangle, seen against the ray, goes round a point counter-clockwise, -1 if clockwise, 0 if not
+/// at all.
 fn turn_about(point: DVec3, [a, b, c]: [DVec3; 3]) -> i32 {
     let side = |from: DVec3, to: DVec3| {
         let rises = from.y <= point.y;
         if rises == (to.y <= point.y) {
             return 0;
         }
-        // The same ends in the same order give the same place, whichever triangle asks, and never one past them.
+        // The ends of an edge are sorted, so that both of its triangles get the same bits, and x stays between the
+        // ends.
         let [low, high] = if rises { [from, to] } else { [to, from] };
         let x = low.x + (point.y - low.y) / (high.y - low.y) * (high.x - low.x);
         let is_beyond = x.clamp(low.x.min(high.x), low.x.max(high.x)) > point.x;
@@ -129,7 +134,8 @@ fn turn_about(point: DVec3, [a, b, c]: [DVec3; 3]) -> i32 {
     side(a, b) + side(b, c) + side(c, a)
 }
 
-/// Distance \[m\] of a point from a triangle, and the unit vector from it to the nearest place there.
+/// Returns the distance \[m\] of a point from a triangle, and the unit vector from it to the nearest point of the
+/// triangle.
 fn nearest_of(point: DVec3, corners @ [a, b, c]: [DVec3; 3]) -> (f64, DVec3) {
     let area = (b - a).cross(c - a);
     let normal = area / area.norm();

@@ -1,8 +1,8 @@
-//! Triangle meshes: what is given, and the features that spheres meet.
+//! Triangle meshes, and the features that spheres meet.
 //!
-//! A mesh is welded (`weld`), its coplanar neighbours are merged into faces (`topology`), and what is left is
-//! faces, edges and corners (`features`). Each of them counts only where it is the nearest part of the mesh
-//! (`facet`, `edge`, `corner`), so a sphere meets nothing twice and nothing inside a flat floor.
+//! A mesh is welded (`weld`), its coplanar neighbours are merged into faces (`topology`), and their faces, edges
+//! and corners are computed (`build`). Each of these counts only where it is the nearest part of the mesh (`facet`,
+//! `edge`, `corner`), so a sphere meets nothing twice and no edge inside a flat floor.
 
 mod build;
 mod closed;
@@ -35,16 +35,16 @@ pub(crate) use place::Placement;
 use interior::Interior;
 use topology::Topology;
 
-/// A surface of triangles, for [`Shape::Mesh`](crate::Shape::Mesh). Copies share their memory.
+/// A surface of triangles, for [`Shape::Mesh`](crate::Shape::Mesh). Clones share their memory.
 ///
-/// Vertices that lie within a billionth of the size of the mesh are one, triangles without an area are left out,
-/// and neighbours in one plane, within 1e-9 rad, are one face: a floor of many triangles is as smooth as one
-/// rectangle. Triangles face the side from which their vertices go round against the clock.
+/// Vertices within a billionth of the size of the mesh are merged, triangles with zero area are left out, and
+/// neighbours in one plane, within 1e-9 rad, form one face: a floor of many triangles is as smooth as one
+/// rectangle. The front of a triangle is the side from which its vertices go round counter-clockwise.
 ///
-/// A closed mesh, each of whose edges has two triangles that go round alike, is met from the side that its
-/// triangles face: a solid, or a room. Where its triangles face outward, it encloses what they go round, and
-/// a sphere whose centre is there overlaps it, as one in a solid box does. An open mesh has no inside and is met
-/// from both sides, unless it is [one-sided].
+/// A mesh is closed if each edge belongs to two triangles with the same orientation. A closed mesh is met from the
+/// front of its triangles only: a solid, or a room. Where its triangles face outward it encloses a volume, and a
+/// sphere whose centre is inside overlaps it. An open mesh has no inside and is met from both sides, unless it is
+/// [one-sided].
 ///
 /// [one-sided]: Mesh::one_sided
 ///
@@ -65,7 +65,7 @@ use topology::Topology;
 #[derive(Debug, Clone)]
 pub struct Mesh(Arc<Given>);
 
-/// What a mesh is made of, and what follows from it when it is first needed.
+/// What a mesh was made from, and quantities that are computed at first use.
 #[derive(Debug)]
 struct Given {
     vertices: Vec<DVec3>,
@@ -78,7 +78,7 @@ struct Given {
 }
 
 impl Mesh {
-    /// A mesh of these vertices \[m\], in its own frame, and triangles, which name three of them each.
+    /// Creates a mesh from vertices \[m\] in its own coordinates, and triangles of three indices of vertices each.
     ///
     /// # Errors
     /// [`MeshError`] if a coordinate is not finite, a triangle names a vertex that is not there, or no triangle
@@ -87,11 +87,11 @@ impl Mesh {
         Self::with_sides(vertices, triangles, false)
     }
 
-    /// A surface over the xz plane about the origin: `rows` of heights \[m\] along x, the first at the lowest z.
-    /// It is met from above only.
+    /// Creates a surface over a rectangle of the xz plane about the origin from `rows` of heights \[m\] along x,
+    /// the first at the lowest z. Spheres meet it from above only.
     ///
-    /// Each rectangle of four neighbouring heights is cut in two from its corner at the lowest x and z to the
-    /// opposite one.
+    /// Each rectangle of four neighbouring heights is split from its corner at the lowest x and z to the opposite
+    /// corner.
     ///
     /// - `size` along x and z \[m\], > 0
     ///
@@ -103,7 +103,7 @@ impl Mesh {
         Self::with_sides(vertices, triangles, true)
     }
 
-    /// The same mesh, met only from the side that its triangles face: what comes from behind passes.
+    /// Returns the same mesh, met only from the front of its triangles: spheres pass it from behind.
     #[must_use]
     pub fn one_sided(self) -> Self {
         if self.0.is_one_sided {
@@ -155,43 +155,43 @@ impl Mesh {
         }))
     }
 
-    /// The vertices as they were given \[m\].
+    /// Returns the vertices as given \[m\].
     pub fn vertices(&self) -> &[DVec3] {
         &self.0.vertices
     }
 
-    /// The triangles as they were given, by the numbers of their vertices.
+    /// Returns the triangles as given, by the indices of their vertices.
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.0.triangles
     }
 
-    /// Whether [`Self::one_sided`] made it one-sided.
+    /// Returns whether [`Self::one_sided`] made it one-sided.
     pub fn is_one_sided(&self) -> bool {
         self.0.is_one_sided
     }
 
-    /// Whether it encloses a volume: each edge has two triangles that go round alike.
+    /// Returns whether the mesh is closed: each edge belongs to two triangles with the same orientation.
     pub fn is_closed(&self) -> bool {
         self.0.topology.is_closed
     }
 
-    /// The lowest and the highest coordinates of its vertices \[m\].
+    /// Returns the lowest and the highest coordinates of the vertices \[m\].
     pub fn bounds(&self) -> [DVec3; 2] {
         self.0.bounds
     }
 
-    /// Probable mistakes: holes, triangles without an area, and the like.
+    /// Returns probable mistakes, such as holes and triangles with zero area.
     pub fn faults(&self) -> MeshFaults {
         MeshFaults::of(&self.0.topology)
     }
 
-    /// Faces, edges and corners in its own frame.
+    /// Returns the faces, edges and corners in the coordinates of the mesh.
     pub(crate) fn features(&self) -> &Features {
         let Given { topology, is_one_sided, features, .. } = &*self.0;
         features.get_or_init(|| Features::of(topology, *is_one_sided))
     }
 
-    /// How deep a point \[m\] of its own frame is inside; `None` outside, and of an open mesh.
+    /// Returns the depth of a point \[m\] in the coordinates of the mesh; `None` outside, and for an open mesh.
     pub(crate) fn depth_at(&self, point: DVec3) -> Option<Depth> {
         let Given { topology, bounds: [min, max], interior, .. } = &*self.0;
         let may_be_inside = topology.is_closed && (point.cmpge(*min) & point.cmple(*max)).all();
@@ -210,7 +210,7 @@ impl PartialEq for Mesh {
     }
 }
 
-/// Meshes as they are written: what was given.
+/// Meshes in the form in which they are serialized.
 #[cfg(feature = "serde")]
 mod written {
     use serde::de::Error;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-/// What a flat face covers of its plane. Copies share their memory.
+/// The part of its plane that a flat face covers. Clones share their memory.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Outline(Arc<Parts>);
@@ -23,21 +23,21 @@ pub(crate) struct Side {
     pub ends: [DVec2; 2],
     /// Unit vector from the first end to the second.
     pub along: DVec2,
-    /// Unit vector out of the face.
+    /// Unit vector that points out of the face.
     pub outward: DVec2,
-    /// \[m\]
+    /// Length \[m\].
     pub length: f64,
 }
 
 impl Side {
-    /// Between two ends \[m\], out of the face that way.
+    /// Creates a side between two ends \[m\].
     pub fn new(ends: [DVec2; 2], outward: DVec2) -> Self {
         let way = ends[1] - ends[0];
         let length = way.dot(way).sqrt();
         Self { ends, along: way / length, outward, length }
     }
 
-    /// The point of it nearest to another \[m\].
+    /// Returns its point that is nearest to a point \[m\].
     fn nearest(&self, point: DVec2) -> DVec2 {
         let along = (point - self.ends[0]).dot(self.along);
         if along >= self.length { self.ends[1] } else { self.ends[0] + along.max(0.0) * self.along }
@@ -49,7 +49,8 @@ impl Side {
 }
 
 impl Outline {
-    /// Of these sides, which make closed loops, and the triangles between them \[m\].
+    /// Creates an outline from sides, which form closed loops, and triangles that cover the area between them
+    /// \[m\].
     pub fn new(sides: Vec<Side>, triangles: Vec<[DVec2; 3]>) -> Self {
         Self(Arc::new(Parts { sides, triangles }))
     }
@@ -58,22 +59,23 @@ impl Outline {
         &self.0.sides
     }
 
-    /// Both ends of each side \[m\]: sides do not go round one way, so their first ends alone may miss a vertex.
+    /// Returns both ends of each side \[m\]. The sides of a loop may differ in direction, so first ends alone may
+    /// miss a vertex.
     pub fn ends(&self) -> impl Iterator<Item = DVec2> {
         self.sides().iter().flat_map(|side| side.ends)
     }
 
-    /// Triangles that cover the face \[m\].
+    /// Returns triangles that cover the face \[m\].
     pub fn triangles(&self) -> &[[DVec2; 3]] {
         &self.0.triangles
     }
 
-    /// Whether a point \[m\] is inside: a line from it to infinity passes an odd number of sides.
+    /// Returns whether a point \[m\] is inside: a line from it to infinity crosses an odd number of sides.
     pub fn contains(&self, point: DVec2) -> bool {
         let mut is_inside = false;
         for Side { ends: [a, b], .. } in self.sides() {
             if (a.y > point.y) != (b.y > point.y) {
-                // The same ends in the same order give the same place, whichever face asks.
+                // The ends of a side are sorted, so that both of its faces get the same bits.
                 let [low, high] = if a.y < b.y { [a, b] } else { [b, a] };
                 let x = low.x + (point.y - low.y) / (high.y - low.y) * (high.x - low.x);
                 is_inside ^= x > point.x;
@@ -92,7 +94,7 @@ impl Outline {
         self.sides().iter().any(crosses)
     }
 
-    /// How far outside a point is \[m\]; 0 inside.
+    /// Returns the distance of a point from the face \[m\]; 0 inside.
     pub fn distance(&self, point: DVec2) -> f64 {
         if self.contains(point) {
             return 0.0;
@@ -101,7 +103,7 @@ impl Outline {
         squares.fold(f64::INFINITY, f64::min).sqrt()
     }
 
-    /// Whether a point \[m\] is inside, or no farther than `slack` \[m\] outside.
+    /// Returns whether a point \[m\] is inside, or at most `slack` \[m\] outside.
     pub fn is_within(&self, point: DVec2, slack: f64) -> bool {
         let is_near = |side: &Side| side.distance_squared(point) <= slack * slack;
         self.contains(point) || self.sides().iter().any(is_near)

@@ -1,18 +1,18 @@
-//! Features in other places.
+//! Moves features to other places.
 
 use glam::{DQuat, DVec3};
 
 use super::{ClosedMesh, Corner, Edge, Facet};
 use crate::rectangle::Rectangle;
 
-/// A rotation about a point, which then lies elsewhere: `x' = to + R (x - from)`.
+/// A rotation about a point followed by a shift: `x' = to + R (x - from)`.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Placement {
-    /// Of unit length.
+    /// Rotation, of unit length.
     pub rotation: DQuat,
-    /// \[m\]
+    /// Centre of the rotation \[m\].
     pub from: DVec3,
-    /// \[m\]
+    /// Position of that centre afterwards \[m\].
     pub to: DVec3,
 }
 

@@ -1,4 +1,4 @@
-//! Which triangles of a mesh are neighbours, and which of them make one flat face.
+//! Neighbours among the triangles of a mesh, and the flat faces that they form.
 
 use glam::DVec3;
 
@@ -6,25 +6,25 @@ use super::weld;
 use crate::connected::Connected;
 use crate::norm::Norm;
 
-/// Neighbours are one face if their normals differ by less than this angle \[rad\].
+/// Largest angle between the normals of neighbours that form one face \[rad\].
 pub(super) const FLAT: f64 = 1e-9;
 
-/// Triangles of places, without those that have no area.
+/// Triangles of welded vertices, without those with zero area.
 #[derive(Debug, Clone)]
 pub(super) struct Topology {
-    /// Where the vertices are \[m\].
+    /// Positions of the vertices \[m\].
     pub vertices: Vec<DVec3>,
-    /// By welded vertices.
+    /// Indices of welded vertices.
     pub triangles: Vec<[u32; 3]>,
-    /// Which of the given triangles they are.
+    /// Index of each triangle among the given ones.
     pub numbers: Vec<u32>,
-    /// Of each triangle, twice its area along its unit normal \[m²\].
+    /// Twice the area of each triangle along its unit normal \[m²\].
     pub areas: Vec<DVec3>,
-    /// Given triangles that have no area.
+    /// Given triangles with zero area.
     pub degenerate: Vec<usize>,
-    /// Given triangles that are others once more.
+    /// Given triangles that repeat earlier ones.
     pub repeated: Vec<usize>,
-    /// Ascending by their vertices.
+    /// Sides of triangles, ascending by their vertices.
     uses: Vec<EdgeUse>,
     pub is_closed: bool,
 }
@@ -32,14 +32,14 @@ pub(super) struct Topology {
 /// A side of a triangle.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct EdgeUse {
-    /// Its vertices, ascending.
+    /// Indices of its vertices, ascending.
     pub ends: [u32; 2],
     pub triangle: u32,
     /// Whether the triangle goes from the first end to the second.
     pub is_forward: bool,
 }
 
-/// An edge with the triangles that it is a side of.
+/// An edge with all triangles at it.
 pub(super) struct EdgeUses<'a> {
     pub ends: [u32; 2],
     pub uses: &'a [EdgeUse],
@@ -65,7 +65,7 @@ impl Topology {
             let [a, b, c] = corners.map(|it| vertices[it as usize]);
             let area = (b - a).cross(c - a);
             let longest = [b - a, c - b, a - c].map(DVec3::norm).into_iter().fold(0.0, f64::max);
-            // Its height is below what makes two vertices one.
+            // A triangle less high than the welding tolerance has zero area.
             if area.norm() <= tolerance * longest {
                 topology.degenerate.push(number);
             } else if repeated[number] {
@@ -83,13 +83,13 @@ impl Topology {
         topology
     }
 
-    /// All edges, ascending by their vertices.
+    /// Returns all edges, ascending by their vertices.
     pub fn edges(&self) -> impl Iterator<Item = EdgeUses<'_>> {
         let edges = self.uses.chunk_by(|first, second| first.ends == second.ends);
         edges.map(|uses| EdgeUses { ends: uses[0].ends, uses })
     }
 
-    /// For each triangle, the number of the flat face that it is a part of, from 0; and how many there are.
+    /// Returns the index of the flat face of each triangle, and the number of faces.
     pub fn faces(&self) -> (Vec<u32>, usize) {
         let mut connected = Connected::new(self.triangles.len());
         for edge in self.edges() {
@@ -102,7 +102,7 @@ impl Topology {
         }
         let (mut face_of, mut count) = (Vec::with_capacity(self.triangles.len()), 0);
         for triangle in 0..self.triangles.len() {
-            // The smallest number of a set comes first.
+            // Faces are numbered by their first triangles.
             let root = connected.root_of(triangle);
             if root == triangle {
                 face_of.push(count);
@@ -115,7 +115,7 @@ impl Topology {
     }
 }
 
-/// Which triangles are others once more, whichever way round.
+/// Returns which triangles repeat an earlier one, in any orientation.
 fn repeated(given: &[[u32; 3]], first_of: &[u32]) -> Vec<bool> {
     let mut sorted: Vec<([u32; 3], usize)> = (given.iter().enumerate())
         .map(|(number, corners)| {

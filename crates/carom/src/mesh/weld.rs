@@ -1,23 +1,23 @@
-//! Vertices that are one place.
+//! Merges vertices that have the same position.
 
 use glam::DVec3;
 
-/// Vertices are one place within this part of the size of the mesh: far above the rounding of the coordinates of
-/// files, which have six digits or more, and far below any shape.
+/// Distance within which vertices are merged, as a fraction of the size of the mesh: far above the rounding of
+/// coordinates in files, which have six digits or more, and far below any detail.
 const WELD: f64 = 1e-9;
 
-/// The distance \[m\] within which vertices are one place.
+/// Returns the distance within which vertices are merged \[m\].
 pub(super) fn tolerance(vertices: &[DVec3]) -> f64 {
     let first = vertices.first().copied().unwrap_or_default();
     let apart = vertices.iter().fold(DVec3::ZERO, |most, &it| most.max((it - first).abs()));
     WELD * apart.max_element()
 }
 
-/// For each vertex, the lowest-numbered one in its place.
+/// Returns for each vertex the lowest index of the vertices that it is merged with.
 pub(super) fn weld(vertices: &[DVec3], tolerance: f64) -> Vec<u32> {
     let mut first_of: Vec<u32> = (0..vertices.len() as u32).collect();
     let mut order = first_of.clone();
-    // Cells are wider than the tolerance, so most vertices have no other cell within it.
+    // Cells are wider than the tolerance, so most vertices are alone in their neighbourhood.
     let width = 16.0 * tolerance.max(f64::MIN_POSITIVE);
     let origin = vertices.first().copied().unwrap_or_default();
     let cell = |place: DVec3| ((place - origin) / width).floor().to_array().map(|it| it as i64);
@@ -41,7 +41,7 @@ pub(super) fn weld(vertices: &[DVec3], tolerance: f64) -> Vec<u32> {
                 }
             }
         }
-        // Those before it are done: what it is one with may itself be one with another.
+        // Earlier vertices are finished, so their first vertex is final.
         let first = first_of[vertex as usize];
         first_of[vertex as usize] = first_of[first as usize];
     }

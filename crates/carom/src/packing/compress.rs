@@ -6,59 +6,59 @@ use crate::sphere::SphereMotion;
 use crate::validate;
 use crate::world::World;
 
-/// Collisions of a sphere in a frame: enough to measure a pressure to some per cent, and so few that velocities change
-/// little.
+/// Mean number of collisions of a sphere in a frame: enough to measure a pressure to some per cent, and few enough
+/// for velocities to change little.
 const COLLISIONS_PER_FRAME: f64 = 8.0;
-/// Radii grow by at most this part in a frame.
+/// Largest relative growth of radii in a frame.
 const GROWTH_PER_FRAME: f64 = 1.0 / 32.0;
-/// Kinetic energy at which velocities are scaled back, as a multiple of that at the start.
+/// Kinetic energy at which velocities are scaled back, as a multiple of the initial one.
 const MOST_HEATED: f64 = 2.0;
 
 /// When a compression ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Until {
-    /// The spheres fill this part of the volume, to rounding; in (0, 1).
+    /// At this packing fraction, in (0, 1), to rounding.
     PackingFraction(f64),
-    /// The reduced pressure is at least this, as measured over a frame; > 1.
+    /// At this reduced pressure, > 1, as measured over a frame.
     Pressure(f64),
-    /// A sphere collides at least so often while the thermal speed takes it through its mean diameter, as measured over
-    /// a frame; > 0.
+    /// At this number of collisions of a sphere in the time in which the thermal speed covers its mean diameter, as
+    /// measured over a frame; > 0.
     CollisionRate(f64),
 }
 
-/// How spheres are compressed.
+/// Parameters of a compression.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Compression {
-    /// When it ends.
+    /// Condition at which it ends.
     pub until: Until,
-    /// Speed at which the mean diameter grows, in parts of the thermal speed `√(k T / m)` at the start; > 0. A slow
-    /// compression gives denser packings, and crystals in the end.
+    /// Growth rate of the mean diameter, as a fraction of the initial thermal speed `√(k T / m)`; > 0. Slower
+    /// compressions give denser packings, and very slow ones crystals.
     pub growth: f64,
-    /// Reduced pressure at which it ends in any case, > 1: the spheres are jammed.
+    /// Reduced pressure, > 1, at which the spheres count as jammed and the compression ends before its condition.
     pub most_pressure: f64,
-    /// The volume that the spheres are in \[m³\]; that of the periodic box unless given.
+    /// Volume that contains the spheres \[m³\]; by default that of the periodic box.
     pub volume: Option<f64>,
 }
 
 impl Compression {
-    /// A compression that ends there: the diameter grows at a hundredth of the thermal speed, and spheres count as
-    /// jammed at a reduced pressure of 10⁸.
+    /// Returns a compression with the default parameters: the diameter grows at a hundredth of the thermal speed,
+    /// and spheres count as jammed at a reduced pressure of 10⁸.
     pub fn until(until: Until) -> Self {
         Self { until, growth: 0.01, most_pressure: 1e8, volume: None }
     }
 
-    /// The same with this speed of growth, in parts of the thermal speed.
+    /// Sets the growth rate, as a fraction of the thermal speed.
     pub fn with_growth(self, growth: f64) -> Self {
         Self { growth, ..self }
     }
 
-    /// The same with this reduced pressure at which it ends in any case.
+    /// Sets the reduced pressure at which spheres count as jammed.
     pub fn with_most_pressure(self, most_pressure: f64) -> Self {
         Self { most_pressure, ..self }
     }
 
-    /// The same in this volume \[m³\].
+    /// Sets the volume \[m³\].
     pub fn with_volume(self, volume: f64) -> Self {
         Self { volume: Some(volume), ..self }
     }
@@ -80,24 +80,24 @@ impl Compression {
     }
 }
 
-/// What became of a compression.
+/// Result of a compression.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Compressed {
     /// Packing fraction at the end.
     pub packing_fraction: f64,
-    /// What was measured in the last frame in which spheres grew.
+    /// Properties of the fluid, measured in the last frame in which spheres grew.
     pub fluid: Fluid,
-    /// Whether it came to where it was to end; else the spheres jammed before.
+    /// Whether the condition was reached; otherwise the spheres jammed first.
     pub is_reached: bool,
     /// Collisions of spheres with each other.
     pub collisions: u64,
-    /// Kinetic energy that growth gave, all of it, as the thermostat took most of it \[J\].
+    /// Total kinetic energy that growth added \[J\]; the thermostat removed most of it.
     pub energy_gained: f64,
 }
 
-/// Grows elastic spheres, all at one rate, to a packing fraction, a pressure or a collision rate. Velocities are
-/// scaled back to the kinetic energy of the start whenever it has doubled. At the end the spheres do not grow.
+/// Grows elastic spheres, all at one relative rate, to a packing fraction, a pressure or a collision rate.
+/// Velocities are scaled back to the initial kinetic energy whenever it has doubled. Growth is zero at the end.
 ///
 /// # Errors
 /// Those of [`World::step`]; [`Error::Invalid`] for numbers that make no sense, for spheres that are at rest or denser
@@ -135,10 +135,10 @@ pub fn compress(world: &mut World, compression: &Compression) -> Result<Compress
     outcome.map(|()| course.compressed)
 }
 
-/// A compression at work.
+/// State of a compression.
 struct Course {
     compression: Compression,
-    /// \[m³\]
+    /// Volume that contains the spheres \[m³\].
     volume: f64,
     /// Kinetic energy to which velocities are scaled back \[J\].
     energy: f64,
@@ -179,7 +179,8 @@ impl Course {
         }
     }
 
-    /// How long spheres of a mean radius \[m\] have to grow \[s\]; infinite where that is not known.
+    /// Returns the time until spheres with this mean radius \[m\] reach their final radius \[s\]; infinite if that
+    /// radius is not known.
     fn time_left(&self, mean_radius: f64) -> f64 {
         match self.compression.until {
             Until::PackingFraction(fraction) => {
@@ -190,7 +191,7 @@ impl Course {
         }
     }
 
-    /// Takes a frame of a length \[s\], or a shorter one where spheres have too little room for that.
+    /// Takes a frame of a length \[s\], or a shorter one if spheres have too little room for it.
     fn frame(
         &mut self,
         world: &mut World,
@@ -213,7 +214,7 @@ impl Course {
         Ok((tally, length))
     }
 
-    /// Scales velocities back to the kinetic energy of the start, if it has doubled.
+    /// Scales velocities back to the initial kinetic energy, if it has doubled.
     fn scale_back(&self, world: &mut World) -> Result<(), Error> {
         let energy = world.kinetic_energy();
         if energy < MOST_HEATED * self.energy {
@@ -231,7 +232,7 @@ impl Course {
     }
 }
 
-/// Most halvings of a frame in which spheres have too little room.
+/// Largest number of halvings of a frame in which spheres have too little room.
 const MOST_HALVINGS: u32 = 60;
 
 /// Runs until each sphere has had this mean number of collisions, and measures the fluid over the second half of that
@@ -272,6 +273,6 @@ pub fn equilibrate(
     Ok(tally.fluid(packing_fraction))
 }
 
-/// So many frames without a collision end a measurement, each twice as long as the one before: of spheres that never
-/// meet.
+/// Number of frames without a collision after which a measurement ends. Each is twice as long as the one before, so
+/// the spheres never meet.
 const MOST_IDLE_FRAMES: u32 = 12;

@@ -1,4 +1,4 @@
-//! What a fluid of hard spheres is measured by: packing fraction, pressure and rate of collisions.
+//! Measurements of a fluid of hard spheres: packing fraction, pressure and collision rate.
 
 use crate::error::{Error, Subject};
 use crate::report::BodyPair;
@@ -8,20 +8,20 @@ use crate::sum::Sum;
 use crate::validate;
 use crate::world::World;
 
-/// What a fluid or a packing is like.
+/// Measured properties of a fluid or a packing.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Fluid {
-    /// Volume of the spheres, in parts of that which they are in.
+    /// Volume of the spheres divided by the volume that contains them.
     pub packing_fraction: f64,
-    /// Reduced pressure `P V / N k T` by the virial of collisions, 1 of an ideal gas.
+    /// Reduced pressure `P V / N k T` from the virial of collisions; 1 for an ideal gas.
     pub pressure: f64,
-    /// Collisions of a sphere with others in the time in which the thermal speed `√(k T / m)` takes it through its mean
-    /// diameter.
+    /// Number of collisions of a sphere with others in the time in which the thermal speed `√(k T / m)` covers its
+    /// mean diameter.
     pub collision_rate: f64,
 }
 
-/// Volume of the spheres, in parts of the box that they are in.
+/// Returns the volume of the spheres divided by the volume of the box.
 ///
 /// # Errors
 /// [`Error::Invalid`] for a world whose box is not periodic along all axes: there `volume` has to be given \[m³\].
@@ -33,7 +33,7 @@ pub(super) fn volume_of_spheres(world: &World) -> f64 {
     world.spheres().radii().iter().map(|&radius| volume(radius)).collect::<Sum>().value()
 }
 
-/// The volume that spheres are in \[m³\].
+/// Returns the volume that contains the spheres \[m³\].
 pub(super) fn volume_around(world: &World, given: Option<f64>) -> Result<f64, Error> {
     let of_box = match world.settings().boundary {
         Boundary::Periodic { size } => size.element_product(),
@@ -47,15 +47,15 @@ pub(super) fn volume_around(world: &World, given: Option<f64>) -> Result<f64, Er
     Ok(volume)
 }
 
-/// Mean squares and means of spheres: what their temperature makes of them.
+/// Averages over the spheres that depend on their temperature.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Thermal {
     pub count: f64,
     /// Two thirds of the kinetic energy of a sphere \[J\].
     pub temperature: f64,
-    /// \[m/s\]
+    /// Thermal speed \[m/s\].
     pub speed: f64,
-    /// \[m\]
+    /// Mean radius \[m\].
     pub mean_radius: f64,
 }
 
@@ -69,8 +69,8 @@ impl Thermal {
         Self { count, temperature, speed: (temperature / mean_mass).sqrt(), mean_radius }
     }
 
-    /// Collisions of a sphere in a second at a packing fraction p, of spheres of one size, by Enskog's theory with the
-    /// contact value of Carnahan and Starling:
+    /// Returns the number of collisions of a sphere in a second at a packing fraction p, for spheres of one size,
+    /// by Enskog's theory with the contact value of Carnahan and Starling:
     ///
     /// ```text
     /// rate = 24/√π p χ v/d        χ = (1 - p/2)/(1 - p)³
@@ -86,18 +86,19 @@ impl Thermal {
 /// Sums over the frames of a measurement.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Tally {
-    /// Σ j R / (3 N k T) over time, in seconds.
+    /// Integral of Σ j R / (3 N k T) over time \[s\].
     virial: f64,
     /// Collisions of spheres with each other.
     pub collisions: u64,
-    /// Collisions of a sphere, in parts of the time in which it goes through its diameter, over time.
+    /// Integral of the collision rate over time: collisions of a sphere in the time in which it covers its diameter
+    /// \[s\].
     rates: f64,
-    /// \[s\]
+    /// Length of the measurement \[s\].
     time: f64,
 }
 
 impl Tally {
-    /// Counts the impacts of the last frame, of a length \[s\], which began with `before`.
+    /// Adds the impacts of the last frame, which has a length \[s\] and began with `before`.
     pub fn add_frame(&mut self, world: &World, before: Thermal, length: f64) {
         let (spheres, impacts) = (world.spheres(), &world.report().impacts);
         let radius_at = |id, time: f64| {
@@ -123,7 +124,7 @@ impl Tally {
         self.time += length;
     }
 
-    /// What the fluid was like in that time, with a packing fraction.
+    /// Returns the properties of the fluid over the measurement, at a packing fraction.
     pub fn fluid(&self, packing_fraction: f64) -> Fluid {
         let time = self.time.max(f64::MIN_POSITIVE);
         Fluid {
@@ -133,7 +134,7 @@ impl Tally {
         }
     }
 
-    /// Collisions of a sphere in a second.
+    /// Returns the number of collisions of a sphere in a second.
     pub fn rate(&self, count: f64) -> f64 {
         2.0 * self.collisions as f64 / count / self.time.max(f64::MIN_POSITIVE)
     }

@@ -1,8 +1,8 @@
 //! Dense packings and dense fluids, made by spheres that grow while they fly and collide.
 //!
-//! [`start()`] puts small spheres into a periodic box, [`compress()`] has them grow until they are as dense, or press as
-//! hard, as one likes, [`equilibrate`] lets a fluid forget how it was made and measures its pressure, and [`rattlers()`]
-//! counts the spheres of a packing that nothing holds.
+//! [`start()`] puts small spheres into a box, [`compress()`] grows them to a packing fraction or a pressure,
+//! [`equilibrate`] runs a fluid to equilibrium and measures its pressure, and [`rattlers()`] counts the spheres of
+//! a packing that are not held in place.
 //!
 //! Source: Lubachevsky and Stillinger, J. Stat. Phys. 60, 561 (1990); `docs/physics/growth.md` has the formulas.
 //!

@@ -1,20 +1,20 @@
-//! Rattlers: spheres of a jammed packing that nothing holds.
+//! Rattlers: spheres of a jammed packing that are free to move in their cage.
 
 use crate::error::{Error, Subject};
 use crate::report::BodyPair;
 use crate::validate;
 use crate::world::World;
 
-/// The fewest contacts of a sphere that is held: one more than there are dimensions.
+/// Number of contacts that hold a sphere in place: one more than the number of dimensions.
 const FEWEST_CONTACTS: usize = 4;
 
-/// The largest gap of a contact of a packing, times its reduced pressure.
+/// Largest gap of a contact of a packing, relative to the sum of radii and multiplied by the reduced pressure.
 const CONTACT: f64 = 100.0;
-/// Below this reduced pressure spheres have gaps all around.
+/// Reduced pressure below which no sphere is jammed.
 const JAMMED: f64 = 1e6;
 
-/// How many spheres of a packing with this reduced pressure are [`rattlers`]: a gap of 100 times its inverse counts as a
-/// contact. `None` below a pressure of a million, where spheres have gaps all around.
+/// Returns the number of [`rattlers`] of a packing with this reduced pressure p: a gap of 100/p times the sum of
+/// radii counts as a contact. `None` below a pressure of a million, where spheres are not jammed.
 ///
 /// # Errors
 /// [`Error::Invalid`] for a pressure that is not finite.
@@ -26,9 +26,10 @@ pub fn jammed_rattlers(world: &World, pressure: f64) -> Result<Option<usize>, Er
     rattlers(world, CONTACT / pressure).map(Some)
 }
 
-/// How many spheres of a packing are rattlers: have fewer than four contacts with spheres that are none, or with
-/// colliders. A gap of less than `gap` times the sum of radii counts as a contact. Near jamming gaps are about the
-/// inverse of the reduced pressure p, and larger where the force is small: 100/p suits, with p a million or more.
+/// Returns the number of rattlers of a packing: spheres with fewer than four contacts with colliders and with
+/// spheres that are not rattlers. A gap of less than `gap` times the sum of radii counts as a contact. Near jamming
+/// gaps are about the inverse of the reduced pressure p, and larger where the force is small: 100/p suits, with p a
+/// million or more.
 ///
 /// Source: Torquato and Stillinger, Rev. Mod. Phys. 82, 2633 (2010), section III.
 ///
@@ -37,7 +38,7 @@ pub fn jammed_rattlers(world: &World, pressure: f64) -> Result<Option<usize>, Er
 pub fn rattlers(world: &World, gap: f64) -> Result<usize, Error> {
     validate::non_negative("gap", gap).map_err(|invalid| invalid.about(Subject::Query))?;
     let spheres = world.spheres();
-    // Spheres that are larger by the gap overlap where these touch.
+    // Spheres enlarged by the gap overlap if the original ones are in contact.
     let mut swollen = World::new(*world.settings())?;
     for (_, collider) in world.colliders() {
         swollen.add_collider(collider.clone())?;

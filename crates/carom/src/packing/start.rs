@@ -1,4 +1,4 @@
-//! Where a compression begins: small spheres far apart, with the velocities of a gas.
+//! Initial state of a compression: small spheres far apart, with the velocities of a gas.
 
 use glam::DVec3;
 
@@ -10,12 +10,12 @@ use crate::sphere::{Sphere, volume};
 use crate::validate;
 use crate::world::World;
 
-/// The largest radius at the start, in parts of the distance of neighbours on the lattice.
+/// Largest initial radius, divided by the distance of neighbours on the lattice.
 const LARGEST: f64 = 0.4;
-/// The packing fraction at the start is at most this. It is low enough that the lattice is forgotten.
+/// Largest packing fraction of the initial state, low enough for the order of the lattice to vanish.
 const DILUTE: f64 = 0.05;
 
-/// The box about the origin that spheres to be compressed are in.
+/// Box about the origin that contains the spheres.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub enum Enclosure {
     /// A periodic cube whose edge follows from the radii and the packing fraction.
@@ -33,27 +33,27 @@ pub enum Enclosure {
     },
 }
 
-/// Spheres to be compressed.
+/// Parameters of the initial state of a compression.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Start {
-    /// Radii that the spheres will have at `packing_fraction` \[m\], each > 0.
+    /// Radii of the spheres at `packing_fraction` \[m\], each > 0.
     pub radii: Vec<f64>,
-    /// Decides places and velocities.
+    /// Seed of random positions and velocities.
     pub seed: u64,
-    /// Packing fraction at which radii are `radii`, in (0, 1): it decides the edges of [`Enclosure::Cube`].
+    /// Packing fraction at which the radii are `radii`, in (0, 1). It determines the edges of [`Enclosure::Cube`].
     pub packing_fraction: f64,
-    /// Mass of a sphere with a radius of 1 m \[kg\], > 0; others have it by their volume.
+    /// Mass of a sphere with a radius of 1 m \[kg\], > 0; masses of others are proportional to their volumes.
     pub mass_of_unit_radius: f64,
-    /// Masses of the spheres \[kg\], each > 0, instead of those by their volume.
+    /// Masses of the spheres \[kg\], each > 0, instead of those proportional to volumes.
     pub masses: Option<Vec<f64>>,
-    /// The box that the spheres are in.
+    /// Box that contains the spheres.
     pub enclosure: Enclosure,
 }
 
 impl Start {
-    /// Spheres that will have these radii \[m\] at a packing fraction of 0.64, with a density of 1 kg for a radius of
-    /// 1 m.
+    /// Returns parameters for spheres with these radii \[m\] at a packing fraction of 0.64, where a radius of 1 m
+    /// has a mass of 1 kg.
     pub fn of(radii: Vec<f64>, seed: u64) -> Self {
         let enclosure = Enclosure::default();
         Self {
@@ -66,7 +66,7 @@ impl Start {
         }
     }
 
-    /// The same with the box that makes this packing fraction of the radii.
+    /// Sets the packing fraction at which the radii are reached.
     pub fn with_packing_fraction(self, packing_fraction: f64) -> Self {
         Self { packing_fraction, ..self }
     }
@@ -76,12 +76,12 @@ impl Start {
         Self { masses: Some(masses), ..self }
     }
 
-    /// Replaces the box. The volume of a given one and the radii decide the packing fraction.
+    /// Replaces the box. Its volume, if given, determines the packing fraction with the radii.
     pub fn within(self, enclosure: Enclosure) -> Self {
         Self { enclosure, ..self }
     }
 
-    /// Edges of the box \[m\].
+    /// Returns the edges of the box \[m\].
     fn size(&self) -> DVec3 {
         match self.enclosure {
             Enclosure::Cube => {
@@ -92,13 +92,13 @@ impl Start {
         }
     }
 
-    /// Masses of the spheres \[kg\].
+    /// Returns the masses of the spheres \[kg\].
     fn all_masses(&self) -> Vec<f64> {
         let by_volume = |&radius: &f64| self.mass_of_unit_radius * radius * radius * radius;
         self.masses.clone().unwrap_or_else(|| self.radii.iter().map(by_volume).collect())
     }
 
-    /// Masses in parts of that of the mean radius, or of their mean where they are given.
+    /// Returns the masses divided by the mass of the mean radius, or by their mean if they are given.
     fn relative_masses(&self) -> Vec<f64> {
         let count = self.radii.len() as f64;
         if let Some(masses) = &self.masses {
@@ -143,11 +143,11 @@ impl Start {
     }
 }
 
-/// A world with small spheres in a box about the origin, on the places of a simple lattice, in random order, with random
-/// velocities: `k T` is the mass of the mean radius (with [`Start::masses`], the mean mass) times (1 m/s)², and the
-/// momentum is zero.
+/// Returns a world with small spheres in a box about the origin, at random places of a simple cubic lattice, with
+/// random velocities and zero momentum. `k T` is the mass of the mean radius (with [`Start::masses`], the mean
+/// mass) times (1 m/s)².
 ///
-/// The radii are those asked for times one factor, which growth makes 1.
+/// The radii are the requested ones times a common factor, which growth brings to 1.
 ///
 /// # Errors
 /// [`Error::Invalid`] for numbers that make no sense, or if the largest sphere does not go into the box: the edges of a
@@ -182,7 +182,7 @@ pub fn start(start: &Start) -> Result<World, Error> {
     Ok(world)
 }
 
-/// A world with a box of these edges \[m\] and nothing in it.
+/// Returns an empty world with a box of these edges \[m\].
 fn empty(enclosure: Enclosure, size: DVec3) -> Result<World, Error> {
     if !matches!(enclosure, Enclosure::Walls { .. }) {
         return World::new(Settings::default().with_boundary(Boundary::Periodic { size }));
@@ -193,7 +193,8 @@ fn empty(enclosure: Enclosure, size: DVec3) -> Result<World, Error> {
     Ok(world)
 }
 
-/// Places along the edges of a box of a size \[m\] on a lattice that has `count` places at least.
+/// Returns the numbers of lattice places along the edges of a box of a size \[m\], with at least `count` places in
+/// all.
 fn places_along_edges(size: DVec3, count: usize, enclosure: Enclosure) -> [usize; 3] {
     if enclosure == Enclosure::Cube {
         return [places_along_an_edge(count); 3];
@@ -207,7 +208,7 @@ fn places_along_edges(size: DVec3, count: usize, enclosure: Enclosure) -> [usize
             2 => share.sqrt(),
             _ => share,
         };
-        // An edge shorter than the spacing has one place, and the others have all.
+        // An edge shorter than the spacing has one place; the other edges have all.
         let Some(short) = long().find(|&axis| size[axis] < spacing) else {
             // Each number is rounded up, so their product is at least `count`.
             let places = |axis: usize| (size[axis] / spacing).ceil().max(1.0) as usize;
@@ -217,7 +218,7 @@ fn places_along_edges(size: DVec3, count: usize, enclosure: Enclosure) -> [usize
     }
 }
 
-/// The edge of the smallest cube of places that holds this many, in places.
+/// Returns the number of places along an edge of the smallest cubic lattice with this many places.
 fn places_along_an_edge(count: usize) -> usize {
     let mut side = 1;
     while side * side * side < count {
@@ -226,8 +227,8 @@ fn places_along_an_edge(count: usize) -> usize {
     side
 }
 
-/// Normally distributed velocities \[m/s\] without a total momentum, with the variance that each mass has at one
-/// temperature. `masses` are in parts of that whose variance is 1.
+/// Returns normally distributed velocities \[m/s\] with zero total momentum, whose variance for each mass belongs
+/// to one temperature. `masses` are relative to the mass whose variance is 1.
 fn thermal_velocities(masses: &[f64], random: &mut Random) -> Vec<DVec3> {
     let mut velocities: Vec<DVec3> =
         masses.iter().map(|&mass| random.normal_vector() / mass.sqrt()).collect();
@@ -249,12 +250,13 @@ impl Random {
         bits ^ (bits >> 31)
     }
 
-    /// In (0, 1].
+    /// Returns a uniform random number in (0, 1].
     fn number(&mut self) -> f64 {
         ((self.bits() >> 11) + 1) as f64 / (1u64 << 53) as f64
     }
 
-    /// One of the standard normal distribution (Box and Muller, Ann. Math. Stat. 29, 610 (1958)).
+    /// Returns a random number of the standard normal distribution (Box and Muller, Ann. Math. Stat. 29, 610
+    /// (1958)).
     fn normal(&mut self) -> f64 {
         let radius = (-2.0 * libm::log(self.number())).sqrt();
         radius * libm::cos(std::f64::consts::TAU * self.number())
@@ -264,7 +266,7 @@ impl Random {
         DVec3::new(self.normal(), self.normal(), self.normal())
     }
 
-    /// Some of the numbers below `count`, each at most once, in random order (Fisher and Yates).
+    /// Returns `some` different numbers below `count` in random order (Fisher and Yates).
     fn some_of(&mut self, count: usize, some: usize) -> Vec<usize> {
         let mut numbers: Vec<usize> = (0..count).collect();
         for place in 0..some {

@@ -99,27 +99,27 @@ impl QueryFilter {
         groups: Groups { groups: u32::MAX, collides_with: u32::MAX },
     };
 
-    /// The same filter, which finds spheres or not.
+    /// Returns the filter with spheres included or left out.
     pub fn with_spheres(self, spheres: bool) -> Self {
         Self { spheres, ..self }
     }
 
-    /// The same filter, which finds colliders that deflect or not.
+    /// Returns the filter with deflecting colliders included or left out.
     pub fn with_colliders(self, colliders: bool) -> Self {
         Self { colliders, ..self }
     }
 
-    /// The same filter, which finds triggers or not.
+    /// Returns the filter with triggers included or left out.
     pub fn with_triggers(self, triggers: bool) -> Self {
         Self { triggers, ..self }
     }
 
-    /// The same filter, which finds what a body in these groups collides with.
+    /// Returns the filter for what a body in these groups collides with.
     pub fn with_groups(self, groups: Groups) -> Self {
         Self { groups, ..self }
     }
 
-    /// The same filter, which passes over a sphere.
+    /// Returns the filter without this sphere.
     pub fn without_sphere(self, sphere: SphereId) -> Self {
         Self { except: Some(sphere), ..self }
     }

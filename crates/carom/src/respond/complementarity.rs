@@ -99,7 +99,7 @@ struct Descent {
 ///
 /// The quick method does everything to all contacts alike, or is a sum that does not depend on
 /// the order ([`order_free`]). So mirrored or renumbered problems give mirrored or renumbered
-/// solutions, to the last bit. The gradient is measured anew on the velocities in every
+/// solutions, to the last bit. The gradient is computed from the velocities in every
 /// iteration, which keeps them right even where large impulses on a light body nearly cancel.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Solver {

@@ -97,11 +97,11 @@ pub(crate) fn answer_plastically(
 
 /// Restitution of a contact, from those of its bodies.
 pub(crate) fn restitution_of(bodies: Bodies, system: &System) -> f64 {
-    let of_sphere = |sphere: u32| system.spheres.restitution[sphere as usize];
+    let sphere_restitution = |sphere: u32| system.spheres.restitution[sphere as usize];
     let (e1, e2) = match bodies {
-        Bodies::Pair(first, second) => (of_sphere(first), of_sphere(second)),
+        Bodies::Pair(first, second) => (sphere_restitution(first), sphere_restitution(second)),
         Bodies::Surface { sphere, surface } => {
-            (system.surfaces[surface as usize].restitution, of_sphere(sphere))
+            (system.surfaces[surface as usize].restitution, sphere_restitution(sphere))
         }
     };
     system.settings.combine_rule.combine(e1, e2)
@@ -109,11 +109,11 @@ pub(crate) fn restitution_of(bodies: Bodies, system: &System) -> f64 {
 
 /// Friction of a contact, from what its bodies say.
 pub(crate) fn friction_of(bodies: Bodies, system: &System) -> ContactFriction {
-    let of_sphere = |sphere: u32| system.spheres.friction(sphere as usize);
+    let sphere_friction = |sphere: u32| system.spheres.friction(sphere as usize);
     let both = match bodies {
-        Bodies::Pair(first, second) => [of_sphere(first), of_sphere(second)],
+        Bodies::Pair(first, second) => [sphere_friction(first), sphere_friction(second)],
         Bodies::Surface { sphere, surface } => {
-            [system.surfaces[surface as usize].friction, of_sphere(sphere)]
+            [system.surfaces[surface as usize].friction, sphere_friction(sphere)]
         }
     };
     ContactFriction::of(both, system.settings.friction_combine_rule)

@@ -9,8 +9,8 @@ use super::{generalized_reflection, order_free, sequential, simultaneous};
 use crate::settings::ImpactLaw;
 use crate::work::Work;
 
-/// Answers the impacts of one instant in a group of touching bodies: gives the spheres the
-/// velocities after it, and tells by what impulses.
+/// Answers the impacts of one instant in a group of touching bodies: sets the velocities of the
+/// spheres after it, and returns the impulses.
 ///
 /// No contact closes afterwards beyond [`GroupResponse::resolution`], momentum is kept to
 /// round-off, and energy falls by what the law demands. The laws and their formulas are in

@@ -35,21 +35,21 @@ impl Island {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Islands {
     list: Vec<Island>,
-    of_sphere: Vec<u32>,
+    island_numbers: Vec<u32>,
 }
 
 impl Islands {
     /// Every one of `count` spheres alone.
     pub fn reset(&mut self, count: usize) {
         self.list.clear();
-        self.of_sphere.clear();
-        self.of_sphere.resize(count, NONE);
+        self.island_numbers.clear();
+        self.island_numbers.resize(count, NONE);
     }
 
     /// All spheres in one island.
     pub fn join_all(&mut self) {
-        let members = 0..self.of_sphere.len() as u32;
-        self.of_sphere.fill(0);
+        let members = 0..self.island_numbers.len() as u32;
+        self.island_numbers.fill(0);
         self.list.push(Island { members: members.collect(), ..Island::default() });
     }
 
@@ -71,7 +71,7 @@ impl Islands {
     }
 
     fn island_of(&mut self, sphere: u32) -> u32 {
-        let island = &mut self.of_sphere[sphere as usize];
+        let island = &mut self.island_numbers[sphere as usize];
         if *island == NONE {
             *island = self.list.len() as u32;
             self.list.push(Island { members: vec![sphere], ..Island::default() });
@@ -87,7 +87,7 @@ impl Islands {
         let (into, from) = if size(a) >= size(b) { (a, b) } else { (b, a) };
         let gained = std::mem::take(&mut self.list[from as usize]).members;
         for &sphere in &gained {
-            self.of_sphere[sphere as usize] = into;
+            self.island_numbers[sphere as usize] = into;
         }
         let island = &mut self.list[into as usize];
         island.members.extend(gained);
@@ -126,11 +126,11 @@ impl Islands {
 
     /// Whether a sphere belongs to an island.
     pub fn contain(&self, sphere: u32) -> bool {
-        self.of_sphere[sphere as usize] != NONE
+        self.island_numbers[sphere as usize] != NONE
     }
 
     /// Spheres that belong to islands, ascending.
     pub fn members(&self) -> impl Iterator<Item = u32> {
-        (0..self.of_sphere.len() as u32).filter(|&sphere| self.contain(sphere))
+        (0..self.island_numbers.len() as u32).filter(|&sphere| self.contain(sphere))
     }
 }

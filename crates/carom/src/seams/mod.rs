@@ -133,7 +133,7 @@ fn wholes(numbers: &[u64], pairs: &[[u32; 2]], surfaces: &[Surface]) -> Vec<Coll
     (0..numbers.len()).map(|it| ColliderId(numbers[connected.root_of(it)])).collect()
 }
 
-/// Surfaces of colliders in their poses without motion.
+/// Returns the surfaces of colliders in their poses at rest.
 fn placed_at_rest(colliders: &Numbered<Collider>) -> Vec<Surface> {
     let mut surfaces = Vec::new();
     for (number, collider) in colliders.iter() {

@@ -35,27 +35,27 @@ impl Default for Bisect {
 }
 
 impl Bisect {
-    /// The same parameters with this integrator.
+    /// Returns the parameters with this integrator.
     pub fn with_integrator(self, integrator: Integrator) -> Self {
         Self { integrator, ..self }
     }
 
-    /// The same parameters with this touching distance \[m\].
+    /// Returns the parameters with this touching distance \[m\].
     pub fn with_tolerance(self, tolerance: f64) -> Self {
         Self { tolerance, ..self }
     }
 
-    /// The same parameters with this many halvings at most.
+    /// Returns the parameters with this many halvings at most.
     pub fn with_max_halvings(self, max_halvings: u32) -> Self {
         Self { max_halvings, ..self }
     }
 
-    /// The same parameters with this many impacts of two bodies in a frame at most.
+    /// Returns the parameters with this many impacts of two bodies in a frame at most.
     pub fn with_max_impacts(self, max_impacts: u32) -> Self {
         Self { max_impacts, ..self }
     }
 
-    /// The same parameters with these spheres wound back.
+    /// Returns the parameters with these spheres wound back.
     pub fn with_wind_back(self, wind_back: WindBack) -> Self {
         Self { wind_back, ..self }
     }

@@ -25,22 +25,22 @@ impl Default for Contact {
 }
 
 impl Contact {
-    /// The same parameters with this number of sub-steps in a frame.
+    /// Returns the parameters with this number of sub-steps in a frame.
     pub fn with_sub_steps(self, sub_steps: u32) -> Self {
         Self { sub_steps, ..self }
     }
 
-    /// The same parameters with this number of sweeps in a sub-step.
+    /// Returns the parameters with this number of sweeps in a sub-step.
     pub fn with_sweeps(self, sweeps: u32) -> Self {
         Self { sweeps, ..self }
     }
 
-    /// The same parameters, with or without sweeps until the solution has converged.
+    /// Returns the parameters, with or without sweeps until the solution has converged.
     pub fn with_converged(self, converged: bool) -> Self {
         Self { converged, ..self }
     }
 
-    /// The same parameters with another speed of sleep, as a part of `sqrt(a r)`; 0 for none.
+    /// Returns the parameters with another speed of sleep, as a part of `sqrt(a r)`; 0 for none.
     pub fn with_sleep_speed(self, sleep_speed: f64) -> Self {
         Self { sleep_speed, ..self }
     }

@@ -10,7 +10,7 @@ pub struct Discrete {
 }
 
 impl Discrete {
-    /// The same parameters with this integrator.
+    /// Returns the parameters with this integrator.
     pub fn with_integrator(self, integrator: Integrator) -> Self {
         Self { integrator }
     }

@@ -59,37 +59,37 @@ impl Default for Exact {
 }
 
 impl Exact {
-    /// The same parameters with this impact law.
+    /// Returns the parameters with this impact law.
     pub fn with_impact_law(self, impact_law: ImpactLaw) -> Self {
         Self { impact_law, ..self }
     }
 
-    /// The same parameters with this least duration of a contact \[s\].
+    /// Returns the parameters with this least duration of a contact \[s\].
     pub fn with_contact_duration(self, contact_duration: f64) -> Self {
         Self { contact_duration, ..self }
     }
 
-    /// The same parameters with this bound for the work of a sphere in a frame.
+    /// Returns the parameters with this bound for the work of a sphere in a frame.
     pub fn with_max_impacts(self, max_impacts: u32) -> Self {
         Self { max_impacts, ..self }
     }
 
-    /// These parameters with stepped zones, or without.
+    /// Returns the parameters with stepped zones, or without.
     pub fn with_zones(self, zones: Zones) -> Self {
         Self { zones, ..self }
     }
 
-    /// These parameters with another [`Self::zone_budget`].
+    /// Returns the parameters with this [`Self::zone_budget`].
     pub fn with_zone_budget(self, zone_budget: u32) -> Self {
         Self { zone_budget, ..self }
     }
 
-    /// These parameters with another [`Self::zone_tick`] \[s\].
+    /// Returns the parameters with this [`Self::zone_tick`] \[s\].
     pub fn with_zone_tick(self, zone_tick: f64) -> Self {
         Self { zone_tick, ..self }
     }
 
-    /// These parameters with another [`Self::force_tick`] \[s\].
+    /// Returns the parameters with this [`Self::force_tick`] \[s\].
     pub fn with_force_tick(self, force_tick: f64) -> Self {
         Self { force_tick, ..self }
     }

@@ -74,27 +74,27 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// The same settings with this rule, or the rule of these parameters.
+    /// Returns the settings with this rule, or the rule of these parameters.
     pub fn with_rule(self, rule: impl Into<Rule>) -> Self {
         Self { rule: rule.into(), ..self }
     }
 
-    /// The same settings with this rule for the restitution of a contact.
+    /// Returns the settings with this rule for the restitution of a contact.
     pub fn with_combine_rule(self, combine_rule: CombineRule) -> Self {
         Self { combine_rule, ..self }
     }
 
-    /// The same settings with this rule for the friction of a contact.
+    /// Returns the settings with this rule for the friction of a contact.
     pub fn with_friction_combine_rule(self, friction_combine_rule: CombineRule) -> Self {
         Self { friction_combine_rule, ..self }
     }
 
-    /// The same settings, with or without collisions between spheres.
+    /// Returns the settings, with or without collisions between spheres.
     pub fn with_spheres_collide(self, spheres_collide: bool) -> Self {
         Self { spheres_collide, ..self }
     }
 
-    /// The same settings with this boundary.
+    /// Returns the settings with this boundary.
     pub fn with_boundary(self, boundary: Boundary) -> Self {
         Self { boundary, ..self }
     }

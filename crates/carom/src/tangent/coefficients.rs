@@ -1,4 +1,4 @@
-//! Coefficients of contacts, and how they change with those of the bodies.
+//! Coefficients of contacts, and their derivatives by the coefficients of the bodies.
 
 use crate::detect::contact::Bodies;
 use crate::respond;
@@ -12,32 +12,32 @@ pub(super) struct Combined {
 }
 
 impl Combined {
-    /// How it changes with those of the two bodies.
+    /// Returns the change of the coefficient, given the changes of the coefficients of the two bodies.
     pub fn change(&self, bodies: [f64; 2]) -> f64 {
         self.by_bodies[0] * bodies[0] + self.by_bodies[1] * bodies[1]
     }
 }
 
-/// The coefficient of restitution of a contact.
+/// Returns the coefficient of restitution of a contact.
 pub(super) fn restitution_of(system: &System, bodies: Bodies) -> Combined {
-    let of_sphere = |sphere: u32| system.spheres.restitution[sphere as usize];
+    let sphere_restitution = |sphere: u32| system.spheres.restitution[sphere as usize];
     let both = match bodies {
-        Bodies::Pair(first, second) => [first, second].map(of_sphere),
+        Bodies::Pair(first, second) => [first, second].map(sphere_restitution),
         Bodies::Surface { sphere, surface } => {
-            [system.surfaces[surface as usize].restitution, of_sphere(sphere)]
+            [system.surfaces[surface as usize].restitution, sphere_restitution(sphere)]
         }
     };
     let rule = system.settings.combine_rule;
     Combined { value: rule.combine(both[0], both[1]), by_bodies: rule.derivatives(both) }
 }
 
-/// The coefficient of sliding friction of a contact.
+/// Returns the coefficient of sliding friction of a contact.
 pub(super) fn sliding_of(system: &System, bodies: Bodies) -> Combined {
-    let of_sphere = |sphere: u32| system.spheres.friction(sphere as usize);
+    let sphere_friction = |sphere: u32| system.spheres.friction(sphere as usize);
     let both = match bodies {
-        Bodies::Pair(first, second) => [first, second].map(of_sphere),
+        Bodies::Pair(first, second) => [first, second].map(sphere_friction),
         Bodies::Surface { sphere, surface } => {
-            [system.surfaces[surface as usize].friction, of_sphere(sphere)]
+            [system.surfaces[surface as usize].friction, sphere_friction(sphere)]
         }
     };
     let by_bodies = match both.map(|it| it.sliding) {

@@ -3,13 +3,14 @@
 use super::dual::Dual;
 use crate::real::{Real, Vector};
 
-/// A pull counts as parallel to the velocity if its normal part is below this fraction of pull and loss: rounding.
+/// Fraction of pull and loss below which the part of a pull across the velocity is rounding, so that the pull
+/// counts as parallel to the velocity.
 const SAME_DIRECTION: f64 = 1e-12;
-/// Steps of Runge and Kutta's method in the time in which friction ends a speed.
+/// Number of Runge-Kutta steps in the time in which friction alone would end the speed.
 const STEPS_PER_SPEED: f64 = 24.0;
 /// Largest number of steps.
 const MOST_STEPS: f64 = 256.0;
-/// Width below which a difference quotient is replaced by the derivative in its middle.
+/// Width below which the derivative at the middle replaces a difference quotient.
 const NARROW: f64 = 1e-4;
 
 /// The motion `u' = p - c u/|u|` of a slip or of a rolling ball.
@@ -28,7 +29,7 @@ pub(super) struct DryMotion {
 pub(super) struct Moved {
     /// \[m/s\]
     pub velocity: Vector<Dual>,
-    /// Its integral \[m\].
+    /// Integral of the velocity \[m\].
     pub way: Vector<Dual>,
 }
 
@@ -42,7 +43,7 @@ impl DryMotion {
         (loss * speed + velocity.dot(pull)) / room
     }
 
-    /// Returns the motion after a time \[s\]; `ends` if friction ends it then.
+    /// Returns the motion after a time \[s\]. `ends` says that friction has ended the velocity by then.
     pub fn after(&self, time: Dual, ends: bool) -> Moved {
         let Self { velocity, pull, loss } = *self;
         let speed = velocity.length_squared();
@@ -59,7 +60,7 @@ impl DryMotion {
         if !is_straight && !ends {
             return self.stepped(time);
         }
-        // What is across the velocity is small, and its response linear.
+        // The part across the velocity is small, so its response is linear.
         let [velocity_aside, way_aside] = if ends {
             let twice = deceleration * 2.0;
             let way = speed * speed / (twice * (twice + along));
@@ -76,7 +77,8 @@ impl DryMotion {
         }
     }
 
-    /// Returns the motion under friction against the velocity at the start, or against the pull where there is none.
+    /// Returns the motion along a straight line: under friction against the velocity at the start, or against the
+    /// pull if the velocity is zero.
     fn straight(&self, time: Dual) -> Moved {
         let Self { velocity, pull, loss } = *self;
         let way = [velocity, pull].into_iter().find(|it| it.length_squared().value > 0.0);
@@ -87,7 +89,7 @@ impl DryMotion {
         }
     }
 
-    /// Returns the motion by steps of Runge and Kutta's method.
+    /// Returns the motion by steps of the Runge-Kutta method.
     fn stepped(&self, time: Dual) -> Moved {
         let Self { velocity, pull, loss } = *self;
         let fall = loss.value * time.value / velocity.value().length();
@@ -113,10 +115,11 @@ impl DryMotion {
     }
 }
 
-/// Returns velocity and way across the motion under a unit pull across it: `w' = 1 - c w/s` with the speed `s = s0 - k t`.
+/// Returns velocity and displacement across the motion under a unit pull across it: `w' = 1 - c w/s` with the speed
+/// `s = s0 - k t`.
 ///
-/// With `m = ln(s0/s)/k` and q = c - k: `w = s (1 - e^-qm)/q`, and the way is `s0² m² (f(2km) - f(2km + qm))/(qm)` with
-/// `f(z) = (1 - e^-z)/z`.
+/// With `m = ln(s0/s)/k` and q = c - k: `w = s (1 - e^-qm)/q`, and the displacement is `s0² m² (f(2km) - f(2km +
+/// qm))/(qm)` with `f(z) = (1 - e^-z)/z`.
 fn response_aside([speed, deceleration, along, time]: [f64; 4]) -> [f64; 2] {
     let spent = (deceleration * time / speed).min(1.0 - f64::EPSILON);
     let log = if spent.abs() < 1e-300 { 1.0 } else { -libm::log1p(-spent) / spent };

@@ -6,8 +6,8 @@ use glam::DVec3;
 
 use crate::real::{Real, Vector};
 
-/// A number, and how fast it changes in a direction: `(v + d ε)` with ε² = 0 (Clifford, Proc. London Math. Soc. 4,
-/// 381 (1873)). Formulas made of such numbers give their own derivatives.
+/// A number and its derivative in one direction: `(v + d ε)` with ε² = 0 (Clifford, Proc. London Math. Soc. 4, 381
+/// (1873)). A formula evaluated with such numbers gives its own derivative.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Dual {
     pub value: f64,
@@ -19,7 +19,7 @@ impl Dual {
         Self { value, change }
     }
 
-    /// One that does not change.
+    /// Returns a number whose derivative is zero.
     pub const fn constant(value: f64) -> Self {
         Self { value, change: 0.0 }
     }
@@ -82,7 +82,7 @@ impl Real for Dual {
     }
 }
 
-/// A vector and its derivative.
+/// Returns a vector with its derivative.
 pub(super) fn vector(value: DVec3, change: DVec3) -> Vector<Dual> {
     Vector {
         x: Dual::new(value.x, change.x),
@@ -100,7 +100,7 @@ impl Vector<Dual> {
         DVec3::new(self.x.change, self.y.change, self.z.change)
     }
 
-    /// The unit vector along it.
+    /// Returns the unit vector along this one.
     pub(super) fn direction(self) -> Self {
         self * (Dual::constant(1.0) / self.length_squared().sqrt())
     }

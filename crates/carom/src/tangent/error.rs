@@ -1,4 +1,4 @@
-//! Why there are no derivatives.
+//! Errors of derivatives.
 
 use thiserror::Error as ThisError;
 
@@ -21,8 +21,8 @@ pub enum DerivativeError {
     /// A direction changes a collider that is not in the world.
     #[error("there is no collider {0} in this world")]
     UnknownCollider(ColliderId),
-    /// Several impacts came at one instant among bodies that touch: what follows depends on which of them a small
-    /// change lets come first.
+    /// Several impacts at one instant among bodies that touch: the motion after them depends on which one a small
+    /// change makes first.
     #[error(
         "sphere {sphere} has several impacts at {time} s at once: no derivative, since a small change decides \
          which comes first"
@@ -30,7 +30,7 @@ pub enum DerivativeError {
     Simultaneous {
         /// One of the spheres.
         sphere: SphereId,
-        /// On the world's clock \[s\].
+        /// Time on the world's clock \[s\].
         time: f64,
     },
     /// A sphere neither flew freely nor stayed on one plane at rest between its impacts: it lies against several bodies,

@@ -7,22 +7,23 @@ use super::start::Start;
 use crate::id::SphereId;
 use crate::world::World;
 
-/// How far a world was followed.
+/// Time over which derivatives were followed, and the impacts in it.
 #[derive(Debug, Clone)]
 pub(super) struct Followed {
     pub ids: Vec<SphereId>,
     pub margin: Margin,
-    /// When this began, on the world's clock \[s\].
+    /// Start of the derivatives on the world's clock \[s\].
     began: f64,
-    /// Since then \[s\].
+    /// Time since the start of the derivatives \[s\].
     elapsed: f64,
-    /// The last impact of each sphere \[s\] since then; minus infinity if it had none.
+    /// Time of the last impact of each sphere since the start of the derivatives \[s\]; minus infinity if it had
+    /// none.
     last_impacts: Vec<f64>,
     lost: Option<DerivativeError>,
 }
 
 impl Followed {
-    /// Begins with a world as it is now.
+    /// Starts with the present state of a world.
     pub fn start(world: &World) -> Result<Self, DerivativeError> {
         let ids = Start::of(world)?.ids;
         let last_impacts = vec![f64::NEG_INFINITY; ids.len()];
@@ -30,7 +31,7 @@ impl Followed {
         Ok(Self { ids, margin, began, elapsed: 0.0, last_impacts, lost: None })
     }
 
-    /// Advances the world by `dt` \[s\]. Returns the pieces of the step.
+    /// Advances the world by `dt` \[s\]. Returns the flights and impacts of the step as linear maps.
     pub fn step(&mut self, world: &mut World, dt: f64) -> Result<Vec<Piece>, DerivativeError> {
         self.check()?;
         let start = Start::of(world)?;
@@ -50,12 +51,12 @@ impl Followed {
         Ok(pieces)
     }
 
-    /// Refuses to go on where there is no derivative any more.
+    /// Returns the error that an earlier step ended with, if any.
     pub fn check(&self) -> Result<(), DerivativeError> {
         self.lost.clone().map_or(Ok(()), Err)
     }
 
-    /// The place of a sphere in the arrays of the world.
+    /// Returns the index of a sphere in the arrays of the world.
     pub fn place_of(&self, sphere: SphereId) -> Result<usize, DerivativeError> {
         self.ids.binary_search(&sphere).map_err(|_| DerivativeError::UnknownSphere(sphere))
     }

@@ -1,4 +1,4 @@
-//! Which worlds have derivatives that are known.
+//! Checks that the derivatives of a world are known.
 
 use super::error::DerivativeError;
 use crate::detect::instant::Instant;
@@ -6,7 +6,7 @@ use crate::forces;
 use crate::settings::Rule;
 use crate::world::World;
 
-/// Refuses a world that has something whose derivatives are not known.
+/// Returns an error if the derivatives of something in the world are not known.
 pub(super) fn check(world: &World) -> Result<(), DerivativeError> {
     let Instant { system, .. } = world.now();
     let refuse = |what| Err(DerivativeError::Unsupported(what));

@@ -1,4 +1,4 @@
-//! The law of one impact in dual numbers: Newton's law along the normal, then Walton's across it.
+//! The law of one impact in dual numbers: Newton's law along the normal, then Walton's law across it.
 
 use super::dual::Dual;
 use crate::real::{Real, Vector};
@@ -26,7 +26,7 @@ pub(super) enum FirstBody {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Coefficients {
     pub restitution: Dual,
-    /// Of Coulomb's friction.
+    /// Coefficient of Coulomb friction.
     pub sliding: Dual,
     pub tangential_restitution: f64,
     /// Speed that the surface adds along the normal \[m/s\].
@@ -34,18 +34,19 @@ pub(super) struct Coefficients {
 }
 
 impl StruckSphere {
-    /// Velocity of its surface across the normal by its turning, if the normal pointed away from its centre.
+    /// Returns the velocity of the surface across the normal that the rotation causes, for a normal that points
+    /// away from the centre.
     fn rim_velocity(&self, normal: Vector<Dual>) -> Vector<Dual> {
         (self.angular_velocity * self.radius).cross(normal)
     }
 
-    /// How easily an impulse across the normal moves its surface \[1/kg\].
+    /// Returns the velocity that a unit impulse across the normal gives the surface \[1/kg\].
     fn mobility(&self) -> Dual {
         Dual::constant(1.0 + 1.0 / self.inertia_factor) / self.mass
     }
 
-    /// Changes its motion by an impulse along the normal, and by one across it \[N s\], which turns it by the
-    /// same sense on both bodies.
+    /// Applies an impulse \[N s\]. `turning` is the cross product of the normal with it, the same for both bodies,
+    /// which changes the spin.
     fn push(&mut self, impulse: Vector<Dual>, turning: Vector<Dual>) {
         let one = Dual::constant(1.0);
         self.velocity = self.velocity + impulse * (one / self.mass);
@@ -90,7 +91,7 @@ pub(super) fn collide(
 }
 
 /// Returns the impulse of friction on body 2 \[N s\]. `relative` is the velocity of body 2 relative to body 1
-/// \[m/s\], `impulse` that along the normal \[N s\].
+/// \[m/s\], `impulse` the impulse along the normal \[N s\].
 fn friction(
     first: &FirstBody,
     second: &StruckSphere,

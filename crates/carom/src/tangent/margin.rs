@@ -1,20 +1,20 @@
-//! How near a run came to where derivatives end.
+//! Distance of a run from where derivatives end.
 
 use super::saltation::Saltation;
 use crate::id::SphereId;
 
-/// How near a run came to an impact that grazes, or to two impacts of one sphere at once: there derivatives end.
+/// Distance of a run from where derivatives end: impacts that graze, and two impacts of one sphere at once.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Margin {
-    /// The speed of approach in an impact as a part of the relative speed, the least of all: 1 head-on, 0 where it
-    /// grazes. 1 if there was no impact.
+    /// Smallest ratio of the speed of approach to the relative speed of an impact: 1 if all were head-on, near 0 if
+    /// one grazed. 1 if there was no impact.
     pub directness: f64,
-    /// The sphere, body 2 of that impact, and when it was, on the world's clock \[s\].
+    /// Body 2 of that impact, and its time on the world's clock \[s\].
     pub most_grazing: Option<(SphereId, f64)>,
     /// The shortest time between two impacts of one sphere \[s\]; infinite if none had two.
     pub interval: f64,
-    /// That sphere, and when the second of the two was, on the world's clock \[s\].
+    /// The sphere of these two impacts, and the time of the second on the world's clock \[s\].
     pub closest: Option<(SphereId, f64)>,
 }
 
@@ -25,8 +25,8 @@ impl Default for Margin {
 }
 
 impl Margin {
-    /// Takes in an impact. `began` is when derivatives began, on the world's clock \[s\]; `last_impacts` has the last impact
-    /// of each sphere since then \[s\], by place.
+    /// Adds an impact. `began` is the start of the derivatives on the world's clock \[s\]; `last_impacts` has the
+    /// time of the last impact of each sphere since then \[s\], by index.
     pub(super) fn look_at(&mut self, saltation: &Saltation, began: f64, last_impacts: &mut [f64]) {
         let time = saltation.time;
         let directness = saltation.directness();

@@ -1,7 +1,7 @@
-//! Derivatives of a run under the rule `exact` by what it began with: exact through impacts.
+//! Derivatives of a run under the rule `exact` with respect to its initial state, exact through impacts.
 //!
 //! Between impacts the motion is known in closed form, and so is its derivative. An impact maps small changes of
-//! the motion before it linearly to those after it; that it comes sooner or later is a part of the map.
+//! the motion before it linearly to small changes after it; the map includes the change of the time of the impact.
 
 mod coefficients;
 mod dry_motion;
@@ -34,12 +34,12 @@ use crate::world::World;
 use followed::Followed;
 use replay::Piece;
 
-/// Derivatives in some directions, carried along with a world: how the motion of each sphere changes with what the world
-/// started with.
+/// Derivatives in some directions, advanced together with a world: the change of the motion of each sphere when the
+/// initial state changes in a direction.
 ///
-/// Known of worlds under the rule `exact` whose spheres fly freely, under forces that are linear in the velocity, or
-/// slide, roll and rest on single planes, and meet each other and surfaces one at a time, with or without friction.
-/// What has no derivative is an error, never a guess. The formulas are in `docs/physics/derivatives.md`.
+/// Available for worlds under the rule `exact` whose spheres fly freely, under forces that are linear in the
+/// velocity, or slide, roll and rest on single planes, and meet each other and surfaces one at a time, with or
+/// without friction. Anything without a derivative is an error. The formulas are in `docs/physics/derivatives.md`.
 ///
 /// ```
 /// use carom::{Collider, DVec3, Pose, Shape, Sphere, Tangents, Variation, World};
@@ -52,19 +52,19 @@ use replay::Piece;
 /// let mut tangents = Tangents::new(&world, vec![higher])?;
 /// tangents.step(&mut world, 2.0)?;
 /// // A ball that starts higher comes later, and is lower after its bounce.
-/// assert_eq!(tangents.of_sphere(0, ball)?.position, DVec3::NEG_Y);
+/// assert_eq!(tangents.sphere(0, ball)?.position, DVec3::NEG_Y);
 /// # Ok::<(), carom::DerivativeError>(())
 /// ```
 #[derive(Debug, Clone)]
 pub struct Tangents {
     directions: Vec<Variation>,
-    /// For each direction, one of each sphere in the order of the world's arrays.
+    /// For each direction, the derivative of each sphere in the order of the world's arrays.
     spheres: Vec<Vec<SphereTangent>>,
     followed: Followed,
 }
 
 impl Tangents {
-    /// Begins with a world as it is now.
+    /// Starts with the present state of a world.
     ///
     /// # Errors
     /// [`DerivativeError::Unsupported`] if the world has something whose derivatives are not known, among them masses
@@ -81,8 +81,8 @@ impl Tangents {
         Ok(Self { directions, spheres, followed })
     }
 
-    /// Advances the world by `dt` \[s\], and the derivatives with it. What was changed from outside since the last
-    /// step counts as constant.
+    /// Advances the world by `dt` \[s\], and the derivatives with it. A change of the world from outside since the
+    /// last step has no derivative of its own.
     ///
     /// # Errors
     /// Those of [`World::step`], which leave all as it was. [`DerivativeError::Simultaneous`] and
@@ -96,14 +96,14 @@ impl Tangents {
         Ok(())
     }
 
-    /// How the motion of a sphere changes now in a direction, by the number of the direction.
+    /// Returns the present derivative of the motion of a sphere in the direction with this index.
     ///
     /// # Errors
     /// [`DerivativeError::UnknownSphere`] if it is not followed.
     ///
     /// # Panics
     /// If there is no such direction.
-    pub fn of_sphere(
+    pub fn sphere(
         &self,
         direction: usize,
         sphere: SphereId,
@@ -111,40 +111,41 @@ impl Tangents {
         Ok(self.spheres[direction][self.followed.place_of(sphere)?])
     }
 
-    /// How the motion of all spheres changes now in a direction, in the order of their ids.
+    /// Returns the present derivatives of the motion of all spheres in the direction with this index, in the order
+    /// of their ids.
     ///
     /// # Panics
     /// If there is no such direction.
-    pub fn of_spheres(&self, direction: usize) -> &[SphereTangent] {
+    pub fn spheres(&self, direction: usize) -> &[SphereTangent] {
         &self.spheres[direction]
     }
 
-    /// How many directions there are.
+    /// Returns the number of directions.
     pub fn len(&self) -> usize {
         self.directions.len()
     }
 
-    /// Whether there is no direction.
+    /// Returns whether there is no direction.
     pub fn is_empty(&self) -> bool {
         self.directions.is_empty()
     }
 
-    /// How near the run came to where derivatives end.
+    /// Returns how near the run came to where derivatives end.
     pub fn margin(&self) -> Margin {
         self.followed.margin
     }
 
-    /// Makes the changes of the motion of all spheres orthogonal, one direction after the other, and each of length
-    /// 1, where a change of `length` \[m\] counts as much as one of `speed` \[m/s\]. Returns how long each was: the
-    /// logarithms, summed over a run and divided by its time, are the Lyapunov exponents (Benettin, Galgani,
-    /// Giorgilli and Strelcyn, Meccanica 15, 9 (1980)). Spins are left out.
+    /// Makes the derivatives of the motion of all spheres orthonormal, one direction after the other (Gram and
+    /// Schmidt), in a norm in which a change of `length` \[m\] equals one of `speed` \[m/s\] and spins do not
+    /// count. Returns the length of each before that. Their logarithms, summed over a run and divided by its time,
+    /// are the Lyapunov exponents (Benettin, Galgani, Giorgilli and Strelcyn, Meccanica 15, 9 (1980)).
     pub fn orthonormalize(&mut self, length: f64, speed: f64) -> Vec<f64> {
         let dot = |one: &[SphereTangent], other: &[SphereTangent]| -> f64 {
-            let of_sphere = |(a, b): (&SphereTangent, &SphereTangent)| {
+            let product = |(a, b): (&SphereTangent, &SphereTangent)| {
                 a.position.dot(b.position) / (length * length)
                     + a.velocity.dot(b.velocity) / (speed * speed)
             };
-            one.iter().zip(other).map(of_sphere).sum()
+            one.iter().zip(other).map(product).sum()
         };
         let mut lengths = Vec::with_capacity(self.spheres.len());
         for number in 0..self.spheres.len() {
@@ -169,7 +170,7 @@ impl Tangents {
     }
 }
 
-/// Takes changes of the motion of spheres through pieces, in a direction.
+/// Applies the linear maps of a step to the derivatives in one direction.
 fn pass(pieces: &[Piece], direction: &Variation, spheres: &mut [SphereTangent]) {
     for piece in pieces {
         match *piece {
@@ -182,7 +183,8 @@ fn pass(pieces: &[Piece], direction: &Variation, spheres: &mut [SphereTangent]) 
     }
 }
 
-/// Refuses a direction that changes what is not in the world, or what its forces depend on.
+/// Returns an error if a direction changes something that is not in the world, or a quantity that its forces depend
+/// on.
 fn check(world: &World, followed: &Followed, direction: &Variation) -> Result<(), DerivativeError> {
     let system = world.now().system;
     for (id, change) in direction.spheres() {

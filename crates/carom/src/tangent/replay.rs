@@ -1,4 +1,4 @@
-//! A step once more, from its report: the flights and impacts that it was made of.
+//! Reconstructs a step from its report: the flights and impacts that it consisted of.
 
 use std::collections::{BTreeMap, VecDeque};
 
@@ -30,8 +30,7 @@ const NOTHING: f64 = 0.5;
 /// A linear map of small changes of the motion of spheres.
 #[derive(Debug, Clone)]
 pub(super) enum Piece {
-    /// A flight of the sphere at this place in the arrays of the world, for a time \[s\] at a rate of drag
-    /// \[1/s\].
+    /// Flight of the sphere with this index in the arrays of the world, for a time \[s\] at a drag rate \[1/s\].
     Flight {
         place: usize,
         time: f64,
@@ -45,9 +44,9 @@ pub(super) enum Piece {
 struct Replay<'a> {
     start: Start,
     system: System<'a>,
-    /// Time from where derivatives begin to the start of the step \[s\].
+    /// Time from the start of the derivatives to the start of the step \[s\].
     elapsed: f64,
-    /// Changes of persistent contact during the step, by place of the sphere.
+    /// Changes of persistent contact during the step, by index of the sphere.
     changes: BTreeMap<usize, VecDeque<SupportChange>>,
     pieces: Vec<Piece>,
     /// End of the step on the world's clock \[s\].
@@ -55,8 +54,8 @@ struct Replay<'a> {
 }
 
 impl Start {
-    /// Returns the pieces of the step that the world took, in order. `supports` are the changes of persistent contact
-    /// that it noted, `elapsed` is the time from where derivatives begin to the step \[s\].
+    /// Returns the linear maps of the step that the world took, in order. `supports` has the changes of persistent
+    /// contact during the step, `elapsed` is the time from the start of the derivatives to the step \[s\].
     ///
     /// # Errors
     /// The part of the step that has no derivative.
@@ -98,13 +97,13 @@ impl Start {
 }
 
 impl Replay<'_> {
-    /// Returns the error of a sphere whose motion has no known derivative.
+    /// Returns the error for a sphere whose motion has no known derivative.
     fn lost(&self, place: usize) -> DerivativeError {
         let sphere = self.start.ids[place];
         DerivativeError::PersistentContact { sphere, from: self.start.time, to: self.end }
     }
 
-    /// Follows a sphere through its changes of persistent contact before a time since the start of the step \[s\].
+    /// Advances a sphere through its changes of persistent contact before a time since the start of the step \[s\].
     fn advance(&mut self, place: usize, time: f64) -> Result<(), DerivativeError> {
         while let Some(change) = self.next_change(place, |at| at < time) {
             let at = self.since_start(&change);
@@ -115,7 +114,7 @@ impl Replay<'_> {
             let was_held = self.start.bodies[place].held.is_some();
             let begins = change.held.is_some_and(|motion| motion.is_old) || at == 0.0;
             match (was_held, next) {
-                // It leaves a plane, or comes onto one, without an impact.
+                // The sphere leaves a plane, or comes onto one, without an impact.
                 (true, None) => return Err(self.lost(place)),
                 (false, Some(_)) if !begins => return Err(self.lost(place)),
                 _ => {}
@@ -128,8 +127,8 @@ impl Replay<'_> {
         Ok(())
     }
 
-    /// Removes and returns the next change of a sphere's persistent contact, if `at` accepts its time since the start of
-    /// the step \[s\]; of several changes at one time the last.
+    /// Removes and returns the next change of a sphere's persistent contact if `at` accepts its time since the
+    /// start of the step \[s\]. Of several changes at one time it is the last.
     fn next_change(&mut self, place: usize, at: impl Fn(f64) -> bool) -> Option<SupportChange> {
         let times = [self.start.time, self.end];
         let changes = self.changes.get_mut(&place)?;
@@ -165,7 +164,7 @@ impl Replay<'_> {
         })
     }
 
-    /// Sets the motion of a sphere that a plane holds from now on.
+    /// Sets the motion of a sphere that a plane supports from now on.
     fn hold(
         &mut self,
         place: usize,
@@ -182,8 +181,8 @@ impl Replay<'_> {
         if off.length() > body.tolerance { Err(self.lost(place)) } else { Ok(()) }
     }
 
-    /// Advances a sphere to a time since the start of the step \[s\]; `next` is its persistent contact after that, if
-    /// it changes then.
+    /// Advances a sphere to a time since the start of the step \[s\]. `next` is its persistent contact from then
+    /// on, if it changes.
     fn fly(
         &mut self,
         place: usize,
@@ -216,8 +215,8 @@ impl Replay<'_> {
         Ok(())
     }
 
-    /// Returns the flight of a sphere on the plane that holds it, of a length \[s\]; `None` if its friction is not one of
-    /// the known cases.
+    /// Returns the flight of a sphere on the plane that supports it, of a length \[s\]; `None` if its friction has
+    /// no closed form.
     fn supported(
         &self,
         place: usize,
@@ -240,7 +239,7 @@ impl Replay<'_> {
         Some(flight)
     }
 
-    /// Returns a flight with these velocities on a plane, without length.
+    /// Returns a flight of length zero on a plane, with these velocities.
     fn flight_on(
         &self,
         place: usize,
@@ -271,7 +270,7 @@ impl Replay<'_> {
         }
     }
 
-    /// Returns the accelerations of a sphere that flies freely, or is held by a plane with these velocities.
+    /// Returns the accelerations of a sphere with these velocities, in free flight or on a plane.
     fn rates_in(
         &self,
         place: usize,
@@ -283,14 +282,14 @@ impl Replay<'_> {
         self.flight_on(place, held, velocities).rates().ok_or_else(|| self.lost(place))
     }
 
-    /// Returns the accelerations of a sphere now.
+    /// Returns the present accelerations of a sphere.
     fn rates(&self, place: usize) -> Rates {
         let Flying { linear, held, .. } = self.start.bodies[place];
         let free = Rates { linear, angular_acceleration: DVec3::ZERO };
         held.map_or(free, |held| held.rates(linear))
     }
 
-    /// Advances the spheres of an impact to it, and applies it.
+    /// Advances the spheres of an impact to its time, and applies the impact.
     fn collide(&mut self, impact: &Impact) -> Result<(), DerivativeError> {
         let places = self.start.places(impact);
         for &place in places.iter().flatten() {
@@ -332,8 +331,8 @@ impl Replay<'_> {
         Ok(())
     }
 
-    /// Returns the derivative of an impact, with the accelerations of its spheres before and after it; `None` if the
-    /// spheres are not at its place.
+    /// Returns the derivative of an impact, with the accelerations of its spheres before and after; `None` if the
+    /// spheres are not where the impact was.
     fn saltation(
         &mut self,
         impact: &Impact,
@@ -349,11 +348,11 @@ impl Replay<'_> {
             let body = &mut bodies[place];
             let off = periodic::wrapped(touching - body.position, period);
             let is_there = off.length() <= body.tolerance;
-            // As the step has it: no rounding is carried on.
+            // Positions and velocities are those that the step had, so that no rounding accumulates.
             body.position += off;
             is_there.then(|| Colliding {
                 position: touching,
-                ..of_sphere(system, (place, ids[place]), body, rates)
+                ..colliding_sphere(system, (place, ids[place]), body, rates)
             })
         };
         let second_place = places[1]?;
@@ -388,7 +387,7 @@ impl Replay<'_> {
         })
     }
 
-    /// Sets the motion of the spheres of an impact after it.
+    /// Sets the motion of the spheres of an impact to that after it.
     fn leave(&mut self, saltation: &Saltation) {
         let outcome = saltation.outcome();
         let mut set = |place: usize, [velocity, angular_velocity]: [DVec3; 2]| {
@@ -409,12 +408,12 @@ impl Piece {
     }
 }
 
-/// Returns the time of a change since the start of a step between these times \[s\].
+/// Returns the time of a change since the start of a step that lasts from `start` to `end` \[s\].
 fn since(change: &SupportChange, [start, end]: [f64; 2]) -> f64 {
     (change.time - start).clamp(0.0, end - start)
 }
 
-fn of_sphere(
+fn colliding_sphere(
     system: &System,
     (place, id): (usize, SphereId),
     body: &Flying,

@@ -1,4 +1,4 @@
-//! What an impact does to small changes of the motion before it.
+//! The derivative of an impact.
 
 use glam::DVec3;
 
@@ -12,8 +12,8 @@ use crate::id::{ColliderId, SphereId};
 use crate::real::Vector;
 use crate::rule::exact::NormalCurvature;
 
-/// The derivative of an impact: a saltation matrix (Aizerman and Gantmakher, Q. J. Mech. Appl. Math. 11, 243
-/// (1958); Müller, Chaos Solitons Fractals 5, 1671 (1995)), which counts that the impact itself comes sooner or later.
+/// Derivative of an impact: a saltation matrix (Aizerman and Gantmakher, Q. J. Mech. Appl. Math. 11, 243 (1958);
+/// Müller, Chaos Solitons Fractals 5, 1671 (1995)). It includes the change of the time of the impact.
 #[derive(Debug, Clone)]
 pub(super) struct Saltation {
     pub first: First,
@@ -23,16 +23,16 @@ pub(super) struct Saltation {
     pub restitution: Combined,
     pub sliding: Combined,
     pub tangential_restitution: f64,
-    /// \[m/s\]
+    /// Speed that the surface adds along the normal \[m/s\].
     pub kick: f64,
-    /// Since derivatives are followed \[s\].
+    /// Time since the start of the derivatives \[s\].
     pub time: f64,
 }
 
-/// A sphere as it comes into an impact.
+/// A sphere at an impact.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Colliding {
-    /// Its place in the arrays of the world.
+    /// Index in the arrays of the world.
     pub place: usize,
     pub id: SphereId,
     pub position: DVec3,
@@ -41,7 +41,7 @@ pub(super) struct Colliding {
     pub radius: f64,
     pub mass: f64,
     pub inertia_factor: f64,
-    /// How it was accelerated before the impact, and is after it.
+    /// Accelerations before the impact, and after it.
     pub before: Rates,
     pub after: Rates,
 }
@@ -53,18 +53,18 @@ pub(super) enum First {
     Surface(TouchedSurface),
 }
 
-/// A surface as it is touched.
+/// A surface at the point where it is touched.
 #[derive(Debug, Clone)]
 pub(super) struct TouchedSurface {
     pub collider: ColliderId,
-    /// About which it turns \[m\].
+    /// Centre of its rotation \[m\].
     pub origin: DVec3,
     pub velocity: DVec3,
     pub angular_velocity: DVec3,
     pub curvature: NormalCurvature,
 }
 
-/// A small change of everything that an impact depends on.
+/// A small change of all inputs of an impact.
 #[derive(Debug, Clone, Copy, Default)]
 struct Change {
     spheres: [SphereTangent; 2],
@@ -78,16 +78,16 @@ struct Change {
 
 /// Two bodies after an impact.
 struct Collided {
-    /// Centres of the spheres; that of body 2 twice, if body 1 is a surface.
+    /// Centres of the spheres; the centre of body 2 twice if body 1 is a surface.
     places: [Vector<Dual>; 2],
     first: FirstBody,
     second: StruckSphere,
-    /// By how much the impact comes later \[s\].
+    /// Delay of the impact \[s\].
     later: f64,
 }
 
 impl Colliding {
-    /// The sphere at the impact that comes `later` \[s\]: its centre, and how it moves; its radius and mass change, too.
+    /// Returns the centre, motion, radius and mass of a sphere at an impact that comes `later` \[s\].
     fn at_impact(
         &self,
         change: &SphereTangent,
@@ -107,7 +107,8 @@ impl Colliding {
         (position, sphere)
     }
 
-    /// The change of the motion after the impact, which comes later by this \[s\], as of its undisturbed time.
+    /// Returns the change of the motion after an impact that comes later by this \[s\], at the time of the
+    /// undisturbed impact.
     fn after(&self, place: Vector<Dual>, sphere: &StruckSphere, later: f64) -> SphereTangent {
         let velocity = sphere.velocity.value();
         SphereTangent {
@@ -120,13 +121,13 @@ impl Colliding {
 }
 
 impl TouchedSurface {
-    /// Velocity at a point \[m/s\].
+    /// Returns the velocity of the surface at a point \[m/s\].
     fn velocity_at(&self, point: DVec3) -> DVec3 {
         self.velocity + self.angular_velocity.cross(point - self.origin)
     }
 
-    /// The normal where a sphere touches it whose centre has moved by this \[m\], if the surface is shifted \[m\]
-    /// and the impact comes later by this \[s\].
+    /// Returns the normal at the contact with a sphere whose centre has moved by this \[m\], if the surface is
+    /// shifted \[m\] and the impact comes later by this \[s\].
     fn normal(
         &self,
         (normal, point): (DVec3, DVec3),
@@ -141,7 +142,7 @@ impl TouchedSurface {
 }
 
 impl Saltation {
-    /// The spheres of the impact.
+    /// Returns the spheres of the impact.
     pub fn spheres(&self) -> impl Iterator<Item = &Colliding> {
         let first = match &self.first {
             First::Sphere(sphere) => Some(sphere),
@@ -150,14 +151,14 @@ impl Saltation {
         first.into_iter().chain([&self.second])
     }
 
-    /// The speed of approach, as a part of the relative speed: 0 where the impact grazes.
+    /// Returns the ratio of the speed of approach to the relative speed: 0 if the impact grazes.
     pub fn directness(&self) -> f64 {
         let relative = self.relative_velocity();
         let speed = relative.length();
         if speed == 0.0 { 0.0 } else { -relative.dot(self.normal) / speed }
     }
 
-    /// Velocity of body 2 relative to body 1, where they touch, without the turning of spheres \[m/s\].
+    /// Returns the velocity of body 2 relative to body 1 at the contact, without the rotation of spheres \[m/s\].
     fn relative_velocity(&self) -> DVec3 {
         let first = match &self.first {
             First::Sphere(sphere) => sphere.velocity,
@@ -166,12 +167,12 @@ impl Saltation {
         self.second.velocity - first
     }
 
-    /// Where body 2 is touched \[m\].
+    /// Returns the contact point on body 2 \[m\].
     fn point(&self) -> DVec3 {
         self.second.position - self.second.radius * self.normal
     }
 
-    /// Velocities and angular velocities after the impact, of body 1 and 2; zero for a surface.
+    /// Returns velocities and angular velocities of bodies 1 and 2 after the impact; zero for a surface.
     pub fn outcome(&self) -> [[DVec3; 2]; 2] {
         let Collided { first, second, .. } = self.collided(&Change::default());
         let motion = |it: &StruckSphere| [it.velocity.value(), it.angular_velocity.value()];
@@ -182,7 +183,7 @@ impl Saltation {
         [of_first, motion(&second)]
     }
 
-    /// Takes the changes of spheres through the impact, in a direction.
+    /// Applies the derivative of the impact to the derivatives of the spheres in one direction.
     pub fn pass(&self, direction: &Variation, spheres: &mut [SphereTangent]) {
         let second = self.second.place;
         let mut change = self.change_of(direction);
@@ -197,8 +198,8 @@ impl Saltation {
         }
     }
 
-    /// Takes derivatives by the motion after the impact back to those by the motion before, and adds those by what
-    /// else the impact depends on to a gradient.
+    /// Replaces derivatives with respect to the motion after the impact by derivatives with respect to the motion
+    /// before, and adds those with respect to the other inputs of the impact to a gradient.
     pub fn pass_back(&self, spheres: &mut [SphereTangent], gradient: &mut Variation) {
         let second = self.second.place;
         let mut after = [SphereTangent::default(), spheres[second]];
@@ -228,7 +229,7 @@ impl Saltation {
         }
     }
 
-    /// What else the impact depends on changes so in a direction.
+    /// Returns the change of the other inputs of the impact in a direction.
     fn change_of(&self, direction: &Variation) -> Change {
         let second = direction.sphere(self.second.id);
         let mut change = Change::default();
@@ -251,7 +252,7 @@ impl Saltation {
         change
     }
 
-    /// Adds the derivatives by what [`Self::change_of`] tells to a gradient.
+    /// Adds the derivatives with respect to the inputs of [`Self::change_of`] to a gradient.
     fn add_to_gradient(&self, by: impl Fn(&Change) -> f64, gradient: &mut Variation) {
         let restitution = by(&Change { restitution: 1.0, ..Change::default() });
         let sliding = by(&Change { sliding: 1.0, ..Change::default() });
@@ -289,7 +290,7 @@ impl Saltation {
         }
     }
 
-    /// How the motion after the impact changes.
+    /// Returns the change of the motion after the impact.
     fn apply(&self, change: &Change) -> [SphereTangent; 2] {
         let Collided { places, first, second, later } = self.collided(change);
         let of_first = match (&self.first, &first) {
@@ -301,7 +302,7 @@ impl Saltation {
         [of_first, self.second.after(places[1], &second, later)]
     }
 
-    /// By how much the impact comes later \[s\].
+    /// Returns the delay of the impact \[s\].
     fn delay(&self, change: &Change) -> f64 {
         let [first, second] = change.spheres;
         let opened = match &self.first {
@@ -314,7 +315,7 @@ impl Saltation {
         -(opened - change.radii[1]) / closing
     }
 
-    /// The bodies after the impact.
+    /// Returns the bodies after the impact.
     fn collided(&self, change: &Change) -> Collided {
         let later = self.delay(change);
         let [of_first, of_second] = &change.spheres;

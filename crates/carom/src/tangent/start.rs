@@ -1,4 +1,4 @@
-//! Spheres before a step, from where it is reconstructed.
+//! State of the spheres before a step, from which the step is reconstructed.
 
 use std::sync::Arc;
 
@@ -15,11 +15,11 @@ use crate::report::{BodyPair, Impact, StepReport};
 use crate::system::System;
 use crate::world::World;
 
-/// Largest error of a reconstructed position as a fraction of size and way: rounding passes, any other motion than that
-/// of a flight does not.
+/// Largest error of a reconstructed position as a fraction of coordinates and displacement: above rounding, and
+/// below the effect of any other motion than a flight.
 pub(super) const ROUNDING: f64 = 1e-9;
 
-/// A world before a step.
+/// State of a world before a step.
 pub(super) struct Start {
     pub ids: Vec<SphereId>,
     pub bodies: Vec<Flying>,
@@ -35,7 +35,7 @@ pub(super) struct Flying {
     pub velocity: DVec3,
     pub angular_velocity: DVec3,
     pub linear: LinearForce,
-    /// The plane that holds it, if any does.
+    /// The plane that supports the sphere, if any.
     pub held: Option<Held>,
     /// Time since the start of the step \[s\].
     pub since: f64,
@@ -98,7 +98,7 @@ impl Start {
         Ok(())
     }
 
-    /// Returns the places of the spheres of an impact in the arrays of the world.
+    /// Returns the indices of the spheres of an impact in the arrays of the world.
     pub fn places(&self, impact: &Impact) -> [Option<usize>; 2] {
         let place = |id: SphereId| self.ids.binary_search(&id).ok();
         match impact.between {
@@ -109,14 +109,14 @@ impl Start {
 }
 
 impl Held {
-    /// Returns the accelerations of the sphere, with the drag of these forces.
+    /// Returns the accelerations of the sphere under its drag and these forces.
     pub fn rates(&self, linear: LinearForce) -> Rates {
         let Self { acceleration, angular_acceleration, .. } = *self;
         Rates { linear: LinearForce { acceleration, ..linear }, angular_acceleration }
     }
 }
 
-/// Returns the forces on a sphere.
+/// Returns the linear forces on a sphere.
 fn linear_on(system: &System, place: usize) -> LinearForce {
     let (radius, mass) = (system.spheres.radius[place], system.spheres.mass[place]);
     let (mut linear, _) = forces::total_linear(system.forces, radius, mass);

@@ -4,36 +4,37 @@ use glam::DVec3;
 
 use crate::flight::Propagator;
 
-/// How the motion of a sphere changes in a direction, at one instant; or the derivatives of a number by that
-/// motion.
+/// Derivative of the motion of a sphere in one direction at one instant, or derivatives of a number with respect to
+/// that motion.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct SphereTangent {
-    /// Of its centre.
+    /// Derivative of the centre.
     pub position: DVec3,
-    /// Of its velocity.
+    /// Derivative of the velocity.
     pub velocity: DVec3,
-    /// Of its angular velocity.
+    /// Derivative of the angular velocity.
     pub angular_velocity: DVec3,
 }
 
-/// Numbers in a [`SphereTangent`].
+/// Count of numbers in a [`SphereTangent`].
 pub(super) const NUMBERS: usize = 9;
 
 impl SphereTangent {
-    /// Takes it along a flight, while the acceleration changes by this \[m/s²\].
+    /// Applies the derivative of a flight during which the acceleration changes by this \[m/s²\].
     pub(super) fn fly(&mut self, over: Propagator, acceleration: DVec3) {
         self.position += over.drift * self.velocity + over.fall * acceleration;
         self.velocity = over.decay * self.velocity + over.drift * acceleration;
     }
 
-    /// Takes derivatives by the motion at the end of a flight back to its start. Returns those by the acceleration.
+    /// Replaces derivatives with respect to the motion at the end of a flight by those with respect to the motion
+    /// at its start. Returns the derivative with respect to the acceleration.
     pub(super) fn fly_back(&mut self, over: Propagator) -> DVec3 {
         let by_acceleration = over.fall * self.position + over.drift * self.velocity;
         self.velocity = over.drift * self.position + over.decay * self.velocity;
         by_acceleration
     }
 
-    /// The one whose numbers are 0 but one, which is 1.
+    /// Returns a derivative in which this number is 1 and all others are 0.
     pub(super) fn unit(number: usize) -> Self {
         let axis = DVec3::AXES[number % 3];
         match number / 3 {
@@ -43,7 +44,7 @@ impl SphereTangent {
         }
     }
 
-    /// One of its numbers, to be changed.
+    /// Returns a mutable reference to one of the numbers.
     pub(super) fn number_mut(&mut self, number: usize) -> &mut f64 {
         let vector = match number / 3 {
             0 => &mut self.position,
@@ -53,7 +54,7 @@ impl SphereTangent {
         &mut vector[number % 3]
     }
 
-    /// Sum of the products of the numbers.
+    /// Returns the sum of the products of the numbers.
     pub fn dot(&self, other: &Self) -> f64 {
         self.position.dot(other.position)
             + self.velocity.dot(other.velocity)

@@ -12,9 +12,9 @@ use crate::forces::LinearForce;
 use crate::id::{ColliderId, SphereId};
 use crate::real::Vector;
 
-/// A slip below this fraction of the speeds that make it is rounding.
+/// Fraction of the speeds that make a slip, below which the slip is rounding.
 const SLIP: f64 = 1e-12;
-/// Fraction by which a pull exceeds what friction holds.
+/// Fraction by which a pull has to exceed what friction can hold.
 const MORE: f64 = 1e-9;
 /// Largest error of the velocities at the end of a flight as a fraction of them, and of the velocity that friction takes
 /// in the error of its time: the world stops a slip up to a contact duration early.
@@ -22,11 +22,11 @@ const OFF: f64 = 1e-4;
 /// Largest error of an acceleration as a fraction of the free one: the world takes its mean over a turn of 10⁻³ rad.
 const TURN: f64 = 2e-3;
 
-/// A flight of a sphere in contact with one plane at rest: it glides, slides, rolls or rests
-/// (`docs/physics/persistent-contacts.md`, "Friction"), and spins.
+/// A flight of a sphere in contact with one plane at rest: without friction, or sliding, rolling or resting with
+/// spin (`docs/physics/persistent-contacts.md`, "Friction").
 #[derive(Debug, Clone)]
 pub(super) struct SupportedFlight {
-    /// Place of the sphere in the arrays of the world.
+    /// Index of the sphere in the arrays of the world.
     pub place: usize,
     pub id: SphereId,
     pub collider: ColliderId,
@@ -44,10 +44,10 @@ pub(super) struct SupportedFlight {
     pub mode: Mode,
     /// Length \[s\].
     pub time: f64,
-    /// Start, from where derivatives begin \[s\].
+    /// Start, counted from the start of the derivatives \[s\].
     pub began: f64,
     pub ending: Ending,
-    /// Accelerations after it.
+    /// Accelerations after the flight.
     pub after: Rates,
 }
 
@@ -66,20 +66,20 @@ pub(super) enum Mode {
 pub(super) enum Ending {
     /// An event that does not depend on the flight itself.
     Given,
-    /// The sphere no longer slides.
+    /// The end of the sliding.
     Slip,
-    /// It no longer rolls.
+    /// The end of the rolling.
     Roll,
-    /// It no longer spins.
+    /// The end of the spinning.
     Spin,
 }
 
-/// How velocities change.
+/// Accelerations of a sphere.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rates {
-    /// Acceleration by everything but drag \[m/s²\], and drag \[1/s\].
+    /// Acceleration by everything but drag \[m/s²\], and drag rate \[1/s\].
     pub linear: LinearForce,
-    /// \[rad/s²\]
+    /// Angular acceleration \[rad/s²\].
     pub angular_acceleration: DVec3,
 }
 
@@ -90,32 +90,32 @@ impl Rates {
     }
 }
 
-/// A small change of everything that the flight depends on.
+/// A small change of all inputs of a flight.
 #[derive(Debug, Clone, Copy, Default)]
 struct Change {
     sphere: SphereTangent,
     radius: f64,
     sliding: f64,
     acceleration: DVec3,
-    /// At the start of the flight.
+    /// Change of the position of the surface at the start of the flight.
     surface_position: DVec3,
     surface_velocity: DVec3,
 }
 
-/// Motion along the plane, seen from it, and what acts on it.
+/// Motion along the plane, relative to it, and the accelerations that act on it.
 struct Pressed {
     velocity: Vector<Dual>,
     angular_velocity: Vector<Dual>,
     radius: Dual,
-    /// What presses it on, and what draws it along \[m/s²\].
+    /// Acceleration that presses the sphere on the plane, and the pull along the plane \[m/s²\].
     pressing: Dual,
     pull: Vector<Dual>,
-    /// Velocity along the normal \[m/s\], which the contact takes.
+    /// Velocity along the normal \[m/s\], which the contact stops.
     parting: Dual,
     sliding: Dual,
 }
 
-/// Where the flight ends.
+/// State at the end of the flight.
 struct End {
     way: Vector<Dual>,
     velocity: Vector<Dual>,
@@ -124,7 +124,7 @@ struct End {
 }
 
 impl SupportedFlight {
-    /// Returns how the sphere moves; `None` where friction does not suffice for its rolling.
+    /// Returns the mode of the motion; `None` if friction does not suffice for rolling.
     pub fn mode_of(&self) -> Option<Mode> {
         let Self { normal, radius, inertia_factor, velocity, angular_velocity, .. } = *self;
         let sliding = self.sliding.value;
@@ -151,7 +151,7 @@ impl SupportedFlight {
         (needed.length() <= most * (1.0 + MORE)).then_some(Mode::Rolling)
     }
 
-    /// Returns the accelerations at the start: of Coulomb's law, without the mean that the world takes over a turn.
+    /// Returns the accelerations at the start by Coulomb's law, not averaged over a turn as in a step of the world.
     pub fn rates(&self) -> Option<Rates> {
         let Self { normal, radius, inertia_factor, velocity, angular_velocity, .. } = *self;
         let pressing = -self.linear.acceleration.dot(normal);
@@ -181,7 +181,7 @@ impl SupportedFlight {
         Some(Rates { linear, angular_acceleration: turning + spinning * normal })
     }
 
-    /// Returns what ends the flight, if `next` follows it in this mode.
+    /// Returns the cause of the end of the flight, given that `next` follows it in this mode.
     pub fn ending_before(&self, next: &Self, mode: Mode) -> Ending {
         let spin = |it: &Self| it.angular_velocity.dot(it.normal);
         match (self.mode, mode) {
@@ -192,7 +192,7 @@ impl SupportedFlight {
         }
     }
 
-    /// Returns whether acceleration \[m/s²\] and velocities at the end agree with the flight of the world.
+    /// Returns whether acceleration \[m/s²\] and final velocities agree with the flight of the world.
     pub fn is_that(&self, acceleration: DVec3, [velocity, angular_velocity]: [DVec3; 2]) -> bool {
         let end = self.end(&Change::default());
         let mean = (end.velocity.value() - self.velocity) / self.time;
@@ -212,7 +212,7 @@ impl SupportedFlight {
                 || is_same(mean, acceleration, TURN * pressing + speed / self.time))
     }
 
-    /// Returns whether `next` continues this flight, so that both are one.
+    /// Returns whether `next` continues this flight, so that the two can be joined.
     pub fn goes_on_with(&self, next: &Self) -> bool {
         let turns = self.mode == Mode::Sliding || self.mode == Mode::Rolling;
         let pressing = self.linear.acceleration.dot(self.normal);
@@ -223,7 +223,7 @@ impl SupportedFlight {
             && (!turns || pull.length() <= SLIP * pressing.abs())
     }
 
-    /// Applies the derivative to the changes of spheres, in a direction.
+    /// Applies the derivative of the flight to the derivatives of the spheres in one direction.
     pub fn pass(&self, direction: &Variation, spheres: &mut [SphereTangent]) {
         let sphere = direction.sphere(self.id);
         let collider = direction.collider(self.collider);
@@ -317,7 +317,7 @@ impl SupportedFlight {
         let parting = Dual::new(0.0, relative.dot(self.normal));
         let acceleration = vector(self.linear.acceleration, change.acceleration);
         let pressing = acceleration.dot(normal) * -1.0;
-        // The air is at rest, the plane may not be.
+        // The air is at rest, but the plane may move.
         let drag = vector(DVec3::ZERO, self.linear.drag_rate * change.surface_velocity);
         let pull = acceleration + normal * pressing - drag;
         let across = |it: Vector<Dual>| it - normal * it.dot(normal);
@@ -332,7 +332,8 @@ impl SupportedFlight {
         }
     }
 
-    /// Returns the angular velocity about the normal at the start \[rad/s\], and the time at which friction ends it \[s\].
+    /// Returns the angular velocity about the normal at the start \[rad/s\], and the time at which friction stops
+    /// it \[s\].
     fn spin(&self, sphere: &Pressed) -> [Dual; 2] {
         let spin = sphere.angular_velocity.dot(vector(self.normal, DVec3::ZERO));
         if self.ending != Ending::Spin {
@@ -341,7 +342,7 @@ impl SupportedFlight {
         [spin, spin / self.spin_loss(sphere, spin.value)]
     }
 
-    /// Returns the deceleration of an angular velocity about the normal by friction \[rad/s²\].
+    /// Returns the deceleration by friction of an angular velocity about the normal \[rad/s²\].
     fn spin_loss(&self, sphere: &Pressed, spin: f64) -> Dual {
         let loss = sphere.pressing * self.spinning / (sphere.radius * self.inertia_factor);
         loss * spin.signum()
@@ -369,7 +370,7 @@ impl SupportedFlight {
         pushed(motion, loss * sphere.parting)
     }
 
-    /// Returns way, velocity and angular velocity across the normal after gliding.
+    /// Returns displacement, velocity and angular velocity across the normal after a motion without friction.
     fn glided(&self, sphere: &Pressed) -> [Vector<Dual>; 3] {
         let over = Propagator::over(self.time, self.linear.drag_rate);
         let [decay, drift, fall] = [over.decay, over.drift, over.fall].map(Dual::constant);
@@ -378,8 +379,8 @@ impl SupportedFlight {
         [way, velocity * decay + pull * drift, self.turning(sphere)]
     }
 
-    /// Returns way, velocity and angular velocity after sliding: `v' = (1 - h) p + h s'` with the slip s, the pull p and
-    /// `h = k/(1 + k)`.
+    /// Returns displacement, velocity and angular velocity after sliding: `v' = (1 - h) p + h s'` with the slip s,
+    /// the pull p and `h = k/(1 + k)`.
     fn slid(&self, sphere: &Pressed, time: Dual, ends: bool) -> [Vector<Dual>; 3] {
         let motion = self.slip(sphere);
         let Moved { velocity: slip, way } = motion.after(time, ends);
@@ -397,7 +398,7 @@ impl SupportedFlight {
         [moved, velocity, self.turning(sphere) - turned]
     }
 
-    /// Returns way, velocity and angular velocity after rolling.
+    /// Returns displacement, velocity and angular velocity after rolling.
     fn rolled(&self, sphere: &Pressed, time: Dual, ends: bool) -> [Vector<Dual>; 3] {
         let Moved { velocity, way } = self.roll(sphere).after(time, ends);
         let normal = vector(self.normal, DVec3::ZERO);
@@ -413,8 +414,8 @@ impl SupportedFlight {
     }
 }
 
-/// Returns a motion with another impulse of friction: a velocity into the plane presses the sphere on it until the
-/// contact has stopped that velocity.
+/// Returns a motion with another impulse of friction: a velocity into the plane adds pressure until the contact has
+/// stopped it.
 fn pushed(motion: DryMotion, less: Dual) -> DryMotion {
     if less.change == 0.0 || motion.velocity.length_squared().value == 0.0 {
         return motion;

@@ -1,4 +1,4 @@
-//! A record of a run, to be gone through backwards.
+//! A record of a run that is evaluated backwards.
 
 use super::error::DerivativeError;
 use super::followed::Followed;
@@ -9,10 +9,10 @@ use super::variation::Variation;
 use crate::id::SphereId;
 use crate::world::World;
 
-/// A record of the flights and impacts of a run, which gives the gradient of a number by everything that the world
-/// started with, in one go.
+/// Record of the flights and impacts of a run. It gives the gradient of a number with respect to the whole initial
+/// state at once.
 ///
-/// Known of the same worlds as [`Tangents`](crate::Tangents). It holds some 500 bytes for an impact, 24 for a
+/// Available for the same worlds as [`Tangents`](crate::Tangents). It holds some 500 bytes for an impact, 24 for a
 /// flight between two, and some 350 for a stretch of sliding, rolling or rest.
 ///
 /// ```
@@ -34,13 +34,13 @@ use crate::world::World;
 #[derive(Debug, Clone)]
 pub struct Tape {
     pieces: Vec<Piece>,
-    /// For each sphere, its last piece, if that is a flight.
+    /// For each sphere, the index of its last linear map, if that is a flight.
     last_flights: Vec<Option<usize>>,
     followed: Followed,
 }
 
 impl Tape {
-    /// Begins with a world as it is now.
+    /// Starts with the present state of a world.
     ///
     /// # Errors
     /// [`DerivativeError::Unsupported`] if the world has something whose derivatives are not known.
@@ -50,8 +50,8 @@ impl Tape {
         Ok(Self { pieces: Vec::new(), last_flights, followed })
     }
 
-    /// Advances the world by `dt` \[s\] and records how. What was changed from outside since the last step counts as
-    /// constant.
+    /// Advances the world by `dt` \[s\] and records the step. A change of the world from outside since the last
+    /// step has no derivative of its own.
     ///
     /// # Errors
     /// Those of [`Tangents::step`](crate::Tangents::step).
@@ -61,7 +61,7 @@ impl Tape {
         Ok(())
     }
 
-    /// Appends a piece; flights of a sphere that follow each other become one.
+    /// Appends a linear map; consecutive flights of one sphere become one.
     fn record(&mut self, piece: Piece) {
         match &piece {
             Piece::Flight { place, time, drag_rate } => {
@@ -95,8 +95,8 @@ impl Tape {
         self.pieces.push(piece);
     }
 
-    /// The gradient of a number by everything that the world started with. `derivatives` are those of the number by the
-    /// motion of spheres at the end; other spheres do not count.
+    /// Returns the gradient of a number with respect to the initial state. `derivatives` are those of the number
+    /// with respect to the final motion of spheres; spheres that are missing there count as zero.
     ///
     /// # Errors
     /// [`DerivativeError::UnknownSphere`] if one of the spheres is not in the record; the error that ended the record.
@@ -129,12 +129,12 @@ impl Tape {
         Ok(gradient)
     }
 
-    /// How many impacts are recorded.
+    /// Returns the number of recorded impacts.
     pub fn impacts(&self) -> usize {
         self.pieces.iter().filter(|piece| matches!(piece, Piece::Impact(_))).count()
     }
 
-    /// How near the run came to where derivatives end.
+    /// Returns how near the run came to where derivatives end.
     pub fn margin(&self) -> Margin {
         self.followed.margin
     }

@@ -8,10 +8,10 @@ use crate::report::Impact;
 use crate::rule::exact::curvature_of;
 use crate::surface::Role;
 
-/// Unit normals of one contact that were found in two ways may differ by this.
+/// Largest difference between two unit normals of one contact that were computed in two ways.
 const SAME_NORMAL: f64 = 1e-6;
 
-/// The surface of a collider that a sphere touches in an impact.
+/// Returns the surface of a collider that a sphere touches in an impact.
 pub(super) fn touched(
     colliders: &Colliders,
     (collider, impact): (ColliderId, &Impact),

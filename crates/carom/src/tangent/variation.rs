@@ -1,4 +1,4 @@
-//! A small change of what a world starts with.
+//! A small change of the initial state of a world.
 
 use std::collections::BTreeMap;
 
@@ -7,8 +7,8 @@ use glam::DVec3;
 use super::state::SphereTangent;
 use crate::id::{ColliderId, SphereId};
 
-/// A change of what a world starts with: a direction in which derivatives are taken. Also a gradient: the
-/// derivatives of one number by all of that.
+/// A change of the initial state of a world: a direction in which derivatives are taken. Also used for a gradient:
+/// the derivatives of one number with respect to the initial state.
 ///
 /// ```
 /// use carom::{DVec3, SphereId, Variation};
@@ -24,111 +24,111 @@ use crate::id::{ColliderId, SphereId};
 pub struct Variation {
     spheres: BTreeMap<SphereId, SphereVariation>,
     colliders: BTreeMap<ColliderId, ColliderVariation>,
-    /// Of the acceleration of all spheres: that of gravity \[m/s²\].
+    /// Change of the acceleration of all spheres, as by gravity \[m/s²\].
     pub acceleration: DVec3,
 }
 
-/// A change of a sphere at the start.
+/// A change of the initial state of a sphere.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[non_exhaustive]
 pub struct SphereVariation {
-    /// Of its centre \[m\].
+    /// Change of the centre \[m\].
     pub position: DVec3,
-    /// Of its velocity \[m/s\].
+    /// Change of the velocity \[m/s\].
     pub velocity: DVec3,
-    /// Of its angular velocity \[rad/s\].
+    /// Change of the angular velocity \[rad/s\].
     pub angular_velocity: DVec3,
-    /// Of its radius \[m\], with the mass as it is.
+    /// Change of the radius \[m\] at constant mass.
     pub radius: f64,
-    /// Of its mass \[kg\], with the radius as it is.
+    /// Change of the mass \[kg\] at constant radius.
     pub mass: f64,
-    /// Of its coefficient of restitution.
+    /// Change of the coefficient of restitution.
     pub restitution: f64,
-    /// Of its coefficient of sliding friction.
+    /// Change of the coefficient of sliding friction.
     pub friction: f64,
 }
 
-/// A change of a collider at the start.
+/// A change of the initial state of a collider.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[non_exhaustive]
 pub struct ColliderVariation {
-    /// Of its place \[m\]: it is shifted as a whole.
+    /// Change of the position \[m\]: a shift of the whole collider.
     pub position: DVec3,
-    /// Of its velocity \[m/s\].
+    /// Change of the velocity \[m/s\].
     pub velocity: DVec3,
-    /// Of its coefficient of restitution.
+    /// Change of the coefficient of restitution.
     pub restitution: f64,
-    /// Of its coefficient of sliding friction.
+    /// Change of the coefficient of sliding friction.
     pub friction: f64,
 }
 
 impl Variation {
-    /// The same with this change of the centre of a sphere \[m\].
+    /// Sets the change of the centre of a sphere \[m\].
     pub fn with_position(mut self, sphere: SphereId, position: DVec3) -> Self {
         self.sphere_mut(sphere).position = position;
         self
     }
 
-    /// The same with this change of the velocity of a sphere \[m/s\].
+    /// Sets the change of the velocity of a sphere \[m/s\].
     pub fn with_velocity(mut self, sphere: SphereId, velocity: DVec3) -> Self {
         self.sphere_mut(sphere).velocity = velocity;
         self
     }
 
-    /// The same with this change of the angular velocity of a sphere \[rad/s\].
+    /// Sets the change of the angular velocity of a sphere \[rad/s\].
     pub fn with_angular_velocity(mut self, sphere: SphereId, angular_velocity: DVec3) -> Self {
         self.sphere_mut(sphere).angular_velocity = angular_velocity;
         self
     }
 
-    /// The same with this change of the acceleration of all spheres \[m/s²\].
+    /// Sets the change of the acceleration of all spheres \[m/s²\].
     pub fn with_acceleration(mut self, acceleration: DVec3) -> Self {
         self.acceleration = acceleration;
         self
     }
 
-    /// The change of a sphere; nothing, if it is not named.
+    /// Returns the change of a sphere; zero if none is set.
     pub fn sphere(&self, sphere: SphereId) -> SphereVariation {
         self.spheres.get(&sphere).copied().unwrap_or_default()
     }
 
-    /// The change of a sphere, to be set.
+    /// Returns a mutable reference to the change of a sphere.
     pub fn sphere_mut(&mut self, sphere: SphereId) -> &mut SphereVariation {
         self.spheres.entry(sphere).or_default()
     }
 
-    /// The change of a collider; nothing, if it is not named.
+    /// Returns the change of a collider; zero if none is set.
     pub fn collider(&self, collider: ColliderId) -> ColliderVariation {
         self.colliders.get(&collider).copied().unwrap_or_default()
     }
 
-    /// The change of a collider, to be set.
+    /// Returns a mutable reference to the change of a collider.
     pub fn collider_mut(&mut self, collider: ColliderId) -> &mut ColliderVariation {
         self.colliders.entry(collider).or_default()
     }
 
-    /// The spheres that are named, ascending.
+    /// Returns the spheres with a change, ascending by id.
     pub fn spheres(&self) -> impl Iterator<Item = (SphereId, &SphereVariation)> {
         self.spheres.iter().map(|(&id, variation)| (id, variation))
     }
 
-    /// The colliders that are named, ascending.
+    /// Returns the colliders with a change, ascending by id.
     pub fn colliders(&self) -> impl Iterator<Item = (ColliderId, &ColliderVariation)> {
         self.colliders.iter().map(|(&id, variation)| (id, variation))
     }
 
-    /// The derivative in a direction, if this is a gradient.
+    /// Returns the derivative in a direction, if this is a gradient.
     pub fn dot(&self, direction: &Self) -> f64 {
-        let of_spheres = direction.spheres().map(|(id, it)| self.sphere(id).dot(it));
+        let by_spheres = direction.spheres().map(|(id, it)| self.sphere(id).dot(it));
         let of_colliders = direction.colliders().map(|(id, it)| self.collider(id).dot(it));
         self.acceleration.dot(direction.acceleration)
-            + of_spheres.sum::<f64>()
+            + by_spheres.sum::<f64>()
             + of_colliders.sum::<f64>()
     }
 }
 
 impl SphereVariation {
-    /// How its motion changes.
+    /// Returns the change of the motion of the sphere.
     pub(super) fn motion(&self) -> SphereTangent {
         let Self { position, velocity, angular_velocity, .. } = *self;
         SphereTangent { position, velocity, angular_velocity }

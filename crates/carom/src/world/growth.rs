@@ -5,7 +5,7 @@ use crate::error::{Error, Subject};
 use crate::validate;
 
 impl World {
-    /// Lets the radii r of all spheres grow at a `rate` \[1/s\], steadily as `r (1 + rate t)`. 0 ends the growth.
+    /// Sets the growth rate of all radii r \[1/s\]: they grow as `r (1 + rate t)`. 0 ends the growth.
     ///
     /// # Errors
     /// [`Error::Invalid`] for a rate that is negative or not finite.

@@ -9,8 +9,8 @@ use crate::rotation;
 use crate::validate;
 
 impl World {
-    /// Moves a collider to a pose at once: spheres feel no velocity of this change. A motion in closed form moves
-    /// with it.
+    /// Moves a collider to a pose at once: spheres feel no velocity of this change. The pose at rest of a motion in
+    /// closed form moves with it.
     ///
     /// # Errors
     /// As [`Self::set_collider`].

@@ -108,6 +108,10 @@ impl World {
 
     /// Predicts the path of a sphere for `horizon` \[s\], or up to its impact number `most_impacts`, without a
     /// step: pieces in closed form, and what it meets.
+    /// All other spheres continue their present flights, except those that the sphere strikes. While nothing else
+    /// interferes, steps under the rule `exact` give the same positions and velocities to the bit, and the same
+    /// impacts. Colliders continue their present motion; emitters emit nothing. Under other rules the path is that
+    /// of `exact`.
     ///
     /// The other spheres keep to the flights that they are on, but for those that the sphere strikes. While
     /// nothing else interferes, steps under the rule `exact` give the same places and velocities to the bit,

@@ -28,11 +28,10 @@ use crate::state::State;
 /// # Ok::<(), carom::Error>(())
 /// ```
 ///
-/// With the feature `serde` it can be serialized, in any format that keeps every bit of a number: the
-/// world that is restored from it goes on as the world that it was taken of. What is kept between frames
-/// differs from version to version of this crate, so the same version has to read it. A force that is not
-/// one of this crate's is refused ([`Self::foreign_force`]). What is read is not checked: read only
-/// what you trust.
+/// With the feature `serde` it can be serialized, in any format that keeps every bit of a number: a world
+/// restored from it continues like the original. The format differs between versions of this crate, so the
+/// same version must read it. A force that is not one of this crate's is refused
+/// ([`Self::foreign_force`]). The bytes are not checked: read only what you trust.
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Snapshot(State);

@@ -55,9 +55,9 @@ pub fn assert_backwards_equals_forwards(
             velocity: numbers.vector(),
             angular_velocity: numbers.vector(),
         };
-        let forwards = tangents.of_sphere(0, ball).unwrap().dot(&by);
+        let forwards = tangents.sphere(0, ball).unwrap().dot(&by);
         let backwards = tape.gradient(&[(ball, by)]).unwrap().dot(direction);
-        let scale = tangents.of_spheres(0).iter().map(|it| it.dot(it).sqrt()).sum::<f64>();
+        let scale = tangents.spheres(0).iter().map(|it| it.dot(it).sqrt()).sum::<f64>();
         assert!(
             (forwards - backwards).abs() <= 1e-12 * scale,
             "{ball:?}: {forwards} {backwards} {scale}"
@@ -80,7 +80,7 @@ pub fn assert_agree_with_differences(
             let [a, b, c, d] = ends.each_ref().map(|end| pick(&end.sphere(ball).unwrap()));
             (8.0 * (c - b) - (d - a)) / (12.0 * h)
         };
-        let found = tangents.of_sphere(0, ball).unwrap();
+        let found = tangents.sphere(0, ball).unwrap();
         let scale = 1.0 + found.position.length() + found.velocity.length();
         for (difference, found) in [
             (of(|it| it.position), found.position),

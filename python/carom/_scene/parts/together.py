@@ -59,18 +59,18 @@ def expect_far_behind_near(camera: Any) -> None:
 
 
 def simplify_open(container: Any) -> None:
-    """Has one open side be itself, as it comes back from text."""
+    """Replaces a list of one open side by that side, as in a scene read from text."""
     if len(container.open) == 1:
         object.__setattr__(container, "open", container.open[0])
 
 
 def simplify_motion(collider: Any) -> None:
-    """Has one part of a motion be itself, as it comes back from text."""
+    """Replaces a list of one part of a motion by that part, as in a scene read from text."""
     if isinstance(collider.motion, (list, tuple)) and len(collider.motion) == 1:
         object.__setattr__(collider, "motion", collider.motion[0])
 
 
 def simplify_closed(pipe: Any) -> None:
-    """Has one closed end be itself, as it comes back from text."""
+    """Replaces a list of one closed end by that end, as in a scene read from text."""
     if len(pipe.closed) == 1:
         object.__setattr__(pipe, "closed", pipe.closed[0])

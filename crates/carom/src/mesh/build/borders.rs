@@ -1,4 +1,4 @@
-//! Where faces end: the edges of a mesh that are not inside a flat face.
+//! Borders of faces: the edges of a mesh that are not inside a flat face.
 
 use glam::DVec3;
 
@@ -8,26 +8,26 @@ use crate::mesh::Edge;
 use crate::mesh::topology::{EdgeUses, FLAT, Topology};
 use crate::norm::Norm;
 
-/// A straight line in which faces end.
+/// A straight border of faces.
 #[derive(Debug, Clone)]
 pub(super) struct Border {
-    /// Its vertices.
+    /// Indices of its vertices.
     pub ends: [u32; 2],
-    /// The faces that end there, ascending, with the unit vector across it out of each.
+    /// The faces at this border, ascending, each with the unit vector across the border that points away from it.
     sides: Vec<(u32, DVec3)>,
 }
 
-/// Below this product of unit vectors, what is to be ahead is beside: rounding.
+/// Products of unit vectors below this are zero up to rounding.
 const BESIDE: f64 = 1e-12;
 
 impl Border {
-    /// The faces that have it as a side.
+    /// Returns the faces that have the border as a side an odd number of times.
     pub fn faces_once(&self) -> impl Iterator<Item = u32> {
         let chunks = self.sides.chunk_by(|first, second| first.0 == second.0);
         chunks.filter(|chunk| chunk.len() % 2 == 1).map(|chunk| chunk[0].0)
     }
 
-    /// Unit vector across it out of a face.
+    /// Returns the unit vector across the border that points away from a face.
     pub fn outward_of(&self, face: u32) -> DVec3 {
         let side = self.sides.iter().find(|side| side.0 == face);
         side.map_or(DVec3::ZERO, |side| side.1)
@@ -37,8 +37,8 @@ impl Border {
         self.sides.iter().map(|it| it.0).eq(other.sides.iter().map(|it| it.0))
     }
 
-    /// Two directions out of faces: what is beyond both is nearer to the border than to the faces. `None` if
-    /// nothing is, or only what is behind faces that are met from one side.
+    /// Returns two directions away from faces: points beyond both are nearer to the border than to the faces.
+    /// `None` if there are no such points, or only behind one-sided faces.
     fn outward(&self, faces: &Faces, is_two_sided: bool) -> Option<[DVec3; 2]> {
         let normal = |face: u32| faces.normals[face as usize];
         match *self.sides {
@@ -52,7 +52,7 @@ impl Border {
         }
     }
 
-    /// Of many directions across the border, the two that leave the least beyond them.
+    /// Returns the two directions across the border that bound the points beyond all directions.
     fn wedge(&self) -> Option<[DVec3; 2]> {
         let directions = || self.sides.iter().map(|side| side.1);
         let axis = directions().find_map(|it| {
@@ -73,7 +73,7 @@ impl Border {
 /// All borders of a mesh.
 pub(super) struct Borders {
     pub list: Vec<Border>,
-    /// Of each vertex, whether borders end there.
+    /// For each vertex, whether a border ends there.
     pub is_end: Vec<bool>,
 }
 
@@ -116,7 +116,7 @@ impl Borders {
         Self { list: whole.collect(), is_end }
     }
 
-    /// The borders that spheres meet as edges.
+    /// Returns the borders that spheres can meet as edges.
     pub fn edges(&self, topology: &Topology, faces: &Faces, is_two_sided: bool) -> Vec<Edge> {
         let edge = |border: &Border| {
             let outward = border.outward(faces, is_two_sided)?;
@@ -129,7 +129,7 @@ impl Borders {
     }
 }
 
-/// An edge of the mesh as a border; `None` if it is inside a face.
+/// Converts an edge of the mesh to a border; `None` if it is inside a face.
 fn border(topology: &Topology, faces: &Faces, edge: &EdgeUses) -> Option<Border> {
     let face = |triangle: u32| faces.of[triangle as usize];
     if let [first, second] = edge.uses
@@ -152,7 +152,7 @@ fn border(topology: &Topology, faces: &Faces, edge: &EdgeUses) -> Option<Border>
     Some(Border { ends: edge.ends, sides })
 }
 
-/// Whether two borders that end at a vertex are one straight line there, between the same faces.
+/// Returns whether two borders that meet at a vertex form one straight line between the same faces.
 fn goes_on(topology: &Topology, vertex: u32, borders: [&Border; 2]) -> bool {
     let place = |vertex: u32| topology.vertices[vertex as usize];
     let ways = borders.map(|border| {

@@ -8,14 +8,13 @@ use crate::mesh::Corner;
 use crate::mesh::topology::Topology;
 use crate::norm::Norm;
 
-/// Dot product up to which a unit vector does not point along another one.
+/// Largest dot product of unit vectors that counts as zero.
 const BESIDE: f64 = 1e-9;
-/// Rays of a corner up to which it is tested whether a point can be nearest to the corner; with
-/// more it is kept.
+/// Number of rays up to which a corner is tested for points to which it is the nearest feature; a corner with more
+/// rays is always kept.
 const MANY_RAYS: usize = 16;
 
-/// Returns the corners that spheres can meet: vertices at ends of borders that are nearest to some
-/// point.
+/// Returns the corners that spheres can meet: end points of borders that are the nearest feature for some point.
 pub(super) fn corners(
     topology: &Topology,
     faces: &Faces,
@@ -53,7 +52,7 @@ pub(super) fn corners(
     around.filter_map(corner).collect()
 }
 
-/// Whether some direction points along none of the rays, and to the front of faces with this mean
+/// Returns whether a direction exists that points along none of the rays, and to the front of faces with this mean
 /// normal.
 fn is_met(rays: &[DVec3], normal: Option<DVec3>) -> bool {
     let (mut sum, mut count) = (DVec3::ZERO, 0);
@@ -77,8 +76,9 @@ fn is_met(rays: &[DVec3], normal: Option<DVec3>) -> bool {
     count > 0 && normal.is_none_or(is_in_front)
 }
 
-/// Unit normal of each vertex: those of its faces, weighted by their angles there. It tells what is in front of
-/// what is behind of all that is nearest to the vertex (Baerentzen and Aanaes, IEEE TVCG 11, 243 (2005)).
+/// Returns the unit normal of each vertex: the sum of the normals of its faces, weighted by their angles there. Its
+/// sign separates front from back for all points whose nearest feature is the vertex (Baerentzen and Aanaes, IEEE
+/// TVCG 11, 243 (2005)).
 fn normals(topology: &Topology, faces: &Faces) -> Vec<DVec3> {
     let mut normals = vec![DVec3::ZERO; topology.vertices.len()];
     for (corners, &face) in topology.triangles.iter().zip(&faces.of) {

@@ -1,13 +1,13 @@
-//! Which triangles of a mesh make a flat face.
+//! Groups the triangles of a mesh into flat faces.
 
 use glam::DVec3;
 
 use crate::mesh::topology::Topology;
 use crate::norm::Norm;
 
-/// Which triangles make which faces.
+/// The flat face of each triangle.
 pub(super) struct Faces {
-    /// By triangle.
+    /// Index of the face of each triangle.
     pub of: Vec<u32>,
     /// Unit normal of each face.
     pub normals: Vec<DVec3>,

@@ -10,7 +10,7 @@ use crate::mesh::topology::Topology;
 use crate::norm::Norm;
 use crate::rectangle::Rectangle;
 
-/// The faces with their outlines.
+/// Returns the faces with their outlines.
 pub(super) fn facets(faces: &Faces, topology: &Topology, borders: &Borders) -> Vec<Facet> {
     let by_face = |items: &mut Vec<(u32, u32)>| items.sort_unstable();
     let mut triangles: Vec<(u32, u32)> = faces.of.iter().copied().zip(0..).collect();
@@ -35,16 +35,16 @@ pub(super) fn facets(faces: &Faces, topology: &Topology, borders: &Borders) -> V
         .collect()
 }
 
-/// The plane of a face with axes in it.
+/// Plane of a face, with coordinate axes.
 struct Plane {
-    /// \[m\]
+    /// Origin \[m\].
     origin: DVec3,
     normal: DVec3,
     axes: [DVec3; 2],
 }
 
 impl Plane {
-    /// Across this normal, through the mean height of the triangles.
+    /// Creates the plane with this normal through the mean height of the triangles.
     fn of(
         topology: &Topology,
         normal: DVec3,
@@ -57,9 +57,9 @@ impl Plane {
             sum += (place(vertex) - first).dot(normal);
             count += 1.0;
         }
-        // One triangle is its own plane.
+        // A face of one triangle has the plane of that triangle.
         let height = if count > 3.0 { sum / count } else { 0.0 };
-        // The axis of the coordinate system that is most across the normal.
+        // Starts from the coordinate axis that is most nearly perpendicular to the normal.
         let across = normal.abs();
         let helper = if across.x <= across.y.min(across.z) {
             DVec3::X

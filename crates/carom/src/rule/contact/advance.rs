@@ -92,8 +92,7 @@ fn advance_run<S: Simd>(simd: S, run: &mut Run, h: f64, flies: bool) -> f64 {
     -0.5 * h * work.sum()
 }
 
-/// Moves bouncing spheres to the ends of their paths.
-/// Returns the work of their contacts by that \[J\].
+/// Moves bouncing spheres to the ends of their paths. Returns the work of their contacts on the way \[J\].
 fn shift_bounced(run: &mut Run, start: usize, bounces: &[Bounce]) -> f64 {
     let mut work = 0.0;
     for bounce in bounces {

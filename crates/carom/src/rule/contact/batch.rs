@@ -105,7 +105,7 @@ impl Impulses {
         self.normal > 0.0
     }
 
-    /// The same impulses as seen from the other body.
+    /// Returns the impulses on the other body.
     pub fn reversed(self) -> Self {
         let minus = |vector: [f64; 3]| vector.map(|part| -part);
         Self { tangential: minus(self.tangential), angular: minus(self.angular), ..self }

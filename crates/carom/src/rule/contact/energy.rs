@@ -71,10 +71,10 @@ fn kick_work(solver: &Solver) -> f64 {
 
 /// The effect of impulses on the kinetic energy of a sub-step.
 struct Change {
-    /// Change of kinetic energy \[J\], as if forces had acted before them.
+    /// Change of kinetic energy \[J\], with the impulses applied after the forces of the sub-step.
     gain: f64,
-    /// Their work \[J\] with the mean of the velocities at both ends of the sub-step, as forces act all
-    /// along: none where a sphere rests.
+    /// Work of the impulses \[J\] as of forces that act over the whole sub-step: with the mean of the velocities at
+    /// its two ends. It is zero for a sphere at rest.
     work: f64,
 }
 

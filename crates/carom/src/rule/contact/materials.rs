@@ -31,7 +31,7 @@ impl ContactMaterial {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Materials {
     /// By index; empty where there are too many.
-    of_sphere: Vec<u8>,
+    material_of: Vec<u8>,
     /// By the material of the first, then of the second.
     table: Vec<ContactMaterial>,
     count: usize,
@@ -44,7 +44,7 @@ impl Materials {
         let mut known: BTreeMap<[u64; 5], u8> = BTreeMap::new();
         // A sphere of each material.
         let mut examples = Vec::new();
-        let mut of_sphere = Vec::with_capacity(spheres.id.len());
+        let mut material_of = Vec::with_capacity(spheres.id.len());
         for sphere in 0..spheres.id.len() {
             let key = key(spheres.restitution[sphere], spheres.friction(sphere));
             let material = *known.entry(key).or_insert_with(|| {
@@ -54,23 +54,23 @@ impl Materials {
             if examples.len() > MOST {
                 return Self::default();
             }
-            of_sphere.push(material);
+            material_of.push(material);
         }
         let pairs =
             examples.iter().flat_map(|&i| examples.iter().map(move |&j| Bodies::Pair(i, j)));
         let table = pairs.map(|pair| ContactMaterial::of(pair, system)).collect();
-        Self { of_sphere, table, count: examples.len() }
+        Self { material_of, table, count: examples.len() }
     }
 
     /// The coefficients of two spheres, given by index.
     pub fn of_pair(&self, [first, second]: [u32; 2], system: &System) -> ContactMaterial {
-        if self.of_sphere.is_empty() {
+        if self.material_of.is_empty() {
             return ContactMaterial::of(Bodies::Pair(first, second), system);
         }
         if self.count == 1 {
             return self.table[0];
         }
-        let material = |sphere: u32| usize::from(self.of_sphere[sphere as usize]);
+        let material = |sphere: u32| usize::from(self.material_of[sphere as usize]);
         self.table[material(first) * self.count + material(second)]
     }
 }

@@ -126,13 +126,13 @@ pub(super) fn prepare(
     places: &Places,
     sub_step: &SubStep,
 ) {
-    for of_sphere in contacts.chunk_by_mut(|first, second| first.slot == second.slot) {
-        for contact in &mut *of_sphere {
+    for own in contacts.chunk_by_mut(|first, second| first.slot == second.slot) {
+        for contact in &mut *own {
             contact.aim(run, places, sub_step);
         }
-        leave_doubles(of_sphere);
-        leave_first_bounce(of_sphere);
-        of_sphere.iter_mut().for_each(|contact| contact.warm_start(run, sub_step));
+        leave_doubles(own);
+        leave_first_bounce(own);
+        own.iter_mut().for_each(|contact| contact.warm_start(run, sub_step));
     }
 }
 
@@ -141,9 +141,9 @@ pub(super) fn prepare(
 const FLUSH: f64 = 2e-9;
 
 /// Frees the second of two flush faces where a sphere is above their seam.
-fn leave_doubles(of_sphere: &mut [SurfaceContact]) {
-    for number in 1..of_sphere.len() {
-        let (before, after) = of_sphere.split_at_mut(number);
+fn leave_doubles(own: &mut [SurfaceContact]) {
+    for number in 1..own.len() {
+        let (before, after) = own.split_at_mut(number);
         let contact = &mut after[0];
         let is_double = |other: &SurfaceContact| {
             let apart = (other.bias - contact.bias).abs();
@@ -160,10 +160,10 @@ fn leave_doubles(of_sphere: &mut [SurfaceContact]) {
 
 /// Frees a bouncing sphere with a long path from the surfaces that it would reach or pass after its first bounce if
 /// it flew straight on: it moves elsewhere and stops at the next surface.
-fn leave_first_bounce(of_sphere: &mut [SurfaceContact]) {
-    let bounces = of_sphere.iter().filter(|contact| contact.is_bounce());
+fn leave_first_bounce(own: &mut [SurfaceContact]) {
+    let bounces = own.iter().filter(|contact| contact.is_bounce());
     let Some(first) = bounces.map(|contact| contact.time).min_by(f64::total_cmp) else { return };
-    for contact in of_sphere {
+    for contact in own {
         let is_first = contact.is_bounce() && contact.time == first;
         let touches = contact.bias == 0.0 || contact.impulses.normal > 0.0;
         if !is_first && !touches && !contact.is_slow {

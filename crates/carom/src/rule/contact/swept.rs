@@ -97,9 +97,10 @@ fn pressing(run: &Run, [first, second]: [usize; 2]) -> DVec3 {
 
 /// The passage of two spheres that do not meet within a sub-step.
 struct Passage {
-    /// From the first to the second, where they are nearest.
+    /// Unit vector from the first sphere to the second, at the time at which they are nearest.
     normal: DVec3,
-    /// Minus the least normal velocity \[m/s\], so that others do not push them together.
+    /// Lower bound of the normal velocity with the sign reversed \[m/s\]; impulses of other contacts must not go
+    /// below it.
     bias: f64,
 }
 

@@ -22,7 +22,7 @@ pub(crate) struct Budget {
     /// The number of the tick.
     tick: f64,
     /// By index of the sphere.
-    of_spheres: BTreeMap<u32, u64>,
+    spent_by_sphere: BTreeMap<u32, u64>,
     /// Number of flights, by index of the sphere, after which the sphere had not moved.
     short_flights: BTreeMap<u32, u64>,
     of_all: u64,
@@ -34,14 +34,14 @@ impl Budget {
         let of_each = u64::from(parameters.zone_budget);
         self.follow(time / parameters.zone_tick, of_each);
         let halvings = (self.of_all / of_each).saturating_sub(AHEAD).min(MOST_HALVINGS);
-        let spent = spheres.iter().filter_map(|index| self.of_spheres.get(index)).max();
+        let spent = spheres.iter().filter_map(|index| self.spent_by_sphere.get(index)).max();
         (of_each >> halvings).saturating_sub(spent.copied().unwrap_or(0))
     }
 
     /// Adds what the answer of a group of these spheres spent, and what it took `besides`.
     pub fn charge(&mut self, spheres: &[u32], spent: u64, besides: u64) {
         self.of_all += spent + besides;
-        spheres.iter().for_each(|&index| *self.of_spheres.entry(index).or_default() += spent);
+        spheres.iter().for_each(|&index| *self.spent_by_sphere.entry(index).or_default() += spent);
     }
 
     /// Counts a flight of a sphere, by index, that ends at `time` \[s\] after too short a path. Returns whether
@@ -60,7 +60,7 @@ impl Budget {
             let regained = (tick - self.tick) * (of_each as f64 / TICKS_OF_A_BUDGET);
             self.of_all = self.of_all.saturating_sub(regained as u64);
             self.tick = tick;
-            self.of_spheres.clear();
+            self.spent_by_sphere.clear();
             self.short_flights.clear();
         }
     }

@@ -172,7 +172,7 @@ impl Damper {
     }
 }
 
-/// Integral of a function of time over a range.
+/// Integrates a function of time over a range.
 fn integral([from, to]: [f64; 2], function: impl Fn(f64) -> f64) -> f64 {
     let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
     let terms = QUADRATURE.iter().map(|&[node, weight]| {

@@ -32,7 +32,7 @@ pub struct Gathering {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Seen {
     Never,
-    /// It is in an island.
+    /// The sphere is in an island.
     Taken,
     /// Its island is too large.
     TooLarge,

@@ -60,7 +60,7 @@ pub struct Link {
 }
 
 impl Link {
-    /// A contact of the solver as a link, without its bodies.
+    /// Creates the link of a contact of the solver, without its bodies.
     pub fn of(solver: &Solver, origin: Origin) -> Self {
         let none = Self {
             origin,

@@ -13,16 +13,16 @@ const MOST_STEPS: f64 = 1e4;
 /// An axis counts as fixed if the angular acceleration is along it but for this part.
 const SAME_AXIS: f64 = 1e-14;
 
-/// The rotation of one sphere since some time: its angular velocity changes steadily.
+/// Rotation of one sphere since a start time, with constant angular acceleration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Rotation {
     orientation: DQuat,
-    /// \[rad/s\]
+    /// Angular velocity at the start \[rad/s\].
     angular_velocity: DVec3,
-    /// \[rad/s²\]
+    /// Angular acceleration \[rad/s²\].
     angular_acceleration: DVec3,
-    /// On the world's clock \[s\].
+    /// Start on the world's clock \[s\].
     time: f64,
 }
 

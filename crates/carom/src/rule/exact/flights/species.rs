@@ -26,7 +26,7 @@ pub(crate) struct Species {
     pub restitution: f64,
     /// Of everything but drag \[m/s²\]; with the forces of persistent contacts.
     pub acceleration: DVec3,
-    /// k / m \[1/s\]
+    /// Drag coefficient divided by mass \[1/s\].
     pub drag_rate: f64,
     /// Size class: the level of the cell lists that holds these spheres.
     pub level: u32,

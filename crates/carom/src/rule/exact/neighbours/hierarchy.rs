@@ -288,7 +288,7 @@ impl Neighbours {
         }
     }
 
-    /// Centres the neighbour region of a sphere on it. Returns the cell at its centre.
+    /// Moves the neighbour region of a sphere so that the sphere is at its centre. Returns the cell there.
     fn place(&mut self, slot: u32, level: u32, [position, velocity]: [DVec3; 2]) -> [u16; 3] {
         let Level { grid, half_edges, .. } = &self.levels[level as usize];
         let period = self.periodic_box.period;

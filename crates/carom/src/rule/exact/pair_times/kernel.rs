@@ -257,7 +257,7 @@ impl<'a, const CASES: u8> PairKernel<'a, CASES> {
         LaneResult { time, is_near: all(1.0).is_less(all(0.0)) }
     }
 
-    /// When radii were those of the species, on the world's clock \[s\].
+    /// Returns the time on the world's clock at which radii were those of the species \[s\].
     fn growing_since(&self) -> f64 {
         self.query.timeline.flights.growth.map_or(0.0, |growth| growth.since)
     }

@@ -109,7 +109,7 @@ impl PushedSpheres<'_> {
     fn lifetimes(&self, directions: &Directions, start: &Forces) -> Lifetimes {
         let places = 0..self.group.members.len();
         Lifetimes {
-            spheres: places.map(|place| self.of_sphere(place, directions, start)).collect(),
+            spheres: places.map(|place| self.sphere_lifetimes(place, directions, start)).collect(),
             contacts: self
                 .pushing()
                 .iter()
@@ -120,7 +120,12 @@ impl PushedSpheres<'_> {
     }
 
     /// The lifetimes of the velocities that friction of the plane opposes, for the sphere at a place.
-    fn of_sphere(&self, place: usize, directions: &Directions, start: &Forces) -> SphereLifetimes {
+    fn sphere_lifetimes(
+        &self,
+        place: usize,
+        directions: &Directions,
+        start: &Forces,
+    ) -> SphereLifetimes {
         let members = &self.group.members;
         let (response, sphere) = (start.responses[place], start.spheres[place]);
         let Member { velocity, angular_velocity, .. } = members[place];
@@ -218,8 +223,8 @@ struct Lifetimes {
 
 impl Lifetimes {
     fn all(&self) -> impl Iterator<Item = Lifetime> {
-        let of_spheres = self.spheres.iter().flat_map(|sphere| [sphere.slides, sphere.moves]);
-        of_spheres.chain(self.contacts.iter().copied())
+        let lifetimes = self.spheres.iter().flat_map(|sphere| [sphere.slides, sphere.moves]);
+        lifetimes.chain(self.contacts.iter().copied())
     }
 
     /// \[s\]

@@ -48,7 +48,7 @@ pub(super) enum Direction {
 pub(super) struct Directions {
     /// One per sphere: of its slip on the plane.
     pub slides: Vec<Direction>,
-    /// One per sphere: of its velocity, where rolling friction acts.
+    /// Direction of the velocity of each sphere, if rolling friction acts on it.
     pub moves: Vec<Direction>,
     /// One per sphere: sign of its spin about the normal.
     pub spins: Vec<f64>,
@@ -364,7 +364,8 @@ fn speed_loss(friction: ContactFriction, plane: &Touch, member: &Member) -> f64 
     friction.rolling * pressing + plane.across(acceleration).norm()
 }
 
-/// Deceleration of a slip on a plane by friction \[m/s²\], where `pressing` \[m/s²\] presses the sphere on.
+/// Returns the deceleration of a slip on a plane by friction \[m/s²\], for a sphere that `pressing` \[m/s²\]
+/// presses on the plane.
 fn slip_loss(friction: ContactFriction, inertia_factor: f64, pressing: f64) -> f64 {
     (1.0 + 1.0 / inertia_factor) * friction.sliding * pressing
 }

@@ -36,8 +36,7 @@ pub(super) struct PushingContact {
     pub friction: f64,
     /// Direction in which the surface of body 2 slides along that of body 1; `None` where it does not.
     pub slides: Option<DVec3>,
-    /// Acceleration of the gap, along the normal, and of the slip that come from the turning of the normal
-    /// \[m/s²\].
+    /// Accelerations of the gap and of the slip that the rotation of the normal causes \[m/s²\].
     pub bias: DVec3,
 }
 
@@ -244,7 +243,7 @@ impl Pair<'_> {
         None
     }
 
-    /// Acceleration of the gap, along the normal, and of the slip under a force on body 2 \[m/s²\].
+    /// Computes the accelerations of the gap and of the slip that a force on body 2 causes \[m/s²\].
     fn rate(&self, force: DVec3) -> DVec3 {
         let Self { contact, first, second } = self;
         let responds = |side: &Side, push: Push| {

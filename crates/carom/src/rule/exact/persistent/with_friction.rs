@@ -75,7 +75,7 @@ pub(super) fn find(
     Ok(supports)
 }
 
-/// The planes that a sphere touches.
+/// Returns the planes that a sphere touches.
 ///
 /// # Errors [`NoClosedForm`] if they make no corner, or the sphere rests on something else.
 fn corner_of<'a>(

@@ -3,12 +3,16 @@
 //!
 //! How fast it is, and how good for large heaps, is measured by `carom bench --set heaps`.
 
+mod fast_balls;
+mod sleep;
+
 use carom::{
     BodyPair, Collider, Contact, DQuat, DVec3, Emitter, Friction, Gravity, Pose, Settings, Shape,
-    Sides, Sphere, World,
+    Sphere, World,
 };
 
 const G: f64 = 9.81;
+
 const FRAME: f64 = 1.0 / 60.0;
 
 fn world() -> World {
@@ -221,126 +225,6 @@ fn impulses_of_a_pour_never_add_energy() {
 }
 
 #[test]
-fn fast_balls_do_not_tunnel() {
-    let thin = [
-        Shape::HalfSpace,
-        Shape::Rectangle { size_x: 4.0, size_z: 4.0 },
-        Shape::Sphere { radius: 0.3 },
-        Shape::Box { size: DVec3::new(2.0, 0.01, 2.0) },
-        Shape::Container { size: DVec3::new(2.0, 0.5, 2.0), open: Sides::NONE },
-    ];
-    for speed in [10.0, 100.0, 1000.0, 10_000.0] {
-        for shape in thin.clone() {
-            for (offset, radius) in [(0.0, 0.005), (0.0, 0.05), (0.13, 0.05), (0.29, 0.05)] {
-                let mut world = world();
-                world.add_collider(Collider::new(shape.clone(), Pose::at(DVec3::ZERO))).unwrap();
-                let ball = Sphere::new(DVec3::new(offset, 3.0, 0.5 * offset), radius)
-                    .with_velocity(-speed * DVec3::Y);
-                let id = world.add_sphere(ball).unwrap();
-                let frames = (3.0 / speed / FRAME) as u32 + 3;
-                run(&mut world, frames);
-                let end = world.sphere(id).unwrap();
-                // From all but a sphere beside its middle, straight back.
-                let least = if matches!(shape, Shape::Sphere { .. }) { -0.999 } else { 0.999 };
-                assert!(end.velocity.y > least * speed, "{shape:?} {speed} {offset}: {end:?}");
-                let lost = end.velocity.length() / speed - 1.0;
-                // Some roundings of positions of some metres, by way of normals, each half an ulp.
-                assert!(lost.abs() < 1e-12, "{shape:?} {speed} {offset}: {lost:e}");
-            }
-        }
-        // Two balls head on.
-        let mut world = world();
-        let ids = [DVec3::X, DVec3::NEG_X].map(|side| {
-            let ball = Sphere::new(2.0 * side, 0.05).with_velocity(-speed * side);
-            world.add_sphere(ball).unwrap()
-        });
-        run(&mut world, (4.0 / speed / FRAME) as u32 + 3);
-        let [first, second] = ids.map(|id| world.sphere(id).unwrap());
-        assert!((first.velocity.x - speed).abs() < 1e-9 * speed, "{first:?}");
-        assert!((second.velocity.x + speed).abs() < 1e-9 * speed, "{second:?}");
-    }
-}
-
-/// Within a sub-step it may come from one wall to the next.
-#[test]
-fn a_fast_ball_stays_in_its_box() {
-    for speed in [10.0, 100.0, 1000.0] {
-        for direction in [DVec3::new(0.6, 0.64, 0.48), DVec3::new(1.0, 2.0, 2.0) / 3.0] {
-            let mut world = world();
-            let shape = Shape::Container { size: DVec3::ONE, open: Sides::NONE };
-            world.add_collider(Collider::new(shape, Pose::at(DVec3::ZERO))).unwrap();
-            let place = DVec3::new(0.1, 0.2, -0.1);
-            let ball = Sphere::new(place, 0.03).with_velocity(speed * direction);
-            world.add_sphere(ball).unwrap();
-            for frame in 0..120 {
-                run(&mut world, 1);
-                let at = world.spheres().positions()[0];
-                // Overlaps of a two-thousandth of the radius are left as they are.
-                assert!(at.abs().max_element() < 0.4701, "{speed} {direction} {frame}: {at}");
-            }
-            let lost = world.spheres().velocities()[0].length() / speed - 1.0;
-            // Some roundings for each of some hundred impacts.
-            assert!(lost.abs() < 1e-12, "{speed} {direction}: {lost:e}");
-        }
-    }
-}
-
-/// A piston is met as it moves, also by a ball that comes to it after a bounce.
-#[test]
-fn a_fast_ball_does_not_pass_a_piston() {
-    for speed in [50.0, 200.0, 1000.0] {
-        let mut world = world();
-        add_wall(&mut world, DVec3::X, DVec3::ZERO, 1.0);
-        let facing = DQuat::from_rotation_arc(DVec3::Y, DVec3::NEG_X);
-        let pose = Pose::at(DVec3::new(0.6, 0.0, 0.0)).rotated(facing);
-        let piston = Collider::new(Shape::Rectangle { size_x: 2.0, size_z: 2.0 }, pose);
-        let piston = piston.moving(DVec3::new(-0.1, 0.0, 0.0), DVec3::ZERO);
-        world.add_collider(piston).unwrap();
-        let ball = Sphere::new(DVec3::new(0.3, 0.0, 0.0), 0.05);
-        world.add_sphere(ball.with_velocity(DVec3::new(-speed, 0.0, 0.0))).unwrap();
-        for frame in 1..=120 {
-            run(&mut world, 1);
-            let (at, piston) =
-                (world.spheres().positions()[0].x, 0.6 - 0.1 * FRAME * f64::from(frame));
-            assert!(at > 0.049 && at < piston - 0.049, "{speed}, frame {frame}: {at} of {piston}");
-        }
-    }
-}
-
-/// A floor bears it all the while.
-#[test]
-fn a_ball_that_slides_fast_into_a_wall_comes_back_as_fast() {
-    let mut world = under_gravity();
-    add_box(&mut world, 5.0, 1.0);
-    let radius = 0.1;
-    let ball = Sphere::new(DVec3::new(0.0, radius, 0.0), radius).with_velocity(DVec3::X * 40.0);
-    world.add_sphere(ball).unwrap();
-    for frame in 0..120 {
-        run(&mut world, 1);
-        let spheres = world.spheres();
-        let (at, velocity) = (spheres.positions()[0], spheres.velocities()[0]);
-        assert!((at.y - radius).abs() < 1e-3 * radius, "{frame}: {at}");
-        assert!((velocity.x.abs() - 40.0).abs() < 1e-9, "{frame}: {velocity}");
-    }
-}
-
-#[test]
-fn a_fast_ball_that_passes_is_not_stopped() {
-    let mut world = world();
-    world
-        .add_collider(Collider::new(Shape::Sphere { radius: 0.3 }, Pose::at(DVec3::ZERO)))
-        .unwrap();
-    world.add_sphere(Sphere::new(DVec3::new(3.0, 0.0, 0.36), 0.3)).unwrap();
-    let plate = Shape::Rectangle { size_x: 1.0, size_z: 1.0 };
-    world.add_collider(Collider::new(plate, Pose::at(DVec3::new(0.0, -1.0, 2.0)))).unwrap();
-    let velocity = 1000.0 * DVec3::X;
-    let fast = Sphere::new(DVec3::new(-5.0, 0.0, -0.36), 0.05).with_velocity(velocity);
-    let id = world.add_sphere(fast).unwrap();
-    run(&mut world, 3);
-    assert_eq!(world.sphere(id).unwrap().velocity, velocity);
-}
-
-#[test]
 fn a_pyramid_of_four_stands_from_its_friction_on() {
     // Three balls that touch carry a fourth: it holds from tan(angle/2) on between balls, with the angle
     // of the edges to the vertical, and a quarter of that on the floor (0.3178 and 0.0795).
@@ -388,115 +272,6 @@ fn a_ball_that_spins_on_the_spot_keeps_no_heap_awake_and_spins_on() {
     let expected = libm::cos(6.0).abs();
     // Sums of sixty rotations of 0.2 rad.
     assert!((before.dot(after).abs() - expected).abs() < 1e-12, "{before} {after}");
-}
-
-#[test]
-fn a_heap_at_rest_sleeps_does_not_creep_and_wakes_when_touched() {
-    let mut world = poured(200);
-    run(&mut world, 480);
-    assert_eq!(world.report().contact_account.asleep, 200);
-    let before = world.spheres().positions().to_vec();
-    let contacts = world.contacts();
-    assert!(contacts.len() > 300, "{}", contacts.len());
-    // Ten minutes.
-    run(&mut world, 36_000);
-    assert_eq!(world.spheres().positions(), before);
-    assert_eq!(world.contacts(), contacts);
-    // A ball comes down on it.
-    let ball = Sphere::new(DVec3::new(0.0, 3.0, 0.0), 0.1)
-        .with_density(1000.0)
-        .with_restitution(0.0)
-        .with_friction(0.4);
-    world.add_sphere(ball).unwrap();
-    let mut fewest = u32::MAX;
-    for _ in 0..600 {
-        fewest = fewest.min(world.step(FRAME).unwrap().contact_account.asleep);
-    }
-    assert!(fewest < 200, "nothing woke: {fewest}");
-    assert_eq!(world.report().contact_account.asleep, 201);
-    let moved = world.spheres().positions().iter().zip(&before).map(|(a, b)| (*a - *b).length());
-    let farthest = moved.fold(0.0, f64::max);
-    assert!((1e-6..0.2).contains(&farthest), "{farthest}");
-}
-
-/// A column of balls in a shaft, at rest, without friction; the lowest is that of an emitter, which takes it away
-/// after this time.
-fn column(count: u32, radius: f64, restitution: f64, seconds: f64) -> World {
-    let mut world = under_gravity();
-    add_box(&mut world, radius, 0.0);
-    let ball = |height: f64| {
-        let place = DVec3::new(0.0, height * radius, 0.0);
-        Sphere::new(place, radius).with_restitution(restitution)
-    };
-    let away = Emitter::new(ball(1.0), seconds).with_max_spheres(1);
-    let emitter = world.add_emitter(away).unwrap();
-    world.step(FRAME).unwrap();
-    for number in 1..count {
-        world.add_sphere(ball(f64::from(2 * number + 1))).unwrap();
-    }
-    // The next one comes far away, and the first one goes.
-    world.set_emitter(emitter, away.with_sphere(ball(1e3))).unwrap();
-    world
-}
-
-#[test]
-fn what_bounces_on_a_column_keeps_only_its_top_awake() {
-    let (count, radius) = (12, 0.1);
-    let mut world = column(count, radius, 1.0, 1e3);
-    // It falls for longer than the column takes to fall asleep.
-    let place = DVec3::new(0.0, f64::from(2 * count + 80) * radius, 0.0);
-    let light = Sphere::new(place, 0.5 * radius).with_mass(0.02).with_restitution(1.0);
-    let light = world.add_sphere(light).unwrap();
-    run(&mut world, 72);
-    let (mut fewest, mut bounces, mut before) = (u32::MAX, 0, -1.0);
-    for _ in 0..300 {
-        fewest = fewest.min(world.step(FRAME).unwrap().contact_account.asleep);
-        let speed = world.sphere(light).unwrap().velocity.y;
-        bounces += u32::from(before < -0.5 && speed > 0.1);
-        before = speed;
-    }
-    assert!(bounces > 0, "it lies");
-    assert!((count / 2..count).contains(&fewest), "{fewest} sleep");
-}
-
-#[test]
-fn a_column_falls_as_a_whole_when_its_foot_is_taken_away() {
-    let (count, radius) = (12, 0.1);
-    // Without restitution: they wake one after the other, so that small gaps open, and close on the ground.
-    let mut world = column(count, radius, 0.0, 2.0);
-    run(&mut world, 110);
-    assert_eq!(world.report().contact_account.asleep, count);
-    let before = world.spheres().positions().to_vec();
-    // Free fall by a diameter takes 0.2 s; 2 s are over after ten frames.
-    run(&mut world, 10 + 24);
-    for (now, before) in world.spheres().positions().iter().zip(&before[1..]) {
-        let sunk = before.y - now.y;
-        // Each of them lies within the slop of 0.001 r on the one below.
-        assert!((sunk - 2.0 * radius).abs() < 0.02 * radius, "{sunk}");
-    }
-}
-
-#[test]
-fn sleepers_far_from_an_impact_sleep_on() {
-    let mut world = under_gravity();
-    add_wall(&mut world, DVec3::Y, DVec3::ZERO, 0.0);
-    for number in 0..10 {
-        let place = DVec3::new(f64::from(number), 0.1, 0.0);
-        world.add_sphere(Sphere::new(place, 0.1)).unwrap();
-    }
-    run(&mut world, 60);
-    assert_eq!(world.report().contact_account.asleep, 10);
-    world.add_sphere(Sphere::new(DVec3::new(0.0, 0.5, 0.0), 0.1).with_restitution(0.0)).unwrap();
-    let mut fewest = u32::MAX;
-    for _ in 0..120 {
-        fewest = fewest.min(world.step(FRAME).unwrap().contact_account.asleep);
-    }
-    // To add a sphere wakes all once; they fall asleep again but for the one that is hit.
-    assert_eq!(world.report().contact_account.asleep, 11, "{fewest}");
-    // Without gravity they wake.
-    let force = world.forces().next().unwrap().0;
-    world.remove_force(force).unwrap();
-    assert_eq!(world.step(FRAME).unwrap().contact_account.asleep, 0);
 }
 
 #[test]
@@ -614,68 +389,6 @@ fn a_turning_drum_takes_balls_along() {
 }
 
 #[test]
-fn a_heap_wakes_when_an_emitter_takes_a_sleeper_out() {
-    // The second ball of an emitter makes the first one go, on which another has fallen asleep.
-    let mut world = under_gravity();
-    add_box(&mut world, 0.1, 0.0);
-    let emitted = Sphere::new(DVec3::new(0.0, 0.1, 0.0), 0.1).with_restitution(0.0);
-    let away = Emitter::new(emitted, 2.5).with_max_spheres(1);
-    let emitter = world.add_emitter(away).unwrap();
-    world.step(FRAME).unwrap();
-    let upper = Sphere::new(DVec3::new(0.0, 0.3, 0.0), 0.1).with_restitution(0.0);
-    let upper = world.add_sphere(upper).unwrap();
-    // The next one comes far away.
-    let place = DVec3::new(0.0, 50.0, 0.0);
-    world.set_emitter(emitter, away.with_sphere(emitted.with_position(place))).unwrap();
-    run(&mut world, 120);
-    assert_eq!(world.report().contact_account.asleep, 2);
-    run(&mut world, 60);
-    assert!(world.contacts().iter().all(|it| it.gap < 1e-3), "what holds it is there");
-    let height = world.sphere(upper).unwrap().position.y;
-    assert!(height < 0.11, "it hangs in the air: {height}");
-}
-
-#[test]
-fn spheres_can_be_taken_out_while_others_sleep_and_one_comes_near() {
-    let mut world = under_gravity();
-    add_wall(&mut world, DVec3::Y, DVec3::ZERO, 0.0);
-    let ball = Sphere::new(DVec3::new(0.0, 0.1, 0.0), 0.1).with_restitution(0.0);
-    for number in 0..30 {
-        let place = DVec3::new(0.3 * f64::from(number), 0.1, 0.0);
-        world.add_sphere(Sphere::new(place, 0.1).with_restitution(0.0)).unwrap();
-    }
-    let above = Emitter::new(ball, 3.0).with_position(DVec3::new(0.3 * 28.0, 0.7, 0.0));
-    world.add_emitter(above).unwrap();
-    run(&mut world, 180);
-    // The next one falls.
-    for _ in 0..20 {
-        run(&mut world, 1);
-        let before = world.snapshot();
-        let ids = world.spheres().ids().to_vec();
-        for id in &ids[..20] {
-            world.remove_sphere(*id).unwrap();
-        }
-        run(&mut world, 2);
-        assert_eq!(world.spheres().len(), ids.len() - 20);
-        world.restore(&before);
-    }
-}
-
-#[test]
-fn a_ball_that_is_emitted_falls_though_all_others_sleep() {
-    let mut world = under_gravity();
-    add_wall(&mut world, DVec3::Y, DVec3::ZERO, 0.0);
-    let ball = Sphere::new(DVec3::new(0.0, 0.1, 0.0), 0.1).with_restitution(0.0);
-    world.add_sphere(ball).unwrap();
-    world.add_emitter(Emitter::new(ball, 3.0).with_position(DVec3::new(5.0, 2.0, 0.0))).unwrap();
-    run(&mut world, 179);
-    assert_eq!(world.report().contact_account.asleep, 2);
-    run(&mut world, 16);
-    let height = world.spheres().positions()[2].y;
-    assert!(height < 2.0, "it hangs where it was emitted: {height}");
-}
-
-#[test]
 fn an_emitter_over_a_full_place_leaves_spheres_out() {
     let mut world = under_gravity();
     add_box(&mut world, 0.5, 0.0);
@@ -698,26 +411,4 @@ fn an_emitter_over_a_full_place_leaves_spheres_out() {
     assert_eq!(came, (0..came.len() as u64).collect::<Vec<_>>());
     assert!((160..=161).contains(&came.len()));
     assert!(worst < 0.05, "{worst} of the sum of radii");
-}
-
-#[test]
-fn without_a_speed_of_sleep_nothing_sleeps() {
-    for (sleep_speed, asleep) in [(0.0, 0), (0.02, 1)] {
-        let rule = Contact::default().with_sleep_speed(sleep_speed);
-        let mut world = World::new(Settings::default().with_rule(rule)).unwrap();
-        world.add_force(Gravity::new(DVec3::new(0.0, -G, 0.0))).unwrap();
-        add_wall(&mut world, DVec3::Y, DVec3::ZERO, 0.0);
-        // So slow that it moves by less than a thousandth of its radius in sqrt(r / g).
-        let ball = Sphere::new(0.1 * DVec3::Y, 0.1).with_velocity(9e-4 * DVec3::X);
-        let id = world.add_sphere(ball).unwrap();
-        for _ in 0..120 {
-            world.step(FRAME).unwrap();
-        }
-        assert_eq!(world.report().contact_account.asleep, asleep);
-        let speed = world.sphere(id).unwrap().velocity.x;
-        assert_eq!(speed, if asleep == 1 { 0.0 } else { 9e-4 });
-    }
-    let refused = Contact::default().with_sleep_speed(-1.0);
-    let refused = World::new(Settings::default().with_rule(refused)).unwrap_err();
-    assert!(refused.to_string().contains("sleep_speed"), "{refused}");
 }

@@ -12,7 +12,7 @@ import traitlets
 from carom.errors import CaromError
 
 
-class Shown(anywidget.AnyWidget):
+class Widget(anywidget.AnyWidget):
     """A widget with a picture, which shows where it cannot."""
 
     time = traitlets.Float(0.0).tag(sync=True)
@@ -28,11 +28,11 @@ class Shown(anywidget.AnyWidget):
         return time
 
     def play(self) -> None:
-        """Lets time go on."""
+        """Plays."""
         self.playing = True
 
     def pause(self) -> None:
-        """Lets time stand still."""
+        """Pauses."""
         self.playing = False
 
     def seek(self, time: float) -> None:
