@@ -4,7 +4,8 @@
 mod common;
 
 use carom::{
-    Collider, Contact, DQuat, DVec3, Emitter, Exact, Gravity, Pose, Rule, Shape, Sphere, World,
+    Collider, Contact, DQuat, DVec3, Emitter, Exact, Gravity, MotionPart, Pose, Rule, Shape,
+    Sphere, Spring, World,
 };
 use common::{G, Numbers, account_of_run, assert_close, bisect, discrete, vec, world};
 
@@ -131,6 +132,49 @@ fn a_belt_gives_what_its_ball_gets_and_friction_takes_half() {
         assert_close(account.contacts, -0.1 * 2.0 / 7.0, tolerance * 0.03);
         assert_close(remainder, 0.0, tolerance * 0.06);
     }
+}
+
+/// A ball of 2 kg on a spring that hardly pulls, so that its forces are computed again at each tick.
+fn add_ball_on_a_spring(world: &mut World, ball: Sphere) {
+    let ball = world.add_sphere(ball.with_mass(2.0).with_restitution(0.0)).unwrap();
+    let spring = Spring::to_point(ball, vec(0.0, -1.0, 0.0), 0.5).with_stiffness(1e-9);
+    world.add_spring(spring).unwrap();
+}
+
+#[test]
+fn a_plate_that_swings_does_the_work_of_a_rise_once() {
+    // From its lowest place to its highest, with less than the weight of the ball.
+    let (amplitude, frequency) = (0.01, 4.0);
+    for frames in [1, 8, 50] {
+        let mut world = heavy_world(exact());
+        let phase = -0.5 * std::f64::consts::PI;
+        let part = MotionPart::Oscillate { axis: DVec3::Y, amplitude, frequency, phase };
+        let plate = Collider::new(Shape::HalfSpace, Pose::at(vec(0.0, amplitude, 0.0)));
+        world.add_collider(plate.with_restitution(0.0).with_motion([part])).unwrap();
+        add_ball_on_a_spring(&mut world, Sphere::new(vec(0.0, 0.1, 0.0), 0.1));
+        let length = 0.5 / frequency / f64::from(frames);
+        let (account, remainder) = account_of_run(&mut world, frames as usize, length);
+        let risen = 2.0 * G * 2.0 * amplitude;
+        // Pieces of path miss the plate by parts of 1e-7 of a radius.
+        assert_close(account.colliders, risen, 1e-8 * risen);
+        assert_close(remainder, 0.0, 1e-8 * risen);
+        assert!(account.contacts.abs() < 1e-6 * risen, "{account:?}");
+    }
+}
+
+#[test]
+fn friction_over_a_dome_works_once_where_forces_are_computed_again() {
+    let mut world = heavy_world(exact());
+    let dome = at_origin(Shape::Sphere { radius: 1.0 });
+    world.add_collider(dome.with_restitution(0.0).with_friction(0.3)).unwrap();
+    let ball = Sphere::new(vec(0.0, 1.1, 0.0), 0.1).with_friction(0.3);
+    add_ball_on_a_spring(&mut world, ball.with_velocity(vec(0.5, 0.0, 0.0)));
+    let largest = world.total_energy();
+    let (account, remainder) = account_of_run(&mut world, 12, 1.0 / 64.0);
+    // It slides until it rolls, as in two sevenths of its energy.
+    assert_close(account.contacts, -2.0 / 7.0 * 0.25, 0.05 * 0.25);
+    // The error of pieces over a curve.
+    assert!(remainder.abs() < 1e-6 * largest, "{remainder} of {account:?}");
 }
 
 #[test]

@@ -4,6 +4,7 @@
 //! end from a snapshot, from bytes and the second time; and a [`Pair`](pair::Pair) of it, the same world scaled,
 //! mirrored, in motion, in another order, in other frames or run back, goes the same way as far as rounding lets that be seen.
 
+mod elsewhere;
 mod frames;
 mod keeps;
 mod mirror;

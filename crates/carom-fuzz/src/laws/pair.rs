@@ -1,17 +1,28 @@
 //! Two worlds that go the same way, as a law has it.
 //!
 //! Some laws hold to the bit. Where two worlds round otherwise, they come apart, as any two runs of colliding spheres
-//! do: each impact makes what is between them larger by some way over radius. How much rounding has grown is seen of two
-//! more runs, of the same world with its spheres 10⁻¹² elsewhere, drawn out and drawn together ([`perturbed`]). That is
-//! thousands of roundings. So the rule is: **at each frame, the pair of a world is no farther from it than twice as far as
-//! the farther of the perturbed worlds was so far**: two directions do not show what grows most. Where one of these is more than 10⁻⁶ away, having grown a million times or
-//! having taken another order of events, a world shows nothing more, and the comparison ends.
+//! do: each impact makes what is between them larger by some way over radius. How much an error of the start has grown
+//! is seen of two more runs, of the same world with its spheres 10⁻¹² elsewhere, drawn out and drawn together
+//! ([`perturbed`]). That is thousands of roundings. So the rule is: **at each frame, the pair of a world is no farther
+//! from it than the farther of the perturbed worlds was so far**.
+//!
+//! These do not show what rounding does on the way. The bounces with which a ball comes to rest shift alike when it
+//! starts elsewhere, while the rounding ε L of a gap shifts a bounce by ε L over its speed, which falls from one to the
+//! next. What that does is seen of the same world a little elsewhere, of which every place rounds otherwise
+//! ([`elsewhere`]). Where the rule is broken, two such runs tell how far rounding alone takes a world, each a sample; a
+//! third is sixteen times as far as both of two in fewer than one of 16² cases. So **the pair may also be sixteen times
+//! as far as the farther of these was so far**.
+//!
+//! Where one of these bounds is more than 10⁻⁶ away, having grown a million times or having taken another order of
+//! events, a world shows nothing more, and the comparison ends.
 //!
 //! Distances are those of positions and velocities, as parts of the largest coordinate and the largest speed of both, and
 //! of what contacts took, as a part of the kinetic energy; the largest of all counts.
 
+use carom::DVec3;
 use carom_scene::Scene;
 
+use super::elsewhere::elsewhere;
 use super::perturbed::{SIZE, perturbed};
 use super::run::{law, step, world};
 use super::trace::{Body, Frame, Trace};
@@ -20,8 +31,9 @@ use crate::fault::Fault;
 /// Distance of a perturbed world from which on nothing is compared.
 const MOST: f64 = 1e-6;
 
-/// Allowed distance of a pair by that of the farther of two perturbed worlds: a third may be somewhat farther.
-const OF_TWO: f64 = 2.0;
+/// Allowed distance of a pair by that of the farther of two worlds that round otherwise: a third sample of the same is
+/// farther in fewer than one case of the square of this.
+const OF_SAMPLES: f64 = 16.0;
 
 /// Events and sweeps after which nothing is compared: that much work is not done again for every law.
 const MOST_WORK: u64 = 10_000;
@@ -94,8 +106,8 @@ impl Pair {
 pub fn check(laws: &[Law], scene: &Scene, trace: &Trace) -> Result<(), Fault> {
     let mut trace = trace.clone();
     trace.frames.truncate(trace.until_work(MOST_WORK).max(1));
-    // The perturbed worlds are run once for all laws that begin with the world.
-    let mut grown = None;
+    // The other worlds are run once for all laws that begin with the world.
+    let mut grown = Grown::default();
     for law in laws {
         let Some(pair) = (law.pair)(scene, &trace) else { continue };
         let named = |fault| match fault {
@@ -107,13 +119,11 @@ pub fn check(laws: &[Law], scene: &Scene, trace: &Trace) -> Result<(), Fault> {
             Agreement::Rounding if pair.is_backwards => {
                 let mut reversed = trace.clone();
                 reversed.frames.reverse();
-                let grown = growth(&pair, &pair.scene, &reversed);
-                check_rounding(&pair, &reversed, &grown)
+                Grown::default().check(&pair, &pair, &reversed)
             }
             Agreement::Rounding => {
-                let same = || Pair::new(scene.clone(), Agreement::Rounding, |_| ());
-                let grown = grown.get_or_insert_with(|| growth(&same(), scene, &trace));
-                check_rounding(&pair, &trace, grown)
+                let own = Pair::new(scene.clone(), pair.agreement, |_| ());
+                grown.check(&pair, &own, &trace)
             }
         }
         .map_err(named)?;
@@ -145,7 +155,7 @@ fn check_rounding(pair: &Pair, trace: &Trace, grown: &[f64]) -> Result<(), Fault
         if is_over(number) || (pair.ends)(frame) {
             return Ok(false);
         }
-        let (away, most) = (distance(trace, number, frame), OF_TWO * grown[number]);
+        let (away, most) = (distance(trace, number, frame), grown[number]);
         let time = trace.frames[number].time;
         law(away <= most, || {
             format!("is {away:e} away, rounding having grown to {most:e}, at {time} s")
@@ -154,19 +164,57 @@ fn check_rounding(pair: &Pair, trace: &Trace, grown: &[f64]) -> Result<(), Fault
     })
 }
 
-/// By frame, how far the farther of two perturbed worlds was so far.
-fn growth(pair: &Pair, scene: &Scene, trace: &Trace) -> Vec<f64> {
-    let mut grown = vec![f64::INFINITY; trace.frames.len()];
-    for is_opposite in [false, true] {
-        let mut so_far: f64 = SIZE;
-        let known = std::mem::replace(&mut grown, vec![f64::INFINITY; trace.frames.len()]);
-        // One that stops has grown out of it.
-        let _ = pair.follow(&perturbed(scene, is_opposite), trace, |number, frame| {
-            so_far = so_far.max(distance(trace, number, frame));
-            grown[number] = if is_opposite { so_far.max(known[number]) } else { so_far };
-            Ok(so_far <= MOST)
-        });
+/// How far worlds that begin as one does are from it, by frame; empty where they were not run.
+#[derive(Debug, Default)]
+struct Grown {
+    /// The farther of two that begin a little otherwise.
+    of_start: Vec<f64>,
+    /// The farthest of these and of [`OF_SAMPLES`] times two that round otherwise.
+    of_all: Vec<f64>,
+}
+
+impl Grown {
+    /// Checks a pair of a world, which is a pair of its own, with this trace.
+    fn check(&mut self, pair: &Pair, own: &Pair, trace: &Trace) -> Result<(), Fault> {
+        if self.of_start.is_empty() {
+            let both = [false, true].map(|is_opposite| {
+                let scene = perturbed(&own.scene, is_opposite);
+                growth(own, (&scene, DVec3::ZERO), trace, SIZE)
+            });
+            self.of_start = farther(&both, 1.0);
+        }
+        match check_rounding(pair, trace, &self.of_start) {
+            Err(Fault::Law(_)) => {}
+            other => return other,
+        }
+        if self.of_all.is_empty() {
+            let extent = trace.frames.iter().map(|frame| frame.extent).fold(0.0, f64::max);
+            let both = elsewhere(&own.scene, extent)
+                .map(|(scene, way)| growth(own, (&scene, way), trace, 0.0));
+            self.of_all = farther(&[self.of_start.clone(), farther(&both, OF_SAMPLES)], 1.0);
+        }
+        check_rounding(pair, trace, &self.of_all)
     }
+}
+
+/// The larger of two distances, by frame, times a factor.
+fn farther([first, second]: &[Vec<f64>; 2], factor: f64) -> Vec<f64> {
+    first.iter().zip(second).map(|(first, second)| factor * first.max(*second)).collect()
+}
+
+/// By frame, how far the world of a scene that goes as a pair does was so far, and at least; it was moved along a way
+/// \[m\].
+fn growth(pair: &Pair, (scene, way): (&Scene, DVec3), trace: &Trace, least: f64) -> Vec<f64> {
+    let mut grown = vec![f64::INFINITY; trace.frames.len()];
+    let mut so_far = least;
+    // One that stops has grown out of it.
+    let _ = pair.follow(scene, trace, |number, frame| {
+        let mut frame = frame.clone();
+        frame.bodies.iter_mut().for_each(|body| body.position -= way);
+        so_far = so_far.max(distance(trace, number, &frame));
+        grown[number] = so_far;
+        Ok(so_far <= MOST)
+    });
     grown
 }
 

@@ -183,6 +183,21 @@ impl Timeline {
         })
     }
 
+    /// Whether a sphere that is connected with the one at `slot`, and flies on no curve, ends its flight at `time` \[s\].
+    pub(super) fn companion_ends(&self, slot: u32, time: f64) -> bool {
+        let flights = &self.flights;
+        let component = || flights.components.of_sphere(flights.index_of[slot as usize]);
+        let Some(number) = component().filter(|_| flights.has_companions(slot)) else {
+            return false;
+        };
+        let [numbers, _] = flights.connected_components(number);
+        let members = numbers.iter().flat_map(|&number| &flights.components.get(number).members);
+        members.map(|&index| flights.slot_of[index as usize]).any(|other| {
+            let species = flights.species_of(other);
+            !species.is_curved && self.flight_end(other, species) == time
+        })
+    }
+
     /// Begins the flight of a sphere in the state of an event, without contact forces.
     pub(super) fn begin_free_flight(&mut self, member: &Member, time: f64) {
         let Member { slot, position, velocity, species, .. } = *member;

@@ -7,8 +7,11 @@ use glam::DVec3;
 
 use crate::bounds::Bounds;
 
-/// Below this number of spheres, one cell for all of them is faster than any grid.
+/// Below this number of spheres, one cell for all of them is faster than any grid; along a periodic axis
+/// [`CELLS_OF_FEW`], where one cell would bring the images on both sides of each sphere.
 const SINGLE_CELL: usize = 24;
+/// Cells along a periodic axis, at most, where spheres are few: a cell and those beside it hold each sphere once.
+const CELLS_OF_FEW: f64 = 3.0;
 /// Cells per sphere, at most.
 const CELLS_PER_SPHERE: f64 = 4.0;
 /// Cells along an axis, at most: a coordinate is 16 bits.
@@ -127,7 +130,10 @@ impl Grid {
             }
         }
         let extent = (high - low).max(DVec3::ZERO);
-        let counts = cell_counts([1; 3], extent, min_width, seek);
+        let counts = match seek <= SINGLE_CELL {
+            true => cell_counts_of_few([1; 3], periodic, extent / min_width),
+            false => cell_counts([1; 3], extent, min_width, seek),
+        };
         let width = DVec3::from_array([0, 1, 2].map(|axis| {
             let width = extent[axis] / f64::from(counts[axis]);
             if periodic[axis] { width } else { width.max(min_width) }
@@ -139,7 +145,10 @@ impl Grid {
 
     /// A grid whose cells are parts of the cells of this one, none narrower than `min_width` \[m\].
     pub fn divided(&self, min_width: f64, seek: usize) -> Self {
-        let counts = cell_counts(self.counts, self.width, min_width, seek);
+        let counts = match seek <= SINGLE_CELL {
+            true => cell_counts_of_few(self.counts, self.periodic, self.width / min_width),
+            false => cell_counts(self.counts, self.width, min_width, seek),
+        };
         let parts = [0, 1, 2].map(|axis| f64::from(counts[axis] / self.counts[axis]));
         let width = self.width / DVec3::from_array(parts);
         Self { width, per_metre: width.recip(), counts, ..self.clone() }.with_runs()
@@ -374,7 +383,7 @@ impl Grid {
 /// Cells along each axis: a multiple of `counts`, where that many cells are `width` \[m\] wide. A cell is at least
 /// `min_width` \[m\] wide, and there are no more cells than pay off for this number of spheres.
 fn cell_counts(counts: [u16; 3], width: DVec3, min_width: f64, spheres: usize) -> [u16; 3] {
-    if spheres <= SINGLE_CELL || !width.is_finite() {
+    if !width.is_finite() {
         return counts;
     }
     let budget = CELLS_PER_SPHERE * spheres as f64;
@@ -392,6 +401,15 @@ fn cell_counts(counts: [u16; 3], width: DVec3, min_width: f64, spheres: usize) -
         min_width *= 1.125;
     }
     along(min_width).map(|count| count as u16)
+}
+
+/// Cells along each axis where spheres are few: more than in `counts` only along periodic axes that are not divided and
+/// have room for these numbers of cells.
+fn cell_counts_of_few(counts: [u16; 3], periodic: [bool; 3], room: DVec3) -> [u16; 3] {
+    [0, 1, 2].map(|axis| {
+        let is_divided = counts[axis] > 1 || !periodic[axis];
+        if is_divided { counts[axis] } else { room[axis].floor().clamp(1.0, CELLS_OF_FEW) as u16 }
+    })
 }
 
 /// The bits of a coordinate, each three places from the next.

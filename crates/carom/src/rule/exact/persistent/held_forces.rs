@@ -88,7 +88,6 @@ pub(crate) fn renew(timeline: &mut Timeline, system: &System, start: f64) -> Vec
             timeline.flights.set_free_acceleration(slot, uniform);
             continue;
         }
-        timeline.flights.count_contact_work(slot, start);
         if is_all {
             begin_under(timeline, system, slot, uniform, [start, end]);
         } else {
@@ -185,13 +184,17 @@ fn begin_under(
 ) {
     // The state to which the forces up to now have led.
     let member = Member::at(&timeline.flights, slot, start);
-    timeline.flights.set_free_acceleration(slot, acceleration);
-    let member = Member { species: *timeline.flights.free_species_of(slot), ..member };
+    let species = Species { acceleration, ..*timeline.flights.free_species_of(slot) };
+    let member = Member { species, ..member };
     let Some((cluster, planar)) = planar_support(timeline, system, &member, [start, end]) else {
+        // This counts the work of the contacts under the forces up to now.
         timeline.set_free(slot, start);
+        timeline.flights.set_free_acceleration(slot, acceleration);
         timeline.begin_flight(slot, member.position, member.velocity, start);
         return;
     };
+    timeline.flights.count_contact_work(slot, start);
+    timeline.flights.set_free_acceleration(slot, acceleration);
     let PlanarSupport { velocity, acceleration, valid_for, persists, .. } = planar;
     timeline.flights.set_acceleration(slot, acceleration);
     timeline.flights.rotate(slot, [planar.angular_velocity, planar.angular_acceleration], start);
@@ -251,6 +254,7 @@ fn begin_under_varying(
     };
     // In a periodic box the flight may begin at an image of that place.
     let (position, velocity) = timeline.flights.state_of(slot, start);
+    timeline.flights.count_contact_work(slot, start);
     timeline.begin_flight(slot, position, velocity, start);
     for time in [start, middle] {
         let acceleration = acceleration_at(timeline, time);

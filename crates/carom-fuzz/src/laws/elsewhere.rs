@@ -1,0 +1,48 @@
+//! A scene moved by a small part of its size: the same world, of which every place rounds otherwise.
+
+use carom::DVec3;
+use carom_scene::Scene;
+use carom_scene::scene::{Force, Motion};
+
+/// By which part of the largest coordinate: numbers of many bits, so small that no threshold that grows with coordinates
+/// changes by more.
+const WAYS: [DVec3; 2] = [
+    DVec3::new(0.013_719_2, -0.021_143_7, 0.017_317_3),
+    DVec3::new(-0.019_731_7, 0.015_377_1, -0.012_937_9),
+];
+
+/// The scene, whose farthest point of a sphere is so far from the origin along an axis \[m\], moved along each of the
+/// [`WAYS`], with the ways \[m\].
+pub fn elsewhere(scene: &Scene, extent: f64) -> [(Scene, DVec3); 2] {
+    WAYS.map(|way| (moved(scene, extent * way), extent * way))
+}
+
+fn moved(scene: &Scene, by: DVec3) -> Scene {
+    let mut scene = scene.clone();
+    scene.simulation.allow_overlap = true;
+    let add = |place: &mut [f64; 3]| *place = (DVec3::from_array(*place) + by).to_array();
+    scene.spheres.iter_mut().for_each(|it| add(&mut it.position));
+    scene.emitters.iter_mut().for_each(|it| add(&mut it.position));
+    scene.springs.iter_mut().filter_map(|it| it.anchor.as_mut()).for_each(add);
+    for collider in &mut scene.colliders {
+        add(&mut collider.position);
+        for motion in &mut collider.motion {
+            match motion {
+                Motion::Turn { pivot, .. } | Motion::Swing { pivot, .. } => add(pivot),
+                Motion::Steady { .. } | Motion::Oscillate { .. } => {}
+            }
+        }
+    }
+    for force in &mut scene.forces {
+        match force {
+            Force::PointAttractor { position, .. } | Force::Vortex { position, .. } => {
+                add(position);
+            }
+            Force::Buoyancy { surface_height, gravity, .. } => {
+                *surface_height -= by.dot(DVec3::from_array(*gravity).normalize_or_zero());
+            }
+            _ => {}
+        }
+    }
+    scene
+}
