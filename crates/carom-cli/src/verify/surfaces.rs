@@ -177,7 +177,7 @@ const SOFT: f64 = 0.2;
 /// Where its centre is at first, from the axis of the pipe across and up \[m\].
 const DROPPED_AT: [f64; 2] = [0.4 / 0.52 * PATH, 0.1 / 0.52 * PATH];
 
-/// Claims about a ball that falls into a lying pipe: the first bounces take a part of its energy, and sliding takes none.
+/// Claims about a ball that falls into a lying pipe: its bounces take a part of its energy, and sliding takes none.
 fn half_pipe() -> Vec<Claim> {
     let drop = || -> Result<World, Fault> {
         let mut world = lying_pipe(0.0)?;

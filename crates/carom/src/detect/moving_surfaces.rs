@@ -18,7 +18,7 @@ use crate::surface::{LastCarriage, Role, Surface, SurfaceMotion};
 const SLACK: f64 = 1e-9;
 
 /// Trees over the surfaces of colliders that move and deflect spheres. A tree stays valid while its collider moves,
-/// since its surfaces move as one: a place is looked up in the coordinates that the collider had when the tree was made.
+/// since its surfaces move as one: a place is looked up in the coordinates of the collider when the tree was made.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct MovingSurfaces {
     /// In the order of the colliders.
@@ -108,8 +108,8 @@ impl PlacedTree<'_> {
         self.tree.add_near(&Bounds::around(there, DVec3::splat(reach + slack)), near);
     }
 
-    /// Bounds of the speed of the origin \[m/s\] and of the angular velocity \[rad/s\] from `from` \[s\] after the places
-    /// of the surfaces on, for `length` \[s\].
+    /// Bounds of the speed of the origin \[m/s\] and of the angular velocity \[rad/s\], from a time after the places of
+    /// the surfaces on, for a length of time \[s\].
     pub fn fastest(&self, times: [f64; 2]) -> [f64; 2] {
         let MotionBounds { speed, spin, .. } = self.bounds(times);
         [speed, spin]

@@ -55,6 +55,7 @@ mod solver;
 mod sub_step;
 mod surfaces;
 mod swept;
+mod top_speed;
 mod wake;
 mod warm_start;
 

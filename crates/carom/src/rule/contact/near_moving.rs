@@ -1,9 +1,8 @@
 //! Which surfaces that move each sphere may meet.
 
-use glam::DVec3;
-
 use super::places::Places;
 use super::slots::Slots;
+use super::top_speed::TopSpeed;
 use crate::system::System;
 
 /// Numbers of moving surfaces near each sphere.
@@ -12,25 +11,6 @@ pub(super) struct NearMoving {
     /// Those of a slot are `numbers[starts[slot] .. starts[slot + 1]]`, ascending; empty where nothing moves.
     starts: Vec<u32>,
     numbers: Vec<u32>,
-}
-
-/// How fast the surfaces of a collider move at most within the frame.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct TopSpeed {
-    /// Of the origin \[m/s\].
-    pub speed: f64,
-    /// \[rad/s\]
-    pub spin: f64,
-    /// Origin at the start of the sub-step \[m\].
-    pub origin: DVec3,
-}
-
-impl TopSpeed {
-    /// Speed \[m/s\] of surfaces up to a distance `beside` \[m\] from a place \[m\], within a time \[s\].
-    pub fn around(&self, place: DVec3, beside: f64, time: f64) -> f64 {
-        let arm = (place - self.origin).length() + beside;
-        self.speed + self.spin * (arm + self.speed * time)
-    }
 }
 
 impl NearMoving {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::near_moving::TopSpeed;
+use super::top_speed::TopSpeed;
 use crate::band::Band;
 use crate::bounds::Bounds;
 use crate::detect::moving_surfaces::PlacedTree;
