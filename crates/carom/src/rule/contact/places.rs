@@ -38,8 +38,8 @@ struct MovingPlace {
     fastest: Option<[f64; 2]>,
 }
 
-/// The places of all surfaces, by their number, and those of their images, by numbers that follow. Of those that move,
-/// it knows the places of which it is told.
+/// The places of all surfaces, by their number, and those of their images, by numbers that follow. Of surfaces that
+/// move, only those near spheres have their present places.
 #[derive(Debug, Clone, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Places {

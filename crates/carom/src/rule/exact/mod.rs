@@ -29,6 +29,7 @@ mod frame_work;
 mod impact;
 mod look_along;
 mod moving;
+mod near_surfaces;
 mod neighbours;
 mod pair_times;
 mod persistent;
