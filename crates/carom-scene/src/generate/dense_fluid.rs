@@ -20,12 +20,12 @@ const SPARE: f64 = 1e-9;
 /// Reduced pressure at which spheres count as jammed.
 const JAMMED: f64 = 1e5;
 
-/// Where a fluid is.
+/// Box that a fluid fills.
 struct Place {
     enclosure: Enclosure,
     /// Edges \[m\].
     size: DVec3,
-    /// \[m\]
+    /// Centre of the box \[m\].
     middle: DVec3,
 }
 

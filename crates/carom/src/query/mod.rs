@@ -159,7 +159,7 @@ impl<'a> Queries<'a> {
         Self { sorted: sorted.then(tree), now, period }
     }
 
-    /// A tree with all bodies that are within a region, and maybe others.
+    /// Returns a tree of all bodies within a region, and possibly others.
     fn bodies_near(&self, region: &Bounds) -> Cow<'_, BodyTree> {
         let of_query = || {
             let (bounded, unbounded) = images::bodies(&self.now, self.period, Some(region));

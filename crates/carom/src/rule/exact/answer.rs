@@ -1,7 +1,8 @@
 //! Answers to events: what happens to the spheres of an event, and what it may cost.
 
+use super::changed::Changed;
 use super::context::StepContext;
-use super::events::{Event, EventTarget, PackedTarget, UpcomingEvent};
+use super::events::{Event, EventTarget, NextEvents, PackedTarget, UpcomingEvent};
 use super::frame_work::UNITS_PER_FLIGHT;
 use super::persistent::held_forces;
 use super::timeline::Timeline;
@@ -51,7 +52,9 @@ fn answer_and_check(
     let is_counted = context.has_zones()
         && event.target != PackedTarget::STEP_END
         && !involved.iter().flatten().any(has_moved);
-    answer(timeline, context, slot, event)?;
+    let changed = answer(timeline, context, slot, event);
+    predict::changed(timeline, context, changed, event.time);
+    check_room_to_grow(timeline, context, &involved, event.time)?;
     predict::restart_companions(timeline, context, event.time);
     check_forces(timeline, context, event.time)?;
     check_work(timeline, context, slot, event.time)?;
@@ -63,35 +66,56 @@ fn answer_and_check(
     Ok(())
 }
 
-/// Answers an event of the sphere at `slot` by its target.
+/// Answers an event of the sphere at `slot` by its target. Returns the spheres to be predicted.
 fn answer(
     timeline: &mut Timeline,
     context: &mut StepContext,
     slot: u32,
     Event { time, target, .. }: Event,
-) -> Result<(), Unfinished> {
+) -> Changed {
     let target = target.unpacked();
     if !matches!(target, EventTarget::Restart | EventTarget::StepEnd) {
         held_forces::prepare(timeline, context.system, time);
     }
     match target {
-        EventTarget::Restart => predict::restart(timeline, context, slot, time),
-        EventTarget::StepEnd => predict::next_step(timeline, context, slot, time),
+        EventTarget::Restart => restart(timeline, slot, time),
+        EventTarget::StepEnd => next_step(timeline, context, slot, time),
         EventTarget::Cluster => impact::answer_single(timeline, context, slot, None, time),
         EventTarget::Sphere(other) if timeline.flights.growth.is_some() => {
-            impact::answer_growing_pair(timeline, context, [slot, other], time);
-            check_room_to_grow(timeline, context, &[slot, other], time)?;
+            impact::answer_growing_pair(timeline, context, [slot, other], time)
         }
         EventTarget::Surface(surface) if timeline.flights.growth.is_some() => {
-            impact::answer_growing_single(timeline, context, slot, surface, time);
-            check_room_to_grow(timeline, context, &[slot], time)?;
+            impact::answer_growing_single(timeline, context, slot, surface, time)
         }
         EventTarget::Sphere(other) => impact::answer_pair(timeline, context, [slot, other], time),
         EventTarget::Surface(surface) => {
-            impact::answer_single(timeline, context, slot, Some(surface), time);
+            impact::answer_single(timeline, context, slot, Some(surface), time)
         }
     }
-    Ok(())
+}
+
+/// Restarts the flight of a sphere at `time` \[s\].
+fn restart(timeline: &mut Timeline, slot: u32, time: f64) -> Changed {
+    let (position, velocity) = timeline.flights.state_of(slot, time);
+    timeline.flights.count_contact_work(slot, time);
+    timeline.begin_flight(slot, position, velocity, time);
+    Changed::sphere(slot)
+}
+
+/// Begins the next step of the curve of a sphere, where one ends at `time` \[s\].
+///
+/// Where a companion that flies on no curve ends its flight now, its event restarts this sphere, whichever comes first
+/// in the order of spheres. Until then nothing is known of the companion's next flight.
+fn next_step(timeline: &mut Timeline, context: &mut StepContext, slot: u32, time: f64) -> Changed {
+    if timeline.companion_ends(slot, time) {
+        let later = Event::at(time.next_up(), PackedTarget::STEP_END);
+        timeline.reschedule(slot, NextEvents::only(later));
+        return Changed::NONE;
+    }
+    timeline.go_on(slot, time);
+    timeline.find_curve(context.system, slot);
+    timeline.find_clearance(context.system, slot);
+    Changed::sphere(slot)
 }
 
 /// Returns an error if a force was not finite, or friction has no closed form and nothing is stepped.
@@ -111,10 +135,14 @@ fn check_forces(timeline: &Timeline, context: &StepContext, time: f64) -> Result
 fn check_room_to_grow(
     timeline: &Timeline,
     context: &StepContext,
-    slots: &[u32],
+    slots: &[Option<u32>],
     time: f64,
 ) -> Result<(), Unfinished> {
-    let overheated = slots.iter().find(|&&slot| timeline.flights.is_overheated(slot));
+    if timeline.flights.growth.is_none() {
+        return Ok(());
+    }
+    let mut slots = slots.iter().flatten();
+    let overheated = slots.find(|&&slot| timeline.flights.is_overheated(slot));
     overheated.map_or(Ok(()), |&slot| {
         let sphere = context.id_of(timeline, slot);
         Err(Unfinished::NoRoomToGrow { sphere, time })
@@ -126,7 +154,7 @@ fn count_short_flight(timeline: &mut Timeline, context: &mut StepContext, slot: 
     let index = timeline.flights.index_of[slot as usize];
     let is_spent = timeline.budget.is_spent_by_flight(context.parameters, index, time);
     if is_spent && !timeline.flights.is_stepped(slot) {
-        stepped::make_zone_about(timeline, context, slot, time);
+        make_zone_about(timeline, context, slot, time);
     }
 }
 
@@ -147,11 +175,17 @@ fn check_work(
         // A long frame may have as many in each of its parts.
         let parts = (time - context.start) / (TICKS_OF_A_FRAME * context.parameters.zone_tick);
         if work as f64 > f64::from(limit) * parts.ceil().max(1.0) {
-            stepped::make_zone_about(timeline, context, slot, time);
+            make_zone_about(timeline, context, slot, time);
         }
         return Ok(());
     }
     let sphere = context.id_of(timeline, slot);
     let companions = timeline.flights.companions(slot);
     Err(Unfinished::TooManyImpacts { sphere, limit, companions, time })
+}
+
+/// Makes a zone of a sphere at `time` \[s\], and of what touches it.
+fn make_zone_about(timeline: &mut Timeline, context: &mut StepContext, slot: u32, time: f64) {
+    let changed = stepped::make_zone_about(timeline, context, slot, time);
+    predict::changed(timeline, context, changed, time);
 }

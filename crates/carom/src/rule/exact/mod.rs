@@ -15,6 +15,7 @@
 
 mod answer;
 mod budget;
+mod changed;
 mod clearance;
 mod contact_scale;
 mod contacts;

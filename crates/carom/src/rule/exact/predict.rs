@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::changed::{Changed, Unresolved};
 use super::contacts::{MOST_PLANES, Plane};
 use super::context::StepContext;
 use super::events::{Event, EventTarget, NextEvents, PackedTarget, Prediction};
@@ -16,15 +17,54 @@ use crate::norm::Norm;
 use crate::surface::{Form, LastCarriage};
 use crate::system::System;
 
-/// Two bodies that touch, and for how long their meetings need no answer.
-///
-/// Two bodies that hardly touch may meet, by the rounding of one formula, and have nothing to
-/// answer, by that of another.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Unresolved {
-    pub bodies: Bodies,
-    /// On the world's clock \[s\].
-    pub until: f64,
+/// Predicts what the spheres that an answer changed meet next, as of `now` \[s\], and enters it into the schedule.
+#[inline]
+pub(super) fn changed(
+    timeline: &mut Timeline,
+    context: &mut StepContext,
+    changed: Changed,
+    now: f64,
+) {
+    match changed {
+        Changed::Pair { slots, are_searched } => {
+            for one in 0..2 {
+                if are_searched[one] {
+                    enter_found(timeline, context, slots[one], one, now);
+                } else {
+                    predict(timeline, context, slots[one], now);
+                }
+            }
+        }
+        Changed::Sphere { slot, unresolved } => {
+            predict(timeline, context, slot, now);
+            pass_over(timeline, context, slot, &unresolved, now);
+        }
+        Changed::Group { slots, unresolved } => {
+            slots.iter().for_each(|&slot| predict(timeline, context, slot, now));
+            slots.iter().for_each(|&slot| pass_over(timeline, context, slot, &unresolved, now));
+        }
+        Changed::Joined { slots } => {
+            for slot in slots {
+                predict(timeline, context, slot, now);
+                timeline.note_near_zone(slot, &context.searches[0].near);
+            }
+        }
+    }
+}
+
+/// Enters the next events of one of two spheres whose neighbours an answer has searched, as of `now` \[s\].
+#[inline(always)]
+fn enter_found(
+    timeline: &mut Timeline,
+    context: &mut StepContext,
+    slot: u32,
+    one: usize,
+    now: f64,
+) {
+    context.counts.predictions += 1;
+    let search = &context.searches[one];
+    let prediction = prediction_from_found(timeline, context.system, slot, search, now);
+    timeline.enter(slot, prediction);
 }
 
 /// Predicts what a sphere meets next as of `now` \[s\], and enters it into the schedule.
@@ -94,7 +134,7 @@ pub(super) fn prediction(
 
 /// The next events of a sphere among the neighbours that a pair search has found.
 #[inline(always)]
-pub(super) fn prediction_from_found(
+fn prediction_from_found(
     timeline: &Timeline,
     system: &System,
     slot: u32,
@@ -154,7 +194,7 @@ fn prediction_after(
 
 /// Removes those meetings from the next events of a sphere that need no answer `now` \[s\]. Another flight begins after
 /// them; earlier events stay as predicted.
-pub(super) fn pass_over(
+fn pass_over(
     timeline: &mut Timeline,
     context: &mut StepContext,
     slot: u32,
@@ -224,29 +264,6 @@ fn first_but(
     let events = search.first_meetings(timeline, slot);
     let prediction = prediction_after(timeline, context.system, slot, events, &passed, now);
     Some(prediction.events.first)
-}
-
-/// Restarts the flight of a sphere at `now` \[s\].
-pub(super) fn restart(timeline: &mut Timeline, context: &mut StepContext, slot: u32, now: f64) {
-    let (position, velocity) = timeline.flights.state_of(slot, now);
-    timeline.flights.count_contact_work(slot, now);
-    timeline.begin_flight(slot, position, velocity, now);
-    predict(timeline, context, slot, now);
-}
-
-/// Begins the next step of the curve of a sphere, where one ends `now` \[s\].
-///
-/// Where a companion that flies on no curve ends its flight now, its event restarts this sphere, whichever comes first
-/// in the order of spheres. Until then nothing is known of the companion's next flight.
-pub(super) fn next_step(timeline: &mut Timeline, context: &mut StepContext, slot: u32, now: f64) {
-    if timeline.companion_ends(slot, now) {
-        let later = Event::at(now.next_up(), PackedTarget::STEP_END);
-        return timeline.reschedule(slot, NextEvents::only(later));
-    }
-    timeline.go_on(slot, now);
-    timeline.find_curve(context.system, slot);
-    timeline.find_clearance(context.system, slot);
-    predict(timeline, context, slot, now);
 }
 
 /// Moves a sphere that leaves its neighbour region at `now` \[s\] to the next one, and searches for

@@ -40,7 +40,7 @@ impl CurveStep {
 }
 
 impl Curve {
-    /// A curve whose flight has not begun, with steps like those of this one.
+    /// Returns a curve that has not begun, with steps like those of this one.
     pub fn to_begin(&self) -> Self {
         let mut curve = self.clone();
         curve.end();

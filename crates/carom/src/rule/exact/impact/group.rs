@@ -14,13 +14,13 @@ use crate::norm::Norm;
 use crate::report::{BodyPair, Impact, ImpactGroup};
 use crate::respond;
 use crate::respond::TouchingContact;
+use crate::rule::exact::changed::{Changed, Unresolved};
 use crate::rule::exact::contact_scale::ContactScale;
 use crate::rule::exact::contacts::{self, Group, Member, Touch};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::flights::Support;
 use crate::rule::exact::frame_work::UNITS_PER_FLIGHT;
 use crate::rule::exact::persistent::{piece_end, solve};
-use crate::rule::exact::predict::{self, Unresolved};
 use crate::rule::exact::stepped;
 use crate::rule::exact::timeline::Timeline;
 use crate::rule::periodic;
@@ -36,14 +36,14 @@ const SAME_NORMAL: f64 = 1e-9;
 const JAMMED: f64 = 1e-6;
 
 /// Answers what happens at `time` \[s\] among the spheres at `seeds`, the surface they met, if any,
-/// and all that touch them.
+/// and all that touch them. Returns the spheres to be predicted.
 pub(super) fn answer(
     timeline: &mut Timeline,
     context: &mut StepContext,
     seeds: &[u32],
     surface: Option<u32>,
     time: f64,
-) {
+) -> Changed {
     let work_before = context.work.done();
     let recorded = [context.report.impacts.len(), context.report.groups.len()];
     let mut allowance = None;
@@ -94,24 +94,20 @@ pub(super) fn answer(
     begin_flights(timeline, &group, &struck, supports);
     // All flights before any prediction.
     group.members.iter().for_each(|member| timeline.find_curve(context.system, member.slot));
-    for member in &group.members {
-        predict::predict(timeline, context, member.slot, group.time);
-    }
     let slots = group.members.iter().map(|member| member.slot);
     timeline.work.charge(slots, spent / UNITS_PER_FLIGHT);
     // Bodies that touch and part, or still close by rounding, may be predicted to meet at once.
     let unresolved = unresolved(timeline, context, &group, &held, met(timeline, seeds, surface));
-    for member in &group.members {
-        predict::pass_over(timeline, context, member.slot, &unresolved, group.time);
-    }
+    Changed::Group { slots: group.members.iter().map(|member| member.slot).collect(), unresolved }
 }
 
 /// Joins a group without an answer to a zone; without zones, the step fails.
-fn refuse(timeline: &mut Timeline, context: &mut StepContext, group: &Group) {
+fn refuse(timeline: &mut Timeline, context: &mut StepContext, group: &Group) -> Changed {
     if context.has_zones() {
         return stepped::make_zone(timeline, context, group);
     }
     context.unanswered = Some(group.members[0].slot);
+    Changed::NONE
 }
 
 /// Whether contacts still close after the impacts that should open them.

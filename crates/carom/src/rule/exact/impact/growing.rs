@@ -8,8 +8,8 @@ use crate::detect::contact::Bodies;
 use crate::detect::{Separation, known_in_front};
 use crate::norm::Norm;
 use crate::report::{BodyPair, Impact, ImpactGroup};
+use crate::rule::exact::changed::Changed;
 use crate::rule::exact::context::StepContext;
-use crate::rule::exact::predict;
 use crate::rule::exact::timeline::Timeline;
 use crate::rule::periodic;
 
@@ -22,7 +22,7 @@ pub(crate) fn answer_growing_pair(
     context: &mut StepContext,
     slots: [u32; 2],
     time: f64,
-) {
+) -> Changed {
     let flights = &timeline.flights;
     let mut slots = slots;
     slots.sort_unstable_by_key(|&slot| flights.index_of[slot as usize]);
@@ -57,7 +57,7 @@ pub(crate) fn answer_growing_pair(
     for (slot, (place, velocity)) in slots.into_iter().zip([x1, x2].into_iter().zip(velocities)) {
         begin_flight(timeline, slot, [place, velocity], impulse > 0.0, time);
     }
-    slots.iter().for_each(|&slot| predict::predict(timeline, context, slot, time));
+    Changed::Pair { slots, are_searched: [false; 2] }
 }
 
 /// Answers the impact of a sphere on a surface at rest at `time` \[s\].
@@ -67,7 +67,7 @@ pub(crate) fn answer_growing_single(
     slot: u32,
     surface: u32,
     time: f64,
-) {
+) -> Changed {
     let flights = &timeline.flights;
     let species = flights.species_of(slot);
     let (mass, growth_speed) = (species.mass, species.growth_speed);
@@ -98,7 +98,7 @@ pub(crate) fn answer_growing_single(
         }
     }
     begin_flight(timeline, slot, [place, velocity], velocity != before, time);
-    predict::predict(timeline, context, slot, time);
+    Changed::sphere(slot)
 }
 
 /// The separation of a sphere at a place \[m\] from the nearest image of a surface.

@@ -11,11 +11,11 @@ use crate::detect::contact::Bodies;
 use crate::norm::Norm;
 use crate::report::{BodyPair, Impact};
 use crate::respond;
+use crate::rule::exact::changed::Changed;
 use crate::rule::exact::contacts::Member;
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::flights::Body;
 use crate::rule::exact::pair_times::NearTest;
-use crate::rule::exact::predict;
 use crate::rule::exact::stepped;
 use crate::rule::exact::timeline::Timeline;
 use crate::rule::periodic;
@@ -24,13 +24,14 @@ use crate::rule::periodic;
 /// value is generous: it only decides which way is taken to one result.
 pub(super) const NEARBY: f64 = 1e-6;
 
-/// Answers the impact of two spheres at `time` \[s\], and of whatever touches them there.
+/// Answers the impact of two spheres at `time` \[s\], and of whatever touches them there. Returns the spheres to be
+/// predicted.
 pub(crate) fn answer_pair(
     timeline: &mut Timeline,
     context: &mut StepContext,
     slots: [u32; 2],
     time: f64,
-) {
+) -> Changed {
     // In the order of ids, so that rounding does not depend on the memory.
     let [one, other] = slots;
     let is_ordered =
@@ -70,19 +71,9 @@ pub(crate) fn answer_pair(
     }
     impact.record(timeline, context, slots);
     slots.iter().for_each(|&slot| timeline.note_flight(slot));
-    let is_wrapped = slots.map(|slot| timeline.wrap(slot));
-    for (one, slot) in slots.into_iter().enumerate() {
-        if is_wrapped[one] {
-            // In another place distances round differently.
-            predict::predict(timeline, context, slot, time);
-        } else {
-            context.counts.predictions += 1;
-            let search = &context.searches[one];
-            let prediction =
-                predict::prediction_from_found(timeline, context.system, slot, search, time);
-            timeline.enter(slot, prediction);
-        }
-    }
+    // In another place distances round differently.
+    let are_searched = slots.map(|slot| !timeline.wrap(slot));
+    Changed::Pair { slots, are_searched }
 }
 
 /// Whether one of two spheres, whose flights begin at `time` \[s\], touches nothing but the other. Searches its

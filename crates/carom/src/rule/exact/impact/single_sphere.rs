@@ -14,23 +14,24 @@ use crate::detect::contact::Bodies;
 use crate::norm::Norm;
 use crate::report::{BodyPair, Impact, ImpactGroup};
 use crate::respond;
+use crate::rule::exact::changed::{Changed, Unresolved};
 use crate::rule::exact::contacts::Member;
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::flights::Support;
 use crate::rule::exact::persistent::REST;
 use crate::rule::exact::persistent::planar::{self, PlanarSupport};
-use crate::rule::exact::predict::{self, Unresolved};
 use crate::rule::exact::timeline::Timeline;
 
 /// Answers an event of a sphere at `time` \[s\]: an impact with `surface`, or, without one, new forces of its
-/// persistent contacts. The answer equals that of the sphere as a group, up to rounding.
+/// persistent contacts. The answer equals that of the sphere as a group, up to rounding. Returns the spheres to be
+/// predicted.
 pub(crate) fn answer_single(
     timeline: &mut Timeline,
     context: &mut StepContext,
     slot: u32,
     surface: Option<u32>,
     time: f64,
-) {
+) -> Changed {
     let Some(SingleSphere { mut member, touched }) =
         single_sphere(timeline, context, slot, surface, time)
     else {
@@ -67,20 +68,21 @@ pub(crate) fn answer_single(
         let support = Support { members, contacts, renewal: time + valid_for, normals: None };
         timeline.set_supported(support, time);
     }
-    predict::predict(timeline, context, slot, time);
     let is_answered = |timeline: &Timeline, surface: u32| {
         touched.is_struck(&struck, surface) || timeline.flights.is_held_by(slot, surface)
     };
-    let Some(met) = surface.filter(|&surface| !is_answered(timeline, surface)) else { return };
+    let Some(met) = surface.filter(|&surface| !is_answered(timeline, surface)) else {
+        return Changed::sphere(slot);
+    };
     // Other contacts may close by rounding, too: passed over one at a time, they would alternate without end.
     let contacts = touched.contacts(member.position).into_iter().flatten();
     let others = contacts.map(|contact| contact.surface).filter(|&it| !is_answered(timeline, it));
-    let unresolved: Vec<Unresolved> = others
+    let unresolved = others
         .chain([met])
         .map(|surface| Bodies::Surface { sphere, surface })
         .map(|bodies| Unresolved { bodies, until: time + contact_duration })
         .collect();
-    predict::pass_over(timeline, context, slot, &unresolved, time);
+    Changed::Sphere { slot, unresolved }
 }
 
 /// Applies the impulses of the surfaces on which the sphere closes, by Newton's law, and records them. All impact

@@ -117,7 +117,7 @@ impl PairSearch {
         })
     }
 
-    /// Whether any neighbour is that near to a sphere.
+    /// Returns whether any neighbour is within this distance of a sphere.
     pub fn is_near_any(
         &mut self,
         timeline: &Timeline,

@@ -7,17 +7,21 @@ use crate::force_work::ForceWork;
 use crate::forces::{self, SphereState};
 use crate::norm::Norm;
 use crate::rule::contact::{self, Passage};
+use crate::rule::exact::changed::Changed;
 use crate::rule::exact::contacts::{self, Group};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::flights::Species;
 use crate::rule::exact::persistent::held_forces;
-use crate::rule::exact::predict;
 use crate::rule::exact::timeline::Timeline;
 
 /// Makes a zone of a group with the velocities after its impacts. Until the next tick the spheres move together
 /// with their mean velocity, up to surfaces in the way; then their own velocities count. A single sphere moves
 /// under its forces.
-pub(crate) fn make_zone(timeline: &mut Timeline, context: &mut StepContext, group: &Group) {
+pub(crate) fn make_zone(
+    timeline: &mut Timeline,
+    context: &mut StepContext,
+    group: &Group,
+) -> Changed {
     let common = match group.members[..] {
         [_] => None,
         _ => Some(common_velocity(timeline, context, group)),
@@ -28,8 +32,7 @@ pub(crate) fn make_zone(timeline: &mut Timeline, context: &mut StepContext, grou
         join(timeline, context, member.slot, (state, common), group.time);
         timeline.flights.rotate(member.slot, [member.angular_velocity, DVec3::ZERO], group.time);
     }
-    let slots = group.members.iter().map(|member| member.slot);
-    predict_joined(timeline, context, slots, group.time);
+    Changed::Joined { slots: group.members.iter().map(|member| member.slot).collect() }
 }
 
 /// The mean velocity of a group \[m/s\], without the part that would move its spheres into surfaces.
@@ -48,14 +51,19 @@ pub(crate) fn make_zone_about(
     context: &mut StepContext,
     slot: u32,
     time: f64,
-) {
+) -> Changed {
     let group = contacts::gather(timeline, context, &[slot], None, &[], time);
-    make_zone(timeline, context, &group);
+    make_zone(timeline, context, &group)
 }
 
 /// Answers the meeting of a sphere in a zone with one outside, at `time` \[s\]: the latter joins the zone with its
 /// persistent contacts, and moves with the other until the next tick.
-pub(crate) fn meet(timeline: &mut Timeline, context: &mut StepContext, slots: [u32; 2], time: f64) {
+pub(crate) fn meet(
+    timeline: &mut Timeline,
+    context: &mut StepContext,
+    slots: [u32; 2],
+    time: f64,
+) -> Changed {
     let [comes, stepped] =
         if timeline.flights.is_stepped(slots[0]) { [slots[1], slots[0]] } else { slots };
     let velocity = timeline.flights.bodies[stepped as usize].velocity;
@@ -72,7 +80,7 @@ pub(crate) fn meet(timeline: &mut Timeline, context: &mut StepContext, slots: [u
         };
         join(timeline, context, slot, (state.into(), common), time);
     }
-    predict_joined(timeline, context, coming.into_iter(), time);
+    Changed::Joined { slots: coming }
 }
 
 /// Whether a spring acts on a sphere. Within a tick such a sphere moves by itself, since a stiff spring would do
@@ -205,17 +213,4 @@ fn join(
     timeline.note_flight(slot);
     timeline.note_for_companions(slot);
     context.report.zone_account.joined += 1;
-}
-
-/// Predicts the next events of spheres that joined a zone, and notes the other spheres near them.
-fn predict_joined(
-    timeline: &mut Timeline,
-    context: &mut StepContext,
-    slots: impl Iterator<Item = u32>,
-    time: f64,
-) {
-    for slot in slots {
-        predict::predict(timeline, context, slot, time);
-        timeline.note_near_zone(slot, &context.searches[0].near);
-    }
 }
