@@ -85,7 +85,7 @@ mod every_scene_runs_under_every_rule {
 
     /// Runs every scene for twenty seconds; the heaps under `bisect` for ten times [`IMPACTS`] impacts.
     fn holds_for_twenty_seconds(rule: &str) {
-        let is_heap = |file| rule == "bisect" && HEAPS_UNDER_BISECT.contains(&file);
+        let is_heap = |file: &str| rule == "bisect" && HEAPS_UNDER_BISECT.contains(&file);
         runs(rule, 20.0, |file| if is_heap(file) { 10 * IMPACTS } else { usize::MAX });
     }
 
