@@ -8,7 +8,7 @@ use crate::failure::Failure;
 /// Measures the stress in a volume.
 pub struct StressGauge {
     meter: StressMeter,
-    /// \[m³\]
+    /// Volume \[m³\].
     volume: Option<f64>,
 }
 

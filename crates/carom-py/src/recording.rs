@@ -26,7 +26,7 @@ pub struct Selection {
 /// Rows of states, one for each recorded frame.
 #[derive(Debug)]
 pub struct Recording {
-    /// \[s\]
+    /// Times \[s\].
     pub times: Vec<f64>,
     /// Recorded quantities of each sphere of each row.
     motion: Vec<(Quantity, Numbers)>,
@@ -49,9 +49,9 @@ pub struct Recording {
 pub struct States {
     /// Ids, ascending.
     pub ids: Vec<SphereId>,
-    /// \[m\]
+    /// Radii \[m\].
     pub radii: Vec<f64>,
-    /// \[kg\]
+    /// Masses \[kg\].
     pub masses: Vec<f64>,
     /// Quantities that change from row to row; NaN for a sphere that does not exist in a row.
     pub motion: Vec<(Quantity, Numbers)>,

@@ -18,7 +18,7 @@ pub struct Snapshot {
     pub(crate) world: carom::Snapshot,
     pub(crate) described: Arc<Scene>,
     pub(crate) palette: Arc<Palette>,
-    /// \[s\]
+    /// Time \[s\].
     pub(crate) time: f64,
 }
 

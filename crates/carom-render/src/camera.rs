@@ -9,7 +9,7 @@ use crate::bounds::Bounds;
 /// A camera. It looks along its local -z, its local +y is up in the picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {
-    /// \[m\]
+    /// Position \[m\].
     pub position: DVec3,
     /// Unit quaternion from the camera's frame to the world.
     pub rotation: DQuat,

@@ -52,9 +52,9 @@ pub enum Pattern {
 /// A sphere.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ball {
-    /// \[m\]
+    /// Centre \[m\].
     pub center: DVec3,
-    /// \[m\]
+    /// Radius \[m\].
     pub radius: f64,
     /// sRGB.
     pub color: Color,

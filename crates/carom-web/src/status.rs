@@ -41,7 +41,7 @@ struct Watching {
     /// Origin of the scene: `"built-in"`, a file's name, or another text.
     source: String,
     rule: String,
-    /// \[s\]
+    /// Time \[s\].
     time: f64,
     frame: u64,
     playing: bool,

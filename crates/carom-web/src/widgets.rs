@@ -33,9 +33,9 @@ pub struct Widget {
     x: f64,
     /// Upper edge \[CSS px\].
     y: f64,
-    /// \[CSS px\]
+    /// Width \[CSS px\].
     width: f64,
-    /// \[CSS px\]
+    /// Height \[CSS px\].
     height: f64,
 }
 

@@ -24,7 +24,7 @@ pub(crate) enum Profile {
         from: DVec2,
         /// Unit vector.
         direction: DVec2,
-        /// \[m\]
+        /// Length \[m\].
         length: f64,
         /// The surface is this far from the line \[m\].
         thickness: f64,
@@ -33,7 +33,7 @@ pub(crate) enum Profile {
     Arc {
         /// On the axis, unless the circle is a whole one.
         center: DVec2,
-        /// \[m\]
+        /// Radius \[m\].
         radius: f64,
         /// Unit vectors from the centre to the ends, the second one counterclockwise from the first; equal for a
         /// whole circle.

@@ -26,7 +26,7 @@ pub(crate) struct Motion {
 pub(crate) struct Spin {
     /// From the coordinate system of each sphere to the world's, of length 1.
     pub orientation: Vec<DQuat>,
-    /// \[rad/s\]
+    /// Angular velocities \[rad/s\].
     pub angular_velocity: Vec<DVec3>,
 }
 
@@ -109,9 +109,9 @@ impl Spin {
 pub(crate) struct Properties {
     /// Ascending.
     pub id: Vec<SphereId>,
-    /// \[m\]
+    /// Radii \[m\].
     pub radius: Vec<f64>,
-    /// \[kg\]
+    /// Masses \[kg\].
     pub mass: Vec<f64>,
     pub restitution: Vec<f64>,
     /// Empty while all spheres leave friction to the other body.

@@ -78,9 +78,9 @@ impl PolynomialAcceleration {
     pub fn gained_until(&self, t: f64) -> (DVec3, DVec3) {
         let s = t / self.length;
         let (mut way, mut change) = (DVec3::ZERO, DVec3::ZERO);
-        for (&c, k) in self.coefficients.iter().zip(ORDERS).rev() {
-            way = way * s + c / ((k + 1.0) * (k + 2.0));
-            change = change * s + c / (k + 1.0);
+        for (&c, [of_way, of_change]) in self.coefficients.iter().zip(&INTEGRALS).rev() {
+            way = way * s + c * *of_way;
+            change = change * s + c * *of_change;
         }
         let [place, velocity] = self.carried;
         (place + (t * velocity + t * t * way), velocity + t * change)
@@ -95,14 +95,14 @@ impl PolynomialAcceleration {
 
     /// Upper bounds of the way that it adds, by its time squared \[m/s²\].
     fn most_way(&self) -> DVec3 {
-        let terms = self.coefficients.iter().zip(ORDERS);
-        terms.map(|(c, k)| c.abs() / ((k + 1.0) * (k + 2.0))).sum()
+        let terms = self.coefficients.iter().zip(INTEGRALS);
+        terms.map(|(c, [of_way, _])| c.abs() * of_way).sum()
     }
 
     /// Largest distance in its time from the parabola of its first acceleration \[m\].
     pub fn beyond_parabola(&self) -> f64 {
-        let terms = self.coefficients.iter().zip(WAYS).skip(1);
-        let way: f64 = terms.map(|(c, weight)| c.norm() * weight).sum();
+        let terms = self.coefficients.iter().zip(INTEGRALS).skip(1);
+        let way: f64 = terms.map(|(c, [of_way, _])| c.norm() * of_way).sum();
         self.length * self.length * way
     }
 
@@ -135,15 +135,16 @@ impl PolynomialAcceleration {
     }
 }
 
-/// `1/((k + 1)(k + 2))`, rounded.
-const WAYS: [f64; TERMS] = {
-    let mut weights = [0.0; TERMS];
+/// `1/((k + 1)(k + 2))` and `1/(k + 1)`, by k.
+const INTEGRALS: [[f64; 2]; TERMS] = {
+    let mut table = [[0.0; 2]; TERMS];
     let mut k = 0;
     while k < TERMS {
-        weights[k] = 1.0 / ((ORDERS[k] + 1.0) * (ORDERS[k] + 2.0));
+        let order = ORDERS[k];
+        table[k] = [1.0 / ((order + 1.0) * (order + 2.0)), 1.0 / (order + 1.0)];
         k += 1;
     }
-    weights
+    table
 };
 
 /// 0, 1, ..., 7

@@ -10,7 +10,7 @@ use crate::pose::Pose;
 pub(crate) struct SurfaceMotion {
     /// Now \[m\].
     pub origin: DVec3,
-    /// \[m/s\]
+    /// Velocity \[m/s\].
     pub velocity: DVec3,
     /// Along the axis of rotation \[rad/s\].
     pub angular_velocity: DVec3,
@@ -24,7 +24,7 @@ pub(crate) struct SurfaceMotion {
 pub(crate) struct Drive {
     /// Of the origin \[m/s²\].
     pub acceleration: DVec3,
-    /// \[rad/s²\]
+    /// Angular acceleration \[rad/s²\].
     pub angular_acceleration: DVec3,
     /// A bound of the rate at which it repeats or turns \[rad/s\].
     pub rate: f64,

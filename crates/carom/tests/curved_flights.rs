@@ -94,6 +94,48 @@ fn frames_and_force_ticks_do_not_change_a_bit() {
     }
 }
 
+/// Centres and velocities at each thirtieth of a second of eight, in frames that are parts of that.
+fn states_by_thirtieths(frame: f64, parts: u32) -> Vec<(Vec<DVec3>, Vec<DVec3>)> {
+    let mut world = orbit(Exact::default(), 1.0);
+    let state = |_| {
+        for _ in 0..parts {
+            world.step(frame).unwrap();
+        }
+        (world.spheres().positions().to_vec(), world.spheres().velocities().to_vec())
+    };
+    (0..240).map(state).collect()
+}
+
+#[test]
+fn frames_of_a_thirtieth_and_of_its_halves_come_to_the_same_bits() {
+    // Halves of a frame have its digits, and the clock sums without rounding.
+    let expected = states_by_thirtieths(1.0 / 30.0, 1);
+    for parts in [2, 4, 8] {
+        let frame = 1.0 / (30.0 * f64::from(parts));
+        assert_eq!(states_by_thirtieths(frame, parts), expected, "{frame}");
+    }
+}
+
+#[test]
+fn frames_whose_sums_round_differ_by_the_way_of_that_time() {
+    let expected = states_by_thirtieths(1.0 / 30.0, 1);
+    for parts in [3, 7] {
+        let found = states_by_thirtieths(1.0 / (30.0 * f64::from(parts)), parts);
+        for (number, (found, expected)) in found.iter().zip(&expected).enumerate() {
+            // Each of the frames before is off by half a rounding of itself, and so is the place where each ends.
+            let late = f64::EPSILON * (number + 1) as f64 / 30.0;
+            for (index, (place, other)) in found.0.iter().zip(&expected.0).enumerate() {
+                let speed = expected.1[index].length();
+                let off = (*place - *other).length();
+                assert!(
+                    off <= speed * late + 4.0 * f64::EPSILON * place.length(),
+                    "{number}: {off}"
+                );
+            }
+        }
+    }
+}
+
 #[test]
 fn quadratic_drag_lets_a_ball_fall_by_the_hyperbolic_tangent() {
     let mut world = exact();

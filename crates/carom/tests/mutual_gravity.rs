@@ -169,7 +169,7 @@ fn frames_do_not_change_a_bit() {
 /// A force between every two spheres: `-k r - c v`, with the offset and the velocity of one as seen from the other.
 #[derive(Debug)]
 struct Bonds {
-    /// \[N/m\]
+    /// Stiffness \[N/m\].
     stiffness: f64,
     /// \[kg/s\]
     damping: f64,

@@ -4,7 +4,8 @@
 mod common;
 
 use carom::{
-    Collider, DQuat, DVec3, Emitter, Exact, Gravity, Pose, Settings, Shape, Sphere, World, Zones,
+    Collider, DQuat, DVec3, Emitter, Exact, Gravity, Pose, Settings, Shape, Sphere, Spring, World,
+    Zones,
 };
 use common::{G, Numbers, vec};
 
@@ -264,5 +265,91 @@ fn a_heap_stands_while_its_frames_become_longer_and_shorter() {
             let overlap = deepest_overlap(&world);
             assert!(overlap < 0.02, "{frame}: {overlap}");
         }
+    }
+}
+
+/// A column of six balls of which a zone is soon made, over a floor.
+fn column() -> World {
+    let exact = Exact::default().with_max_impacts(50);
+    let mut world = World::new(Settings::default().with_rule(exact)).unwrap();
+    world.add_force(Gravity::new(-G * DVec3::Y)).unwrap();
+    let floor = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO)).with_restitution(0.0);
+    world.add_collider(floor).unwrap();
+    for number in 0..6 {
+        let place = vec(1e-3 * f64::from(number), 0.5 + f64::from(number), 0.0);
+        world.add_sphere(ball(place, 0.5)).unwrap();
+    }
+    world
+}
+
+/// Checks that a world with springs gains no energy in a number of frames, in which a zone is made.
+fn assert_gains_nothing(mut world: World, frames: u32, what: &str) {
+    let start = world.total_energy();
+    let mut stepped = 0;
+    for _ in 0..frames {
+        stepped += world.step(FRAME).unwrap().zone_account.spheres;
+        // Under the leapfrog scheme the energy of a spring swings by (w h)²/4, and w h is at most a half.
+        let energy = world.total_energy();
+        assert!(energy <= start * (1.0 + 1.0 / 16.0), "{what}: {energy} J of {start} J");
+    }
+    assert!(stepped > 0, "{what}");
+}
+
+#[test]
+fn a_stiff_spring_to_a_point_gains_no_energy_in_a_zone() {
+    for stiffness in [1e3, 3e5, 1.2e6, 7e6, 1e8, 1e9] {
+        for place in [0, 5] {
+            let mut world = column();
+            let sphere = world.spheres().ids()[place];
+            let anchor = vec(0.3, 0.6 + place as f64, 8.0);
+            let spring = Spring::to_point(sphere, anchor, 8.0).with_stiffness(stiffness);
+            world.add_spring(spring).unwrap();
+            let frames = if stiffness > 1e8 { 5 } else { 20 };
+            assert_gains_nothing(world, frames, &format!("{place}, {stiffness}"));
+        }
+    }
+}
+
+#[test]
+fn stiff_springs_and_threads_out_of_a_zone_gain_no_energy() {
+    for stiffness in [1e3, 1.2e6, 5e6, 1e8, 1e9] {
+        for only_pulls in [false, true] {
+            let mut world = column();
+            let inside = world.spheres().ids()[2];
+            let outside = world.add_sphere(ball(vec(3.0, 6.0, 0.0), 0.5)).unwrap();
+            let spring = Spring::between(inside, outside, 2.5).with_stiffness(stiffness);
+            world.add_spring(spring.with_only_pulls(only_pulls)).unwrap();
+            let frames = if stiffness > 1e8 { 10 } else { 40 };
+            assert_gains_nothing(world, frames, &format!("{only_pulls}, {stiffness}"));
+        }
+    }
+}
+
+#[test]
+fn stiff_springs_between_balls_that_join_and_leave_a_zone_gain_no_energy() {
+    for stiffness in [3e5, 2e6, 5e6] {
+        let mut world = column();
+        let balls = world.spheres().ids().to_vec();
+        for (number, two) in balls.windows(2).enumerate() {
+            let spring = Spring::between(two[0], two[1], 1.001).with_stiffness(stiffness);
+            world.add_spring(spring.with_only_pulls(number % 2 == 0)).unwrap();
+        }
+        assert_gains_nothing(world, 40, &stiffness.to_string());
+    }
+}
+
+#[test]
+fn springs_too_stiff_for_the_ticks_of_zones_are_refused() {
+    let tick_of = |zones: Zones| Exact::default().with_zone_tick(4.0).with_zones(zones);
+    for (zones, is_refused) in [(Zones::Automatic, true), (Zones::Never, false)] {
+        let mut world = World::new(Settings::default().with_rule(tick_of(zones))).unwrap();
+        let ball = world.add_sphere(ball(DVec3::X, 0.5).with_mass(1.0)).unwrap();
+        // A rate of 1e4 /s: force ticks of 1/240 s follow it, zone ticks of 4 s do not.
+        let spring = Spring::to_point(ball, DVec3::ZERO, 0.9).with_stiffness(1e8);
+        world.add_spring(spring).unwrap();
+        // A frame of 1 s holds no more than a quarter of such a tick.
+        let told = world.step(1.0).err().map(|error| error.to_string());
+        let is_told = told.as_ref().is_some_and(|it| it.starts_with("step: `stiffness` must be"));
+        assert_eq!((is_told, told.is_some()), (is_refused, is_refused), "{zones:?}: {told:?}");
     }
 }

@@ -321,7 +321,7 @@ impl Rolled {
 /// State of a draw shot at one of its events: two balls on a cloth.
 struct PooltoolEvent {
     name: &'static str,
-    /// \[s\]
+    /// Time \[s\].
     time: f64,
     /// Positions on the cloth \[m\] and velocities \[m/s\] of the cue ball and the object ball.
     state: [[[f64; 2]; 2]; 2],

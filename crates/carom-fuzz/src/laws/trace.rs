@@ -13,7 +13,7 @@ pub struct Trace {
 /// A world at the end of a frame.
 #[derive(Debug, Clone, Default)]
 pub struct Frame {
-    /// \[s\]
+    /// Time \[s\].
     pub time: f64,
     /// By id, ascending.
     pub bodies: Vec<Body>,

@@ -10,11 +10,11 @@ use super::value::{Field, number, vector};
 /// Properties of a ball that the user throws into the scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Throw {
-    /// \[m\]
+    /// Radius \[m\].
     pub radius: f64,
-    /// \[kg\]
+    /// Mass \[kg\].
     pub mass: f64,
-    /// \[m/s\]
+    /// Speed \[m/s\].
     pub speed: f64,
     /// Coefficient of restitution.
     pub restitution: f64,

@@ -47,7 +47,7 @@ pub(super) fn sphere_half_space(
 struct Height {
     /// At time 0 \[m\], as the next two.
     distance: f64,
-    /// \[m/s\]
+    /// Speed \[m/s\].
     speed: f64,
     /// By everything but drag \[m/s²\].
     acceleration: f64,

@@ -24,7 +24,7 @@ pub(super) struct Feature<'a> {
     pub form: &'a Form,
     /// From where paths count \[m\].
     pub origin: DVec3,
-    /// \[m\]
+    /// Radius \[m\].
     pub radius: f64,
     /// Of the numbers that paths and feature are given by.
     pub size: Magnitudes,

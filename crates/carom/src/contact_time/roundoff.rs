@@ -21,11 +21,11 @@ pub(super) const ACCELERATION_ROUNDOFF: f64 = 16.0 * f64::EPSILON;
 /// Sizes of the terms that a distance and its derivatives are made of.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Magnitudes {
-    /// \[m\]
+    /// Length \[m\].
     pub length: f64,
-    /// \[m/s\]
+    /// Speed \[m/s\].
     pub speed: f64,
-    /// \[m/s²\]
+    /// Acceleration \[m/s²\].
     pub acceleration: f64,
 }
 
@@ -105,11 +105,11 @@ impl Gap {
 /// Bounds below which a distance and its derivatives count as zero: their rounding.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Zero {
-    /// \[m\]
+    /// Distance \[m\].
     pub distance: f64,
-    /// \[m/s\]
+    /// Speed \[m/s\].
     pub speed: f64,
-    /// \[m/s²\]
+    /// Acceleration \[m/s²\].
     pub acceleration: f64,
 }
 

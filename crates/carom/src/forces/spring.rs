@@ -181,7 +181,7 @@ struct Ends {
 
 /// The stretch of a spring.
 struct Stretch {
-    /// \[m\]
+    /// Length \[m\].
     length: f64,
     /// From the first end to the second.
     direction: DVec3,

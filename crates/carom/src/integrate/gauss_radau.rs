@@ -8,27 +8,16 @@ use std::ops::{Add, Div, Mul, Sub};
 
 use glam::DVec3;
 
+use super::radau_tables::{GAINS, GAINS_AT_END, Gains, NEWTON, RECIPROCALS};
 use crate::norm::Norm;
-use crate::polynomial_flight::{ORDERS, PolynomialAcceleration, TERMS};
+use crate::polynomial_flight::{PolynomialAcceleration, TERMS};
 
-/// Nodes of the Gauss-Radau quadrature of order 15 on `[0, 1]`.
-pub(crate) const NODES: [f64; TERMS] = [
-    0.0,
-    0.056_262_560_536_922_15,
-    0.180_240_691_736_892_36,
-    0.352_624_717_113_169_6,
-    0.547_153_626_330_555_4,
-    0.734_210_177_215_410_5,
-    0.885_320_946_839_095_8,
-    0.977_520_613_561_287_5,
-];
-
-/// Powers of s in `s (s - h_1) ... (s - h_(n-1))`, by n.
-const NEWTON: [[f64; TERMS]; TERMS] = newton_basis();
+pub(crate) use super::radau_tables::NODES;
 
 /// The highest term of the acceleration is at most this part of it. The path between the nodes is then good to
-/// rounding: their polynomial leaves less than 1e-4 of the term after the highest.
-const TOLERANCE: f64 = 1e-9;
+/// rounding: their polynomial leaves less than 1e-4 of the term after the highest, which is a tenth of that, and that
+/// moves the path by a hundredth.
+const TOLERANCE: f64 = 1e-8;
 /// A term is negligible if it changes a velocity by less than this part, since it moves the path by a
 /// ten-thousandth of that.
 const VELOCITY_PART: f64 = 1e-3;
@@ -238,7 +227,7 @@ impl<'a> Attempt<'a> {
         for _ in 0..MAX_ITERATIONS {
             let mut change = 0.0f64;
             for (node, &s) in NODES.iter().enumerate().skip(1) {
-                self.states_at(s, &mut positions, &mut velocities);
+                self.states_at(s, &GAINS[node], [&mut positions, &mut velocities]);
                 let time = self.start.time + s * self.length;
                 field.evaluate(time, &positions, &velocities, &mut values);
                 change = self.take_in(node, &values);
@@ -258,13 +247,13 @@ impl<'a> Attempt<'a> {
     }
 
     /// Where the spheres are at a part of the step, and how they move there.
-    fn states_at(&self, s: f64, positions: &mut [DVec3], velocities: &mut [DVec3]) {
+    fn states_at(&self, s: f64, gains: &Gains, [positions, velocities]: [&mut [DVec3]; 2]) {
         let t = s * self.length;
         for (sphere, powers) in self.powers.iter().enumerate() {
             let (mut way, mut change) = (DVec3::ZERO, DVec3::ZERO);
-            for (&c, k) in powers.iter().zip(ORDERS).rev() {
-                way = way * s + c / ((k + 1.0) * (k + 2.0));
-                change = change * s + c / (k + 1.0);
+            for (&c, [of_way, of_change]) in powers.iter().zip(gains).rev() {
+                way += c * *of_way;
+                change += c * *of_change;
             }
             let velocity = self.start.velocities[sphere];
             let [left, left_velocity] = self.start.carried[sphere];
@@ -274,27 +263,30 @@ impl<'a> Attempt<'a> {
         }
     }
 
-    /// Takes in the accelerations at a node; tells by what part that changes the term of this node.
+    /// Takes in the accelerations at a node; tells by what part that changes the term of this node, if it is the last.
     fn take_in(&mut self, node: usize, values: &Values) -> f64 {
+        let is_last = node == TERMS - 1;
         let mut most = 0.0f64;
         for sphere in 0..self.powers.len() {
             let acceleration = values.accelerations[sphere];
             let size = self.sizes[sphere].max(values.sizes[sphere]);
             self.sizes[sphere] = size;
-            let mut term = (acceleration - self.first.accelerations[sphere]) / NODES[node];
-            let before = NODES.iter().zip(&self.newton[sphere]).take(node).skip(1);
-            for (place, known) in before {
-                term = (term - *known) / (NODES[node] - place);
+            let mut term = (acceleration - self.first.accelerations[sphere]) * RECIPROCALS[node][0];
+            let before = RECIPROCALS[node].iter().zip(&self.newton[sphere]).take(node).skip(1);
+            for (reciprocal, known) in before {
+                term = (term - *known) * *reciprocal;
             }
             let change = term - self.newton[sphere][node];
             self.newton[sphere][node] = term;
-            for (power, factor) in self.powers[sphere].iter_mut().zip(NEWTON[node]) {
-                *power += factor * change;
+            for (power, factor) in
+                self.powers[sphere].iter_mut().zip(&NEWTON[node]).skip(1).take(node)
+            {
+                *power += *factor * change;
             }
             if !change.is_finite() {
                 return f64::INFINITY;
             }
-            if change != DVec3::ZERO {
+            if is_last && change != DVec3::ZERO {
                 most = most.max(change.norm() / size);
             }
         }
@@ -307,7 +299,7 @@ impl<'a> Attempt<'a> {
         let count = self.powers.len();
         let (mut positions, mut velocities) = (vec![DVec3::ZERO; count], vec![DVec3::ZERO; count]);
         let mut values = Values::of(count);
-        self.states_at(1.0, &mut positions, &mut velocities);
+        self.states_at(1.0, &GAINS_AT_END, [&mut positions, &mut velocities]);
         field.evaluate(self.start.time + self.length, &positions, &velocities, &mut values);
         let mut most = 0.0f64;
         for (sphere, powers) in self.powers.iter().enumerate() {
@@ -386,25 +378,10 @@ fn newton_form(powers: &[DVec3; TERMS]) -> [DVec3; TERMS] {
     terms
 }
 
-const fn newton_basis() -> [[f64; TERMS]; TERMS] {
-    let mut basis = [[0.0; TERMS]; TERMS];
-    basis[0][0] = 1.0;
-    let mut n = 1;
-    while n < TERMS {
-        let mut k = 0;
-        while k < TERMS {
-            let raised = if k > 0 { basis[n - 1][k - 1] } else { 0.0 };
-            basis[n][k] = raised - NODES[n - 1] * basis[n - 1][k];
-            k += 1;
-        }
-        n += 1;
-    }
-    basis
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::polynomial_flight::ORDERS;
 
     /// `x'' = -x` for each component.
     struct Oscillator;

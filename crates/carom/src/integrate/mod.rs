@@ -9,6 +9,7 @@ pub(crate) mod crossing;
 mod explicit_euler;
 pub(crate) mod gauss_radau;
 mod kinematics;
+mod radau_tables;
 mod runge_kutta_4;
 mod scheme;
 mod semi_implicit_euler;

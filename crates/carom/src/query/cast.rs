@@ -25,9 +25,9 @@ const MOST_STEPS: u32 = 64;
 pub(super) struct Sweep {
     /// \[m\]
     start: DVec3,
-    /// \[m\]
+    /// Radius \[m\].
     radius: f64,
-    /// \[m\]
+    /// Displacement \[m\].
     way: DVec3,
     /// One over the way along each axis \[1/m\].
     inverse: DVec3,

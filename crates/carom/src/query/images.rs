@@ -71,7 +71,7 @@ pub(super) fn wrapped(place: DVec3, period: DVec3) -> DVec3 {
 pub(super) struct Piece {
     /// Where it starts, in the box \[m\].
     pub start: DVec3,
-    /// \[m\]
+    /// Displacement \[m\].
     pub way: DVec3,
     /// Offset from there to its place on the whole path \[m\].
     pub unwrapped: DVec3,

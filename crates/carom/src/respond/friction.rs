@@ -15,15 +15,15 @@ const MOST_SWEEPS: usize = 1000;
 /// A sphere that friction acts on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct SpinningSphere {
-    /// \[m\]
+    /// Radius \[m\].
     pub radius: f64,
-    /// \[kg\]
+    /// Mass \[kg\].
     pub mass: f64,
     /// Moment of inertia divided by m r².
     pub inertia_factor: f64,
-    /// \[m/s\]
+    /// Velocity \[m/s\].
     pub velocity: DVec3,
-    /// \[rad/s\]
+    /// Angular velocity \[rad/s\].
     pub angular_velocity: DVec3,
 }
 

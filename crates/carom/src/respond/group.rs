@@ -20,7 +20,7 @@ pub(super) struct Group<'a> {
     pub links: Vec<Link>,
     /// One per contact, in \[0, 1\].
     pub restitutions: Vec<f64>,
-    /// \[kg\], one per body.
+    /// Masses \[kg\], one per body.
     pub masses: &'a [f64],
     /// Work of the step: solvers count their own, and end early on a stop request.
     pub work: &'a Work<'a>,

@@ -19,7 +19,7 @@ pub(crate) struct FlightSegment {
     pub sphere: SphereId,
     /// Of the sphere in the arrays of the world.
     pub index: u32,
-    /// \[m\]
+    /// Radius \[m\].
     pub radius: f64,
     pub flight: Flight,
     /// The polynomial flight where forces have no closed form.

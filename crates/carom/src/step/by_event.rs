@@ -251,7 +251,8 @@ pub(super) fn refused_forces(error: HoldError, time: f64) -> Error {
         HoldError::TooStiff(rate) => InvalidValue {
             field: "stiffness",
             requirement: "of springs, with their damping and the masses of their spheres, such that motion on \
-                          them has a rate of at most 2048 divided by the `force_tick` of the rule exact, in 1/s",
+                          them has a rate of at most 2048 divided by the longer of the `force_tick` and the \
+                          `zone_tick` of the rule exact, in 1/s",
             value: rate.to_string(),
         }
         .about(Subject::Step),

@@ -27,7 +27,7 @@ pub(super) struct DryMotion {
 /// State of a motion after a time.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Moved {
-    /// \[m/s\]
+    /// Velocity \[m/s\].
     pub velocity: Vector<Dual>,
     /// Integral of the velocity \[m\].
     pub way: Vector<Dual>,

@@ -52,7 +52,7 @@ pub struct Material {
 
 #[derive(Debug, Clone)]
 pub struct Emitter {
-    /// \[s\]
+    /// Period \[s\].
     pub period: f64,
     /// Spheres in all; that many at a time where it is `ring`.
     pub count: u32,

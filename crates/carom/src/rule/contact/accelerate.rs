@@ -28,7 +28,7 @@ pub(super) fn accelerate(
     let time = f64::from(number) * h;
     solver.h = h;
     if solver.has_other_forces {
-        solver.slots.add_other_forces(system, frame_start + time);
+        solver.slots.add_other_forces(system, frame_start + time, h);
     }
     let drift = solver.drift;
     solver.slabs.each(&mut solver.slots, |mut run, slab| {

@@ -32,12 +32,11 @@ pub(super) fn advance(solver: &mut Solver, sub_step: &SubStep, report: &mut Step
     solver.drift = solver.drift.after(sub_step.h);
     let Solver { slots, slabs, bounces, landings, drift, .. } = solver;
     let common = drift.way;
-    let flies = !solver.has_other_forces;
     slabs.each(slots, |mut run, slab| {
         let from = bounces.partition_point(|bounce| (bounce.slot as usize) < slab.start);
         let to = bounces.partition_point(|bounce| (bounce.slot as usize) < slab.end);
         let run = &mut run;
-        let touched = dispatch!(Level::new(), simd => advance_run(simd, run, sub_step.h, flies));
+        let touched = dispatch!(Level::new(), simd => advance_run(simd, run, sub_step.h));
         let bounces = &bounces[from..to];
         let bounced = shift_bounced(run, slab.start, bounces);
         let landed = &landings.spheres;
@@ -64,7 +63,7 @@ pub(super) fn advance(solver: &mut Solver, sub_step: &SubStep, report: &mut Step
 
 /// Advances the spheres of a run. Returns the work of contacts by the paths of spheres that they touch \[J\].
 #[inline(always)]
-fn advance_run<S: Simd>(simd: S, run: &mut Run, h: f64, flies: bool) -> f64 {
+fn advance_run<S: Simd>(simd: S, run: &mut Run, h: f64) -> f64 {
     let zero = Lanes::all(simd, 0.0);
     let mut work = zero;
     for slot in (0..run.position.len()).step_by(LANES) {
@@ -75,14 +74,12 @@ fn advance_run<S: Simd>(simd: S, run: &mut Run, h: f64, flies: bool) -> f64 {
         let is_free = velocity.x.is_equal(flown.x)
             & velocity.y.is_equal(flown.y)
             & velocity.z.is_equal(flown.z);
-        let flies =
-            is_free & Lanes::all(simd, 0.0).is_less(Lanes::all(simd, f64::from(u8::from(flies))));
-        let bears = Lanes::all(simd, 0.0).select(flies, Lanes::all(simd, 1.0));
+        let bears = Lanes::all(simd, 0.0).select(is_free, Lanes::all(simd, 1.0));
         for (bears, number) in run.bears[slot..].iter_mut().zip(bears.to_array()) {
             *bears = number > 0.0;
         }
         let mean = (before + velocity) * Lanes::all(simd, 0.5);
-        let mean = mean.select(flies, velocity);
+        let mean = mean.select(is_free, velocity);
         let (position, radius) = row::columns(simd, run.position, slot);
         row::store(run.position, slot, (position + mean * Lanes::all(simd, h), radius));
         let own = acceleration.0.dot(velocity - before) / inverse_mass;

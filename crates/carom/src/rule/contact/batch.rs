@@ -40,7 +40,7 @@ pub(super) struct PairBatch {
 pub(super) struct ApproachBatch {
     /// The normal impulses of the sub-step before \[N s\].
     pub previous: Quad,
-    /// \[m\]
+    /// Sum of the radii \[m\].
     pub radius_sum: Quad,
 }
 

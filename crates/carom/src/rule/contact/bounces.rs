@@ -75,14 +75,11 @@ pub(super) fn entangled(solver: &Solver, bounces: &[OneBounce], sub_step: &SubSt
 /// because of what hit it: one that goes far stops at the first of them, and bounces off it in the next
 /// sub-step.
 pub(super) fn note(solver: &mut Solver, mut all: Vec<OneBounce>, sub_step: &SubStep) {
-    let Solver { slots, slabs, bounces, places, has_other_forces, landings, .. } = solver;
+    let Solver { slots, slabs, bounces, places, landings, .. } = solver;
     let has_landed = |slot: usize| landings.has(slot);
     all.retain(|bounce| !has_landed(bounce.slot) && !bounce.other.is_some_and(has_landed));
     bounces.clear();
     for of_sphere in all.chunk_by(|first, second| first.slot == second.slot) {
-        if *has_other_forces {
-            continue;
-        }
         let one = OneBounce::of_all(of_sphere);
         if let Some(own) = one.and_then(|bounce| alone(slots, &bounce, sub_step)) {
             let Way { bounce, last } = own;

@@ -6,7 +6,7 @@ use glam::DVec3;
 #[derive(Debug, Clone, Copy, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Drift {
-    /// \[m/s\]
+    /// Velocity \[m/s\].
     pub velocity: DVec3,
     /// Since the search \[m\].
     pub way: DVec3,

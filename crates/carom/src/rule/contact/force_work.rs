@@ -9,10 +9,9 @@ use super::sub_step::SubStep;
 use crate::force_work::ForceWork;
 use crate::forces::{self, SphereState};
 use crate::report::StepReport;
-use crate::rule::periodic;
 use crate::system::System;
 
-/// Computes the accelerations by nonconservative forces for a sub-step that starts at `time` \[s\] on the world's
+/// Computes the accelerations by nonconservative forces for a sub-step with its middle at `time` \[s\] on the world's
 /// clock; the arrays stay empty without such forces.
 pub(super) fn find(system: &System, solver: &mut Solver, time: f64) {
     let Solver { slots, held_forces, has_other_forces, .. } = solver;
@@ -30,9 +29,7 @@ pub(super) fn find(system: &System, solver: &mut Solver, time: f64) {
         let (linear, _) = forces::nonconservative_linear(system.forces, radius, mass);
         let mut force = of(&between);
         if *has_other_forces {
-            let position = periodic::wrapped(slots.position[slot].vector(), slots.period);
-            let velocity = slots.before[slot].vector();
-            let state = SphereState { position, velocity, radius, mass };
+            let state = SphereState { radius, mass, ..slots.middle_of(slot) };
             force += forces::nonconservative_others(system.forces, &state, time);
         }
         let applied = inverse_mass * (of(&system.spheres.applied_force) - of(held_forces));
@@ -42,16 +39,11 @@ pub(super) fn find(system: &System, solver: &mut Solver, time: f64) {
     }
 }
 
-/// The nonconservative forces between spheres at the start of a sub-step \[N\], by index; empty where there are none.
+/// The nonconservative forces between spheres in the middle of a sub-step \[N\], by index; empty where there are none.
 fn forces_between(system: &System, slots: &Slots, time: f64) -> Vec<DVec3> {
     let mut forces = Vec::new();
     if system.has_interactions() {
-        let mut states = [(); 2].map(|()| vec![DVec3::ZERO; slots.len()]);
-        for (slot, &index) in slots.index.iter().enumerate() {
-            states[0][index as usize] = slots.position[slot].vector();
-            states[1][index as usize] = slots.before[slot].vector();
-        }
-        let [positions, velocities] = &states;
+        let [positions, velocities] = &slots.middle;
         system.nonconservative_forces_between([positions, velocities], time, &mut forces);
     }
     forces

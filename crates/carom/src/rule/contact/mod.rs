@@ -155,7 +155,7 @@ fn sub_step(
     if solver.is_stale {
         neighbours::search(system, frame, &sub_step, solver, scratch, report);
     }
-    force_work::find(system, solver, frame.time + start);
+    force_work::find(system, solver, frame.time + start + 0.5 * h);
     solve::prepare(solver, &sub_step);
     solve::sweep(solver, &sub_step, parameters, report);
     let first = report.impacts.len();

@@ -149,7 +149,7 @@ impl Search {
             let bounded = bounded.min(farthest);
             // Within a sub-step it may move on by half its path, or reverse at a surface.
             let row = &slots.velocity[slot];
-            let beside = 1.5 * speed(row).max(mean_speed);
+            let beside = 1.5 * speed(row).max(mean_speed) + slots.speed_beside_last(slot);
             let turned = row.vector().length() + velocity.length();
             let Some(surfaces) = surfaces else { return bounded.max(FASTER * beside * h) };
             let fastest = beside.max(turned + hit(surfaces, slots, slot, frame));

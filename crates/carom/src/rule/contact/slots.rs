@@ -43,6 +43,10 @@ pub(super) struct Slots {
     pub acceleration: Vec<Row>,
     /// The acceleration by forces that are linear \[m/s²\]; empty where there are no others.
     linear: Vec<Row>,
+    /// Centres \[m\] and velocities \[m/s\], by index, in the middle of the sub-step, where forces that are not linear
+    /// act.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub middle: [Vec<DVec3>; 2],
     /// Acceleration by nonconservative forces \[m/s²\], and the rate of their linear drag \[1/s\], in the present
     /// sub-step; empty without such forces.
     #[cfg_attr(feature = "serde", serde(skip))]
@@ -222,41 +226,80 @@ impl Slots {
         has_others
     }
 
-    /// Adds the accelerations of the other forces, at this time on the world's clock \[s\].
-    pub fn add_other_forces(&mut self, system: &System, time: f64) {
-        let between = self.forces_between(system, time);
-        let period = self.period;
-        let moving = self.position.iter().zip(&self.velocity);
-        let accelerations = self.acceleration.iter_mut().zip(&self.linear);
-        for (slot, ((position, velocity), (acceleration, linear))) in
-            moving.zip(accelerations).enumerate()
-        {
-            let state = SphereState {
-                position: periodic::wrapped(position.vector(), period),
-                velocity: velocity.vector(),
-                radius: position.number(),
-                mass: 1.0 / velocity.number(),
-            };
-            let own = forces::total_of_others(system.forces, &state, time);
-            let force = between.get(self.index[slot] as usize).map_or(own, |&it| own + it);
-            *acceleration = linear.with_vector(linear.vector() + force * velocity.number());
+    /// Adds the accelerations of the other forces in the middle of a sub-step of `h` \[s\] that starts at this time on
+    /// the world's clock \[s\].
+    pub fn add_other_forces(&mut self, system: &System, time: f64, h: f64) {
+        self.find_middle(system, time, h);
+        let middle = time + 0.5 * h;
+        let between = match system.has_interactions() {
+            true => self.forces_between(system, middle),
+            false => Vec::new(),
+        };
+        for slot in 0..self.len() {
+            let force = self.other_force(system, &between, slot, middle);
+            let linear = self.linear[slot];
+            let acceleration = linear.vector() + force * self.velocity[slot].number();
+            self.acceleration[slot] = linear.with_vector(acceleration);
         }
     }
 
-    /// The forces between spheres on each of them \[N\], by index; empty where there are none.
+    /// Finds where spheres are in the middle of a sub-step if nothing accelerates them, and how fast under the forces
+    /// of its start (the midpoint rule; without forces that depend on velocities, the leapfrog scheme).
+    fn find_middle(&mut self, system: &System, time: f64, h: f64) {
+        let count = self.len();
+        self.middle.iter_mut().for_each(|states| states.resize(count, DVec3::ZERO));
+        for (slot, &index) in self.index.iter().enumerate() {
+            self.middle[0][index as usize] = self.position[slot].vector();
+            self.middle[1][index as usize] = self.velocity[slot].vector();
+        }
+        let between = match system.has_damped_interactions() {
+            true => self.forces_between(system, time),
+            false => Vec::new(),
+        };
+        for (slot, &index) in self.index.iter().enumerate() {
+            let (row, linear) = (self.velocity[slot], self.linear[slot]);
+            let force = self.other_force(system, &between, slot, time);
+            let acceleration = linear.vector() + force * row.number();
+            let [positions, velocities] = &mut self.middle;
+            positions[index as usize] += 0.5 * h * row.vector();
+            velocities[index as usize] =
+                accelerated(row, linear.with_vector(acceleration), 0.5 * h);
+        }
+    }
+
+    /// The force on a sphere in its present state of [`Self::middle`] \[N\], of forces that are not linear and of those
+    /// between spheres, by index.
+    fn other_force(&self, system: &System, between: &[DVec3], slot: usize, time: f64) -> DVec3 {
+        let own = forces::total_of_others(system.forces, &self.middle_of(slot), time);
+        between.get(self.index[slot] as usize).map_or(own, |&it| own + it)
+    }
+
+    /// By how much the mean velocity of a free sphere in the sub-step differs from its last one \[m/s\], where forces are
+    /// not linear; others change too little in a sub-step for that to matter.
+    pub fn speed_beside_last(&self, slot: usize) -> f64 {
+        if self.linear.is_empty() {
+            return 0.0;
+        }
+        0.5 * (self.velocity[slot].vector() - self.before[slot].vector()).length()
+    }
+
+    /// The state of a sphere in the middle of the sub-step.
+    pub fn middle_of(&self, slot: usize) -> SphereState {
+        let index = self.index[slot] as usize;
+        let [positions, velocities] = &self.middle;
+        SphereState {
+            position: periodic::wrapped(positions[index], self.period),
+            velocity: velocities[index],
+            radius: self.position[slot].number(),
+            mass: 1.0 / self.velocity[slot].number(),
+        }
+    }
+
+    /// The forces between spheres in their states of [`Self::middle`] \[N\], by index.
     fn forces_between(&self, system: &System, time: f64) -> Vec<DVec3> {
         let mut forces = Vec::new();
-        if system.has_interactions() {
-            let by_index = |rows: &[Row]| {
-                let mut vectors = vec![DVec3::ZERO; rows.len()];
-                for (&index, row) in self.index.iter().zip(rows) {
-                    vectors[index as usize] = row.vector();
-                }
-                vectors
-            };
-            let states = [&self.position, &self.velocity].map(|rows| by_index(rows));
-            system.forces_between([&states[0], &states[1]], time, &mut forces);
-        }
+        let [positions, velocities] = &self.middle;
+        system.forces_between([positions, velocities], time, &mut forces);
         forces
     }
 

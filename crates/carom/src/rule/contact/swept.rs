@@ -18,7 +18,7 @@ pub(super) const FREE: f64 = f64::MAX;
 /// Constants of a contact of two spheres between searches.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Traits {
-    /// \[m\]
+    /// Sum of the radii \[m\].
     pub radius_sum: f64,
     pub restitution: f64,
     /// Offset from sphere 2 to its image that sphere 1 touches \[m\].

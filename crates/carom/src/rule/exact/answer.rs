@@ -55,15 +55,25 @@ fn answer_and_check(
     let changed = answer(timeline, context, slot, event);
     predict::changed(timeline, context, changed, event.time);
     check_room_to_grow(timeline, context, &involved, event.time)?;
-    predict::restart_companions(timeline, context, event.time);
-    check_forces(timeline, context, event.time)?;
+    restart_companions(timeline, context, event.time)?;
     check_work(timeline, context, slot, event.time)?;
     if is_counted {
         for slot in involved.into_iter().flatten() {
             count_short_flight(timeline, context, slot, event.time);
         }
     }
-    Ok(())
+    // A sphere that joined a zone moves otherwise than its companions expected.
+    restart_companions(timeline, context, event.time)
+}
+
+/// Restarts the flights of the companions of restarted spheres, at `time` \[s\].
+fn restart_companions(
+    timeline: &mut Timeline,
+    context: &mut StepContext,
+    time: f64,
+) -> Result<(), Unfinished> {
+    predict::restart_companions(timeline, context, time);
+    check_forces(timeline, context, time)
 }
 
 /// Answers an event of the sphere at `slot` by its target. Returns the spheres to be predicted.

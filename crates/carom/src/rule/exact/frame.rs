@@ -213,7 +213,11 @@ fn hold_until_ticks(timeline: &mut Timeline, tick: f64) {
 /// Springs that no part of it follows.
 pub(crate) fn tick_for_springs(rate: f64, parameters: Exact, frame: f64) -> Result<f64, HoldError> {
     let tick = ticks::tick_for_frames(parameters.force_tick, frame, ticks::MOST_FORCE_TICKS);
-    if ticks::can_follow_springs(rate, tick) { Ok(tick) } else { Err(HoldError::TooStiff(rate)) }
+    let longest = match parameters.zones {
+        Zones::Never => tick,
+        Zones::Automatic => tick.max(ticks::zone_tick(parameters, frame)),
+    };
+    if ticks::can_follow_springs(rate, longest) { Ok(tick) } else { Err(HoldError::TooStiff(rate)) }
 }
 
 /// Whether forces are computed at the start of a frame \[s\]: forces that are held over a frame always, others at a

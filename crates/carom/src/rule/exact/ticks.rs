@@ -1,5 +1,7 @@
 //! Ticks: the multiples of a time on the world's clock, whatever the frames.
 
+use crate::settings::Exact;
+
 /// The fastest motion on springs turns by at most this angle from one tick to the next \[rad\]: the leapfrog
 /// scheme is stable up to 2, and the phase of that motion is off by a hundredth of it.
 const MOST_TURN: f64 = 0.5;
@@ -8,7 +10,7 @@ const MOST_HALVINGS: u32 = 12;
 /// Largest number of force ticks in a frame without springs, for frames of days in the motion of planets, say.
 pub(super) const MOST_FORCE_TICKS: f64 = 64.0;
 /// Largest number of zone ticks in a frame without small spheres.
-pub(super) const MOST_ZONE_TICKS: f64 = 128.0;
+const MOST_ZONE_TICKS: f64 = 128.0;
 /// Most frames in a tick.
 const MOST_FRAMES: f64 = 4.0;
 /// The length of a frame is the difference of two rounded times. Frames that differ by less than this part
@@ -32,6 +34,11 @@ pub(super) fn tick_for_frames(mut tick: f64, frame: f64, most: f64) -> f64 {
         tick *= 0.5;
     }
     tick
+}
+
+/// The zone tick \[s\] in frames of this length \[s\], before spheres or springs make it shorter.
+pub(super) fn zone_tick(parameters: Exact, frame: f64) -> f64 {
+    tick_for_frames(parameters.zone_tick, frame, MOST_ZONE_TICKS)
 }
 
 /// Number of halvings of a tick \[s\] for springs with this rate of motion \[1/s\].

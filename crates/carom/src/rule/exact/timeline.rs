@@ -10,7 +10,7 @@ use super::events::{Event, NextEvents, PackedTarget, Prediction, Schedule, Upcom
 use super::flights::{Component, Flights, JointStep, Species, StepLimits, Support, SupportChange};
 use super::frame_work::FrameWork;
 use super::neighbours::{NeighbourBuffer, Neighbours};
-use super::ticks::{MOST_ZONE_TICKS, tick_for_frames};
+use super::ticks;
 use super::watch::Watch;
 use super::zone::Zone;
 use crate::report::EnergyAccount;
@@ -106,7 +106,7 @@ impl Timeline {
     pub(super) fn zone_tick(&self) -> f64 {
         let [start, end] = self.frame;
         let tick = self.parameters.zone_tick;
-        if end > start { tick_for_frames(tick, end - start, MOST_ZONE_TICKS) } else { tick }
+        if end > start { ticks::zone_tick(self.parameters, end - start) } else { tick }
     }
 
     /// Whether friction acts, so that spins change.

@@ -43,8 +43,8 @@ impl<'a> ForcesBetween<'a> {
         for interaction in self.interactions.list() {
             self.forces.fill(DVec3::ZERO);
             interaction.add_forces(&spheres, time, &mut self.forces);
-            let sizes = self.forces.iter().map(|force| force.norm());
-            let cancelled = CANCELLED * sizes.fold(0.0, f64::max);
+            let squares = self.forces.iter().map(|force| force.length_squared());
+            let cancelled = CANCELLED * squares.fold(0.0, f64::max).sqrt();
             for (index, (&force, mass)) in self.forces.iter().zip(mass).enumerate() {
                 at.accelerations[index] += force / mass;
                 at.sizes[index] += (force.norm() + cancelled) / mass;

@@ -157,19 +157,36 @@ impl Flights {
         [position, velocity]: [DVec3; 2],
         time: f64,
     ) -> DVec3 {
+        let own = self.index_of[slot as usize];
+        self.acceleration_among(system, slot, time, |index| match index == own {
+            true => [position, velocity],
+            false => self.state_of(self.slot_of[index as usize], time).into(),
+        })
+    }
+
+    /// The acceleration \[m/s²\] without contact forces of the sphere at a slot where the spheres, by index, are in
+    /// these states \[m\], \[m/s\] at `time` \[s\].
+    pub fn acceleration_among(
+        &self,
+        system: &System,
+        slot: u32,
+        time: f64,
+        state_of: impl Fn(u32) -> [DVec3; 2],
+    ) -> DVec3 {
         let index = self.index_of[slot as usize];
         let field = FreeField::of(system, index as usize);
+        let [position, velocity] = state_of(index);
         let alone = field.acceleration_and_size(time, position, velocity).0;
         if system.moves_all_together() {
-            let state = [position, velocity];
-            return alone + self.force_between(system, index, state, time) / field.mass;
+            let states = (0..self.slot_of.len() as u32).map(|index| state_of(index).into());
+            let (positions, velocities): (Vec<DVec3>, Vec<DVec3>) = states.unzip();
+            let mut forces = Vec::new();
+            system.forces_between([&positions, &velocities], time, &mut forces);
+            return alone + forces[index as usize] / field.mass;
         }
         let Some(number) = self.components.of_sphere(index) else { return alone };
         let Component { members, springs, .. } = self.components.get(number);
-        let state_of = |place: u32| match members[place as usize] {
-            this if this == index => [position, velocity],
-            other => self.state_of(self.slot_of[other as usize], time).into(),
-        };
+        let state_of = |place: u32| state_of(members[place as usize]);
         let period = system.settings.boundary.period();
         springs.iter().fold(alone, |sum, placed| {
             let ends = [Some(placed.first), placed.second];
@@ -183,23 +200,6 @@ impl Flights {
             let sign = if is_at(ends[0]) { 1.0 } else { -1.0 };
             sum + sign * placed.spring.pull(offset, other - velocity) / field.mass
         })
-    }
-
-    /// Force \[N\] between a sphere, by its index, and all others at `time` \[s\], with this sphere in a given state \[m\],
-    /// \[m/s\].
-    fn force_between(
-        &self,
-        system: &System,
-        index: u32,
-        [position, velocity]: [DVec3; 2],
-        time: f64,
-    ) -> DVec3 {
-        let states = self.slot_of.iter().map(|&slot| self.state_of(slot, time));
-        let (mut positions, mut velocities): (Vec<DVec3>, Vec<DVec3>) = states.unzip();
-        (positions[index as usize], velocities[index as usize]) = (position, velocity);
-        let mut forces = Vec::new();
-        system.forces_between([&positions, &velocities], time, &mut forces);
-        forces[index as usize]
     }
 
     /// The step of a component, with these clusters of its spheres, from the beginning of the flights of its members

@@ -21,7 +21,7 @@ pub(crate) struct Species {
     pub radius: f64,
     /// Speed at which the radius grows \[m/s\].
     pub growth_speed: f64,
-    /// \[kg\]
+    /// Mass \[kg\].
     pub mass: f64,
     pub restitution: f64,
     /// Of everything but drag \[m/s²\]; with the forces of persistent contacts.

@@ -324,7 +324,7 @@ fn respond_to_impacts(
 struct Kicks {
     /// One per touch \[m/s\].
     speeds: Vec<f64>,
-    /// \[J\]
+    /// Work \[J\].
     work: f64,
 }
 

@@ -10,7 +10,7 @@ pub(super) struct Relative<N> {
     pub start: N,
     /// From centre to centre \[m\].
     pub offset: Vector<N>,
-    /// \[m/s\]
+    /// Velocity \[m/s\].
     pub velocity: Vector<N>,
 }
 

@@ -10,7 +10,7 @@ use crate::norm::Norm;
 /// Force and torque of the contacts with other spheres.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Push {
-    /// \[N\]
+    /// Force \[N\].
     pub force: DVec3,
     /// About the centre \[N m\].
     pub torque: DVec3,
@@ -21,7 +21,7 @@ pub(super) struct Push {
 pub(super) struct Response {
     /// Along the plane \[m/s²\].
     pub acceleration: DVec3,
-    /// \[rad/s²\]
+    /// Angular acceleration \[rad/s²\].
     pub angular_acceleration: DVec3,
     /// Force of the plane along its normal \[N\]; negative where the push lifts the sphere.
     pub normal_force: f64,
@@ -34,9 +34,9 @@ pub(super) struct Response {
 pub(super) struct PushedSphere {
     /// Unit normal out of the plane; zero for a flying sphere, which slides along nothing.
     pub normal: DVec3,
-    /// \[m\]
+    /// Radius \[m\].
     pub radius: f64,
-    /// \[kg\]
+    /// Mass \[kg\].
     pub mass: f64,
     /// Moment of inertia divided by m r².
     pub inertia_factor: f64,

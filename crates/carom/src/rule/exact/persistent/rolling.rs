@@ -16,13 +16,13 @@ const SAME_DIRECTION: f64 = 1e-13;
 pub(super) struct PressedSphere {
     /// Unit normal out of the plane.
     pub normal: DVec3,
-    /// \[m\]
+    /// Radius \[m\].
     pub radius: f64,
     /// Moment of inertia divided by m r².
     pub inertia_factor: f64,
     /// Along the plane \[m/s\].
     pub velocity: DVec3,
-    /// \[rad/s\]
+    /// Angular velocity \[rad/s\].
     pub angular_velocity: DVec3,
     /// Normal force divided by the mass, > 0 \[m/s²\].
     pub pressing: f64,
@@ -36,11 +36,11 @@ pub(super) struct PressedSphere {
 pub(super) struct Rolling {
     /// Along the plane \[m/s\].
     pub velocity: DVec3,
-    /// \[rad/s\]
+    /// Angular velocity \[rad/s\].
     pub angular_velocity: DVec3,
     /// Along the plane \[m/s²\].
     pub acceleration: DVec3,
-    /// \[rad/s²\]
+    /// Angular acceleration \[rad/s²\].
     pub angular_acceleration: DVec3,
     /// How long that holds \[s\].
     pub valid_for: f64,

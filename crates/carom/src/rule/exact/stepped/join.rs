@@ -14,6 +14,15 @@ use crate::rule::exact::flights::Species;
 use crate::rule::exact::persistent::held_forces;
 use crate::rule::exact::timeline::Timeline;
 
+/// How a sphere that joins a zone moves until the next tick.
+#[derive(Debug, Clone, Copy)]
+enum Moves {
+    /// With this velocity of others \[m/s\].
+    With(DVec3),
+    /// Under its forces, which give it this acceleration without drag in closed form \[m/s²\].
+    Under(DVec3),
+}
+
 /// Makes a zone of a group with the velocities after its impacts. Until the next tick the spheres move together
 /// with their mean velocity, up to surfaces in the way; then their own velocities count. A single sphere moves
 /// under its forces.
@@ -26,10 +35,12 @@ pub(crate) fn make_zone(
         [_] => None,
         _ => Some(common_velocity(timeline, context, group)),
     };
-    for member in &group.members {
-        let state = [member.position, member.velocity];
+    let states: Vec<_> = group.members.iter().map(|it| (it.slot, it.state())).collect();
+    let accelerations = accelerations(timeline, context, &states, group.time);
+    for (member, acceleration) in group.members.iter().zip(accelerations) {
         let common = common.filter(|_| !is_on_spring(timeline, member.slot));
-        join(timeline, context, member.slot, (state, common), group.time);
+        let moves = common.map_or(Moves::Under(acceleration), Moves::With);
+        join(timeline, context, (member.slot, member.state()), moves, group.time);
         timeline.flights.rotate(member.slot, [member.angular_velocity, DVec3::ZERO], group.time);
     }
     Changed::Joined { slots: group.members.iter().map(|member| member.slot).collect() }
@@ -72,13 +83,17 @@ pub(crate) fn meet(
         Some(number) => timeline.flights.clusters.get(number).members.clone(),
         None => vec![comes],
     };
-    let states: Vec<_> = coming.iter().map(|&slot| timeline.flights.state_of(slot, time)).collect();
-    for (&slot, state) in coming.iter().zip(states) {
-        let common = match is_on_spring(timeline, slot) {
-            true => None,
-            false => Some(without_closing(timeline, context, (slot, state.0), velocity, time)),
+    let state_of = |&slot: &u32| (slot, timeline.flights.state_of(slot, time).into());
+    let states: Vec<(u32, [DVec3; 2])> = coming.iter().map(state_of).collect();
+    let accelerations = accelerations(timeline, context, &states, time);
+    for (&(slot, state), acceleration) in states.iter().zip(&accelerations) {
+        let moves = match is_on_spring(timeline, slot) {
+            true => Moves::Under(*acceleration),
+            false => {
+                Moves::With(without_closing(timeline, context, (slot, state[0]), velocity, time))
+            }
         };
-        join(timeline, context, slot, (state.into(), common), time);
+        join(timeline, context, (slot, state), moves, time);
     }
     Changed::Joined { slots: coming }
 }
@@ -181,28 +196,29 @@ fn account_for_motion(
     }
 }
 
-/// Adds a sphere to a zone with this centre \[m\] and velocity \[m/s\]. Until the next tick it moves with the
-/// `common` velocity of others \[m/s\]; if there is none, under its forces.
+/// Adds a sphere, by its slot, to a zone with this centre \[m\] and velocity \[m/s\].
 fn join(
     timeline: &mut Timeline,
     context: &mut StepContext,
-    slot: u32,
-    (state, common): ([DVec3; 2], Option<DVec3>),
+    (slot, state): (u32, [DVec3; 2]),
+    moves: Moves,
     time: f64,
 ) {
     let [position, velocity] = state;
     held_forces::prepare_zone(timeline, context.system, time);
     if timeline.flights.species_of(slot).is_curved {
-        let species = timeline.flights.free_species_at(slot, time);
-        timeline.flights.set_free_acceleration(slot, species.acceleration);
+        let acceleration = match moves {
+            Moves::With(_) => timeline.flights.free_species_at(slot, time).acceleration,
+            Moves::Under(acceleration) => acceleration,
+        };
+        timeline.flights.set_free_acceleration(slot, acceleration);
     }
     timeline.set_free(slot, time);
     let index = timeline.flights.index_of[slot as usize];
-    let tick = [context.parameters.zone_tick, timeline.spring_rate];
-    let next = timeline.zone.expect(context.system, index, time, tick);
-    let [mean, later] = match common {
-        Some(common) => [common, velocity],
-        None => under_forces(timeline, context, slot, state, [time, next]),
+    let next = expect(timeline, context, index, time);
+    let [mean, later] = match moves {
+        Moves::With(common) => [common, velocity],
+        Moves::Under(_) => under_forces(timeline, context, slot, state, [time, next]),
     };
     let sphere = context.system.spheres.id[index as usize];
     timeline.zone.join(sphere, [velocity, later], time);
@@ -213,4 +229,41 @@ fn join(
     timeline.note_flight(slot);
     timeline.note_for_companions(slot);
     context.report.zone_account.joined += 1;
+}
+
+/// Sets and returns the next tick \[s\] for a sphere, by its index, that is about to join a zone at a time \[s\].
+fn expect(timeline: &mut Timeline, context: &StepContext, index: u32, time: f64) -> f64 {
+    let tick = [context.parameters.zone_tick, timeline.spring_rate];
+    timeline.zone.expect(context.system, index, time, tick)
+}
+
+/// Accelerations without drag in closed form \[m/s²\] of spheres that join a zone at `time` \[s\], by their slots, with
+/// these centres \[m\] and velocities \[m/s\]. On curves those of the middle between then and the next tick: a stiff
+/// spring would gain energy each time under those of the start.
+fn accelerations(
+    timeline: &mut Timeline,
+    context: &StepContext,
+    states: &[(u32, [DVec3; 2])],
+    time: f64,
+) -> Vec<DVec3> {
+    let Some(&(first, _)) = states.first() else { return Vec::new() };
+    let index = timeline.flights.index_of[first as usize];
+    let half = 0.5 * (expect(timeline, context, index, time) - time);
+    let flights = &timeline.flights;
+    let state_of = |index: u32| {
+        let slot = flights.slot_of[index as usize];
+        let joins = states.iter().find(|it| it.0 == slot);
+        let [position, velocity] =
+            joins.map_or_else(|| flights.state_of(slot, time).into(), |it| it.1);
+        [position + half * velocity, velocity]
+    };
+    let acceleration = |&(slot, [_, velocity]): &(u32, [DVec3; 2])| {
+        let free = flights.free_species_of(slot);
+        if !flights.species_of(slot).is_curved {
+            return free.acceleration;
+        }
+        let all = flights.acceleration_among(context.system, slot, time + half, state_of);
+        all + free.drag_rate * velocity
+    };
+    states.iter().map(acceleration).collect()
 }
