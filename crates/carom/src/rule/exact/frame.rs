@@ -309,6 +309,16 @@ pub(crate) fn end(
     Ok(())
 }
 
+/// The work of moving colliders \[J\] that the states written at `time` \[s\] have beyond that of the flights.
+pub(crate) fn work_written(
+    timeline: &Timeline,
+    system: &System,
+    motion: &Motion,
+    time: f64,
+) -> f64 {
+    piece_end::work_written(timeline, motion, system.settings.boundary.period(), time)
+}
+
 /// Runs `read` on a world without reporting anything or counting its work.
 fn reading<T>(
     system: &System,

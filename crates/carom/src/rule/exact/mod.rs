@@ -49,6 +49,7 @@ pub(crate) use course::{Course, follow};
 pub(crate) use flights::{HeldMotion, SupportChange};
 pub(crate) use frame::{
     Arrivals, HoldError, adopt, begin, end, persistent_contacts, start, tick_for_springs,
+    work_written,
 };
 pub(crate) use look_along::{begin as begin_watch, end as end_watch};
 pub(crate) use neighbours::MAX_SPHERES;
