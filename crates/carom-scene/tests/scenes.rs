@@ -61,7 +61,7 @@ mod every_scene_runs_under_every_rule {
     const IMPACTS: usize = 10_000;
 
     /// Largest counted work of a frame for each sphere, per impact of the frame and one more: no scene may hang.
-    const WORK: u64 = 20_000;
+    const WORK: u64 = 50_000;
 
     /// Largest counted work of a frame for each sphere, impacts included, by rule. `discrete` tests each pair of near
     /// balls once; `bisect` does so after each contact of an island, until two bodies meet too often.
