@@ -6,7 +6,10 @@
 
 #![allow(clippy::disallowed_methods, missing_docs)]
 
-use carom::{Bisect, Collider, DQuat, DVec3, Discrete, Pose, Rule, Settings, Shape, Sphere, World};
+use carom::{
+    Bisect, Collider, DQuat, DVec3, Discrete, MotionPart, Pose, Rule, Settings, Shape, Sphere,
+    World,
+};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
 const RADIUS: f64 = 0.5;
@@ -30,15 +33,24 @@ impl Numbers {
     }
 }
 
-/// A box of `count` spheres, its walls six half-spaces.
-fn gas(count: usize, rule: Rule) -> World {
+/// A wall that oscillates by a hundredth of a radius, so that it heats the gas by little.
+fn shaking(wall: Collider) -> Collider {
+    let (axis, amplitude) = (DVec3::X, 0.01 * RADIUS);
+    wall.with_motion([MotionPart::Oscillate { axis, amplitude, frequency: 1.0, phase: 0.0 }])
+}
+
+/// A box of `count` spheres, its walls six half-spaces; the first one moves as `first` says.
+fn gas(count: usize, rule: Rule, first: impl FnOnce(Collider) -> Collider) -> World {
     let mut world = World::new(Settings::default().with_rule(rule)).expect("good settings");
     let edge = (count as f64 * carom::volume(RADIUS) / VOLUME_FRACTION).cbrt();
     let (center, half) = (DVec3::splat(0.5 * edge), 0.5 * edge);
+    let mut first = Some(first);
     for normal in [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z] {
         let pose =
             Pose::at(center - half * normal).rotated(DQuat::from_rotation_arc(DVec3::Y, normal));
-        world.add_collider(Collider::new(Shape::HalfSpace, pose)).expect("a good wall");
+        let wall = Collider::new(Shape::HalfSpace, pose);
+        let wall = first.take().map_or(wall.clone(), |first| first(wall));
+        world.add_collider(wall).expect("a good wall");
     }
     let per_side = (count as f64).cbrt().ceil() as usize;
     let mut numbers = Numbers(1);
@@ -64,7 +76,7 @@ fn frames(criterion: &mut Criterion) {
         let mut group = criterion.benchmark_group(format!("gas/{name}"));
         group.sample_size(20);
         for count in [1_000, 10_000, 100_000] {
-            let world = gas(count, rule);
+            let world = gas(count, rule, |wall| wall);
             group.throughput(Throughput::Elements(count as u64));
             group.bench_with_input(BenchmarkId::from_parameter(count), &count, |bencher, _| {
                 let mut world = world.clone();
@@ -75,5 +87,20 @@ fn frames(criterion: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, frames);
+fn frames_with_a_wall_that_moves(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("gas/walls");
+    group.sample_size(20);
+    let walls = [("fixed", false), ("one moves", true)];
+    for (name, moves) in walls {
+        let first = |wall| if moves { shaking(wall) } else { wall };
+        let world = gas(10_000, Rule::default(), first);
+        group.bench_function(name, |bencher| {
+            let mut world = world.clone();
+            bencher.iter(|| world.step(FRAME_TIME).expect("a step").impacts.len());
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, frames, frames_with_a_wall_that_moves);
 criterion_main!(benches);

@@ -4,6 +4,7 @@ use std::mem::{self, Discriminant};
 use std::sync::{Arc, OnceLock};
 
 use crate::collider::Collider;
+use crate::detect::moving_surfaces::MovingSurfaces;
 use crate::detect::surface_tree::SurfaceTree;
 use crate::id::ColliderId;
 use crate::numbered::Numbered;
@@ -18,6 +19,8 @@ pub(crate) struct Colliders {
     time: f64,
     /// Seams, found when first read after a change from outside.
     seams: OnceLock<Arc<Seams>>,
+    /// Those that move; found when first read after a change from outside, as seams.
+    moving: OnceLock<Arc<MovingSurfaces>>,
     /// Made when first read after a change, as the trees.
     surfaces: OnceLock<Vec<Surface>>,
     tree: OnceLock<SurfaceTree>,
@@ -44,13 +47,28 @@ impl Colliders {
 
     /// Finds surfaces, by their index in [`Self::surfaces`].
     pub fn tree(&self) -> &SurfaceTree {
-        self.tree.get_or_init(|| SurfaceTree::of(self.surfaces(), |_| true))
+        let surfaces = self.surfaces();
+        self.tree.get_or_init(|| SurfaceTree::of(surfaces, 0..surfaces.len() as u32))
     }
 
     /// Tree of the surfaces that report and deflect nothing.
     pub fn trigger_tree(&self) -> &SurfaceTree {
-        let is_trigger = |surface: &Surface| surface.role == Role::Reports;
-        self.trigger_tree.get_or_init(|| SurfaceTree::of(self.surfaces(), is_trigger))
+        let is_trigger = |it: &(u32, &Surface)| it.1.role == Role::Reports;
+        self.trigger_tree.get_or_init(|| {
+            let triggers = (0..).zip(self.surfaces()).filter(is_trigger);
+            SurfaceTree::of(self.surfaces(), triggers.map(|(number, _)| number))
+        })
+    }
+
+    /// The surfaces that move, by their index in [`Self::surfaces`].
+    pub fn moving(&self) -> &MovingSurfaces {
+        self.moving.get_or_init(|| Arc::new(MovingSurfaces::of(&self.list, self.surfaces())))
+    }
+
+    /// Has each surface that moves count as near every place, until colliders change from outside.
+    #[cfg(test)]
+    pub fn find_moving_everywhere(&mut self) {
+        self.moving = Arc::new(self.moving().everywhere()).into();
     }
 
     pub fn push(&mut self, mut collider: Collider) {
@@ -116,6 +134,7 @@ impl Colliders {
 
     fn forget_seams(&mut self) {
         self.seams.take();
+        self.moving.take();
         self.forget_surfaces();
     }
 

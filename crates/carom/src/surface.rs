@@ -103,11 +103,28 @@ pub(crate) struct LastCarriage(Cell<Option<(ColliderId, f64, Carriage)>>);
 impl LastCarriage {
     /// Geometry and motion of a surface after `h` \[s\].
     pub fn after(&self, surface: &Surface, h: f64) -> (Form, SurfaceMotion) {
-        let Some(course) = &surface.course else { return surface.after(h) };
+        match &surface.course {
+            Some(course) => surface.carried(&self.carriage(surface, course, h)),
+            None => surface.after(h),
+        }
+    }
+
+    /// Origin \[m\] of the collider of a surface after `h` \[s\], and its rotation since now.
+    pub fn turn_after(&self, surface: &Surface, h: f64) -> (DVec3, DQuat) {
+        if let Some(course) = &surface.course {
+            let Carriage { to, turn, .. } = self.carriage(surface, course, h);
+            return (to, turn.unwrap_or(DQuat::IDENTITY));
+        }
+        let SurfaceMotion { origin, velocity, angular_velocity, .. } = surface.motion;
+        let pose = Pose::at(origin).moved(velocity, angular_velocity, h);
+        (pose.position, pose.rotation)
+    }
+
+    fn carriage(&self, surface: &Surface, course: &Course, h: f64) -> Carriage {
         let known = self.0.get().filter(|it| it.0 == surface.collider && it.1 == h);
         let carriage = known.map_or_else(|| course.carriage(h), |it| it.2);
         self.0.set(Some((surface.collider, h, carriage)));
-        surface.carried(&carriage)
+        carriage
     }
 }
 

@@ -6,13 +6,14 @@ use glam::DVec3;
 
 use crate::bodies::{Motion, Properties};
 use crate::colliders::Colliders;
+use crate::detect::moving_surfaces::{MovingSurfaces, PlacedTree};
 use crate::detect::surface_tree::SurfaceTree;
 use crate::forces::{self, Force, Interactions, SphereState, SphereStates, Spring};
 use crate::friction::Friction;
 use crate::numbered::Numbered;
 use crate::settings::Settings;
 use crate::sum::Sum;
-use crate::surface::Surface;
+use crate::surface::{LastCarriage, Surface};
 
 /// Largest number of spheres with forces between them all that take steps of high order together under the rule
 /// `exact`. Each impact restarts all of them, and each step evaluates all forces some tens of times, so that the cost of
@@ -29,6 +30,10 @@ pub(crate) struct System<'a> {
     pub colliders: &'a Colliders,
     pub surfaces: &'a [Surface],
     pub tree: &'a SurfaceTree,
+    /// The surfaces that move and deflect.
+    pub moving: &'a MovingSurfaces,
+    /// Time \[s\] for which the surfaces have moved on since the step began; `None` at its start.
+    pub moved_for: Option<f64>,
     /// Of the surfaces that report contact and deflect nothing.
     pub trigger_tree: &'a SurfaceTree,
     pub spheres: &'a Properties,
@@ -45,12 +50,32 @@ impl<'a> System<'a> {
         let (surfaces, tree) = (colliders.surfaces(), colliders.tree());
         let trigger_tree = colliders.trigger_tree();
         let interactions = Interactions::of(forces, springs);
-        Self { settings, forces, interactions, colliders, surfaces, tree, trigger_tree, spheres }
+        Self {
+            settings,
+            forces,
+            interactions,
+            colliders,
+            surfaces,
+            tree,
+            moving: colliders.moving(),
+            moved_for: None,
+            trigger_tree,
+            spheres,
+        }
     }
 
     /// Whether any collider moves.
     pub fn has_moving_surfaces(&self) -> bool {
         self.colliders.any_moving()
+    }
+
+    /// The surfaces that move, where they are `h` \[s\] after the step began.
+    pub fn moving_after(
+        &self,
+        h: f64,
+        last: &LastCarriage,
+    ) -> impl Iterator<Item = PlacedTree<'a>> {
+        self.moving.placed((self.colliders.list(), self.surfaces), h, last)
     }
 
     /// Whether two spheres collide, by their groups.

@@ -4,8 +4,8 @@
 mod common;
 
 use carom::{
-    Collider, Contact, DQuat, DVec3, Emitter, Exact, Gravity, MotionPart, Pose, Rule, Shape,
-    Sphere, Spring, World,
+    Collider, Contact, DQuat, DVec3, Emitter, EnergyAccount, Exact, Gravity, MotionPart, Pose,
+    Rule, Shape, Sphere, Spring, World,
 };
 use common::{G, Numbers, account_of_run, assert_close, bisect, discrete, vec, world};
 
@@ -153,11 +153,18 @@ fn a_plate_that_swings_does_the_work_of_a_rise_once() {
         world.add_collider(plate.with_restitution(0.0).with_motion([part])).unwrap();
         add_ball_on_a_spring(&mut world, Sphere::new(vec(0.0, 0.1, 0.0), 0.1));
         let length = 0.5 / frequency / f64::from(frames);
-        let (account, remainder) = account_of_run(&mut world, frames as usize, length);
+        let mut account = EnergyAccount::default();
+        for _ in 0..frames {
+            let before = world.total_energy();
+            let of_frame = world.step(length).unwrap().energy_account;
+            let open = world.total_energy() - before - of_frame.total();
+            // Frames end within pieces of path.
+            assert!(open.abs() < 1e-9 * before, "{open} of {before}: {of_frame:?}");
+            account += of_frame;
+        }
         let risen = 2.0 * G * 2.0 * amplitude;
         // Pieces of path miss the plate by parts of 1e-7 of a radius.
         assert_close(account.colliders, risen, 1e-8 * risen);
-        assert_close(remainder, 0.0, 1e-8 * risen);
         assert!(account.contacts.abs() < 1e-6 * risen, "{account:?}");
     }
 }

@@ -21,6 +21,7 @@ const PIECES: &str = "a ball on a surface of revolution goes in pieces of 2e-4 r
 pub fn claims() -> Vec<Claim> {
     let mut claims = swings();
     claims.extend(loops());
+    claims.extend(half_pipe());
     claims.push(upright_pipe());
     claims.push(billiard());
     let mut claims: Vec<Claim> =
@@ -120,6 +121,7 @@ fn loops() -> Vec<Claim> {
             Tolerance::relative(1e-5, PIECES),
         ),
         claim("exact: least height for a loop with friction .3 [R - r]", 0.3, 2.731, slips),
+        claim("exact: least height for a loop with friction .5 [R - r]", 0.5, 2.712, slips),
         claim(
             "exact: least height for a loop with friction 1: near 27/10 [R - r]",
             1.0,
@@ -168,6 +170,90 @@ fn round(friction: f64, speed: f64) -> Result<(World, bool), Fault> {
         }
     }
     Ok((world, false))
+}
+
+/// Restitution of a ball that falls into a lying pipe.
+const SOFT: f64 = 0.2;
+/// Where its centre is at first, from the axis of the pipe across and up \[m\].
+const DROPPED_AT: [f64; 2] = [0.4 / 0.52 * PATH, 0.1 / 0.52 * PATH];
+
+/// Claims about a ball that falls into a lying pipe: its bounces take a part of its energy, and sliding takes none.
+fn half_pipe() -> Vec<Claim> {
+    let drop = || -> Result<World, Fault> {
+        let mut world = lying_pipe(0.0)?;
+        let [x, y] = DROPPED_AT;
+        world.add_sphere(Sphere::new(DVec3::new(x, y, 0.0), BALL).with_restitution(SOFT))?;
+        Ok(world)
+    };
+    let above_bottom = |world: &World| {
+        let weight = G * world.spheres().masses()[0];
+        world.total_energy() + weight * PATH
+    };
+    let run = |world: &mut World, until: f64| -> Result<(), Error> {
+        while world.time() < until {
+            world.step(1.0 / 60.0)?;
+        }
+        Ok(())
+    };
+    let bounces = Claim::new(
+        "exact: energy that a ball falling into a lying pipe loses in its bounces [part of that above the bottom]",
+        Expected::value(
+            lost_in_bounces(),
+            "bounces between parabolas and a circle, each with e = 0.2",
+        ),
+        Tolerance::relative(1e-6, "bounces below a contact's duration are not answered apart"),
+        move |_| {
+            let mut world = drop()?;
+            let before = above_bottom(&world);
+            run(&mut world, 6.0)?;
+            let lost = before - above_bottom(&world);
+            Ok(Measured::in_world(&world, lost / before))
+        },
+    );
+    let sliding = Claim::new(
+        "exact: and loses as it slides to and fro for 5 s afterwards [part]",
+        Expected::no_error("without friction a fixed wall does no work"),
+        Tolerance::absolute(1e-7, PIECES),
+        move |_| {
+            let mut world = drop()?;
+            run(&mut world, 1.0)?;
+            let before = above_bottom(&world);
+            run(&mut world, 6.0)?;
+            let lost = before - above_bottom(&world);
+            Ok(Measured::in_world(&world, lost / before))
+        },
+    );
+    vec![bounces, sliding]
+}
+
+/// Part of the energy above the bottom that the bounces of the ball take: in units of the radius of its path and of g,
+/// from parabola to parabola, each up to where it comes back to the circle.
+fn lost_in_bounces() -> f64 {
+    let [x, y] = DROPPED_AT.map(|it| it / PATH);
+    let [mut place, mut velocity] = [[x, y], [0.0; 2]];
+    let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
+    let at = |place: [f64; 2], velocity: [f64; 2], t: f64| {
+        [place[0] + velocity[0] * t, place[1] + velocity[1] * t - 0.5 * t * t]
+    };
+    let mut lost = 0.0;
+    // Each bounce takes 1/25 of what the one before took.
+    for _ in 0..10 {
+        let is_inside = |t: f64| dot(at(place, velocity, t), at(place, velocity, t)) < 1.0;
+        let outward = -dot(place, velocity);
+        // Twice the time in which it comes back to the tangent, and up to the bottom at first.
+        let (mut low, mut high) =
+            if lost == 0.0 { (0.0, 2.0) } else { (0.5 * outward, 4.0 * outward) };
+        for _ in 0..100 {
+            let middle = 0.5 * (low + high);
+            if is_inside(middle) { low = middle } else { high = middle }
+        }
+        velocity = [velocity[0], velocity[1] - high];
+        place = at(place, [velocity[0], velocity[1] + high], high);
+        let approach = dot(velocity, place);
+        lost += 0.5 * (1.0 - SOFT * SOFT) * approach * approach;
+        velocity = [0, 1].map(|axis| velocity[axis] - (1.0 + SOFT) * approach * place[axis]);
+    }
+    lost / (y + 1.0)
 }
 
 /// Gualtieri et al., Am. J. Phys. 74, 497 (2006): the golfer's dilemma.

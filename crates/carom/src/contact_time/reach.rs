@@ -54,6 +54,11 @@ impl Reach {
         Self { way: self.way + beside, beside: self.beside + beside, ..self }
     }
 
+    /// Distance from its start that no point of the sphere exceeds \[m\].
+    pub fn farthest(&self) -> f64 {
+        self.radius + self.way
+    }
+
     /// Whether the sphere cannot meet a surface of this `form` at rest, at the offset `shift` \[m\].
     #[inline]
     pub fn misses(&self, form: &Form, shift: DVec3) -> bool {

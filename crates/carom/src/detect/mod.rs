@@ -8,6 +8,7 @@ pub(crate) mod contact;
 pub(crate) mod contacts;
 pub(crate) mod image_overlaps;
 pub(crate) mod instant;
+pub(crate) mod moving_surfaces;
 mod separation;
 mod sphere_band;
 mod sphere_box;

@@ -79,19 +79,25 @@ struct Node {
 const LEAF_SIZE: usize = 4;
 
 impl SurfaceTree {
-    /// A tree of the surfaces that are `wanted`.
-    pub fn of(surfaces: &[Surface], wanted: impl Fn(&Surface) -> bool) -> Self {
+    /// A tree of the surfaces with these numbers.
+    pub fn of(surfaces: &[Surface], numbers: impl IntoIterator<Item = u32>) -> Self {
         let mut tree = Self::default();
-        for (index, surface) in surfaces.iter().enumerate().filter(|(_, it)| wanted(it)) {
-            match bounds(&surface.form) {
-                Some(bounds) => tree.leaves.push((bounds, index as u32)),
-                None => tree.unbounded.push(index as u32),
+        for number in numbers {
+            match bounds(&surfaces[number as usize].form) {
+                Some(bounds) => tree.leaves.push((bounds, number)),
+                None => tree.unbounded.push(number),
             }
         }
         if !tree.leaves.is_empty() {
             tree.build(0, tree.leaves.len());
         }
         tree
+    }
+
+    /// A tree that finds all of these surfaces everywhere.
+    #[cfg(test)]
+    pub fn everywhere(numbers: impl IntoIterator<Item = u32>) -> Self {
+        Self { unbounded: numbers.into_iter().collect(), ..Self::default() }
     }
 
     /// Whether there are no surfaces at all.
@@ -128,6 +134,12 @@ impl SurfaceTree {
     /// Indices of the surfaces whose bounds overlap `query`, ascending, into `near`.
     pub fn near(&self, query: &Bounds, near: &mut Vec<u32>) {
         near.clear();
+        self.add_near(query, near);
+        near.sort_unstable();
+    }
+
+    /// Appends the indices of the surfaces whose bounds overlap `query`, in no useful order.
+    pub fn add_near(&self, query: &Bounds, near: &mut Vec<u32>) {
         near.extend_from_slice(&self.unbounded);
         let mut place = 0;
         while let Some(node) = self.nodes.get(place) {
@@ -140,6 +152,5 @@ impl SurfaceTree {
             near.extend(leaves.iter().filter(|leaf| leaf.0.overlap(query)).map(|leaf| leaf.1));
             place += 1;
         }
-        near.sort_unstable();
     }
 }

@@ -131,10 +131,8 @@ fn add_pairs(
         let form = &surfaces[own as usize].form;
         let all = flats[many].surfaces.clone();
         if let (Some(bounds), true) = (surface_tree::bounds(form), all.len() > MANY_FACES) {
-            let tree = trees.entry(many).or_insert_with(|| {
-                let collider = surfaces[all.start].collider;
-                SurfaceTree::of(surfaces, |it| it.collider == collider)
-            });
+            let numbers = all.clone().map(|it| it as u32);
+            let tree = trees.entry(many).or_insert_with(|| SurfaceTree::of(surfaces, numbers));
             let margin = MARGIN * (bounds.min.abs().max(bounds.max.abs())).max_element();
             tree.near(&bounds.widened(margin), &mut near);
             near.retain(|&it| is_face(&surfaces[it as usize]));

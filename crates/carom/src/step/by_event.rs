@@ -35,6 +35,7 @@ pub(super) fn step(mut attempt: Attempt, parameters: Exact, until: Until) -> Res
         }
         account_for_contacts(attempt.report, &mut timeline, end);
         place_spheres(attempt, &timeline, end)?;
+        attempt.report.energy_account.colliders += work_written(attempt, &timeline, end);
         timeline.write_radii(&mut attempt.state.spheres.properties.radius, end);
         if !timeline.has_friction() {
             attempt.state.spheres.motion.spin.advance(attempt.length);
@@ -87,6 +88,12 @@ fn account_for_persistent_contacts(report: &mut StepReport, timeline: &mut Timel
     report.energy_account.colliders += colliders;
 }
 
+/// The work of moving colliders \[J\] that the written states have beyond that of the flights, at `time` \[s\].
+fn work_written(attempt: &mut Attempt, timeline: &Timeline, time: f64) -> f64 {
+    let (system, motion) = attempt.state.split();
+    exact::work_written(timeline, &system, motion, time)
+}
+
 /// The flights of all spheres at the start of the step, which ends at `end` \[s\]: flights of the step before
 /// continue.
 ///
@@ -99,6 +106,10 @@ fn begin(attempt: &mut Attempt, parameters: Exact, end: f64) -> Result<Timeline,
     let (before, zone) = (state.timeline.take(), std::mem::take(&mut state.zone));
     let next_emission = emitter::next_due(&state.emitters);
     let (system, motion) = state.split();
+    if let Some(before) = &before {
+        let written = exact::work_written(before, &system, motion, time);
+        attempt.report.energy_account.colliders -= written;
+    }
     let mut timeline =
         before.unwrap_or_else(|| exact::start(&system, parameters, motion, zone, time));
     exact::begin(&mut timeline, &system, [time, end], next_emission)

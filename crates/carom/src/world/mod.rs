@@ -3,6 +3,8 @@
 mod forces;
 mod growth;
 mod measures;
+#[cfg(test)]
+mod moving_oracle;
 mod poses;
 mod queries;
 pub(crate) mod snapshot;

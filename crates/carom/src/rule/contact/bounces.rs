@@ -248,7 +248,7 @@ impl FinalFlight {
         let far = FAR * slots.position[self.slot].number();
         let is_far = |velocity: DVec3| self.duration * velocity.length() > far;
         is_far(velocity)
-            || !places.moving().is_empty()
+            || places.are_moving()
                 && slabs.surfaces_of(self.slot).any(|contact| {
                     let (_, motion) = places.at_start(contact.surface);
                     is_far(velocity - motion.velocity_after(position, self.start))

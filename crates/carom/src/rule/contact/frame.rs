@@ -21,7 +21,7 @@ pub(super) fn begin(system: &System, motion: &mut Motion, h: f64, solver: &mut S
     let ids = &system.spheres.id;
     let kinds = kinds_of(system);
     solver.has_moving_surfaces = system.has_moving_surfaces();
-    let may_surfaces_differ = solver.is_changed || solver.has_moving_surfaces;
+    let are_surfaces_changed = solver.is_changed;
     if solver.is_changed || solver.has_moving_surfaces || !system.spheres.applied_force.is_empty() {
         wake::all(solver);
     }
@@ -62,9 +62,7 @@ pub(super) fn begin(system: &System, motion: &mut Motion, h: f64, solver: &mut S
         && system.spheres.applied_force.is_empty();
     // Bounds of moving surfaces are present ones.
     solver.is_stale |= solver.has_moving_surfaces;
-    if may_surfaces_differ || !solver.places.are_of(system.surfaces) {
-        solver.places.begin_frame(system.surfaces, h);
-    }
+    solver.places.begin_frame(system.surfaces, h, are_surfaces_changed);
 }
 
 /// Copies from the world what the solver does not have from the frame before, which wrote it to the world.
@@ -77,7 +75,7 @@ pub(super) fn go_on(system: &System, motion: &mut Motion, h: f64, solver: &mut S
     if is_known && solver.slots.are_of(&system.spheres.id) {
         if !solver.places.are_of(system.surfaces) {
             // A snapshot that was read does not hold them.
-            solver.places.begin_frame(system.surfaces, h);
+            solver.places.begin_frame(system.surfaces, h, false);
         }
         solver.slots.turn.fill(Row::default());
     } else {

@@ -7,6 +7,7 @@
 use glam::DVec3;
 
 use super::landings::Landings;
+use super::near_moving::NearMoving;
 use super::places::Places;
 use super::slab::Slab;
 use super::slab_totals::SlabTotals;
@@ -43,6 +44,15 @@ pub(super) fn hold(
     let Solver { slots, slabs, places, bounces, landings, drift, .. } = solver;
     let go_astray = slabs.iter().any(|it| it.totals.leaves || it.totals.overlap > FAR_APART);
     let (common, h) = (drift.way, sub_step.h);
+    if go_astray {
+        // Pushed by one surface, a sphere may come to another one.
+        NearMoving::find(system, slots, places, |slot, fastest| {
+            let row = slots.position[slot];
+            let start = slots.reference.get(slot).map_or(row.vector(), |it| it.vector());
+            let reach = 2.0 * (row.number() + (row.vector() - start).length());
+            reach + h * fastest.around(row.vector(), reach, h)
+        });
+    }
     let index = if go_astray { slots.index.clone() } else { Vec::new() };
     let guard = Guard { system, places, index, bounces, landings, common, h, go_astray };
     slabs.each(slots, |mut run, slab| {
@@ -177,7 +187,7 @@ impl Guard<'_> {
             self.system.surfaces[own as usize].role == Role::Deflects
                 && self.system.meets_surface(sphere, own)
         };
-        (0..self.places.len() as u32).filter(deflects).collect()
+        self.places.all_known().filter(deflects).collect()
     }
 
     /// Where a sphere turned round, by its slot.

@@ -37,6 +37,7 @@ mod kernel;
 mod landings;
 mod listing;
 mod materials;
+mod near_moving;
 mod neighbours;
 mod order;
 mod places;
@@ -54,6 +55,7 @@ mod solver;
 mod sub_step;
 mod surfaces;
 mod swept;
+mod top_speed;
 mod wake;
 mod warm_start;
 
@@ -150,7 +152,7 @@ fn sub_step(
     let h = frame.h / f64::from(parameters.sub_steps);
     wake::touched(system, solver, h);
     let start = f64::from(number) * h;
-    solver.places.begin_sub_step(system.surfaces, [start, start + h]);
+    solver.places.begin_sub_step(system, [start, start + h]);
     let sub_step = accelerate::accelerate(system, frame.time, h, number, solver);
     if solver.is_stale {
         neighbours::search(system, frame, &sub_step, solver, scratch, report);

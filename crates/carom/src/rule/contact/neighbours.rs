@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::batch::{ContactKinds, Impulses, Pair};
 use super::dormant;
 use super::materials::{ContactMaterial, Materials};
+use super::near_moving::NearMoving;
 use super::places::{Places, offsets};
 use super::search::Search;
 use super::slab::{self, Slab, Slabs};
@@ -45,7 +46,8 @@ pub(super) fn search(
     let Solver { slots, slabs, watched, dormant, places, .. } = solver;
     solver.is_stale = false;
     solver.incidence.clear();
-    let surfaces = (!system.surfaces.is_empty()).then_some(&*places);
+    let approaches = NearMoving::approaches(system, slots, places, frame.h);
+    let surfaces = (!system.surfaces.is_empty()).then_some(&approaches[..]);
     solver.drift = search.arrange(slots, [frame.h, sub_step.h], surfaces);
     divide(slots, slabs, search);
     if !dormant.is_empty() {
@@ -75,6 +77,12 @@ pub(super) fn search(
     }
     let reach = Search::reach(slots) + solver.drift.reach;
     places.find_images(system.surfaces, slots.period, reach);
+    let (drift, left) = (solver.drift.reach, frame.h - sub_step.time);
+    let moving = NearMoving::find(system, slots, places, |slot, fastest| {
+        let row = slots.position[slot];
+        let reach = row.number() + slots.reference[slot].number() + drift;
+        reach + left * fastest.around(row.vector(), reach, left)
+    });
     let known = Known {
         system,
         slots,
@@ -83,8 +91,9 @@ pub(super) fn search(
         materials: &solver.materials,
         kinds: solver.kinds,
         places: &solver.places,
-        drift: solver.drift.reach,
-        left: frame.h - sub_step.time,
+        moving: &moving,
+        drift,
+        left,
     };
     known.add_contacts(slabs);
     report.work.searches += 1;
@@ -148,6 +157,7 @@ struct Known<'a> {
     materials: &'a Materials,
     kinds: ContactKinds,
     places: &'a Places,
+    moving: &'a NearMoving,
     /// Longest common path until the next search \[m\].
     drift: f64,
     /// What is left of the frame \[s\].
@@ -227,7 +237,7 @@ impl Known<'_> {
     fn add_surfaces(&self, slab: &mut Slab) {
         let slots = self.slots;
         let mut near = Vec::new();
-        let some_move = !self.places.moving().is_empty();
+        let some_move = self.places.are_moving();
         let awake = (slab.start..slab.end).filter(|&slot| !slots.sleeps[slot]);
         for slot in awake {
             let (center, radius) = (slots.position[slot].vector(), slots.position[slot].number());
@@ -238,7 +248,7 @@ impl Known<'_> {
                 self.add_images(&bounds, &mut near);
             }
             if some_move {
-                self.add_moving(&mut near);
+                self.add_moving(slot, &mut near);
             }
             for &surface in near.iter() {
                 if self.may_touch(slot, surface) {
@@ -262,9 +272,15 @@ impl Known<'_> {
         }
     }
 
-    /// Adds the surfaces that move, whose bounds are those of the start of the frame.
-    fn add_moving(&self, near: &mut Vec<u32>) {
-        near.extend(self.places.moving());
+    /// Adds the surfaces that move and are near a sphere, by its slot, in place of those whose bounds were near at the
+    /// start of the frame.
+    fn add_moving(&self, slot: usize, near: &mut Vec<u32>) {
+        let surfaces = self.system.surfaces;
+        near.retain(|&it| {
+            let own = self.places.surface_of(it);
+            surfaces[own as usize].motion.is_at_rest()
+        });
+        near.extend(self.moving.of(slot));
         near.sort_unstable();
         near.dedup();
     }
@@ -280,22 +296,26 @@ impl Known<'_> {
             (self.slots.position[slot].vector(), self.slots.position[slot].number());
         let mut margin = self.slots.reference[slot].number() + self.drift;
         let (form, motion) = self.places.at_start(surface);
-        if !motion.is_at_rest() {
+        let moves = !motion.is_at_rest();
+        if moves {
             let arm = (center - motion.origin).length() + radius + margin;
             margin += self.places.fastest_within(surface, arm, self.left) * self.left;
         }
+        let are_bounds_near = || {
+            let reach = Bounds::around(center, DVec3::splat(radius + margin));
+            surface_tree::bounds(form).is_none_or(|bounds| bounds.overlap(&reach))
+        };
         match (sphere_surface(form, center, radius), form) {
             (Some(separation), _) => separation.distance <= margin,
             // From just behind a rectangle, a sphere may come round its edge.
             (None, Form::Rectangle(rectangle)) => {
                 (center - rectangle.center).dot(rectangle.normal) >= -margin
+                    && (!moves || are_bounds_near())
             }
-            (None, Form::Band(band)) => band.seen_from(center).front >= -margin,
-            (None, Form::Facet(_) | Form::Edge(_) | Form::Corner(_)) => {
-                let bounds = surface_tree::bounds(form);
-                let reach = Bounds::around(center, DVec3::splat(radius + margin));
-                bounds.is_none_or(|bounds| bounds.overlap(&reach))
+            (None, Form::Band(band)) => {
+                band.seen_from(center).front >= -margin && (!moves || are_bounds_near())
             }
+            (None, Form::Facet(_) | Form::Edge(_) | Form::Corner(_)) => are_bounds_near(),
             (None, _) => true,
         }
     }

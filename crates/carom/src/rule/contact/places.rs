@@ -1,17 +1,21 @@
 //! Surfaces at both ends of a sub-step.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::top_speed::TopSpeed;
 use crate::band::Band;
 use crate::bounds::Bounds;
+use crate::detect::moving_surfaces::PlacedTree;
 use crate::detect::sphere_surface;
 use crate::detect::surface_tree::bounds;
 use crate::round_solid::RoundSolid;
 use crate::rule::periodic::image_shift;
-use crate::surface::{Form, Role, Surface, SurfaceMotion};
+use crate::surface::{Form, LastCarriage, Role, Surface, SurfaceMotion};
+use crate::system::System;
 
 /// Growth of the search distance when more images are needed; this is rare.
 const IMAGES_FARTHER: f64 = 1.5;
@@ -22,24 +26,46 @@ pub(super) type Place = (Form, SurfaceMotion);
 /// An image of a surface in a periodic box: the number of the surface, and boxes between both along each axis.
 type ImageKey = (u32, [i8; 3]);
 
-/// The places of all surfaces, by their number, and those of their images, by numbers that follow.
+/// A surface that moves, at both ends of the sub-step.
+#[derive(Debug, Clone)]
+struct MovingPlace {
+    number: u32,
+    /// At the start; within the sub-step it moves as this says, between its places at both ends.
+    start: Place,
+    end: Place,
+    /// Bounds for the frame of the speed of its origin \[m/s\] and of its angular velocity \[rad/s\], if it does not
+    /// move steadily.
+    fastest: Option<[f64; 2]>,
+}
+
+/// The places of all surfaces, by their number, and those of their images, by numbers that follow. Of surfaces that
+/// move, only those near spheres have their present places.
 #[derive(Debug, Clone, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Places {
-    /// At the start of the sub-step. A snapshot shares those of surfaces at rest.
+    /// When surfaces changed last; a snapshot shares them.
     #[cfg_attr(feature = "serde", serde(skip))]
     starts: Arc<Vec<Place>>,
     /// How many of them are not images.
     own: usize,
-    /// At its end; empty where all are at rest.
-    #[cfg_attr(feature = "serde", serde(skip))]
-    ends: Vec<Place>,
     /// The numbers of moving surfaces that deflect spheres.
     moving: Vec<u32>,
-    /// Number, and bounds for the frame of the speed of the origin \[m/s\] and of the angular velocity \[rad/s\],
-    /// of the surfaces that do not move steadily; ascending.
+    /// Those of them that are known, by number.
     #[cfg_attr(feature = "serde", serde(skip))]
-    fastest: Vec<(u32, [f64; 2])>,
+    known: Vec<MovingPlace>,
+    /// When the places at the start of the sub-step are computed, in the frame \[s\]: as at the end of the sub-step
+    /// before, however sums round.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    start: f64,
+    /// The sub-step, in the frame \[s\].
+    #[cfg_attr(feature = "serde", serde(skip))]
+    times: [f64; 2],
+    /// Length of the frame \[s\].
+    #[cfg_attr(feature = "serde", serde(skip))]
+    frame: f64,
+    /// How fast the fastest surface turns \[rad/s\].
+    #[cfg_attr(feature = "serde", serde(skip))]
+    turning_rate: f64,
     /// The images that spheres may touch.
     images: Vec<(ImageKey, DVec3)>,
     /// Their numbers.
@@ -54,43 +80,95 @@ impl Places {
         self.moving.is_empty() && self.starts.len() == surfaces.len() + self.images.len()
     }
 
-    /// Copies the surfaces for a frame of `h` \[s\] that begins.
-    pub fn begin_frame(&mut self, surfaces: &[Surface], h: f64) {
+    /// Begins a frame of `h` \[s\]; copies the surfaces if they `changed`, or are not known.
+    pub fn begin_frame(&mut self, surfaces: &[Surface], h: f64, changed: bool) {
+        self.known.clear();
+        (self.start, self.times, self.frame) = (0.0, [0.0; 2], h);
+        if !changed && self.starts.len() == surfaces.len() + self.images.len() {
+            return;
+        }
         let starts = Arc::make_mut(&mut self.starts);
-        place_all(surfaces, 0.0, starts);
+        starts.clear();
+        starts.extend(surfaces.iter().map(|surface| surface.after(0.0)));
         place_images(surfaces, &self.images, starts);
         self.own = surfaces.len();
-        self.ends.clear();
         let moves =
             |(_, it): &(u32, &Surface)| it.role == Role::Deflects && !it.motion.is_at_rest();
         self.moving.clear();
         self.moving.extend((0..).zip(surfaces).filter(moves).map(|(number, _)| number));
-        self.fastest.clear();
-        self.fastest.extend(self.moving.iter().filter_map(|&number| {
-            let bounds = surfaces[number as usize].course.as_ref()?.bounds(0.0, h);
-            Some((number, [bounds.speed, bounds.spin]))
-        }));
+        let rates = self.moving.iter().map(|&number| &starts[number as usize]);
+        let rates = rates.map(|(form, motion)| turning_rate(form, motion));
+        self.turning_rate = rates.fold(0.0, f64::max);
     }
 
-    /// Computes the places of moving surfaces at the end of a sub-step, between two times of the frame \[s\].
-    /// Surfaces that do not move steadily do so within the sub-step, between their places at both ends.
-    pub fn begin_sub_step(&mut self, surfaces: &[Surface], times: [f64; 2]) {
-        if !self.moving.is_empty() {
-            place_all(surfaces, times[1], &mut self.ends);
-            place_images(surfaces, &self.images, &mut self.ends);
-            for &number in &self.moving {
-                let mean = surfaces[number as usize].mean_motion(times);
-                let (_, motion) = &mut Arc::make_mut(&mut self.starts)[number as usize];
-                *motion = mean.unwrap_or(*motion);
-            }
-        }
+    /// Begins a sub-step between two times of the frame \[s\].
+    pub fn begin_sub_step(&mut self, system: &System, times: [f64; 2]) {
+        (self.start, self.times) = (self.times[1], times);
+        let last = LastCarriage::default();
+        let mut known = std::mem::take(&mut self.known);
+        known.iter_mut().for_each(|it| {
+            let surface = self.surface(system, it.number);
+            it.end = last.after(&surface, times[1]);
+            it.start.1 = surface.mean_motion(times).unwrap_or(it.start.1);
+        });
+        self.known = known;
     }
 
     /// Moves on to the next sub-step.
     pub fn end_sub_step(&mut self) {
-        if !self.moving.is_empty() {
-            std::mem::swap(Arc::make_mut(&mut self.starts), &mut self.ends);
+        self.known.iter_mut().for_each(|it| std::mem::swap(&mut it.start, &mut it.end));
+    }
+
+    /// Computes the places of moving surfaces with these numbers, as far as they are not known.
+    pub fn know(&mut self, system: &System, numbers: &[u32]) {
+        let mut new: Vec<u32> =
+            numbers.iter().copied().filter(|&it| self.moving_place(it).is_none()).collect();
+        if new.is_empty() {
+            return;
         }
+        new.sort_unstable();
+        new.dedup();
+        let last = [LastCarriage::default(), LastCarriage::default()];
+        let places = new.into_iter().map(|number| {
+            let surface = self.surface(system, number);
+            let mut start = last[0].after(&surface, self.start);
+            let end = last[1].after(&surface, self.times[1]);
+            start.1 = surface.mean_motion(self.times).unwrap_or(start.1);
+            let bounds = surface.course.as_ref().map(|it| it.bounds(0.0, self.frame));
+            let fastest = bounds.map(|it| [it.speed, it.spin]);
+            MovingPlace { number, start, end, fastest }
+        });
+        let places: Vec<MovingPlace> = places.collect();
+        self.known.extend(places);
+        self.known.sort_unstable_by_key(|it| it.number);
+    }
+
+    /// A surface as it is when the frame begins.
+    fn surface<'a>(&self, system: &System<'a>, number: u32) -> Cow<'a, Surface> {
+        let surface = &system.surfaces[number as usize];
+        match system.moved_for {
+            Some(time) => Cow::Owned(surface.moved(time)),
+            None => Cow::Borrowed(surface),
+        }
+    }
+
+    fn moving_place(&self, number: u32) -> Option<&MovingPlace> {
+        let place = self.known.binary_search_by_key(&number, |it| it.number).ok()?;
+        Some(&self.known[place])
+    }
+
+    /// The surfaces that move, where they are at the start of the sub-step, and how fast they are in the frame.
+    pub fn trees_at_start<'a>(&self, system: &System<'a>) -> Vec<(PlacedTree<'a>, TopSpeed)> {
+        if self.moving.is_empty() {
+            return Vec::new();
+        }
+        let begun = system.moved_for.unwrap_or(0.0);
+        let with_speed = |tree: PlacedTree<'a>| {
+            let [speed, spin] = tree.fastest([begun, self.frame]);
+            (tree, TopSpeed { speed, spin, origin: tree.origin })
+        };
+        let last = LastCarriage::default();
+        system.moving_after(begun + self.start, &last).map(with_speed).collect()
     }
 
     /// Finds the images of bounded surfaces at rest that come nearer than `reach` \[m\] to the periodic box with
@@ -100,7 +178,7 @@ impl Places {
             return;
         }
         self.image_reach = IMAGES_FARTHER * reach;
-        let Self { starts, ends, images, number_of, image_reach, .. } = self;
+        let Self { starts, images, number_of, image_reach, .. } = self;
         let starts = Arc::make_mut(starts);
         let near = Bounds::around(DVec3::ZERO, 0.5 * period).widened(*image_reach);
         for (number, surface) in (0..).zip(surfaces) {
@@ -112,12 +190,7 @@ impl Places {
                 if is_near && !number_of.contains_key(&(number, offset)) {
                     number_of.insert((number, offset), starts.len() as u32);
                     images.push(((number, offset), shift));
-                    let place = (surface.form.shifted(shift), surface.motion);
-                    // Once a sub-step has begun, the ends of all surfaces are known.
-                    if !ends.is_empty() {
-                        ends.push(place.clone());
-                    }
-                    starts.push(place);
+                    starts.push((surface.form.shifted(shift), surface.motion));
                 }
             }
         }
@@ -153,56 +226,66 @@ impl Places {
         self.own + self.images.len()
     }
 
-    /// The numbers of those that move, ascending.
-    pub fn moving(&self) -> &[u32] {
-        &self.moving
+    /// Whether some of them move.
+    pub fn are_moving(&self) -> bool {
+        !self.moving.is_empty()
     }
 
-    /// All surfaces at the start of the sub-step.
-    pub fn starts(&self) -> &[Place] {
+    /// The numbers of all that are at rest, images included, and of the moving ones that are known.
+    pub fn all_known(&self) -> impl Iterator<Item = u32> {
+        let moves = |it: &u32| self.moving.binary_search(it).is_ok();
+        let at_rest = (0..self.len() as u32).filter(move |it| !moves(it));
+        at_rest.chain(self.known.iter().map(|it| it.number))
+    }
+
+    /// All surfaces, where all are at rest.
+    pub fn at_rest(&self) -> &[Place] {
         &self.starts
     }
 
     /// A surface at the start of the sub-step.
     pub fn at_start(&self, surface: u32) -> &Place {
-        &self.starts[surface as usize]
+        match self.moving_place(surface) {
+            Some(place) => &place.start,
+            None => &self.starts[surface as usize],
+        }
     }
 
     /// A surface at the end of the sub-step.
     pub fn at_end(&self, surface: u32) -> &Place {
-        let ends = if self.ends.is_empty() { &self.starts } else { &self.ends };
-        &ends[surface as usize]
+        match self.moving_place(surface) {
+            Some(place) => &place.end,
+            None => &self.starts[surface as usize],
+        }
     }
 
     /// How fast the fastest of them turns \[rad/s\].
     pub fn turning_rate(&self) -> f64 {
-        let places = self.moving.iter().map(|&number| self.at_start(number));
-        places.map(|(form, motion)| turning_rate(form, motion)).fold(0.0, f64::max)
-    }
-
-    /// Bounds for the frame of the speed of the origin of a surface \[m/s\] and of its angular velocity \[rad/s\], if
-    /// it does not move steadily.
-    fn fastest_of(&self, number: u32) -> Option<[f64; 2]> {
-        let place = self.fastest.binary_search_by_key(&number, |it| it.0).ok()?;
-        Some(self.fastest[place].1)
+        self.turning_rate
     }
 
     /// A bound of the speed \[m/s\] of a surface up to a distance `arm` \[m\] from its origin, in `left` \[s\].
     pub fn fastest_within(&self, number: u32, arm: f64, left: f64) -> f64 {
         let (_, motion) = self.at_start(number);
-        match self.fastest_of(number) {
+        match self.moving_place(number).and_then(|it| it.fastest) {
             Some([speed, spin]) => speed + spin * (arm + speed * left),
             None => motion.velocity.length() + motion.angular_velocity.length() * arm,
         }
     }
 
-    /// The highest speed \[m/s\] with which a moving surface may approach a sphere with this centre \[m\], radius
-    /// \[m\] and velocity \[m/s\] within a time \[s\].
-    pub fn approach(&self, (center, radius): (DVec3, f64), velocity: DVec3, time: f64) -> f64 {
+    /// The highest speed \[m/s\] with which one of these moving surfaces may approach a sphere with this centre \[m\],
+    /// radius \[m\] and velocity \[m/s\] within a time \[s\].
+    pub fn approach(
+        &self,
+        numbers: &[u32],
+        (center, radius): (DVec3, f64),
+        velocity: DVec3,
+        time: f64,
+    ) -> f64 {
         let speed = |&number: &u32| {
-            let (form, motion) = self.at_start(number);
+            let MovingPlace { start: (form, motion), fastest, .. } = self.moving_place(number)?;
             let arm = (center - motion.origin).length() + radius;
-            let speed = match self.fastest_of(number) {
+            let speed = match *fastest {
                 Some([speed, spin]) => speed + velocity.length() + spin * (arm + speed * time),
                 None => {
                     let turning = motion.angular_velocity.length() * arm;
@@ -212,7 +295,7 @@ impl Places {
             let separation = sphere_surface(form, center, radius)?;
             (separation.distance <= speed * time).then_some(speed)
         };
-        self.moving.iter().filter_map(speed).fold(0.0, f64::max)
+        numbers.iter().filter_map(speed).fold(0.0, f64::max)
     }
 }
 
@@ -232,11 +315,6 @@ fn place_images(surfaces: &[Surface], images: &[(ImageKey, DVec3)], places: &mut
         let surface = &surfaces[surface as usize];
         (surface.form.shifted(shift), surface.motion)
     }));
-}
-
-fn place_all(surfaces: &[Surface], time: f64, places: &mut Vec<Place>) {
-    places.clear();
-    places.extend(surfaces.iter().map(|surface| surface.after(time)));
 }
 
 /// How fast a surface changes by turning, or how fast its motion does \[rad/s\].

@@ -7,7 +7,6 @@ use glam::DVec3;
 use super::drift::Drift;
 use super::images::{ImagePair, ImageSearch};
 use super::order::{self, Grid};
-use super::places::Places;
 use super::row::Row;
 use super::slab::{Slab, Slabs};
 use super::slots::Slots;
@@ -49,14 +48,10 @@ fn most_among(slots: &Slots, radius: f64) -> f64 {
     (0.5 * libm::cbrt(room) - 1.0).clamp(MOST_MARGIN, MOST_OF_FEW)
 }
 
-/// Speed that moving surfaces may add to a sphere in a frame of this length \[s\] \[m/s\]: an elastic impact adds
-/// twice the speed of approach.
-fn hit(surfaces: &Places, slots: &Slots, slot: usize, frame: f64) -> f64 {
-    if surfaces.moving().is_empty() {
-        return 0.0;
-    }
-    let (position, velocity) = (slots.position[slot], slots.velocity[slot].vector());
-    2.0 * surfaces.approach((position.vector(), position.number()), velocity, frame)
+/// Speed that moving surfaces may add to a sphere in a frame, by its slot \[m/s\]: an elastic impact adds twice the
+/// speed of approach.
+fn hit(approaches: &[f64], slot: usize) -> f64 {
+    approaches.get(slot).map_or(0.0, |speed| 2.0 * speed)
 }
 
 /// Working memory of a search.
@@ -84,12 +79,12 @@ pub(super) struct Search {
 impl Search {
     /// Sorts spheres by place, and notes their places and margins, in frames of `frame` and sub-steps of `h` \[s\].
     /// Returns the common motion, to which the margins are relative. Where there are surfaces, spheres may reverse,
-    /// and moving surfaces may hit them.
+    /// and moving ones may approach them this fast, by slot \[m/s\].
     pub fn arrange(
         &mut self,
         slots: &mut Slots,
         [frame, h]: [f64; 2],
-        surfaces: Option<&Places>,
+        surfaces: Option<&[f64]>,
     ) -> Drift {
         slots.wrap();
         let drift = self.find_margins(slots, [frame, h], surfaces);
@@ -124,7 +119,7 @@ impl Search {
         &mut self,
         slots: &Slots,
         [frame, h]: [f64; 2],
-        surfaces: Option<&Places>,
+        surfaces: Option<&[f64]>,
     ) -> Drift {
         let count = slots.len().max(1) as f64;
         let velocity = slots.velocity.iter().map(|row| row.vector()).sum::<DVec3>() / count;
@@ -152,7 +147,7 @@ impl Search {
             let beside = 1.5 * speed(row).max(mean_speed) + slots.speed_beside_last(slot);
             let turned = row.vector().length() + velocity.length();
             let Some(surfaces) = surfaces else { return bounded.max(FASTER * beside * h) };
-            let fastest = beside.max(turned + hit(surfaces, slots, slot, frame));
+            let fastest = beside.max(turned + hit(surfaces, slot));
             bounded.max(FASTER * fastest * h)
         }));
         let within = (farthest / velocity.length().max(f64::MIN_POSITIVE)).max(FASTER * h);

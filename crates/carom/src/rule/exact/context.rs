@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::contact_scale::ContactScale;
+use super::moving::{self, Around};
 use super::pair_times::PairSearch;
 use super::span::Span;
 use super::timeline::Timeline;
@@ -134,6 +135,22 @@ impl<'a> StepContext<'a> {
         self.carriage.after(&self.system.surfaces[surface as usize], time - self.start)
     }
 
+    /// Surfaces that a sphere may meet: those at rest of its neighbour region, and moving ones around a place. With
+    /// each comes the shift \[m\] that brings it to where the sphere's position counts.
+    pub fn surfaces_near<'t>(
+        &self,
+        timeline: &'t Timeline,
+        slot: u32,
+        around: Around,
+    ) -> impl Iterator<Item = (u32, DVec3)> + use<'t> {
+        let moving = if timeline.moving_surfaces.is_empty() {
+            Vec::new()
+        } else {
+            moving::near(timeline, self.system, slot, around, &self.carriage)
+        };
+        timeline.surfaces_with(slot, moving)
+    }
+
     /// Whether no surface is within `margin` \[m\] of a sphere at `place` \[m\] at `time` \[s\].
     pub fn touches_no_surface(
         &self,
@@ -144,7 +161,8 @@ impl<'a> StepContext<'a> {
         time: f64,
     ) -> bool {
         let radius = timeline.flights.species_of(slot).radius;
-        timeline.surfaces_near(slot).all(|(surface, shift)| {
+        let around = Around::touching(place, radius, time).farther(margin);
+        self.surfaces_near(timeline, slot, around).all(|(surface, shift)| {
             let (form, _) = self.surface_at(surface, time);
             let separation = sphere_surface(&form, place - shift, radius);
             separation.is_none_or(|separation| separation.distance > margin)

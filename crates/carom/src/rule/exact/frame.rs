@@ -6,6 +6,7 @@ use super::clearance::Clearance;
 use super::context::StepContext;
 use super::events::{Prediction, Schedule};
 use super::flights::{self, Body, Flights, Growth, Rotation};
+use super::moving;
 use super::neighbours::{Contents, Neighbours, SURFACES_PER_SPHERE};
 use super::pair_times::PairSearch;
 use super::persistent::{self, held_forces, piece_end};
@@ -146,6 +147,7 @@ pub(crate) fn begin(
     frame: [f64; 2],
     next: f64,
 ) -> Result<(), HoldError> {
+    let goes_on = timeline.frame[1] == frame[0];
     set_frame(timeline, system, frame);
     timeline.next_emission = next;
     timeline.flights.limit_heating();
@@ -160,13 +162,15 @@ pub(crate) fn begin(
         check_accelerations(timeline, system).map_err(HoldError::NotFinite)?;
     }
     let are_curved = timeline.flights.are_curved();
-    if (is_renewed && !are_curved) || are_applied || !timeline.moving_surfaces.is_empty() {
+    let are_some_moving = !timeline.moving_surfaces.is_empty();
+    if (is_renewed && !are_curved) || are_applied || (are_some_moving && !goes_on) {
         predict_all(timeline, system, frame[0]);
-    } else if is_renewed {
+    } else {
         predict_each(timeline, system, &renewed, frame[0]);
         timeline.schedule.tidy();
-    } else {
-        timeline.schedule.tidy();
+        if are_some_moving {
+            moving::meet_in_frame(timeline, system);
+        }
     }
     timeline.work.begin(&timeline.flights.bodies);
     Ok(())
@@ -303,6 +307,16 @@ pub(crate) fn end(
     });
     stepped::write_velocities(timeline, &system.spheres.id, motion, span.end);
     Ok(())
+}
+
+/// The work of moving colliders \[J\] that the states written at `time` \[s\] have beyond that of the flights.
+pub(crate) fn work_written(
+    timeline: &Timeline,
+    system: &System,
+    motion: &Motion,
+    time: f64,
+) -> f64 {
+    piece_end::work_written(timeline, motion, system.settings.boundary.period(), time)
 }
 
 /// Runs `read` on a world without reporting anything or counting its work.

@@ -29,6 +29,8 @@ mod frame;
 mod frame_work;
 mod impact;
 mod look_along;
+mod moving;
+mod near_surfaces;
 mod neighbours;
 mod pair_times;
 mod persistent;
@@ -48,6 +50,7 @@ pub(crate) use features::{NormalCurvature, curvature_of};
 pub(crate) use flights::{HeldMotion, SupportChange};
 pub(crate) use frame::{
     Arrivals, HoldError, adopt, begin, end, persistent_contacts, start, tick_for_springs,
+    work_written,
 };
 pub(crate) use look_along::{begin as begin_watch, end as end_watch};
 pub(crate) use neighbours::MAX_SPHERES;

@@ -8,13 +8,13 @@ use super::context::StepContext;
 use super::events::{Event, EventTarget, NextEvents, PackedTarget, Prediction};
 use super::flights::{Body, Species};
 use super::frame_work::UNITS_PER_FLIGHT;
+use super::moving;
 use super::pair_times::{NearTest, PairSearch};
 use super::timeline::Timeline;
 use crate::contact_time::{self, Reach};
 use crate::detect::contact::Bodies;
 use crate::detect::sphere_surface;
-use crate::norm::Norm;
-use crate::surface::{Form, LastCarriage};
+use crate::surface::Surface;
 use crate::system::System;
 
 /// Predicts what the spheres that an answer changed meet next, as of `now` \[s\], and enters it into the schedule.
@@ -301,57 +301,30 @@ fn meet_surfaces(
     }
     let center = body.position;
     let planes = planes_that_hold(timeline, system, slot);
-    let carriage = LastCarriage::default();
-    for (number, shift) in timeline.surfaces_near(slot) {
-        let surface = &system.surfaces[number as usize];
-        let is_at_rest = surface.motion.is_at_rest();
-        let is_missed = |reach: Reach| reach.misses(&surface.form, shift);
-        if is_at_rest && reach.is_some_and(is_missed) {
+    for (number, shift) in timeline.surfaces_at_rest_near(slot) {
+        let Surface { form, motion, .. } = &system.surfaces[number as usize];
+        let is_missed = |reach: Reach| reach.misses(form, shift);
+        if reach.is_some_and(is_missed) {
             continue;
         }
         let is_passed = passed.contains(&Bodies::Surface { sphere, surface: number });
         if is_passed || timeline.flights.is_held_by(slot, number) {
             continue;
         }
-        let is_above = |plane: &Plane| plane.is_above(&surface.form, shift, center);
-        if is_at_rest && planes.iter().flatten().any(is_above) {
+        let is_above = |plane: &Plane| plane.is_above(form, shift, center);
+        if planes.iter().flatten().any(is_above) {
             continue;
         }
-        // A surface that moves is given as it is at the start of the frame.
-        let start = if is_at_rest { body.time } else { body.time.max(timeline.frame[0]) };
-        let (form, motion) = carriage.after(surface, start - timeline.frame[0]);
-        let course = surface.course_after(start - timeline.frame[0]);
-        let turns = motion.angular_velocity != DVec3::ZERO;
-        // The way of a surface that turns or does not move steadily is searched to the end of the frame at most.
-        let until = if course.is_some() {
-            timeline.frame[1].min(flight_end)
-        } else if turns {
-            timeline.frame[1].min(horizon).min(flight_end)
-        } else {
-            horizon
-        };
-        if until < start {
-            continue;
-        }
-        if let Some(course) = &course {
-            let length = until - start;
-            let flight = || Reach::of(body.flight(species), species.radius, until - body.time);
-            let bounds = course.bounds(0.0, length);
-            let arm = (center - shift - motion.origin).norm();
-            let reach = reach.unwrap_or_else(flight);
-            let reach = reach.seen_from_moving(bounds.way, bounds.spin * length, arm);
-            if reach.misses(&form, shift) {
-                continue;
-            }
-        }
-        let track = timeline.flights.track_from(slot, start).shifted(-shift);
-        let (radius, horizon) = (species.radius, until - start);
-        let delay =
-            contact_time::track_surface(&track, radius, &form, &motion, course.as_ref(), horizon);
+        let track = timeline.flights.track_from(slot, body.time).shifted(-shift);
+        let (radius, horizon) = (species.radius, horizon - body.time);
+        let delay = contact_time::track_surface(&track, radius, form, motion, None, horizon);
         if let Some(delay) = delay {
-            let target = PackedTarget::surface(number);
-            events.add(Event::at(start + delay, target));
+            events.add(Event::at(body.time + delay, PackedTarget::surface(number)));
         }
+    }
+    if !timeline.moving_surfaces.is_empty() {
+        let (movers, memory) = (moving::movers(timeline, system), &mut moving::Memory::default());
+        moving::meet((timeline, system), slot, &movers, passed, (events, memory));
     }
 }
 
@@ -360,7 +333,7 @@ fn meet_surfaces_growing(timeline: &Timeline, system: &System, slot: u32, events
     let body = &timeline.flights.bodies[slot as usize];
     let species = timeline.flights.species_of(slot);
     let radius = timeline.flights.radius_at(slot, body.time);
-    for (number, shift) in timeline.surfaces_near(slot) {
+    for (number, shift) in timeline.surfaces_with(slot, &timeline.moving_surfaces) {
         let mut flight = body.flight(species);
         flight.position -= shift;
         let growing = [radius, species.growth_speed];
@@ -385,11 +358,8 @@ fn planes_that_hold<'a>(
     let body = &flights.bodies[slot as usize];
     let surfaces = flights.clusters.get(cluster).surfaces_of(flights.index_of[slot as usize]);
     let under = surfaces.filter_map(|surface| {
-        let image = if is_periodic {
-            nearest_image(timeline, &system.surfaces[surface as usize].form, surface, slot)?
-        } else {
-            DVec3::ZERO
-        };
+        let image =
+            if is_periodic { nearest_image(timeline, system, surface, slot)? } else { DVec3::ZERO };
         let state = [body.position - image, body.velocity];
         Some(Plane::under(state, surface, system.surfaces)?.at_image(image))
     });
@@ -398,12 +368,13 @@ fn planes_that_hold<'a>(
 }
 
 /// Offset of the image of a surface that is nearest to a sphere \[m\].
-fn nearest_image(timeline: &Timeline, form: &Form, surface: u32, slot: u32) -> Option<DVec3> {
+fn nearest_image(timeline: &Timeline, system: &System, surface: u32, slot: u32) -> Option<DVec3> {
+    let form = &system.surfaces[surface as usize].form;
     let place = timeline.flights.bodies[slot as usize].position;
     let distance = |shift: &DVec3| {
         let separation = sphere_surface(form, place - *shift, 0.0);
         separation.map_or(f64::INFINITY, |separation| separation.distance)
     };
-    let near = timeline.surfaces_near(slot).filter(|near| near.0 == surface);
+    let near = timeline.images_of(system, slot, surface);
     near.map(|(_, shift)| shift).min_by(|a, b| distance(a).total_cmp(&distance(b)))
 }

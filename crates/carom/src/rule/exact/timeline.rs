@@ -31,7 +31,7 @@ pub(crate) struct Timeline {
     pub(super) flights: Flights,
     pub(super) neighbours: Neighbours,
     pub(super) schedule: Schedule,
-    /// Moving surfaces, which count as near every sphere.
+    /// Moving surfaces that deflect spheres.
     pub(super) moving_surfaces: Vec<u32>,
     /// By slot, where flights restart often near surfaces that do not move; else empty.
     pub(super) clearances: Vec<Clearance>,
@@ -376,16 +376,6 @@ impl Timeline {
         self.drop_clearance(slot);
     }
 
-    /// Surfaces that a sphere may meet in its neighbour region, with the shift \[m\] that brings them to
-    /// where its position counts.
-    pub(super) fn surfaces_near(&self, slot: u32) -> impl Iterator<Item = (u32, DVec3)> {
-        let level = self.flights.species_of(slot).level;
-        let shift = self.neighbours.shift_from_box(slot);
-        let moving = self.moving_surfaces.iter().map(move |&surface| (surface, shift));
-        let near = self.neighbours.surfaces_near(slot, level).chain(moving);
-        near.filter(move |near| self.neighbours.meets_surface(slot, near.0))
-    }
-
     /// Whether a sphere cannot meet a surface on its flight, other than those in persistent contact with it.
     #[inline]
     pub(super) fn is_clear_of_surfaces(&self, slot: u32) -> bool {
@@ -408,7 +398,7 @@ impl Timeline {
             return;
         }
         let obstacles = self
-            .surfaces_near(slot)
+            .surfaces_at_rest_near(slot)
             .filter(|&(surface, _)| !self.flights.is_held_by(slot, surface))
             .map(|(surface, shift)| Obstacle {
                 form: &system.surfaces[surface as usize].form,

@@ -49,9 +49,6 @@ pub(crate) struct Zone {
     solver: Solver,
     #[cfg_attr(feature = "serde", serde(skip))]
     scratch: Scratch,
-    /// Surfaces at a tick; valid within [`Self::step`] only.
-    #[cfg_attr(feature = "serde", serde(skip))]
-    surfaces: Vec<Surface>,
     /// The last tick, and the next one, on the world's clock \[s\]; the next one is infinite while all
     /// sleep.
     ticks: [f64; 2],
@@ -350,15 +347,9 @@ impl Zone {
         self.apply_forces(system);
         let before = self.motion.clone();
         self.velocity_before.clone_from(&self.motion.velocity);
-        let surfaces = if system.has_moving_surfaces() {
-            self.place_surfaces(system, offset);
-            &self.surfaces
-        } else {
-            system.surfaces
-        };
         let system = System {
             spheres: &self.properties,
-            surfaces,
+            moved_for: system.has_moving_surfaces().then_some(offset),
             // Forces between spheres are held.
             interactions: None,
             ..*system
@@ -405,12 +396,6 @@ impl Zone {
             of(applied, index).map_or(held, |own| Some(held.map_or(own, |held| own + held)))
         };
         self.properties.applied_force = self.index.iter().filter_map(force).collect();
-    }
-
-    /// Moves surfaces to their places at a time after the poses of the system \[s\].
-    fn place_surfaces(&mut self, system: &System, offset: f64) {
-        self.surfaces.clear();
-        self.surfaces.extend(system.surfaces.iter().map(|surface| surface.moved(offset)));
     }
 }
 

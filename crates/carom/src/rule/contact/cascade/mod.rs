@@ -38,7 +38,7 @@ pub(super) fn follow(
     let mut gathering = Gathering::among(solver.slots.len());
     for &seed in seeds {
         let Some(mut island) = gathering.gather(solver, seed, sub_step) else { continue };
-        let course = Course::run(&mut island, solver.places.starts(), sub_step);
+        let course = Course::run(&mut island, solver.places.at_rest(), sub_step);
         report.energy_account.contacts += course.work;
         let impacts = course.impacts.iter().map(|it| it.report(system, solver, sub_step));
         report.impacts.extend(impacts);

@@ -15,6 +15,7 @@ use crate::rule::exact::contact_scale::{MOST_MISSED, TOUCHING};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::features::has;
 use crate::rule::exact::flights::Cluster;
+use crate::rule::exact::moving::Around;
 use crate::rule::exact::neighbours::NeighbourBuffer;
 use crate::rule::exact::timeline::Timeline;
 use crate::rule::periodic;
@@ -147,7 +148,7 @@ impl<'a> Gathering<'a> {
             let separation = sphere_surface(&form, place - shift, 0.0);
             separation.map_or(f64::INFINITY, |separation| separation.distance)
         };
-        let images = self.timeline.surfaces_near(slot).filter(|near| near.0 == surface);
+        let images = self.timeline.images_of(self.context.system, slot, surface);
         let nearest = images.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)));
         if let Some((_, shift)) = nearest {
             let found = TouchOrigin { shift: -shift, is_predicted, is_handed_over };
@@ -191,7 +192,9 @@ impl<'a> Gathering<'a> {
         let sphere = timeline.flights.index_of[slot as usize];
         let member = self.members[&sphere];
         let mesh = holding_mesh(timeline, self.context, slot, self.time);
-        for near @ (surface, shift) in timeline.surfaces_near(slot) {
+        let radius = member.species.radius;
+        let around = Around::touching(member.position, radius, self.time);
+        for near @ (surface, shift) in self.context.surfaces_near(timeline, slot, around) {
             let whole = self.context.system.surfaces[surface as usize].whole;
             let mesh = mesh.filter(|mesh| mesh.whole == whole);
             let (is_handed_over, is_left) = (mesh.is_some(), mesh.is_some_and(|it| it.is_left));

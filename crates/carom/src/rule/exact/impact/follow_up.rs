@@ -9,6 +9,7 @@ use crate::respond;
 use crate::rule::exact::contact_scale::{ContactScale, RESOLVED_PATH};
 use crate::rule::exact::contacts::{Group, Member};
 use crate::rule::exact::context::StepContext;
+use crate::rule::exact::moving::Around;
 use crate::rule::exact::neighbours::NeighbourBuffer;
 use crate::rule::exact::predict;
 use crate::rule::exact::timeline::Timeline;
@@ -114,7 +115,8 @@ impl Search<'_> {
         let Self { timeline, context, group, .. } = *self;
         let member = &group.members[place];
         let sphere = member.index;
-        for (surface, shift) in timeline.surfaces_near(member.slot) {
+        let around = Around::touching(member.position, member.species.radius, group.time);
+        for (surface, shift) in context.surfaces_near(timeline, member.slot, around) {
             let bodies = Bodies::Surface { sphere, surface };
             let (form, motion) = context.surface_at(surface, group.time);
             let center = member.position - shift;

@@ -111,7 +111,7 @@ fn nearest_image(
 ) -> Option<Separation> {
     let radius = timeline.flights.radius_at(slot, time);
     let form = &context.system.surfaces[surface as usize].form;
-    let images = timeline.surfaces_near(slot).filter(|near| near.0 == surface);
+    let images = timeline.images_of(context.system, slot, surface);
     let seen = images.filter_map(|(_, shift)| {
         let separation = known_in_front(form, place - shift, radius)?;
         Some(Separation { point: separation.point + shift, ..separation })

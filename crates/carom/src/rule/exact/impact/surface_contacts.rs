@@ -15,6 +15,7 @@ use crate::rule::exact::contacts::{
 };
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::features;
+use crate::rule::exact::moving::Around;
 use crate::rule::exact::pair_times::Neighbourhood;
 use crate::rule::exact::persistent::{free_acceleration, is_back_within};
 use crate::rule::exact::timeline::Timeline;
@@ -143,7 +144,8 @@ pub(super) fn single_sphere<'a>(
     }
     let member = Member::at(&timeline.flights, slot, time);
     let mut touched = SurfaceContacts::default();
-    for found @ (near, _) in timeline.surfaces_near(slot) {
+    let around = Around::touching(member.position, member.species.radius, time);
+    for found @ (near, _) in context.surfaces_near(timeline, slot, around) {
         let is_known = surface == Some(near) || timeline.flights.is_held_by(slot, near);
         if is_known || touches_surface(context, &member, found, time) {
             touched.add(context, &member, near)?;

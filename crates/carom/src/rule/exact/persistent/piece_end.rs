@@ -10,6 +10,7 @@ use crate::norm::Norm;
 use crate::respond;
 use crate::rule::exact::contacts::{self, Group, Member, Touch};
 use crate::rule::exact::context::StepContext;
+use crate::rule::exact::flights::ContactWork;
 use crate::rule::exact::timeline::Timeline;
 use crate::rule::periodic;
 use crate::sum::Sum;
@@ -86,6 +87,25 @@ pub(crate) fn write_motion(
             motion.velocity[index] = member.velocity;
         }
     }
+}
+
+/// The work \[J\] of moving colliders on spheres that [`write_motion`] moved onto them at `time` \[s\]: the flights go
+/// on as if nothing had, so the next frame begins with less.
+pub(crate) fn work_written(timeline: &Timeline, motion: &Motion, period: DVec3, time: f64) -> f64 {
+    let flights = &timeline.flights;
+    let gained = |&slot: &u32| {
+        let species = flights.species_of(slot);
+        if species.contact_work != ContactWork::Colliders {
+            return 0.0;
+        }
+        let index = flights.index_of[slot as usize] as usize;
+        let (position, velocity) = flights.state_of(slot, time);
+        let written = motion.velocity[index];
+        let change = 0.5 * (written - velocity).dot(written + velocity);
+        let way = periodic::wrapped(motion.position[index] - position, period);
+        species.mass * (change - flights.free_species_of(slot).acceleration.dot(way))
+    };
+    flights.clusters.iter().flat_map(|cluster| &cluster.members).map(gained).sum()
 }
 
 /// Spheres that were in persistent contact with each other.

@@ -11,6 +11,7 @@ use crate::rule::exact::changed::Changed;
 use crate::rule::exact::contacts::{self, Group};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::flights::Species;
+use crate::rule::exact::moving::Around;
 use crate::rule::exact::persistent::held_forces;
 use crate::rule::exact::timeline::Timeline;
 
@@ -115,7 +116,8 @@ fn without_closing(
 ) -> DVec3 {
     let reach = velocity.norm() * context.parameters.zone_tick;
     let radius = timeline.flights.species_of(slot).radius;
-    for (surface, shift) in timeline.surfaces_near(slot) {
+    let around = Around::touching(position, radius, time).farther(reach);
+    for (surface, shift) in context.surfaces_near(timeline, slot, around) {
         let (form, motion) = context.surface_at(surface, time);
         let separation = sphere_surface(&form, position - shift, radius);
         if let Some(near) = separation.filter(|it| it.distance <= reach) {
@@ -135,7 +137,11 @@ fn in_front(
     time: f64,
 ) -> DVec3 {
     let duration = timeline.zone.next_tick() - time;
-    let surfaces = timeline.surfaces_near(slot);
+    let radius = timeline.flights.species_of(slot).radius;
+    // Pushed by one surface, the sphere may come to another one.
+    let way = 2.0 * (radius + duration * velocity.norm());
+    let around = Around::touching(position, radius, time).farther(way).lasting(duration);
+    let surfaces = context.surfaces_near(timeline, slot, around);
     let passages: Vec<Passage> = surfaces
         .map(|(surface, shift)| {
             let (before, motion) = context.surface_at(surface, time);
@@ -145,7 +151,7 @@ fn in_front(
         })
         .collect();
     let end = position + duration * velocity;
-    let held = contact::held(&passages, [position, end], timeline.flights.species_of(slot).radius);
+    let held = contact::held(&passages, [position, end], radius);
     held.map_or(velocity, |held| (held - position) / duration)
 }
 

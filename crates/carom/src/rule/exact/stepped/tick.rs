@@ -11,6 +11,7 @@ use crate::forces;
 use crate::id::SphereId;
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::events::{NextEvents, Prediction};
+use crate::rule::exact::moving::Around;
 use crate::rule::exact::neighbours::NeighbourBuffer;
 use crate::rule::exact::predict;
 use crate::rule::exact::timeline::Timeline;
@@ -74,7 +75,8 @@ fn would_rejoin(
         let is_near = separation.is_some_and(|it| it.distance <= NEAR * species.radius);
         is_near.then_some(surface)
     };
-    let mut touched = timeline.surfaces_near(slot).filter_map(touches);
+    let around = Around::touching(center, species.radius, now);
+    let mut touched = context.surfaces_near(timeline, slot, around).filter_map(touches);
     let Some(first) = touched.next() else { return false };
     let is_at_rest = context.system.surfaces[first as usize].motion.is_at_rest();
     !is_at_rest || touched.next().is_some() || species.drag_rate > 0.0
@@ -175,7 +177,8 @@ fn leave(
     let slot = timeline.flights.slot_of[index as usize];
     let mut position = where_it_counts(timeline, context, slot, position, now);
     let species = *timeline.flights.free_species_of(slot);
-    for (surface, shift) in timeline.surfaces_near(slot) {
+    let around = Around::touching(position, species.radius, now).farther(species.radius);
+    for (surface, shift) in context.surfaces_near(timeline, slot, around) {
         let (form, _) = context.surface_at(surface, now);
         let separation = sphere_surface(&form, position - shift, species.radius);
         if let Some(overlap) = separation.filter(|it| it.distance < 0.0) {

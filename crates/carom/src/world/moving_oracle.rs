@@ -1,0 +1,91 @@
+//! Worlds with meshes that move, against worlds in which each sphere is tested against all of their surfaces.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::World;
+use crate::collider::{Collider, Shape};
+use crate::collider_motion::MotionPart;
+use crate::forces::Gravity;
+use crate::mesh::Mesh;
+use crate::pose::Pose;
+use crate::settings::{Contact, Exact, Rule, Settings, Zones};
+use crate::sphere::Sphere;
+
+/// Numbers in [-1, 1) that look random, the same in every run (Knuth's MMIX generator).
+struct Numbers(u64);
+
+impl Numbers {
+    fn next(&mut self) -> f64 {
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    fn vector(&mut self) -> DVec3 {
+        DVec3::new(self.next(), self.next(), self.next())
+    }
+
+    fn motion(&mut self) -> MotionPart {
+        let axis = self.vector() + 1.5 * DVec3::Y;
+        let (pivot, frequency) = (self.vector(), 1.0 + 0.5 * self.next());
+        match (1.5 * self.next() + 1.5) as u32 {
+            0 => MotionPart::Oscillate { axis, amplitude: 0.2, frequency, phase: self.next() },
+            1 => MotionPart::Swing { axis, pivot, amplitude: 0.3, frequency, phase: self.next() },
+            _ => MotionPart::Turn { axis, pivot, rate: 2.0 * self.next() },
+        }
+    }
+}
+
+/// Rough balls over a bowl of some hundred facets and a bar of boxes, all of which move.
+fn random_world(numbers: &mut Numbers, rule: Rule) -> World {
+    let mut world = World::new(Settings::default().with_rule(rule)).unwrap();
+    world.add_force(Gravity::new(DVec3::new(0.0, -9.81, 0.0))).unwrap();
+    let heights: Vec<Vec<f64>> = (-5i32..6)
+        .map(|z| {
+            let height = |x: i32| 0.03 * f64::from(x * x + z * z) + 0.05 * numbers.next();
+            (-5i32..6).map(height).collect()
+        })
+        .collect();
+    let mesh = Mesh::from_heights([2.0; 2], &heights).unwrap();
+    let bowl = Collider::new(Shape::Mesh(mesh), Pose::at(DVec3::ZERO));
+    let friction = numbers.next().max(0.0);
+    let bowl = bowl.with_restitution(0.6).with_friction(friction).with_motion([numbers.motion()]);
+    world.add_collider(bowl).unwrap();
+    let velocity = 0.5 * numbers.vector();
+    for _ in 0..3 {
+        let place = 0.5 * numbers.vector() + 1.5 * DVec3::Y;
+        let bar = Collider::new(Shape::Box { size: DVec3::new(0.4, 0.1, 0.2) }, Pose::at(place));
+        world.add_collider(bar.moving(velocity, 2.0 * numbers.vector())).unwrap();
+    }
+    for number in 0..9 {
+        let (x, z) = (0.4 * f64::from(number % 3 - 1), 0.4 * f64::from(number / 3 - 1));
+        let center = DVec3::new(x, 0.9, z) + 0.05 * numbers.vector();
+        let sphere = Sphere::new(center, 0.08).with_velocity(2.0 * numbers.vector());
+        world.add_sphere(sphere.with_restitution(0.6).with_friction(friction)).unwrap();
+    }
+    world
+}
+
+#[test]
+fn spheres_near_moving_meshes_go_the_same_way_as_where_all_surfaces_are_tested() {
+    let mut numbers = Numbers(7);
+    let mut impacts = 0;
+    for case in 0..24 {
+        let rule: Rule = match case % 3 {
+            0 => Contact::default().into(),
+            1 => Exact::default().into(),
+            _ => Exact::default().with_zones(Zones::Automatic).with_contact_duration(1e-3).into(),
+        };
+        let mut world = random_world(&mut numbers, rule);
+        let mut oracle = world.clone();
+        Arc::make_mut(&mut oracle.state.colliders).find_moving_everywhere();
+        for frame in 0..30 {
+            impacts += world.step(1.0 / 60.0).unwrap().impacts.len();
+            oracle.step(1.0 / 60.0).unwrap();
+            assert_eq!(world.state_hash(), oracle.state_hash(), "case {case}, frame {frame}");
+        }
+    }
+    assert!(impacts > 500, "{impacts}");
+}
