@@ -8,7 +8,7 @@ use crate::polynomial_flight::{ORDERS, PolynomialFlight, TERMS};
 
 /// The motion of a [`PolynomialFlight`] along an axis, for its time.
 pub(crate) struct AxisPolynomial {
-    /// \[m/s\]
+    /// Velocity at the start \[m/s\].
     velocity: f64,
     /// Length of time over which it holds, h \[s\].
     length: f64,
@@ -40,8 +40,8 @@ impl AxisPolynomial {
 
 impl AlongAxis for AxisPolynomial {
     fn leaves(&self, low: f64, high: f64) -> f64 {
-        let fastest: f64 = self.coefficients.iter().map(|c| c.abs()).sum();
-        let farthest = self.length * (self.velocity.abs() + 0.5 * self.length * fastest);
+        let strongest: f64 = self.coefficients.iter().map(|c| c.abs()).sum();
+        let farthest = self.length * (self.velocity.abs() + 0.5 * self.length * strongest);
         let reaches = |distance: f64, sign: f64| {
             if farthest < distance {
                 return f64::INFINITY;
@@ -50,7 +50,7 @@ impl AlongAxis for AxisPolynomial {
                 let [way, velocity] = self.after(time);
                 [sign * way - distance.max(0.0), sign * velocity]
             };
-            first_positive(beyond, fastest, self.length).unwrap_or(f64::INFINITY)
+            first_positive(beyond, strongest, self.length).unwrap_or(f64::INFINITY)
         };
         reaches(high, 1.0).min(reaches(-low, -1.0))
     }

@@ -55,6 +55,14 @@ impl PolynomialFlight {
         [left(self.position, t * self.velocity + way), left(self.velocity, change)]
     }
 
+    /// Upper bound of the speed along each axis in its time \[m/s\].
+    pub fn fastest(&self) -> DVec3 {
+        let PolynomialAcceleration { length, coefficients, .. } = &self.acceleration;
+        let terms = coefficients.iter().zip(INTEGRALS);
+        let gained: DVec3 = terms.map(|(c, [_, of_change])| c.abs() * of_change).sum();
+        self.velocity.abs() + *length * gained
+    }
+
     /// Largest displacement along each axis in its time \[m\].
     pub fn farthest(&self) -> DVec3 {
         let h = self.acceleration.length;

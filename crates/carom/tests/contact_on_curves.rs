@@ -176,3 +176,33 @@ fn a_ball_in_a_bowl_on_a_spring_has_the_period_of_the_pendulum_with_one() {
         assert_close(x, place.x * (w * world.time()).cos(), 1e-11 * length);
     }
 }
+
+#[test]
+fn a_ball_that_a_spring_pulls_back_over_an_edge_comes_onto_the_face() {
+    let faces = [
+        (Shape::Rectangle { size_x: 2.0, size_z: 2.0 }, vec(-1.0, 0.0, 0.0)),
+        (Shape::Box { size: vec(2.0, 1.0, 2.0) }, vec(-1.0, -0.5, 0.0)),
+    ];
+    for (shape, place) in faces {
+        for (angle, stiffness) in [(0.05f64, 10.0), (0.2, 10.0), (0.2, 100.0), (0.4, 100.0)] {
+            let mut world = falling();
+            let name = format!("{shape:?} {angle} {stiffness}");
+            add(&mut world, shape.clone(), Pose::at(place));
+            // It lies on the edge along z through the origin.
+            let start = 0.1 * vec(angle.sin(), angle.cos(), 0.0);
+            let ball = world.add_sphere(soft(start, 0.1)).unwrap();
+            let anchor = vec(-1.0, -0.6, 0.0);
+            let spring = Spring::to_point(ball, anchor, 0.0).with_stiffness(stiffness);
+            world.add_spring(spring).unwrap();
+            let energy = world.total_energy();
+            for _ in 0..64 {
+                world.step(FRAME).unwrap();
+                let Sphere { position, .. } = world.sphere(ball).unwrap();
+                let nearest = vec(position.x.clamp(-2.0, 0.0), 0.0, 0.0);
+                let gap = position.distance(nearest) - 0.1;
+                assert!(gap > -1e-12, "{name}: {gap:e}");
+                assert_close(world.total_energy(), energy, 1e-12 * energy.abs());
+            }
+        }
+    }
+}

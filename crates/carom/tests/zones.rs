@@ -268,13 +268,13 @@ fn a_heap_stands_while_its_frames_become_longer_and_shorter() {
     }
 }
 
-/// A column of six balls of which a zone is soon made, over a floor.
+/// A column of six balls of which a zone is soon made, over a rough floor.
 fn column() -> World {
     let exact = Exact::default().with_max_impacts(50);
     let mut world = World::new(Settings::default().with_rule(exact)).unwrap();
     world.add_force(Gravity::new(-G * DVec3::Y)).unwrap();
     let floor = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO)).with_restitution(0.0);
-    world.add_collider(floor).unwrap();
+    world.add_collider(floor.with_friction(0.5)).unwrap();
     for number in 0..6 {
         let place = vec(1e-3 * f64::from(number), 0.5 + f64::from(number), 0.0);
         world.add_sphere(ball(place, 0.5)).unwrap();

@@ -43,7 +43,10 @@ fn time_below(value: f64, slope: f64, curvature: f64) -> f64 {
 }
 
 /// The first number in an interval at which a function is positive, which it is at the end.
-fn bisected(function: &impl Fn(f64) -> [f64; 2], [mut before, mut after]: [f64; 2]) -> f64 {
+pub(crate) fn bisected(
+    function: &impl Fn(f64) -> [f64; 2],
+    [mut before, mut after]: [f64; 2],
+) -> f64 {
     loop {
         let middle = before + 0.5 * (after - before);
         if middle <= before || middle >= after {

@@ -46,6 +46,7 @@ pub(super) fn search(
     let Solver { slots, slabs, watched, dormant, places, .. } = solver;
     solver.is_stale = false;
     solver.incidence.clear();
+    slots.wrap();
     let approaches = NearMoving::approaches(system, slots, places, frame.h);
     let surfaces = (!system.surfaces.is_empty()).then_some(&approaches[..]);
     solver.drift = search.arrange(slots, [frame.h, sub_step.h], surfaces);

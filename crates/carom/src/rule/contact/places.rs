@@ -84,6 +84,14 @@ impl Places {
     pub fn begin_frame(&mut self, surfaces: &[Surface], h: f64, changed: bool) {
         self.known.clear();
         (self.start, self.times, self.frame) = (0.0, [0.0; 2], h);
+        self.copy(surfaces, changed);
+        let moving = self.moving.iter().map(|&number| &surfaces[number as usize]);
+        let rates = moving.map(|it| turning_rate(&it.form, &it.motion));
+        self.turning_rate = rates.fold(0.0, f64::max);
+    }
+
+    /// Copies the surfaces if they `changed`, or are not known.
+    fn copy(&mut self, surfaces: &[Surface], changed: bool) {
         if !changed && self.starts.len() == surfaces.len() + self.images.len() {
             return;
         }
@@ -96,9 +104,6 @@ impl Places {
             |(_, it): &(u32, &Surface)| it.role == Role::Deflects && !it.motion.is_at_rest();
         self.moving.clear();
         self.moving.extend((0..).zip(surfaces).filter(moves).map(|(number, _)| number));
-        let rates = self.moving.iter().map(|&number| &starts[number as usize]);
-        let rates = rates.map(|(form, motion)| turning_rate(form, motion));
-        self.turning_rate = rates.fold(0.0, f64::max);
     }
 
     /// Begins a sub-step between two times of the frame \[s\].

@@ -86,7 +86,6 @@ impl Search {
         [frame, h]: [f64; 2],
         surfaces: Option<&[f64]>,
     ) -> Drift {
-        slots.wrap();
         let drift = self.find_margins(slots, [frame, h], surfaces);
         let Self { grid, starts, margins, from, slot_of, cells, spare, .. } = self;
         let count = slots.len();

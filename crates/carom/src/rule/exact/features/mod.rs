@@ -1,4 +1,5 @@
-//! Features of surfaces: the part of a surface that has a sphere, how the normal turns there, and how long the sphere stays.
+//! Features of surfaces: the part of a surface that has a sphere, how the normal turns there, and how long the sphere
+//! stays.
 
 mod curvature;
 mod feature;

@@ -6,9 +6,14 @@ use super::separation::{TOUCHING, are_within, is_over_face, slack_of};
 use crate::axis_motion::AlongAxis;
 use crate::axis_polynomial::AxisPolynomial;
 use crate::band::Band;
+use crate::integrate::crossing::bisected;
 use crate::norm::Norm;
 use crate::polynomial_flight::PolynomialFlight;
 use crate::surface::{Form, Rectangle};
+
+/// Least step towards the end of a face, as a part of the time of a flight: how briefly a sphere may be past it
+/// unseen.
+const LEAST_PART: f64 = 1e-3;
 
 /// Time \[s\] until a sphere with this centre \[m\] and velocity relative to a surface \[m/s\] may slide off the part of
 /// it that it is in contact with; infinite where the surface has no parts.
@@ -67,18 +72,37 @@ fn time_on_face<M: AlongAxis>(
     time
 }
 
-/// Least step towards the end of a face, as a part of the time of a flight: how briefly a sphere may be past it
-/// unseen.
-const LEAST_PART: f64 = 1e-3;
-
 /// Time \[s\] until a sphere with this flight, relative to a surface, may slide off the part of it that it is in
 /// contact with; infinite if it does not in the time of the flight.
 pub(crate) fn time_on_curve(form: &Form, flight: &PolynomialFlight) -> f64 {
     let state = [flight.position, flight.velocity];
+    let motion = |axis: DVec3| AxisPolynomial::of(flight, axis);
     match form {
         Form::Band(band) => time_beside_rim(band, flight),
-        form => time_on(form, state, |axis| AxisPolynomial::of(flight, axis)),
+        Form::Rectangle(rectangle) => {
+            time_on_face(rectangle, state, motion).min(time_beside_face(rectangle, state, motion))
+        }
+        form => time_on(form, state, motion),
     }
+}
+
+/// Time \[s\] until a sphere beyond edges of a rectangle may come back within one of them, by its motion along the
+/// axes of the rectangle.
+fn time_beside_face<M: AlongAxis>(
+    rectangle: &Rectangle,
+    state: [DVec3; 2],
+    motion: impl Fn(DVec3) -> M,
+) -> f64 {
+    let offset = state[0] - rectangle.center;
+    let slack = slack_of(rectangle, offset);
+    let sides = [(rectangle.axis_x, rectangle.half_x), (rectangle.axis_z, rectangle.half_z)];
+    let beyond = sides.into_iter().zip(are_within(rectangle, state)).filter(|it| !it.1);
+    let times = beyond.map(|((axis, half), _)| {
+        let place = offset.dot(axis);
+        let inward = if place > 0.0 { -axis } else { axis };
+        motion(inward).leaves(f64::NEG_INFINITY, place.abs() - half + slack)
+    });
+    times.fold(f64::INFINITY, f64::min)
 }
 
 /// Time \[s\] until a sphere with this flight changes between the face of a band and a rim.
@@ -89,30 +113,15 @@ fn time_beside_rim(band: &Band, flight: &PolynomialFlight) -> f64 {
     let room = |time: f64| side * band.face_seen_from(flight.after(time).0).room + slack;
     let end = flight.acceleration.length;
     // The room changes no faster than the sphere moves.
-    let fastest = flight.farthest().norm() / end;
+    let fastest = flight.fastest().norm();
     let (mut time, mut left) = (0.0, room(0.0));
     while time < end {
         let next = (time + (left / fastest).max(LEAST_PART * end)).min(end);
         left = room(next);
         if left <= 0.0 {
-            return first_without(room, [time, next]);
+            return bisected(&|time| [-room(time), 0.0], [time, next]);
         }
         time = next;
     }
     f64::INFINITY
-}
-
-/// The first number in an interval at which a function is not positive: it is so at the beginning, not at the end.
-fn first_without(function: impl Fn(f64) -> f64, [mut before, mut after]: [f64; 2]) -> f64 {
-    loop {
-        let middle = before + 0.5 * (after - before);
-        if middle <= before || middle >= after {
-            return after;
-        }
-        if function(middle) > 0.0 {
-            before = middle;
-        } else {
-            after = middle;
-        }
-    }
 }

@@ -60,6 +60,8 @@ pub(crate) struct CurveContacts {
     curvatures: Vec<NormalCurvature>,
     /// One per contact \[N\]
     pub forces: Vec<f64>,
+    /// Those found first, before what rounding left is removed \[N\].
+    first_forces: Vec<f64>,
     /// Cholesky's factor, by rows.
     factor: Vec<f64>,
 }
@@ -72,6 +74,7 @@ impl CurveContacts {
             normals: vec![DVec3::ZERO; count],
             curvatures: vec![NormalCurvature::Flat; count],
             forces: vec![0.0; count],
+            first_forces: vec![0.0; count],
             factor: vec![0.0; count * count],
         }
     }
@@ -103,9 +106,9 @@ impl CurveContacts {
         self.factorize(mass_of);
         // The second time removes what rounding left of the first: what rests does not drift.
         self.remove_openings(velocities, mass_of, at);
-        let forces = self.forces.clone();
+        self.first_forces.copy_from_slice(&self.forces);
         self.remove_openings(velocities, mass_of, at);
-        self.forces.iter_mut().zip(forces).for_each(|(force, first)| *force += first);
+        self.forces.iter_mut().zip(&self.first_forces).for_each(|(force, first)| *force += first);
     }
 
     /// Adds the accelerations \[m/s²\] of the forces under which no gap opens or closes.

@@ -154,7 +154,7 @@ impl<'a> JointField<'a> {
     ) {
         let flights = self.flights;
         let place_of = |index: u32| {
-            let place = component.members.iter().position(|&member| member == index)?;
+            let place = component.members.binary_search(&index).ok()?;
             Some(self.place_of[place])
         };
         let mut touched = Vec::new();
@@ -306,8 +306,15 @@ impl JointField<'_> {
             }
         }
         let carried = [DVec3::ZERO; 2];
-        let polynomial = |values| {
+        let polynomial = |values: [DVec3; TERMS]| {
             let coefficients = gauss_radau::through_nodes(values);
+            let through_all = PolynomialAcceleration { length, coefficients, carried };
+            if through_all.is_finite() {
+                return through_all;
+            }
+            // A rough step reaches to where forces are not finite.
+            let mut coefficients = [DVec3::ZERO; TERMS];
+            coefficients[0] = values[0];
             PolynomialAcceleration { length, coefficients, carried }
         };
         let free = free.into_iter().map(polynomial).collect();

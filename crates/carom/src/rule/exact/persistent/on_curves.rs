@@ -3,11 +3,15 @@
 use glam::DVec3;
 
 use crate::detect::contact::Bodies;
+use crate::norm::Norm;
 use crate::respond::friction_of;
 use crate::rule::exact::contacts::{Member, Touch};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::features::Feature;
 use crate::rule::exact::flights::{CurveBody, CurveContact, CurveContacts, MOST_CONTACTS};
+
+/// Angle \[rad\] below which two normals count as one: they differ by rounding.
+pub(super) const SAME_NORMAL: f64 = 1e-9;
 
 /// Whether all spheres in these contacts fly on curves with them: they touch each other and surfaces at rest, without
 /// friction, and no contact follows from others.
@@ -16,11 +20,21 @@ pub(super) fn fly_so(context: &StepContext, members: &[Member], touches: &[Touch
         return false;
     }
     let contacts = touches.iter().map(|touch| smooth_contact(context, members, touch)).collect();
-    let contacts: Option<Vec<CurveContact>> = contacts;
+    let Some(contacts): Option<Vec<CurveContact>> = contacts else { return false };
+    // Of faces with a common edge one bears the sphere.
+    let numbers = (0..touches.len()).filter(|&number| !is_repeated(&touches[..=number]));
+    let apart = numbers.map(|number| contacts[number]).collect();
     let positions: Vec<DVec3> = members.iter().map(|member| member.position).collect();
-    contacts.is_some_and(|contacts| {
-        CurveContacts::new(contacts)
-            .are_independent(&positions, |place| members[place].species.mass)
+    CurveContacts::new(apart).are_independent(&positions, |place| members[place].species.mass)
+}
+
+/// Whether the last of several touches is with a surface that touches its sphere where another one does.
+fn is_repeated(touches: &[Touch]) -> bool {
+    let Some((last, others)) = touches.split_last() else { return false };
+    others.iter().any(|other| {
+        let are_of_surfaces = last.first.is_none() && other.first.is_none();
+        let is_same = (last.normal - other.normal).norm() <= SAME_NORMAL;
+        are_of_surfaces && other.second == last.second && is_same
     })
 }
 

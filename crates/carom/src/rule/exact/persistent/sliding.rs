@@ -1,4 +1,4 @@
-//! How long a sphere stays on the part of a surface that it is in contact with.
+//! How long the spheres of a group stay on the parts of surfaces that they are in contact with.
 
 use glam::DVec3;
 

@@ -5,6 +5,7 @@ use glam::DVec3;
 
 use super::NoClosedForm;
 use super::accelerations::{Accelerations, IDLE};
+use super::on_curves::SAME_NORMAL;
 use super::planar::{self, PlanarSupport};
 use super::pushed_piece::PushedPiece;
 use super::pushed_spheres::PushedSpheres;
@@ -15,9 +16,6 @@ use crate::respond::friction_of;
 use crate::rule::exact::contacts::{Corner, Group, Member, Plane, Touch};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::flights::{ContactWork, Support, Supported};
-
-/// Angle \[rad\] below which two normals count as one: they differ by rounding.
-const SAME_NORMAL: f64 = 1e-9;
 
 /// A flying sphere leans on others, and does not rest on them, where the normals are across the acceleration up to
 /// this part of it.
@@ -249,6 +247,7 @@ fn on_planes(
     (member.velocity, member.angular_velocity) = (velocity, angular_velocity);
     Ok(Some(support))
 }
+
 /// Whether friction alone presses a sphere onto a surface that it touches.
 fn closes(touch: &Touch, group: &Group, supports: &[Support]) -> bool {
     if supports.iter().any(|support| support.contacts.contains(&touch.bodies)) {
