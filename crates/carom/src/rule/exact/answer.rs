@@ -128,9 +128,15 @@ fn next_step(timeline: &mut Timeline, context: &mut StepContext, slot: u32, time
     Changed::sphere(slot)
 }
 
-/// Returns an error if a force was not finite, or friction has no closed form and nothing is stepped.
-fn check_forces(timeline: &Timeline, context: &StepContext, time: f64) -> Result<(), Unfinished> {
-    if let Some(index) = timeline.flights.lost {
+/// Returns an error if a force was not finite up to `time` \[s\], or friction has no closed form and nothing is stepped.
+/// A force that is first not finite at the end of a frame is an error of the next one.
+pub(super) fn check_forces(
+    timeline: &Timeline,
+    context: &StepContext,
+    time: f64,
+) -> Result<(), Unfinished> {
+    let is_of_this_frame = time < timeline.frame[1];
+    if let Some(index) = timeline.flights.lost.filter(|_| is_of_this_frame) {
         let sphere = context.system.spheres.id[index as usize];
         return Err(Unfinished::NonFiniteForce { sphere });
     }

@@ -120,6 +120,7 @@ pub(crate) fn advance(
 ) -> Result<f64, Unfinished> {
     let parameters = timeline.parameters.with_zone_tick(timeline.zone_tick());
     let mut context = StepContext::new(system, parameters, span, work, report);
+    answer::check_forces(timeline, &context, span.start)?;
     let mut counts = SpanCounts::begin(timeline, work);
     let due = frame::ArrangementDue::of(timeline, system);
     let mut end = span.end;
