@@ -11,7 +11,7 @@ pub(crate) struct AxisMotion {
 /// A motion along one axis for some time.
 pub(crate) trait AlongAxis {
     /// A lower bound of the time \[s\] at which the motion leaves the interval from `low` < 0 to `high` > 0 \[m\]
-    /// about its start; infinite if it does not within its time.
+    /// about its start; without drag it is the time itself. Infinite if it does not leave within its time.
     fn leaves(&self, low: f64, high: f64) -> f64;
 
     /// Displacement in a time \[m\]; `None` where that has no simple form.
@@ -21,7 +21,11 @@ pub(crate) trait AlongAxis {
 impl AlongAxis for AxisMotion {
     #[inline(always)]
     fn leaves(&self, low: f64, high: f64) -> f64 {
-        self.leaves(low, high)
+        if self.acceleration == 0.0 && self.drag_rate == 0.0 {
+            let distance = if self.velocity > 0.0 { high.max(0.0) } else { low.min(0.0) };
+            return if self.velocity == 0.0 { f64::INFINITY } else { distance / self.velocity };
+        }
+        self.reaches(high, 1.0).min(self.reaches(-low, -1.0))
     }
 
     fn way(&self, time: f64) -> Option<f64> {
@@ -31,17 +35,6 @@ impl AlongAxis for AxisMotion {
 }
 
 impl AxisMotion {
-    /// A lower bound of the time \[s\] at which the motion leaves the interval from `low` < 0 to `high` > 0 \[m\]
-    /// about its start. Without drag it is the time itself.
-    #[inline(always)]
-    pub fn leaves(&self, low: f64, high: f64) -> f64 {
-        if self.acceleration == 0.0 && self.drag_rate == 0.0 {
-            let distance = if self.velocity > 0.0 { high.max(0.0) } else { low.min(0.0) };
-            return if self.velocity == 0.0 { f64::INFINITY } else { distance / self.velocity };
-        }
-        self.reaches(high, 1.0).min(self.reaches(-low, -1.0))
-    }
-
     /// A lower bound of the time \[s\] at which the motion reaches one side, `distance` \[m\] away in the direction
     /// of `sign`.
     #[inline(never)]

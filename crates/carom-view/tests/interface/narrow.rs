@@ -28,18 +28,23 @@ fn nothing_to_press_lies_outside_and_the_picture_has_most_of_the_room() {
     assert!(picture.area() > 0.8 * TELEPHONE[0] * TELEPHONE[1], "{picture}");
 }
 
-#[test]
-fn what_fingers_press_is_large_enough_for_them_and_the_picture_keeps_half() {
+/// A scene in the small window of a telephone, which is used by fingers.
+fn telephone() -> Desk {
     let (scene, _) = Library::new().find("simtest3", &[]).expect("a built-in scene");
     let start = Some(Start::Scene(Box::new(scene), Source::BuiltIn));
-    let mut desk = desk_of(
+    desk_of(
         TELEPHONE,
         Setup {
             start,
             host: Box::new(PlainHost { has_coarse_pointer: true, ..PlainHost::default() }),
             ..setup()
         },
-    );
+    )
+}
+
+#[test]
+fn what_fingers_press_is_large_enough_for_them_and_the_picture_keeps_half() {
+    let mut desk = telephone();
     let assert_large = |desk: &Desk, least: usize| {
         let all = desk.query_all(
             By::new()
@@ -73,16 +78,7 @@ fn what_fingers_press_is_large_enough_for_them_and_the_picture_keeps_half() {
 
 #[test]
 fn fingers_close_sheets_and_dialogs_and_these_stay_in_the_window() {
-    let (scene, _) = Library::new().find("simtest3", &[]).expect("a built-in scene");
-    let start = Some(Start::Scene(Box::new(scene), Source::BuiltIn));
-    let mut desk = desk_of(
-        TELEPHONE,
-        Setup {
-            start,
-            host: Box::new(PlainHost { has_coarse_pointer: true, ..PlainHost::default() }),
-            ..setup()
-        },
-    );
+    let mut desk = telephone();
     for key in [Key::I, Key::G, Key::F1, Key::U] {
         press(&mut desk, key);
         desk.run_steps(3);

@@ -31,7 +31,7 @@ struct MovingTree {
     collider: ColliderId,
     /// Number of one of its surfaces.
     surface: u32,
-    /// Of the collider, when the tree was made.
+    /// Pose of the collider when the tree was made.
     pose: Pose,
     tree: SurfaceTree,
 }
@@ -40,9 +40,9 @@ struct MovingTree {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PlacedTree<'a> {
     tree: &'a SurfaceTree,
-    /// One of the surfaces as it is when the system begins; all of them move so.
+    /// One of the surfaces, as it is when the step begins; all of them move like it.
     surface: &'a Surface,
-    /// From the present directions to those of the tree.
+    /// Rotation from the present directions to those of the tree.
     back: DQuat,
     /// Origin of the collider now \[m\].
     pub origin: DVec3,
@@ -51,7 +51,7 @@ pub(crate) struct PlacedTree<'a> {
 }
 
 impl MovingSurfaces {
-    /// Trees over those of these surfaces, made of these colliders, that move and deflect.
+    /// Makes a tree for each collider that moves, over its surfaces that deflect spheres.
     pub fn of(colliders: &Numbered<Collider>, surfaces: &[Surface]) -> Self {
         let moves = |it: &Surface| it.role == Role::Deflects && !it.motion.is_at_rest();
         let mut numbers: BTreeMap<ColliderId, Vec<u32>> = BTreeMap::new();

@@ -17,10 +17,10 @@ pub(crate) const NODES: [f64; TERMS] = [
 /// Powers of s in `s (s - h_1) ... (s - h_(n-1))`, by n.
 pub(super) const NEWTON: [[f64; TERMS]; TERMS] = newton_basis();
 
-/// By node: the parts of way and velocity, by their times squared and once, that the terms of the acceleration add by
-/// there.
+/// By node: the way, divided by the square of the time, and the velocity, divided by the time, that a unit of each term
+/// of the acceleration adds.
 pub(super) const GAINS: [Gains; TERMS] = gains_at_nodes();
-/// The same at the end of a step.
+/// [`GAINS`] at the end of a step.
 pub(super) const GAINS_AT_END: Gains = gains_at(1.0);
 /// `1/(h_n - h_k)` by n and k < n.
 pub(super) const RECIPROCALS: [[f64; TERMS]; TERMS] = reciprocals();

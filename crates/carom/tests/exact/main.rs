@@ -9,7 +9,7 @@ mod periodic_box;
 
 use carom::{
     BodyPair, Boundary, Collider, DQuat, DVec3, Emitter, Error, Exact, Force, Gravity, Pose, Rule,
-    Settings, Shape, Sphere, SphereState, ViscousDrag, World, Zones,
+    Settings, Shape, Sphere, SphereId, SphereState, ViscousDrag, World, Zones,
 };
 use common::{G, Numbers, assert_close, assert_close_vec, vec, world};
 
@@ -155,7 +155,7 @@ fn a_ball_leaves_a_fixed_sphere_two_thirds_of_the_way_down() {
     run(&mut world, 0.01, 400);
     let y = 2.0 / 3.0 * libm::cos(start);
     let expected = y * (2.0 * G * distance * (libm::cos(start) - y)).sqrt();
-    // Forces are found anew every 1e-3 rad: errors of the second order in it, over one radian.
+    // Forces are computed every 1e-3 rad: errors of the second order in it, over one radian.
     assert_close(world.sphere(ball).unwrap().velocity.x, expected, 1e-5 * expected);
 }
 
@@ -311,11 +311,17 @@ impl Force for Spring {
     }
 }
 
-#[test]
-fn a_force_of_its_own_is_followed_to_rounding() {
+/// A world with a ball that the spring lets swing from 1 m.
+fn on_spring() -> (World, SphereId) {
     let mut world = exact();
     world.add_force(Spring).unwrap();
     let ball = world.add_sphere(Sphere::new(DVec3::X, 0.1)).unwrap();
+    (world, ball)
+}
+
+#[test]
+fn a_force_of_its_own_is_followed_to_rounding() {
+    let (mut world, ball) = on_spring();
     run(&mut world, 0.01, 100);
     // A few steps, with a few roundings each.
     let position = world.sphere(ball).unwrap().position;
@@ -324,9 +330,7 @@ fn a_force_of_its_own_is_followed_to_rounding() {
 
 #[test]
 fn a_force_of_its_own_acts_on_while_others_come() {
-    let mut world = exact();
-    world.add_force(Spring).unwrap();
-    let ball = world.add_sphere(Sphere::new(DVec3::X, 0.1)).unwrap();
+    let (mut world, ball) = on_spring();
     let far = vec(0.0, 50.0, 0.0);
     let emitter = Emitter::new(Sphere::new(DVec3::ZERO, 0.1), 0.003).with_position(far);
     world.add_emitter(emitter.with_max_spheres(1)).unwrap();

@@ -48,8 +48,8 @@ pub(super) fn search(
     solver.incidence.clear();
     slots.wrap();
     let approaches = NearMoving::approaches(system, slots, places, frame.h);
-    let surfaces = (!system.surfaces.is_empty()).then_some(&approaches[..]);
-    solver.drift = search.arrange(slots, [frame.h, sub_step.h], surfaces);
+    let approaches = (!system.surfaces.is_empty()).then_some(&approaches[..]);
+    solver.drift = search.arrange(slots, [frame.h, sub_step.h], approaches);
     divide(slots, slabs, search);
     if !dormant.is_empty() {
         let places = search.places();

@@ -84,9 +84,9 @@ impl Search {
         &mut self,
         slots: &mut Slots,
         [frame, h]: [f64; 2],
-        surfaces: Option<&[f64]>,
+        approaches: Option<&[f64]>,
     ) -> Drift {
-        let drift = self.find_margins(slots, [frame, h], surfaces);
+        let drift = self.find_margins(slots, [frame, h], approaches);
         let Self { grid, starts, margins, from, slot_of, cells, spare, .. } = self;
         let count = slots.len();
         let reach = |slot: usize| slots.position[slot].number() + margins[slot];
@@ -118,7 +118,7 @@ impl Search {
         &mut self,
         slots: &Slots,
         [frame, h]: [f64; 2],
-        surfaces: Option<&[f64]>,
+        approaches: Option<&[f64]>,
     ) -> Drift {
         let count = slots.len().max(1) as f64;
         let velocity = slots.velocity.iter().map(|row| row.vector()).sum::<DVec3>() / count;
@@ -145,8 +145,8 @@ impl Search {
             let row = &slots.velocity[slot];
             let beside = 1.5 * speed(row).max(mean_speed) + slots.speed_beside_last(slot);
             let turned = row.vector().length() + velocity.length();
-            let Some(surfaces) = surfaces else { return bounded.max(FASTER * beside * h) };
-            let fastest = beside.max(turned + hit(surfaces, slot));
+            let Some(approaches) = approaches else { return bounded.max(FASTER * beside * h) };
+            let fastest = beside.max(turned + hit(approaches, slot));
             bounded.max(FASTER * fastest * h)
         }));
         let within = (farthest / velocity.length().max(f64::MIN_POSITIVE)).max(FASTER * h);

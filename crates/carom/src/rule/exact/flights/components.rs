@@ -34,7 +34,7 @@ pub(crate) struct Component {
     tick: f64,
     /// Evaluations of the forces on a sphere in this tick.
     evaluations: u64,
-    /// How many more are allowed in this tick, for its events.
+    /// Evaluations that the events of this tick allow beyond those of every tick.
     allowed_for_events: u64,
 }
 

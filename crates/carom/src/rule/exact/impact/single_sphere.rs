@@ -17,9 +17,9 @@ use crate::respond;
 use crate::rule::exact::changed::{Changed, Unresolved};
 use crate::rule::exact::contacts::Member;
 use crate::rule::exact::context::StepContext;
-use crate::rule::exact::flights::{ContactWork, Species, Support, Supported};
-use crate::rule::exact::persistent::REST;
+use crate::rule::exact::flights::{ContactWork, Support, Supported};
 use crate::rule::exact::persistent::planar::{self, PlanarSupport};
+use crate::rule::exact::persistent::{REST, flies_with};
 use crate::rule::exact::timeline::Timeline;
 
 /// Answers an event of a sphere at `time` \[s\]: an impact with `surface`, or, without one, new forces of its
@@ -66,7 +66,9 @@ pub(crate) fn answer_single(
         let contacts: Vec<Bodies> =
             lasting.map(|surface| Bodies::Surface { sphere, surface }).collect();
         let supported = planar.supported(slot);
-        let support = if is_on_curve(context, &member, &contacts) {
+        let flies = |&bodies: &Bodies| flies_with(context, &member.species, bodies);
+        let is_on_curve = member.species.is_curved && contacts.iter().all(flies);
+        let support = if is_on_curve {
             let (rotation, contact_work) = (None, ContactWork::None);
             let members = vec![Supported { rotation, contact_work, ..supported }];
             Support { members, contacts, renewal: f64::INFINITY, is_curved: true }
@@ -91,13 +93,6 @@ pub(crate) fn answer_single(
         .map(|bodies| Unresolved { bodies, until: time + contact_duration })
         .collect();
     Changed::Sphere { slot, unresolved }
-}
-
-/// Whether a sphere flies on a curve with these contacts.
-fn is_on_curve(context: &StepContext, member: &Member, contacts: &[Bodies]) -> bool {
-    let acts = |&bodies: &Bodies| respond::friction_of(bodies, context.system).acts();
-    let Species { is_curved, growth_speed, .. } = member.species;
-    is_curved && growth_speed == 0.0 && !contacts.iter().any(acts)
 }
 
 /// Applies the impulses of the surfaces on which the sphere closes, by Newton's law, and records them. All impact

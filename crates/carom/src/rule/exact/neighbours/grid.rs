@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use crate::bounds::Bounds;
 
-/// Below this number of spheres, one cell for all of them is faster than any grid; along a periodic axis
+/// Up to this number of spheres, one cell for all of them is faster than any grid; along a periodic axis
 /// [`CELLS_OF_FEW`], where one cell would bring the images on both sides of each sphere.
 const SINGLE_CELL: usize = 24;
 /// Cells along a periodic axis, at most, where spheres are few: a cell and those beside it hold each sphere once.

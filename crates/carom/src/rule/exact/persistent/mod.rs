@@ -20,6 +20,7 @@ mod with_friction;
 
 pub(super) use accelerations::{free_acceleration, is_back_within};
 pub(super) use listing::list;
+pub(super) use on_curves::flies_with;
 pub(super) use solve::REST;
 
 /// Friction acts at contacts whose motion has no closed form.

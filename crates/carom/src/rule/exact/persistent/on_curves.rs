@@ -8,7 +8,7 @@ use crate::respond::friction_of;
 use crate::rule::exact::contacts::{Member, Touch};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::features::Feature;
-use crate::rule::exact::flights::{CurveBody, CurveContact, CurveContacts, MOST_CONTACTS};
+use crate::rule::exact::flights::{CurveBody, CurveContact, CurveContacts, MOST_CONTACTS, Species};
 
 /// Angle \[rad\] below which two normals count as one: they differ by rounding.
 pub(super) const SAME_NORMAL: f64 = 1e-9;
@@ -28,6 +28,16 @@ pub(super) fn fly_so(context: &StepContext, members: &[Member], touches: &[Touch
     CurveContacts::new(apart).are_independent(&positions, |place| members[place].species.mass)
 }
 
+/// Whether a sphere of this species flies on curves with a contact: none has friction or a sphere that grows.
+pub(in crate::rule::exact) fn flies_with(
+    context: &StepContext,
+    species: &Species,
+    bodies: Bodies,
+) -> bool {
+    let is_smooth = !friction_of(bodies, context.system).acts();
+    species.is_curved && species.growth_speed == 0.0 && is_smooth
+}
+
 /// Whether the last of several touches is with a surface that touches its sphere where another one does.
 fn is_repeated(touches: &[Touch]) -> bool {
     let Some((last, others)) = touches.split_last() else { return false };
@@ -44,11 +54,7 @@ fn smooth_contact(
     members: &[Member],
     touch: &Touch,
 ) -> Option<CurveContact> {
-    let is_curved = |place: usize| {
-        let species = &members[place].species;
-        species.is_curved && species.growth_speed == 0.0
-    };
-    if !touch.places().all(is_curved) || friction_of(touch.bodies, context.system).acts() {
+    if !touch.places().all(|place| flies_with(context, &members[place].species, touch.bodies)) {
         return None;
     }
     let second = touch.second;

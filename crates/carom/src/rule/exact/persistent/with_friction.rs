@@ -75,7 +75,8 @@ pub(super) fn find(
 
 /// Returns the planes that a sphere touches.
 ///
-/// # Errors [`NoClosedForm`] if they make no corner, or the sphere rests on something else.
+/// # Errors
+/// [`NoClosedForm`] if they make no corner, or the sphere rests on something else.
 fn corner_of<'a>(
     context: &StepContext<'a>,
     group: &Group,

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::Neighbours;
-use crate::axis_motion::AxisMotion;
+use crate::axis_motion::{AlongAxis, AxisMotion};
 use crate::rule::exact::flights::{Body, Species};
 use crate::rule::exact::neighbours::level::Level;
 use crate::rule::exact::neighbours::region::CROSSING;
