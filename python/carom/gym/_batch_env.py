@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -37,7 +38,7 @@ else:
 class BatchVectorEnv(_VectorEnv):
     """An episode in each world of a batch: seeds, ends of episodes, new ones.
 
-    A kind of environment says by `_begin`, `_act`, `_seen` and `_judged` what happens in one.
+    A kind of environment says by `_begin`, `_act`, `_see` and `_judged` what happens in one.
     """
 
     def __init__(
@@ -61,6 +62,7 @@ class BatchVectorEnv(_VectorEnv):
         self.action_space = batch_space(self.single_action_space, self.num_envs)
         self.render_mode = checked_mode(render_mode)
         self._mode = AutoresetMode(autoreset_mode)
+        self._restarts = self._mode == AutoresetMode.NEXT_STEP
         self.metadata = {
             "render_modes": ["rgb_array"],
             "render_fps": frames_per_second,
@@ -77,12 +79,12 @@ class BatchVectorEnv(_VectorEnv):
         """Starts episodes in the marked worlds."""
         raise NotImplementedError
 
-    def _act(self, actions: NDArray[np.float64], mask: NDArray[np.bool_]) -> None:
-        """Takes a step in the marked worlds."""
+    def _act(self, actions: NDArray[np.float64], mask: NDArray[np.bool_] | None) -> None:
+        """Takes a step in the marked worlds, or in all."""
         raise NotImplementedError
 
-    def _seen(self) -> NDArray[np.float64]:
-        """Observations of all worlds."""
+    def _see(self, seen: Floats) -> None:
+        """Writes observations of all worlds."""
         raise NotImplementedError
 
     def _judged(self) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
@@ -135,17 +137,15 @@ class BatchVectorEnv(_VectorEnv):
             CaromError: For actions that are not finite, or of another shape.
         """
         wanted = self._checked(actions)
-        began = self._over & (self._mode == AutoresetMode.NEXT_STEP)
-        self._act(wanted, ~began)
+        began = self._over if self._restarts and self._over.any() else None
+        self._act(wanted, None if began is None else ~began)
         rewards, terminated = self._judged()
         self._steps += 1
-        truncated = np.zeros(self.num_envs, np.bool_)
-        if self._most is not None:
-            truncated |= self._steps >= self._most
-        if began.any():
+        truncated = self._are_late()
+        if began is not None:
             rewards[began] = 0.0
             terminated[began] = truncated[began] = False
-            self._begin_episodes(began)
+            self._begin_episodes(began.copy())
         self._over = terminated | truncated
         infos: dict[str, Any] = {}
         observations = self._observations()
@@ -154,6 +154,13 @@ class BatchVectorEnv(_VectorEnv):
             self._begin_episodes(self._over.copy())
             observations = self._observations()
         return observations, rewards, terminated, truncated, infos
+
+    def _are_late(self) -> NDArray[np.bool_]:
+        """Which episodes have taken all their steps."""
+        if self._most is None:
+            return np.zeros(self.num_envs, np.bool_)
+        late: NDArray[np.bool_] = self._steps >= self._most
+        return late
 
     def render(self) -> tuple[NDArray[np.uint8], ...] | None:
         """A picture of each environment, (480, 640, 3), sRGB.
@@ -179,18 +186,21 @@ class BatchVectorEnv(_VectorEnv):
 
     def _observations(self) -> Floats:
         low, high = self._bounds
-        return np.clip(self._seen().astype(np.float32), low, high)
+        seen = np.empty((self.num_envs, len(low)), np.float32)
+        self._see(seen)
+        return np.clip(seen, low, high, out=seen)
 
     def _checked(self, actions: Floats) -> NDArray[np.float64]:
-        wanted = np.asarray(actions)
+        given = np.asarray(actions)
         shape = self.action_space.shape
-        if wanted.dtype.kind not in "fiu" or wanted.shape != shape:
-            problem = f"must be numbers of shape {shape}, not {wanted.dtype} of {wanted.shape}"
+        if given.dtype.kind not in "fiu" or given.shape != shape:
+            problem = f"must be numbers of shape {shape}, not {given.dtype} of {given.shape}"
             raise CaromError(f"actions: {problem}", "actions")
-        wanted = wanted.astype(np.float64)
-        if not np.isfinite(wanted).all():
+        wanted: NDArray[np.float64] = given.astype(np.float64)
+        # No sum of float32 overflows.
+        if not math.isfinite(wanted.sum()) and not np.isfinite(wanted).all():
             raise CaromError("actions: must be finite", "actions")
-        return np.clip(wanted, -1.0, 1.0)
+        return np.clip(wanted, -1.0, 1.0, out=wanted)
 
     def _final(self, observations: Floats) -> dict[str, Any]:
         """What was last of episodes that ended, where Gymnasium looks for it."""

@@ -13,7 +13,7 @@ from carom._run.batch import Batch
 from carom._scene.library import load
 from carom.errors import CaromError
 from carom.gym._arguments import in_range
-from carom.gym._batch_env import FRAMES_PER_SECOND, BatchEnv, BatchVectorEnv
+from carom.gym._batch_env import FRAMES_PER_SECOND, BatchEnv, BatchVectorEnv, Floats
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -154,7 +154,9 @@ class BilliardsVectorEnv(BatchVectorEnv):
         self._hit[mask] = False
         self._rests[mask] = True
 
-    def _act(self, actions: NDArray[np.float64], mask: NDArray[np.bool_]) -> None:
+    def _act(self, actions: NDArray[np.float64], mask: NDArray[np.bool_] | None) -> None:
+        if mask is None:
+            mask = np.ones(self.num_envs, np.bool_)
         struck = mask & self._rests
         speed = np.sqrt(np.sum(actions * actions, axis=1, keepdims=True))
         velocities = np.zeros((self.num_envs, 3))
@@ -206,11 +208,12 @@ class BilliardsVectorEnv(BatchVectorEnv):
     def _judged(self) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
         return self._rewards.copy(), np.all(self._hit, axis=1) | self._are_lost()
 
-    def _seen(self) -> NDArray[np.float64]:
-        count = self.num_envs
-        velocities = self._states[:, 3 * BALLS : 6 * BALLS].reshape(count, BALLS, 3)[:, :, ::2]
-        flat = [self._now().reshape(count, -1), velocities.reshape(count, -1)]
-        return np.concatenate([*flat, self._hit, self._rests[:, np.newaxis]], axis=1)
+    def _see(self, seen: Floats) -> None:
+        count, ends = self.num_envs, (3 * BALLS, 6 * BALLS)
+        velocities = self._states[:, ends[0] : ends[1]].reshape(count, BALLS, 3)[:, :, ::2]
+        seen[:, : 2 * BALLS] = self._now().reshape(count, -1)
+        seen[:, 2 * BALLS : 4 * BALLS] = velocities.reshape(count, -1)
+        seen[:, 4 * BALLS : -1], seen[:, -1] = self._hit, self._rests
 
 
 class BilliardsEnv(BatchEnv):

@@ -15,7 +15,7 @@ from carom._scene.parts import Collider, Contact, Gravity, Rectangle, Simulation
 from carom._scene.scene import Scene
 from carom.errors import CaromError
 from carom.gym._arguments import in_range
-from carom.gym._batch_env import FRAMES_PER_SECOND, BatchEnv, BatchVectorEnv
+from carom.gym._batch_env import FRAMES_PER_SECOND, BatchEnv, BatchVectorEnv, Floats
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -138,8 +138,8 @@ class PlateVectorEnv(BatchVectorEnv):
         self._slopes[mask] = 0.0
         self._motion[mask, :3], self._motion[mask, 3:] = places, 0.0
 
-    def _act(self, actions: NDArray[np.float64], mask: NDArray[np.bool_]) -> None:
-        worlds = None if mask.all() else np.flatnonzero(mask)
+    def _act(self, actions: NDArray[np.float64], mask: NDArray[np.bool_] | None) -> None:
+        worlds = None if mask is None else np.flatnonzero(mask)
         change = (self._rate / FRAMES_PER_SECOND) * actions
         for _ in range(self._frames):
             self._slopes += change
@@ -159,17 +159,17 @@ class PlateVectorEnv(BatchVectorEnv):
         np.divide(1.0 + self._ups, norm, out=self._rotations[:, 3])
 
     def _judged(self) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-        x, y, z = self._motion[:, :3].T
-        u, v = self._slopes.T
+        places, slopes = self._motion[:, 0:3:2], self._slopes
         # Along the sides of the plate, turned back to level.
-        height = y + (u * x + v * z) / (1.0 + self._ups)
-        across, along = x - u * height, z - v * height
-        fell = np.maximum(np.abs(across), np.abs(along)) > self._half
-        distance = np.sqrt(across * across + along * along) / self._half
-        return np.where(fell, 0.0, np.maximum(1.0 - distance, 0.0)), fell
+        lift = np.add.reduce(slopes * places, axis=1) / (1.0 + self._ups) + self._motion[:, 1]
+        places = places - slopes * lift[:, np.newaxis]
+        fell: NDArray[np.bool_] = np.abs(places).max(axis=1) > self._half
+        distances = np.sqrt(np.add.reduce(places * places, axis=1)) / self._half
+        return np.where(fell, 0.0, np.maximum(1.0 - distances, 0.0)), fell
 
-    def _seen(self) -> NDArray[np.float64]:
-        return np.concatenate([self._motion[:, [0, 2, 3, 5]], self._slopes], axis=1)
+    def _see(self, seen: Floats) -> None:
+        seen[:, 0:2], seen[:, 2:4] = self._motion[:, 0:3:2], self._motion[:, 3:6:2]
+        seen[:, 4:6] = self._slopes
 
 
 class PlateEnv(BatchEnv):

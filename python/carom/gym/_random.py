@@ -26,12 +26,14 @@ class Numbers:
 
     def uniform(self, mask: NDArray[np.bool_], count: int) -> NDArray[np.float64]:
         """Numbers in [0, 1) of the marked environments, shape (k, count)."""
-        drawn = np.empty((int(mask.sum()), count))
+        states = self._states[mask]
+        drawn = np.empty((len(states), count))
         for column in drawn.T:
-            self._states[mask] += _STEP
-            word = self._states[mask]
+            states += _STEP
+            word = states.copy()
             for shift, factor in zip((30, 27), _MIX, strict=True):
                 word = (word ^ (word >> np.uint64(shift))) * factor
             word ^= word >> np.uint64(31)
             column[:] = (word >> np.uint64(11)) * 2.0**-53
+        self._states[mask] = states
         return drawn
