@@ -4,21 +4,19 @@
 #![allow(rustdoc::broken_intra_doc_links)]
 
 use carom::{ColliderId, DVec3, Pose, SphereId};
-use numpy::{PyArrayDyn, PyReadonlyArray1};
+use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 
 use super::BatchEngine;
 use super::colliders::{self, ColliderColumn, ColliderQuantity};
 use super::next_poses::{GivenPoses, NextPoses};
+use super::selection::Given;
 use super::stroke::Stroke;
 use crate::arguments;
 use crate::arrays::shaped;
 use crate::editing::collider_of;
 use crate::failure::Failure;
 use crate::part::{self, only};
-
-/// Indices of worlds from Python; `None` for all.
-pub type Given<'py> = Option<PyReadonlyArray1<'py, i64>>;
 
 /// Positions and rotations of a collider in all worlds.
 type Poses<'py> = (Bound<'py, PyArrayDyn<f64>>, Bound<'py, PyArrayDyn<f64>>);
@@ -37,7 +35,7 @@ impl BatchEngine {
         motion: Option<&str>,
     ) -> PyResult<()> {
         let id = ColliderId::from_number(arguments::id("collider", id)?);
-        let worlds = self.selected(py, worlds)?;
+        let worlds = self.selected(py, &worlds)?;
         let columns = given.iter().map(|(name, values)| column(name, values, worlds.len()));
         let columns: Vec<ColliderColumn> = columns.collect::<PyResult<_>>()?;
         let part = motion.map(part::read).transpose()?;
@@ -63,7 +61,7 @@ impl BatchEngine {
         poses: GivenPoses<'_>,
         dt: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
-        let worlds = self.selected(py, worlds)?;
+        let worlds = self.selected(py, &worlds)?;
         let poses = NextPoses::read(&poses, worlds.len())?;
         let dt = arguments::optional_number("dt", dt)?;
         self.change(py, |members| {
@@ -100,27 +98,10 @@ impl BatchEngine {
         worlds: Given<'_>,
     ) -> PyResult<()> {
         let (stroke, id) = (Stroke::named(change)?, arguments::id("sphere", id)?);
-        let worlds = self.selected(py, worlds)?;
+        let worlds = self.selected(py, &worlds)?;
         let rows = arguments::array(stroke.argument(), rows, &[worlds.len(), 3])?;
         let rows: Vec<DVec3> = rows.chunks_exact(3).map(DVec3::from_slice).collect();
         self.change(py, |members| members.strike(&worlds, SphereId::from_number(id), stroke, &rows))
-    }
-}
-
-impl BatchEngine {
-    /// Returns the indices of the given worlds.
-    ///
-    /// # Errors
-    /// `CaromError` for an index without a world.
-    pub(super) fn selected(&self, py: Python<'_>, worlds: Given<'_>) -> PyResult<Vec<usize>> {
-        let count = self.lock_as_it_is(py)?.members.len();
-        let Some(worlds) = worlds else { return Ok((0..count).collect()) };
-        let known = |&world: &i64| {
-            let index = usize::try_from(world).ok().filter(|&index| index < count);
-            let problem = format_args!("must be below {count}, not {world}");
-            index.ok_or_else(|| Failure::value("worlds", problem))
-        };
-        Ok(worlds.as_array().iter().map(known).collect::<Result<_, Failure>>()?)
     }
 }
 

@@ -46,7 +46,7 @@ impl BatchEngine {
     /// Returns the number of columns of an observation of these quantities.
     #[pyo3(name = "_observation_length")]
     fn observation_length(&self, py: Python<'_>, quantities: Vec<String>) -> PyResult<usize> {
-        Ok(Columns::named(&quantities, &self.lock(py)?.members)?.len())
+        Ok(Columns::named(&quantities, self.lock(py)?.members.most_spheres())?.len())
     }
 
     /// Writes quantities of all spheres into `out`, float32 or float64 of shape (n, columns): a row for each world, in
@@ -59,7 +59,7 @@ impl BatchEngine {
         out: &Bound<'_, PyAny>,
     ) -> PyResult<()> {
         let members = &self.lock(py)?.members;
-        let columns = Columns::named(&quantities, members)?;
+        let columns = Columns::named(&quantities, members.most_spheres())?;
         let mut out = Out::of(out, members.len(), &columns)?;
         let mut values = Vec::new();
         let rows = out.rows(members.len(), &columns);

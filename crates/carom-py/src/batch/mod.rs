@@ -10,6 +10,7 @@ mod measures;
 mod members;
 mod next_poses;
 mod observed;
+mod selection;
 mod stroke;
 
 use std::sync::{Mutex, MutexGuard};
@@ -28,11 +29,11 @@ use crate::snapshot::Snapshot;
 use crate::stop;
 use crate::tables::Table;
 use crate::threads;
-use acting::Given;
 use arrays::BatchArrays;
 use members::{Members, Progress};
 use next_poses::{GivenPoses, NextPoses};
 use observed::{Columns, Out};
+use selection::Given;
 
 /// Base class of `carom.Batch`: worlds, and the arrays that Python sees of all of them.
 ///
@@ -96,6 +97,15 @@ impl BatchEngine {
         Ok(result?)
     }
 
+    /// Returns the indices of the given worlds.
+    ///
+    /// # Errors
+    /// `CaromError` for an index without a world.
+    fn selected(&self, py: Python<'_>, worlds: &Given<'_>) -> PyResult<Vec<usize>> {
+        let count = self.lock_as_it_is(py)?.members.len();
+        Ok(selection::selected(worlds, count)?)
+    }
+
     fn quantity(&self, py: Python<'_>, quantity: Quantity) -> PyResult<Py<PyAny>> {
         let Inner { members, arrays } = &mut *self.lock_as_it_is(py)?;
         arrays.get(py, quantity, members)
@@ -157,11 +167,12 @@ impl BatchEngine {
     ) -> PyResult<Vec<(usize, PyErr)>> {
         let dt = arguments::optional_number("dt", dt)?;
         let frames = arguments::count("frames", frames)?;
-        let worlds = self.selected(py, worlds)?;
+        let worlds = self.selected(py, &worlds)?;
         let poses = poses.map(|poses| NextPoses::read(&poses, worlds.len())).transpose()?;
         let mut guard = self.lock(py)?;
         let Inner { members, arrays } = &mut *guard;
-        let columns = observed.as_ref().map(|(names, _)| Columns::named(names, members));
+        let columns =
+            observed.as_ref().map(|(names, _)| Columns::named(names, members.most_spheres()));
         let columns = columns.transpose()?;
         let mut out = match (&observed, &columns) {
             (Some((_, out)), Some(columns)) => Some(Out::of(out, members.len(), columns)?),
@@ -188,7 +199,7 @@ impl BatchEngine {
     /// Resets worlds to their start: those with these indices, or all.
     #[pyo3(name = "_reset")]
     fn reset(&self, py: Python<'_>, worlds: Given<'_>) -> PyResult<()> {
-        let worlds = self.selected(py, worlds)?;
+        let worlds = self.selected(py, &worlds)?;
         self.change(py, |members| {
             members.reset(&worlds);
             Ok(())

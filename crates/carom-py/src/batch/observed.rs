@@ -5,7 +5,6 @@ use numpy::{Element, PyArrayDyn, PyArrayMethods, PyReadwriteArrayDyn, PyUntypedA
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
-use super::members::Members;
 use crate::failure::Failure;
 use crate::quantity::Quantity;
 
@@ -18,11 +17,11 @@ pub struct Columns {
 }
 
 impl Columns {
-    /// Returns the columns of the quantities with these names.
+    /// Returns the columns of the quantities with these names, of worlds with at most this number of spheres.
     ///
     /// # Errors
     /// [`Failure`] for an unknown name.
-    pub fn named(names: &[String], members: &Members) -> Result<Self, Failure> {
+    pub fn named(names: &[String], most: usize) -> Result<Self, Failure> {
         let known = |name: &String| {
             let quantity = Quantity::ALL.into_iter().find(|it| it.name() == name);
             let names = || Quantity::ALL.map(Quantity::name).join(", ");
@@ -31,7 +30,7 @@ impl Columns {
             })
         };
         let quantities = names.iter().map(known).collect::<Result<_, _>>()?;
-        Ok(Self { quantities, most: members.most_spheres() })
+        Ok(Self { quantities, most })
     }
 
     /// Returns the number of columns.
