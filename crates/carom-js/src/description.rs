@@ -75,7 +75,11 @@ impl World {
         let mut scene = self.described().clone();
         let colliders = colliders_now(world, &scene);
         scene.colliders = colliders.iter().map(|it| it.beginning_at(world.time())).collect();
-        scene.spheres = (0..world.spheres().len()).map(|i| sphere(world, members, i)).collect();
+        let spheres = (0..world.spheres().len()).map(|i| Sphere {
+            material: scene.material_name(world.spheres().get(i).material),
+            ..sphere(world, members, i)
+        });
+        scene.spheres = spheres.collect();
         scene.springs = Spring::all_of(world);
         // Rules that detect contacts late let spheres overlap, which a scene must allow.
         if !scene.simulation.allow_overlap && scene.world().is_err() {

@@ -34,6 +34,7 @@ pub mod import;
 mod legible;
 mod library;
 mod load;
+mod materials;
 mod mesh_file;
 mod meshes;
 mod motion;

@@ -5,6 +5,7 @@ use toml::{Table, Value};
 
 use crate::budget::Budget;
 use crate::error::{Problem, is_much_like, nearest};
+use crate::materials;
 use crate::parameters;
 use crate::scene::{Scene, Simulation};
 use crate::wording::{in_plain_words, table_expected, with_form, with_names};
@@ -16,6 +17,7 @@ pub(crate) const INCLUDE: &str = "include";
 /// Reads a scene from its table within `budget`; returns the first problem.
 pub(crate) fn read(mut table: Table, budget: Budget) -> Result<Scene, Problem> {
     parameters::resolve(&mut table)?;
+    materials::fill(&mut table)?;
     let scene: Scene = told(table).map_err(|Problem { field: path, problem }| {
         if let Some(problem) = of_simulation(&problem, &path) {
             return Problem::new(path, problem);

@@ -251,6 +251,16 @@ impl Spheres {
         &self.properties.restitution
     }
 
+    /// Laws of restitution; empty while no sphere has one.
+    pub fn restitution_laws(&self) -> &[Option<RestitutionLaw>] {
+        &self.properties.restitution_law
+    }
+
+    /// Numbers of materials; empty while all are 0.
+    pub fn materials(&self) -> &[u8] {
+        &self.properties.material
+    }
+
     /// Rotations from the coordinate system of each sphere to the world's; empty while no sphere was
     /// ever turned.
     pub fn orientations(&self) -> &[DQuat] {

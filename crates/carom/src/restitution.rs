@@ -103,10 +103,12 @@ impl RestitutionLaw {
             }
             Self::Viscoelastic { speed } => (1.0, speed),
         };
-        validate::unit_interval("restitution", restitution)?;
-        validate::positive("speed", speed)?;
+        validate::unit_interval("restitution_law.restitution", restitution)?;
+        validate::positive("restitution_law.speed", speed)?;
         match *self {
-            Self::PowerLaw { exponent, .. } => validate::unit_interval("exponent", exponent),
+            Self::PowerLaw { exponent, .. } => {
+                validate::unit_interval("restitution_law.exponent", exponent)
+            }
             _ => Ok(()),
         }
     }
