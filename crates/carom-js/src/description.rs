@@ -64,7 +64,9 @@ impl World {
     /// [`Failure`] if it is not in the world.
     pub fn sphere(&self, id: f64) -> Result<String, Failure> {
         let (_, index) = find::sphere(&self.world, id)?;
-        Ok(serde_json::to_string(&sphere(&self.world, &self.description.members, index))?)
+        let material = self.described().material_name(self.world.spheres().get(index).material);
+        let sphere = sphere(&self.world, &self.description.members, index);
+        Ok(serde_json::to_string(&Sphere { material, ..sphere })?)
     }
 
     /// Returns the present world as the text of a scene file. There, time starts at 0 and emitters

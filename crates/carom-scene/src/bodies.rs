@@ -3,7 +3,7 @@
 use carom::{Ends, Friction, Groups, Mass, Pose, Sides, World};
 
 use crate::error::{Problem, SceneError};
-use crate::materials::MaterialNumbers;
+use crate::materials::{MaterialNumbers, friction};
 use crate::requirement::{check, check_positive};
 use crate::scene::values::{quaternion, vector};
 use crate::scene::{Collider, Emitter, End, RestitutionLaw, Shape, Side, Sphere};
@@ -64,17 +64,6 @@ pub(crate) fn sphere(sphere: &Sphere, path: &str) -> Result<carom::Sphere, Probl
         .with_user_data(sphere.user_data);
     let law = sphere.restitution_law;
     Ok(law.map_or(physical, |law| physical.with_restitution_law(law.into())))
-}
-
-/// Friction of a body: `coefficients` of sliding, rolling and spinning friction.
-pub(crate) fn friction(
-    coefficients: [Option<f64>; 3],
-    tangential_restitution: Option<f64>,
-) -> Friction {
-    let mut friction = Friction::default();
-    [friction.sliding, friction.rolling, friction.spinning] = coefficients;
-    friction.tangential_restitution = tangential_restitution;
-    friction
 }
 
 impl Sphere {

@@ -25,6 +25,7 @@ mod check;
 #[cfg(feature = "checkpoint")]
 mod checkpoint;
 mod color_text;
+mod deserialize;
 mod error;
 mod expand;
 mod force;

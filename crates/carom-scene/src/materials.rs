@@ -4,14 +4,13 @@
 
 use std::collections::BTreeMap;
 
-use carom::{DVec3, World};
+use carom::{DVec3, Friction, World};
 use toml::{Table, Value};
 
-use crate::bodies::friction;
+use crate::deserialize::deserialize;
 use crate::error::{Problem, nearest};
 use crate::requirement::check;
 use crate::scene::{Material, MaterialPair, RestitutionLaw, Scene};
-use crate::table::told;
 
 /// Name of the table of materials.
 const TABLE: &str = "materials";
@@ -32,7 +31,7 @@ pub(crate) fn fill(scene: &mut Table) -> Result<(), Problem> {
         _ => Table::new(),
     };
     let read: BTreeMap<String, Material> =
-        told(materials.clone()).map_err(|problem| problem.below(&format!("{TABLE}.")))?;
+        deserialize(materials.clone()).map_err(|problem| problem.below(&format!("{TABLE}.")))?;
     check_materials(&read)?;
     each_body(scene, &mut |body, path| {
         let Some(Value::String(name)) = body.get("material") else { return Ok(()) };
@@ -50,6 +49,13 @@ pub(crate) fn fill(scene: &mut Table) -> Result<(), Problem> {
         body.extend(missing.into_iter().map(|(field, value)| (field.clone(), value.clone())));
         Ok(())
     })
+}
+
+/// Returns the table of materials of a scene as TOML.
+pub(crate) fn written(scene: &Scene) -> String {
+    let materials = Value::try_from(&scene.materials).expect("materials have strings as keys");
+    let table = Table::from_iter([(TABLE.to_owned(), materials)]);
+    toml::to_string(&table).expect("materials have strings as keys")
 }
 
 /// Removes the fields of bodies that are those of their materials.
@@ -209,6 +215,17 @@ fn physical(pair: &MaterialPair, [first, second]: [u8; 2]) -> carom::MaterialPai
     physical.restitution = pair.restitution;
     physical.restitution_law = pair.restitution_law.map(Into::into);
     physical
+}
+
+/// Friction of a body: `coefficients` of sliding, rolling and spinning friction.
+pub(crate) fn friction(
+    coefficients: [Option<f64>; 3],
+    tangential_restitution: Option<f64>,
+) -> Friction {
+    let mut friction = Friction::default();
+    [friction.sliding, friction.rolling, friction.spinning] = coefficients;
+    friction.tangential_restitution = tangential_restitution;
+    friction
 }
 
 impl From<RestitutionLaw> for carom::RestitutionLaw {

@@ -302,8 +302,7 @@ pub(crate) fn place(id: ColliderId, collider: &Collider, time: f64, surfaces: &m
         Some(course) => course.place(0.0).1,
         None => SurfaceMotion::of(collider),
     };
-    let center = pose.position;
-    let rotation = pose.rotation.normalize();
+    let (center, rotation) = (pose.position, pose.rotation.normalize());
     let axes @ [x, y, z] = [rotation * DVec3::X, rotation * DVec3::Y, rotation * DVec3::Z];
     let mut add = |form, role| {
         let role = if trigger { Role::Reports } else { role };

@@ -2,6 +2,7 @@
 
 mod forces;
 mod growth;
+mod materials;
 mod measures;
 #[cfg(test)]
 mod moving_oracle;
@@ -18,7 +19,6 @@ use crate::collider::Collider;
 use crate::emitter::{Emitter, EmitterState};
 use crate::error::{Error, Subject};
 use crate::id::{ColliderId, EmitterId, SphereId};
-use crate::material_pair::{MaterialPair, MaterialPairs};
 use crate::persistent_contact::PersistentContact;
 use crate::report::StepReport;
 use crate::rule::exact::SupportChange;
@@ -191,25 +191,6 @@ impl World {
             })
             .map_err(|invalid| invalid.about(Subject::Settings))?;
         self.state.changed().settings = settings;
-        Ok(())
-    }
-
-    /// Pairs of materials with coefficients of their own.
-    pub fn material_pairs(&self) -> &[MaterialPair] {
-        self.state.material_pairs.list()
-    }
-
-    /// Replaces the pairs of materials; later steps use them.
-    ///
-    /// # Errors [`Error::Invalid`] for an invalid number, the material 0, or a pair that is given twice, in whatever
-    /// order; then the old pairs stay.
-    pub fn set_material_pairs(
-        &mut self,
-        pairs: impl IntoIterator<Item = MaterialPair>,
-    ) -> Result<(), Error> {
-        let pairs = MaterialPairs::new(pairs.into_iter().collect());
-        let pairs = pairs.map_err(|invalid| invalid.about(Subject::Settings))?;
-        self.state.changed().material_pairs = pairs;
         Ok(())
     }
 
