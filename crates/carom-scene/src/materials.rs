@@ -10,7 +10,7 @@ use toml::{Table, Value};
 use crate::deserialize::deserialize;
 use crate::error::{Problem, nearest};
 use crate::requirement::check;
-use crate::scene::{Material, MaterialPair, RestitutionLaw, Scene};
+use crate::scene::{Finish, Material, MaterialPair, RestitutionLaw, Scene};
 
 /// Name of the table of materials.
 const TABLE: &str = "materials";
@@ -118,10 +118,15 @@ fn unknown<'a>(name: &str, known: impl Iterator<Item = &'a str>, path: &str) -> 
     let names: Vec<&str> = known.collect();
     let hint = match nearest(name, names.iter().copied()) {
         Some(meant) => format!("; did you mean \"{meant}\"?"),
+        None if is_finish(name) => "; did you mean \"finish\"?".to_owned(),
         None if names.is_empty() => format!("; the scene has no [{TABLE}]"),
         None => format!("; there are {}", names.join(", ")),
     };
     Problem::new(path, format!("unknown material \"{name}\"{hint}"))
+}
+
+fn is_finish(name: &str) -> bool {
+    Value::from(name).try_into::<Finish>().is_ok()
 }
 
 /// Refuses invalid numbers of materials.
