@@ -2,6 +2,7 @@
 
 mod forces;
 mod growth;
+mod materials;
 mod measures;
 mod memory;
 #[cfg(test)]
