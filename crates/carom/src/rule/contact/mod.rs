@@ -22,6 +22,7 @@ mod batch;
 mod bounces;
 mod cascade;
 mod conjugate;
+mod coulomb;
 mod descent;
 mod dormant;
 mod drift;

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::batch::Impulses;
+use super::coulomb::{limited, slip};
 use super::materials::ContactMaterial;
 use super::places::{Place, Places};
 use super::slab_totals::SlabTotals;
@@ -453,17 +454,6 @@ fn turning_plane(
     let velocity = motion.velocity_after(point, h);
     let along = (height - (center - point).dot(normal)) / h;
     (normal, velocity + (along - velocity.dot(normal)) * normal)
-}
-
-/// Slip of a sphere's surface at the contact: the tangential part of the velocity, with spin.
-fn slip(velocity: DVec3, normal: DVec3, spin: DVec3) -> DVec3 {
-    velocity - normal * velocity.dot(normal) - spin.cross(normal)
-}
-
-/// A vector, shortened to a length if it is longer.
-fn limited(vector: DVec3, most: f64) -> DVec3 {
-    let length = vector.dot(vector).sqrt();
-    if length > most { vector * (most / length) } else { vector }
 }
 
 /// Applies impulses along the normal and across it to a sphere.

@@ -6,6 +6,7 @@ use super::body::Body;
 use crate::detect::sphere_surface;
 use crate::friction::ContactFriction;
 use crate::rule::contact::batch::{Impulses, get};
+use crate::rule::contact::coulomb::{limited, slip};
 use crate::rule::contact::incidence::Origin;
 use crate::rule::contact::places::Place;
 use crate::rule::contact::slots::Slots;
@@ -233,7 +234,7 @@ impl Link {
     fn slip_of(&self, bodies: &[Body]) -> DVec3 {
         let velocity = self.relative(bodies, |body| body.velocity);
         let spin = bodies[self.second].spin + self.first.map_or(DVec3::ZERO, |it| bodies[it].spin);
-        velocity - self.normal * velocity.dot(self.normal) - spin.cross(self.normal)
+        slip(velocity, self.normal, spin)
     }
 
     /// Applies the impulses that this link needs with the others as they are, if it acts. Returns the largest
@@ -322,10 +323,4 @@ impl Link {
             angular: of(self.impulses.angular),
         }
     }
-}
-
-/// A vector, shortened to a length if it is longer.
-fn limited(vector: DVec3, most: f64) -> DVec3 {
-    let length = vector.length();
-    if length > most { vector * (most / length) } else { vector }
 }
