@@ -41,7 +41,7 @@ use crate::detect::contact::{Bodies, Contact};
 use crate::friction::ContactFriction;
 use crate::integrate;
 use crate::report::{BodyPair, Impact};
-use crate::surface::Form;
+use crate::surface::{Form, SurfaceMotion};
 use crate::system::System;
 
 /// Answers contacts one after the other: each that still closes when its turn comes gets its
@@ -117,6 +117,20 @@ pub(crate) fn friction_of(bodies: Bodies, system: &System) -> ContactFriction {
         }
     };
     ContactFriction::of(both, system.settings.friction_combine_rule)
+}
+
+/// Velocity \[m/s\] of the material of a surface that moves so, relative to its place, where it has this normal and
+/// friction acts on the sphere; zero between spheres.
+pub(crate) fn belt_of(
+    bodies: Bodies,
+    motion: &SurfaceMotion,
+    normal: DVec3,
+    system: &System,
+) -> DVec3 {
+    if motion.belt == DVec3::ZERO || friction_of(bodies, system).sliding == 0.0 {
+        return DVec3::ZERO;
+    }
+    motion.belt_across(normal)
 }
 
 fn answer_with(

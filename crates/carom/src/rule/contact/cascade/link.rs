@@ -43,8 +43,8 @@ pub struct Link {
     carried: f64,
     /// Whether the link pressed in the sub-step, or in the flight before.
     pub bears: bool,
-    /// Whether its surface kicks, which no cascade follows.
-    pub has_kick: bool,
+    /// Whether its surface kicks or is a belt, which no cascade follows.
+    pub is_driven: bool,
     pub role: Role,
     pub normal: DVec3,
     pub point: DVec3,
@@ -75,7 +75,7 @@ impl Link {
             friction: ContactFriction::default(),
             carried: 0.0,
             bears: false,
-            has_kick: false,
+            is_driven: false,
             role: Role::Off,
             normal: DVec3::Y,
             point: DVec3::ZERO,
@@ -128,7 +128,7 @@ impl Link {
                     friction: ContactFriction { rolling, spinning, ..contact.friction },
                     carried,
                     bears: carried > 0.0,
-                    has_kick: contact.kick > 0.0,
+                    is_driven: contact.kick > 0.0 || contact.belt != DVec3::ZERO,
                     ..none
                 }
             }
