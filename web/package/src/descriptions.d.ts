@@ -203,6 +203,11 @@ export interface ColliderDescription {
   velocity?: Vector;
   /** Angular velocity about its centre [rad/s]. */
   angularVelocity?: Vector;
+  /**
+   * Velocity of the material along the surface, in its own coordinates [m/s], as of a conveyor
+   * belt; default: 0.
+   */
+  surfaceVelocity?: Vector;
   /** Motion about the place where it is at rest: one, or parts that act one after the other. */
   motion?: Motion | Motion[];
   /** Coefficient of restitution in [0, 1]; default: 1. */

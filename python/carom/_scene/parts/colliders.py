@@ -393,6 +393,8 @@ class Collider(Part):
         user_data: A number for programs to find it by; no part of the physics.
         motion: Motion about where it is at rest, instead of velocities: one, or a list of parts
             that act one after the other. By default none.
+        surface_velocity: Velocity of the material along the surface, in its own coordinates [m/s],
+            as of a conveyor belt: friction feels it, and the shape stays.
     """
 
     shape: Shape
@@ -415,6 +417,7 @@ class Collider(Part):
     collides_with: Number = 0xFFFFFFFF
     user_data: LargeNumber = 0
     motion: Motion | Sequence[Motion] = ()
+    surface_velocity: Vector = ORIGIN
 
     def __post_init__(self) -> None:
         super().__post_init__()
