@@ -128,7 +128,9 @@ function show(page, mirror, before) {
   }
   // First, because moving an element would take its focus.
   for (const [id, element] of before) {
-    if (elements.get(id) !== element) element.remove();
+    if (elements.get(id) === element) continue;
+    if (element === document.activeElement) passFocusOn(element, mirror);
+    element.remove();
   }
   let place = mirror.firstChild;
   for (const element of elements.values()) {
@@ -139,6 +141,23 @@ function show(page, mirror, before) {
     }
   }
   return elements;
+}
+
+/**
+ * Moves the focus from an element that leaves to the next one that takes it, so that Tab continues
+ * at the same place.
+ *
+ * @param {Element} element
+ * @param {HTMLElement} mirror
+ */
+function passFocusOn(element, mirror) {
+  let next = element.nextElementSibling;
+  while (next instanceof HTMLElement) {
+    next.focus();
+    if (document.activeElement === next) return;
+    next = next.nextElementSibling;
+  }
+  mirror.focus();
 }
 
 /** @param {Widget} widget */

@@ -132,9 +132,24 @@ test("a field takes text", async () => {
   await viewer.close();
 });
 
-test("Tab leaves the page after the last control, and messages are heard", async () => {
-  const viewer = await mirrored("#scene=tutorial1");
+test("the focus stays in the list where the control that has it goes away", async () => {
+  const viewer = await mirrored("#scene=simtest1");
   const { page } = viewer;
+  await page.getByRole("button", { name: "Scenes" }).press("Enter");
+  const card = page.getByRole("button", { name: "billiards", exact: true });
+  await card.press("Enter");
+  await viewer.until(({ watching, choosing }) => watching?.scene === "billiards" && !choosing);
+  await card.waitFor({ state: "detached" });
+  const focus = await page.evaluate(() => document.activeElement?.closest("#mirror")?.id);
+  assert.equal(focus, "mirror");
+  await viewer.close();
+});
+
+test("Tab leaves the page after the last control, and messages are heard", async () => {
+  // The controls are counted, so the scene of the test before must be gone.
+  const viewer = await desk.watch("tutorial1", AUDITED);
+  const { page } = viewer;
+  await mirror(page);
   const controls = await page.locator("#mirror button, #mirror input").count();
   let places = 0;
   const isInside = () =>

@@ -14,6 +14,8 @@ use crate::link::Link;
 use crate::pack::Pack;
 #[cfg(feature = "pictures")]
 use crate::pictures::args::{Maze, Picture, Record};
+#[cfg(feature = "pictures")]
+use crate::plot::Plot;
 use crate::replacing::Replacing;
 #[cfg(feature = "view")]
 use crate::window::View;
@@ -150,6 +152,9 @@ pub enum Command {
     /// Draw a scene into a PNG file.
     #[cfg(feature = "pictures")]
     Picture(Box<Picture>),
+    /// Run a scene and plot its energy, or other quantities, over time: PNG, SVG, or the numbers as CSV.
+    #[cfg(feature = "pictures")]
+    Plot(Box<Plot>),
     /// Film a scene, a recorded run, or the maze game: H.264 in an mp4 file.
     ///
     /// Frames of the film are exactly 1/fps of simulated time apart. The scene is stepped by its

@@ -27,6 +27,8 @@ mod numbers;
 mod pack;
 #[cfg(feature = "pictures")]
 pub mod pictures;
+#[cfg(feature = "pictures")]
+mod plot;
 mod progress;
 mod recover;
 mod replacing;
@@ -106,6 +108,8 @@ fn obey(args: Args, registered: Vec<Scene>) -> Result<(), Failure> {
         Command::Man { folder } => manual::pages(folder),
         #[cfg(feature = "pictures")]
         Command::Picture(picture) => pictures::picture(&library()?, picture),
+        #[cfg(feature = "pictures")]
+        Command::Plot(it) => plot::plot(&library()?, it),
         #[cfg(feature = "pictures")]
         Command::Record(record) => pictures::record(&library()?, record),
         #[cfg(feature = "pictures")]

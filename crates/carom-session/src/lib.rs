@@ -32,6 +32,7 @@ mod distance;
 mod driver;
 mod edit;
 mod error;
+pub mod figures;
 mod gas;
 mod history;
 mod impacts;

@@ -1,16 +1,12 @@
 //! Plots of measured quantities.
 
-mod distribution;
-mod figure;
+mod drawing;
 
-use carom::StageCounts;
 use carom_render::Readback;
 use carom_session::View;
+use carom_session::figures::{self, DIRECTIONS, Figure};
 use egui::{Context, Pos2, Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
 use serde::{Deserialize, Serialize};
-
-pub use figure::Figure;
-use figure::{BLUE, Curve, GREEN, GREY, RED};
 
 use crate::layout::press_word;
 use crate::studio::Studio;
@@ -76,7 +72,7 @@ pub fn show(ui: &mut Ui, view: &View, left: Option<f64>, shown: &mut PlotChoice)
         let mut draw = |ui: &mut Ui, mut figures: Vec<Figure>| {
             scale(&mut figures, left);
             for figure in figures {
-                if figure.show(ui) {
+                if drawing::show(&figure, ui) {
                     let name = figure.title.to_lowercase().replace(' ', "-");
                     wanted = Some(Wanted::Table { name, csv: figure.to_csv() });
                 }
@@ -84,25 +80,25 @@ pub fn show(ui: &mut Ui, view: &View, left: Option<f64>, shown: &mut PlotChoice)
         };
         draw(ui, over_time(view, shown));
         if shown.gas {
-            draw(ui, gas(view));
+            draw(ui, figures::gas(view));
         }
         if shown.picked {
             if view.picked.is_none() {
                 let press = press_word(ui);
                 ui.weak(format!("{press} on a ball to plot its height and speed."));
             } else {
-                draw(ui, picked(view));
+                draw(ui, figures::picked(view));
                 ui.horizontal(|ui| {
                     for (i, name) in DIRECTIONS.iter().enumerate() {
                         ui.selectable_value(&mut shown.direction, i, *name);
                     }
                     ui.weak("phase space");
                 });
-                draw(ui, vec![phase_space(view, shown.direction)]);
+                draw(ui, vec![figures::phase_space(view, shown.direction)]);
             }
         }
         if shown.work {
-            draw(ui, work(view));
+            draw(ui, figures::work(view));
         }
     });
     wanted
@@ -112,14 +108,14 @@ pub fn show(ui: &mut Ui, view: &View, left: Option<f64>, shown: &mut PlotChoice)
 fn all(view: &View, left: Option<f64>, shown: &PlotChoice) -> Vec<Figure> {
     let mut figures = over_time(view, shown);
     if shown.gas {
-        figures.extend(gas(view));
+        figures.extend(figures::gas(view));
     }
     if shown.picked && view.picked.is_some() {
-        figures.extend(picked(view));
-        figures.push(phase_space(view, shown.direction));
+        figures.extend(figures::picked(view));
+        figures.push(figures::phase_space(view, shown.direction));
     }
     if shown.work {
-        figures.extend(work(view));
+        figures.extend(figures::work(view));
     }
     scale(&mut figures, left);
     figures
@@ -154,124 +150,31 @@ pub fn print(figures: &[Figure], heading: &str, context: &Context, studio: &Stud
             let corner = Pos2::new(0.0, HEADING) + place;
             let part = Rect::from_min_size(corner, PRINTED).shrink(12.0);
             ui.scope_builder(UiBuilder::new().max_rect(part).id_salt(i), |ui| {
-                figure.print(ui, part.height() - 28.0);
+                drawing::print(figure, ui, part.height() - 28.0);
             });
         }
     })
 }
 
-const DIRECTIONS: [&str; 3] = ["x", "y", "z"];
-
 /// Returns the figures of all balls together.
 fn over_time(view: &View, shown: &PlotChoice) -> Vec<Figure> {
     let mut figures = Vec::new();
     if view.other.is_some() {
-        figures.push(distances(view));
+        figures.push(figures::distances(view));
     }
     if shown.energy {
-        figures.push(energies(view));
+        figures.push(figures::energies(view));
     }
     if shown.momentum {
-        figures.push(momenta(view));
+        figures.push(figures::momenta(view));
     }
     if shown.impacts {
-        let rate = Curve::line("all", BLUE, &view.readings, |it| (it.time, it.impact_rate));
-        figures.push(Figure::over_time("Impacts per second", "", view.time, vec![rate]));
+        figures.push(figures::impact_rate(view));
     }
     figures
-}
-
-fn energies(view: &View) -> Figure {
-    let readings = &view.readings;
-    let mut curves = vec![
-        Curve::line("kinetic", RED, readings, |it| (it.time, it.kinetic_energy)),
-        Curve::line("potential", GREEN, readings, |it| (it.time, it.potential_energy)),
-        Curve::line("total", BLUE, readings, |it| (it.time, it.total_energy())),
-    ];
-    if let Some(other) = &view.other {
-        for curve in &mut curves {
-            curve.name = format!("{}, {}", curve.name, view.setup.simulation.rule);
-        }
-        let name = format!("total, {}", other.setup.simulation.rule);
-        curves.push(Curve::line(name, GREY, &other.readings, |it| (it.time, it.total_energy())));
-    }
-    Figure::over_time("Energy", "J", view.time, curves)
 }
 
 /// Returns the table of energies over time.
 pub fn energy_table(view: &View) -> Wanted {
-    Wanted::Table { name: "energy".to_owned(), csv: energies(view).to_csv() }
-}
-
-fn momenta(view: &View) -> Figure {
-    let readings = &view.readings;
-    let curves = vec![
-        Curve::line("x", RED, readings, |it| (it.time, it.momentum.x)),
-        Curve::line("y", GREEN, readings, |it| (it.time, it.momentum.y)),
-        Curve::line("z", BLUE, readings, |it| (it.time, it.momentum.z)),
-        Curve::line("size", GREY, readings, |it| (it.time, it.momentum.length())),
-    ];
-    Figure::over_time("Momentum", "kg m/s", view.time, curves)
-}
-
-/// Returns the figures of the gas: speeds now, and temperature and, if known, pressure until now.
-fn gas(view: &View) -> Vec<Figure> {
-    let readings = &view.readings;
-    let heat = Curve::line("k T", RED, readings, |it| (it.time, it.thermal_energy));
-    let mut figures = vec![
-        distribution::speeds(view),
-        Figure::over_time("Temperature, as k T", "J", view.time, vec![heat]),
-    ];
-    if view.now.pressure.is_some() {
-        let pressure = |it: &carom_session::Reading| (it.time, it.pressure.unwrap_or_default());
-        let pressure = vec![Curve::line("p", BLUE, readings, pressure)];
-        figures.push(Figure::over_time("Pressure of impacts", "Pa", view.time, pressure));
-    }
-    figures
-}
-
-fn picked(view: &View) -> Vec<Figure> {
-    let Some(id) = view.picked else { return Vec::new() };
-    let readings = &view.picked_readings;
-    let height = vec![Curve::line("height", GREEN, readings, |it| (it.time, it.position.y))];
-    let speed = vec![Curve::line("speed", RED, readings, |it| (it.time, it.velocity.length()))];
-    vec![
-        Figure::over_time(format!("Height of ball {id}"), "m", view.time, height),
-        Figure::over_time(format!("Speed of ball {id}"), "m/s", view.time, speed),
-    ]
-}
-
-/// Returns the path of the picked ball in phase space along one direction.
-fn phase_space(view: &View, direction: usize) -> Figure {
-    // A stored value may be out of range.
-    let direction = direction.min(DIRECTIONS.len() - 1);
-    let point = |it: &carom_session::PickedReading| {
-        (it.position.to_array()[direction], it.velocity.to_array()[direction])
-    };
-    let path = vec![Curve::line("path", BLUE, &view.picked_readings, point)];
-    let name = DIRECTIONS[direction];
-    Figure::over(format!("Velocity along {name}"), "m/s", (format!("position {name}"), "m"), path)
-}
-
-/// Returns the work of each frame, with a figure for each stage, because the numbers differ by
-/// orders of magnitude.
-fn work(view: &View) -> Vec<Figure> {
-    let figure = |title, color, count: fn(&StageCounts) -> u64| {
-        let curve =
-            Curve::line("all", color, &view.readings, |it| (it.time, count(&it.work) as f64));
-        Figure::over_time(title, "", view.time, vec![curve])
-    };
-    vec![
-        figure("Pair tests per frame", BLUE, |it| it.pair_tests),
-        figure("Events per frame", GREEN, |it| it.events),
-        figure("Solver iterations per frame", RED, |it| it.solver_iterations),
-    ]
-}
-
-fn distances(view: &View) -> Figure {
-    let curves = vec![
-        Curve::line("largest", RED, &view.distances, |it| (it.time, it.largest)),
-        Curve::line("root mean square", BLUE, &view.distances, |it| (it.time, it.root_mean_square)),
-    ];
-    Figure::over_time("Distance of the two", "m", view.time, curves)
+    Wanted::Table { name: "energy".to_owned(), csv: figures::energies(view).to_csv() }
 }

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use carom::DVec3;
-use carom_session::View;
 
-use super::figure::{BLUE, Curve, Figure, RED};
+use super::figure::{Curve, Figure, Hue};
+use crate::view::View;
 
 /// Largest number of bars.
 const MOST_BARS: usize = 40;
@@ -28,7 +28,7 @@ pub fn speeds(view: &View) -> Figure {
     }
     let heights = counts.iter().enumerate();
     let heights = heights.map(|(i, count)| ((i as f64 + 0.5) * width, f64::from(*count)));
-    let mut curves = vec![Curve::bars("balls", BLUE, width, heights)];
+    let mut curves = vec![Curve::bars("balls", Hue::Blue, width, heights)];
     let thermal_energy = view.now.thermal_energy;
     if thermal_energy > 0.0 {
         let masses = counted(&spheres.masses);
@@ -40,7 +40,7 @@ pub fn speeds(view: &View) -> Figure {
             };
             (speed, width * masses.iter().copied().map(of_mass).sum::<f64>())
         };
-        curves.push(Curve::line("Maxwell-Boltzmann", RED, &places, |speed| expected(*speed)));
+        curves.push(Curve::line("Maxwell-Boltzmann", Hue::Red, &places, |speed| expected(*speed)));
     }
     Figure::over("Balls by speed", "", ("speed relative to the mean motion", "m/s"), curves)
 }
