@@ -181,8 +181,9 @@ impl Keeps {
                 // Colliders are where the frame ends.
                 let left = world.time() - (self.time + impact.time);
                 let arm = impact.point - (collider.pose.position - left * collider.velocity);
-                let turned = collider.pose.moved(DVec3::ZERO, collider.angular_velocity, -left);
-                let belt = turned.rotation.normalize() * collider.surface_velocity;
+                let turned = DQuat::from_scaled_axis(-left * collider.angular_velocity);
+                let belt =
+                    turned * (collider.pose.rotation.normalize() * collider.surface_velocity);
                 let velocity = collider.velocity + collider.angular_velocity.cross(arm);
                 let impulse = impact.impulse * impact.normal + impact.tangential_impulse;
                 work += impulse.dot(velocity) + impact.tangential_impulse.dot(belt);
