@@ -121,8 +121,10 @@ pub unsafe extern "C" fn carom_world_add_toml(
     call(|| {
         // SAFETY: the caller's text is null or ends in a zero, as the header demands.
         let toml = unsafe { text(toml, "toml") }?;
-        let part = part::read(toml)?;
-        let all = world.with(|inner| add(inner, part))?;
+        let all = world.with(|inner| {
+            let part = part::read_for(toml, inner.described.scene())?;
+            add(inner, part)
+        })?;
         // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
         unsafe { tell(added, all) };
         Ok(())

@@ -64,7 +64,9 @@ impl World {
     /// [`Failure`] if it is not in the world.
     pub fn sphere(&self, id: f64) -> Result<String, Failure> {
         let (_, index) = find::sphere(&self.world, id)?;
-        Ok(serde_json::to_string(&sphere(&self.world, &self.description.members, index))?)
+        let material = self.described().material_name(self.world.spheres().get(index).material);
+        let sphere = sphere(&self.world, &self.description.members, index);
+        Ok(serde_json::to_string(&Sphere { material, ..sphere })?)
     }
 
     /// Returns the present world as the text of a scene file. There, time starts at 0 and emitters
@@ -75,7 +77,11 @@ impl World {
         let mut scene = self.described().clone();
         let colliders = colliders_now(world, &scene);
         scene.colliders = colliders.iter().map(|it| it.beginning_at(world.time())).collect();
-        scene.spheres = (0..world.spheres().len()).map(|i| sphere(world, members, i)).collect();
+        let spheres = (0..world.spheres().len()).map(|i| Sphere {
+            material: scene.material_name(world.spheres().get(i).material),
+            ..sphere(world, members, i)
+        });
+        scene.spheres = spheres.collect();
         scene.springs = Spring::all_of(world);
         // Rules that detect contacts late let spheres overlap, which a scene must allow.
         if !scene.simulation.allow_overlap && scene.world().is_err() {

@@ -28,7 +28,7 @@ impl World {
     /// # Errors
     /// [`Failure`] if any of them is invalid; then none is added.
     pub fn add(&mut self, text: &str) -> Result<String, Failure> {
-        let mut part = part::read(text)?;
+        let mut part = part::read_for(text, self.described())?;
         part.colors.clone_from(&self.described().colors);
         let (world, palette) = (part.world()?, Palette::new(&part)?);
         let mut added = Added::default();
@@ -94,7 +94,7 @@ impl World {
     #[wasm_bindgen(js_name = setSphere)]
     pub fn set_sphere(&mut self, id: f64, text: &str) -> Result<(), Failure> {
         let (id, index) = find::sphere(&self.world, id)?;
-        let part = part::read(text)?;
+        let part = part::read_for(text, self.described())?;
         let world = part.world()?;
         only(world.spheres().ids())?;
         self.world.set_sphere(id, world.spheres().get(0))?;
@@ -125,7 +125,7 @@ impl World {
     #[wasm_bindgen(js_name = setCollider)]
     pub fn set_collider(&mut self, id: f64, text: &str) -> Result<(), Failure> {
         let (id, place) = find::collider(&self.world, id)?;
-        let part = part::read(text)?;
+        let part = part::read_for(text, self.described())?;
         let world = part.world()?;
         let colliders: Vec<Collider> =
             world.colliders().map(|(_, collider)| collider.clone()).collect();

@@ -93,7 +93,12 @@ fn spheres_now(inner: &Inner) -> Vec<Sphere> {
     let spheres = inner.world.spheres();
     let paint = |id: &SphereId| inner.palette.own(id.number());
     let rows = spheres.ids().iter().enumerate();
-    rows.map(|(i, id)| described(&spheres.get(i), paint(id))).collect()
+    let described = |(i, id)| {
+        let sphere = spheres.get(i);
+        let material = inner.described.material_name(sphere.material);
+        Sphere { material, ..described(&sphere, paint(id)) }
+    };
+    rows.map(described).collect()
 }
 
 /// Returns a sphere in the form of scene files.

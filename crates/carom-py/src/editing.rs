@@ -31,7 +31,7 @@ impl Engine {
         text: &str,
         may_overlap: bool,
     ) -> PyResult<Bound<'py, PyArray1<u64>>> {
-        let part = part::read(text)?;
+        let part = self.part(py, text)?;
         let paints = part.spheres.iter().map(Paint::from).collect();
         self.add_all(py, spheres_of(&part)?, paints, may_overlap)
     }
@@ -63,7 +63,7 @@ impl Engine {
     /// Adds the collider that `text` describes. Returns its id.
     #[pyo3(name = "_add_collider")]
     fn add_collider_of(&self, py: Python<'_>, text: &str) -> PyResult<u64> {
-        let part = part::read(text)?;
+        let part = self.part(py, text)?;
         let collider = collider_of(&part)?;
         self.change(py, |inner| {
             let id = inner.world.add_collider(collider)?;
@@ -76,7 +76,7 @@ impl Engine {
     /// Adds the emitter that `text` describes. Returns its id.
     #[pyo3(name = "_add_emitter")]
     fn add_emitter_of(&self, py: Python<'_>, text: &str) -> PyResult<u64> {
-        let part = part::read(text)?;
+        let part = self.part(py, text)?;
         let emitter = emitter_of(&part)?;
         self.change(py, |inner| {
             let id = inner.world.add_emitter(emitter)?;
@@ -89,6 +89,12 @@ impl Engine {
 }
 
 impl Engine {
+    /// Reads spheres, colliders and emitters, which may be of the materials of the world's scene.
+    fn part(&self, py: Python<'_>, text: &str) -> PyResult<Scene> {
+        let described = Arc::clone(&self.lock(py)?.described);
+        Ok(part::read_for(text, &described)?)
+    }
+
     /// Adds spheres with their colours. Returns their ids.
     fn add_all<'py>(
         &self,
@@ -122,7 +128,7 @@ impl Engine {
     #[pyo3(name = "_set_sphere")]
     fn set_sphere_of(&self, py: Python<'_>, id: &Bound<'_, PyAny>, text: &str) -> PyResult<()> {
         let id = arguments::id("sphere", id)?;
-        let part = part::read(text)?;
+        let part = self.part(py, text)?;
         let spheres = spheres_of(&part)?;
         let (sphere, paint) = (*only(&spheres)?, only(&part.spheres)?.into());
         self.change(py, |inner| {
@@ -188,7 +194,7 @@ impl Engine {
     #[pyo3(name = "_set_collider")]
     fn set_collider_of(&self, py: Python<'_>, id: &Bound<'_, PyAny>, text: &str) -> PyResult<()> {
         let id = arguments::id("collider", id)?;
-        let part = part::read(text)?;
+        let part = self.part(py, text)?;
         let collider = collider_of(&part)?;
         self.change(py, |inner| {
             let (id, place) = find_collider(&inner.world, id)?;
@@ -218,7 +224,7 @@ impl Engine {
     #[pyo3(name = "_set_emitter")]
     fn set_emitter_of(&self, py: Python<'_>, id: &Bound<'_, PyAny>, text: &str) -> PyResult<()> {
         let id = arguments::id("emitter", id)?;
-        let part = part::read(text)?;
+        let part = self.part(py, text)?;
         let emitter = emitter_of(&part)?;
         self.change(py, |inner| {
             let (id, place) = find_emitter(&inner.world, id)?;

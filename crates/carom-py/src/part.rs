@@ -12,6 +12,14 @@ pub fn read(text: &str) -> Result<Scene, Failure> {
     Ok(part::read(text)?)
 }
 
+/// Reads bodies for the world of a scene: see [`part::read_for`].
+///
+/// # Errors
+/// [`Failure`] for anything that a scene file would be refused for.
+pub fn read_for(text: &str, scene: &Scene) -> Result<Scene, Failure> {
+    Ok(part::read_for(text, scene)?)
+}
+
 /// Reads simulation settings from TOML.
 ///
 /// # Errors

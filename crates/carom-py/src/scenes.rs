@@ -17,13 +17,22 @@ pub fn in_code(text: &str) -> Result<Scene, SceneError> {
 #[pyfunction]
 pub fn read_scene(text: &str, source: &str, overrides: Vec<String>) -> Result<String, Failure> {
     let scene = Scene::from_toml_with(text, source, &parsed(&overrides)?)?;
-    Ok(serde_json::to_string(&scene)?)
+    in_json(&scene)
 }
 
 /// Reads a scene file and the files that it includes, like [`read_scene`].
 #[pyfunction]
 pub fn read_scene_file(path: PathBuf, overrides: Vec<String>) -> Result<String, Failure> {
-    Ok(serde_json::to_string(&Scene::from_file(&path, &parsed(&overrides)?)?)?)
+    in_json(&Scene::from_file(&path, &parsed(&overrides)?)?)
+}
+
+/// Writes a scene as JSON, without what materials give its bodies.
+fn in_json(scene: &Scene) -> Result<String, Failure> {
+    Ok(if scene.materials.is_empty() {
+        serde_json::to_string(scene)?
+    } else {
+        serde_json::to_string(&scene.to_table())?
+    })
 }
 
 /// Returns the TOML of a scene with all defaults written out.
@@ -51,7 +60,7 @@ pub fn find_scene(
         return Ok((None, scene.name));
     }
     let (scene, source) = library.find(name, &overrides)?;
-    Ok((Some(serde_json::to_string(&scene)?), source.to_string()))
+    Ok((Some(in_json(&scene)?), source.to_string()))
 }
 
 /// Returns name, title, description and source of all scenes.

@@ -3,14 +3,21 @@
 use carom::{Ends, Friction, Groups, Mass, Pose, Sides, World};
 
 use crate::error::{Problem, SceneError};
+use crate::materials::{MaterialNumbers, friction};
 use crate::requirement::{check, check_positive};
 use crate::scene::values::{quaternion, vector};
-use crate::scene::{Collider, Emitter, End, Shape, Side, Sphere};
+use crate::scene::{Collider, Emitter, End, RestitutionLaw, Shape, Side, Sphere};
 use crate::{meshes, track};
 
 /// Adds the sphere that stands at `path` in the scene.
-pub(crate) fn add_sphere(world: &mut World, sphere: &Sphere, path: &str) -> Result<(), Problem> {
-    let sphere = self::sphere(sphere, path)?;
+pub(crate) fn add_sphere(
+    world: &mut World,
+    sphere: &Sphere,
+    path: &str,
+    materials: &MaterialNumbers,
+) -> Result<(), Problem> {
+    let material = materials.number(sphere.material.as_deref(), path)?;
+    let sphere = self::sphere(sphere, path)?.with_material(material);
     let energy = sphere.kilograms() * sphere.velocity.length_squared();
     // A sphere that is itself not finite is refused by `add_sphere`, which names the field.
     let is_finite = energy.is_finite() || !sphere.velocity.is_finite();
@@ -42,7 +49,7 @@ pub(crate) fn sphere(sphere: &Sphere, path: &str) -> Result<carom::Sphere, Probl
             return Err(Problem::new(format!("{path}.density"), "`mass` says it already"));
         }
     };
-    Ok(carom::Sphere::new(vector(sphere.position), radius)
+    let physical = carom::Sphere::new(vector(sphere.position), radius)
         .with_velocity(vector(sphere.velocity))
         .with_mass(mass)
         .with_restitution(sphere.restitution)
@@ -54,15 +61,9 @@ pub(crate) fn sphere(sphere: &Sphere, path: &str) -> Result<carom::Sphere, Probl
         .with_angular_velocity(vector(sphere.angular_velocity))
         .with_inertia_factor(sphere.inertia_factor)
         .with_groups(Groups { groups: sphere.groups, collides_with: sphere.collides_with })
-        .with_user_data(sphere.user_data))
-}
-
-/// Friction of a body: `coefficients` of sliding, rolling and spinning friction.
-fn friction(coefficients: [Option<f64>; 3], tangential_restitution: Option<f64>) -> Friction {
-    let mut friction = Friction::default();
-    [friction.sliding, friction.rolling, friction.spinning] = coefficients;
-    friction.tangential_restitution = tangential_restitution;
-    friction
+        .with_user_data(sphere.user_data);
+    let law = sphere.restitution_law;
+    Ok(law.map_or(physical, |law| physical.with_restitution_law(law.into())))
 }
 
 impl Sphere {
@@ -77,6 +78,7 @@ impl Sphere {
             mass,
             density,
             restitution: sphere.restitution,
+            restitution_law: sphere.restitution_law.and_then(RestitutionLaw::of),
             friction: sphere.friction.sliding,
             rolling_friction: sphere.friction.rolling,
             spinning_friction: sphere.friction.spinning,
@@ -195,6 +197,11 @@ pub(crate) fn collider(collider: &Collider) -> Result<carom::Collider, String> {
         .with_kick(collider.kick)
         .with_groups(Groups { groups: collider.groups, collides_with: collider.collides_with })
         .with_user_data(collider.user_data);
+    let law = collider.restitution_law;
+    let solid = match law {
+        Some(law) => solid.with_restitution_law(law.into()),
+        None => solid,
+    };
     Ok(if collider.trigger { solid.as_trigger() } else { solid })
 }
 

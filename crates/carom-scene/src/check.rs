@@ -86,6 +86,9 @@ fn colors(scene: &Scene) -> Vec<(String, Color)> {
     for (i, emitter) in scene.emitters.iter().enumerate() {
         add(format!("emitters[{i}].sphere.color"), emitter.sphere.color);
     }
+    for (name, material) in &scene.materials {
+        add(format!("materials.{name}.color"), material.color);
+    }
     add("sun.color".to_owned(), scene.sun.as_ref().map(|sun| sun.color));
     if let Some(own) = &scene.colors {
         add("colors.background".to_owned(), own.background);

@@ -25,6 +25,7 @@ mod check;
 #[cfg(feature = "checkpoint")]
 mod checkpoint;
 mod color_text;
+mod deserialize;
 mod error;
 mod expand;
 mod force;
@@ -34,6 +35,7 @@ pub mod import;
 mod legible;
 mod library;
 mod load;
+mod materials;
 mod mesh_file;
 mod meshes;
 mod motion;

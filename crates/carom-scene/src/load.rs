@@ -6,9 +6,13 @@ use serde::Deserialize;
 
 use crate::budget::Budget;
 use crate::error::SceneError;
+use crate::materials;
 use crate::overrides::Override;
 use crate::scene::Scene;
 use crate::text::SceneText;
+
+/// Why a scene can be written.
+const STRINGS: &str = "a scene has only strings as keys";
 
 impl Scene {
     /// Reads a scene from TOML. Errors call it `source_name`; a scene without a name gets that of
@@ -78,9 +82,20 @@ impl Scene {
         SceneText::new(&self.to_toml(), &self.name)?.within(Budget::MOST).scene(overrides)
     }
 
-    /// Writes the scene as TOML with every default.
+    /// Writes the scene as TOML with every default, and without what materials give.
     pub fn to_toml(&self) -> String {
-        toml::to_string(self).expect("a scene has only strings as keys")
+        if self.materials.is_empty() {
+            toml::to_string(self).expect(STRINGS)
+        } else {
+            toml::to_string(&self.to_table()).expect(STRINGS)
+        }
+    }
+
+    /// Returns the table that [`Self::to_toml`] writes.
+    pub fn to_table(&self) -> toml::Table {
+        let mut table = toml::Table::try_from(self).expect(STRINGS);
+        materials::strip(&mut table);
+        table
     }
 }
 

@@ -5,11 +5,12 @@ use serde::Deserialize;
 use thiserror::Error;
 use toml::Table;
 
+use crate::deserialize::deserialize;
 use crate::error::{Fault, Problem, SceneError};
 use crate::legible::legible;
 use crate::overrides::Override;
 use crate::scene::{Scene, Spring};
-use crate::{parameters, springs, table};
+use crate::{materials, parameters, springs};
 
 /// An error in a part described in code, which has no lines and no file name.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -46,6 +47,26 @@ pub fn read(text: &str) -> Result<Scene, PartError> {
     Ok(Scene::from_toml_with(&named(text), NAME, &[overlapping])?)
 }
 
+/// Reads parts for a running world, whose bodies may be of the materials of its `scene`.
+///
+/// # Errors
+/// [`PartError`] for any error that a scene file could have, and for materials of the text itself: a world has those of
+/// its scene.
+pub fn read_for(text: &str, scene: &Scene) -> Result<Scene, PartError> {
+    let part = if scene.materials.is_empty() {
+        read(text)?
+    } else {
+        read(&format!("{text}\n{}", materials::written(scene)))?
+    };
+    if part.materials != scene.materials || !part.material_pairs.is_empty() {
+        return Err(PartError {
+            message: "materials: a running world has those of its scene".to_owned(),
+            field: "materials".to_owned(),
+        });
+    }
+    Ok(part)
+}
+
 /// Reads the simulation settings from TOML.
 ///
 /// # Errors
@@ -64,7 +85,7 @@ pub fn springs(text: &str) -> Result<Vec<Spring>, PartError> {
             Problem::new("springs", legible(error.message(), LONGEST))
         })?;
         parameters::resolve(&mut table)?;
-        table::told::<Springs>(table)
+        deserialize::<Springs>(table)
     };
     Ok(read(text).map_err(in_part)?.springs)
 }

@@ -1,13 +1,14 @@
 //! Converts the table of a scene file to a scene.
 
-use serde::de::DeserializeOwned;
-use toml::{Table, Value};
+use toml::Table;
 
 use crate::budget::Budget;
+use crate::deserialize::deserialize;
 use crate::error::{Problem, is_much_like, nearest};
+use crate::materials;
 use crate::parameters;
 use crate::scene::{Scene, Simulation};
-use crate::wording::{in_plain_words, table_expected, with_form, with_names};
+use crate::wording::{table_expected, with_names};
 use crate::world;
 
 /// Name of the field that lists included files.
@@ -16,7 +17,8 @@ pub(crate) const INCLUDE: &str = "include";
 /// Reads a scene from its table within `budget`; returns the first problem.
 pub(crate) fn read(mut table: Table, budget: Budget) -> Result<Scene, Problem> {
     parameters::resolve(&mut table)?;
-    let scene: Scene = told(table).map_err(|Problem { field: path, problem }| {
+    materials::fill(&mut table)?;
+    let scene: Scene = deserialize(table).map_err(|Problem { field: path, problem }| {
         if let Some(problem) = of_simulation(&problem, &path) {
             return Problem::new(path, problem);
         }
@@ -33,16 +35,6 @@ pub(crate) fn read(mut table: Table, budget: Budget) -> Result<Scene, Problem> {
     })?;
     world::build(&scene, budget)?;
     Ok(scene)
-}
-
-/// Deserializes a table without formulas and units.
-pub(crate) fn told<T: DeserializeOwned>(table: Table) -> Result<T, Problem> {
-    serde_path_to_error::deserialize(Value::Table(table)).map_err(|error| {
-        let path = error.path().to_string();
-        let path = if path == "." { String::new() } else { path };
-        let problem = in_plain_words(error.into_inner().message().trim());
-        Problem::new(&*path, with_form(problem, &path))
-    })
 }
 
 /// Suggests the table `[simulation]` for one of its fields that stands before the first table.

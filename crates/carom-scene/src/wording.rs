@@ -6,7 +6,7 @@ use crate::error::nearest;
 pub(crate) const SAYS_NOTHING: &str = "says nothing: it has to say one thing";
 
 /// Common words with the name that scene files use.
-const SYNONYMS: [(&str, &str); 35] = [
+const SYNONYMS: [(&str, &str); 34] = [
     ("angle", "degrees"),
     ("ball", "sphere"),
     ("balls", "spheres"),
@@ -21,7 +21,6 @@ const SYNONYMS: [(&str, &str); 35] = [
     ("gravity", "forces"),
     ("ground", "half-space"),
     ("halfspace", "half-space"),
-    ("material", "finish"),
     ("m", "mass"),
     ("mirror", "metal"),
     ("mu", "friction"),

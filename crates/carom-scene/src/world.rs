@@ -7,6 +7,7 @@ use crate::budget::Budget;
 use crate::check::{check_numbers, check_texts};
 use crate::error::Problem;
 use crate::generate;
+use crate::materials::{self, MaterialNumbers};
 use crate::meshes;
 use crate::motion;
 use crate::overlap;
@@ -38,29 +39,32 @@ pub(crate) fn build(scene: &Scene, budget: Budget) -> Result<World, Problem> {
     let mut world =
         World::new(scene.settings()).map_err(|error| settings_problem(&scene.simulation, error))?;
     add_forces(&mut world, &scene.forces)?;
+    let materials = MaterialNumbers::of(scene);
+    materials::add_pairs(&mut world, scene, &materials)?;
     for (i, collider) in scene.colliders.iter().enumerate() {
-        add_collider(&mut world, collider, &format!("colliders[{i}]"))?;
+        add_collider(&mut world, collider, &format!("colliders[{i}]"), &materials)?;
     }
     for (i, generator) in scene.generators.iter().enumerate() {
         let path = format!("generators[{i}].{}", generator.kind());
         for collider in generator.colliders(&path)? {
-            add_collider(&mut world, &collider, &format!("{path}.collider"))?;
+            add_collider(&mut world, &collider, &format!("{path}.collider"), &materials)?;
         }
     }
     for (i, sphere) in scene.spheres.iter().enumerate() {
-        add_sphere(&mut world, sphere, &format!("spheres[{i}]"))?;
+        add_sphere(&mut world, sphere, &format!("spheres[{i}]"), &materials)?;
     }
     let mut first_of_generator = Vec::new();
     for (i, generator) in scene.generators.iter().enumerate() {
         first_of_generator.push(world.spheres().len());
         let path = format!("generators[{i}].{}", generator.kind());
-        generate::fill(&mut world, generator, &path)?;
+        generate::fill(&mut world, generator, &path, &materials)?;
     }
     for (i, spring) in scene.springs.iter().enumerate() {
         springs::add(&mut world, spring, &format!("springs[{i}]"))?;
     }
     for (i, emitter) in scene.emitters.iter().enumerate() {
-        add_emitter(&mut world, emitter, &format!("emitters[{i}]"), &scene.simulation)?;
+        let path = format!("emitters[{i}]");
+        add_emitter(&mut world, (emitter, &materials), &path, &scene.simulation)?;
     }
     if !scene.simulation.allow_overlap {
         overlap::refuse(scene, &world, &first_of_generator)?;
@@ -96,7 +100,13 @@ fn add_forces(world: &mut World, forces: &[Force]) -> Result<(), Problem> {
 }
 
 /// Adds the collider that stands at `path`.
-fn add_collider(world: &mut World, collider: &Collider, path: &str) -> Result<(), Problem> {
+fn add_collider(
+    world: &mut World,
+    collider: &Collider,
+    path: &str,
+    materials: &MaterialNumbers,
+) -> Result<(), Problem> {
+    let material = materials.number(collider.material.as_deref(), path)?;
     let physical = self::collider(collider).map_err(|problem| {
         let kind = kind_of(&collider.shape);
         Problem::new(format!("{path}.shape.{kind}"), problem)
@@ -125,18 +135,21 @@ fn add_collider(world: &mut World, collider: &Collider, path: &str) -> Result<()
         }
         physical.with_motion(motion)
     };
-    let added = world.add_collider(physical);
+    let added = world.add_collider(physical.with_material(material));
     added.map(drop).map_err(|error| collider_problem(path, &collider.shape, error))
 }
 
 /// Adds the emitter that stands at `path`.
 fn add_emitter(
     world: &mut World,
-    emitter: &Emitter,
+    (emitter, materials): (&Emitter, &MaterialNumbers),
     path: &str,
     simulation: &Simulation,
 ) -> Result<(), Problem> {
-    let emitter = self::emitter(emitter, path)?;
+    let sphere_path = format!("{path}.sphere");
+    let material = materials.number(emitter.sphere.material.as_deref(), &sphere_path)?;
+    let mut emitter = self::emitter(emitter, path)?;
+    emitter.sphere.material = material;
     world.add_emitter(emitter).map_err(|error| Problem::of_physics(path, error))?;
     let place = emitter.position + emitter.rotation.normalize() * emitter.sphere.position;
     let is_free = !world.meets_collider(place, emitter.sphere.radius);

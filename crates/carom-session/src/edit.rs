@@ -76,15 +76,20 @@ pub struct SphereChange {
 
 impl SphereChange {
     /// Returns the changed sphere.
+    ///
+    /// A coefficient that is set takes the sphere out of its material, whose pairs would override it.
     pub(crate) fn of(&self, sphere: carom::Sphere) -> carom::Sphere {
-        sphere
+        let is_set = self.restitution.is_some() || self.friction.is_some();
+        let material = if is_set { 0 } else { sphere.material };
+        let changed = sphere
+            .with_material(material)
             .with_position(self.position.unwrap_or(sphere.position))
             .with_velocity(self.velocity.unwrap_or(sphere.velocity))
             .with_radius(self.radius.unwrap_or(sphere.radius))
             .with_mass(self.mass.map_or(sphere.mass, Mass::Kilograms))
-            .with_restitution(self.restitution.unwrap_or(sphere.restitution))
             .with_friction(self.friction.unwrap_or(sphere.friction))
-            .with_angular_velocity(self.angular_velocity.unwrap_or(sphere.angular_velocity))
+            .with_angular_velocity(self.angular_velocity.unwrap_or(sphere.angular_velocity));
+        self.restitution.map_or(changed, |restitution| changed.with_restitution(restitution))
     }
 
     /// Combines this change with a later one.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use carom::{Collider, ColliderId, Emitter, EmitterId, Error, ForceId, Subject, World};
-use carom_scene::scene::{self, Force, Scene, Simulation};
+use carom_scene::scene::{self, Force, RestitutionLaw, Scene, Simulation};
 use carom_scene::{Paint, SceneError};
 
 use crate::change::Change;
@@ -44,23 +44,27 @@ impl Subjects<'_> {
             Edit::Spring(id, spring) => Ok(world.set_spring(*id, *spring)?),
             Edit::AddSpring(spring) => Ok(world.add_spring(*spring).map(drop)?),
             Edit::RemoveSpring(id) => Ok(world.remove_spring(*id).map(drop)?),
-            Edit::ColliderRestitution(id, restitution) => {
-                set_collider(*id, world, setup, |it| it.with_restitution(*restitution))
-            }
-            Edit::AllColliderRestitutions(restitution) => {
-                set_colliders(None, world, setup, |it| it.with_restitution(*restitution))
-            }
+            Edit::ColliderRestitution(id, restitution) => set_collider(*id, world, setup, |it| {
+                it.with_restitution(*restitution).with_material(0)
+            }),
+            Edit::AllColliderRestitutions(restitution) => set_colliders(None, world, setup, |it| {
+                it.with_restitution(*restitution).with_material(0)
+            }),
             Edit::NamedColliderRestitutions(name, restitution) => {
-                set_colliders(Some(name), world, setup, |it| it.with_restitution(*restitution))
+                set_colliders(Some(name), world, setup, |it| {
+                    it.with_restitution(*restitution).with_material(0)
+                })
             }
             Edit::ColliderFriction(id, friction) => {
-                set_collider(*id, world, setup, |it| it.with_friction(*friction))
+                set_collider(*id, world, setup, |it| it.with_friction(*friction).with_material(0))
             }
             Edit::AllColliderFrictions(friction) => {
-                set_colliders(None, world, setup, |it| it.with_friction(*friction))
+                set_colliders(None, world, setup, |it| it.with_friction(*friction).with_material(0))
             }
             Edit::NamedColliderFrictions(name, friction) => {
-                set_colliders(Some(name), world, setup, |it| it.with_friction(*friction))
+                set_colliders(Some(name), world, setup, |it| {
+                    it.with_friction(*friction).with_material(0)
+                })
             }
             Edit::Emitter(id, emitter) => {
                 set_emitter(*id, emitter, scene, Subjects { world, setup, looks })
@@ -174,6 +178,8 @@ fn set_collider(
     let colliders = &mut Arc::make_mut(setup).colliders;
     for (_, described) in colliders.iter_mut().filter(|it| it.0 == id) {
         described.restitution = collider.restitution;
+        described.restitution_law = collider.restitution_law.and_then(RestitutionLaw::of);
+        described.material = described.material.take().filter(|_| collider.material > 0);
         described.set_surface_friction(collider.friction);
     }
     Ok(())

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use carom::{
-    DQuat, DVec3, Friction, PersistentContact, Pose, SphereId, Spring, SpringId, StateHash,
+    DQuat, DVec3, Friction, PersistentContact, Pose, RestitutionLaw, SphereId, Spring, SpringId,
+    StateHash,
 };
 use carom_scene::Paint;
 use carom_scene::scene::{Scene, Sphere};
@@ -89,6 +90,10 @@ pub struct SphereArrays {
     pub masses: Vec<f64>,
     /// Coefficients of restitution.
     pub restitutions: Vec<f64>,
+    /// Laws of restitution; empty while no sphere has one.
+    pub restitution_laws: Vec<Option<RestitutionLaw>>,
+    /// Numbers of materials; empty while all are 0.
+    pub materials: Vec<u8>,
     /// Friction of each sphere; empty while no sphere has its own.
     pub frictions: Vec<Friction>,
     /// Moments of inertia divided by m r²; empty while all spheres are solid balls.
@@ -187,7 +192,13 @@ impl View {
                 *collider = collider.beginning_at(self.time);
             }
         }
-        scene.spheres.extend((0..self.spheres.ids.len()).map(|i| self.spheres.described(i)));
+        let spheres: Vec<Sphere> = (0..self.spheres.ids.len())
+            .map(|i| Sphere {
+                material: scene.material_name(or(&self.spheres.materials, i, 0)),
+                ..self.spheres.described(i)
+            })
+            .collect();
+        scene.spheres.extend(spheres);
         let springs = self.springs.iter();
         let described = |(_, spring): &_| carom_scene::scene::Spring::of(spring, &self.spheres.ids);
         scene.springs.extend(springs.filter_map(described));
@@ -241,6 +252,8 @@ impl SphereArrays {
             .with_inertia_factor(or(&self.inertia_factors, index, usual.inertia_factor))
             .with_orientation(or(&self.orientations, index, usual.orientation))
             .with_angular_velocity(self.angular_velocity(index));
+        let law = or(&self.restitution_laws, index, None);
+        let sphere = law.map_or(sphere, |law| sphere.with_restitution_law(law));
         Sphere::of(&sphere).painted(self.paints[index])
     }
 }

@@ -5,6 +5,7 @@ use glam::{DQuat, DVec3};
 use crate::friction::Friction;
 use crate::groups::Groups;
 use crate::id::SphereId;
+use crate::restitution::{BodyRestitution, RestitutionLaw};
 use crate::rotation;
 use crate::sphere::{Mass, SOLID_BALL, Sphere};
 
@@ -114,6 +115,8 @@ pub(crate) struct Properties {
     /// Masses \[kg\].
     pub mass: Vec<f64>,
     pub restitution: Vec<f64>,
+    /// Empty while no sphere has a law.
+    pub restitution_law: Vec<Option<RestitutionLaw>>,
     /// Empty while all spheres leave friction to the other body.
     pub friction: Vec<Friction>,
     /// Moments of inertia divided by m r²; empty while all spheres are solid balls.
@@ -124,6 +127,8 @@ pub(crate) struct Properties {
     pub groups: Vec<Groups>,
     /// \[m/s\]; empty while no radius grows.
     pub growth_speed: Vec<f64>,
+    /// Empty while all are 0.
+    pub material: Vec<u8>,
     /// Empty while all are 0.
     pub user_data: Vec<u64>,
 }
@@ -148,13 +153,30 @@ impl Properties {
             radius: some(&self.radius, indices),
             mass: some(&self.mass, indices),
             restitution: some(&self.restitution, indices),
+            restitution_law: some(&self.restitution_law, indices),
             friction: some(&self.friction, indices),
             inertia_factor: some(&self.inertia_factor, indices),
             applied_force: some(&self.applied_force, indices),
             groups: some(&self.groups, indices),
             growth_speed: some(&self.growth_speed, indices),
+            material: some(&self.material, indices),
             user_data: some(&self.user_data, indices),
         }
+    }
+
+    /// Restitution of a sphere.
+    pub fn restitution(&self, index: usize) -> BodyRestitution {
+        BodyRestitution::of(self.restitution[index], self.restitution_law(index))
+    }
+
+    fn restitution_law(&self, index: usize) -> Option<RestitutionLaw> {
+        self.restitution_law.get(index).copied().flatten()
+    }
+
+    /// Material of a sphere; 0 for none.
+    #[inline]
+    pub fn material(&self, index: usize) -> u8 {
+        self.material.get(index).copied().unwrap_or(0)
     }
 
     /// Speed at which the radius of a sphere grows \[m/s\].
@@ -229,6 +251,16 @@ impl Spheres {
         &self.properties.restitution
     }
 
+    /// Laws of restitution; empty while no sphere has one.
+    pub fn restitution_laws(&self) -> &[Option<RestitutionLaw>] {
+        &self.properties.restitution_law
+    }
+
+    /// Numbers of materials; empty while all are 0.
+    pub fn materials(&self) -> &[u8] {
+        &self.properties.material
+    }
+
     /// Rotations from the coordinate system of each sphere to the world's; empty while no sphere was
     /// ever turned.
     pub fn orientations(&self) -> &[DQuat] {
@@ -296,12 +328,14 @@ impl Spheres {
             radius: self.properties.radius[index],
             mass: Mass::Kilograms(self.properties.mass[index]),
             restitution: self.properties.restitution[index],
+            restitution_law: self.properties.restitution_law(index),
             friction: self.properties.friction(index),
             orientation: self.orientations().get(index).copied().unwrap_or_default(),
             angular_velocity: self.angular_velocities().get(index).copied().unwrap_or_default(),
             inertia_factor: self.properties.inertia_factor(index),
             groups: self.properties.groups(index),
             growth_speed: self.properties.growth_speed(index),
+            material: self.properties.material(index),
             user_data: self.user_data().get(index).copied().unwrap_or_default(),
         }
     }
@@ -314,11 +348,13 @@ impl Spheres {
         properties.radius.push(sphere.radius);
         properties.mass.push(sphere.kilograms());
         properties.restitution.push(sphere.restitution);
+        push(&mut properties.restitution_law, count, sphere.restitution_law, None);
         push(&mut properties.friction, count, sphere.friction, Friction::default());
         push(&mut properties.inertia_factor, count, sphere.inertia_factor, SOLID_BALL);
         push(&mut properties.applied_force, count, DVec3::ZERO, DVec3::ZERO);
         push(&mut properties.groups, count, sphere.groups, Groups::DEFAULT);
         push(&mut properties.growth_speed, count, sphere.growth_speed, 0.0);
+        push(&mut properties.material, count, sphere.material, 0);
         push(&mut properties.user_data, count, sphere.user_data, 0);
         motion.position.push(sphere.position);
         motion.velocity.push(sphere.velocity);
@@ -332,10 +368,12 @@ impl Spheres {
         properties.radius[index] = sphere.radius;
         properties.mass[index] = sphere.kilograms();
         properties.restitution[index] = sphere.restitution;
+        set(&mut properties.restitution_law, count, index, sphere.restitution_law, None);
         set(&mut properties.friction, count, index, sphere.friction, Friction::default());
         set(&mut properties.inertia_factor, count, index, sphere.inertia_factor, SOLID_BALL);
         set(&mut properties.groups, count, index, sphere.groups, Groups::DEFAULT);
         set(&mut properties.growth_speed, count, index, sphere.growth_speed, 0.0);
+        set(&mut properties.material, count, index, sphere.material, 0);
         set(&mut properties.user_data, count, index, sphere.user_data, 0);
         motion.position[index] = sphere.position;
         motion.velocity[index] = sphere.velocity;
@@ -353,11 +391,13 @@ impl Spheres {
         keep(&mut properties.radius, &stays);
         keep(&mut properties.mass, &stays);
         keep(&mut properties.restitution, &stays);
+        keep(&mut properties.restitution_law, &stays);
         keep(&mut properties.friction, &stays);
         keep(&mut properties.inertia_factor, &stays);
         keep(&mut properties.applied_force, &stays);
         keep(&mut properties.groups, &stays);
         keep(&mut properties.growth_speed, &stays);
+        keep(&mut properties.material, &stays);
         keep(&mut properties.user_data, &stays);
         keep(&mut motion.position, &stays);
         keep(&mut motion.velocity, &stays);

@@ -8,6 +8,7 @@ use crate::friction::Friction;
 use crate::groups::Groups;
 use crate::mesh::Mesh;
 use crate::pose::Pose;
+use crate::restitution::RestitutionLaw;
 use crate::validate;
 
 /// Form of a collider in its own frame.
@@ -212,6 +213,8 @@ pub struct Collider {
     pub motion: Motion,
     /// Coefficient of restitution in \[0, 1\].
     pub restitution: f64,
+    /// Law of restitution, instead of `restitution`: `None` unless given.
+    pub restitution_law: Option<RestitutionLaw>,
     /// Friction at its surface; `None` in each coefficient unless given.
     pub friction: Friction,
     /// A trigger reports contact and deflects nothing.
@@ -222,6 +225,9 @@ pub struct Collider {
     pub kick: f64,
     /// Groups of spheres with which it collides, or which a trigger reports.
     pub groups: Groups,
+    /// Number of its material for [`World::set_material_pairs`](crate::World::set_material_pairs); 0, for none, unless
+    /// given.
+    pub material: u8,
     /// A number for the program; the physics does not use it.
     pub user_data: u64,
 }
@@ -237,10 +243,12 @@ impl Collider {
             surface_velocity: DVec3::ZERO,
             motion: Motion::default(),
             restitution: 1.0,
+            restitution_law: None,
             friction: Friction::default(),
             trigger: false,
             kick: 0.0,
             groups: Groups::DEFAULT,
+            material: 0,
             user_data: 0,
         }
     }
@@ -286,9 +294,19 @@ impl Collider {
         Self { motion: motion.into(), velocity: DVec3::ZERO, angular_velocity: DVec3::ZERO, ..self }
     }
 
-    /// Returns the collider with this coefficient of restitution.
+    /// Returns the collider with this coefficient of restitution, without a law.
     pub fn with_restitution(self, restitution: f64) -> Self {
-        Self { restitution, ..self }
+        Self { restitution, restitution_law: None, ..self }
+    }
+
+    /// Returns the collider with this law of restitution.
+    pub fn with_restitution_law(self, law: RestitutionLaw) -> Self {
+        Self { restitution_law: Some(law), ..self }
+    }
+
+    /// Returns the collider of this material.
+    pub fn with_material(self, material: u8) -> Self {
+        Self { material, ..self }
     }
 
     /// Returns the collider with this friction: a coefficient, or a [`Friction`].
@@ -330,6 +348,7 @@ impl Collider {
         self.motion.validate()?;
         self.validate_velocities()?;
         validate::unit_interval("restitution", self.restitution)?;
+        self.restitution_law.map_or(Ok(()), |law| law.validate())?;
         validate::non_negative("kick", self.kick)?;
         self.friction.validate()
     }

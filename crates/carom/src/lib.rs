@@ -53,6 +53,7 @@ mod integrate;
 mod interval;
 mod invariants;
 mod lanes;
+mod material_pair;
 mod mesh;
 mod norm;
 mod numbered;
@@ -67,6 +68,7 @@ mod real;
 mod rectangle;
 mod report;
 pub mod respond;
+mod restitution;
 mod rotation;
 mod round_solid;
 mod rule;
@@ -103,6 +105,7 @@ pub use friction::Friction;
 pub use groups::Groups;
 pub use hash::StateHash;
 pub use id::{ColliderId, EmitterId, ForceId, SphereId, SpringId};
+pub use material_pair::MaterialPair;
 pub use mesh::{Mesh, MeshError, MeshFaults};
 pub use path::{PathEnd, PathLeg, PredictedPath};
 pub use persistent_contact::PersistentContact;
@@ -112,6 +115,7 @@ pub use report::{
     BodyPair, ContactAccount, EnergyAccount, Impact, ImpactGroup, LedgerEntry, Overlap,
     SensorEvent, StageCounts, StepReport, TriggerContact, ZoneAccount,
 };
+pub use restitution::RestitutionLaw;
 pub use settings::{
     Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, Rule, Settings,
     WindBack, Zones,

@@ -8,6 +8,7 @@ use crate::error::InvalidValue;
 use crate::friction::Friction;
 use crate::groups::Groups;
 use crate::id::SphereId;
+use crate::restitution::RestitutionLaw;
 use crate::validate;
 
 /// Moment of inertia of a solid ball, divided by m r².
@@ -57,6 +58,8 @@ pub struct Sphere {
     pub mass: Mass,
     /// Coefficient of restitution in \[0, 1\].
     pub restitution: f64,
+    /// Law of restitution, instead of `restitution`: `None` unless given.
+    pub restitution_law: Option<RestitutionLaw>,
     /// Friction at its surface; `None` in each coefficient unless given.
     pub friction: Friction,
     /// Rotation from its own coordinate system to the world's; any length but zero.
@@ -71,6 +74,9 @@ pub struct Sphere {
     /// Speed at which its radius grows \[m/s\], >= 0, while its mass stays: 0 unless given. Under the rule `exact`
     /// alone, among elastic spheres without forces: `docs/physics/growth.md`.
     pub growth_speed: f64,
+    /// Number of its material for [`World::set_material_pairs`](crate::World::set_material_pairs); 0, for none, unless
+    /// given.
+    pub material: u8,
     /// Number of the program's own; no part of the physics.
     pub user_data: u64,
 }
@@ -85,12 +91,14 @@ impl Sphere {
             radius,
             mass: Mass::Kilograms(1.0),
             restitution: 1.0,
+            restitution_law: None,
             friction: Friction::default(),
             orientation: DQuat::IDENTITY,
             angular_velocity: DVec3::ZERO,
             inertia_factor: SOLID_BALL,
             groups: Groups::DEFAULT,
             growth_speed: 0.0,
+            material: 0,
             user_data: 0,
         }
     }
@@ -120,9 +128,19 @@ impl Sphere {
         Self { mass: Mass::Density(density), ..self }
     }
 
-    /// Returns the sphere with this coefficient of restitution.
+    /// Returns the sphere with this coefficient of restitution, without a law.
     pub fn with_restitution(self, restitution: f64) -> Self {
-        Self { restitution, ..self }
+        Self { restitution, restitution_law: None, ..self }
+    }
+
+    /// Returns the sphere with this law of restitution.
+    pub fn with_restitution_law(self, law: RestitutionLaw) -> Self {
+        Self { restitution_law: Some(law), ..self }
+    }
+
+    /// Returns the sphere of this material.
+    pub fn with_material(self, material: u8) -> Self {
+        Self { material, ..self }
     }
 
     /// Returns the sphere with this friction: a coefficient, or a [`Friction`].
@@ -186,6 +204,7 @@ impl Sphere {
             }
         }
         validate::unit_interval("restitution", self.restitution)?;
+        self.restitution_law.map_or(Ok(()), |law| law.validate())?;
         self.friction.validate()?;
         validate::rotation("orientation", self.orientation)?;
         validate::finite("angular_velocity", self.angular_velocity)?;

@@ -13,6 +13,7 @@ use crate::error::{Error, InvalidValue, Subject};
 use crate::forces::{Force, Spring};
 use crate::id::{EmitterId, SphereId};
 use crate::invariants;
+use crate::material_pair::MaterialPairs;
 use crate::numbered::Numbered;
 use crate::persistent_contact::PersistentContact;
 use crate::rule::contact::{self, Solver};
@@ -27,6 +28,7 @@ use crate::validate;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct State {
     pub settings: Settings,
+    pub material_pairs: MaterialPairs,
     #[cfg_attr(feature = "serde", serde(with = "crate::forces::shipped"))]
     pub forces: Numbered<Arc<dyn Force>>,
     /// Between spheres that are all in the world.
@@ -60,17 +62,20 @@ impl State {
 
     /// What a step reads, what it moves, and what the rule `contact` keeps.
     pub fn split_with_solver(&mut self) -> (System<'_>, &mut Motion, &mut Solver) {
-        let Self { settings, forces, springs, colliders, spheres, solver, .. } = self;
+        let Self { settings, material_pairs, forces, springs, colliders, spheres, solver, .. } =
+            self;
         let Spheres { properties, motion } = spheres;
-        (System::new(settings, forces, springs, colliders, properties), motion, solver)
+        let given = (&*settings, &*material_pairs);
+        (System::new(given, forces, springs, colliders, properties), motion, solver)
     }
 
     /// All spheres as they are now.
     pub fn now(&self) -> Instant<'_> {
         let time = self.clock.seconds();
         let properties = &self.spheres.properties;
-        let Self { settings, forces, springs, colliders, .. } = self;
-        let system = System::new(settings, forces, springs, colliders, properties);
+        let Self { settings, material_pairs, forces, springs, colliders, .. } = self;
+        let given = (settings, material_pairs);
+        let system = System::new(given, forces, springs, colliders, properties);
         Instant { system, motion: &self.spheres.motion, time }
     }
 

@@ -14,6 +14,7 @@ use crate::mesh::{ClosedMesh, Corner, Edge, Facet, Features, Placement};
 use crate::norm::Norm;
 use crate::pose::Pose;
 pub(crate) use crate::rectangle::Rectangle;
+use crate::restitution::BodyRestitution;
 use crate::round_solid::{Outline, RoundSolid};
 pub(crate) use crate::surface_motion::SurfaceMotion;
 
@@ -25,11 +26,13 @@ pub(crate) struct Surface {
     pub collider: ColliderId,
     /// Lowest-numbered collider of those with faces flush with each other, its own included.
     pub whole: ColliderId,
-    pub restitution: f64,
+    pub restitution: BodyRestitution,
     pub friction: Friction,
     /// Speed that an impact adds along the normal \[m/s\].
     pub kick: f64,
     pub groups: Groups,
+    /// 0 for none.
+    pub material: u8,
     pub role: Role,
     /// Now.
     pub motion: SurfaceMotion,
@@ -307,14 +310,14 @@ pub(crate) struct SolidBox {
 /// then its side and discs; a hollow one has its walls, each facing outward and then inward. A closed mesh has what it
 /// encloses before its faces.
 pub(crate) fn place(id: ColliderId, collider: &Collider, time: f64, surfaces: &mut Vec<Surface>) {
-    let Collider { ref shape, pose, restitution, friction, trigger, kick, groups, .. } = *collider;
+    let Collider { ref shape, pose, friction, trigger, kick, groups, material, .. } = *collider;
+    let restitution = BodyRestitution::of(collider.restitution, collider.restitution_law);
     let course = collider.course(time);
     let motion = match &course {
         Some(course) => SurfaceMotion { belt: belt_of(collider), ..course.place(0.0).1 },
         None => SurfaceMotion::of(collider),
     };
-    let center = pose.position;
-    let rotation = pose.rotation.normalize();
+    let (center, rotation) = (pose.position, pose.rotation.normalize());
     let axes @ [x, y, z] = [rotation * DVec3::X, rotation * DVec3::Y, rotation * DVec3::Z];
     let mut add = |form, role| {
         let role = if trigger { Role::Reports } else { role };
@@ -327,6 +330,7 @@ pub(crate) fn place(id: ColliderId, collider: &Collider, time: f64, surfaces: &m
             friction,
             kick,
             groups,
+            material,
             role,
             motion,
             course: course.clone(),

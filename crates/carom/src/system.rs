@@ -6,10 +6,12 @@ use glam::DVec3;
 
 use crate::bodies::{Motion, Properties};
 use crate::colliders::Colliders;
+use crate::detect::contact::Bodies;
 use crate::detect::moving_surfaces::{MovingSurfaces, PlacedTree};
 use crate::detect::surface_tree::SurfaceTree;
 use crate::forces::{self, Force, Interactions, SphereState, SphereStates, Spring};
 use crate::friction::Friction;
+use crate::material_pair::{MaterialPair, MaterialPairs};
 use crate::numbered::Numbered;
 use crate::settings::Settings;
 use crate::sum::Sum;
@@ -24,6 +26,8 @@ const MOST_TOGETHER: usize = 32;
 #[derive(Clone, Copy)]
 pub(crate) struct System<'a> {
     pub settings: &'a Settings,
+    /// Pairs of materials with coefficients of their own.
+    pub material_pairs: &'a MaterialPairs,
     pub forces: &'a Numbered<Arc<dyn Force>>,
     /// Forces between spheres; `None` where there are none.
     pub interactions: Option<Interactions<'a>>,
@@ -41,7 +45,7 @@ pub(crate) struct System<'a> {
 
 impl<'a> System<'a> {
     pub fn new(
-        settings: &'a Settings,
+        (settings, material_pairs): (&'a Settings, &'a MaterialPairs),
         forces: &'a Numbered<Arc<dyn Force>>,
         springs: &'a Numbered<Spring>,
         colliders: &'a Colliders,
@@ -52,6 +56,7 @@ impl<'a> System<'a> {
         let interactions = Interactions::of(forces, springs);
         Self {
             settings,
+            material_pairs,
             forces,
             interactions,
             colliders,
@@ -95,6 +100,28 @@ impl<'a> System<'a> {
     pub fn meets_surface(&self, sphere: u32, surface: u32) -> bool {
         let of_surface = self.surfaces[surface as usize].groups;
         self.spheres.groups(sphere as usize).collides(of_surface)
+    }
+
+    /// The pair of materials that two bodies are of, if it has coefficients of its own.
+    #[inline]
+    pub fn material_pair(&self, bodies: Bodies) -> Option<&'a MaterialPair> {
+        if self.material_pairs.is_empty() {
+            return None;
+        }
+        let of_sphere = |sphere: u32| self.spheres.material(sphere as usize);
+        self.material_pairs.of(match bodies {
+            Bodies::Pair(first, second) => [first, second].map(of_sphere),
+            Bodies::Surface { sphere, surface } => {
+                [self.surfaces[surface as usize].material, of_sphere(sphere)]
+            }
+        })
+    }
+
+    /// Whether the restitution of two spheres may differ from that which the combine rule gives for their two
+    /// coefficients.
+    #[inline]
+    pub fn has_other_restitutions(&self) -> bool {
+        !(self.spheres.restitution_law.is_empty() && self.material_pairs.is_empty())
     }
 
     /// Whether forces act between spheres.
@@ -223,6 +250,7 @@ impl<'a> System<'a> {
     /// The friction of all bodies that have some.
     pub fn frictions(&self) -> impl Iterator<Item = Friction> {
         let of_colliders = self.colliders.list().iter().map(|(_, collider)| collider.friction);
-        self.spheres.friction.iter().copied().chain(of_colliders)
+        let of_pairs = self.material_pairs.list().iter().map(|pair| pair.friction);
+        self.spheres.friction.iter().copied().chain(of_colliders).chain(of_pairs)
     }
 }

@@ -57,6 +57,8 @@ class Scene(parts.Part):
         tries: Up to three things to try, as ``[[try]]`` in scene files.
         simulation: How it is stepped.
         forces: Forces on every sphere; they add up.
+        materials: Materials by name, for spheres and colliders.
+        material_pairs: Pairs of materials whose contacts have coefficients of their own.
         spheres: Single spheres; many of them as `Points`.
         generators: Places for many spheres or colliders, which come after the single ones.
         springs: Springs and threads, between spheres or from one to a fixed point.
@@ -93,6 +95,8 @@ class Scene(parts.Part):
     sun: parts.Sun | None = None
     colors: parts.Colors | None = None
     tries: Sequence[parts.Try] = ()
+    materials: Mapping[str, parts.Material] = field(default_factory=dict, hash=False)
+    material_pairs: Sequence[parts.MaterialPair] = ()
 
     def __repr__(self) -> str:
         parts = {

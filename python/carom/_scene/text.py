@@ -74,7 +74,13 @@ def _fields(part: parts.Part) -> dict[str, object]:
     assert dataclasses.is_dataclass(part)
     pairs = [(field.name, getattr(part, field.name)) for field in dataclasses.fields(part)]
     pairs = [(_RENAMED.get(name, name), value) for name, value in pairs]
-    return {name: value for name, value in pairs if value is not None}
+    written = {name: value for name, value in pairs if value is not None}
+    if isinstance(part, (parts.Sphere, parts.Collider)) and part.material is not None:
+        # What is usual is left to the material.
+        for name in ("restitution", "finish"):
+            if written[name] == type(part).__dataclass_fields__[name].default:
+                del written[name]
+    return written
 
 
 _RENAMED = {"tries": "try"}
@@ -93,6 +99,7 @@ _KINDS: dict[str, type[parts.Part]] = {
     "discrete": parts.Discrete,
     "emitters": parts.Emitter,
     "exact": parts.Exact,
+    "material_pairs": parts.MaterialPair,
     "simulation": parts.Simulation,
     "sphere": parts.Sphere,
     "spheres": parts.Sphere,
@@ -108,6 +115,7 @@ _CHOICES: dict[str, tuple[type[parts.Part], ...]] = {
     "generators": get_args(parts.Generator),
     "motion": get_args(parts.Motion),
     "pieces": get_args(parts.Piece),
+    "restitution_law": get_args(parts.RestitutionLaw),
     "shape": get_args(parts.Shape),
 }
 """What may be described under a name; tags distinguish the variants."""
@@ -132,6 +140,8 @@ def part_of(key: str, value: Any) -> Any:
         kinds = {kind.tag: kind for kind in _CHOICES[key]}  # type: ignore[attr-defined]
         tag, fields = (value, {}) if isinstance(value, str) else next(iter(value.items()))
         return kinds[tag]._of_engine(fields_of(fields)) if tag in kinds else value
+    if isinstance(value, dict) and key == "materials":
+        return {name: parts.Material._of_engine(fields_of(it)) for name, it in value.items()}
     if isinstance(value, dict):
         return _KINDS[key]._of_engine(fields_of(value))
     return value

@@ -1,5 +1,6 @@
 // What worlds are made of: spheres, shapes, forces, springs, and how they are stepped.
 
+import type { Finish, Material, MaterialPair, RestitutionLaw } from "./materials.js";
 import type { Shape } from "./shapes.js";
 
 /** Three numbers x, y, z: an array, a typed array, or any iterable, for example `THREE.Vector3`. */
@@ -10,9 +11,6 @@ export type Quaternion = Iterable<number>;
 
 /** Red, green, blue in [0, 1] (sRGB). */
 export type Color = [number, number, number];
-
-/** How a surface reflects light; the default is `satin`, a soft highlight. */
-export type Finish = "matte" | "satin" | "glossy" | "metal" | "glass";
 
 /** Properties of a new sphere. */
 export interface SphereDescription {
@@ -28,8 +26,12 @@ export interface SphereDescription {
   mass?: number;
   /** Density [kg/m³], > 0, instead of `mass`. */
   density?: number;
+  /** Name of its material in a scene, whose fields count where its own are missing. */
+  material?: string;
   /** Coefficient of restitution in [0, 1]; default: 1. */
   restitution?: number;
+  /** Restitution by the speed of approach, instead of `restitution`. */
+  restitutionLaw?: RestitutionLaw;
   /**
    * Coulomb's coefficient of friction, >= 0, under `exact` and `contact`; default: that of the
    * touching body.
@@ -71,6 +73,8 @@ export interface Sphere {
   mass: number;
   /** Coefficient of restitution in [0, 1]. */
   restitution: number;
+  /** Restitution by the speed of approach, instead of `restitution`. */
+  restitutionLaw?: RestitutionLaw;
   /**
    * Coulomb's coefficient of friction, >= 0, under `exact` and `contact`; if missing, that of the
    * touching body.
@@ -210,8 +214,12 @@ export interface ColliderDescription {
   surfaceVelocity?: Vector;
   /** Motion about the place where it is at rest: one, or parts that act one after the other. */
   motion?: Motion | Motion[];
+  /** Name of its material in a scene, whose fields count where its own are missing. */
+  material?: string;
   /** Coefficient of restitution in [0, 1]; default: 1. */
   restitution?: number;
+  /** Restitution by the speed of approach, instead of `restitution`. */
+  restitutionLaw?: RestitutionLaw;
   /**
    * Coulomb's coefficient of friction, >= 0, under `exact` and `contact`; default: that of the
    * touching body.
@@ -256,7 +264,11 @@ export interface Collider {
   angularVelocity: [number, number, number];
   /** Motion about the place where it is at rest, which `position` and `rotation` then say. */
   motion?: Motion | Motion[];
+  /** Name of its material. */
+  material?: string;
   restitution: number;
+  /** Restitution by the speed of approach, instead of `restitution`. */
+  restitutionLaw?: RestitutionLaw;
   /**
    * Coulomb's coefficient of friction, >= 0, under `exact` and `contact`; if missing, that of the
    * touching body.
@@ -432,6 +444,10 @@ export interface Scene {
   title?: string;
   description?: string;
   origin?: string;
+  /** Materials by name. */
+  materials?: Record<string, Material>;
+  /** Pairs of materials whose contacts have coefficients of their own. */
+  materialPairs?: MaterialPair[];
   /** Emitters of spheres in the format of scene files. */
   emitters?: object[];
   /** Looks along its local -z. */

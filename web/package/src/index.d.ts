@@ -35,6 +35,7 @@ import type {
 } from "./reports.js";
 
 export * from "./descriptions.js";
+export * from "./materials.js";
 export * from "./queries.js";
 export * from "./reports.js";
 export * from "./shapes.js";

@@ -9,6 +9,7 @@ const HYPHENATED = new Map([
   ["pointAttractor", "point-attractor"],
   ["mutualGravity", "mutual-gravity"],
   ["quadraticDrag", "quadratic-drag"],
+  ["powerLaw", "power-law"],
 ]);
 const UNHYPHENATED = new Map([...HYPHENATED].map(([camel, kebab]) => [kebab, camel]));
 
@@ -27,7 +28,7 @@ export function camel(name) {
 /** Returns a text with every `word_with_underscores` in the spelling of JavaScript. */
 export function camelWords(text) {
   return text.replace(
-    /\b[a-z]+(?:_[a-z0-9]+)+\b|\b(?:close-packing|staggered-rows|dense-fluid|viscous-drag|point-attractor|mutual-gravity|quadratic-drag)\b/g,
+    /\b[a-z]+(?:_[a-z0-9]+)+\b|\b(?:close-packing|staggered-rows|dense-fluid|viscous-drag|point-attractor|mutual-gravity|quadratic-drag|power-law)\b/g,
     camel,
   );
 }

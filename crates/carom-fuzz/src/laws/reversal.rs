@@ -31,9 +31,13 @@ fn is_reversible(scene: &Scene) -> bool {
     let is_smooth = |friction: Option<f64>| friction.is_none_or(|it| it == 0.0);
     scene.emitters.is_empty()
         && scene.springs.is_empty()
-        && scene.spheres.iter().all(|it| it.restitution == 1.0 && is_smooth(it.friction))
+        && scene.material_pairs.is_empty()
+        && scene.spheres.iter().all(|it| {
+            it.restitution == 1.0 && it.restitution_law.is_none() && is_smooth(it.friction)
+        })
         && scene.colliders.iter().all(|it| {
             it.restitution == 1.0
+                && it.restitution_law.is_none()
                 && it.kick == 0.0
                 && is_smooth(it.friction)
                 && it.angular_velocity == [0.0; 3]

@@ -17,6 +17,7 @@ pub(crate) use self::numbers::Numbers;
 use self::place::Place;
 use crate::bodies::{add_sphere, sphere};
 use crate::error::Problem;
+use crate::materials::MaterialNumbers;
 use crate::requirement::check_positive;
 use crate::scene::values::vector;
 use crate::scene::{Collider, Generator, Scene, Sphere};
@@ -111,8 +112,13 @@ fn distance(given: Option<f64>, template: &Sphere, path: &str) -> Result<f64, Pr
 }
 
 /// Adds the spheres of the generator at `path` to a world.
-pub(crate) fn fill(world: &mut World, generator: &Generator, path: &str) -> Result<(), Problem> {
+pub(crate) fn fill(
+    world: &mut World,
+    generator: &Generator,
+    path: &str,
+    materials: &MaterialNumbers,
+) -> Result<(), Problem> {
     let spheres = generator.spheres(world, path)?;
     let path = format!("{path}.sphere");
-    spheres.iter().try_for_each(|sphere| add_sphere(world, sphere, &path))
+    spheres.iter().try_for_each(|sphere| add_sphere(world, sphere, &path, materials))
 }

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::finish::Finish;
+use super::material::RestitutionLaw;
 use super::mesh::{self, HeightField, Mesh};
 use super::motion::{self, Motion};
 use super::rotation;
@@ -44,10 +45,16 @@ pub struct Collider {
     #[schemars(with = "OneOrMore<Motion>")]
     #[serde(default, skip_serializing_if = "Vec::is_empty", with = "motion::one_or_more")]
     pub motion: Vec<Motion>,
+    /// Name of its material, whose fields count where its own are missing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
     /// Coefficient of restitution in [0, 1].
     #[schemars(range(min = 0.0, max = 1.0))]
     #[serde(default = "one")]
     pub restitution: f64,
+    /// Restitution by the speed of approach, instead of `restitution`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub restitution_law: Option<RestitutionLaw>,
     /// Coulomb's coefficient of friction, >= 0, under the rules `exact` and `contact`. If missing, the other body's
     /// value counts.
     #[schemars(range(min = 0.0))]
@@ -105,7 +112,9 @@ impl Collider {
             angular_velocity: [0.0; 3],
             surface_velocity: [0.0; 3],
             motion: Vec::new(),
+            material: None,
             restitution: 1.0,
+            restitution_law: None,
             friction: None,
             rolling_friction: None,
             spinning_friction: None,

@@ -8,6 +8,7 @@ mod finish;
 mod force;
 mod generator;
 mod look;
+mod material;
 mod mesh;
 mod motion;
 mod rotation;
@@ -18,6 +19,8 @@ mod suggestion;
 mod track;
 pub(crate) mod values;
 
+use std::collections::BTreeMap;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -27,6 +30,7 @@ pub use finish::Finish;
 pub use force::Force;
 pub use generator::{DenseFluid, Generator, Lattice, Ring, Row, Stacking, StaggeredRows};
 pub use look::{Camera, Colors, DensityColor, Sun};
+pub use material::{Material, MaterialPair, RestitutionLaw};
 pub use mesh::{HeightField, Mesh};
 pub use motion::Motion;
 pub use simulation::{
@@ -65,6 +69,12 @@ pub struct Scene {
     /// Forces on every sphere; they add up.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub forces: Vec<Force>,
+    /// Materials by name, for spheres and colliders.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub materials: BTreeMap<String, Material>,
+    /// Pairs of materials whose contacts have coefficients of their own.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub material_pairs: Vec<MaterialPair>,
     /// Single spheres.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub spheres: Vec<Sphere>,
@@ -102,6 +112,8 @@ impl Scene {
             tries: Vec::new(),
             simulation: Simulation::default(),
             forces: Vec::new(),
+            materials: BTreeMap::new(),
+            material_pairs: Vec::new(),
             spheres: Vec::new(),
             generators: Vec::new(),
             springs: Vec::new(),

@@ -5,6 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::finish::Finish;
+use super::material::RestitutionLaw;
 use super::rotation;
 use super::values::{
     Color, Quaternion, Vector, all_groups, are_all_groups, first_group, is_default, is_first_group,
@@ -41,10 +42,16 @@ pub struct Sphere {
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub density: Option<f64>,
+    /// Name of its material, whose fields count where its own are missing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
     /// Coefficient of restitution in [0, 1].
     #[schemars(range(min = 0.0, max = 1.0))]
     #[serde(default = "one")]
     pub restitution: f64,
+    /// Restitution by the speed of approach, instead of `restitution`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub restitution_law: Option<RestitutionLaw>,
     /// Coulomb's coefficient of friction, >= 0, under the rules `exact` and `contact`. If missing, the other body's
     /// value counts.
     #[schemars(range(min = 0.0))]
@@ -103,7 +110,9 @@ impl Sphere {
             diameter: None,
             mass: None,
             density: None,
+            material: None,
             restitution: 1.0,
+            restitution_law: None,
             friction: None,
             rolling_friction: None,
             spinning_friction: None,

@@ -19,7 +19,8 @@ const MOST_FILES: usize = 100;
 const OWN: [&str; 4] = ["name", "title", "description", "origin"];
 
 /// Lists of a scene: elements of included files come before those of the file.
-const LISTS: [&str; 6] = ["forces", "spheres", "generators", "springs", "colliders", "emitters"];
+const LISTS: [&str; 7] =
+    ["forces", "material_pairs", "spheres", "generators", "springs", "colliders", "emitters"];
 
 /// Whether a field is a list to which all files of a scene add elements.
 pub(super) fn is_list(field: &str) -> bool {

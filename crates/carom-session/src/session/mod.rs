@@ -344,6 +344,8 @@ impl Session {
         replace(&mut arrays.radii, spheres.radii().iter().copied());
         replace(&mut arrays.masses, spheres.masses().iter().copied());
         replace(&mut arrays.restitutions, spheres.restitutions().iter().copied());
+        replace(&mut arrays.restitution_laws, spheres.restitution_laws().iter().copied());
+        replace(&mut arrays.materials, spheres.materials().iter().copied());
         replace(&mut arrays.frictions, spheres.frictions().iter().copied());
         replace(&mut arrays.inertia_factors, spheres.inertia_factors().iter().copied());
         let mut paints = self.looks.paints().iter().peekable();

@@ -74,9 +74,14 @@ fn is_lossless(view: &View) -> bool {
             .iter()
             .any(|(_, it)| it.surface_friction() != carom::Friction::default());
     setup.forces.iter().all(|(_, it)| it.has_potential())
-        && setup.colliders.iter().all(|(_, it)| it.trigger || it.restitution == 1.0)
+        && setup
+            .colliders
+            .iter()
+            .all(|(_, it)| it.trigger || (it.restitution == 1.0 && it.restitution_law.is_none()))
+        && view.scene.material_pairs.is_empty()
         && !has_friction
         && view.spheres.restitutions.iter().all(|it| *it == 1.0)
+        && view.spheres.restitution_laws.iter().all(Option::is_none)
         && view.spheres.frictions.iter().all(|it| *it == carom::Friction::default())
         && view.springs.iter().all(|(_, it)| it.damping == 0.0)
 }

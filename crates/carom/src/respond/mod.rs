@@ -40,7 +40,9 @@ use crate::detect::Separation;
 use crate::detect::contact::{Bodies, Contact};
 use crate::friction::ContactFriction;
 use crate::integrate;
+use crate::material_pair::MaterialPair;
 use crate::report::{BodyPair, Impact};
+use crate::restitution::{BodyRestitution, ContactRestitution};
 use crate::surface::{Form, SurfaceMotion};
 use crate::system::System;
 
@@ -63,13 +65,8 @@ pub(crate) fn answer(
     time: f64,
 ) -> Option<Impact> {
     let restitution = restitution_of(contact.bodies, system);
-    answer_with(
-        contact,
-        (restitution, kick_at(contact, system, motion, time)),
-        system,
-        motion,
-        time,
-    )
+    let kick = kick_at(contact, system, motion, time);
+    answer_with(contact, (restitution, kick), system, motion, time)
 }
 
 /// Speed that the surface of a contact adds \[m/s\]; 0 between spheres.
@@ -92,22 +89,29 @@ pub(crate) fn answer_plastically(
     motion: &mut Motion,
     time: f64,
 ) -> Option<Impact> {
-    answer_with(contact, (0.0, 0.0), system, motion, time)
+    answer_with(contact, (ContactRestitution::Constant(0.0), 0.0), system, motion, time)
 }
 
-/// Restitution of a contact, from those of its bodies.
-pub(crate) fn restitution_of(bodies: Bodies, system: &System) -> f64 {
-    let sphere_restitution = |sphere: u32| system.spheres.restitution[sphere as usize];
-    let (e1, e2) = match bodies {
-        Bodies::Pair(first, second) => (sphere_restitution(first), sphere_restitution(second)),
+/// Restitution of a contact, from its pair of materials or from those of its bodies.
+pub(crate) fn restitution_of(bodies: Bodies, system: &System) -> ContactRestitution {
+    let given = system.material_pair(bodies).and_then(MaterialPair::contact_restitution);
+    given.unwrap_or_else(|| {
+        ContactRestitution::of(body_restitutions(bodies, system), system.settings.combine_rule)
+    })
+}
+
+/// Restitutions of the bodies of a contact.
+pub(crate) fn body_restitutions(bodies: Bodies, system: &System) -> [BodyRestitution; 2] {
+    let of_sphere = |sphere: u32| system.spheres.restitution(sphere as usize);
+    match bodies {
+        Bodies::Pair(first, second) => [first, second].map(of_sphere),
         Bodies::Surface { sphere, surface } => {
-            (system.surfaces[surface as usize].restitution, sphere_restitution(sphere))
+            [system.surfaces[surface as usize].restitution, of_sphere(sphere)]
         }
-    };
-    system.settings.combine_rule.combine(e1, e2)
+    }
 }
 
-/// Friction of a contact, from what its bodies say.
+/// Friction of a contact, from its pair of materials or from what its bodies say.
 pub(crate) fn friction_of(bodies: Bodies, system: &System) -> ContactFriction {
     let sphere_friction = |sphere: u32| system.spheres.friction(sphere as usize);
     let both = match bodies {
@@ -116,7 +120,11 @@ pub(crate) fn friction_of(bodies: Bodies, system: &System) -> ContactFriction {
             [system.surfaces[surface as usize].friction, sphere_friction(sphere)]
         }
     };
-    ContactFriction::of(both, system.settings.friction_combine_rule)
+    let mut friction = ContactFriction::of(both, system.settings.friction_combine_rule);
+    if let Some(pair) = system.material_pair(bodies) {
+        pair.apply_friction(&mut friction);
+    }
+    friction
 }
 
 /// Velocity \[m/s\] of the material of a surface that moves so, relative to its place, where it has this normal and
@@ -135,7 +143,7 @@ pub(crate) fn belt_of(
 
 fn answer_with(
     contact: &Contact,
-    (restitution, kick): (f64, f64),
+    (restitution, kick): (ContactRestitution, f64),
     system: &System,
     motion: &mut Motion,
     time: f64,
@@ -147,6 +155,7 @@ fn answer_with(
             let (i, j) = (i as usize, j as usize);
             let approach_speed = -(velocity[j] - velocity[i]).dot(normal);
             let before = [velocity[i], velocity[j]];
+            let restitution = restitution.at(approach_speed);
             let (after, impulse) =
                 line_of_centres(before, [mass[i], mass[j]], normal, restitution)?;
             [velocity[i], velocity[j]] = after;
@@ -156,6 +165,7 @@ fn answer_with(
             let i = sphere as usize;
             let of_surface = system.surfaces[surface as usize].motion.velocity_at(point);
             let relative = velocity[i] - of_surface;
+            let restitution = restitution.at(-relative.dot(normal));
             let change = reflection(relative, normal, restitution)? + kick;
             velocity[i] += change * normal;
             let separation_speed = (velocity[i] - of_surface).dot(normal);

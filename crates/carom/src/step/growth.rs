@@ -32,7 +32,6 @@ pub(super) fn check(state: &State, h: f64) -> Result<(), Error> {
 /// What prevents growth.
 fn obstacle(state: &State) -> Option<&'static str> {
     let surfaces = || state.colliders.surfaces().iter();
-    let is_inelastic = |restitution: &f64| *restitution != 1.0;
     let is_mesh = |(_, it): (u64, &Collider)| matches!(it.shape, Shape::Mesh(_));
     let now = state.now();
     let spheres = &state.spheres;
@@ -41,8 +40,10 @@ fn obstacle(state: &State) -> Option<&'static str> {
         || !spheres.applied_forces().is_empty();
     let has_friction = now.system.frictions().any(|friction| friction.acts());
     let turns = spheres.angular_velocities().iter().any(|it| it.length_squared() > 0.0);
-    let has_inelastic = spheres.restitutions().iter().any(is_inelastic)
-        || surfaces().any(|it| is_inelastic(&it.restitution));
+    let mut restitutions = (0..spheres.len()).map(|it| spheres.properties.restitution(it));
+    let has_inelastic = !restitutions.all(|it| it.is_elastic())
+        || !surfaces().all(|it| it.restitution.is_elastic())
+        || !state.material_pairs.is_empty();
     let moves = |it: &Surface| !it.motion.is_at_rest() || it.kick != 0.0;
     let reports = |it: &Surface| it.role == Role::Reports;
     [
@@ -50,7 +51,7 @@ fn obstacle(state: &State) -> Option<&'static str> {
         (is_under_force, "zero where forces act on spheres"),
         (has_friction, "zero where friction acts"),
         (turns, "zero where spheres turn"),
-        (has_inelastic, "zero where the restitution of a sphere or a collider is not 1"),
+        (has_inelastic, "zero where a restitution is not 1, and beside pairs of materials"),
         (state.emitters.iter().len() > 0, "zero in a world with emitters"),
         (surfaces().any(moves), "zero beside colliders that move or kick"),
         (surfaces().any(reports), "zero beside triggers"),

@@ -1,7 +1,9 @@
 //! Coefficients of contacts, and their derivatives by the coefficients of the bodies.
 
 use crate::detect::contact::Bodies;
+use crate::material_pair::MaterialPair;
 use crate::respond;
+use crate::restitution::BodyRestitution;
 use crate::system::System;
 
 /// A coefficient of a contact, and its derivatives by those of the two bodies.
@@ -18,17 +20,28 @@ impl Combined {
     }
 }
 
-/// Returns the coefficient of restitution of a contact.
-pub(super) fn restitution_of(system: &System, bodies: Bodies) -> Combined {
-    let sphere_restitution = |sphere: u32| system.spheres.restitution[sphere as usize];
-    let both = match bodies {
-        Bodies::Pair(first, second) => [first, second].map(sphere_restitution),
-        Bodies::Surface { sphere, surface } => {
-            [system.surfaces[surface as usize].restitution, sphere_restitution(sphere)]
-        }
+/// The coefficient of restitution of a contact, and its derivatives.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct RestitutionRates {
+    pub combined: Combined,
+    /// Derivative by the speed of approach \[s/m\].
+    pub by_speed: f64,
+}
+
+/// Returns the coefficient of restitution of a contact at a speed of approach \[m/s\]. A body with a law, and a pair of
+/// materials with a restitution of its own, have no coefficient to differentiate by.
+pub(super) fn restitution_of(system: &System, bodies: Bodies, speed: f64) -> RestitutionRates {
+    let restitution = respond::restitution_of(bodies, system);
+    let pair = system.material_pair(bodies).and_then(MaterialPair::contact_restitution);
+    let both = respond::body_restitutions(bodies, system);
+    let of_bodies = system.settings.combine_rule.derivatives(both.map(|it| it.at(speed)));
+    let by_body = |body: usize| match both[body] {
+        BodyRestitution::Constant(_) if pair.is_none() => of_bodies[body],
+        _ => 0.0,
     };
-    let rule = system.settings.combine_rule;
-    Combined { value: rule.combine(both[0], both[1]), by_bodies: rule.derivatives(both) }
+    let by_bodies = [by_body(0), by_body(1)];
+    let combined = Combined { value: restitution.at(speed), by_bodies };
+    RestitutionRates { combined, by_speed: restitution.slope(speed) }
 }
 
 /// Returns the coefficient of sliding friction of a contact.
@@ -46,5 +59,8 @@ pub(super) fn sliding_of(system: &System, bodies: Bodies) -> Combined {
         }
         [first, second] => [first, second].map(|it| f64::from(u8::from(it.is_some()))),
     };
+    let pair = system.material_pair(bodies);
+    let is_given = pair.is_some_and(|pair| pair.friction.sliding.is_some());
+    let by_bodies = if is_given { [0.0; 2] } else { by_bodies };
     Combined { value: respond::friction_of(bodies, system).sliding, by_bodies }
 }

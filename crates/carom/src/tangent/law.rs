@@ -25,7 +25,10 @@ pub(super) enum FirstBody {
 /// Coefficients of the contact.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Coefficients {
+    /// At the present speed of approach.
     pub restitution: Dual,
+    /// Derivative of the restitution by the speed of approach \[s/m\].
+    pub restitution_by_speed: f64,
     /// Coefficient of Coulomb friction.
     pub sliding: Dual,
     pub tangential_restitution: f64,
@@ -79,7 +82,9 @@ pub(super) fn collide(
         FirstBody::Sphere(sphere) => one / sphere.mass + one / second.mass,
         FirstBody::Surface(_) => one / second.mass,
     };
-    let gained = Dual::constant(coefficients.kick) - (one + coefficients.restitution) * closing;
+    let faster = Dual::new(0.0, -coefficients.restitution_by_speed * closing.change);
+    let restitution = coefficients.restitution + faster;
+    let gained = Dual::constant(coefficients.kick) - (one + restitution) * closing;
     let impulse = gained / lightness;
     let along = normal * impulse;
     let across = friction(first, second, normal, (relative, impulse), coefficients);

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, VecDeque};
 
 use glam::DVec3;
 
-use super::coefficients::{Combined, restitution_of, sliding_of};
+use super::coefficients::{RestitutionRates, restitution_of, sliding_of};
 use super::error::DerivativeError;
 use super::saltation::{Colliding, First, Saltation};
 use super::start::{Flying, Held, ROUNDING, Start};
@@ -370,10 +370,10 @@ impl Replay<'_> {
             }
             (_, None) => return None,
         };
-        let mut restitution = restitution_of(system, bodies);
-        let asked = restitution.value * impact.approach_speed + impact.kick;
+        let mut restitution = restitution_of(system, bodies, impact.approach_speed);
+        let asked = restitution.combined.value * impact.approach_speed + impact.kick;
         if impact.separation_speed < NOTHING * asked {
-            restitution = Combined::default();
+            restitution = RestitutionRates::default();
         }
         Some(Saltation {
             first,

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::coefficients::Combined;
+use super::coefficients::{Combined, RestitutionRates};
 use super::dual::{Dual, vector};
 use super::law::{Coefficients, FirstBody, StruckSphere, collide};
 use super::state::{NUMBERS, SphereTangent};
@@ -20,7 +20,7 @@ pub(super) struct Saltation {
     pub second: Colliding,
     /// Unit vector from body 1 to body 2.
     pub normal: DVec3,
-    pub restitution: Combined,
+    pub restitution: RestitutionRates,
     pub sliding: Combined,
     pub tangential_restitution: f64,
     /// Speed that the surface adds along the normal \[m/s\].
@@ -247,7 +247,7 @@ impl Saltation {
             }
         };
         (change.radii[1], change.masses[1]) = (second.radius, second.mass);
-        change.restitution = self.restitution.change([restitution, second.restitution]);
+        change.restitution = self.restitution.combined.change([restitution, second.restitution]);
         change.sliding = self.sliding.change([friction, second.friction]);
         change
     }
@@ -267,7 +267,7 @@ impl Saltation {
             let sphere = gradient.sphere_mut(id);
             sphere.radius += radius;
             sphere.mass += mass;
-            sphere.restitution += self.restitution.by_bodies[body] * restitution;
+            sphere.restitution += self.restitution.combined.by_bodies[body] * restitution;
             sphere.friction += self.sliding.by_bodies[body] * sliding;
         };
         add_sphere(self.second.id, 1);
@@ -284,7 +284,7 @@ impl Saltation {
                 let collider = gradient.collider_mut(surface.collider);
                 collider.position += by_place;
                 collider.velocity += by_velocity + self.time * by_place;
-                collider.restitution += self.restitution.by_bodies[0] * restitution;
+                collider.restitution += self.restitution.combined.by_bodies[0] * restitution;
                 collider.friction += self.sliding.by_bodies[0] * sliding;
             }
         }
@@ -339,7 +339,8 @@ impl Saltation {
             }
         };
         let coefficients = Coefficients {
-            restitution: Dual::new(self.restitution.value, change.restitution),
+            restitution: Dual::new(self.restitution.combined.value, change.restitution),
+            restitution_by_speed: self.restitution.by_speed,
             sliding: Dual::new(self.sliding.value, change.sliding),
             tangential_restitution: self.tangential_restitution,
             kick: self.kick,

@@ -66,8 +66,13 @@ impl World {
         let colliders = self.colliders().filter(|(_, collider)| !collider.trigger);
         let of_colliders = colliders.map(|(_, collider)| collider.friction);
         let of_emitted = self.emitters().map(|(_, emitter)| emitter.sphere.friction);
+        let of_pairs = self.material_pairs().iter().map(|pair| pair.friction);
         let sphere_frictions = self.spheres().frictions().iter().copied();
-        sphere_frictions.chain(of_colliders).chain(of_emitted).any(|friction| friction.acts())
+        sphere_frictions
+            .chain(of_colliders)
+            .chain(of_pairs)
+            .chain(of_emitted)
+            .any(|friction| friction.acts())
     }
 
     /// Spheres that overlap each other (where spheres collide) or a solid collider by more than

@@ -2,6 +2,7 @@
 
 mod forces;
 mod growth;
+mod materials;
 mod measures;
 #[cfg(test)]
 mod moving_oracle;

@@ -82,6 +82,14 @@ from carom._scene.parts.kinds import (
     Vector,
 )
 from carom._scene.parts.looks import Camera, Colors, DensityColor, Sun, Try
+from carom._scene.parts.materials import (
+    Cutoff,
+    Material,
+    MaterialPair,
+    PowerLaw,
+    RestitutionLaw,
+    Viscoelastic,
+)
 from carom._scene.parts.part import Part, expect
 from carom._scene.parts.simulation import Bisect, Contact, Discrete, Exact, Periodic, Simulation
 from carom._scene.parts.spheres import SizedSphere, Sphere
@@ -111,6 +119,7 @@ __all__ = [
     "Count",
     "Counts",
     "Curve",
+    "Cutoff",
     "Cylinder",
     "DenseFluid",
     "DensityColor",
@@ -135,6 +144,8 @@ __all__ = [
     "LargeNumber",
     "Lattice",
     "Lengths",
+    "Material",
+    "MaterialPair",
     "Mesh",
     "Motion",
     "MutualGravity",
@@ -148,12 +159,14 @@ __all__ = [
     "Pipe",
     "PointAttractor",
     "Positive",
+    "PowerLaw",
     "QuadraticDrag",
     "Quaternion",
     "RadiusRange",
     "RandomFill",
     "Rectangle",
     "Restitution",
+    "RestitutionLaw",
     "Ring",
     "Row",
     "Rule",
@@ -176,6 +189,7 @@ __all__ = [
     "Turn",
     "TwoNumbers",
     "Vector",
+    "Viscoelastic",
     "ViscousDrag",
     "Vortex",
     "Wind",

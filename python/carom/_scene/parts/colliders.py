@@ -28,6 +28,7 @@ from carom._scene.parts.kinds import (
     Vector,
     Vertices,
 )
+from carom._scene.parts.materials import RestitutionLaw
 from carom._scene.parts.part import Part
 from carom._scene.parts.together import simplify_closed, simplify_motion, simplify_open
 from carom._scene.parts.tracks import Track
@@ -393,6 +394,9 @@ class Collider(Part):
         user_data: A number for programs to find it by; no part of the physics.
         motion: Motion about where it is at rest, instead of velocities: one, or a list of parts
             that act one after the other. By default none.
+        material: Name of its material, whose fields count where its own are ``None``, or a
+            restitution of 1 or the finish ``"satin"``.
+        restitution_law: Restitution by the speed of approach, instead of ``restitution``.
         surface_velocity: Velocity of the material along the surface, in its own coordinates [m/s],
             as of a conveyor belt: friction feels it, and the shape stays.
     """
@@ -417,6 +421,8 @@ class Collider(Part):
     collides_with: Number = 0xFFFFFFFF
     user_data: LargeNumber = 0
     motion: Motion | Sequence[Motion] = ()
+    material: str | None = None
+    restitution_law: RestitutionLaw | None = None
     surface_velocity: Vector = ORIGIN
 
     def __post_init__(self) -> None:

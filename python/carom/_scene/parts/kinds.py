@@ -36,6 +36,8 @@ Numeric: TypeAlias = Sequence[float] | NDArray[Any]
 """Numbers in a row."""
 Vector: TypeAlias = Annotated[Numeric, _THREE, _FINITE]
 """Three numbers x, y, z."""
+TwoNames: TypeAlias = Sequence[str]
+"""Names of two materials."""
 Vertices: TypeAlias = Annotated[Sequence[Vector] | NDArray[Any], Rows(Vector)]
 """Places x, y, z [m], one a row."""
 Triangles: TypeAlias = Annotated[

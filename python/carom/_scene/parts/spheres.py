@@ -22,6 +22,7 @@ from carom._scene.parts.kinds import (
     Restitution,
     Vector,
 )
+from carom._scene.parts.materials import RestitutionLaw
 from carom._scene.parts.part import Part
 from carom._scene.parts.together import NO_SIZE, expect_one, has_size
 
@@ -59,6 +60,9 @@ class Sphere(Part):
         collides_with: Groups that it collides with, one bit for each; by default all. Two bodies
             collide if each is in a group that the other collides with.
         user_data: A number for programs to find it by; no part of the physics.
+        material: Name of its material, whose fields count where its own are ``None``, or a
+            restitution of 1 or the finish ``"satin"``.
+        restitution_law: Restitution by the speed of approach, instead of ``restitution``.
     """
 
     position: Vector = ORIGIN
@@ -80,6 +84,8 @@ class Sphere(Part):
     groups: Number = 1
     collides_with: Number = 0xFFFFFFFF
     user_data: LargeNumber = 0
+    material: str | None = None
+    restitution_law: RestitutionLaw | None = None
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -44,6 +44,10 @@ pub struct Around {
 #[derive(Debug, Clone)]
 pub struct Material {
     pub restitution: f64,
+    /// A law of restitution in its place, as it stands in scene files.
+    pub law: Option<&'static str>,
+    /// Whether balls and all else are of two materials with a pair of their own.
+    pub has_pair: bool,
     pub friction: Option<f64>,
     pub rolling: Option<f64>,
     pub spinning: Option<f64>,
@@ -206,19 +210,32 @@ fn around() -> impl Strategy<Value = Around> {
 fn material() -> impl Strategy<Value = Material> {
     (
         select(&[1.0, 1.0, 0.95, 0.7, 0.3, 0.0][..]),
+        weighted(0.1, select(&LAWS[..])),
+        proptest::bool::weighted(0.1),
         weighted(0.3, 0.01..1.0),
         weighted(0.3, 0.001..0.1),
         weighted(0.2, 0.001..0.1),
         weighted(0.2, 0.0..1.0),
     )
-        .prop_map(|(restitution, friction, rolling, spinning, tangential)| Material {
-            restitution,
-            friction,
-            rolling: rolling.filter(|_| friction.is_some()),
-            spinning: spinning.filter(|_| friction.is_some()),
-            tangential: tangential.filter(|_| friction.is_some()),
+        .prop_map(|(restitution, law, has_pair, friction, rolling, spinning, tangential)| {
+            Material {
+                restitution,
+                law,
+                has_pair,
+                friction,
+                rolling: rolling.filter(|_| friction.is_some()),
+                spinning: spinning.filter(|_| friction.is_some()),
+                tangential: tangential.filter(|_| friction.is_some()),
+            }
         })
 }
+
+/// Laws of restitution, as they stand in scene files.
+const LAWS: [&str; 3] = [
+    "power-law = { restitution = 0.9, speed = 0.5 }",
+    "viscoelastic = { speed = 1e4 }",
+    "cutoff = { restitution = 0.8, speed = 1e-3 }",
+];
 
 /// Those that have a closed form whatever acts on.
 const LINEAR: [&str; 2] = ["gravity", "constant"];

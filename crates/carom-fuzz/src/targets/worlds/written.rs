@@ -11,12 +11,17 @@ const FRAME_TIME: f64 = 3.0 / 256.0;
 
 /// The scene file of a world.
 pub fn written(drawn: &Drawn) -> String {
-    let material = material(&drawn.material);
+    let coefficients = material(&drawn.material);
+    let has_pair = drawn.material.has_pair;
+    let of = |name: &str| if has_pair { format!("material = \"{name}\"\n") } else { String::new() };
+    let own = coefficients.clone() + &of("ball");
+    let material = coefficients + &of("wall");
     let placed = placed(&drawn.balls, drawn.crowding);
     let pieces = [
+        if has_pair { PAIR.to_owned() } else { String::new() },
         simulation(drawn),
         drawn.forces.iter().map(|it| format!("[[forces]]\n{it}\n")).collect(),
-        placed.iter().map(|it| ball(drawn, it, &material)).collect(),
+        placed.iter().map(|it| ball(drawn, it, &own)).collect(),
         drawn.springs.as_ref().map_or(String::new(), |it| springs(it, placed.len())),
         around(drawn, &material),
         if drawn.has_floor { floor(drawn, &material) } else { String::new() },
@@ -26,13 +31,18 @@ pub fn written(drawn: &Drawn) -> String {
     pieces.concat()
 }
 
+/// Balls of one material and walls of another, which meet as neither says.
+const PAIR: &str = "[materials]\nball = {}\nwall = {}\n[[material_pairs]]\n\
+                    materials = [\"ball\", \"wall\"]\nrestitution = 0.6\nfriction = 0.2\n";
+
 fn material(material: &Material) -> String {
-    let Material { restitution, friction, rolling, spinning, tangential } = *material;
+    let Material { restitution, law, friction, rolling, spinning, tangential, .. } = *material;
     let line = |name: &str, value: Option<f64>| {
         value.map_or(String::new(), |value| format!("{name} = {value:?}\n"))
     };
     [
         line("restitution", Some(restitution)),
+        law.map_or(String::new(), |law| format!("restitution_law = {{ {law} }}\n")),
         line("friction", friction),
         line("rolling_friction", rolling),
         line("spinning_friction", spinning),

@@ -5,7 +5,7 @@ use fearless_simd::{Level, Simd, SimdMask, dispatch, mask64x4};
 use glam::DVec3;
 
 use super::batch::{
-    ApproachBatch, Batches, FrictionBatch, Hit, PairBatch, Quad, RollingBatch, get,
+    ApproachBatch, Batches, FrictionBatch, Hit, LawBatch, PairBatch, Quad, RollingBatch, get,
 };
 use super::gather::{
     TINY, apply, apply_spin, arrays, difference, gathered, is_any, offset, slip, smaller, sum,
@@ -16,6 +16,7 @@ use super::sub_step::{GROWTH, SubStep};
 use super::swept::{self, Traits};
 use crate::lanes::{LANES, Lanes};
 use crate::real::{Real, Vector};
+use crate::restitution::ContactRestitution;
 
 /// Prepares the contacts of a run: normals, gaps, target velocities, and the impulses to start from, which it
 /// applies.
@@ -35,15 +36,28 @@ fn prepare_all<S: Simd, const FRICTION: bool>(
     batches: &mut Batches,
     sub_step: &SubStep,
 ) {
-    let Batches { pairs, approaches, restitutions, hits, frictions, rollings, shifts, .. } =
-        batches;
+    let Batches {
+        pairs, approaches, restitutions, laws, hits, frictions, rollings, shifts, ..
+    } = batches;
     hits.clear();
     for (number, (batch, approach)) in pairs.iter_mut().zip(approaches).enumerate() {
-        let given = Given { restitution: &restitutions[number], shift: shifts.get(number) };
+        let (restitution, law) = (&mut restitutions[number], laws.get(number));
+        let shift = shifts.get(number);
+        if let Some(law) = law {
+            law.set(restitution, [0.0; LANES]);
+        }
+        let given = Given { restitution, law, shift };
         let aimed = aim(simd, run, (batch, approach), given, sub_step);
+        if let Some(law) = law {
+            law.set(restitution, aimed.impact.to_array());
+        }
         let mut speed = [0.0; LANES];
         if aimed.is_any() {
+            let given = Given { restitution, law, shift };
             speed = aimed.meet(simd, run, batch, (approach, given), sub_step);
+            if let Some(law) = law {
+                law.set(restitution, speed);
+            }
             if speed != [0.0; LANES] {
                 hits.push(Hit { batch: number as u32, speed });
             }
@@ -66,6 +80,8 @@ fn prepare_all<S: Simd, const FRICTION: bool>(
 struct Given<'a> {
     /// Coefficients of restitution.
     restitution: &'a Quad,
+    /// Restitutions that depend on the speed.
+    law: Option<&'a LawBatch>,
     /// Offsets from spheres 2 to their images \[m\], where space is periodic.
     shift: Option<&'a [Quad; 3]>,
 }
@@ -88,7 +104,7 @@ fn aim<S: Simd>(
     simd: S,
     run: &Run,
     (batch, approach): (&mut PairBatch, &mut ApproachBatch),
-    Given { restitution, shift }: Given,
+    Given { restitution, shift, .. }: Given,
     sub_step: &SubStep,
 ) -> Aimed<S> {
     let all = |number| Lanes::all(simd, number);
@@ -166,7 +182,7 @@ impl<S: Simd> Aimed<S> {
         simd: S,
         run: &Run,
         batch: &mut PairBatch,
-        (approach, Given { restitution, shift }): (&ApproachBatch, Given),
+        (approach, Given { restitution, law, shift }): (&ApproachBatch, Given),
         sub_step: &SubStep,
     ) -> Quad {
         let zero = Lanes::all(simd, 0.0);
@@ -183,7 +199,9 @@ impl<S: Simd> Aimed<S> {
             let shift = shift.map_or(DVec3::ZERO, |it| DVec3::from_array(get(it, lane)));
             let traits = Traits {
                 radius_sum: approach.radius_sum[lane],
-                restitution: restitution[lane],
+                restitution: law
+                    .and_then(|law| law.0[lane])
+                    .unwrap_or(ContactRestitution::Constant(restitution[lane])),
                 shift,
             };
             if let Some(found) = swept::aim_pair(run, batch, (lane, traits), sub_step) {

@@ -5,6 +5,7 @@ use glam::DVec3;
 
 use super::materials::ContactMaterial;
 use crate::lanes::LANES;
+use crate::restitution::ContactRestitution;
 
 /// One number of each pair of a batch.
 pub(super) type Quad = [f64; LANES];
@@ -85,6 +86,22 @@ pub(super) struct RollingBatch {
     pub curvature: [Quad; 2],
 }
 
+/// Restitutions of the contacts of a batch that depend on the speed of approach; `None` for others.
+#[derive(Debug, Clone, Copy, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(super) struct LawBatch(pub [Option<ContactRestitution>; LANES]);
+
+impl LawBatch {
+    /// Sets the coefficients that depend on the speed to those at these speeds of approach \[m/s\].
+    pub fn set(&self, restitutions: &mut Quad, speeds: Quad) {
+        for ((law, coefficient), speed) in self.0.iter().zip(restitutions).zip(speeds) {
+            if let Some(law) = law {
+                *coefficient = law.at(speed);
+            }
+        }
+    }
+}
+
 /// Impulses that a contact keeps from search to search.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -134,8 +151,10 @@ pub(super) struct Batches {
     pub pairs: Vec<PairBatch>,
     /// As many.
     pub approaches: Vec<ApproachBatch>,
-    /// Coefficients of restitution, as many.
+    /// Coefficients of restitution, as many; where they depend on the speed, those of the present impacts.
     pub restitutions: Vec<Quad>,
+    /// Restitutions that depend on the speed; as many, or none where there are none.
+    pub laws: Vec<LawBatch>,
     /// The impacts of the sub-step, in order of their batches.
     pub hits: Vec<Hit>,
     /// As many as pairs, or none where there is no friction.
@@ -159,6 +178,7 @@ impl Batches {
         self.pairs.clear();
         self.approaches.clear();
         self.restitutions.clear();
+        self.laws.clear();
         self.hits.clear();
         self.frictions.clear();
         self.rollings.clear();
@@ -200,6 +220,9 @@ impl Batches {
         if kinds.rolling {
             self.rollings.push(RollingBatch::default());
         }
+        if kinds.laws {
+            self.laws.push(LawBatch::default());
+        }
         if kinds.images {
             self.shifts.push([[0.0; LANES]; 3]);
         }
@@ -235,7 +258,10 @@ impl Batches {
         let approach = &mut self.approaches[number];
         approach.previous[lane] = pair.impulses.previous;
         approach.radius_sum[lane] = pair.radii[0] + pair.radii[1];
-        self.restitutions[number][lane] = pair.material.restitution;
+        self.restitutions[number][lane] = pair.material.restitution.at(0.0);
+        if let Some(laws) = self.laws.get_mut(number) {
+            laws.0[lane] = pair.material.restitution.by_speed();
+        }
         if let Some(shifts) = self.shifts.get_mut(number) {
             set(shifts, lane, pair.shift.to_array());
         }
@@ -265,6 +291,12 @@ impl Batches {
             let batch = &self.pairs[number];
             lanes(number).map(move |lane| (number, lane, [batch.first[lane], batch.second[lane]]))
         })
+    }
+
+    /// Restitution of a contact, at whatever speed.
+    pub fn restitution(&self, number: usize, lane: usize) -> ContactRestitution {
+        let law = self.laws.get(number).and_then(|laws| laws.0[lane]);
+        law.unwrap_or(ContactRestitution::Constant(self.restitutions[number][lane]))
     }
 
     /// Offset from sphere 2 of a contact to its image that sphere 1 touches \[m\].
@@ -342,6 +374,8 @@ pub(super) struct ContactKinds {
     pub friction: bool,
     /// There is rolling or spinning friction.
     pub rolling: bool,
+    /// Some restitution depends on the speed.
+    pub laws: bool,
     /// Space is periodic: spheres may touch images of others.
     pub images: bool,
 }

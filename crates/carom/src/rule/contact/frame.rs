@@ -91,6 +91,8 @@ fn kinds_of(system: &System) -> ContactKinds {
     ContactKinds {
         friction: system.frictions().any(|it| it.acts()),
         rolling: system.frictions().any(rolls),
+        laws: !system.spheres.restitution_law.is_empty()
+            || system.material_pairs.list().iter().any(|it| it.restitution_law.is_some()),
         images: system.settings.boundary.is_periodic(),
     }
 }

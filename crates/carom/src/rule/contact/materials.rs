@@ -1,11 +1,13 @@
-//! Materials: spheres with equal restitution and friction. The coefficients of each pair of materials are combined
+//! Materials: spheres with equal restitution and friction, of one material by name. The coefficients of each pair of materials are combined
 //! once and looked up at each search.
 
 use std::collections::BTreeMap;
 
+use crate::bodies::Properties;
 use crate::detect::contact::Bodies;
 use crate::friction::{ContactFriction, Friction};
 use crate::respond::{friction_of, restitution_of};
+use crate::restitution::{BodyRestitution, ContactRestitution, RestitutionLaw};
 use crate::system::System;
 
 /// With more materials than this, pairs are combined one by one.
@@ -15,7 +17,7 @@ const MOST: usize = 64;
 #[derive(Debug, Clone, Copy, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct ContactMaterial {
-    pub restitution: f64,
+    pub restitution: ContactRestitution,
     pub friction: ContactFriction,
 }
 
@@ -41,12 +43,12 @@ impl Materials {
     /// The materials of the present spheres.
     pub fn of(system: &System) -> Self {
         let spheres = system.spheres;
-        let mut known: BTreeMap<[u64; 5], u8> = BTreeMap::new();
+        let mut known: BTreeMap<[u64; 9], u8> = BTreeMap::new();
         // A sphere of each material.
         let mut examples = Vec::new();
         let mut material_of = Vec::with_capacity(spheres.id.len());
         for sphere in 0..spheres.id.len() {
-            let key = key(spheres.restitution[sphere], spheres.friction(sphere));
+            let key = key(spheres, sphere);
             let material = *known.entry(key).or_insert_with(|| {
                 examples.push(sphere as u32);
                 (examples.len() - 1) as u8
@@ -76,13 +78,28 @@ impl Materials {
 }
 
 /// The bits of a sphere's coefficients, equal for spheres of one material.
-fn key(restitution: f64, friction: Friction) -> [u64; 5] {
+fn key(spheres: &Properties, sphere: usize) -> [u64; 9] {
     let bits = |said: Option<f64>| said.map_or(u64::MAX, f64::to_bits);
-    [
-        restitution.to_bits(),
-        bits(friction.sliding),
-        bits(friction.rolling),
-        bits(friction.spinning),
-        bits(friction.tangential_restitution),
-    ]
+    let Friction { sliding, rolling, spinning, tangential_restitution } = spheres.friction(sphere);
+    let [law, first, second, third] = match spheres.restitution(sphere) {
+        BodyRestitution::Constant(coefficient) => [0, coefficient.to_bits(), 0, 0],
+        BodyRestitution::BySpeed(law) => law_key(law),
+    };
+    let material = u64::from(spheres.material(sphere));
+    let [sliding, rolling] = [sliding, rolling].map(bits);
+    let [spinning, tangential] = [spinning, tangential_restitution].map(bits);
+    [law, first, second, third, sliding, rolling, spinning, tangential, material]
+}
+
+/// The bits of a law: its number, from 1 on, and its constants.
+fn law_key(law: RestitutionLaw) -> [u64; 4] {
+    let (number, constants) = match law {
+        RestitutionLaw::PowerLaw { restitution, speed, exponent } => {
+            (1, [restitution, speed, exponent])
+        }
+        RestitutionLaw::Viscoelastic { speed } => (2, [speed, 0.0, 0.0]),
+        RestitutionLaw::Cutoff { restitution, speed } => (3, [restitution, speed, 0.0]),
+    };
+    let [first, second, third] = constants.map(f64::to_bits);
+    [number, first, second, third]
 }

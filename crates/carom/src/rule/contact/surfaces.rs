@@ -15,6 +15,7 @@ use crate::detect::{Separation, sphere_surface};
 use crate::flight::Flight;
 use crate::friction::ContactFriction;
 use crate::respond;
+use crate::restitution::ContactRestitution;
 use crate::surface::{Form, SurfaceMotion};
 
 /// A centre counts as in front of a plane, or behind it, beyond this part of the radius.
@@ -49,7 +50,10 @@ pub(super) struct SurfaceContact {
     slip: DVec3,
     /// When in the sub-step a bounce happens \[s\].
     pub time: f64,
+    /// That of the last impact, if it depends on the speed.
     pub restitution: f64,
+    /// Restitution that depends on the speed.
+    pub law: Option<ContactRestitution>,
     pub friction: ContactFriction,
     /// Speed that the surface adds in an impact \[m/s\], and the part added in this one.
     pub kick: f64,
@@ -75,12 +79,18 @@ impl SurfaceContact {
             approach: 0.0,
             slip: DVec3::ZERO,
             time: 0.0,
-            restitution,
+            restitution: restitution.at(0.0),
+            law: restitution.by_speed(),
             friction,
             kick: 0.0,
             kicked: 0.0,
             impulses: Impulses::default(),
         }
+    }
+
+    /// Restitution, at whatever speed.
+    pub fn material_restitution(&self) -> ContactRestitution {
+        self.law.unwrap_or(ContactRestitution::Constant(self.restitution))
     }
 
     /// Impulses that the contact keeps from search to search. An impact leaves none.
@@ -326,6 +336,9 @@ impl SurfaceContact {
         sub_step: &SubStep,
     ) {
         self.approach = approach;
+        if let Some(law) = self.law {
+            self.restitution = law.at(approach);
+        }
         let pressing = pressing - self.swing.dot(self.normal);
         let kick = if approach > 0.0 { respond::kick(self.kick, pressing, radius) } else { 0.0 };
         let rebound = self.restitution * approach + kick - pressing * (sub_step.h - time);

@@ -9,6 +9,7 @@ use super::batch::{PairBatch, set};
 use super::slots::Run;
 use super::sub_step::SubStep;
 use crate::contact_time;
+use crate::restitution::ContactRestitution;
 
 /// A path is long beyond this part of the sum of radii.
 pub(super) const FAR: f64 = 0.125;
@@ -20,7 +21,7 @@ pub(super) const FREE: f64 = f64::MAX;
 pub(super) struct Traits {
     /// Sum of the radii \[m\].
     pub radius_sum: f64,
-    pub restitution: f64,
+    pub restitution: ContactRestitution,
     /// Offset from sphere 2 to its image that sphere 1 touches \[m\].
     pub shift: DVec3,
 }
@@ -54,7 +55,7 @@ pub(super) fn aim_pair(
         return Some(0.0);
     };
     let Fall { gap, time, speed, pressing } = fall;
-    let rebound = restitution * speed - pressing * (sub_step.h - time);
+    let rebound = restitution.at(speed) * speed - pressing * (sub_step.h - time);
     set(&mut batch.normal, lane, normal.to_array());
     batch.bias[lane] = if rebound > 0.0 { -rebound } else { gap / sub_step.h };
     Some(speed)

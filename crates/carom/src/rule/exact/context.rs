@@ -11,6 +11,7 @@ use crate::detect::sphere_surface;
 use crate::id::SphereId;
 use crate::norm::Norm;
 use crate::report::{Impact, ImpactGroup, StageCounts, StepReport};
+use crate::restitution::Coefficient;
 use crate::settings::{CombineRule, Exact, Zones};
 use crate::surface::{Form, LastCarriage, SurfaceMotion};
 use crate::system::System;
@@ -97,12 +98,12 @@ impl<'a> StepContext<'a> {
         &self,
         timeline: &Timeline,
         slots: [u32; N],
-        restitution: f64,
+        Coefficient { value, is_elastic }: Coefficient,
         time: f64,
-    ) -> f64 {
+    ) -> Coefficient {
         let bodies = slots.map(|slot| &timeline.flights.bodies[slot as usize]);
-        if restitution == 1.0 || !bodies.iter().all(|body| body.is_struck()) {
-            return restitution;
+        if is_elastic || !bodies.iter().all(|body| body.is_struck()) {
+            return Coefficient { value, is_elastic };
         }
         let scale = ContactScale::from_spheres(&timeline.flights, &slots, time);
         let velocity = |slot: u32| timeline.flights.state_of(slot, time).1;
@@ -112,7 +113,8 @@ impl<'a> StepContext<'a> {
         };
         let least = self.parameters.contact_duration;
         let duration = self.duration_of(&scale, time).min(scale.resolved_time(speed)).max(least);
-        if bodies.iter().all(|body| time - body.time < duration) { 0.0 } else { restitution }
+        let is_over = bodies.iter().any(|body| time - body.time >= duration);
+        Coefficient { value: if is_over { value } else { 0.0 }, is_elastic }
     }
 
     /// How long a contact of this scale lasts \[s\], at `time` \[s\].

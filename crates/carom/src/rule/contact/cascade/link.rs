@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::body::Body;
 use crate::detect::sphere_surface;
 use crate::friction::ContactFriction;
+use crate::restitution::ContactRestitution;
 use crate::rule::contact::batch::{Impulses, get};
 use crate::rule::contact::coulomb::{limited, slip};
 use crate::rule::contact::incidence::Origin;
@@ -37,7 +38,7 @@ pub struct Link {
     /// Offset from body 2 to its image that body 1 touches \[m\].
     pub shift: DVec3,
     radius_sum: f64,
-    restitution: f64,
+    restitution: ContactRestitution,
     friction: ContactFriction,
     /// Impulse before the sub-step \[N s\].
     carried: f64,
@@ -71,7 +72,7 @@ impl Link {
             surface: 0,
             shift: DVec3::ZERO,
             radius_sum: 0.0,
-            restitution: 0.0,
+            restitution: ContactRestitution::default(),
             friction: ContactFriction::default(),
             carried: 0.0,
             bears: false,
@@ -98,7 +99,7 @@ impl Link {
                     slots: slab.slots_of(batch, lane).map(|slot| slot as u32),
                     shift: batches.shift(batch, lane),
                     radius_sum: batches.approaches[batch].radius_sum[lane],
-                    restitution: batches.restitutions[batch][lane],
+                    restitution: batches.restitution(batch, lane),
                     friction: ContactFriction {
                         sliding: friction.map_or(0.0, |it| it.sliding[lane]),
                         rolling: rolling.map_or(0.0, |it| it.rolling[lane]),
@@ -124,7 +125,7 @@ impl Link {
                     slots: [slot as u32; 2],
                     surface: contact.surface,
                     radius_sum: radius,
-                    restitution: contact.restitution,
+                    restitution: contact.material_restitution(),
                     friction: ContactFriction { rolling, spinning, ..contact.friction },
                     carried,
                     bears: carried > 0.0,
@@ -223,7 +224,7 @@ impl Link {
 
     /// Makes the link an impact with this speed of approach \[m/s\], which ends with restitution.
     pub fn strike(&mut self, bodies: &[Body], approach: f64) {
-        self.set(Role::Bears, -self.restitution * approach);
+        self.set(Role::Bears, -self.restitution.at(approach) * approach);
         self.approach = approach;
         let part = self.friction.tangential_restitution;
         if part > 0.0 {

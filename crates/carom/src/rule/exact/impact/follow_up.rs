@@ -6,6 +6,7 @@ use crate::detect::contact::Bodies;
 use crate::detect::sphere_surface;
 use crate::norm::Norm;
 use crate::respond;
+use crate::restitution::Coefficient;
 use crate::rule::exact::contact_scale::{ContactScale, RESOLVED_PATH};
 use crate::rule::exact::contacts::{Group, Member};
 use crate::rule::exact::context::StepContext;
@@ -102,9 +103,7 @@ impl Search<'_> {
                 continue;
             }
             let closing = (member.velocity - other.velocity).dot(offset) / offset.norm();
-            let restitution = context
-                .combine_rule()
-                .combine(member.species.restitution, other.species.restitution);
+            let restitution = respond::restitution_of(bodies, context.system).coefficient(closing);
             if self.follows(&[member, &other], gap, closing, restitution) {
                 found.push(bodies);
             }
@@ -129,7 +128,7 @@ impl Search<'_> {
             }
             let velocity = member.velocity - motion.velocity_at(separation.point);
             let closing = -velocity.dot(separation.normal);
-            let restitution = respond::restitution_of(bodies, context.system);
+            let restitution = respond::restitution_of(bodies, context.system).coefficient(closing);
             if self.follows(&[member], gap, closing, restitution) {
                 found.push(bodies);
             }
@@ -146,8 +145,14 @@ impl Search<'_> {
     }
 
     /// Whether spheres close a gap \[m\] at a speed \[m/s\] within a contact duration, and plastically.
-    fn follows(&self, spheres: &[&Member], gap: f64, closing: f64, restitution: f64) -> bool {
-        if closing <= 0.0 || restitution == 1.0 {
+    fn follows(
+        &self,
+        spheres: &[&Member],
+        gap: f64,
+        closing: f64,
+        restitution: Coefficient,
+    ) -> bool {
+        if closing <= 0.0 || restitution.is_elastic {
             return false;
         }
         let time = self.group.time;
@@ -161,6 +166,6 @@ impl Search<'_> {
             place.is_some_and(|place| self.is_struck[place])
                 || (body.is_struck() && time - body.time < duration)
         };
-        gap <= closing * duration && (restitution == 0.0 || spheres.iter().all(was_struck))
+        gap <= closing * duration && (restitution.value == 0.0 || spheres.iter().all(was_struck))
     }
 }

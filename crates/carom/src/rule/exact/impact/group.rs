@@ -30,6 +30,8 @@ const UNITS_PER_MEMBER: u64 = 500;
 /// Contacts of a sphere and a collider whose normals differ by less are at one place, where faces share an edge or a
 /// corner: far more than the rounding of places.
 const SAME_NORMAL: f64 = 1e-9;
+/// A touch closes of itself if it closes faster than this part of the fastest one: far more than rounding.
+const CLOSING: f64 = 1e-6;
 
 /// Where no impulses open all contacts of a group, some close at more than this part of the fastest speed in it: far
 /// more than rounding.
@@ -206,7 +208,7 @@ fn unresolved_time(
     let first = touch.first.map_or(DVec3::ZERO, acceleration);
     let pull = (first - acceleration(touch.second)).dot(touch.normal).max(0.0);
     let closing = (-touch.normal_velocity(&group.members)).max(0.0);
-    let is_elastic = respond::restitution_of(touch.bodies, context.system) == 1.0;
+    let is_elastic = respond::restitution_of(touch.bodies, context.system).is_elastic();
     let scale = ContactScale { is_elastic, ..group.scale(touch) };
     let gap = scale.resolved_gap();
     let speed = touch.relative_velocity(&group.members).norm();
@@ -266,7 +268,7 @@ fn respond_to_impacts(
     }
     let masses: Vec<f64> = group.members.iter().map(|member| member.species.mass).collect();
     let before = velocities_of(group);
-    let contacts = contacts_of(timeline, context, group);
+    let contacts = contacts_of(timeline, context, group, &approach_speeds);
     let plastic = |contact: &TouchingContact| TouchingContact { restitution: 0.0, ..*contact };
     let has_friction = timeline.has_friction();
     let surfaces = context.system.surfaces;
@@ -413,25 +415,32 @@ fn record(context: &mut StepContext, group: &Group, answer: &Answer) {
     }
 }
 
-/// The touches as the impact laws take them.
-fn contacts_of(timeline: &Timeline, context: &StepContext, group: &Group) -> Vec<TouchingContact> {
+/// The touches as the impact laws take them, given their speeds of approach \[m/s\].
+///
+/// A restitution that depends on the speed is that at the speed of the touch before all impacts. A touch that does not
+/// close then is closed by the impacts of the others, so that the speed of the fastest counts for it.
+fn contacts_of(
+    timeline: &Timeline,
+    context: &StepContext,
+    group: &Group,
+    approach_speeds: &[f64],
+) -> Vec<TouchingContact> {
     let slot = |place: usize| group.members[place].slot;
-    let contact = |touch: &Touch| {
-        let own = |place: usize| group.members[place].species.restitution;
-        let restitution = match (touch.first, touch.bodies) {
-            (Some(first), _) => {
-                let restitution = context.combine_rule().combine(own(first), own(touch.second));
-                let slots = [slot(first), slot(touch.second)];
+    let fastest = approach_speeds.iter().copied().fold(0.0, f64::max);
+    let contact = |(touch, &speed): (&Touch, &f64)| {
+        let speed = if speed > CLOSING * fastest { speed } else { fastest };
+        let restitution = respond::restitution_of(touch.bodies, context.system).coefficient(speed);
+        let second = slot(touch.second);
+        let restitution = match touch.first {
+            Some(first) => {
+                let slots = [slot(first), second];
                 context.restitution_at(timeline, slots, restitution, group.time)
             }
-            (None, bodies) => {
-                let restitution = respond::restitution_of(bodies, context.system);
-                context.restitution_at(timeline, [slot(touch.second)], restitution, group.time)
-            }
+            None => context.restitution_at(timeline, [second], restitution, group.time),
         };
-        TouchingContact { restitution, ..touch.contact() }
+        TouchingContact { restitution: restitution.value, ..touch.contact() }
     };
-    group.touches.iter().map(contact).collect()
+    group.touches.iter().zip(approach_speeds).map(contact).collect()
 }
 
 /// Begins a new flight of every sphere of the group, under the forces of its persistent contacts. The flights of

@@ -11,6 +11,7 @@ use crate::detect::contact::Bodies;
 use crate::norm::Norm;
 use crate::report::{BodyPair, Impact};
 use crate::respond;
+use crate::restitution::Coefficient;
 use crate::rule::exact::changed::Changed;
 use crate::rule::exact::contacts::Member;
 use crate::rule::exact::context::StepContext;
@@ -118,9 +119,15 @@ impl PairImpact {
         let [(x1, v1), (x2, v2)] = slots.map(|slot| timeline.flights.state_of(slot, time));
         let offset = periodic::wrapped(x2 - x1, context.period);
         let normal = offset / offset.norm();
-        let [e1, e2] = species.map(|species| species.restitution);
-        let restitution = context.combine_rule().combine(e1, e2);
-        let restitution = context.restitution_at(timeline, slots, restitution, time);
+        let approach_speed = (v1 - v2).dot(normal);
+        let restitution = if context.system.has_other_restitutions() {
+            let bodies = Bodies::pair(slots.map(|slot| timeline.flights.index_of[slot as usize]));
+            respond::restitution_of(bodies, context.system).coefficient(approach_speed)
+        } else {
+            let [e1, e2] = species.map(|species| species.restitution);
+            Coefficient::constant(context.combine_rule().combine(e1, e2))
+        };
+        let restitution = context.restitution_at(timeline, slots, restitution, time).value;
         let masses = species.map(|species| species.mass);
         let answer = respond::line_of_centres([v1, v2], masses, normal, restitution);
         let mut impact = Self {
@@ -129,7 +136,7 @@ impl PairImpact {
             velocities_before: [v1, v2],
             velocities: answer.map_or([v1, v2], |answer| answer.0),
             normal,
-            approach_speed: (v1 - v2).dot(normal),
+            approach_speed,
             restitution,
             impulse: answer.map(|answer| answer.1),
             friction: None,

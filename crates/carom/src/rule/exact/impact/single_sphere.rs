@@ -115,7 +115,8 @@ fn strike(
         if approach_speed <= rounding {
             continue;
         }
-        let restitution = restitution_of(timeline, context, slot, contact.surface, time);
+        let touched = (slot, contact.surface);
+        let restitution = restitution_of(timeline, context, touched, approach_speed, time).value;
         let Some(change) = respond::reflection(before, contact.normal, restitution) else {
             continue;
         };

@@ -9,6 +9,7 @@ use crate::detect::Separation;
 use crate::detect::contact::Bodies;
 use crate::norm::Norm;
 use crate::respond;
+use crate::restitution::Coefficient;
 use crate::rule::exact::contact_scale::ContactScale;
 use crate::rule::exact::contacts::{
     Corner, HoldingMesh, MOST_PLANES, Member, Plane, holding_mesh, touches_surface,
@@ -175,24 +176,25 @@ fn bounces_off(
 ) -> bool {
     let Member { slot, velocity, species, .. } = *member;
     let approach_speed = -velocity.dot(round.normal);
-    let restitution = restitution_of(timeline, context, slot, round.surfaces[0], time);
-    let leaves =
-        restitution * approach_speed + kick_of(context, member, (round.surfaces[0], round.normal));
+    let touched = (slot, round.surfaces[0]);
+    let restitution = restitution_of(timeline, context, touched, approach_speed, time);
+    let leaves = restitution.value * approach_speed
+        + kick_of(context, member, (round.surfaces[0], round.normal));
     let pull = free_acceleration(member).norm() + velocity.length_squared() / species.radius;
-    let scale = ContactScale { is_elastic: restitution == 1.0, ..member.scale(true) };
+    let scale = ContactScale { is_elastic: restitution.is_elastic, ..member.scale(true) };
     let duration = context.duration_of(&scale, time);
     approach_speed > respond::rounding_of(velocity) && !is_back_within(duration, leaves, pull)
 }
 
-/// Restitution of an impact of a sphere on a surface at `time` \[s\].
+/// Restitution of an impact of a sphere on a surface with a speed of approach \[m/s\], at `time` \[s\].
 pub(super) fn restitution_of(
     timeline: &Timeline,
     context: &StepContext,
-    slot: u32,
-    surface: u32,
+    (slot, surface): (u32, u32),
+    approach_speed: f64,
     time: f64,
-) -> f64 {
+) -> Coefficient {
     let bodies = Bodies::Surface { sphere: timeline.flights.index_of[slot as usize], surface };
-    let restitution = respond::restitution_of(bodies, context.system);
+    let restitution = respond::restitution_of(bodies, context.system).coefficient(approach_speed);
     context.restitution_at(timeline, [slot], restitution, time)
 }

@@ -104,7 +104,7 @@ fn may_persist(context: &StepContext, group: &Group) -> Vec<Touch> {
         let free = touch.first.map_or(DVec3::ZERO, |first| free_acceleration(&members[first]));
         let free = free.norm() + free_acceleration(&members[touch.second]).norm();
         let acceleration = free + bias(touch, members).abs();
-        let is_elastic = restitution_of(touch.bodies, context.system) == 1.0;
+        let is_elastic = restitution_of(touch.bodies, context.system).is_elastic();
         let scale = ContactScale { acceleration, is_elastic, ..group.scale(touch) };
         let duration = context.duration_of(&scale, group.time);
         is_back_within(duration, touch.normal_velocity(members), acceleration)

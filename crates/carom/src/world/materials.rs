@@ -1,0 +1,26 @@
+//! Pairs of materials of a world.
+
+use super::World;
+use crate::error::{Error, Subject};
+use crate::material_pair::{MaterialPair, MaterialPairs};
+
+impl World {
+    /// Pairs of materials with coefficients of their own.
+    pub fn material_pairs(&self) -> &[MaterialPair] {
+        self.state.material_pairs.list()
+    }
+
+    /// Replaces the pairs of materials; later steps use them.
+    ///
+    /// # Errors [`Error::Invalid`] for an invalid number, the material 0, or a pair that is given twice, in whatever
+    /// order; then the old pairs stay.
+    pub fn set_material_pairs(
+        &mut self,
+        pairs: impl IntoIterator<Item = MaterialPair>,
+    ) -> Result<(), Error> {
+        let pairs = MaterialPairs::new(pairs.into_iter().collect());
+        let pairs = pairs.map_err(|invalid| invalid.about(Subject::Settings))?;
+        self.state.changed().material_pairs = pairs;
+        Ok(())
+    }
+}
