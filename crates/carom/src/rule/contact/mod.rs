@@ -27,6 +27,7 @@ mod descent;
 mod dormant;
 mod drift;
 mod energy;
+mod flat;
 mod force_work;
 mod frame;
 mod gather;

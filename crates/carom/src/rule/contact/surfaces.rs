@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::batch::Impulses;
 use super::coulomb::{limited, slip};
+use super::flat::{is_flat, turning_plane};
 use super::materials::ContactMaterial;
 use super::places::{Place, Places};
 use super::slab_totals::SlabTotals;
@@ -462,31 +463,6 @@ pub(super) fn correct(run: &mut Run, contacts: &[SurfaceContact], places: &Place
 pub(super) fn move_by(run: &mut Run, slot: usize, way: DVec3) -> f64 {
     run.position[slot] = run.position[slot].with_vector(run.position[slot].vector() + way);
     -run.conservative_acceleration(slot).dot(way) / run.velocity[slot].number()
-}
-
-/// Whether a surface has this normal in more than one place.
-fn is_flat(form: &Form, normal: DVec3) -> bool {
-    match form {
-        Form::HalfSpace { .. } => true,
-        Form::Rectangle(rectangle) => rectangle.normal == normal,
-        Form::Facet(_) => true,
-        Form::Band(band) => band.flat_normal() == Some(normal),
-        _ => false,
-    }
-}
-
-/// Normal of a turning plane after `h` \[s\], and its velocity \[m/s\]: tangential to it as where the sphere
-/// touches then, along it the speed of approach to the sphere's present place.
-fn turning_plane(
-    motion: &SurfaceMotion,
-    (normal, point): (DVec3, DVec3),
-    (center, height): (DVec3, f64),
-    h: f64,
-) -> (DVec3, DVec3) {
-    let (normal, point) = (motion.turned(normal, h), motion.carried(point, h));
-    let velocity = motion.velocity_after(point, h);
-    let along = (height - (center - point).dot(normal)) / h;
-    (normal, velocity + (along - velocity.dot(normal)) * normal)
 }
 
 /// Applies impulses along the normal and across it to a sphere.
