@@ -272,16 +272,17 @@ impl Collider {
     /// Returns the collider with this velocity of its material along the surface \[m/s\], in its own frame.
     ///
     /// ```
-    /// use carom::{Collider, DVec3, Pose, Shape, Sphere, World};
+    /// use carom::{Collider, DVec3, Gravity, Pose, Shape, Sphere, World};
     ///
     /// let belt = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO))
     ///     .with_surface_velocity(DVec3::X)
     ///     .with_friction(0.5);
-    /// let mut world = World::default().with_forces(vec![carom::Gravity::earth().into()]);
+    /// let mut world = World::default();
+    /// world.add_force(Gravity::new(DVec3::new(0.0, -9.81, 0.0)))?;
     /// world.add_collider(belt)?;
     /// let ball = world.add_sphere(Sphere::new(0.1 * DVec3::Y, 0.1).with_restitution(0.0))?;
     /// world.step(1.0)?;
-    /// // A ball that is laid on a belt slides and then rolls at 2/7 of its speed.
+    /// // A ball that is laid on a belt slides and then rolls at 2/7 of the belt's speed.
     /// assert!((world.sphere(ball)?.velocity.x - 2.0 / 7.0).abs() < 1e-12);
     /// # Ok::<(), carom::Error>(())
     /// ```
