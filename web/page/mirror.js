@@ -4,6 +4,9 @@
 /** Time between two updates from the interface [ms]. */
 const PAUSE = 250;
 
+/** Shortest time between two impacts that are told [ms]: a sentence is read aloud to its end. */
+const SENTENCE = 3000;
+
 /**
  * @typedef {object} Widget a control of the interface, as in `Page.widgets`, in CSS pixels
  * @property {string} id
@@ -93,16 +96,45 @@ function start(page) {
   canvas.setAttribute("aria-hidden", "true");
   /** @type {Map<string, HTMLElement>} */
   let elements = new Map();
+  const tell = tellImpacts(page);
   const update = () => {
     elements = show(page, mirror, elements);
+    const status = page.status();
     // `undefined` while a frame is being drawn.
-    const notices = page.status()?.notices.join(" ");
-    if (notices !== undefined && notices !== news.textContent) news.textContent = notices;
+    if (status === undefined) return;
+    const notices = status.notices.join(" ");
+    if (notices !== news.textContent) news.textContent = notices;
+    tell(status.watching);
   };
   update();
   setInterval(update, PAUSE);
   mirror.tabIndex = -1;
   mirror.focus();
+}
+
+/**
+ * Returns a function that tells of impacts while a scene plays: now and then the hardest one since
+ * the time before.
+ *
+ * @param {import("carom-web").Page} page
+ * @returns {(watching: { scene: string, time: number, playing: boolean } | null) => void}
+ */
+function tellImpacts(page) {
+  const impacts = /** @type {HTMLElement} */ (document.getElementById("impacts"));
+  let scene = "";
+  let heardUntil = 0;
+  let toldAt = -Infinity;
+  return (watching) => {
+    if (!watching?.playing || performance.now() - toldAt < SENTENCE) return;
+    // A scene may be another one, or start again.
+    if (watching.scene !== scene || watching.time < heardUntil) heardUntil = 0;
+    scene = watching.scene;
+    const impact = page.hardestImpactAfter(heardUntil);
+    heardUntil = watching.time;
+    if (impact === undefined) return;
+    toldAt = performance.now();
+    impacts.textContent = impact;
+  };
 }
 
 /**

@@ -145,6 +145,23 @@ test("the focus stays in the list where the control that has it goes away", asyn
   await viewer.close();
 });
 
+test("what hits what is told while a scene plays, one sentence at a time", async () => {
+  const viewer = await mirrored("#scene=cradle");
+  const { page } = viewer;
+  const told = () => page.textContent("#impacts");
+  assert.equal(await page.getAttribute("#impacts", "role"), "log");
+  await page.getByRole("button", { name: "Play", exact: true }).press("Enter");
+  // The page may have told of the scene of another test.
+  await page.waitForFunction(() =>
+    /hit ball/.test(document.getElementById("impacts")?.innerText ?? ""),
+  );
+  const sentence = (await told()) ?? "";
+  assert.match(sentence, /^ball \d hit ball \d, \d+\.\d\d m\/s$/);
+  await viewer.pause(500);
+  assert.equal(await told(), sentence, "it is read to its end");
+  await viewer.close();
+});
+
 test("Tab leaves the page after the last control, and messages are heard", async () => {
   // The controls are counted, so the scene of the test before must be gone.
   const viewer = await desk.watch("tutorial1", AUDITED);

@@ -96,9 +96,9 @@ pub fn page() -> Outcome {
     }
 }
 
-/// Installs the additional requirements of tests of the page.
+/// Installs the additional requirements of tests of the page, which makes films, too.
 pub fn browser() -> Outcome {
-    install(BROWSER)
+    install(&[BROWSER, FILM_TESTS].concat())
 }
 
 /// Installs the requirements of building and testing the Python package.

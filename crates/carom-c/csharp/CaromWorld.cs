@@ -440,6 +440,13 @@ namespace Carom
             Check(Native.carom_world_set_collider(Id, id, ref collider));
         }
 
+        /// <summary>Sets the velocity of the material of a collider along its surface [m/s], in its own
+        /// coordinates, as of a conveyor belt: friction feels it, and the shape stays.</summary>
+        public void SetSurfaceVelocity(ulong collider, Double3 velocity)
+        {
+            Check(Native.carom_world_set_surface_velocity(Id, collider, ref velocity));
+        }
+
         /// <summary>Removes a collider.</summary>
         public void RemoveCollider(ulong id) { Check(Native.carom_world_remove_collider(Id, id)); }
 
@@ -1152,6 +1159,9 @@ namespace Carom
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern CaromStatus carom_world_set_collider(
             WorldId world, ulong id, ref CaromCollider collider);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_set_surface_velocity(
+            WorldId world, ulong collider, ref Double3 velocity);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern CaromStatus carom_world_remove_collider(WorldId world, ulong id);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]

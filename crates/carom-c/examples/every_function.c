@@ -261,6 +261,11 @@ static void colliders_and_reports(void) {
     OK(carom_world_overlaps(world, 1e-9, &overlap, 0, 1, &count));
     EXPECT(count == 1 && fabs(overlap.depth - 0.25) < 1e-12);
     FAILS(CAROM_STATUS_INVALID, carom_world_overlaps(world, NAN, &overlap, 0, 1, &count));
+    const double along[3] = {0.5, 0.0, 0.0}, nowhere[3] = {NAN, 0.0, 0.0};
+    OK(carom_world_set_surface_velocity(world, id, along));
+    FAILS(CAROM_STATUS_INVALID, carom_world_set_surface_velocity(world, id, nowhere));
+    FAILS(CAROM_STATUS_NULL, carom_world_set_surface_velocity(world, id, NULL));
+    FAILS(CAROM_STATUS_UNKNOWN, carom_world_set_surface_velocity(world, 999, along));
     floor.shape = 17;
     FAILS(CAROM_STATUS_ARGUMENT, carom_world_set_collider(world, id, &floor));
     floor.shape = CAROM_SHAPE_CONTAINER;

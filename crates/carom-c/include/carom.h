@@ -804,6 +804,10 @@ CaromStatus carom_world_collider(CaromWorld world, uint64_t id, CaromCollider *c
 /// Replaces all properties of a collider, which keeps its id; it moves at once.
 CaromStatus carom_world_set_collider(CaromWorld world, uint64_t id, const CaromCollider *collider);
 
+/// Sets the velocity of the material of a collider along its surface, three numbers [m/s] in its own
+/// coordinates, as of a conveyor belt: friction feels it, and the shape stays.
+CaromStatus carom_world_set_surface_velocity(CaromWorld world, uint64_t collider, const double *velocity);
+
 /// Removes a collider.
 CaromStatus carom_world_remove_collider(CaromWorld world, uint64_t id);
 

@@ -3,10 +3,11 @@
 use carom::{Collider, ColliderId, DQuat, DVec3, Motion, Pose, Shape, Sides};
 use carom_scene::scene;
 
+use crate::motion::vector;
 use crate::pointer::{Out, Plain, read, tell};
 use crate::sphere::{coefficients, friction_of};
 use crate::status::{CaromStatus, Failure, call};
-use crate::world::CaromWorld;
+use crate::world::{CaromWorld, Inner};
 
 /// The shape of a collider in its own frame.
 #[repr(i32)]
@@ -221,6 +222,7 @@ fn describe(collider: &Collider, described: &mut scene::Collider) {
         described.velocity = collider.velocity.to_array();
         described.angular_velocity = collider.angular_velocity.to_array();
     }
+    described.surface_velocity = collider.surface_velocity.to_array();
     described.restitution = collider.restitution;
     described.trigger = collider.trigger;
     described.set_surface_friction(collider.friction);
@@ -300,16 +302,41 @@ pub unsafe extern "C" fn carom_world_set_collider(
             let (kick, groups, user_data) = (before.kick, before.groups, before.user_data);
             let collider = collider.physical(Some(before.shape))?;
             let collider = collider.with_kick(kick).with_groups(groups).with_user_data(user_data);
-            inner.world.set_collider(own, with_motion(collider, before.motion))?;
-            let collider = inner.world.collider(own)?;
-            let place = inner.world.colliders().position(|(other, _)| other == own);
-            inner.described.change_colliders(|all| {
-                let described = place.and_then(|place| all.get_mut(place));
-                described.into_iter().for_each(|described| describe(&collider, described));
-            });
-            Ok(())
+            let collider = collider.with_surface_velocity(before.surface_velocity);
+            replace(inner, own, with_motion(collider, before.motion))
         })
     })
+}
+
+/// Sets the velocity of the material of a collider along its surface, three numbers [m/s] in its own
+/// coordinates, as of a conveyor belt: friction feels it, and the shape stays.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carom_world_set_surface_velocity(
+    world: CaromWorld,
+    collider: u64,
+    velocity: *const f64,
+) -> CaromStatus {
+    call(|| {
+        // SAFETY: the caller's array is null or has this layout, as the header demands.
+        let velocity = unsafe { vector(velocity, "velocity") }?;
+        world.with(|inner| {
+            let own = ColliderId::from_number(collider);
+            let collider = inner.world.collider(own)?;
+            replace(inner, own, collider.with_surface_velocity(velocity))
+        })
+    })
+}
+
+/// Replaces a collider, and its description.
+fn replace(inner: &mut Inner, own: ColliderId, collider: Collider) -> Result<(), Failure> {
+    inner.world.set_collider(own, collider)?;
+    let collider = inner.world.collider(own)?;
+    let place = inner.world.colliders().position(|(other, _)| other == own);
+    inner.described.change_colliders(|all| {
+        let described = place.and_then(|place| all.get_mut(place));
+        described.into_iter().for_each(|described| describe(&collider, described));
+    });
+    Ok(())
 }
 
 /// Removes a collider.

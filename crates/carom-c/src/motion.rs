@@ -10,7 +10,7 @@ use crate::world::CaromWorld;
 ///
 /// # Safety
 /// `numbers` is null, or three numbers can be read there.
-unsafe fn vector(numbers: *const f64, name: &str) -> Result<DVec3, Failure> {
+pub(crate) unsafe fn vector(numbers: *const f64, name: &str) -> Result<DVec3, Failure> {
     let array = Strided { stride: 0, count: 1 };
     // SAFETY: the caller promises three numbers.
     let row = unsafe { Rows::new(numbers, array, 3, name) }?;

@@ -193,6 +193,7 @@ pub(crate) fn collider(collider: &Collider) -> Result<carom::Collider, String> {
         .moving(vector(collider.velocity), vector(collider.angular_velocity))
         .with_restitution(collider.restitution)
         .with_friction(collider.surface_friction())
+        .with_surface_velocity(vector(collider.surface_velocity))
         .with_kick(collider.kick)
         .with_groups(Groups { groups: collider.groups, collides_with: collider.collides_with })
         .with_user_data(collider.user_data);

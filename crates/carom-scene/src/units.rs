@@ -71,7 +71,7 @@ const DEGREES: &str = "degrees";
 const RADIANS: &str = "rad";
 
 /// Unit of each field that has one.
-const FIELDS: [(&str, &str); 68] = [
+const FIELDS: [(&str, &str); 69] = [
     ("acceleration", "m/s²"),
     ("amplitude", "m"),
     ("amplitude_degrees", DEGREES),
@@ -130,6 +130,7 @@ const FIELDS: [(&str, &str); 68] = [
     ("step", "m"),
     ("stiffness", "N/m"),
     ("surface_height", "m"),
+    ("surface_velocity", "m/s"),
     ("temperature", "J"),
     ("tolerance", "m"),
     ("top_radius", "m"),

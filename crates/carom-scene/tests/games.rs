@@ -1,4 +1,4 @@
-//! Groups, user data and kicks of scene files reach the world, are written again, and wrong ones are refused with
+//! Groups, user data, kicks and belts of scene files reach the world, are written again, and wrong ones are refused with
 //! their line.
 
 use carom::Groups;
@@ -15,6 +15,7 @@ user_data = 42
 shape = 'half-space'
 position = [0, -1, 0]
 kick = '150 cm/s'
+surface_velocity = ['36 km/h', 0, 0.5]
 groups = 0b10
 
 [[emitters]]
@@ -28,13 +29,14 @@ fn read(text: &str) -> Scene {
 }
 
 #[test]
-fn groups_user_data_and_kicks_reach_the_world() {
+fn groups_user_data_kicks_and_belts_reach_the_world() {
     let world = read(TEXT).world().unwrap();
     let sphere = world.spheres().get(0);
     assert_eq!(sphere.groups, Groups { groups: 5, collides_with: 1 });
     assert_eq!(sphere.user_data, 42);
     let (_, floor) = world.colliders().next().unwrap();
     assert_eq!((floor.kick, floor.user_data), (1.5, 0));
+    assert_eq!(floor.surface_velocity.to_array(), [10.0, 0.0, 0.5]);
     assert_eq!(floor.groups, Groups { groups: 2, collides_with: u32::MAX });
     let (_, emitter) = world.emitters().next().unwrap();
     assert_eq!(emitter.sphere.groups.groups, 2);
@@ -47,6 +49,7 @@ fn a_written_scene_has_them_again_and_no_defaults() {
     assert_eq!(read(&written), scene);
     assert_eq!(written.matches("groups").count(), 3, "{written}");
     assert_eq!(written.matches("user_data").count(), 1, "{written}");
+    assert_eq!(written.matches("surface_velocity").count(), 1, "{written}");
 }
 
 #[test]
@@ -57,6 +60,10 @@ fn wrong_ones_are_refused_with_their_line() {
     };
     let kick = refusal(&TEXT.replace("'150 cm/s'", "-1"));
     assert!(kick.contains("11") && kick.contains("kick"), "{kick}");
+    let belt = refusal(&TEXT.replace("'36 km/h'", "inf"));
+    assert!(belt.contains("surface_velocity"), "{belt}");
+    let units = refusal(&TEXT.replace("'36 km/h'", "'3 kg'"));
+    assert!(units.contains("12") && units.contains("m/s"), "{units}");
     let groups = refusal(&TEXT.replace("0b101", "-1"));
     assert!(groups.contains("4") && groups.contains("groups"), "{groups}");
 }

@@ -61,6 +61,8 @@ mod every_scene_runs_under_every_rule {
     const IMPACTS: usize = 10_000;
 
     /// Largest counted work of a frame for each sphere, per impact of the frame and one more: no scene may hang.
+    /// Each sweep of `contact` counts every surface near a sphere, and a marble of `marble-run` has some 300
+    /// facets of its track around it.
     const WORK: u64 = 50_000;
 
     /// Largest counted work of a frame for each sphere, impacts included, by rule. `discrete` tests each pair of near

@@ -1,7 +1,7 @@
 //! The last impacts as a table.
 
-use carom::BodyPair;
-use carom_session::{Command, View};
+use carom::{BodyPair, ColliderId};
+use carom_session::{Command, ListedImpact, View};
 use egui::{Grid, ScrollArea, Ui};
 
 /// Largest number of rows: as many as a reader can take in.
@@ -24,10 +24,7 @@ pub fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
                 let (text, ball) = match impact.between {
                     BodyPair::Spheres(first, second) => (format!("{first} - {second}"), second),
                     BodyPair::Collider { collider, sphere } => {
-                        let known = view.setup.colliders.iter().find(|(id, _)| *id == collider);
-                        let name = known.map_or("", |(_, collider)| collider.name.as_str());
-                        let name = if name.is_empty() { "surface" } else { name };
-                        (format!("{name} - {sphere}"), sphere)
+                        (format!("{} - {sphere}", name_of(view, collider)), sphere)
                     }
                 };
                 if ui.link(text).on_hover_text("Pick this ball").clicked() {
@@ -43,4 +40,31 @@ pub fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
             }
         });
     });
+}
+
+/// Returns a sentence about the impact of the largest impulse after a time \[s\], for people who do not
+/// see the picture; `None` without an impact.
+pub fn hardest_after(view: &View, time: f64) -> Option<String> {
+    let after = view.impacts.iter().filter(|impact| impact.time > time);
+    let hardest = after.max_by(|a, b| a.impulse.total_cmp(&b.impulse))?;
+    Some(sentence(view, hardest))
+}
+
+fn sentence(view: &View, impact: &ListedImpact) -> String {
+    let speed = impact.approach_speed;
+    match impact.between {
+        BodyPair::Spheres(first, second) => {
+            format!("ball {first} hit ball {second}, {speed:.2} m/s")
+        }
+        BodyPair::Collider { collider, sphere } => {
+            format!("ball {sphere} hit {}, {speed:.2} m/s", name_of(view, collider))
+        }
+    }
+}
+
+/// Returns the name of a collider for users.
+fn name_of(view: &View, collider: ColliderId) -> &str {
+    let known = view.setup.colliders.iter().find(|(id, _)| *id == collider);
+    let name = known.map_or("", |(_, collider)| collider.name.as_str());
+    if name.is_empty() { "surface" } else { name }
 }

@@ -109,6 +109,13 @@ impl Page {
         parsed(serde_json::to_string(&status))
     }
 
+    /// Returns a sentence about the hardest impact of the watched scene after a time \[s\]; `undefined`
+    /// without one, and while a frame is being drawn.
+    #[wasm_bindgen(js_name = hardestImpactAfter)]
+    pub fn hardest_impact_after(&self, time: f64) -> Option<String> {
+        self.app.try_borrow().ok()?.watching()?.hardest_impact_after(time)
+    }
+
     /// Returns every labelled control as last drawn: role, label, value, and position in CSS
     /// pixels. The first call returns an empty list and starts the recording.
     pub fn widgets(&self) -> JsValue {

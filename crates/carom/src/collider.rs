@@ -204,6 +204,10 @@ pub struct Collider {
     pub velocity: DVec3,
     /// Of the rotation about the origin of the local frame, along its axis \[rad/s\].
     pub angular_velocity: DVec3,
+    /// Velocity of the material along the surface \[m/s\], in the local frame: that of a conveyor belt. The shape stays
+    /// where its motion puts it. Friction acts against the velocity of the material, which is that of the surface plus
+    /// the part of this across the normal; without friction it has no effect.
+    pub surface_velocity: DVec3,
     /// Motion, if it is not steady. In a world, pose, velocity and angular velocity are then those of the motion at
     /// the present time; a new pose there moves the whole motion.
     pub motion: Motion,
@@ -236,6 +240,7 @@ impl Collider {
             pose,
             velocity: DVec3::ZERO,
             angular_velocity: DVec3::ZERO,
+            surface_velocity: DVec3::ZERO,
             motion: Motion::default(),
             restitution: 1.0,
             restitution_law: None,
@@ -262,6 +267,27 @@ impl Collider {
     /// about it. Spheres feel the velocity of the surface where they meet it.
     pub fn moving(self, velocity: DVec3, angular_velocity: DVec3) -> Self {
         Self { velocity, angular_velocity, ..self }
+    }
+
+    /// Returns the collider with this velocity of its material along the surface \[m/s\], in its own frame.
+    ///
+    /// ```
+    /// use carom::{Collider, DVec3, Gravity, Pose, Shape, Sphere, World};
+    ///
+    /// let belt = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO))
+    ///     .with_surface_velocity(DVec3::X)
+    ///     .with_friction(0.5);
+    /// let mut world = World::default();
+    /// world.add_force(Gravity::new(DVec3::new(0.0, -9.81, 0.0)))?;
+    /// world.add_collider(belt)?;
+    /// let ball = world.add_sphere(Sphere::new(0.1 * DVec3::Y, 0.1).with_restitution(0.0))?;
+    /// world.step(1.0)?;
+    /// // A ball that is laid on a belt slides and then rolls at 2/7 of the belt's speed.
+    /// assert!((world.sphere(ball)?.velocity.x - 2.0 / 7.0).abs() < 1e-12);
+    /// # Ok::<(), carom::Error>(())
+    /// ```
+    pub fn with_surface_velocity(self, surface_velocity: DVec3) -> Self {
+        Self { surface_velocity, ..self }
     }
 
     /// Returns the collider with this motion; several motions act one after the other.
@@ -319,6 +345,7 @@ impl Collider {
         self.pose.validate()?;
         validate::finite("velocity", self.velocity)?;
         validate::finite("angular_velocity", self.angular_velocity)?;
+        validate::finite("surface_velocity", self.surface_velocity)?;
         self.motion.validate()?;
         self.validate_velocities()?;
         validate::unit_interval("restitution", self.restitution)?;

@@ -44,7 +44,8 @@ impl SurfaceMotion {
     /// Of the surfaces of a collider, as if that went on steadily.
     pub fn of(collider: &Collider) -> Self {
         let Collider { pose, velocity, angular_velocity, .. } = *collider;
-        Self { origin: pose.position, velocity, angular_velocity, drive: None }
+        let belt = belt_of(collider);
+        Self { origin: pose.position, velocity, angular_velocity, belt, drive: None }
     }
 
     /// Whether the place of a surface of this form changes by its turning.
@@ -74,12 +75,14 @@ impl Surface {
 
     /// Geometry and motion of the surface when its collider has moved so from now on.
     pub fn carried(&self, &Carriage { to, turn, motion }: &Carriage) -> (Form, SurfaceMotion) {
-        let from = self.motion.origin;
-        let form = match turn {
-            Some(rotation) => self.form.placed(&Placement { rotation, from, to }),
-            None => self.form.shifted(to - from),
+        let SurfaceMotion { origin: from, belt, .. } = self.motion;
+        let (form, belt) = match turn {
+            Some(rotation) => {
+                (self.form.placed(&Placement { rotation, from, to }), rotation * belt)
+            }
+            None => (self.form.shifted(to - from), belt),
         };
-        (form, motion)
+        (form, SurfaceMotion { belt, ..motion })
     }
 
     /// The surface as it is after `h` \[s\].
@@ -95,8 +98,19 @@ impl Surface {
 
     /// Its motion between two times from now \[s\], as if that were steady.
     pub fn mean_motion(&self, times: [f64; 2]) -> Option<SurfaceMotion> {
-        self.course.as_ref().map(|course| course.mean_motion(times))
+        let course = self.course.as_ref()?;
+        let (_, SurfaceMotion { belt, .. }) = self.carried(&course.carriage(times[0]));
+        Some(SurfaceMotion { belt, ..course.mean_motion(times) })
     }
+}
+
+/// Velocity of the material of a collider along its surface, in the world \[m/s\].
+fn belt_of(collider: &Collider) -> DVec3 {
+    let Collider { surface_velocity, pose, .. } = *collider;
+    if surface_velocity == DVec3::ZERO {
+        return surface_velocity;
+    }
+    pose.rotation.normalize() * surface_velocity
 }
 
 /// Motion of the last collider that was asked for; its surfaces share it.
@@ -141,7 +155,8 @@ impl SurfaceMotion {
         let turning = if self.turns_form(form) { angular_velocity } else { DVec3::ZERO };
         let pose = Pose::at(origin).moved(velocity, turning, h);
         let placement = Placement { rotation: pose.rotation, from: origin, to: pose.position };
-        (form.placed(&placement), Self { origin: pose.position, ..*self })
+        let belt = if self.belt == DVec3::ZERO { self.belt } else { self.turned(self.belt, h) };
+        (form.placed(&placement), Self { origin: pose.position, belt, ..*self })
     }
 }
 
@@ -299,7 +314,7 @@ pub(crate) fn place(id: ColliderId, collider: &Collider, time: f64, surfaces: &m
     let restitution = BodyRestitution::of(collider.restitution, collider.restitution_law);
     let course = collider.course(time);
     let motion = match &course {
-        Some(course) => course.place(0.0).1,
+        Some(course) => SurfaceMotion { belt: belt_of(collider), ..course.place(0.0).1 },
         None => SurfaceMotion::of(collider),
     };
     let (center, rotation) = (pose.position, pose.rotation.normalize());

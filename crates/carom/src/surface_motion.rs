@@ -14,7 +14,9 @@ pub(crate) struct SurfaceMotion {
     pub velocity: DVec3,
     /// Along the axis of rotation \[rad/s\].
     pub angular_velocity: DVec3,
-    /// How that changes, if it does.
+    /// Velocity of the material along the surface, relative to its place, now \[m/s\]: that of a belt.
+    pub belt: DVec3,
+    /// How the motion of the place changes, if it does.
     pub drive: Option<Drive>,
 }
 
@@ -38,10 +40,11 @@ impl SurfaceMotion {
         origin: DVec3::ZERO,
         velocity: DVec3::ZERO,
         angular_velocity: DVec3::ZERO,
+        belt: DVec3::ZERO,
         drive: None,
     };
 
-    /// Whether it never moves.
+    /// Whether its place never changes.
     pub fn is_at_rest(&self) -> bool {
         let is_slow = self.velocity == DVec3::ZERO && self.angular_velocity == DVec3::ZERO;
         is_slow && self.drive.is_none()
@@ -50,6 +53,11 @@ impl SurfaceMotion {
     /// Velocity \[m/s\] of the surface at a point of it.
     pub fn velocity_at(&self, point: DVec3) -> DVec3 {
         self.velocity + self.angular_velocity.cross(point - self.origin)
+    }
+
+    /// Velocity \[m/s\] of the material relative to the surface, where that has this normal.
+    pub fn belt_across(&self, normal: DVec3) -> DVec3 {
+        self.belt - self.belt.dot(normal) * normal
     }
 
     /// Whether directions change with it.

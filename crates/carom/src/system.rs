@@ -74,6 +74,11 @@ impl<'a> System<'a> {
         self.colliders.any_moving()
     }
 
+    /// Whether the material of any surface moves along it.
+    pub fn has_belts(&self) -> bool {
+        self.surfaces.iter().any(|it| it.motion.belt != DVec3::ZERO)
+    }
+
     /// The surfaces that move, where they are `h` \[s\] after the step began.
     pub fn moving_after(
         &self,

@@ -207,6 +207,11 @@ export interface ColliderDescription {
   velocity?: Vector;
   /** Angular velocity about its centre [rad/s]. */
   angularVelocity?: Vector;
+  /**
+   * Velocity of the material along the surface, in its own coordinates [m/s], as of a conveyor
+   * belt; default: 0.
+   */
+  surfaceVelocity?: Vector;
   /** Motion about the place where it is at rest: one, or parts that act one after the other. */
   motion?: Motion | Motion[];
   /** Name of its material in a scene, whose fields count where its own are missing. */

@@ -84,6 +84,7 @@ impl Keeps {
         let keeps_energy = is_open
             && scene.springs.is_empty()
             && scene.forces.iter().all(is_constant)
+            && scene.colliders.iter().all(|it| it.surface_velocity == [0.0; 3])
             && scene.emitters.is_empty();
         let open = if is_driven { OPEN_ACCOUNT_OF_MOVERS } else { OPEN_ACCOUNT };
         let energy = world.total_energy();
@@ -180,11 +181,15 @@ impl Keeps {
                 // Colliders are where the frame ends.
                 let left = world.time() - (self.time + impact.time);
                 let arm = impact.point - (collider.pose.position - left * collider.velocity);
+                let turned = DQuat::from_scaled_axis(-left * collider.angular_velocity);
+                let belt =
+                    turned * (collider.pose.rotation.normalize() * collider.surface_velocity);
                 let velocity = collider.velocity + collider.angular_velocity.cross(arm);
                 let impulse = impact.impulse * impact.normal + impact.tangential_impulse;
-                work += impulse.dot(velocity);
+                work += impulse.dot(velocity) + impact.tangential_impulse.dot(belt);
                 let turning = collider.angular_velocity.length() * arm.length();
-                scale += impulse.length() * (collider.velocity.length() + turning);
+                let speed = collider.velocity.length() + belt.length() + turning;
+                scale += impulse.length() * speed;
             }
             let told = group.collider_work;
             if (told - work).abs() > OPEN_WORK * scale {

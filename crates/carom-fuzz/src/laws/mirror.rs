@@ -67,6 +67,8 @@ fn mirror_sphere(sphere: &mut Sphere) {
 fn mirror_collider(collider: &mut Collider) {
     mirror(&mut collider.position);
     mirror(&mut collider.velocity);
+    // In the collider's frame, which is mirrored with it.
+    mirror(&mut collider.surface_velocity);
     mirror_turn(&mut collider.rotation);
     mirror_axis(&mut collider.angular_velocity);
     for motion in &mut collider.motion {

@@ -110,6 +110,7 @@ fn scale_collider(collider: &mut Collider, scale: Scale) {
     collider.kick *= scale.of(1, 0, -1);
     scale_vector(&mut collider.position, length);
     scale_vector(&mut collider.velocity, scale.of(1, 0, -1));
+    scale_vector(&mut collider.surface_velocity, scale.of(1, 0, -1));
     scale_vector(&mut collider.angular_velocity, scale.of(0, 0, -1));
     collider.motion.iter_mut().for_each(|it| scale_motion(it, scale));
     match &mut collider.shape {

@@ -36,6 +36,10 @@ pub struct Collider {
     /// Angular velocity about its centre, in rad/s.
     #[serde(default, skip_serializing_if = "is_default")]
     pub angular_velocity: Vector,
+    /// Velocity of the material along the surface, in its own coordinates, in m/s, as of a conveyor belt: friction feels
+    /// it, and the shape stays.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub surface_velocity: Vector,
     /// Motion about where it is at rest, instead of velocities: one, or a list of parts that act one after the other.
     /// By default none.
     #[schemars(with = "OneOrMore<Motion>")]
@@ -106,6 +110,7 @@ impl Collider {
             rotation: unturned(),
             velocity: [0.0; 3],
             angular_velocity: [0.0; 3],
+            surface_velocity: [0.0; 3],
             motion: Vec::new(),
             material: None,
             restitution: 1.0,

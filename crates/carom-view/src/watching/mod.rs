@@ -150,6 +150,11 @@ impl Watching {
         Ok(watching)
     }
 
+    /// Returns a sentence about the hardest impact after a time \[s\]; `None` without one.
+    pub fn hardest_impact_after(&self, time: f64) -> Option<String> {
+        impact_list::hardest_after(self.view(), time)
+    }
+
     fn at(
         session: Session,
         link: Link,

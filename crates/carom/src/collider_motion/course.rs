@@ -25,6 +25,7 @@ pub(crate) struct Carriage {
     pub to: DVec3,
     /// Rotation since the start; `None` if it never turns.
     pub turn: Option<DQuat>,
+    /// Without a belt.
     pub motion: SurfaceMotion,
 }
 
@@ -53,7 +54,7 @@ impl Course {
         Kinematics::of(&self.motion, self.moment(h))
     }
 
-    /// Returns the pose of the collider after `h` \[s\], and the motion of its surfaces then.
+    /// Returns the pose of the collider after `h` \[s\], and the motion of its surfaces then, without a belt.
     pub fn place(&self, h: f64) -> (Pose, SurfaceMotion) {
         self.place_in(&self.state(h))
     }
@@ -82,6 +83,7 @@ impl Course {
             origin,
             velocity: state.velocity,
             angular_velocity: state.angular_velocity,
+            belt: DVec3::ZERO,
             drive: Some(drive),
         };
         (Pose { position: origin, rotation }, motion)

@@ -43,7 +43,7 @@ use crate::integrate;
 use crate::material_pair::MaterialPair;
 use crate::report::{BodyPair, Impact};
 use crate::restitution::{BodyRestitution, ContactRestitution};
-use crate::surface::Form;
+use crate::surface::{Form, SurfaceMotion};
 use crate::system::System;
 
 /// Answers contacts one after the other: each that still closes when its turn comes gets its
@@ -125,6 +125,20 @@ pub(crate) fn friction_of(bodies: Bodies, system: &System) -> ContactFriction {
         pair.apply_friction(&mut friction);
     }
     friction
+}
+
+/// Velocity \[m/s\] of the material of a surface that moves so, relative to its place, where it has this normal and
+/// friction acts on the sphere; zero between spheres.
+pub(crate) fn belt_of(
+    bodies: Bodies,
+    motion: &SurfaceMotion,
+    normal: DVec3,
+    system: &System,
+) -> DVec3 {
+    if motion.belt == DVec3::ZERO || friction_of(bodies, system).sliding == 0.0 {
+        return DVec3::ZERO;
+    }
+    motion.belt_across(normal)
 }
 
 fn answer_with(

@@ -1,5 +1,7 @@
 //! Checks that the derivatives of a world are known.
 
+use glam::DVec3;
+
 use super::error::DerivativeError;
 use crate::detect::instant::Instant;
 use crate::forces;
@@ -24,6 +26,9 @@ pub(super) fn check(world: &World) -> Result<(), DerivativeError> {
     }
     if world.colliders().any(|(_, collider)| !collider.motion.is_empty()) {
         return refuse("colliders that do not move steadily");
+    }
+    if world.colliders().any(|(_, collider)| collider.surface_velocity != DVec3::ZERO) {
+        return refuse("colliders with a surface velocity");
     }
     if system.spheres.growth_speed.iter().any(|&speed| speed > 0.0) {
         return refuse("spheres that grow");

@@ -397,6 +397,8 @@ class Collider(Part):
         material: Name of its material, whose fields count where its own are ``None``, or a
             restitution of 1 or the finish ``"satin"``.
         restitution_law: Restitution by the speed of approach, instead of ``restitution``.
+        surface_velocity: Velocity of the material along the surface, in its own coordinates [m/s],
+            as of a conveyor belt: friction feels it, and the shape stays.
     """
 
     shape: Shape
@@ -421,6 +423,7 @@ class Collider(Part):
     motion: Motion | Sequence[Motion] = ()
     material: str | None = None
     restitution_law: RestitutionLaw | None = None
+    surface_velocity: Vector = ORIGIN
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -88,6 +88,8 @@ pub struct Obstacle {
     pub is_trigger: bool,
     /// What an impact on it adds to the speed \[m/s\].
     pub kick: Option<f64>,
+    /// Velocity of its material along its surface \[m/s\].
+    pub belt: Option<[f64; 3]>,
 }
 
 #[derive(Debug, Clone)]
@@ -309,9 +311,10 @@ fn obstacle() -> impl Strategy<Value = Obstacle> {
     let place = (vector_of(0.5 * HALF), prop_oneof![1 => Just([0.0; 3]), 3 => vector_of(180.0)]);
     let spin = weighted(0.1, vector_of(3.0));
     let parts = prop_oneof![6 => Just(Vec::new()), 1 => vec(part(), 1..4)];
-    let answer = (proptest::bool::weighted(0.05), weighted(0.1, 0.1..5.0));
+    let belt = weighted(0.15, vector_of(3.0));
+    let answer = (proptest::bool::weighted(0.05), weighted(0.1, 0.1..5.0), belt);
     (shape, place, velocity, (spin, parts), answer).prop_map(
-        |(shape, (position, turn), velocity, (spin, parts), (is_trigger, kick))| Obstacle {
+        |(shape, (position, turn), velocity, (spin, parts), (is_trigger, kick, belt))| Obstacle {
             shape,
             position,
             turn,
@@ -320,6 +323,7 @@ fn obstacle() -> impl Strategy<Value = Obstacle> {
             parts,
             is_trigger,
             kick,
+            belt,
         },
     )
 }

@@ -171,7 +171,8 @@ fn emitter(drawn: &Drawn, emitter: &Emitter) -> String {
 }
 
 fn obstacle(drawn: &Drawn, obstacle: &Obstacle, material: &str) -> String {
-    let Obstacle { shape, position, turn, velocity, spin, parts, is_trigger, kick } = obstacle;
+    let Obstacle { shape, position, turn, velocity, spin, parts, is_trigger, kick, belt } =
+        obstacle;
     let motion = if parts.is_empty() {
         motion(drawn, *velocity, *spin)
     } else {
@@ -180,8 +181,9 @@ fn obstacle(drawn: &Drawn, obstacle: &Obstacle, material: &str) -> String {
     };
     let trigger = if *is_trigger { "trigger = true\n" } else { "" };
     let kick = kick.map_or(String::new(), |it| format!("kick = {it:?}\n"));
+    let belt = belt.map_or(String::new(), |it| format!("surface_velocity = {it:?}\n"));
     format!(
         "[[colliders]]\nshape = {shape}\nposition = {position:?}\n\
-         rotation = {{ euler_degrees = {turn:?} }}\n{motion}{trigger}{kick}{material}"
+         rotation = {{ euler_degrees = {turn:?} }}\n{motion}{belt}{trigger}{kick}{material}"
     )
 }

@@ -148,7 +148,7 @@ fn motion(numbers: &mut Numbers, scales: &Scales, place: DVec3, turns: bool) -> 
     let arm = if numbers.one_in(3) { 0.0 } else { scales.length * numbers.between(0.0, 2.0) };
     let origin = place + arm * numbers.direction();
     let axis = if numbers.one_in(3) { DVec3::Y } else { numbers.direction() };
-    SurfaceMotion { origin, velocity, angular_velocity: rate * axis, drive: None }
+    SurfaceMotion { origin, velocity, angular_velocity: rate * axis, ..SurfaceMotion::REST }
 }
 
 /// A surface and a point on it, with a normal there.

@@ -52,8 +52,10 @@ pub(super) fn advance(solver: &mut Solver, sub_step: &SubStep, report: &mut Step
                     .binary_search_by_key(&slot, |it| it.slot)
                     .is_ok_and(|place| landed[place].met_surface)
         };
-        slab.totals.leaves =
+        let (leaves, held_back) =
             dispatch!(Level::new(), simd => stay_within_margin(simd, run, common, is_free));
+        slab.totals.leaves = leaves;
+        slab.totals.energy += held_back;
         for (turn, spin) in run.turn.iter_mut().zip(&*run.spin) {
             *turn = turn.with_vector(turn.vector() + spin.vector());
         }
@@ -134,15 +136,15 @@ fn place_landed(run: &mut Run, start: usize, landed: &[Landed], h: f64) -> f64 {
 }
 
 /// Keeps spheres that an impact made faster within their margins relative to the common motion \[m\]; spheres that
-/// are `free`, by slot, are exempt. Returns whether one has left its margin.
+/// are `free`, by slot, are exempt. Returns whether one has left its margin, and the work of holding others back \[J\].
 #[inline(always)]
 fn stay_within_margin<S: Simd>(
     simd: S,
     run: &mut Run,
     common: DVec3,
     is_free: impl Fn(usize) -> bool,
-) -> bool {
-    let mut leaves = false;
+) -> (bool, f64) {
+    let (mut leaves, mut work) = (false, 0.0);
     let commons = Vector::all(simd, common);
     for first in (0..run.position.len()).step_by(LANES) {
         let (position, _) = row::columns(simd, run.position, first);
@@ -153,7 +155,7 @@ fn stay_within_margin<S: Simd>(
         }
         let last = run.position.len().min(first + LANES);
         for slot in first..last {
-            let (position, reference) = (&mut run.position[slot], &run.reference[slot]);
+            let (position, reference) = (run.position[slot], &run.reference[slot]);
             let (origin, margin) = (reference.vector() + common, reference.number());
             let way = position.vector() - origin;
             let length_squared = way.length_squared();
@@ -164,9 +166,10 @@ fn stay_within_margin<S: Simd>(
             leaves |= is_beyond && !is_late;
             if is_late {
                 let end: DVec3 = origin + way * (margin / length_squared.sqrt());
-                *position = position.with_vector(end);
+                work += work_of_shift(run, slot, end - position.vector());
+                run.position[slot] = position.with_vector(end);
             }
         }
     }
-    leaves
+    (leaves, work)
 }

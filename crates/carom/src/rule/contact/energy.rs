@@ -28,13 +28,19 @@ const SOFTENING: u32 = 3;
 /// Restitution in a group of contacts may add energy whatever the sweeps: there, less is given back. As a
 /// last resort less of all impulses is taken.
 ///
-/// Moving surfaces do work: where there are any, it is accounted for, and nothing is taken back.
+/// Belts do work, which counts as no gain. Moving surfaces do work, too: where there are any, it is accounted for, and
+/// nothing is taken back.
 pub(super) fn keep(solver: &mut Solver, sub_step: &SubStep, report: &mut StepReport) -> bool {
     let before = solver.energy_before;
     let mut change = change(solver, sub_step.h);
     let kicks = kick_work(solver);
     let mut round = 0;
-    while !solver.has_moving_surfaces && change.gain - kicks > ROUNDING * before && round < ROUNDS {
+    let gains = |solver: &Solver, change: &Change| {
+        let driven = belt_work(solver);
+        let gain = change.gain - kicks - driven;
+        !solver.has_moving_surfaces && gain > ROUNDING * (before + driven.abs())
+    };
+    while gains(solver, &change) && round < ROUNDS {
         if round >= SOFTENING {
             solve::soften_bounces(solver, 0.5);
         }
@@ -44,20 +50,30 @@ pub(super) fn keep(solver: &mut Solver, sub_step: &SubStep, report: &mut StepRep
         round += 1;
     }
     report.contact_account.limited_sub_steps += u32::from(round > 0);
-    if !solver.has_moving_surfaces && change.gain - kicks > ROUNDING * before {
-        take_less(solver, change.gain, sub_step.h);
+    if gains(solver, &change) {
+        take_less(solver, change.gain - belt_work(solver), sub_step.h);
         change = self::change(solver, sub_step.h);
     }
     let kicks = kick_work(solver);
     report.energy_account.kicks += kicks;
     report.energy_account.contacts += change.work - kicks;
-    if solver.has_moving_surfaces {
-        let surfaces = solver.slabs.iter().flat_map(|slab| &slab.surfaces);
-        let work = surfaces.map(|contact| contact.work()).sum::<f64>();
+    if solver.has_moving_surfaces || solver.has_belts {
+        let work = surface_work(solver);
         report.energy_account.colliders += work;
         report.energy_account.contacts -= work;
     }
     round > 0
+}
+
+/// Work of surfaces that move and of belts in a sub-step \[J\].
+fn surface_work(solver: &Solver) -> f64 {
+    let surfaces = solver.slabs.iter().flat_map(|slab| &slab.surfaces);
+    surfaces.map(|contact| contact.work()).sum()
+}
+
+/// Work of belts in a sub-step \[J\], where no surface moves.
+fn belt_work(solver: &Solver) -> f64 {
+    if solver.has_belts { surface_work(solver) } else { 0.0 }
 }
 
 /// Work of the kicks of surfaces in a sub-step \[J\].

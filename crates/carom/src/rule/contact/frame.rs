@@ -21,6 +21,7 @@ pub(super) fn begin(system: &System, motion: &mut Motion, h: f64, solver: &mut S
     let ids = &system.spheres.id;
     let kinds = kinds_of(system);
     solver.has_moving_surfaces = system.has_moving_surfaces();
+    solver.has_belts = kinds.friction && system.has_belts();
     let are_surfaces_changed = solver.is_changed;
     if solver.is_changed || solver.has_moving_surfaces || !system.spheres.applied_force.is_empty() {
         wake::all(solver);

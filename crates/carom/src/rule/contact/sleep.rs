@@ -118,8 +118,8 @@ fn note_calm(slots: &mut Slots, sleep_speed: f64, frame: f64, h: f64) -> f64 {
     longest
 }
 
-/// By slot, whether a sphere has not been calm for long enough, overlaps another one, moves with all that it
-/// touches, or is [`NEAR`] such a sphere.
+/// By slot, whether a sphere has not been calm for long enough, overlaps another one, lies on a belt, moves with all
+/// that it touches, or is [`NEAR`] such a sphere.
 fn near_restless(solver: &Solver) -> Vec<bool> {
     let Slots { sleeps, calm, position, .. } = &solver.slots;
     let is_restless = |(&sleeps, &calm): (&bool, &f64)| !sleeps && calm < PATIENCE;
@@ -136,6 +136,9 @@ fn near_restless(solver: &Solver) -> Vec<bool> {
     }
     let mut bearing = Vec::new();
     for slab in solver.slabs.iter() {
+        let on_belts =
+            slab.surfaces.iter().filter(|it| it.belt != DVec3::ZERO && it.impulses.normal > 0.0);
+        on_belts.for_each(|it| is_near[slab.start + it.slot as usize] = true);
         for (number, lane, _) in slab.batches.contacts() {
             if slab.batches.pairs[number].impulse[lane] > 0.0 {
                 bearing.push(slab.slots_of(number, lane));

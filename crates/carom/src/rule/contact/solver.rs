@@ -41,6 +41,8 @@ pub(crate) struct Solver {
     pub(super) has_other_forces: bool,
     /// Whether a surface moves.
     pub(super) has_moving_surfaces: bool,
+    /// Whether friction acts and a surface is a belt.
+    pub(super) has_belts: bool,
     /// Conservative part of the forces applied to single spheres \[N\], by index, in the next sub-step.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) held_forces: Vec<DVec3>,

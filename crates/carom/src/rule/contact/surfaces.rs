@@ -3,6 +3,8 @@
 use glam::DVec3;
 
 use super::batch::Impulses;
+use super::coulomb::{limited, slip};
+use super::flat::{is_flat, turning_plane};
 use super::materials::ContactMaterial;
 use super::places::{Place, Places};
 use super::slab_totals::SlabTotals;
@@ -35,6 +37,8 @@ pub(super) struct SurfaceContact {
     is_slow: bool,
     /// Velocity of the surface where they touch \[m/s\].
     pub velocity: DVec3,
+    /// Velocity of the material relative to the surface, along it \[m/s\]; zero without friction.
+    pub belt: DVec3,
     /// Angular velocity of the surface \[rad/s\].
     angular_velocity: DVec3,
     /// Acceleration of the sphere relative to a turning surface, without forces \[m/s²\].
@@ -43,7 +47,7 @@ pub(super) struct SurfaceContact {
     pub bias: f64,
     /// Speed of approach of an impact \[m/s\]; 0 if there is none.
     pub approach: f64,
-    /// Slip after an impact \[m/s\].
+    /// Slip at which friction ends \[m/s\]: the velocity of the belt, unless an impact turns slip round.
     slip: DVec3,
     /// When in the sub-step a bounce happens \[s\].
     pub time: f64,
@@ -69,6 +73,7 @@ impl SurfaceContact {
             start: DVec3::ZERO,
             is_slow: false,
             velocity: DVec3::ZERO,
+            belt: DVec3::ZERO,
             angular_velocity: DVec3::ZERO,
             swing: DVec3::ZERO,
             bias: FREE,
@@ -116,10 +121,11 @@ impl SurfaceContact {
         mass * self.kicked * (self.restitution * self.approach + 0.5 * self.kicked)
     }
 
-    /// Work of the moving surface \[J\].
+    /// Work of the moving surface and of its belt \[J\].
     pub fn work(&self) -> f64 {
         let angular = DVec3::from_array(self.impulses.angular);
-        self.impulse().dot(self.velocity) + angular.dot(self.angular_velocity)
+        let by_belt = DVec3::from_array(self.impulses.tangential).dot(self.belt);
+        self.impulse().dot(self.velocity) + angular.dot(self.angular_velocity) + by_belt
     }
 
     /// Impulse on the sphere \[N s\].
@@ -215,11 +221,27 @@ impl SurfaceContact {
         if is_apart && is_curved && (!self.is_slow || self.approach > 0.0) {
             self.aim_at_impact(run, place, sub_step);
         }
-        self.slip = DVec3::ZERO;
+        self.aim_slip(run, motion, sub_step.h);
+    }
+
+    /// Computes the slip at which friction ends, in a sub-step of `h` \[s\].
+    fn aim_slip(&mut self, run: &Run, motion: &SurfaceMotion, h: f64) {
+        let slot = self.slot as usize;
+        let is_felt = motion.belt != DVec3::ZERO && self.friction.sliding > 0.0;
+        self.belt = DVec3::ZERO;
+        if is_felt {
+            let belt = motion.turned(motion.belt, h);
+            self.belt = belt - belt.dot(self.normal) * self.normal;
+        }
+        self.slip = self.belt;
         let part = self.friction.tangential_restitution;
         if self.approach > 0.0 && part > 0.0 && !run.spin.is_empty() {
-            let spin = run.spin_before[slot].vector();
-            self.slip = -part * slip(before - self.velocity, self.normal, spin);
+            let (before, spin) = (run.before[slot].vector(), run.spin_before[slot].vector());
+            let slip = slip(before - self.velocity, self.normal, spin);
+            self.slip = -part * (slip - self.belt);
+            if is_felt {
+                self.slip += self.belt;
+            }
         }
     }
 
@@ -441,42 +463,6 @@ pub(super) fn correct(run: &mut Run, contacts: &[SurfaceContact], places: &Place
 pub(super) fn move_by(run: &mut Run, slot: usize, way: DVec3) -> f64 {
     run.position[slot] = run.position[slot].with_vector(run.position[slot].vector() + way);
     -run.conservative_acceleration(slot).dot(way) / run.velocity[slot].number()
-}
-
-/// Whether a surface has this normal in more than one place.
-fn is_flat(form: &Form, normal: DVec3) -> bool {
-    match form {
-        Form::HalfSpace { .. } => true,
-        Form::Rectangle(rectangle) => rectangle.normal == normal,
-        Form::Facet(_) => true,
-        Form::Band(band) => band.flat_normal() == Some(normal),
-        _ => false,
-    }
-}
-
-/// Normal of a turning plane after `h` \[s\], and its velocity \[m/s\]: tangential to it as where the sphere
-/// touches then, along it the speed of approach to the sphere's present place.
-fn turning_plane(
-    motion: &SurfaceMotion,
-    (normal, point): (DVec3, DVec3),
-    (center, height): (DVec3, f64),
-    h: f64,
-) -> (DVec3, DVec3) {
-    let (normal, point) = (motion.turned(normal, h), motion.carried(point, h));
-    let velocity = motion.velocity_after(point, h);
-    let along = (height - (center - point).dot(normal)) / h;
-    (normal, velocity + (along - velocity.dot(normal)) * normal)
-}
-
-/// Slip of a sphere's surface at the contact: the tangential part of the velocity, with spin.
-fn slip(velocity: DVec3, normal: DVec3, spin: DVec3) -> DVec3 {
-    velocity - normal * velocity.dot(normal) - spin.cross(normal)
-}
-
-/// A vector, shortened to a length if it is longer.
-fn limited(vector: DVec3, most: f64) -> DVec3 {
-    let length = vector.dot(vector).sqrt();
-    if length > most { vector * (most / length) } else { vector }
 }
 
 /// Applies impulses along the normal and across it to a sphere.

@@ -75,8 +75,8 @@ impl Gathering {
                 body.inverse_mass > 0.0 && self.seen[body.slot as usize] != Seen::Never
             };
             let is_large = bodies.len() > MOST_BODIES || links.len() > MOST_LINKS;
-            let has_kick = links.iter().any(|link| link.has_kick);
-            if is_large || has_kick || bodies.iter().any(is_taken) {
+            let is_driven = links.iter().any(|link| link.is_driven);
+            if is_large || is_driven || bodies.iter().any(is_taken) {
                 growing.is_whole = false;
                 return growing;
             }

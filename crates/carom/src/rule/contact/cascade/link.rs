@@ -7,6 +7,7 @@ use crate::detect::sphere_surface;
 use crate::friction::ContactFriction;
 use crate::restitution::ContactRestitution;
 use crate::rule::contact::batch::{Impulses, get};
+use crate::rule::contact::coulomb::{limited, slip};
 use crate::rule::contact::incidence::Origin;
 use crate::rule::contact::places::Place;
 use crate::rule::contact::slots::Slots;
@@ -43,8 +44,8 @@ pub struct Link {
     carried: f64,
     /// Whether the link pressed in the sub-step, or in the flight before.
     pub bears: bool,
-    /// Whether its surface kicks, which no cascade follows.
-    pub has_kick: bool,
+    /// Whether its surface kicks or is a belt, which no cascade follows.
+    pub is_driven: bool,
     pub role: Role,
     pub normal: DVec3,
     pub point: DVec3,
@@ -75,7 +76,7 @@ impl Link {
             friction: ContactFriction::default(),
             carried: 0.0,
             bears: false,
-            has_kick: false,
+            is_driven: false,
             role: Role::Off,
             normal: DVec3::Y,
             point: DVec3::ZERO,
@@ -128,7 +129,7 @@ impl Link {
                     friction: ContactFriction { rolling, spinning, ..contact.friction },
                     carried,
                     bears: carried > 0.0,
-                    has_kick: contact.kick > 0.0,
+                    is_driven: contact.kick > 0.0 || contact.belt != DVec3::ZERO,
                     ..none
                 }
             }
@@ -234,7 +235,7 @@ impl Link {
     fn slip_of(&self, bodies: &[Body]) -> DVec3 {
         let velocity = self.relative(bodies, |body| body.velocity);
         let spin = bodies[self.second].spin + self.first.map_or(DVec3::ZERO, |it| bodies[it].spin);
-        velocity - self.normal * velocity.dot(self.normal) - spin.cross(self.normal)
+        slip(velocity, self.normal, spin)
     }
 
     /// Applies the impulses that this link needs with the others as they are, if it acts. Returns the largest
@@ -323,10 +324,4 @@ impl Link {
             angular: of(self.impulses.angular),
         }
     }
-}
-
-/// A vector, shortened to a length if it is longer.
-fn limited(vector: DVec3, most: f64) -> DVec3 {
-    let length = vector.length();
-    if length > most { vector * (most / length) } else { vector }
 }

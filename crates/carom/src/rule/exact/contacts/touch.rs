@@ -6,7 +6,7 @@ use super::member::Member;
 use crate::detect::contact::Bodies;
 use crate::detect::{Separation, sphere_sphere};
 use crate::norm::Norm;
-use crate::respond::TouchingContact;
+use crate::respond::{TouchingContact, belt_of};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::features::{NormalCurvature, curvature_of, separation};
 use crate::surface::{Form, SurfaceMotion};
@@ -32,6 +32,8 @@ pub(crate) struct Touch {
     /// The part of `surface_velocity` with which the surface turns in its own place, as a wheel does about its axle
     /// \[m/s\].
     pub turning_in_place: DVec3,
+    /// Velocity of the material relative to the surface, along it \[m/s\]; zero without friction.
+    pub belt: DVec3,
     /// Of the surface \[rad/s\].
     pub surface_spin: DVec3,
     /// Acceleration \[m/s²\] whose normal part is that of the gap from the turning of the surface, without sliding.
@@ -68,6 +70,12 @@ impl Touch {
     /// The part of a vector across the normal.
     pub fn across(&self, vector: DVec3) -> DVec3 {
         vector - vector.dot(self.normal) * self.normal
+    }
+
+    /// A velocity \[m/s\] relative to the material of the surface, as one relative to its place.
+    pub fn with_belt(&self, velocity: DVec3) -> DVec3 {
+        // A sum with zero might change the sign of a zero.
+        if self.belt == DVec3::ZERO { velocity } else { velocity + self.belt }
     }
 
     /// Velocity of body 2 relative to body 1 \[m/s\].
@@ -156,7 +164,8 @@ impl Touch {
                     separation.normal = face.normal;
                 }
                 let touch = self.with(separation).with_motion(&motion, center);
-                Some(Self { curvature, turning_in_place, ..touch })
+                let belt = belt_of(self.bodies, &motion, touch.normal, context.system);
+                Some(Self { curvature, turning_in_place, belt, ..touch })
             }
         }
     }
@@ -208,6 +217,7 @@ impl Touch {
             curvature: NormalCurvature::Flat,
             surface_velocity: DVec3::ZERO,
             turning_in_place: DVec3::ZERO,
+            belt: DVec3::ZERO,
             surface_spin: DVec3::ZERO,
             surface_pull: DVec3::ZERO,
             drive: DVec3::ZERO,

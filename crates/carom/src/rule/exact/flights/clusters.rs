@@ -32,6 +32,8 @@ pub(crate) struct Support {
     pub renewal: f64,
     /// Whether the spheres fly on curves with these contacts.
     pub is_curved: bool,
+    /// Work of belts at the start, where friction ends slips at once \[J\].
+    pub belt_work: f64,
 }
 
 /// A sphere of a cluster that is about to be made.

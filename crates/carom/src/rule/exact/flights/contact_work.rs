@@ -11,6 +11,8 @@ pub(crate) enum ContactWork {
     Friction {
         /// \[kg m²\]
         moment: f64,
+        /// Power of belts on the sphere \[W\].
+        collider_power: f64,
     },
     /// Moving colliders push the sphere.
     Colliders,

@@ -190,10 +190,11 @@ impl Flights {
         rotation
     }
 
-    /// Changes the acceleration \[m/s²\] of a sphere that is a species of its own.
-    pub fn set_acceleration(&mut self, slot: u32, acceleration: DVec3) {
+    /// Changes the acceleration \[m/s²\] of a sphere that is a species of its own, and the work of its contacts.
+    pub fn set_acceleration(&mut self, slot: u32, acceleration: DVec3, contact_work: ContactWork) {
         let species = self.bodies[slot as usize].species;
-        self.species[species as usize].acceleration = acceleration;
+        let species = &mut self.species[species as usize];
+        (species.acceleration, species.contact_work) = (acceleration, contact_work);
     }
 
     /// Bounds of the flight of a sphere up to its `end` on the world's clock \[s\], or over its step if it is on a curve.
@@ -227,10 +228,12 @@ impl Flights {
         };
         match species.contact_work {
             ContactWork::None => {}
-            ContactWork::Friction { moment } => {
+            ContactWork::Friction { moment, collider_power } => {
                 let [before, after] = [from, time].map(|at| self.angular_velocity_of(slot, at));
                 let turning = 0.5 * moment * (after - before).dot(after + before);
-                self.contact_work.friction += along_way() + turning;
+                let by_colliders = (time - from) * collider_power;
+                self.contact_work.friction += along_way() + turning - by_colliders;
+                self.contact_work.colliders += by_colliders;
             }
             ContactWork::Colliders => self.contact_work.colliders += along_way(),
         }
@@ -319,7 +322,8 @@ impl Flights {
 
     /// Makes a cluster of free spheres from `time` \[s\] on.
     pub fn set_supported(&mut self, support: Support, time: f64) {
-        let Support { members, contacts, renewal, is_curved } = support;
+        let Support { members, contacts, renewal, is_curved, belt_work } = support;
+        self.contact_work.colliders += belt_work;
         let slots = members.iter().map(|member| member.slot).collect();
         let cluster = Cluster { members: slots, contacts, renewal, is_curved };
         let cluster = self.clusters.add(cluster);

@@ -55,14 +55,16 @@ pub(super) fn in_group(
     apply(context, &mut contacts, &mut group.members)
 }
 
-/// Applies friction to a sphere that gets an impulse \[N s\] along the normal of a surface at rest.
+/// Applies friction to a sphere that gets an impulse \[N s\] along the normal of a surface at rest, whose material
+/// has this velocity \[m/s\].
 pub(super) fn at_surface(
     context: &StepContext,
     member: &mut Member,
-    bodies: Bodies,
+    (bodies, surface_velocity): (Bodies, DVec3),
     along: (DVec3, f64),
 ) -> FrictionImpulses {
     let contact = contact_of(context, bodies, (None, 0), along);
+    let contact = FrictionContact { surface_velocity, ..contact };
     apply(context, &mut [contact], std::slice::from_mut(member))
 }
 
@@ -128,13 +130,13 @@ fn spinning(context: &StepContext, member: &Member) -> SpinningSphere {
     }
 }
 
-/// Velocity of a surface where it is touched \[m/s\]; zero for a sphere.
+/// Velocity of the material of a surface where it is touched \[m/s\]; zero for a sphere.
 pub(super) fn surface_velocity(touch: &Touch, members: &[Member]) -> DVec3 {
     match touch.bodies {
         Bodies::Pair(..) => DVec3::ZERO,
         Bodies::Surface { .. } => {
             let arm = members[touch.second].species.radius * touch.normal;
-            touch.surface_velocity - touch.surface_spin.cross(arm)
+            touch.with_belt(touch.surface_velocity - touch.surface_spin.cross(arm))
         }
     }
 }

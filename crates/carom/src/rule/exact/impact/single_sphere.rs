@@ -61,7 +61,7 @@ pub(crate) fn answer_single(
     }
     let sphere = member.index;
     if let Some(planar) = planar {
-        let PlanarSupport { valid_for, persists, .. } = planar;
+        let PlanarSupport { valid_for, persists, belt_work, .. } = planar;
         let lasting = corner.planes().zip(persists).filter(|it| it.1).map(|it| it.0.surface);
         let contacts: Vec<Bodies> =
             lasting.map(|surface| Bodies::Surface { sphere, surface }).collect();
@@ -71,10 +71,11 @@ pub(crate) fn answer_single(
         let support = if is_on_curve {
             let (rotation, contact_work) = (None, ContactWork::None);
             let members = vec![Supported { rotation, contact_work, ..supported }];
-            Support { members, contacts, renewal: f64::INFINITY, is_curved: true }
+            let renewal = f64::INFINITY;
+            Support { members, contacts, renewal, is_curved: true, belt_work }
         } else {
             let renewal = time + valid_for;
-            Support { members: vec![supported], contacts, renewal, is_curved: false }
+            Support { members: vec![supported], contacts, renewal, is_curved: false, belt_work }
         };
         timeline.set_supported(support, time);
     }
@@ -107,7 +108,7 @@ fn strike(
     let Member { slot, index, position, velocity: before, species, .. } = *member;
     let rounding = respond::rounding_of(before);
     let (mut impacts, mut struck) = ([None; MOST_TOUCHED], [None; MOST_TOUCHED]);
-    let (mut energy_demanded, mut kick_work) = (0.0, 0.0);
+    let (mut energy_demanded, mut kick_work, mut collider_work) = (0.0, 0.0, 0.0);
     let mut friction = FrictionImpulses::default();
     for (place, contact) in touched.contacts(position).into_iter().flatten().enumerate() {
         let approach_speed = -before.dot(contact.normal);
@@ -128,7 +129,11 @@ fn strike(
         energy_demanded -= 0.5 * (1.0 - restitution) * struck_back * approach_speed;
         let bodies = Bodies::Surface { sphere: index, surface: contact.surface };
         if timeline.has_friction() {
-            friction = friction::at_surface(context, member, bodies, (contact.normal, impulse));
+            let motion = &context.system.surfaces[contact.surface as usize].motion;
+            let belt = respond::belt_of(bodies, motion, contact.normal, context.system);
+            let along = (contact.normal, impulse);
+            friction = friction::at_surface(context, member, (bodies, belt), along);
+            collider_work += friction.total().dot(belt);
         }
         struck[place] = Some(contact.surface);
         impacts[place] = Some(Impact {
@@ -149,8 +154,9 @@ fn strike(
             account.momentum_after -= impact.impulse * impact.normal;
         }
         account.momentum_after -= friction.total();
-        account.energy_after -= kick_work;
-        let account = friction.add_to(ImpactGroup { energy_demanded, kick_work, ..account });
+        account.energy_after -= kick_work + collider_work;
+        let account = ImpactGroup { energy_demanded, kick_work, collider_work, ..account };
+        let account = friction.add_to(account);
         context.record(impacts.into_iter().flatten(), account);
     }
     struck

@@ -216,8 +216,10 @@ fn begin_under(
     };
     timeline.flights.count_contact_work(slot, start);
     timeline.flights.set_free_acceleration(slot, acceleration);
-    let PlanarSupport { velocity, acceleration, valid_for, persists, .. } = planar;
-    timeline.flights.set_acceleration(slot, acceleration);
+    let contact_work = planar.contact_work();
+    let PlanarSupport { velocity, acceleration, valid_for, persists, belt_work, .. } = planar;
+    timeline.flights.add_collider_work(belt_work);
+    timeline.flights.set_acceleration(slot, acceleration, contact_work);
     timeline.flights.rotate(slot, [planar.angular_velocity, planar.angular_acceleration], start);
     let cluster = timeline.flights.clusters.get_mut(cluster);
     cluster.renewal = start + valid_for;

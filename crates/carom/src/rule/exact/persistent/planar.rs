@@ -10,7 +10,7 @@ use crate::axis_motion::AxisMotion;
 use crate::detect::contact::Bodies;
 use crate::flight::Flight;
 use crate::norm::Norm;
-use crate::respond::{self, friction_of};
+use crate::respond::{self, belt_of, friction_of};
 use crate::rule::exact::contacts::{Corner, MOST_PLANES, Member, Plane};
 use crate::rule::exact::features::{beyond, time_on};
 use crate::rule::exact::flights::{ContactWork, Supported};
@@ -29,6 +29,10 @@ pub(crate) struct PlanarSupport {
     pub angular_acceleration: DVec3,
     /// Moment of inertia \[kg m²\].
     moment: f64,
+    /// Power of a belt on the sphere \[W\].
+    collider_power: f64,
+    /// Work of the belt at the start, where friction ends a slip at once \[J\].
+    pub belt_work: f64,
     /// How long that holds \[s\]; infinite if longer than the given duration.
     pub valid_for: f64,
     /// Which contacts persist, in the order of the planes; the others part.
@@ -39,8 +43,13 @@ impl PlanarSupport {
     /// The sphere at `slot` with this support.
     pub fn supported(&self, slot: u32) -> Supported {
         let rotation = Some([self.angular_velocity, self.angular_acceleration]);
-        let contact_work = ContactWork::Friction { moment: self.moment };
+        let contact_work = self.contact_work();
         Supported { slot, acceleration: self.acceleration, rotation, contact_work }
+    }
+
+    /// The work that the contacts do.
+    pub fn contact_work(&self) -> ContactWork {
+        ContactWork::Friction { moment: self.moment, collider_power: self.collider_power }
     }
 }
 
@@ -92,6 +101,8 @@ pub(crate) fn support(
         acceleration,
         angular_acceleration: DVec3::ZERO,
         moment: system.spheres.moment_of_inertia(member.index as usize),
+        collider_power: 0.0,
+        belt_work: 0.0,
         valid_for: f64::INFINITY,
         persists,
     };
@@ -114,8 +125,17 @@ impl PlanarSupport {
         if pressed.is_empty() {
             return Ok(());
         }
-        let rolling = rolling_on(&pressed, contact_duration)?;
-        let rolling = self.beside_planes(&pressed, rolling, corner, contact_duration);
+        let on_planes = rolling_on(&pressed, contact_duration)?;
+        let rolling = self.beside_planes(&pressed, on_planes, corner, contact_duration);
+        if let [sphere] = &pressed[..] {
+            let mass = member.species.mass;
+            self.collider_power = mass * (rolling.acceleration - sphere.pull).dot(sphere.belt);
+            let ended = on_planes.velocity - sphere.velocity;
+            // What another plane stops, friction stops of the turning.
+            let stopped = rolling.velocity - on_planes.velocity;
+            let by_belt = ended - sphere.inertia_factor * stopped;
+            self.belt_work = mass * by_belt.dot(sphere.belt);
+        }
         (self.velocity, self.angular_velocity) = (rolling.velocity, rolling.angular_velocity);
         self.acceleration = rolling.acceleration;
         self.angular_acceleration = rolling.angular_acceleration;
@@ -210,18 +230,20 @@ impl PlanarSupport {
         corner: &Corner,
     ) -> Vec<PressedSphere> {
         let Member { species, angular_velocity, index, .. } = *member;
-        let on = |plane: Plane| PressedSphere {
-            normal: plane.normal,
-            radius: species.radius,
-            inertia_factor: system.spheres.inertia_factor(index as usize),
-            velocity: self.velocity,
-            angular_velocity,
-            pressing: -species.acceleration.dot(plane.normal),
-            pull: self.acceleration,
-            friction: friction_of(
-                Bodies::Surface { sphere: index, surface: plane.surface },
-                system,
-            ),
+        let on = |plane: Plane| {
+            let bodies = Bodies::Surface { sphere: index, surface: plane.surface };
+            let motion = &system.surfaces[plane.surface as usize].motion;
+            PressedSphere {
+                normal: plane.normal,
+                belt: belt_of(bodies, motion, plane.normal, system),
+                radius: species.radius,
+                inertia_factor: system.spheres.inertia_factor(index as usize),
+                velocity: self.velocity,
+                angular_velocity,
+                pressing: -species.acceleration.dot(plane.normal),
+                pull: self.acceleration,
+                friction: friction_of(bodies, system),
+            }
         };
         let persisting = corner.planes().zip(self.persists).filter(|it| it.1).map(|it| on(it.0));
         let least = IDLE * species.acceleration.norm();

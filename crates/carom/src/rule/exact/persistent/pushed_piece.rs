@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::accelerations::Accelerations;
 use super::piece::{TURN, turning_time};
+use super::pushed_sphere::Response;
 use super::pushed_spheres::{Direction, Directions, Forces, PushedSpheres};
 use super::sliding::sliding_time;
 use crate::norm::Norm;
@@ -23,10 +24,22 @@ const PART_TO_END: f64 = 0.5;
 pub(super) struct PushedPiece {
     /// The spheres at the start of the piece.
     pub members: Vec<Member>,
-    /// Acceleration \[m/s²\] and angular acceleration \[rad/s²\] of each.
-    pub rates: Vec<[DVec3; 2]>,
+    pub rates: Vec<Rates>,
     /// How long that holds \[s\].
     pub valid_for: f64,
+    /// Work of belts at the start, where friction ends slips at once \[J\].
+    pub belt_work: f64,
+}
+
+/// Rates of change of the motion of a sphere.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Rates {
+    /// \[m/s²\]
+    pub acceleration: DVec3,
+    /// \[rad/s²\]
+    pub angular_acceleration: DVec3,
+    /// Power of belts on it \[W\].
+    pub collider_power: f64,
 }
 
 /// How long the direction of a velocity that friction opposes lasts.
@@ -65,8 +78,7 @@ impl PushedSpheres<'_> {
     /// are right to the third order. `None` where no forces hold the contacts.
     pub fn piece(mut self) -> Option<PushedPiece> {
         self.close_gaps();
-        self.end_slow_motion();
-        self.stop_along_normals();
+        let belt_work = self.end_slow_motion() + self.stop_along_normals();
         let mut directions = self.directions();
         let start = self.forces(&self.group.members, self.group.time, &directions, &self.known)?;
         if start.responses.iter().any(|response| response.normal_force < 0.0) {
@@ -78,13 +90,13 @@ impl PushedSpheres<'_> {
         let turns = self.turning_time(&start);
         let valid_for = ends.min(turns).max(self.least_duration());
         let rates = if turns == f64::INFINITY && lifetimes.are_straight() {
-            rates_of(&start)
+            self.rates_of(&start)
         } else {
             lifetimes.fix(&mut directions, &start, valid_for);
             self.mean_rates(&directions, &start, valid_for)?
         };
         let valid_for = valid_for.min(self.time_on_planes(&rates)).max(self.least_duration());
-        Some(PushedPiece { members: self.group.members, rates, valid_for })
+        Some(PushedPiece { members: self.group.members, rates, valid_for, belt_work })
     }
 
     /// Time \[s\] in which the normal of a contact turns by a thousandth.
@@ -100,8 +112,8 @@ impl PushedSpheres<'_> {
     }
 
     /// Time \[s\] until a sphere may reach the end of a face.
-    fn time_on_planes(&self, rates: &[[DVec3; 2]]) -> f64 {
-        let each = rates.iter().map(|rate| rate[0]).collect();
+    fn time_on_planes(&self, rates: &[Rates]) -> f64 {
+        let each = rates.iter().map(|rate| rate.acceleration).collect();
         let accelerations = Accelerations { each, largest: 0.0 };
         sliding_time(self.context, &self.group, &self.group.touches, &accelerations)
     }
@@ -128,7 +140,8 @@ impl PushedSpheres<'_> {
     ) -> SphereLifetimes {
         let members = &self.group.members;
         let (response, sphere) = (start.responses[place], start.spheres[place]);
-        let Member { velocity, angular_velocity, .. } = members[place];
+        let angular_velocity = members[place].angular_velocity;
+        let velocity = self.velocity_on_plane(place, &members[place]);
         let is = |direction: Direction| direction != Direction::None;
         let (slides, moves) = (is(directions.slides[place]), is(directions.moves[place]));
         let lifetime =
@@ -166,24 +179,22 @@ impl PushedSpheres<'_> {
 
     /// Mean accelerations \[m/s²\] and angular accelerations \[rad/s²\] over a piece of `h` \[s\], by the method
     /// of Runge and Kutta.
-    fn mean_rates(
-        &self,
-        directions: &Directions,
-        start: &Forces,
-        h: f64,
-    ) -> Option<Vec<[DVec3; 2]>> {
+    fn mean_rates(&self, directions: &Directions, start: &Forces, h: f64) -> Option<Vec<Rates>> {
         let mut forces = start.on_second.clone();
         let mut stage: Vec<[DVec3; 3]> = Vec::new();
-        let mut sum = vec![[DVec3::ZERO; 2]; self.group.members.len()];
+        let mut sum = vec![Rates::default(); self.group.members.len()];
         for (part, weight) in [(0.0, 1.0), (0.5, 2.0), (0.5, 2.0), (1.0, 1.0)] {
             let members = self.moved(&stage, part * h);
             let found = self.forces(&members, self.group.time + part * h, directions, &forces)?;
-            let rates = rates_of(&found);
-            for (sum, [acceleration, turning]) in sum.iter_mut().zip(&rates) {
-                sum[0] += weight / 6.0 * *acceleration;
-                sum[1] += weight / 6.0 * *turning;
+            let rates = self.rates_of(&found);
+            for (sum, rates) in sum.iter_mut().zip(&rates) {
+                sum.acceleration += weight / 6.0 * rates.acceleration;
+                sum.angular_acceleration += weight / 6.0 * rates.angular_acceleration;
+                sum.collider_power += weight / 6.0 * rates.collider_power;
             }
-            let of = |(member, [a, alpha]): (&Member, &[DVec3; 2])| [member.velocity, *a, *alpha];
+            let of = |(member, it): (&Member, &Rates)| {
+                [member.velocity, it.acceleration, it.angular_acceleration]
+            };
             stage = members.iter().zip(&rates).map(of).collect();
             forces = found.on_second;
         }
@@ -202,10 +213,15 @@ impl PushedSpheres<'_> {
         }
         members
     }
-}
 
-fn rates_of(forces: &Forces) -> Vec<[DVec3; 2]> {
-    forces.responses.iter().map(|it| [it.acceleration, it.angular_acceleration]).collect()
+    fn rates_of(&self, forces: &Forces) -> Vec<Rates> {
+        let of = |(place, response): (usize, &Response)| Rates {
+            acceleration: response.acceleration,
+            angular_acceleration: response.angular_acceleration,
+            collider_power: self.collider_power(place, forces),
+        };
+        forces.responses.iter().enumerate().map(of).collect()
+    }
 }
 
 struct SphereLifetimes {

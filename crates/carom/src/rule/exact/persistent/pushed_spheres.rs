@@ -145,9 +145,11 @@ impl<'a> PushedSpheres<'a> {
         self.group.touches[..self.pushing].copy_from_slice(&measured);
     }
 
-    /// Ends slips, speeds and spins on planes that friction would end within a contact's duration.
-    pub fn end_slow_motion(&mut self) {
+    /// Ends slips, speeds and spins on planes that friction would end within a contact's duration. Returns the work of
+    /// belts \[J\].
+    pub fn end_slow_motion(&mut self) -> f64 {
         let duration = self.least_duration();
+        let mut belt_work = 0.0;
         for place in 0..self.group.members.len() {
             let Some(plane) = self.planes[place] else { continue };
             let friction = self.friction_of(&plane);
@@ -155,7 +157,8 @@ impl<'a> PushedSpheres<'a> {
             let member = &mut self.group.members[place];
             let (normal, radius) = (plane.normal, member.species.radius);
             let pressing = (-member.species.acceleration.dot(normal)).max(0.0);
-            let mut velocity = plane.across(member.velocity);
+            // Relative to the material of the plane.
+            let mut velocity = plane.across(member.velocity) - plane.belt;
             let mut spin = member.angular_velocity.dot(normal);
             let mut across = plane.across(member.angular_velocity);
             let slip = velocity - radius * across.cross(normal);
@@ -169,12 +172,16 @@ impl<'a> PushedSpheres<'a> {
             if spin.abs() <= friction.spinning * pressing / (inertia_factor * radius) * duration {
                 spin = 0.0;
             }
-            (member.velocity, member.angular_velocity) = (velocity, across + spin * normal);
+            let before = plane.across(member.velocity);
+            member.velocity = plane.with_belt(velocity);
+            member.angular_velocity = across + spin * normal;
+            belt_work += member.species.mass * (member.velocity - before).dot(plane.belt);
         }
+        belt_work
     }
 
-    /// Sets the velocities along normals to zero; rolling spheres keep rolling.
-    pub fn stop_along_normals(&mut self) {
+    /// Sets the velocities along normals to zero; rolling spheres keep rolling. Returns the work of belts \[J\].
+    pub fn stop_along_normals(&mut self) -> f64 {
         let Directions { slides, .. } = self.directions();
         let members = &self.group.members;
         let speeds: Vec<f64> =
@@ -186,15 +193,20 @@ impl<'a> PushedSpheres<'a> {
         };
         let masses: Vec<f64> = members.iter().enumerate().map(mass).collect();
         let changes = least_change(self.context.work, &contacts, &masses, &speeds);
+        let mut belt_work = 0.0;
         for (place, change) in changes.into_iter().enumerate() {
             let change = self.along_plane(place, change);
             let plane = self.planes[place].filter(|_| slides[place] == Direction::None);
+            let inertia_factor = self.inertia_factor(place);
             let member = &mut self.group.members[place];
             member.velocity += change;
             if let Some(plane) = plane {
                 member.angular_velocity += plane.normal.cross(change) / member.species.radius;
+                // The impulse of friction that turns it.
+                belt_work -= inertia_factor * member.species.mass * change.dot(plane.belt);
             }
         }
+        belt_work
     }
 
     /// Directions of velocities that friction acts against, as they are now.
@@ -205,7 +217,7 @@ impl<'a> PushedSpheres<'a> {
             let loss = self.planes[place]
                 .map_or(0.0, |plane| speed_loss(self.friction_of(&plane), &plane, &members[place]));
             let least = loss * self.least_duration();
-            Direction::current_if(members[place].velocity.norm() > least)
+            Direction::current_if(self.velocity_on_plane(place, &members[place]).norm() > least)
         };
         let spin = |place: usize| {
             let spin = self.planes[place]
@@ -304,7 +316,7 @@ impl<'a> PushedSpheres<'a> {
     fn sphere(&self, place: usize, member: &Member, directions: &Directions) -> PushedSphere {
         let plane = &self.planes[place];
         let normal = plane.map_or(DVec3::ZERO, |plane| plane.normal);
-        let velocity = self.along_plane(place, member.velocity);
+        let velocity = self.velocity_on_plane(place, member);
         let turning = member.angular_velocity.cross(normal);
         PushedSphere {
             normal,
@@ -335,8 +347,23 @@ impl<'a> PushedSpheres<'a> {
 
     /// Velocity with which the surface of body 2 slides along that of body 1 \[m/s\].
     pub fn slip(&self, members: &[Member], touch: &Touch) -> DVec3 {
-        let relative = touch.across(touch.relative_velocity(members));
+        let relative = touch.across(touch.relative_velocity(members)) - touch.belt;
         relative - surface_turning(members, touch).cross(touch.normal)
+    }
+
+    /// Velocity of a sphere at a place along its plane, relative to the material of that \[m/s\].
+    pub fn velocity_on_plane(&self, place: usize, member: &Member) -> DVec3 {
+        let belt = self.planes[place].map_or(DVec3::ZERO, |plane| plane.belt);
+        self.along_plane(place, member.velocity) - belt
+    }
+
+    /// Power of belts on the sphere at a place \[W\].
+    pub fn collider_power(&self, place: usize, forces: &Forces) -> f64 {
+        let pushing = self.pushing().iter().zip(&forces.on_second);
+        let pushed = pushing.filter(|(touch, _)| touch.second == place);
+        let by_pushing: f64 = pushed.map(|(touch, force)| force.dot(touch.belt)).sum();
+        let friction = forces.responses[place].friction;
+        by_pushing + self.planes[place].map_or(0.0, |plane| friction.dot(plane.belt))
     }
 
     pub fn friction_of(&self, touch: &Touch) -> ContactFriction {

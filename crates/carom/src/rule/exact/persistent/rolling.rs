@@ -11,11 +11,13 @@ use crate::norm::Norm;
 /// Directions count as one if the sine of the angle between them is smaller: rounding.
 const SAME_DIRECTION: f64 = 1e-13;
 
-/// A sphere on a plane at rest.
+/// A sphere on a plane in a place at rest.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PressedSphere {
     /// Unit normal out of the plane.
     pub normal: DVec3,
+    /// Velocity of the material of the plane, along it \[m/s\].
+    pub belt: DVec3,
     /// Radius \[m\].
     pub radius: f64,
     /// Moment of inertia divided by m r².
@@ -61,7 +63,19 @@ impl Rolling {
     }
 }
 
-/// The motion of a sphere on a plane: it slides while its surface moves along the plane, else it rolls or rests. A
+/// The motion of a sphere on a plane, whose material may move along it: that on a plane at rest, seen from the
+/// material.
+pub(super) fn on_plane(sphere: &PressedSphere, contact_duration: f64) -> Rolling {
+    let belt = sphere.belt;
+    if belt == DVec3::ZERO {
+        return on_plane_at_rest(sphere, contact_duration);
+    }
+    let beside = PressedSphere { velocity: sphere.velocity - belt, belt: DVec3::ZERO, ..*sphere };
+    let rolling = on_plane_at_rest(&beside, contact_duration);
+    Rolling { velocity: rolling.velocity + belt, ..rolling }
+}
+
+/// The motion of a sphere on a plane at rest: it slides while its surface moves along the plane, else it rolls or rests. A
 /// slip or spin that friction would end within a contact's duration \[s\] has ended.
 ///
 /// With n the normal, g what presses, p the pull, k the inertia factor:
@@ -72,7 +86,7 @@ impl Rolling {
 ///
 /// Source: Coulomb's law and the torques `mu_r r N`, `mu_s r N`; derived in
 /// `docs/physics/persistent-contacts.md`, "Friction".
-pub(super) fn on_plane(sphere: &PressedSphere, contact_duration: f64) -> Rolling {
+fn on_plane_at_rest(sphere: &PressedSphere, contact_duration: f64) -> Rolling {
     let PressedSphere { normal, radius, inertia_factor, pressing, .. } = *sphere;
     let rolling = if sphere.slides(contact_duration) {
         sphere.sliding(contact_duration)
@@ -94,15 +108,16 @@ pub(super) fn on_plane(sphere: &PressedSphere, contact_duration: f64) -> Rolling
 }
 
 impl PressedSphere {
-    /// Whether the sphere does not move and no force acts along the plane.
+    /// Whether neither the sphere nor the material of the plane moves, and no force acts along the plane.
     pub fn is_at_rest(&self) -> bool {
-        [self.velocity, self.angular_velocity, self.pull] == [DVec3::ZERO; 3]
+        [self.velocity, self.angular_velocity, self.pull, self.belt] == [DVec3::ZERO; 4]
     }
 
     /// The sphere when it rolls with a velocity \[m/s\] and spins as before.
     pub fn rolling_with(&self, velocity: DVec3) -> Self {
         let spin = self.angular_velocity.dot(self.normal) * self.normal;
-        Self { velocity, angular_velocity: self.turning_with(velocity) + spin, ..*self }
+        let turning = self.turning_with(velocity - self.belt);
+        Self { velocity, angular_velocity: turning + spin, ..*self }
     }
 
     /// Velocity with which its surface slides along the plane \[m/s\].

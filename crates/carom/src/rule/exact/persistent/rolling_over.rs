@@ -31,7 +31,7 @@ pub(super) struct RollingOver {
 /// much as on the true path; its places are right to the third order.
 ///
 /// # Errors
-/// [`NoClosedForm`] under drag, and where the surface moves.
+/// [`NoClosedForm`] under drag, and where the surface or its material moves.
 pub(super) fn roll_over(
     context: &StepContext,
     member: &Member,
@@ -39,7 +39,8 @@ pub(super) fn roll_over(
     friction: ContactFriction,
     time: f64,
 ) -> Result<RollingOver, NoClosedForm> {
-    if member.species.drag_rate > 0.0 || touch.does_work() {
+    let moves = touch.does_work() || touch.belt != DVec3::ZERO;
+    if member.species.drag_rate > 0.0 || moves {
         return Err(NoClosedForm);
     }
     let inertia_factor = context.system.spheres.inertia_factor(member.index as usize);
@@ -114,6 +115,7 @@ impl CurvedContact<'_> {
         let spin = species.radius * angular_velocity.dot(normal);
         PressedSphere {
             normal,
+            belt: DVec3::ZERO,
             radius: species.radius,
             inertia_factor: self.inertia_factor,
             velocity: touch.across(velocity),

@@ -203,7 +203,13 @@ fn connected(
     let mut of = |supports: &mut BTreeMap<usize, Support>, place: usize| {
         let is_curved = renewal.is_none();
         let renewal = renewal.unwrap_or(f64::INFINITY);
-        let empty = || Support { members: Vec::new(), contacts: Vec::new(), renewal, is_curved };
+        let empty = || Support {
+            members: Vec::new(),
+            contacts: Vec::new(),
+            renewal,
+            is_curved,
+            belt_work: 0.0,
+        };
         let root = connected.root_of(place);
         supports.entry(root).or_insert_with(empty);
         root

@@ -7,7 +7,7 @@ use super::NoClosedForm;
 use super::accelerations::{Accelerations, IDLE};
 use super::on_curves::SAME_NORMAL;
 use super::planar::{self, PlanarSupport};
-use super::pushed_piece::PushedPiece;
+use super::pushed_piece::{PushedPiece, Rates};
 use super::pushed_spheres::PushedSpheres;
 use super::rolling_over;
 use crate::detect::contact::Bodies;
@@ -202,18 +202,20 @@ fn support_pushed(group: &mut Group, pushed: PushedSpheres) -> Result<Support, N
     let mut contacts: Vec<Bodies> = pushed.group.touches.iter().map(|touch| touch.bodies).collect();
     contacts.sort_unstable();
     let spheres = pushed.context.system.spheres;
-    let PushedPiece { members, rates, valid_for } = pushed.piece().ok_or(NoClosedForm)?;
+    let PushedPiece { members, rates, valid_for, belt_work } =
+        pushed.piece().ok_or(NoClosedForm)?;
     for member in &members {
         if let Some(place) = group.place_of(member.index) {
             group.members[place] = *member;
         }
     }
-    let supported = |(member, [acceleration, turning]): (&Member, [DVec3; 2])| Supported {
+    let supported = |(member, rates): (&Member, Rates)| Supported {
         slot: member.slot,
-        acceleration,
-        rotation: Some([member.angular_velocity, turning]),
+        acceleration: rates.acceleration,
+        rotation: Some([member.angular_velocity, rates.angular_acceleration]),
         contact_work: ContactWork::Friction {
             moment: spheres.moment_of_inertia(member.index as usize),
+            collider_power: rates.collider_power,
         },
     };
     Ok(Support {
@@ -221,6 +223,7 @@ fn support_pushed(group: &mut Group, pushed: PushedSpheres) -> Result<Support, N
         contacts,
         renewal: group.time + valid_for,
         is_curved: false,
+        belt_work,
     })
 }
 
@@ -236,7 +239,7 @@ fn on_planes(
     let supported =
         planar::support(context.system, member, corner, contact_duration, f64::INFINITY)?;
     let Some(planar) = supported else { return Ok(None) };
-    let PlanarSupport { velocity, angular_velocity, valid_for, persists, .. } = planar;
+    let PlanarSupport { velocity, angular_velocity, valid_for, persists, belt_work, .. } = planar;
     let lasting = corner.planes().zip(persists).filter(|it| it.1).map(|it| it.0.surface);
     let bodies = |surface: u32| Bodies::Surface { sphere: member.index, surface };
     let support = Support {
@@ -244,6 +247,7 @@ fn on_planes(
         contacts: lasting.map(bodies).collect(),
         renewal: group.time + valid_for,
         is_curved: false,
+        belt_work,
     };
     (member.velocity, member.angular_velocity) = (velocity, angular_velocity);
     Ok(Some(support))
@@ -291,11 +295,12 @@ fn over_curve(
             slot: member.slot,
             acceleration: piece.acceleration,
             rotation: Some([member.angular_velocity, piece.angular_acceleration]),
-            contact_work: ContactWork::Friction { moment },
+            contact_work: ContactWork::Friction { moment, collider_power: 0.0 },
         }],
         contacts: own.iter().map(|touch| touch.bodies).collect(),
         renewal: group.time + piece.valid_for,
         is_curved: false,
+        belt_work: 0.0,
     })
 }
 
