@@ -4,7 +4,7 @@
 /** Time between two updates from the interface [ms]. */
 const PAUSE = 250;
 
-/** Shortest time between two impacts that are told [ms]: a sentence is read aloud to its end. */
+/** Shortest time between two impacts that are announced [ms]: a sentence is read aloud to its end. */
 const SENTENCE = 3000;
 
 /**

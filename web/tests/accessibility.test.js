@@ -145,7 +145,7 @@ test("the focus stays in the list where the control that has it goes away", asyn
   await viewer.close();
 });
 
-test("what hits what is told while a scene plays, one sentence at a time", async () => {
+test("what hits what is announced while a scene plays, one sentence at a time", async () => {
   const viewer = await mirrored("#scene=cradle");
   const { page } = viewer;
   const told = () => page.textContent("#impacts");
