@@ -13,6 +13,7 @@ from __future__ import annotations
 import argparse
 import cProfile
 import time
+from collections.abc import Callable
 from typing import Any
 
 import gymnasium
@@ -35,15 +36,18 @@ def rate(name: str, num_envs: int, seconds: float, given: dict[str, Any]) -> tup
     actions = random.uniform(-1, 1, (64, num_envs, 2)).astype(np.float32)
     envs.step(actions[0])
     rates, inside, whole = [], 0.0, 0.0
-    step = envs.batch.step
 
-    def timed(**given: Any) -> None:
-        nonlocal inside
-        began = time.process_time()
-        step(**given)
-        inside += time.process_time() - began
+    def timed(call: Callable[..., None]) -> Callable[..., None]:
+        def timed_call(*unnamed: Any, **given: Any) -> None:
+            nonlocal inside
+            began = time.process_time()
+            call(*unnamed, **given)
+            inside += time.process_time() - began
 
-    envs.batch.__dict__["step"] = timed
+        return timed_call
+
+    for name_of_call in ("step", "step_to_pose"):
+        envs.batch.__dict__[name_of_call] = timed(getattr(envs.batch, name_of_call))
     for _ in range(ROUNDS):
         steps, began = 0, time.process_time()
         while (took := time.process_time() - began) < seconds / ROUNDS:
