@@ -17,19 +17,33 @@ from typing import Any
 MAZE = "carom/Maze-v0"
 """The name under which Gymnasium knows the maze."""
 
+PLATE = "carom/Plate-v0"
+"""The name of the tilting plate."""
+
+BILLIARDS = "carom/Billiards-v0"
+"""The name of the billiard table."""
+
 _GYMNASIUM = "gymnasium"
+
+# The classes of one and of many, and steps after which an episode is truncated: 40 s, 20 s, 50
+# shots.
+_ENVIRONMENTS = {
+    MAZE: ("MazeEnv", "MazeVectorEnv", 2000),
+    PLATE: ("PlateEnv", "PlateVectorEnv", 1200),
+    BILLIARDS: ("BilliardsEnv", "BilliardsVectorEnv", 50),
+}
 
 
 def register_environments(gymnasium: Any) -> None:
     """Registers the environments; `carom.gym` is imported when the first of them is made."""
-    if MAZE not in gymnasium.registry:
-        gymnasium.register(
-            id=MAZE,
-            entry_point="carom.gym:MazeEnv",
-            vector_entry_point="carom.gym:MazeVectorEnv",
-            # 40 s.
-            max_episode_steps=2000,
-        )
+    for name, (one, many, most_steps) in _ENVIRONMENTS.items():
+        if name not in gymnasium.registry:
+            gymnasium.register(
+                id=name,
+                entry_point=f"carom.gym:{one}",
+                vector_entry_point=f"carom.gym:{many}",
+                max_episode_steps=most_steps,
+            )
 
 
 def register_with_gymnasium() -> None:

@@ -1,6 +1,6 @@
 //! Reads single arguments from Python; every error names its argument.
 
-use numpy::{PyArrayDyn, PyArrayMethods};
+use numpy::{PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyException, PyOverflowError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyTuple};
@@ -14,6 +14,14 @@ use crate::failure::Failure;
 /// `TypeError` if they are no numbers, [`Failure`] for another shape; both name the argument
 /// `name`.
 pub fn array(name: &str, values: &Bound<'_, PyAny>, shape: &[usize]) -> PyResult<Vec<f64>> {
+    // What programs pass in each step needs no conversion.
+    if let Ok(array) = values.cast::<PyArrayDyn<f64>>()
+        && array.shape() == shape
+        && let Ok(array) = array.try_readonly()
+        && let Ok(numbers) = array.as_slice()
+    {
+        return Ok(numbers.to_vec());
+    }
     let numpy = values.py().import("numpy")?;
     let no_numbers = |what: &str| {
         let message = format!("{name}: must be an array of numbers, not {what}");

@@ -319,7 +319,11 @@ fn spheres_of(part: &Scene) -> Result<Vec<Sphere>, Failure> {
     Ok((0..spheres.len()).map(|index| spheres.get(index)).collect())
 }
 
-fn collider_of(part: &Scene) -> Result<Collider, Failure> {
+/// Returns the only collider of a part.
+///
+/// # Errors
+/// [`Failure`] for an invalid one, or another number of them.
+pub fn collider_of(part: &Scene) -> Result<Collider, Failure> {
     let world = part.world()?;
     let colliders: Vec<Collider> =
         world.colliders().map(|(_, collider)| collider.clone()).collect();
@@ -341,7 +345,10 @@ fn find_force(world: &World, number: u64) -> Result<(ForceId, usize), Failure> {
 }
 
 /// Returns the id of the collider with this number, and its position in the description.
-fn find_collider(world: &World, number: u64) -> Result<(ColliderId, usize), Failure> {
+///
+/// # Errors
+/// [`Failure`] if there is none.
+pub fn find_collider(world: &World, number: u64) -> Result<(ColliderId, usize), Failure> {
     let place = world.colliders().position(|(id, _)| id.number() == number);
     let found = place.map(|place| (ColliderId::from_number(number), place));
     found.ok_or_else(|| Failure::unknown("collider", number))

@@ -74,6 +74,11 @@ impl Failure {
         }
     }
 
+    /// Returns this failure of a world of a batch, by its index.
+    pub fn in_world(self, index: usize) -> Self {
+        Self { message: format!("world {index}: {}", self.message), ..self }
+    }
+
     /// Returns a failure about a number that is unknown; `kind` is what it should identify.
     pub fn unknown(kind: &str, number: impl std::fmt::Display) -> Self {
         // The text of `carom::Error::Unknown`.

@@ -69,12 +69,29 @@ impl Motion {
 }
 
 impl Collider {
-    /// Returns the description of the collider in the pose that it has in a world now; of one with a motion, in the pose
-    /// at rest.
+    /// Returns the description of the collider as it is in a world now, but for its motion: of one with a motion, in the
+    /// pose at rest.
     pub fn now(&self, collider: &carom::Collider) -> Self {
         let Pose { position, rotation } = collider.motion.rest().unwrap_or(collider.pose);
         let (position, rotation) = (position.to_array(), rotation.to_array());
-        Self { position, rotation, ..self.clone() }
+        let friction = collider.friction;
+        let now = Self {
+            position,
+            rotation,
+            restitution: collider.restitution,
+            friction: friction.sliding,
+            rolling_friction: friction.rolling,
+            spinning_friction: friction.spinning,
+            tangential_restitution: friction.tangential_restitution,
+            ..self.clone()
+        };
+        if !collider.motion.is_empty() {
+            return now;
+        }
+        // The motion sets the velocities of others.
+        let velocity = collider.velocity.to_array();
+        let angular_velocity = collider.angular_velocity.to_array();
+        Self { velocity, angular_velocity, ..now }
     }
 
     /// Returns the same description for a scene that begins at `time` \[s\] of this one.

@@ -4,8 +4,9 @@
 mod common;
 
 use carom::{
-    BodyPair, Collider, CombineRule, Contact, DVec3, Exact, Friction, Gravity, MaterialPair, Pose,
-    RestitutionLaw, Rule, Settings, Shape, Sides, Sphere, SphereTangent, Tape, World,
+    BodyPair, Collider, CombineRule, Contact, DVec3, Exact, Friction, Gravity, ImpactLaw,
+    MaterialPair, Pose, RestitutionLaw, Rule, Settings, Shape, Sides, Sphere, SphereTangent, Tape,
+    World,
 };
 use common::{G, Numbers, account_of_run, bisect, discrete, exact, run, vec, world};
 
@@ -121,6 +122,29 @@ fn impacts_have_the_restitution_at_their_own_speed_under_every_rule() {
                     }
                 }
             }
+        }
+    }
+}
+
+#[test]
+fn in_a_group_a_contact_that_does_not_close_takes_the_speed_of_the_fastest() {
+    // One ball hits two that touch, at rest: as balls whose coefficient is that at its speed, under each impact law.
+    let run = |law: ImpactLaw, inelastic: &dyn Fn(Sphere) -> Sphere| {
+        let settings = Settings::default().with_rule(Exact::default().with_impact_law(law));
+        let settings = settings.with_combine_rule(CombineRule::Minimum);
+        let mut world = World::new(settings).unwrap();
+        for (x, speed) in [(-1.5, 2.0), (0.0, 0.0), (1.0, 0.0)] {
+            let ball = Sphere::new(vec(x, 0.0, 0.0), 0.5).with_velocity(vec(speed, 0.0, 0.0));
+            world.add_sphere(inelastic(ball)).unwrap();
+        }
+        world.step(0.3).unwrap();
+        world.spheres().velocities().to_vec()
+    };
+    for law in [ImpactLaw::Sequential, ImpactLaw::Simultaneous, ImpactLaw::Reflection] {
+        for by_speed in LAWS {
+            let found = run(law, &|ball| ball.with_restitution_law(by_speed));
+            let expected = run(law, &|ball| ball.with_restitution(by_speed.at(2.0)));
+            assert_eq!(found, expected, "{law:?} {by_speed:?}");
         }
     }
 }

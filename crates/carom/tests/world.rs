@@ -3,8 +3,8 @@
 mod common;
 
 use carom::{
-    Bisect, Collider, DQuat, DVec3, Emitter, Error, Force, Gravity, Pose, Rule, Settings, Shape,
-    Sphere, SphereState, ViscousDrag, World,
+    Bisect, Collider, Contact, DQuat, DVec3, Emitter, Error, Force, Gravity, Pose, Rule, Settings,
+    Shape, Sphere, SphereState, ViscousDrag, World,
 };
 use common::{Numbers, bisect, bisect_all, discrete, vec, world};
 
@@ -41,6 +41,53 @@ fn run(world: &mut World, frames: usize) -> u64 {
 }
 
 const RULES: [fn() -> Rule; 4] = [discrete, bisect, bisect_all, Rule::default];
+
+#[test]
+fn worlds_that_use_one_working_memory_have_the_bits_of_worlds_with_their_own() {
+    let rules: [fn() -> Rule; 4] = [discrete, bisect, Rule::default, || Contact::default().into()];
+    for rule in rules {
+        let mut own = [0, 25].map(|frames| {
+            let mut world = busy_world(rule());
+            run(&mut world, frames);
+            world
+        });
+        let mut shared = own.clone();
+        let mut spare = World::default();
+        for _ in 0..30 {
+            for (own, shared) in own.iter_mut().zip(&mut shared) {
+                own.step(1.0 / 120.0).unwrap();
+                shared.swap_memory(&mut spare);
+                shared.step(1.0 / 120.0).unwrap();
+                shared.swap_memory(&mut spare);
+                assert_eq!(own.state_hash(), shared.state_hash());
+                assert_eq!(own.report(), shared.report());
+            }
+        }
+    }
+}
+
+#[test]
+fn a_change_of_a_collider_that_passes_the_check_is_one_that_the_world_takes() {
+    let mut world = World::default();
+    let plate = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO));
+    let id = world.add_collider(plate.clone()).unwrap();
+    let next = Pose::at(DVec3::Y);
+    let moving = world.moving_to(id, next, 0.5).unwrap();
+    assert_eq!(moving.velocity, 2.0 * DVec3::Y);
+    for changed in [
+        moving,
+        plate.clone().with_restitution(1.5),
+        plate.clone().with_friction(-0.1),
+        plate.clone().moving(DVec3::NAN, DVec3::ZERO),
+        plate.clone().with_pose(Pose::at(DVec3::INFINITY)),
+    ] {
+        let checked = world.check_collider(id, &changed);
+        assert_eq!(checked, world.set_collider(id, changed));
+    }
+    assert!(world.moving_to(id, Pose::at(DVec3::NAN), 0.5).is_err());
+    world.remove_collider(id).unwrap();
+    assert!(world.check_collider(id, &plate).is_err());
+}
 
 #[test]
 fn a_restored_snapshot_repeats_a_hundred_frames_bit_for_bit() {

@@ -11,11 +11,19 @@ from numpy.typing import ArrayLike, NDArray
 
 from carom._carom import BatchEngine, Snapshot
 from carom._run import tables
+from carom._run.batch_actions import (
+    DEFAULT_QUANTITIES,
+    Actions,
+    Observation,
+    raise_refused,
+)
+from carom._run.batch_run import BatchRun, stacked
+from carom._run.recording import check_choice, check_rhythm
 from carom._run.strict import Strict
 from carom._run.world import World
 from carom._scene.library import load
 from carom._scene.scene import Scene
-from carom.errors import CaromError, StepError
+from carom.errors import CaromError
 
 
 def _restored(
@@ -33,7 +41,7 @@ def _restored(
     return batch
 
 
-class Batch(Strict, BatchEngine):
+class Batch(Strict, Actions):
     """Worlds that step together, on all cores.
 
     Each world is, to the bit, what it would be alone, however many there are and on however many
@@ -103,27 +111,29 @@ class Batch(Strict, BatchEngine):
         told = f"{most} spheres each" if least == most else f"{least} to {most} spheres each"
         return f"<carom.Batch of {len(self)} worlds, {told}>"
 
-    def step(self, *, dt: float | None = None, frames: int = 1) -> None:
-        """Advances every world by ``frames`` frames of ``dt`` [s], or of its scene's own length.
+    def step(
+        self,
+        *,
+        dt: float | None = None,
+        frames: int = 1,
+        worlds: ArrayLike | None = None,
+        out: Observation | None = None,
+        quantities: Sequence[str] = DEFAULT_QUANTITIES,
+    ) -> None:
+        """Advances worlds by ``frames`` frames of ``dt`` [s], or of the scene's own length.
 
-        Other threads run meanwhile. Ctrl-C stops within a tenth of a second; each world is then at
-        the end of one of its frames, some further on than others.
+        All of them, or those with these numbers or truth values. Other threads run meanwhile.
+        Ctrl-C stops within a tenth of a second; each world is then at the end of one of its frames,
+        some further on than others. Into ``out`` goes what `observe` writes of ``quantities``.
 
         Raises:
-            CaromError: If ``dt`` is not positive and finite. No world was moved.
+            CaromError: If ``dt`` is not positive and finite, or for a number that names no world.
+                No world was moved.
             StepError: If worlds refuse a frame; ``worlds`` of the exception has their numbers. Each
                 of them stays as it was before that frame, the others have gone on.
         """
-        refused = self._step(dt, frames)
-        if not refused:
-            return
-        number, error = refused[0]
-        if not isinstance(error, StepError):
-            raise error
-        others = f" (and {len(refused) - 1} others)" if len(refused) > 1 else ""
-        failure = StepError(f"world {number}{others}: {error}")
-        failure.worlds = [number for number, _ in refused]
-        raise failure from None
+        observed = None if out is None else (list(quantities), out)
+        raise_refused(self._step(dt, frames, self._numbers(worlds), None, observed))
 
     def reset(self, worlds: ArrayLike | None = None) -> None:
         """Returns worlds to their initial states, in microseconds each.
@@ -134,7 +144,56 @@ class Batch(Strict, BatchEngine):
         Raises:
             CaromError: For numbers that name no world.
         """
-        self._reset(None if worlds is None else self._numbers(worlds))
+        self._reset(self._numbers(worlds))
+
+    def run(
+        self,
+        frames: int,
+        *,
+        dt: float | None = None,
+        every: int = 1,
+        quantities: Sequence[str] = DEFAULT_QUANTITIES,
+        impacts: bool = True,
+    ) -> BatchRun:
+        """Takes frames in every world, and records them.
+
+        Args:
+            frames: How many.
+            dt: Length of a frame [s]; that of the scene unless given.
+            every: The present state and that after every so many frames are recorded.
+            quantities: Names of the arrays that are recorded.
+            impacts: Whether impacts are recorded. Without them there is one call of the engine for
+                each recorded state, not for each frame.
+
+        Raises:
+            CaromError: For a value that makes no sense.
+            StepError: If worlds refuse a frame: see `step`.
+        """
+        number, rhythm = check_rhythm(frames, every)
+        has_impacts = check_choice("impacts", impacts)
+        times, states, met = [self.times], [self._state(quantities)], [self.impacts[:0]]
+        for _ in range(number // rhythm):
+            for _ in range(rhythm if has_impacts else 1):
+                self.step(dt=dt, frames=1 if has_impacts else rhythm)
+                if has_impacts:
+                    met.append(self.impacts)
+            times.append(self.times)
+            states.append(self._state(quantities))
+        for _ in range(number % rhythm):
+            self.step(dt=dt)
+            if has_impacts:
+                met.append(self.impacts)
+        recorded = {name: stacked([state[name] for state in states]) for name in quantities}
+        return BatchRun(np.array(times), recorded, np.concatenate(met) if has_impacts else None)
+
+    def _state(self, quantities: Sequence[str]) -> dict[str, NDArray[np.float64]]:
+        """Copies of arrays of all worlds, by name, (n, spheres, width)."""
+        state = {}
+        for name in quantities:
+            rows = np.empty((len(self), self._observation_length([name])))
+            self._observe([name], rows)
+            state[name] = rows.reshape(len(self), int(self.counts.max()), _width(name))
+        return state
 
     def world(self, index: int) -> World:
         """A copy of one world, which goes on as that one does, bit for bit."""
@@ -184,22 +243,13 @@ class Batch(Strict, BatchEngine):
             raise CaromError(f"index: must be in [{-count}, {count}), not {number}", "index")
         return number % count
 
-    def _numbers(self, worlds: ArrayLike) -> list[int]:
-        given = np.asarray(worlds)
-        if given.dtype == bool:
-            if given.shape != (len(self),):
-                raise CaromError(
-                    f"worlds: must be {len(self)} truth values, not of shape {given.shape}",
-                    "worlds",
-                )
-            return [int(number) for number in np.flatnonzero(given)]
-        if given.size and given.dtype.kind not in "iu":
-            raise TypeError(f"worlds: must be whole numbers or truth values, not {given.dtype}")
-        numbers = [int(number) for number in given.reshape(-1)]
-        for number in numbers:
-            if not 0 <= number < len(self):
-                raise CaromError(f"worlds: must be below {len(self)}, not {number}", "worlds")
-        return numbers
+
+def _width(quantity: str) -> int:
+    """How many numbers each sphere has of a quantity."""
+    if quantity == "orientations":
+        return 4
+    vectors = ("positions", "velocities", "angular_velocities", "applied_forces")
+    return 3 if quantity in vectors else 1
 
 
 def _scenes(

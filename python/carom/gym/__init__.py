@@ -1,4 +1,4 @@
-"""Environments of Gymnasium: mazes to be learned.
+"""Environments of Gymnasium: a maze, a plate that balances a ball, a billiard table.
 
 To import `carom` and Gymnasium, in either order, registers them, and to import this module does;
 ``pip install 'carom[gym]'`` brings Gymnasium.
@@ -13,6 +13,9 @@ To import `carom` and Gymnasium, in either order, registers them, and to import 
 >>> observations, infos = envs.reset(seed=1)
 >>> observations.shape
 (64, 10)
+>>> plates = gymnasium.make_vec("carom/Plate-v0", num_envs=8, max_episode_steps=300)
+>>> plates.reset(seed=1)[0].shape
+(8, 6)
 """
 
 try:
@@ -22,11 +25,26 @@ except ModuleNotFoundError as error:
         "carom.gym needs Gymnasium: pip install 'carom[gym]'", name=error.name
     ) from error
 
-from carom._gymnasium import MAZE, register_environments
+from carom._gymnasium import BILLIARDS, MAZE, PLATE, register_environments
 from carom.gym._arguments import MazeArguments
+from carom.gym._billiards import BilliardsArguments, BilliardsEnv, BilliardsVectorEnv
 from carom.gym._maze import MazeEnv
 from carom.gym._maze_vector import MazeVectorEnv
+from carom.gym._plate import PlateArguments, PlateEnv, PlateVectorEnv
 
-__all__ = ["MAZE", "MazeArguments", "MazeEnv", "MazeVectorEnv"]
+__all__ = [
+    "BILLIARDS",
+    "MAZE",
+    "PLATE",
+    "BilliardsArguments",
+    "BilliardsEnv",
+    "BilliardsVectorEnv",
+    "MazeArguments",
+    "MazeEnv",
+    "MazeVectorEnv",
+    "PlateArguments",
+    "PlateEnv",
+    "PlateVectorEnv",
+]
 
 register_environments(gymnasium)

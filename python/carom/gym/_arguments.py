@@ -141,3 +141,17 @@ def chosen_start(options: dict[str, Any] | None) -> str | None:
         if name not in ("start", "reset_mask"):
             raise CaromError(f"options: there is no {name}, but start", "options")
     return (options or {}).get("start")
+
+
+def in_range(name: str, value: float, low: float, high: float) -> float:
+    """A number within bounds.
+
+    Raises:
+        CaromError: For another one.
+        TypeError: For no number.
+    """
+    if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
+        raise TypeError(f"{name}: must be a number, not {type(value).__name__}")
+    if not low <= value <= high:
+        raise CaromError(f"{name}: must be in [{low:g}, {high:g}], not {value}", name)
+    return value

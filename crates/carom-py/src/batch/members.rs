@@ -3,10 +3,15 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use carom::{StepReport, World};
+use carom::{Collider, ColliderId, DVec3, SphereId, StepReport, StopRequest, World};
+use carom_scene::scene::Motion;
 use rayon::prelude::*;
 
+use super::next_poses::NextPoses;
+use super::observed::{Columns, Row};
+use super::stroke::Stroke;
 use crate::arrays::Arrays;
+use crate::editing;
 use crate::engine::Inner;
 use crate::failure::Failure;
 use crate::quantity::Quantity;
@@ -25,13 +30,36 @@ pub struct Members {
     members: Vec<Member>,
     /// `None` if one thread does everything.
     pool: Option<Pool>,
+    memory: Memory,
 }
 
+/// Working memory of worlds that step one after the other.
+#[derive(Debug, Default)]
+struct Memory {
+    /// Has the memory of steps.
+    spare: World,
+    values: Vec<f64>,
+}
+
+/// What all worlds are to do in a step.
+struct Orders<'a> {
+    /// \[s\]; `None` for each world's own frame time.
+    dt: Option<f64>,
+    poses: Option<&'a NextPoses>,
+    request: StopRequest,
+    watch: &'a Watch,
+}
+
+/// A world, its frames and the place of its observation.
+type Task<'a, 'b> = (&'a mut Member, (&'a mut Progress, &'a mut Row<'b>));
+
 /// Remaining work of a world.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Progress {
     /// Number of frames.
     pub left: u64,
+    /// The row of the world in what is given for each world that steps.
+    pub row: usize,
     /// Error of the frame that the world refused; then no frames remain.
     pub refused: Option<Failure>,
 }
@@ -47,6 +75,8 @@ impl Progress {
 struct Member {
     now: Inner,
     start: Arc<Snapshot>,
+    /// Number of impacts in the last step.
+    impacts: u64,
 }
 
 impl Members {
@@ -66,7 +96,7 @@ impl Members {
         starts.try_reserve_exact(count).map_err(no_room)?;
         starts.resize(count, last);
         members.extend(starts.into_iter().map(Member::new));
-        Ok(Self { members, pool })
+        Ok(Self { members, pool, memory: Memory::default() })
     }
 
     pub fn len(&self) -> usize {
@@ -98,44 +128,52 @@ impl Members {
         [vec![self.len()], quantity.shape(self.most_spheres())].concat()
     }
 
-    /// Takes frames of `dt` \[s\], or of each world's own frame time, in every world. A world that
-    /// refuses a frame keeps its state before that frame. An exception in a signal handler stops
-    /// all worlds.
-    pub fn step(&mut self, dt: Option<f64>, progress: &mut [Progress]) {
+    /// Takes the frames of `progress`, of `dt` \[s\] or of each world's own frame time. The first one takes a collider to
+    /// `poses`. Then writes observations into rows. A world that refuses a frame keeps its state before that frame. An
+    /// exception in a signal handler stops all worlds.
+    pub fn step(
+        &mut self,
+        (dt, poses): (Option<f64>, Option<&NextPoses>),
+        progress: &mut [Progress],
+        observed: Option<(Vec<Row<'_>>, &Columns)>,
+    ) {
         let watch = Watch::begin();
-        let request = watch.request();
-        let step = |(member, progress): (&mut Member, &mut Progress)| {
-            member.now.world.set_stop_request(Some(request.clone()));
-            let length = member.now.frame_time(dt);
-            while progress.left > 0 {
-                progress.left -= 1;
-                if let Err(error) = member.now.take_frame(length, &watch) {
-                    *progress = Progress { left: 0, refused: Some(error.into()) };
-                }
+        let orders = Orders { dt, poses, request: watch.request(), watch: &watch };
+        let share = (SPHERES_PER_TASK / self.most_spheres().max(1)).max(1);
+        let (mut rows, columns) =
+            observed.map_or((Vec::new(), None), |(rows, columns)| (rows, Some(columns)));
+        rows.resize_with(self.members.len(), || Row::Nowhere);
+        let step = |memory: &mut Memory, (member, (progress, row)): Task<'_, '_>| {
+            member.take_frames(&orders, progress, memory);
+            if let Some(columns) = columns {
+                row.write(member.world(), columns, &mut memory.values);
             }
         };
-        let share = (SPHERES_PER_TASK / self.most_spheres().max(1)).max(1);
-        let members = &mut self.members;
-        match &self.pool {
-            None => members.iter_mut().zip(progress).for_each(step),
+        let Self { members, pool, memory } = self;
+        match pool {
+            None => {
+                let tasks = members.iter_mut().zip(progress.iter_mut().zip(&mut rows));
+                tasks.for_each(|task| step(memory, task));
+            }
             Some(pool) => pool.watch(&watch, || {
-                members.par_iter_mut().zip(progress).with_min_len(share).for_each(step);
+                let tasks = members.par_iter_mut().zip(progress.par_iter_mut().zip(&mut rows));
+                tasks.with_min_len(share).for_each_init(Memory::default, step);
             }),
         }
     }
 
-    /// Resets worlds to their start: those with these indices, or all. Ignores unknown indices.
-    pub fn reset(&mut self, worlds: Option<&[usize]>) {
-        match worlds {
-            None => self.members.iter_mut().for_each(Member::reset),
-            Some(worlds) => {
-                for &world in worlds {
-                    if let Some(member) = self.members.get_mut(world) {
-                        member.reset();
-                    }
-                }
+    /// Resets the worlds with these indices to their start. Ignores unknown indices.
+    pub fn reset(&mut self, worlds: &[usize]) {
+        for &world in worlds {
+            if let Some(member) = self.members.get_mut(world) {
+                member.reset();
             }
         }
+    }
+
+    /// Returns the number of impacts of each world in the last step.
+    pub fn impact_counts(&self) -> impl Iterator<Item = i64> {
+        self.members.iter().map(|member| member.impacts as i64)
     }
 
     /// Returns the state of a world.
@@ -268,6 +306,69 @@ impl Members {
     }
 }
 
+impl Members {
+    /// Replaces a collider in these worlds by what `changed` returns for each world and its place among them. If one is
+    /// refused, none is replaced.
+    ///
+    /// # Errors
+    /// [`Failure`] with the index of the world.
+    pub fn set_colliders(
+        &mut self,
+        worlds: &[usize],
+        id: ColliderId,
+        changed: impl Fn(&World, usize) -> Result<Collider, Failure>,
+    ) -> Result<(), Failure> {
+        let of_world = |(row, &number): (usize, &usize)| {
+            changed(self.members[number].world(), row).map_err(|it| it.in_world(number))
+        };
+        let colliders: Vec<Collider> =
+            worlds.iter().enumerate().map(of_world).collect::<Result<_, _>>()?;
+        for (&number, collider) in worlds.iter().zip(colliders) {
+            self.members[number].now.world.set_collider(id, collider)?;
+        }
+        Ok(())
+    }
+
+    /// Writes the motion of a collider into the descriptions of these worlds.
+    ///
+    /// # Errors
+    /// [`Failure`] if there is no such collider.
+    pub fn describe_motion(
+        &mut self,
+        worlds: &[usize],
+        id: ColliderId,
+        motion: &[Motion],
+    ) -> Result<(), Failure> {
+        for &number in worlds {
+            let now = &mut self.members[number].now;
+            let (_, place) = editing::find_collider(&now.world, id.number())?;
+            now.described_mut().colliders[place].motion = motion.to_vec();
+        }
+        Ok(())
+    }
+
+    /// Changes the motion of a sphere in these worlds, by a vector for each of them. If one is refused, none is changed.
+    ///
+    /// # Errors
+    /// [`Failure`] with the index of the world.
+    pub fn strike(
+        &mut self,
+        worlds: &[usize],
+        id: SphereId,
+        stroke: Stroke,
+        rows: &[DVec3],
+    ) -> Result<(), Failure> {
+        for (&number, &row) in worlds.iter().zip(rows) {
+            let checked = stroke.check(self.members[number].world(), id, row);
+            checked.map_err(|it| it.in_world(number))?;
+        }
+        for (&number, &row) in worlds.iter().zip(rows) {
+            stroke.apply(&mut self.members[number].now.world, id, row)?;
+        }
+        Ok(())
+    }
+}
+
 impl Member {
     fn new(start: Arc<Snapshot>) -> Self {
         let mut now = Inner {
@@ -278,14 +379,42 @@ impl Member {
             frame_start: start.time,
         };
         now.restore(&start);
-        Self { now, start }
+        Self { now, start, impacts: 0 }
     }
 
     fn world(&self) -> &World {
         &self.now.world
     }
 
+    /// Takes the frames of `progress`.
+    fn take_frames(&mut self, orders: &Orders<'_>, progress: &mut Progress, memory: &mut Memory) {
+        self.impacts = 0;
+        if progress.left == 0 {
+            return;
+        }
+        self.now.world.set_stop_request(Some(orders.request.clone()));
+        self.now.world.swap_memory(&mut memory.spare);
+        let taken = self.try_frames(orders, progress);
+        self.now.world.swap_memory(&mut memory.spare);
+        progress.left = 0;
+        progress.refused = taken.err();
+    }
+
+    fn try_frames(&mut self, orders: &Orders<'_>, progress: &Progress) -> Result<(), Failure> {
+        let length = self.now.frame_time(orders.dt);
+        if let Some(poses) = orders.poses {
+            let collider = poses.collider(&self.now.world, progress.row, length)?;
+            self.now.world.set_collider(poses.id(), collider)?;
+        }
+        for _ in 0..progress.left {
+            self.now.take_frame(length, orders.watch)?;
+            self.impacts += self.world().report().impacts.len() as u64;
+        }
+        Ok(())
+    }
+
     fn reset(&mut self) {
         self.now.restore(&self.start);
+        self.impacts = 0;
     }
 }

@@ -3,8 +3,15 @@
 // Python shows these comments as docstrings, with units in plain brackets.
 #![allow(rustdoc::broken_intra_doc_links)]
 
+mod acting;
 mod arrays;
+mod colliders;
+mod measures;
 mod members;
+mod next_poses;
+mod observed;
+mod selection;
+mod stroke;
 
 use std::sync::{Mutex, MutexGuard};
 
@@ -24,6 +31,9 @@ use crate::tables::Table;
 use crate::threads;
 use arrays::BatchArrays;
 use members::{Members, Progress};
+use next_poses::{GivenPoses, NextPoses};
+use observed::{Columns, Out};
+use selection::Given;
 
 /// Base class of `carom.Batch`: worlds, and the arrays that Python sees of all of them.
 ///
@@ -87,6 +97,15 @@ impl BatchEngine {
         Ok(result?)
     }
 
+    /// Returns the indices of the given worlds.
+    ///
+    /// # Errors
+    /// `CaromError` for an index without a world.
+    fn selected(&self, py: Python<'_>, worlds: &Given<'_>) -> PyResult<Vec<usize>> {
+        let count = self.lock_as_it_is(py)?.members.len();
+        Ok(selection::selected(worlds, count)?)
+    }
+
     fn quantity(&self, py: Python<'_>, quantity: Quantity) -> PyResult<Py<PyAny>> {
         let Inner { members, arrays } = &mut *self.lock_as_it_is(py)?;
         arrays.get(py, quantity, members)
@@ -133,21 +152,41 @@ impl BatchEngine {
         Ok(Self(Mutex::new(Inner { members, arrays: BatchArrays::default() })))
     }
 
-    /// Takes frames in every world. Returns the worlds that refused a frame, with their errors.
-    /// After Ctrl-C each world has taken whole frames, but not all the same number.
+    /// Takes frames in these worlds; the first one takes a collider to `poses`. Writes observations of quantities into
+    /// an array, and returns the worlds that refused a frame, with their errors. After Ctrl-C each world has taken whole
+    /// frames, but not all the same number.
     #[pyo3(name = "_step")]
     fn step(
         &self,
         py: Python<'_>,
         dt: Option<&Bound<'_, PyAny>>,
         frames: &Bound<'_, PyAny>,
+        worlds: Given<'_>,
+        poses: Option<GivenPoses<'_>>,
+        observed: Option<(Vec<String>, Bound<'_, PyAny>)>,
     ) -> PyResult<Vec<(usize, PyErr)>> {
         let dt = arguments::optional_number("dt", dt)?;
         let frames = arguments::count("frames", frames)?;
+        let worlds = self.selected(py, &worlds)?;
+        let poses = poses.map(|poses| NextPoses::read(&poses, worlds.len())).transpose()?;
         let mut guard = self.lock(py)?;
         let Inner { members, arrays } = &mut *guard;
-        let mut progress = vec![Progress { left: frames, refused: None }; members.len()];
-        py.detach(|| members.step(dt, &mut progress));
+        let columns =
+            observed.as_ref().map(|(names, _)| Columns::named(names, members.most_spheres()));
+        let columns = columns.transpose()?;
+        let mut out = match (&observed, &columns) {
+            (Some((_, out)), Some(columns)) => Some(Out::of(out, members.len(), columns)?),
+            _ => None,
+        };
+        let rows = match (&mut out, &columns) {
+            (Some(out), Some(columns)) => Some((out.rows(members.len(), columns), columns)),
+            _ => None,
+        };
+        let mut progress = vec![Progress::default(); members.len()];
+        for (row, world) in worlds.into_iter().enumerate() {
+            progress[world] = Progress { left: frames, row, refused: None };
+        }
+        py.detach(|| members.step((dt, poses.as_ref()), &mut progress, rows));
         arrays.write_motion(py, members);
         drop(guard);
         if progress.iter().any(Progress::is_stopped) {
@@ -159,9 +198,10 @@ impl BatchEngine {
 
     /// Resets worlds to their start: those with these indices, or all.
     #[pyo3(name = "_reset")]
-    fn reset(&self, py: Python<'_>, worlds: Option<Vec<usize>>) -> PyResult<()> {
+    fn reset(&self, py: Python<'_>, worlds: Given<'_>) -> PyResult<()> {
+        let worlds = self.selected(py, &worlds)?;
         self.change(py, |members| {
-            members.reset(worlds.as_deref());
+            members.reset(&worlds);
             Ok(())
         })
     }
@@ -230,13 +270,6 @@ impl BatchEngine {
     fn state_hashes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u64>>> {
         let guard = self.lock(py)?;
         Ok(PyArray1::from_iter(py, guard.members.worlds().map(|world| world.state_hash().0)))
-    }
-
-    /// Kinetic energy of each world [J], shape (n,). A copy.
-    #[getter]
-    fn kinetic_energies<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let guard = self.lock(py)?;
-        Ok(PyArray1::from_iter(py, guard.members.worlds().map(|world| world.kinetic_energy())))
     }
 
     /// Returns the impacts of the last frame of all worlds as words, and their number for each

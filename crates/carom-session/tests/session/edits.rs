@@ -1,7 +1,7 @@
 //! Edits: each changes the world and its description, or nothing.
 
 use carom::{Bisect, ConstantForce, DVec3, Exact, Friction, Sphere, Spring, SpringId};
-use carom_scene::scene::{self, Color, Force, ImpactLaw, Integrator};
+use carom_scene::scene::{self, Color, Force, ImpactLaw, Integrator, Scene};
 use carom_session::{Edit, Session, SphereChange, View, group_name};
 
 use crate::{busy, busy_scene, hashes};
@@ -294,4 +294,41 @@ fn a_thrown_sphere_is_there_with_its_colour() {
     let nowhere = Sphere::new(DVec3::NAN, 0.1);
     assert!(session.edit(Edit::Throw { sphere: Box::new(nowhere), color: RED }).is_err());
     assert_eq!(view(&session).spheres.paints.len(), 15);
+}
+
+const FELT: &str = r#"
+name = "felt"
+forces = [{ gravity = { acceleration = [0, -9.81, 0] } }]
+spheres = [
+    { position = [0, 1, 0], radius = 0.1, material = "steel" },
+    { position = [1, 1, 0], radius = 0.1, material = "steel" },
+]
+colliders = [{ name = "floor", shape = "half-space", material = "felt" }]
+materials = { steel = { restitution_law = { viscoelastic = { speed = 1e6 } } }, felt = { restitution = 0.5 } }
+material_pairs = [{ materials = ["steel", "felt"], restitution = 0.25 }]
+"#;
+
+#[test]
+fn a_coefficient_set_by_hand_overrides_law_and_pair_and_the_others_keep_theirs() {
+    let mut session = Session::new(Scene::from_toml(FELT, "felt.toml").unwrap()).unwrap();
+    let first = session.world().spheres().ids()[0];
+    let change = SphereChange { restitution: Some(0.8), ..SphereChange::default() };
+    session.edit(Edit::Sphere(first, Box::new(change))).unwrap();
+    let now = session.scene_now();
+    assert_eq!((now.spheres[0].restitution, now.spheres[0].restitution_law), (0.8, None));
+    assert_eq!(now.spheres[0].material, None);
+    let law = scene::RestitutionLaw::Viscoelastic { speed: 1e6 };
+    assert_eq!(now.spheres[1].restitution_law, Some(law));
+    assert_eq!(now.spheres[1].material.as_deref(), Some("steel"));
+    assert_eq!(now.colliders[0].material.as_deref(), Some("felt"));
+    assert_eq!(Scene::from_toml(&now.to_toml(), "now.toml").unwrap(), now);
+    // 0.8 times 0.5 by the combine rule, and 0.25 by the pair.
+    let mut found = Vec::new();
+    let mut world = now.world().unwrap();
+    for _ in 0..60 {
+        let impacts = world.step(1.0 / 60.0).unwrap().impacts.iter();
+        found.extend(impacts.map(|it| (it.point.x, it.separation_speed / it.approach_speed)));
+    }
+    let at = |x: f64| found.iter().find(|it| it.0 == x).unwrap().1;
+    assert!((at(0.0) - 0.4).abs() < 1e-12 && (at(1.0) - 0.25).abs() < 1e-12, "{found:?}");
 }

@@ -4,6 +4,7 @@ mod forces;
 mod growth;
 mod materials;
 mod measures;
+mod memory;
 #[cfg(test)]
 mod moving_oracle;
 mod poses;
@@ -50,7 +51,7 @@ use crate::work::StopRequest;
 pub struct World {
     state: State,
     report: StepReport,
-    scratch: Scratch,
+    scratch: Box<Scratch>,
     /// Read while a step runs.
     stop_request: Option<StopRequest>,
 }
@@ -433,11 +434,20 @@ impl World {
     /// As [`Self::set_collider`]; then none is changed.
     pub fn set_colliders(&mut self, changes: &[(ColliderId, Collider)]) -> Result<(), Error> {
         for (id, collider) in changes {
-            self.collider(*id)?;
-            collider.validate().map_err(|invalid| invalid.about(Subject::Collider(*id)))?;
+            self.check_collider(*id, collider)?;
         }
         self.state.colliders_mut().set(changes);
         Ok(())
+    }
+
+    /// Checks a change of a collider; returns the error that [`Self::set_collider`] would return.
+    ///
+    /// # Errors
+    /// As [`Self::set_collider`].
+    pub fn check_collider(&self, id: ColliderId, collider: &Collider) -> Result<(), Error> {
+        let subject = Subject::Collider(id);
+        self.state.colliders.list().get(id.0).ok_or(Error::Unknown(subject))?;
+        collider.validate().map_err(|invalid| invalid.about(subject))
     }
 
     /// Removes a collider from the world and returns it.

@@ -37,6 +37,14 @@ impl World {
     /// # Errors
     /// As [`Self::set_collider`]; [`Error::Invalid`] if `dt` is not positive, or a motion moves the collider.
     pub fn set_next_pose(&mut self, id: ColliderId, pose: Pose, dt: f64) -> Result<(), Error> {
+        self.set_collider(id, self.moving_to(id, pose, dt)?)
+    }
+
+    /// Returns a collider with the velocities of [`Self::set_next_pose`], to set it later.
+    ///
+    /// # Errors
+    /// Those of [`Self::set_next_pose`].
+    pub fn moving_to(&self, id: ColliderId, pose: Pose, dt: f64) -> Result<Collider, Error> {
         let collider = self.collider(id)?;
         let requirement = "empty for velocities to move the collider";
         pose.validate()
@@ -49,6 +57,8 @@ impl World {
         let Pose { position, rotation } = collider.pose;
         let turn = pose.rotation.normalize() * rotation.normalize().conjugate();
         let velocity = (pose.position - position) / dt;
-        self.set_collider(id, collider.moving(velocity, rotation::vector_of(turn) / dt))
+        let moving = collider.moving(velocity, rotation::vector_of(turn) / dt);
+        self.check_collider(id, &moving)?;
+        Ok(moving)
     }
 }

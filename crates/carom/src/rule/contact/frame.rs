@@ -4,7 +4,6 @@ use super::batch::ContactKinds;
 use super::dormant;
 use super::materials::Materials;
 use super::row::Row;
-use super::slab::Slabs;
 use super::slab_totals::SlabTotals;
 use super::sleep;
 use super::solver::Solver;
@@ -39,7 +38,7 @@ pub(super) fn begin(system: &System, motion: &mut Motion, h: f64, solver: &mut S
         solver.slots.arrange(ids);
         // These are by slot; the search makes them again.
         solver.watched.clear();
-        solver.slabs = Slabs::of_one(ids.len());
+        solver.slabs.make_one(ids.len());
         solver.materials = Materials::of(system);
         if solver.is_changed {
             solver.places.forget_images();

@@ -40,6 +40,18 @@ pub(super) struct Slab {
 }
 
 impl Slab {
+    /// Makes it a slab without slots and contacts.
+    fn clear(&mut self) {
+        let Self { batches, surfaces, pairs, image_pairs, .. } = self;
+        batches.clear(0);
+        surfaces.clear();
+        pairs.clear();
+        image_pairs.clear();
+        (self.start, self.end) = (0, 0);
+        (self.descent, self.totals) = (Descent::default(), SlabTotals::default());
+        (self.tests, self.is_done) = (0, false);
+    }
+
     /// The slots of both spheres of a contact.
     pub fn slots_of(&self, batch: usize, lane: usize) -> [usize; 2] {
         let batch = &self.batches.pairs[batch];
@@ -71,9 +83,11 @@ pub(super) enum Direction {
 }
 
 impl Slabs {
-    /// One slab with this number of slots, without contacts.
-    pub fn of_one(slots: usize) -> Self {
-        Self { list: vec![Slab { end: slots, ..Slab::default() }], far: Slab::default() }
+    /// Makes one slab with this number of slots, without contacts, in the memory of the present ones.
+    pub fn make_one(&mut self, slots: usize) {
+        self.list.resize_with(1, Slab::default);
+        self.iter_mut().for_each(Slab::clear);
+        self.list[0].end = slots;
     }
 
     /// All of them, in the order in which contacts are listed.
@@ -100,6 +114,9 @@ impl Slabs {
 
     /// Runs a stage on the own slots of each slab, side by side.
     pub fn each(&mut self, slots: &mut Slots, stage: impl Fn(Run, &mut Slab) + Sync) {
+        if let [only] = &mut self.list[..] {
+            return stage(slots.first(only.end), only);
+        }
         let ends: Vec<usize> = self.list.iter().map(|slab| slab.end).collect();
         let tasks = slots.runs(ends.into_iter()).into_iter().zip(&mut self.list).collect();
         parallel::for_each(tasks, |(run, slab)| stage(run, slab));
@@ -145,6 +162,13 @@ impl Slabs {
         first: usize,
         stage: impl Fn(&mut Run, &mut Slab) + Sync,
     ) {
+        if let [only] = &mut self.list[..] {
+            // In the odd phase it is not at work.
+            if first == 0 {
+                stage(&mut slots.first(only.end), only);
+            }
+            return;
+        }
         let end = |slab: usize| self.list[slab.min(self.list.len() - 1)].end;
         // In the odd phase, slab 0 is not at work.
         let idle = (first == 1).then(|| end(0));

@@ -359,6 +359,11 @@ impl Slots {
         }
     }
 
+    /// The run of this number of slots from the first one on.
+    pub fn first(&mut self, count: usize) -> Run<'_> {
+        self.all().take_front(count)
+    }
+
     /// Runs that end at these slots, ascending.
     pub fn runs(&mut self, ends: impl Iterator<Item = usize>) -> Vec<Run<'_>> {
         let mut rest = self.all();
