@@ -4,8 +4,8 @@
 mod common;
 
 use carom::{
-    Collider, DQuat, DVec3, Emitter, Exact, Gravity, Pose, Settings, Shape, Sphere, Spring, World,
-    Zones,
+    Collider, DQuat, DVec3, Emitter, Exact, Friction, Gravity, Pose, Settings, Shape, Sphere,
+    Spring, World, Zones,
 };
 use common::{G, Numbers, vec};
 
@@ -274,7 +274,9 @@ fn column() -> World {
     let mut world = World::new(Settings::default().with_rule(exact)).unwrap();
     world.add_force(Gravity::new(-G * DVec3::Y)).unwrap();
     let floor = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO)).with_restitution(0.0);
-    world.add_collider(floor.with_friction(0.5)).unwrap();
+    // Friction against rolling needs a zone.
+    let friction = Friction::sliding(0.5).with_rolling(1e-3);
+    world.add_collider(floor.with_friction(friction)).unwrap();
     for number in 0..6 {
         let place = vec(1e-3 * f64::from(number), 0.5 + f64::from(number), 0.0);
         world.add_sphere(ball(place, 0.5)).unwrap();

@@ -4,7 +4,7 @@
 use carom::DVec3;
 use carom_scene::Scene;
 use carom_scene::scene::{
-    Boundary, Collider, Emitter, Force, Motion, Piece, Shape, Sphere, Spring,
+    Boundary, Collider, Emitter, Force, Motion, Piece, RestitutionLaw, Shape, Sphere, Spring,
 };
 
 use super::pair::{Agreement, Law, Pair};
@@ -89,6 +89,7 @@ fn scale_sphere(sphere: &mut Sphere, scale: Scale) {
     scale_vector(&mut sphere.position, scale.of(1, 0, 0));
     scale_vector(&mut sphere.velocity, scale.of(1, 0, -1));
     scale_vector(&mut sphere.angular_velocity, scale.of(0, 0, -1));
+    sphere.restitution_law.iter_mut().for_each(|it| scale_law(it, scale));
     let sizes = sphere.radius.iter_mut().chain(&mut sphere.diameter);
     sizes.for_each(|it| *it *= scale.of(1, 0, 0));
     if sphere.density.is_none() {
@@ -96,6 +97,13 @@ fn scale_sphere(sphere: &mut Sphere, scale: Scale) {
         *sphere.mass.get_or_insert(1.0) *= scale.of(0, 1, 0);
     }
     sphere.density.iter_mut().for_each(|it| *it *= scale.of(-3, 1, 0));
+}
+
+fn scale_law(law: &mut RestitutionLaw, scale: Scale) {
+    let (RestitutionLaw::PowerLaw { speed, .. }
+    | RestitutionLaw::Viscoelastic { speed }
+    | RestitutionLaw::Cutoff { speed, .. }) = law;
+    *speed *= scale.of(1, 0, -1);
 }
 
 fn scale_spring(spring: &mut Spring, scale: Scale) {
@@ -108,6 +116,7 @@ fn scale_spring(spring: &mut Spring, scale: Scale) {
 fn scale_collider(collider: &mut Collider, scale: Scale) {
     let length = scale.of(1, 0, 0);
     collider.kick *= scale.of(1, 0, -1);
+    collider.restitution_law.iter_mut().for_each(|it| scale_law(it, scale));
     scale_vector(&mut collider.position, length);
     scale_vector(&mut collider.velocity, scale.of(1, 0, -1));
     scale_vector(&mut collider.surface_velocity, scale.of(1, 0, -1));

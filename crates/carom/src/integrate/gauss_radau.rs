@@ -42,6 +42,8 @@ const STEADY: f64 = 1e-12;
 const SHORTEST: f64 = 1e-12;
 /// Growth of a step over the last one, where both cross a jump of the force.
 const LEAP: f64 = 8.0;
+/// Part of the longest step across jumps down to which an accurate one is tried after it.
+const SMALLEST_PART: f64 = 1.0 / 64.0;
 
 /// Estimates for the next step of some spheres.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,8 +67,11 @@ impl Pace {
         let shortest = if is_good {
             // It shrinks slowly: towards a jump accurate steps become ever shorter.
             (SHORTEST * length).max(0.5 * self.shortest)
-        } else {
+        } else if length < rough {
             (LEAP * length).min(rough)
+        } else {
+            // Forces may be smooth again.
+            SMALLEST_PART * rough
         };
         Self { trial: self.trial.max(shortest), shortest }
     }

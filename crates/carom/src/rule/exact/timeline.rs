@@ -265,9 +265,12 @@ impl Timeline {
             false => self.parameters.force_tick,
         };
         let limits = StepLimits { until, tick, is_rough };
-        let JointStep { curves, evaluations, releases } =
+        let JointStep { curves, turning, evaluations, releases } =
             self.flights.step_from_start(system, (&component, &clusters), limits);
         curves.into_iter().for_each(|(slot, curve)| self.flights.set_curve(slot, curve));
+        for (slot, turning) in turning {
+            self.flights.rotate_over_step(slot, turning, now);
+        }
         for (number, release) in clusters.into_iter().zip(releases) {
             self.flights.clusters.get_mut(number).renewal = release;
         }
@@ -277,6 +280,7 @@ impl Timeline {
     /// Continues a sphere in another flight at `time` \[s\] without counting it as work.
     pub(super) fn go_on(&mut self, slot: u32, time: f64) {
         let (position, velocity) = self.flights.state_of(slot, time);
+        self.flights.count_contact_work(slot, time);
         let body = &mut self.flights.bodies[slot as usize];
         let before = body.generation;
         body.begin_flight(position, velocity, time);

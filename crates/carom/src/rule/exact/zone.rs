@@ -76,7 +76,7 @@ struct Waiting {
 }
 
 /// The motion of a sphere in a zone between two ticks.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(crate) struct Stepped {
     pub index: u32,
     /// Centre at the last tick and at the next one \[m\].

@@ -51,6 +51,16 @@ impl Member {
         [self.position, self.velocity]
     }
 
+    /// The energy that it has gained, at the same instant, since it was `before` \[J\]; `moment` is its moment of inertia
+    /// \[kg m²\].
+    pub fn gained_since(&self, before: &Self, moment: f64) -> f64 {
+        let squares = |after: DVec3, before: DVec3| 0.5 * (after - before).dot(after + before);
+        let moving = squares(self.velocity, before.velocity);
+        let fallen = self.species.acceleration.dot(self.position - before.position);
+        let turning = squares(self.angular_velocity, before.angular_velocity);
+        self.species.mass * (moving - fallen) + moment * turning
+    }
+
     /// The scale of the contacts of this sphere with surfaces; `is_curved` if one of them is.
     pub fn scale(&self, is_curved: bool) -> ContactScale {
         let scale = ContactScale { is_curved, ..ContactScale::default() };

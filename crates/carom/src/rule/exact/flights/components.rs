@@ -13,8 +13,9 @@ use crate::system::System;
 /// Beyond it, rough steps lead to the end of the tick.
 const MOST_EVALUATIONS: u64 = 1 << 16;
 const MOST_FOR_EACH: u64 = 1 << 8;
-/// Allowed evaluations in a tick where forces act between all spheres: close passages take many short steps.
-const MOST_BETWEEN_ALL: u64 = 1 << 18;
+/// Allowed evaluations in a tick where forces act between all spheres, or friction does: close passages, and slips that
+/// end, take many short steps.
+const MOST_WITH_SHORT_STEPS: u64 = 1 << 18;
 
 /// A sphere that is in no component.
 const NONE: u32 = u32::MAX;
@@ -131,8 +132,10 @@ impl Components {
         for (number, component) in (0u32..).zip(&components) {
             component.members.iter().for_each(|&index| of_spheres[index as usize] = number);
         }
+        let has_friction = system.frictions().any(|friction| friction.acts());
+        let takes_short_steps = system.moves_all_together() || has_friction;
         let most_evaluations =
-            if system.moves_all_together() { MOST_BETWEEN_ALL } else { MOST_EVALUATIONS };
+            if takes_short_steps { MOST_WITH_SHORT_STEPS } else { MOST_EVALUATIONS };
         Self { of_spheres, components, due: Vec::new(), most_evaluations }
     }
 

@@ -1,20 +1,24 @@
-//! Persistent contacts of spheres that fly on curves: the forces that keep their gaps as they are.
+//! Persistent contacts of spheres that fly on curves: the forces that keep their gaps as they are, with Coulomb
+//! friction.
 
 use glam::DVec3;
 
+use super::contact_matrix::ContactMatrix;
+use super::friction_state::FrictionState;
 use crate::integrate::gauss_radau::Values;
+use crate::norm::Norm;
 use crate::rule::exact::features::{Feature, NormalCurvature};
 
 /// Most contacts whose forces are solved for at once: the work grows with the third power of their number.
-pub(crate) const MOST_CONTACTS: usize = 32;
-/// Contacts depend on each other where what one adds to the others is below this part of it.
-const DEPENDENT: f64 = 1e-8;
+pub(crate) const MOST_CONTACTS: usize = 64;
 
 /// A persistent contact of the sphere at a place.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct CurveContact {
     pub first: CurveBody,
     pub second: usize,
+    /// Coulomb's coefficient.
+    pub friction: f64,
 }
 
 /// What a sphere touches.
@@ -26,13 +30,53 @@ pub(crate) enum CurveBody {
     Feature(Feature),
 }
 
+/// What a contact needs to know of a sphere.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ContactSphere {
+    /// \[m\]
+    pub radius: f64,
+    /// \[kg\]
+    pub mass: f64,
+    /// Moment of inertia, divided by m r².
+    pub inertia_factor: f64,
+}
+
+/// The motion of spheres, by place.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Moving<'a> {
+    /// \[m\]
+    pub positions: &'a [DVec3],
+    /// \[m/s\]
+    pub velocities: &'a [DVec3],
+    /// \[rad/s\]
+    pub angular_velocities: &'a [DVec3],
+}
+
+/// A direction of the force of a contact, and the direction along which that force allows no acceleration.
+#[derive(Debug, Clone, Copy)]
+struct ForceDirection {
+    /// Number of the contact.
+    contact: usize,
+    /// Force on body 2, per unit.
+    force: DVec3,
+    /// Unit vector along which body 2 does not accelerate relative to body 1.
+    held: DVec3,
+    /// Whether `held` is along the surfaces, which then do not slide; else it is the normal.
+    is_along: bool,
+}
+
 impl CurveContact {
     /// Its place, if body 1 is a sphere.
-    fn first_place(&self) -> Option<usize> {
+    pub fn first_place(&self) -> Option<usize> {
         match self.first {
             CurveBody::Sphere(place) => Some(place),
             CurveBody::Feature(_) => None,
         }
+    }
+
+    /// Places of its spheres, with the sign of a force on body 2 there.
+    pub fn ends(&self) -> impl Iterator<Item = (usize, f64)> + use<> {
+        self.first_place().map(|first| (first, -1.0)).into_iter().chain([(self.second, 1.0)])
     }
 
     /// Unit normal from body 1 to body 2, and how it turns, with the spheres at these positions \[m\].
@@ -43,163 +87,299 @@ impl CurveContact {
             CurveBody::Feature(feature) => feature.normal_at(center),
         }
     }
-}
 
-/// Contacts whose forces follow from where the spheres are.
-///
-/// With the normal `n`, the relative velocity `v` and the part `v_t` of it across `n`, the gap stays where
-/// `n·(a2 − a1) + κ v_t² = 0`, with the curvature κ: `1/|x2 − x1|` between spheres. The accelerations without contacts
-/// and the forces `λ n` give `A λ = -b` for all contacts, by Cholesky's method.
-///
-/// Source: Baraff, Computer Graphics 23, 223 (1989), section 5, with equalities.
-pub(crate) struct CurveContacts {
-    contacts: Vec<CurveContact>,
-    /// One per contact.
-    normals: Vec<DVec3>,
-    /// How each normal turns.
-    curvatures: Vec<NormalCurvature>,
-    /// One per contact \[N\]
-    pub forces: Vec<f64>,
-    /// Those found first, before what rounding left is removed \[N\].
-    first_forces: Vec<f64>,
-    /// Cholesky's factor, by rows.
-    factor: Vec<f64>,
-}
-
-impl CurveContacts {
-    pub fn new(contacts: Vec<CurveContact>) -> Self {
-        let count = contacts.len();
-        Self {
-            contacts,
-            normals: vec![DVec3::ZERO; count],
-            curvatures: vec![NormalCurvature::Flat; count],
-            forces: vec![0.0; count],
-            first_forces: vec![0.0; count],
-            factor: vec![0.0; count * count],
-        }
-    }
-
-    /// The contacts, with their forces \[N\].
-    pub fn iter(&self) -> impl Iterator<Item = (&CurveContact, f64)> {
-        self.contacts.iter().zip(self.forces.iter().copied())
-    }
-
-    /// Whether no contact of spheres at these positions \[m\] follows from the others; `mass_of` gives the mass of a
-    /// sphere \[kg\].
-    pub fn are_independent(
-        &mut self,
-        positions: &[DVec3],
-        mass_of: impl Fn(usize) -> f64 + Copy,
-    ) -> bool {
-        self.find_normals(positions);
-        self.factorize(mass_of)
-    }
-
-    /// Finds the forces and adds their accelerations \[m/s²\] to those `at` these positions \[m\] and velocities \[m/s\].
-    pub fn add(
-        &mut self,
-        [positions, velocities]: [&[DVec3]; 2],
-        mass_of: impl Fn(usize) -> f64 + Copy,
-        at: &mut Values,
+    /// Adds the accelerations by a force on body 2 \[N\], and the angular ones behind them where it has a torque.
+    pub fn push(
+        &self,
+        (normal, force): (DVec3, DVec3),
+        has_torque: bool,
+        spheres: &[ContactSphere],
+        accelerations: &mut [DVec3],
     ) {
-        self.find_normals(positions);
-        self.factorize(mass_of);
-        // The second time removes what rounding left of the first: what rests does not drift.
-        self.remove_openings(velocities, mass_of, at);
-        self.first_forces.copy_from_slice(&self.forces);
-        self.remove_openings(velocities, mass_of, at);
-        self.forces.iter_mut().zip(&self.first_forces).for_each(|(force, first)| *force += first);
-    }
-
-    /// Adds the accelerations \[m/s²\] of the forces under which no gap opens or closes.
-    fn remove_openings(
-        &mut self,
-        velocities: &[DVec3],
-        mass_of: impl Fn(usize) -> f64,
-        at: &mut Values,
-    ) {
-        for (number, contact) in self.contacts.iter().enumerate() {
-            let normal = self.normals[number];
-            let first = |of: &[DVec3]| contact.first_place().map_or(DVec3::ZERO, |it| of[it]);
-            let velocity = velocities[contact.second] - first(velocities);
-            let across = velocity - velocity.dot(normal) * normal;
-            let acceleration = at.accelerations[contact.second] - first(&at.accelerations);
-            let turning = self.curvatures[number].acceleration(across);
-            self.forces[number] = -(acceleration.dot(normal) + turning);
-        }
-        self.solve();
-        for ((contact, &normal), &force) in
-            self.contacts.iter().zip(&self.normals).zip(&self.forces)
-        {
-            let ends = contact.first_place().map(|first| (first, -force)).into_iter();
-            for (place, force) in ends.chain([(contact.second, force)]) {
-                let part = force / mass_of(place);
-                at.accelerations[place] += part * normal;
-                at.sizes[place] += part.abs();
+        for (place, sign) in self.ends() {
+            let ContactSphere { radius, mass, inertia_factor } = spheres[place];
+            accelerations[place] += (sign / mass) * force;
+            if has_torque {
+                let turning = normal.cross(force) / (inertia_factor * mass * radius);
+                accelerations[spheres.len() + place] -= turning;
             }
         }
     }
 
-    fn find_normals(&mut self, positions: &[DVec3]) {
+    /// Adds what a force of this size \[N\] may add to the accelerations, and to the angular ones behind them.
+    fn add_sizes(
+        &self,
+        force: f64,
+        has_torque: bool,
+        spheres: &[ContactSphere],
+        sizes: &mut [f64],
+    ) {
+        for (place, _) in self.ends() {
+            let ContactSphere { radius, mass, inertia_factor } = spheres[place];
+            sizes[place] += force / mass;
+            if has_torque {
+                sizes[spheres.len() + place] += force / (inertia_factor * mass * radius);
+            }
+        }
+    }
+
+    /// Of these values by place, that of body 2 less that of body 1.
+    fn difference(&self, of: &[DVec3]) -> DVec3 {
+        of[self.second] - self.first_place().map_or(DVec3::ZERO, |first| of[first])
+    }
+
+    /// The sum of radius times these angular values by place.
+    fn surface_turning(&self, spheres: &[ContactSphere], of: &[DVec3]) -> DVec3 {
+        self.ends().map(|(place, _)| spheres[place].radius * of[place]).sum()
+    }
+}
+
+/// Contacts whose forces follow from how the spheres move.
+///
+/// With the normal `n`, the relative velocity `v` and the part `v_t` of it across `n`, the gap stays where
+/// `n·(a2 − a1) + κ v_t² = 0`, with the curvature κ: `1/|x2 − x1|` between spheres. Where the surfaces slide with the
+/// slip `s = v_t − (r1 ω1 + r2 ω2) × n`, friction is `−μ N s/|s|`; where they do not, `s' = 0` across `n`, too. That
+/// makes as many linear equations as there are forces.
+///
+/// Source: Baraff, Computer Graphics 23, 223 (1989), section 5, with equalities; with friction, Glocker and Pfeiffer,
+/// Nonlinear Dynamics 7, 471 (1995).
+pub(crate) struct CurveContacts {
+    pub contacts: Vec<CurveContact>,
+    /// One per contact: those that have a sphere in common with it, ascending.
+    linked: Vec<Vec<usize>>,
+    /// One per contact.
+    pub states: Vec<FrictionState>,
+    /// One per contact: friction beyond the largest that counts as rounding \[N\].
+    pub slack: Vec<f64>,
+    /// One per contact.
+    pub normals: Vec<DVec3>,
+    /// How each normal turns.
+    curvatures: Vec<NormalCurvature>,
+    directions: Vec<ForceDirection>,
+    matrix: ContactMatrix,
+    /// Forces along the directions \[N\].
+    parts: Vec<f64>,
+    /// One per contact: normal force and friction on body 2 \[N\].
+    pub forces: Vec<(f64, DVec3)>,
+}
+
+impl CurveContacts {
+    /// Contacts without friction up to the choice of their states. The work is least where those of neighbours are
+    /// beside each other.
+    pub fn new(contacts: Vec<CurveContact>) -> Self {
+        let count = contacts.len();
+        let shares = |one: &CurveContact, other: &CurveContact| {
+            one.ends().any(|(place, _)| other.ends().any(|it| it.0 == place))
+        };
+        let linked_with = |one: &CurveContact| {
+            (0..count).filter(|&other| shares(one, &contacts[other])).collect()
+        };
+        Self {
+            linked: contacts.iter().map(linked_with).collect(),
+            contacts,
+            states: vec![FrictionState::None; count],
+            slack: vec![0.0; count],
+            normals: vec![DVec3::ZERO; count],
+            curvatures: vec![NormalCurvature::Flat; count],
+            directions: Vec::new(),
+            matrix: ContactMatrix::default(),
+            parts: Vec::new(),
+            forces: vec![(0.0, DVec3::ZERO); count],
+        }
+    }
+
+    /// Whether friction acts in some contact.
+    pub fn have_friction(&self) -> bool {
+        self.contacts.iter().any(|contact| contact.friction > 0.0)
+    }
+
+    /// Whether no contact of spheres at these positions \[m\] follows from the others, without friction.
+    pub fn are_independent(&mut self, positions: &[DVec3], spheres: &[ContactSphere]) -> bool {
+        self.find_normals(positions);
+        self.states.fill(FrictionState::None);
+        self.find_directions(None, spheres);
+        self.fill_matrix(spheres)
+    }
+
+    /// Finds the forces and adds their accelerations \[m/s²\] to those `at` this motion: first those of all centres, then
+    /// the angular ones \[rad/s²\].
+    pub fn add(&mut self, moving: Moving, spheres: &[ContactSphere], at: &mut Values) {
+        self.find_normals(moving.positions);
+        self.find_directions(Some(moving), spheres);
+        self.fill_matrix(spheres);
+        self.forces.fill((0.0, DVec3::ZERO));
+        // The second time removes what rounding left of the first: what rests does not drift.
+        for _ in 0..2 {
+            self.remove_accelerations(moving, spheres, at);
+        }
+    }
+
+    /// Adds the accelerations \[m/s²\] of the forces under which no gap opens or closes, and nothing that rolls slides.
+    fn remove_accelerations(&mut self, moving: Moving, spheres: &[ContactSphere], at: &mut Values) {
+        let mut parts = std::mem::take(&mut self.parts);
+        parts.clear();
+        let held =
+            |it: &ForceDirection| -self.acceleration_along(it, moving, spheres, &at.accelerations);
+        parts.extend(self.directions.iter().map(held));
+        self.matrix.solve(&mut parts);
+        for (it, &part) in self.directions.iter().zip(&parts) {
+            let normal = self.normals[it.contact];
+            let force = part * it.force;
+            let (of_normal, friction) = &mut self.forces[it.contact];
+            let along_normal = force.dot(normal);
+            *of_normal += along_normal;
+            *friction += force - along_normal * normal;
+            let has_torque = self.states[it.contact] != FrictionState::None;
+            let contact = &self.contacts[it.contact];
+            contact.push((normal, force), has_torque, spheres, &mut at.accelerations);
+            contact.add_sizes(force.norm(), has_torque, spheres, &mut at.sizes);
+        }
+        self.parts = parts;
+    }
+
+    /// The acceleration along a direction that the contacts hold \[m/s²\].
+    fn acceleration_along(
+        &self,
+        direction: &ForceDirection,
+        moving: Moving,
+        spheres: &[ContactSphere],
+        accelerations: &[DVec3],
+    ) -> f64 {
+        let number = direction.contact;
+        match direction.is_along {
+            true => direction.held.dot(self.sliding(number, moving, spheres, accelerations)),
+            false => self.opening(number, moving, accelerations),
+        }
+    }
+
+    /// The acceleration of the gap of a contact \[m/s²\].
+    pub fn opening(&self, number: usize, moving: Moving, accelerations: &[DVec3]) -> f64 {
+        let (contact, normal) = (&self.contacts[number], self.normals[number]);
+        let relative = contact.difference(accelerations);
+        let across = self.across(number, moving);
+        relative.dot(normal) + self.curvatures[number].acceleration(across)
+    }
+
+    /// The acceleration of the slip of a contact, where there is none \[m/s²\], besides its part along the normal.
+    pub fn sliding(
+        &self,
+        number: usize,
+        moving: Moving,
+        spheres: &[ContactSphere],
+        accelerations: &[DVec3],
+    ) -> DVec3 {
+        let (contact, normal) = (&self.contacts[number], self.normals[number]);
+        let relative = contact.difference(accelerations);
+        let angular = &accelerations[spheres.len()..];
+        let turning = contact.surface_turning(spheres, angular).cross(normal);
+        let spin = contact.surface_turning(spheres, moving.angular_velocities);
+        let rate = self.curvatures[number].rate(self.across(number, moving));
+        relative - turning - spin.cross(rate)
+    }
+
+    /// The relative velocity in a contact across its normal \[m/s\].
+    fn across(&self, number: usize, moving: Moving) -> DVec3 {
+        let (contact, normal) = (&self.contacts[number], self.normals[number]);
+        let velocity = contact.difference(moving.velocities);
+        velocity - velocity.dot(normal) * normal
+    }
+
+    /// The velocity with which body 2 of a contact slides along body 1 \[m/s\].
+    pub fn slip(&self, number: usize, moving: Moving, spheres: &[ContactSphere]) -> DVec3 {
+        let (contact, normal) = (&self.contacts[number], self.normals[number]);
+        let spin = contact.surface_turning(spheres, moving.angular_velocities);
+        self.across(number, moving) - spin.cross(normal)
+    }
+
+    pub fn find_normals(&mut self, positions: &[DVec3]) {
         for (number, contact) in self.contacts.iter().enumerate() {
             (self.normals[number], self.curvatures[number]) = contact.normal_at(positions);
         }
     }
 
-    /// The acceleration of a gap for a unit of force at another contact \[1/kg\].
-    fn coupling(&self, one: usize, other: usize, mass_of: impl Fn(usize) -> f64) -> f64 {
-        let [a, b] = [one, other].map(|number| &self.contacts[number]);
-        let ends = |it: &CurveContact| [(Some(it.second), 1.0), (it.first_place(), -1.0)];
-        let mut sum = 0.0;
-        for (place, sign) in ends(a) {
-            for (other, other_sign) in ends(b) {
-                if let Some(place) = place.filter(|_| place == other) {
-                    sum += sign * other_sign / mass_of(place);
+    /// Fills in and factorizes the matrix. Returns whether all forces are independent.
+    fn fill_matrix(&mut self, spheres: &[ContactSphere]) -> bool {
+        let Self { contacts, linked, normals, directions, matrix, .. } = self;
+        matrix.begin(directions.len());
+        for (row, held) in directions.iter().enumerate() {
+            let one = &contacts[held.contact];
+            for &other in &linked[held.contact] {
+                let first = directions.partition_point(|it| it.contact < other);
+                let forces = directions.iter().enumerate().skip(first);
+                for (column, force) in forces.take_while(|it| it.1.contact == other) {
+                    let other = (&contacts[other], normals[other], force.force);
+                    let value = coupling(one, (normals[held.contact], held), other, spheres);
+                    matrix.set(row, column, value);
                 }
             }
         }
-        if sum == 0.0 { 0.0 } else { sum * self.normals[one].dot(self.normals[other]) }
+        matrix.factorize()
     }
 
-    /// Factorizes the matrix of couplings. Returns whether all contacts are independent; one that is not gets no force.
-    fn factorize(&mut self, mass_of: impl Fn(usize) -> f64 + Copy) -> bool {
-        let count = self.contacts.len();
-        let mut are_independent = true;
-        for row in 0..count {
-            for column in 0..=row {
-                let known: f64 = (0..column)
-                    .map(|k| self.factor[row * count + k] * self.factor[column * count + k])
-                    .sum();
-                let coupling = self.coupling(row, column, mass_of);
-                let rest = coupling - known;
-                let diagonal = self.factor[column * count + column];
-                self.factor[row * count + column] = if row == column {
-                    let is_dependent = rest <= DEPENDENT * coupling;
-                    are_independent &= !is_dependent;
-                    if is_dependent { 0.0 } else { rest.sqrt() }
-                } else if diagonal > 0.0 {
-                    rest / diagonal
-                } else {
-                    0.0
-                };
+    /// Finds the directions of the forces, by the states of friction.
+    fn find_directions(&mut self, moving: Option<Moving>, spheres: &[ContactSphere]) {
+        let mut directions = std::mem::take(&mut self.directions);
+        directions.clear();
+        for (contact, &normal) in self.normals.iter().enumerate() {
+            let friction = self.contacts[contact].friction;
+            let of_normal =
+                ForceDirection { contact, force: normal, held: normal, is_along: false };
+            match (self.states[contact], moving) {
+                (FrictionState::Slides { direction, least, .. }, Some(moving)) => {
+                    let slip = self.slip(contact, moving, spheres);
+                    let against = friction * continued(direction, slip, least);
+                    directions.push(ForceDirection { force: normal - against, ..of_normal });
+                }
+                (FrictionState::Rolls, Some(_)) => {
+                    directions.push(of_normal);
+                    directions.extend(tangents(normal).map(|held| ForceDirection {
+                        contact,
+                        force: held,
+                        held,
+                        is_along: true,
+                    }));
+                }
+                _ => directions.push(of_normal),
             }
         }
-        are_independent
+        self.directions = directions;
     }
+}
 
-    /// Solves for the forces in place.
-    fn solve(&mut self) {
-        let count = self.contacts.len();
-        let Self { forces, factor, .. } = self;
-        let quotient =
-            |rest: f64, diagonal: f64| if diagonal > 0.0 { rest / diagonal } else { 0.0 };
-        for row in 0..count {
-            let known: f64 = (0..row).map(|k| factor[row * count + k] * forces[k]).sum();
-            forces[row] = quotient(forces[row] - known, factor[row * count + row]);
-        }
-        for row in (0..count).rev() {
-            let known: f64 = (row + 1..count).map(|k| factor[k * count + row] * forces[k]).sum();
-            forces[row] = quotient(forces[row] - known, factor[row * count + row]);
+/// The acceleration along a held direction of one contact for a unit of another one's force \[1/kg\].
+fn coupling(
+    one: &CurveContact,
+    (normal, held): (DVec3, &ForceDirection),
+    (other, other_normal, force): (&CurveContact, DVec3, DVec3),
+    spheres: &[ContactSphere],
+) -> f64 {
+    let mut sum = 0.0;
+    for (place, sign) in one.ends() {
+        for (_, other_sign) in other.ends().filter(|it| it.0 == place) {
+            let ContactSphere { mass, inertia_factor, .. } = spheres[place];
+            sum += sign * other_sign * held.held.dot(force) / mass;
+            if held.is_along {
+                let turning = other_normal.cross(force).cross(normal);
+                sum += held.held.dot(turning) / (inertia_factor * mass);
+            }
         }
     }
+    sum
+}
+
+/// The direction of a slip \[m/s\] that was along `direction` at the start. It goes on smoothly through a slip of zero,
+/// and below the `least` slip it is that of the start.
+fn continued(direction: DVec3, slip: DVec3, least: f64) -> DVec3 {
+    let speed = slip.norm();
+    if speed <= least {
+        return direction;
+    }
+    let sign = if slip.dot(direction) < 0.0 { -1.0 } else { 1.0 };
+    slip * (sign / speed)
+}
+
+/// Two unit vectors across a normal and each other.
+fn tangents(normal: DVec3) -> [DVec3; 2] {
+    let first = normal.any_orthonormal_vector();
+    [first, normal.cross(first)]
 }

@@ -5,7 +5,8 @@ use glam::DVec3;
 use super::body::Body;
 use super::components::Component;
 use super::curve::{Curve, CurveStep};
-use super::joint_field::{FreeField, JointField};
+use super::free_field::FreeField;
+use super::joint_field::JointField;
 use super::species::Species;
 use super::state::Flights;
 use crate::contact_time::{PolynomialTrack, Track};
@@ -30,11 +31,14 @@ pub(crate) struct StepLimits {
 }
 
 /// Steps of the spheres of a component whose forces are not held.
+#[derive(Default)]
 pub(crate) struct JointStep {
     /// Of each sphere, by slot.
     pub curves: Vec<(u32, Curve)>,
     /// How often the forces on a sphere were evaluated.
     pub evaluations: u64,
+    /// Angular accelerations of the spheres on which friction has a torque, by slot \[rad/s²\].
+    pub turning: Vec<(u32, PolynomialAcceleration)>,
     /// By cluster, when one of its persistent contacts opens, on the world's clock \[s\]; infinite if none does.
     pub releases: Vec<f64>,
 }
@@ -213,26 +217,34 @@ impl Flights {
         let mut field = JointField::of(system, self, component);
         let slots = std::mem::take(&mut field.flying);
         let Some(&first) = slots.first() else {
-            return JointStep { curves: Vec::new(), evaluations: 0, releases: Vec::new() };
+            return JointStep::default();
         };
         let bodies: Vec<&Body> = slots.iter().map(|&slot| &self.bodies[slot as usize]).collect();
-        let positions: Vec<DVec3> = bodies.iter().map(|body| body.position).collect();
-        let velocities: Vec<DVec3> = bodies.iter().map(|body| body.velocity).collect();
+        let mut positions: Vec<DVec3> = bodies.iter().map(|body| body.position).collect();
+        let mut velocities: Vec<DVec3> = bodies.iter().map(|body| body.velocity).collect();
         let time = self.bodies[first as usize].time;
         let states = [&positions[..], &velocities[..]];
-        field.hold(system.surfaces, (component, clusters), states);
+        field.hold(system, (component, clusters), states);
+        let count = slots.len();
+        if field.has_friction() {
+            // Angles from the start follow the centres.
+            positions.resize(2 * count, DVec3::ZERO);
+            velocities.extend(slots.iter().map(|&slot| self.angular_velocity_of(slot, time)));
+        }
+        let states = [&positions[..], &velocities[..]];
         field.begin(component, states, time);
         if limits.is_rough {
             field.ties.iter_mut().for_each(|tie| *tie = tie.with_changes());
         }
-        let brief = field.brief([&positions, &velocities], time).unwrap_or(limits.tick);
+        let brief = field.brief(states, time).unwrap_or(limits.tick);
         // A close passage of two spheres multiplies the rounding of their places.
         let may_be_close = field.between.is_some();
         let carried = |&slot: &u32| match self.last_step(slot) {
             Some(step) if may_be_close && step.end == time => step.left,
             _ => [DVec3::ZERO; 2],
         };
-        let carried: Vec<[DVec3; 2]> = slots.iter().map(carried).collect();
+        let mut carried: Vec<[DVec3; 2]> = slots.iter().map(carried).collect();
+        carried.resize(positions.len(), [DVec3::ZERO; 2]);
         let start = Start {
             positions: &positions,
             velocities: &velocities,
@@ -246,33 +258,59 @@ impl Flights {
             slots.iter().map(|&slot| self.last_step(slot)).collect();
         let paces = before.iter().flatten().map(|step| step.pace);
         let shorter = |a: Pace, b: Pace| if b.trial < a.trial { b } else { a };
-        let mut pace = paces.reduce(shorter).unwrap_or(Pace::of(brief));
+        let known_pace = paces.reduce(shorter).unwrap_or(Pace::of(brief));
+        let mut pace = known_pace;
         if limits.is_rough {
             pace = Pace { trial: pace.trial.max(limits.tick), shortest: limits.tick };
         }
+        field.choose_friction(states, time, pace.trial);
         // The last step predicts this one only if no event was between, and if it was no rough step, which may be
         // of any length.
         let leads_here = |step: &&CurveStep| !limits.is_rough && step.leads_to(time);
         let continues = before.filter(|steps| steps.iter().all(leads_here));
-        let before: Option<Vec<PolynomialAcceleration>> =
-            continues.map(|steps| steps.iter().map(|step| step.acceleration).collect());
+        let before: Option<Vec<PolynomialAcceleration>> = continues.map(|steps| {
+            let mut before: Vec<PolynomialAcceleration> =
+                steps.iter().map(|step| step.acceleration).collect();
+            if positions.len() > count {
+                let turning = |(&slot, step): (&u32, &&CurveStep)| self.turning_over(slot, step);
+                before.extend(slots.iter().zip(&steps).map(turning));
+            }
+            before
+        });
         let step = gauss_radau::step(&start, before.as_deref(), pace, &mut field);
         let held = field.held_over(&start, &step);
         let releases = held.releases.into_iter().map(|release| time + release).collect();
-        let change = field.first_change(&start, &step);
+        let of_friction = Some(held.change).filter(|it| it.is_finite() && !limits.is_rough);
+        let changes = field.first_change(&start, &step).into_iter().chain(of_friction);
+        let change = changes.reduce(f64::min);
         let end =
             change.map_or(step.end, |change| (time + change).max(time.next_up()).min(step.end));
+        let turning = field
+            .turned()
+            .into_iter()
+            .map(|place| (slots[place], step.accelerations[count + place]));
+        let turning = turning.collect();
+        // A rough step says nothing of the next one.
+        let pace = if limits.is_rough { known_pace } else { step.pace };
         let mut free = held.free.into_iter();
         let curve_of = |(body, acceleration): (&&Body, PolynomialAcceleration)| {
             let Body { position, velocity, generation, .. } = **body;
             let flight = PolynomialFlight { position, velocity, acceleration };
-            let (left, pace) = (flight.left_after(end - time), step.pace);
+            let left = flight.left_after(end - time);
             let (is_smooth, free) = (change.is_none(), free.next().map(Box::new));
             CurveStep { generation, acceleration, end, is_smooth, pace, left, free }
         };
         let steps = bodies.iter().zip(step.accelerations).map(curve_of);
         let curves = slots.iter().copied().zip(steps.map(|step| Curve(Some(step)))).collect();
-        JointStep { curves, evaluations: field.evaluations, releases }
+        JointStep { curves, turning, evaluations: field.evaluations, releases }
+    }
+
+    /// The angular acceleration of a sphere over its last step.
+    fn turning_over(&self, slot: u32, step: &CurveStep) -> PolynomialAcceleration {
+        let length = step.acceleration.length;
+        let rotation = self.rotations.get(self.index_of[slot as usize] as usize);
+        let known = rotation.and_then(|rotation| rotation.last_step(length));
+        known.cloned().unwrap_or(PolynomialAcceleration::none(length))
     }
 
     /// The last step of a sphere on a curve, even if its flight ended early.

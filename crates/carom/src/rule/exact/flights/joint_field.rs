@@ -4,82 +4,56 @@ use glam::DVec3;
 
 use super::between::ForcesBetween;
 use super::components::{Component, PlacedSpring};
-use super::curve_contacts::{CurveBody, CurveContact, CurveContacts};
+use super::curve_contacts::{ContactSphere, CurveBody, CurveContact, CurveContacts, Moving};
+use super::free_field::FreeField;
+use super::friction_state::{FrictionState, OPENS};
+use super::species::Species;
 use super::state::Flights;
 use super::tie::{Tie, TieEnd, TiePath};
 use crate::detect::contact::Bodies;
-use crate::forces::{self, Force, SphereState, SpringEnd};
+use crate::forces::SpringEnd;
 use crate::integrate::crossing::first_positive;
 use crate::integrate::gauss_radau::{self, Field, NODES, Start, Step, Values};
 use crate::norm::Norm;
 use crate::polynomial_flight::{ORDERS, PolynomialAcceleration, PolynomialFlight, TERMS};
+use crate::respond::friction_of;
 use crate::rule::exact::features::{Feature, time_on_curve};
-use crate::surface::{Form, Surface};
+use crate::surface::Form;
 use crate::system::System;
 
-/// A persistent contact opens where it pulls with more than this part of the forces at work: the spheres then part for
-/// certain. Until then its force does no work.
-const OPENS: f64 = 1e-9;
 /// Part of a step after which a contact that pulls from the start opens, and a sphere at the end of a face leaves it.
 const SOONEST: f64 = 1e-6;
 
 /// What persistent contacts do in a step.
-#[derive(Default)]
 pub(super) struct HeldOver {
     /// Accelerations without contacts, by place; empty without contacts.
     pub free: Vec<PolynomialAcceleration>,
     /// By cluster, time from the start \[s\] at which a contact opens, or a sphere comes to another part of a
     /// surface; infinite where none does.
     pub releases: Vec<f64>,
+    /// Time from the start \[s\] at which friction changes how it acts in a contact; infinite if it does not.
+    pub change: f64,
+}
+
+/// A bound of what a contact can do.
+struct Bound {
+    /// Place of its cluster, if the contact opens there; else friction changes how it acts.
+    opens: Option<usize>,
+    least: f64,
+    /// What is bounded, at the nodes of a step.
+    values: [f64; TERMS],
+}
+
+/// The motion of some spheres, whose angles follow their centres.
+fn moving<'a>([positions, velocities]: [&'a [DVec3]; 2], count: usize) -> Moving<'a> {
+    let (velocities, angular_velocities) = velocities.split_at(count);
+    Moving { positions: &positions[..count], velocities, angular_velocities }
 }
 
 /// Time in which a sphere moves by its radius \[s\].
 fn time_of_a_radius(radius: f64, velocity: DVec3, acceleration: DVec3) -> f64 {
     let by_speed = radius / velocity.norm();
     by_speed.min((2.0 * radius / acceleration.norm()).sqrt())
-}
-
-/// The forces on one sphere.
-pub(crate) struct FreeField<'a> {
-    /// Constant acceleration \[m/s²\].
-    uniform: DVec3,
-    /// \[1/s\]
-    drag_rate: f64,
-    radius: f64,
-    pub mass: f64,
-    /// Forces that are not linear.
-    others: Vec<&'a dyn Force>,
-}
-
-impl<'a> FreeField<'a> {
-    /// The forces on the sphere with this index of the world's arrays.
-    pub fn of(system: &System<'a>, index: usize) -> Self {
-        let (radius, mass) = (system.spheres.radius[index], system.spheres.mass[index]);
-        let (linear, _) = forces::total_linear(system.forces, radius, mass);
-        let applied = system.spheres.applied_acceleration(index).unwrap_or(DVec3::ZERO);
-        Self {
-            uniform: linear.acceleration + applied,
-            drag_rate: linear.drag_rate,
-            radius,
-            mass,
-            others: forces::without_linear_form(system.forces, radius, mass),
-        }
-    }
-
-    pub fn acceleration_and_size(
-        &self,
-        time: f64,
-        position: DVec3,
-        velocity: DVec3,
-    ) -> (DVec3, f64) {
-        let Self { uniform, drag_rate, radius, mass, .. } = *self;
-        let state = SphereState { position, velocity, radius, mass };
-        let start = (uniform - drag_rate * velocity, uniform.norm() + drag_rate * velocity.norm());
-        self.others.iter().fold(start, |(sum, size), force| {
-            let own = force.on(&state, time) / mass;
-            (sum + own, size + own.norm())
-        })
-    }
 }
 
 /// A surface at rest that a sphere touches.
@@ -104,6 +78,8 @@ pub(super) struct JointField<'a> {
     place_of: Vec<usize>,
     /// Springs between those places.
     pub ties: Vec<Tie<'a>>,
+    /// What contacts need of the flying spheres, by place.
+    spheres: Vec<ContactSphere>,
     /// Persistent contacts between those places; those of different clusters have no sphere in common.
     contacts: Vec<CurveContacts>,
     /// Surfaces at rest that spheres touch.
@@ -129,10 +105,16 @@ impl<'a> JointField<'a> {
             *place - 1
         };
         let place_of = slots.iter().map(place).collect();
+        let sphere = |&slot: &u32| {
+            let index = flights.index_of[slot as usize] as usize;
+            let Species { radius, mass, .. } = *flights.species_of(slot);
+            ContactSphere { radius, mass, inertia_factor: system.spheres.inertia_factor(index) }
+        };
         let field = |&slot: &u32| FreeField::of(system, flights.index_of[slot as usize] as usize);
         Self {
             flights,
             alone: flying.iter().map(field).collect(),
+            spheres: flying.iter().map(sphere).collect(),
             flying,
             others,
             place_of,
@@ -148,11 +130,12 @@ impl<'a> JointField<'a> {
     /// Adds the persistent contacts of clusters, of spheres in these states \[m\], \[m/s\].
     pub fn hold(
         &mut self,
-        surfaces: &'a [Surface],
+        system: &System<'a>,
         (component, clusters): (&Component, &[u32]),
         [positions, velocities]: [&[DVec3]; 2],
     ) {
         let flights = self.flights;
+        let friction_of = |bodies: Bodies| friction_of(bodies, system).sliding;
         let place_of = |index: u32| {
             let place = component.members.binary_search(&index).ok()?;
             Some(self.place_of[place])
@@ -162,20 +145,58 @@ impl<'a> JointField<'a> {
             let contact = |bodies: &Bodies| match *bodies {
                 Bodies::Pair(first, second) => {
                     let first = CurveBody::Sphere(place_of(first)?);
-                    Some(CurveContact { first, second: place_of(second)? })
+                    let second = place_of(second)?;
+                    Some(CurveContact { first, second, friction: friction_of(*bodies) })
                 }
                 Bodies::Surface { sphere, surface } => {
-                    let (second, form) = (place_of(sphere)?, &surfaces[surface as usize].form);
+                    let (second, form) =
+                        (place_of(sphere)?, &system.surfaces[surface as usize].form);
                     let state = [positions[second], velocities[second]];
                     let feature = Feature::under(form, state, self.alone[second].radius)?;
                     touched.push(Touched { cluster, sphere: second, form });
-                    Some(CurveContact { first: CurveBody::Feature(feature), second })
+                    let (first, friction) = (CurveBody::Feature(feature), friction_of(*bodies));
+                    Some(CurveContact { first, second, friction })
                 }
             };
             let contacts = flights.clusters.get(number).contacts.iter().filter_map(contact);
-            self.contacts.push(CurveContacts::new(contacts.collect()));
+            let mut contacts: Vec<CurveContact> = contacts.collect();
+            contacts.sort_by_key(|contact| contact.second);
+            self.contacts.push(CurveContacts::new(contacts));
         }
         self.touched = touched;
+    }
+
+    /// Whether friction acts in some contact.
+    pub fn has_friction(&self) -> bool {
+        self.contacts.iter().any(CurveContacts::have_friction)
+    }
+
+    /// Chooses what friction does in a step of some length \[s\] that begins at `time` \[s\] with this motion: that of all
+    /// centres, then of all angles \[rad\].
+    pub fn choose_friction(
+        &mut self,
+        [positions, velocities]: [&[DVec3]; 2],
+        time: f64,
+        length: f64,
+    ) {
+        if self.has_friction() {
+            let mut free = Values::of(positions.len());
+            self.evaluate_free(time, positions, velocities, &mut free);
+            let moving = moving([positions, velocities], self.spheres.len());
+            for contacts in &mut self.contacts {
+                contacts.choose_states(moving, &self.spheres, &free, length);
+            }
+        }
+    }
+
+    /// The places of the spheres on which friction has a torque.
+    pub fn turned(&self) -> Vec<usize> {
+        let contacts = self.contacts.iter().flat_map(|contacts| &contacts.contacts);
+        let rough = contacts.filter(|contact| contact.friction > 0.0);
+        let mut places: Vec<usize> = rough.flat_map(|it| it.ends().map(|it| it.0)).collect();
+        places.sort_unstable();
+        places.dedup();
+        places
     }
 
     /// Begins a step with the spheres in these states \[m\], \[m/s\] at a time \[s\].
@@ -200,7 +221,7 @@ impl<'a> JointField<'a> {
         [positions, velocities]: [&[DVec3]; 2],
         time: f64,
     ) -> [DVec3; 2] {
-        match self.others.get(place.wrapping_sub(positions.len())) {
+        match self.others.get(place.wrapping_sub(self.alone.len())) {
             Some(&other) => self.flights.state_of(other, time).into(),
             None => [positions[place], velocities[place]],
         }
@@ -220,7 +241,8 @@ impl<'a> JointField<'a> {
         let Some(mut between) = self.between.take() else { return };
         if self.others.is_empty() {
             // All spheres fly, in the order of the world.
-            between.add(time, states, at);
+            let count = self.alone.len();
+            between.add(time, states.map(|of| &of[..count]), at);
         } else {
             let state = |&place: &usize| self.state_of(place, states, time).into();
             let (positions, velocities): (Vec<DVec3>, Vec<DVec3>) =
@@ -277,33 +299,30 @@ impl JointField<'_> {
     /// Follows the persistent contacts over a step.
     pub fn held_over(&mut self, start: &Start, step: &Step) -> HeldOver {
         if self.contacts.is_empty() {
-            return HeldOver::default();
+            return HeldOver { free: Vec::new(), releases: Vec::new(), change: f64::INFINITY };
         }
         let count = self.alone.len();
         let length = step.accelerations[0].length;
         let mut free = vec![[DVec3::ZERO; TERMS]; count];
-        let contacts = self.contacts.iter().map(|contacts| contacts.forces.len()).sum();
-        let mut forces = vec![[0.0; TERMS]; contacts];
-        let mut least = Vec::new();
+        let mut bounds = Vec::new();
         for (node, &s) in NODES.iter().enumerate() {
             let state = |place: usize| {
                 let (position, velocity) = (start.positions[place], start.velocities[place]);
                 let acceleration = step.accelerations[place];
                 PolynomialFlight { position, velocity, acceleration }.after(s * length)
             };
-            let (positions, velocities): (Vec<DVec3>, Vec<DVec3>) = (0..count).map(state).unzip();
-            let mut values = Values::of(count);
+            let all = 0..step.accelerations.len();
+            let (positions, velocities): (Vec<DVec3>, Vec<DVec3>) = all.map(state).unzip();
+            let mut values = Values::of(positions.len());
             self.evaluate_free(start.time + s * length, &positions, &velocities, &mut values);
             free.iter_mut().zip(&values.accelerations).for_each(|(free, &at)| free[node] = at);
             self.add_contacts([&positions, &velocities], &mut values);
-            let at_node = self.contacts.iter().flat_map(|contacts| &contacts.forces);
-            forces.iter_mut().zip(at_node).for_each(|(forces, &at)| forces[node] = at);
+            let states = [&positions[..], &velocities[..]];
             if node == 0 {
-                let size = |(contact, _): (&CurveContact, f64)| {
-                    OPENS * self.alone[contact.second].mass * values.sizes[contact.second]
-                };
-                least = self.contacts.iter().flat_map(CurveContacts::iter).map(size).collect();
+                bounds = self.bounds(&values);
             }
+            let at_node = self.margins(states);
+            bounds.iter_mut().zip(at_node).for_each(|(bound, at)| bound.values[node] = at);
         }
         let carried = [DVec3::ZERO; 2];
         let polynomial = |values: [DVec3; TERMS]| {
@@ -318,15 +337,14 @@ impl JointField<'_> {
             PolynomialAcceleration { length, coefficients, carried }
         };
         let free = free.into_iter().map(polynomial).collect();
-        let mut openings = forces.into_iter().zip(least).map(|(forces, least)| {
-            let part = first_below(gauss_radau::through_nodes(forces), -least);
-            part.map_or(f64::INFINITY, |part| part * length)
-        });
-        let first_of = |contacts: &CurveContacts| {
-            let own = openings.by_ref().take(contacts.forces.len());
-            own.fold(f64::INFINITY, f64::min)
-        };
-        let mut releases: Vec<f64> = self.contacts.iter().map(first_of).collect();
+        let mut releases = vec![f64::INFINITY; self.contacts.len()];
+        let mut change = f64::INFINITY;
+        for Bound { opens, least, values } in bounds {
+            let part = first_below(gauss_radau::through_nodes(values), least);
+            let time = part.map_or(f64::INFINITY, |part| part * length);
+            let first = opens.map_or(&mut change, |cluster| &mut releases[cluster]);
+            *first = first.min(time);
+        }
         for &Touched { cluster, sphere, form } in &self.touched {
             let (position, velocity) = (start.positions[sphere], start.velocities[sphere]);
             let acceleration = step.accelerations[sphere];
@@ -335,14 +353,62 @@ impl JointField<'_> {
                 releases[cluster] = releases[cluster].min(time.max(SOONEST * length));
             }
         }
-        HeldOver { free, releases }
+        HeldOver { free, releases, change }
+    }
+
+    /// The bounds of what contacts can do, at the start of a step with these accelerations \[m/s²\].
+    fn bounds(&self, at: &Values) -> Vec<Bound> {
+        let mut bounds = Vec::new();
+        for (cluster, contacts) in self.contacts.iter().enumerate() {
+            let bound = |opens, least: f64| Bound { opens, least, values: [0.0; TERMS] };
+            for (number, contact) in contacts.contacts.iter().enumerate() {
+                let second = contact.second;
+                let least = OPENS * self.alone[second].mass * at.sizes[second];
+                bounds.push(bound(Some(cluster), -least));
+                match contacts.states[number] {
+                    FrictionState::None => {}
+                    FrictionState::Rolls => bounds.push(bound(None, 0.0)),
+                    FrictionState::Slides { most_back, most, .. } => {
+                        bounds.push(bound(None, -most_back));
+                        if most < f64::INFINITY {
+                            bounds.push(bound(None, -most));
+                        }
+                    }
+                }
+            }
+        }
+        bounds
+    }
+
+    /// How far all contacts are from what they can do, in the order of their bounds: the normal force \[N\], then what
+    /// friction may add, \[N²\], or the slip along its first direction \[m/s\].
+    fn margins(&self, states: [&[DVec3]; 2]) -> Vec<f64> {
+        let moving = moving(states, self.spheres.len());
+        let mut margins = Vec::new();
+        for contacts in &self.contacts {
+            for (number, &state) in contacts.states.iter().enumerate() {
+                margins.push(contacts.forces[number].0);
+                match state {
+                    FrictionState::None => {}
+                    FrictionState::Rolls => margins.push(contacts.margin_of_rolling(number)),
+                    FrictionState::Slides { direction, most, .. } => {
+                        let slip = contacts.slip(number, moving, &self.spheres).dot(direction);
+                        margins.push(slip);
+                        if most < f64::INFINITY {
+                            margins.push(-slip);
+                        }
+                    }
+                }
+            }
+        }
+        margins
     }
 
     /// Adds the accelerations of persistent contacts.
     fn add_contacts(&mut self, states: [&[DVec3]; 2], at: &mut Values) {
-        let alone = &self.alone;
+        let moving = moving(states, self.spheres.len());
         for contacts in &mut self.contacts {
-            contacts.add(states, |place| alone[place].mass, at);
+            contacts.add(moving, &self.spheres, at);
         }
     }
 
@@ -354,7 +420,10 @@ impl JointField<'_> {
         velocities: &[DVec3],
         at: &mut Values,
     ) {
-        self.evaluations += self.alone.len() as u64;
+        let count = self.alone.len();
+        self.evaluations += count as u64;
+        at.accelerations[count..].fill(DVec3::ZERO);
+        at.sizes[count..].fill(0.0);
         for (place, alone) in self.alone.iter().enumerate() {
             let (position, velocity) = (positions[place], velocities[place]);
             let (acceleration, size) = alone.acceleration_and_size(time, position, velocity);

@@ -5,10 +5,13 @@ mod between;
 mod body;
 mod clusters;
 mod components;
+mod contact_matrix;
 mod contact_work;
 mod curve;
 mod curve_contacts;
 mod curves;
+mod free_field;
+mod friction_state;
 mod growth;
 mod joint_field;
 mod lanes;
@@ -25,7 +28,9 @@ pub(super) use body::Body;
 pub(super) use clusters::{Cluster, Support, Supported};
 pub(super) use components::Component;
 pub(super) use contact_work::ContactWork;
-pub(super) use curve_contacts::{CurveBody, CurveContact, CurveContacts, MOST_CONTACTS};
+pub(super) use curve_contacts::{
+    ContactSphere, CurveBody, CurveContact, CurveContacts, MOST_CONTACTS, Moving,
+};
 pub(super) use curves::{JointStep, StepLimits};
 pub(super) use growth::Growth;
 pub(super) use lanes::FlightLanes;

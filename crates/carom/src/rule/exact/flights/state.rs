@@ -16,6 +16,8 @@ use super::support_change::SupportChange;
 use crate::bodies::Motion;
 use crate::contact_time::Reach;
 use crate::detect::contact::Bodies;
+use crate::integrate::gauss_legendre;
+use crate::polynomial_flight::PolynomialAcceleration;
 use crate::rule::periodic;
 use crate::system::System;
 
@@ -180,10 +182,18 @@ impl Flights {
         }
     }
 
+    /// Begins the rotation of a sphere on a curve over a step from `time` \[s\] on, with this angular acceleration
+    /// \[rad/s²\].
+    pub fn rotate_over_step(&mut self, slot: u32, turning: PolynomialAcceleration, time: f64) {
+        if let Some(it) = self.rotations.get_mut(self.index_of[slot as usize] as usize) {
+            it.begin_step(turning, time);
+        }
+    }
+
     /// The rotation of the sphere with this index of the world's arrays. Torques of its persistent contacts end at
     /// `time` \[s\].
     pub fn free_rotation_of(&self, index: usize, time: f64) -> Rotation {
-        let mut rotation = self.rotations[index];
+        let mut rotation = self.rotations[index].clone();
         if self.hold_forces || self.species_of(self.slot_of[index]).cluster.is_some() {
             rotation.end_torque(time);
         }
@@ -229,14 +239,37 @@ impl Flights {
         match species.contact_work {
             ContactWork::None => {}
             ContactWork::Friction { moment, collider_power } => {
+                let along = match species.is_curved {
+                    true => self.contact_work_on_curve(slot, [from, time]),
+                    false => along_way(),
+                };
                 let [before, after] = [from, time].map(|at| self.angular_velocity_of(slot, at));
                 let turning = 0.5 * moment * (after - before).dot(after + before);
                 let by_colliders = (time - from) * collider_power;
-                self.contact_work.friction += along_way() + turning - by_colliders;
+                self.contact_work.friction += along + turning - by_colliders;
                 self.contact_work.colliders += by_colliders;
             }
             ContactWork::Colliders => self.contact_work.colliders += along_way(),
         }
+    }
+
+    /// The work of the persistent contacts of a sphere along a part of its curve, from one time to another \[s\], \[J\].
+    fn contact_work_on_curve(&self, slot: u32, range: [f64; 2]) -> f64 {
+        let body = &self.bodies[slot as usize];
+        let Some(step) = self.step_of(slot, body).filter(|_| range[0] < range[1]) else {
+            return 0.0;
+        };
+        let Some(free) = &step.free else { return 0.0 };
+        let force = step.acceleration.minus(free);
+        let mass = self.species_of(slot).mass;
+        gauss_legendre::integral(range, |time| {
+            mass * force.at(time - body.time).dot(self.state_on_curve(slot, time).1)
+        })
+    }
+
+    /// Adds the energy that impulses in persistent contacts gave at once \[J\].
+    pub fn add_contact_work(&mut self, work: f64) {
+        self.contact_work.friction += work;
     }
 
     /// Adds work of colliders that is done at once \[J\].

@@ -74,7 +74,7 @@ pub(super) fn answer(
     }
     record(context, &group, &answer);
     let struck = answer.struck(&group);
-    let before = states_of(&group);
+    let before = group.members.clone();
     let found = solve::find(context, &mut group);
     let spent = context.work.done() - work_before;
     context.work.allow(u64::MAX);
@@ -87,7 +87,7 @@ pub(super) fn answer(
     let Ok(supports) = found else {
         return refuse(timeline, context, &group);
     };
-    timeline.flights.add_collider_work(work_of_corrections(&group, &before));
+    account_for_closings(timeline, context, &group, &before);
     // Impacts without persistent contacts may be many: their number is that of flights.
     let lasting = if supports.is_empty() { 0 } else { group.members.len() as u64 };
     timeline.budget.charge(&indices_of(&group), spent, UNITS_PER_MEMBER * lasting);
@@ -152,6 +152,28 @@ fn work_of_corrections(group: &Group, before: &[[DVec3; 2]]) -> f64 {
         member.species.mass * (change - fallen)
     };
     group.members.iter().zip(before).map(gained).sum()
+}
+
+/// Accounts for the energy that contacts took as they began to persist, since the members were so: closings too small
+/// for an impact end without one.
+fn account_for_closings(
+    timeline: &mut Timeline,
+    context: &StepContext,
+    group: &Group,
+    before: &[Member],
+) {
+    if group.touches.iter().any(Touch::does_work) {
+        let states: Vec<[DVec3; 2]> = before.iter().map(Member::state).collect();
+        timeline.flights.add_collider_work(work_of_corrections(group, &states));
+        return;
+    }
+    let spheres = context.system.spheres;
+    let gained = |(after, before): (&Member, &Member)| {
+        let moment = spheres.moment_of_inertia(after.index as usize);
+        after.gained_since(before, moment)
+    };
+    let gained = group.members.iter().zip(before).map(gained).sum();
+    timeline.flights.add_contact_work(gained);
 }
 
 /// Limits the solvers to the work that the group may take. Returns that work.

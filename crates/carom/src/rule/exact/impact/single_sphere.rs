@@ -37,9 +37,10 @@ pub(crate) fn answer_single(
     else {
         return group::answer(timeline, context, &[slot], surface, time);
     };
-    // Friction couples the contacts, and drag leaves no closed form.
+    // Friction couples the contacts, and drag and forces that are not linear leave no closed form.
     let is_one = || touched.contacts(member.position).iter().flatten().count() == 1;
-    if timeline.has_friction() && !(is_one() && member.species.drag_rate == 0.0) {
+    let has_form = || member.species.drag_rate == 0.0 && !member.species.is_curved;
+    if timeline.has_friction() && !(is_one() && has_form()) {
         return group::answer(timeline, context, &[slot], surface, time);
     }
     let fastest = member.velocity.norm();
@@ -50,9 +51,15 @@ pub(crate) fn answer_single(
     let duration = timeline.horizon() - time;
     let planar = planar::support(context.system, &member, corner, contact_duration, duration);
     let planar = planar.ok().flatten();
+    let closing = member;
     if let Some(planar) = &planar {
         let is_at_rest = planar.velocity.norm() <= REST * fastest;
         member.velocity = if is_at_rest { DVec3::ZERO } else { planar.velocity };
+        let angular_velocity = planar.angular_velocity;
+        let moment = context.system.spheres.moment_of_inertia(member.index as usize);
+        let settled = Member { angular_velocity, ..member };
+        // A closing too small for an impact ends without one.
+        timeline.flights.add_contact_work(settled.gained_since(&closing, moment));
     }
     timeline.begin_free_flight(&member, time);
     timeline.flights.rotate(slot, [member.angular_velocity, DVec3::ZERO], time);

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::accelerations::forces;
+use super::on_curves;
 use super::piece_end::settle;
 use super::with_friction::forces_of_pushed;
 use crate::detect::contact::Bodies;
@@ -29,7 +30,9 @@ pub(crate) fn list(
     for cluster in timeline.flights.clusters.iter() {
         let mut group = contacts::gather_cluster(timeline, context, cluster, time);
         settle(timeline, context, &mut group);
-        let forces = forces_in(timeline, context, &group).into_iter();
+        let on_curves =
+            if cluster.is_curved { on_curves::forces_now(context, &group) } else { None };
+        let forces = on_curves.unwrap_or_else(|| forces_in(timeline, context, &group)).into_iter();
         found.extend(group.touches.iter().zip(forces).map(
             |(touch, (normal_force, tangential_force))| {
                 let sliding = respond::friction_of(touch.bodies, context.system).sliding;

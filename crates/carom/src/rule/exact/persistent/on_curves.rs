@@ -2,70 +2,196 @@
 
 use glam::DVec3;
 
+use super::accelerations::{Accelerations, IDLE, free_acceleration};
 use crate::detect::contact::Bodies;
+use crate::friction::ContactFriction;
+use crate::integrate::gauss_radau::Values;
 use crate::norm::Norm;
 use crate::respond::friction_of;
-use crate::rule::exact::contacts::{Member, Touch};
+use crate::rule::exact::contacts::{Group, Member, Touch};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::features::Feature;
-use crate::rule::exact::flights::{CurveBody, CurveContact, CurveContacts, MOST_CONTACTS, Species};
+use crate::rule::exact::flights::{
+    ContactSphere, CurveBody, CurveContact, CurveContacts, MOST_CONTACTS, Moving, Species,
+};
 
 /// Angle \[rad\] below which two normals count as one: they differ by rounding.
 pub(super) const SAME_NORMAL: f64 = 1e-9;
 
-/// Whether all spheres in these contacts fly on curves with them: they touch each other and surfaces at rest, without
-/// friction, and no contact follows from others.
+/// Whether all spheres in these contacts fly on curves with them: they touch each other and surfaces at rest, and no
+/// contact follows from others.
 pub(super) fn fly_so(context: &StepContext, members: &[Member], touches: &[Touch]) -> bool {
-    if touches.len() > MOST_CONTACTS || context.period != DVec3::INFINITY {
-        return false;
-    }
-    let contacts = touches.iter().map(|touch| smooth_contact(context, members, touch)).collect();
-    let Some(contacts): Option<Vec<CurveContact>> = contacts else { return false };
-    // Of faces with a common edge one bears the sphere.
-    let numbers = (0..touches.len()).filter(|&number| !is_repeated(&touches[..=number]));
-    let apart = numbers.map(|number| contacts[number]).collect();
+    let Some(mut contacts) = contacts(context, members, touches) else { return false };
     let positions: Vec<DVec3> = members.iter().map(|member| member.position).collect();
-    CurveContacts::new(apart).are_independent(&positions, |place| members[place].species.mass)
+    contacts.are_independent(&positions, &spheres(context, members))
 }
 
-/// Whether a sphere of this species flies on curves with a contact: none has friction or a sphere that grows.
+/// The touches, of those that may persist, that press where friction acts, with the accelerations of the members;
+/// `None` unless all of them fly on curves with these contacts.
+pub(super) fn pressing_with_friction(
+    context: &StepContext,
+    members: &[Member],
+    candidates: &[Touch],
+) -> Option<(Vec<Touch>, Accelerations)> {
+    let touches = in_order(candidates);
+    let mut contacts = contacts(context, members, &touches)?;
+    let (spheres, motion) = (spheres(context, members), MotionOfMembers::of(members));
+    let free = motion.free();
+    let found = contacts.unilateral(motion.moving(), &spheres, &free);
+    let largest = contacts.forces.iter().map(|force| force.0).fold(0.0, f64::max);
+    let presses: Vec<bool> = contacts.forces.iter().map(|it| it.0 > IDLE * largest).collect();
+    let mut is_carried = vec![false; members.len()];
+    let pressing = touches.iter().zip(&presses).filter(|it| *it.1);
+    pressing.flat_map(|it| it.0.places()).for_each(|place| is_carried[place] = true);
+    let scale = free.sizes.iter().copied().fold(0.0, f64::max);
+    let is_idle = |number: usize| {
+        let are_carried = touches[number].places().all(|place| is_carried[place]);
+        are_carried && contacts.opening(number, motion.moving(), &found) <= IDLE * scale
+    };
+    let stays = |&number: &usize| presses[number] || is_idle(number);
+    let persistent: Vec<Touch> =
+        (0..touches.len()).filter(stays).map(|number| touches[number]).collect();
+    if !fly_so(context, members, &persistent) {
+        return None;
+    }
+    // Faces that share an edge persist together.
+    let persists = |touch: &&Touch| persistent.iter().any(|it| are_same(it, touch));
+    let all: Vec<Touch> = candidates.iter().filter(persists).copied().collect();
+    let with_drag = |(member, &acceleration): (&Member, &DVec3)| {
+        acceleration + member.species.drag_rate * member.velocity
+    };
+    let each = members.iter().zip(&found).map(with_drag).collect();
+    let part = |touch: &Touch| largest / members[touch.second].species.mass;
+    let largest = all.iter().map(part).fold(0.0, f64::max);
+    Some((all, Accelerations { each, largest }))
+}
+
+/// Normal force and friction \[N\] on body 2 of each touch of a cluster on curves, as it moves now; `None` if it is none.
+pub(super) fn forces_now(context: &StepContext, group: &Group) -> Option<Vec<(f64, DVec3)>> {
+    let Group { members, touches, .. } = group;
+    let ordered = in_order(touches);
+    let mut contacts = contacts(context, members, &ordered)?;
+    let (spheres, motion) = (spheres(context, members), MotionOfMembers::of(members));
+    let mut values = motion.free();
+    contacts.choose_states(motion.moving(), &spheres, &values, 0.0);
+    contacts.add(motion.moving(), &spheres, &mut values);
+    let force_of = |touch: &Touch| {
+        let place = ordered.iter().position(|it| it.bodies == touch.bodies);
+        place.map_or((0.0, DVec3::ZERO), |place| contacts.forces[place])
+    };
+    Some(touches.iter().map(force_of).collect())
+}
+
+/// The motion of the members of a group, as contacts take it.
+struct MotionOfMembers {
+    positions: Vec<DVec3>,
+    velocities: Vec<DVec3>,
+    angular_velocities: Vec<DVec3>,
+    accelerations: Vec<DVec3>,
+}
+
+impl MotionOfMembers {
+    fn of(members: &[Member]) -> Self {
+        let of_all = |of: fn(&Member) -> DVec3| members.iter().map(of).collect();
+        Self {
+            positions: of_all(|member| member.position),
+            velocities: of_all(|member| member.velocity),
+            angular_velocities: of_all(|member| member.angular_velocity),
+            accelerations: of_all(free_acceleration),
+        }
+    }
+
+    fn moving(&self) -> Moving<'_> {
+        let Self { positions, velocities, angular_velocities, .. } = self;
+        Moving { positions, velocities, angular_velocities }
+    }
+
+    /// The accelerations without contacts: those of all centres, then the angular ones.
+    fn free(&self) -> Values {
+        let count = self.accelerations.len();
+        let mut free = Values::of(2 * count);
+        free.accelerations[..count].copy_from_slice(&self.accelerations);
+        for (size, acceleration) in free.sizes.iter_mut().zip(&self.accelerations) {
+            *size = acceleration.norm();
+        }
+        free
+    }
+}
+
+/// The touches, those of each sphere beside each other; of faces that share an edge one.
+fn in_order(touches: &[Touch]) -> Vec<Touch> {
+    let numbers = (0..touches.len()).filter(|&number| !is_repeated(&touches[..=number]));
+    let mut ordered: Vec<Touch> = numbers.map(|number| touches[number]).collect();
+    ordered.sort_by_key(|touch| touch.second);
+    ordered
+}
+
+/// Whether two touches are of one sphere at the same place.
+fn are_same(one: &Touch, other: &Touch) -> bool {
+    let is_sphere = one.first == other.first && one.second == other.second;
+    is_sphere && (one.normal - other.normal).norm() <= SAME_NORMAL
+}
+
+/// The contacts in the form of curves; `None` if some sphere does not fly on one with them.
+fn contacts(context: &StepContext, members: &[Member], touches: &[Touch]) -> Option<CurveContacts> {
+    if touches.len() > MOST_CONTACTS || context.period != DVec3::INFINITY {
+        return None;
+    }
+    let contacts = touches.iter().map(|touch| contact(context, members, touch)).collect();
+    let contacts: Option<Vec<CurveContact>> = contacts;
+    let contacts = contacts?;
+    // Of faces with a common edge one bears the sphere.
+    let numbers = (0..touches.len()).filter(|&number| !is_repeated(&touches[..=number]));
+    Some(CurveContacts::new(numbers.map(|number| contacts[number]).collect()))
+}
+
+/// What contacts need to know of members.
+fn spheres(context: &StepContext, members: &[Member]) -> Vec<ContactSphere> {
+    let sphere = |member: &Member| {
+        let Species { radius, mass, .. } = member.species;
+        let inertia_factor = context.system.spheres.inertia_factor(member.index as usize);
+        ContactSphere { radius, mass, inertia_factor }
+    };
+    members.iter().map(sphere).collect()
+}
+
+/// Whether a sphere of this species flies on curves with a contact: no rolling or spinning friction acts there, and the
+/// sphere does not grow.
 pub(in crate::rule::exact) fn flies_with(
     context: &StepContext,
     species: &Species,
     bodies: Bodies,
 ) -> bool {
-    let is_smooth = !friction_of(bodies, context.system).acts();
-    species.is_curved && species.growth_speed == 0.0 && is_smooth
+    let ContactFriction { rolling, spinning, .. } = friction_of(bodies, context.system);
+    let only_slides = rolling == 0.0 && spinning == 0.0;
+    species.is_curved && species.growth_speed == 0.0 && only_slides
 }
 
 /// Whether the last of several touches is with a surface that touches its sphere where another one does.
 fn is_repeated(touches: &[Touch]) -> bool {
     let Some((last, others)) = touches.split_last() else { return false };
-    others.iter().any(|other| {
-        let are_of_surfaces = last.first.is_none() && other.first.is_none();
-        let is_same = (last.normal - other.normal).norm() <= SAME_NORMAL;
-        are_of_surfaces && other.second == last.second && is_same
-    })
+    last.first.is_none() && others.iter().any(|other| are_same(last, other))
 }
 
-/// A contact without friction, of spheres on curves with each other or with a surface at rest.
-fn smooth_contact(
-    context: &StepContext,
-    members: &[Member],
-    touch: &Touch,
-) -> Option<CurveContact> {
+/// A contact of spheres on curves with each other or with a surface at rest.
+fn contact(context: &StepContext, members: &[Member], touch: &Touch) -> Option<CurveContact> {
     if !touch.places().all(|place| flies_with(context, &members[place].species, touch.bodies)) {
         return None;
     }
     let second = touch.second;
     let first = match touch.bodies {
         Bodies::Pair(..) => CurveBody::Sphere(touch.first?),
-        Bodies::Surface { .. } if touch.does_work() => return None,
+        // Neither what moves nor a belt is at rest.
+        Bodies::Surface { .. } if touch.does_work() || touch.belt != DVec3::ZERO => return None,
         Bodies::Surface { surface, .. } => {
             let form = &context.system.surfaces[surface as usize].form;
             let Member { position, velocity, species, .. } = members[second];
             CurveBody::Feature(Feature::under(form, [position, velocity], species.radius)?)
         }
     };
-    Some(CurveContact { first, second })
+    Some(CurveContact {
+        first,
+        second,
+        friction: friction_of(touch.bodies, context.system).sliding,
+    })
 }

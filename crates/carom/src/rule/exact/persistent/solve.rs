@@ -32,14 +32,41 @@ pub(crate) const REST: f64 = 1e-12;
 /// [`NoClosedForm`] where friction acts but on spheres that lie on one surface at rest each.
 pub(crate) fn find(context: &StepContext, group: &mut Group) -> Result<Vec<Support>, NoClosedForm> {
     let candidates = may_persist(context, group);
+    let acts = |touch: &Touch| friction_of(touch.bodies, context.system).acts();
+    if candidates.iter().any(acts)
+        && let Some(supports) = find_on_curves(context, group, &candidates)
+    {
+        return Ok(supports);
+    }
     let (persistent, known_forces) = pressing(context.work, &group.members, &candidates);
     let least = IDLE * known_forces.iter().copied().fold(0.0, f64::max);
     let bearing = || persistent.iter().zip(&known_forces).filter(|it| *it.1 > least).map(|it| it.0);
-    if bearing().any(|touch| friction_of(touch.bodies, context.system).acts()) {
+    if bearing().any(acts) {
         let bearing: Vec<Touch> = bearing().copied().collect();
         return with_friction::find(context, group, &candidates, &bearing);
     }
     Ok(find_smooth(context, group, candidates, persistent, known_forces))
+}
+
+/// Computes the persistent contacts of spheres that fly on curves with friction; `None` if they do not.
+fn find_on_curves(
+    context: &StepContext,
+    group: &mut Group,
+    candidates: &[Touch],
+) -> Option<Vec<Support>> {
+    let (mut persistent, accelerations) =
+        on_curves::pressing_with_friction(context, &group.members, candidates)?;
+    correct(context, group, &mut persistent);
+    let accelerations = zero_roundoff(context, group, accelerations);
+    let mut supports = connected(group, &persistent, &accelerations, None);
+    for member in supports.iter_mut().flat_map(|support| &mut support.members) {
+        let of_slot = |it: &&Member| it.slot == member.slot;
+        if let Some(Member { index, .. }) = group.members.iter().find(of_slot) {
+            let moment = context.system.spheres.moment_of_inertia(*index as usize);
+            member.contact_work = ContactWork::Friction { moment, collider_power: 0.0 };
+        }
+    }
+    Some(supports)
 }
 
 /// Computes the persistent contacts among contacts without friction.

@@ -100,10 +100,11 @@ fn where_it_counts(
 fn fly(timeline: &mut Timeline, context: &StepContext, stepped: &[Stepped], now: f64) {
     let next = timeline.zone.next_tick();
     let mut found = NeighbourBuffer::default();
-    for &Stepped { index, positions: [from, to], rotation } in stepped {
+    for Stepped { index, positions: [from, to], rotation } in stepped {
+        let (index, from, to) = (*index, *from, *to);
         let slot = timeline.flights.slot_of[index as usize];
         if let Some(rotation) = rotation {
-            timeline.flights.rotations[index as usize] = rotation;
+            timeline.flights.rotations[index as usize] = rotation.clone();
         }
         let velocity = if from == to { DVec3::ZERO } else { (to - from) / (next - now) };
         let from = where_it_counts(timeline, context, slot, from, now);
