@@ -57,6 +57,8 @@ pub(crate) struct Moving<'a> {
 struct ForceDirection {
     /// Number of the contact.
     contact: usize,
+    /// Normal of the contact.
+    normal: DVec3,
     /// Force on body 2, per unit.
     force: DVec3,
     /// Unit vector along which body 2 does not accelerate relative to body 1.
@@ -223,8 +225,7 @@ impl CurveContacts {
         parts.extend(self.directions.iter().map(held));
         self.matrix.solve(&mut parts);
         for (it, &part) in self.directions.iter().zip(&parts) {
-            let normal = self.normals[it.contact];
-            let force = part * it.force;
+            let (normal, force) = (it.normal, part * it.force);
             let (of_normal, friction) = &mut self.forces[it.contact];
             let along_normal = force.dot(normal);
             *of_normal += along_normal;
@@ -299,7 +300,7 @@ impl CurveContacts {
 
     /// Fills in and factorizes the matrix. Returns whether all forces are independent.
     fn fill_matrix(&mut self, spheres: &[ContactSphere]) -> bool {
-        let Self { contacts, linked, normals, directions, matrix, .. } = self;
+        let Self { contacts, linked, directions, matrix, .. } = self;
         matrix.begin(directions.len());
         for (row, held) in directions.iter().enumerate() {
             let one = &contacts[held.contact];
@@ -307,8 +308,7 @@ impl CurveContacts {
                 let first = directions.partition_point(|it| it.contact < other);
                 let forces = directions.iter().enumerate().skip(first);
                 for (column, force) in forces.take_while(|it| it.1.contact == other) {
-                    let other = (&contacts[other], normals[other], force.force);
-                    let value = coupling(one, (normals[held.contact], held), other, spheres);
+                    let value = coupling((one, held), (&contacts[other], force), spheres);
                     matrix.set(row, column, value);
                 }
             }
@@ -323,7 +323,7 @@ impl CurveContacts {
         for (contact, &normal) in self.normals.iter().enumerate() {
             let friction = self.contacts[contact].friction;
             let of_normal =
-                ForceDirection { contact, force: normal, held: normal, is_along: false };
+                ForceDirection { contact, normal, force: normal, held: normal, is_along: false };
             match (self.states[contact], moving) {
                 (FrictionState::Slides { direction, least, .. }, Some(moving)) => {
                     let slip = self.slip(contact, moving, spheres);
@@ -332,12 +332,9 @@ impl CurveContacts {
                 }
                 (FrictionState::Rolls, Some(_)) => {
                     directions.push(of_normal);
-                    directions.extend(tangents(normal).map(|held| ForceDirection {
-                        contact,
-                        force: held,
-                        held,
-                        is_along: true,
-                    }));
+                    let along =
+                        |held| ForceDirection { force: held, held, is_along: true, ..of_normal };
+                    directions.extend(tangents(normal).map(along));
                 }
                 _ => directions.push(of_normal),
             }
@@ -346,20 +343,19 @@ impl CurveContacts {
     }
 }
 
-/// The acceleration along a held direction of one contact for a unit of another one's force \[1/kg\].
+/// The acceleration along the held direction of one contact for a unit of another one's force \[1/kg\].
 fn coupling(
-    one: &CurveContact,
-    (normal, held): (DVec3, &ForceDirection),
-    (other, other_normal, force): (&CurveContact, DVec3, DVec3),
+    (one, held): (&CurveContact, &ForceDirection),
+    (other, force): (&CurveContact, &ForceDirection),
     spheres: &[ContactSphere],
 ) -> f64 {
     let mut sum = 0.0;
     for (place, sign) in one.ends() {
         for (_, other_sign) in other.ends().filter(|it| it.0 == place) {
             let ContactSphere { mass, inertia_factor, .. } = spheres[place];
-            sum += sign * other_sign * held.held.dot(force) / mass;
+            sum += sign * other_sign * held.held.dot(force.force) / mass;
             if held.is_along {
-                let turning = other_normal.cross(force).cross(normal);
+                let turning = force.normal.cross(force.force).cross(held.normal);
                 sum += held.held.dot(turning) / (inertia_factor * mass);
             }
         }

@@ -30,6 +30,16 @@ pub(crate) struct StepLimits {
     pub is_rough: bool,
 }
 
+impl StepLimits {
+    /// The pace of a step after those of this pace.
+    fn pace(&self, before: Pace) -> Pace {
+        match self.is_rough {
+            true => Pace { trial: before.trial.max(self.tick), shortest: self.tick },
+            false => before,
+        }
+    }
+}
+
 /// Steps of the spheres of a component whose forces are not held.
 #[derive(Default)]
 pub(crate) struct JointStep {
@@ -216,9 +226,7 @@ impl Flights {
     ) -> JointStep {
         let mut field = JointField::of(system, self, component);
         let slots = std::mem::take(&mut field.flying);
-        let Some(&first) = slots.first() else {
-            return JointStep::default();
-        };
+        let Some(&first) = slots.first() else { return JointStep::default() };
         let bodies: Vec<&Body> = slots.iter().map(|&slot| &self.bodies[slot as usize]).collect();
         let mut positions: Vec<DVec3> = bodies.iter().map(|body| body.position).collect();
         let mut velocities: Vec<DVec3> = bodies.iter().map(|body| body.velocity).collect();
@@ -238,13 +246,8 @@ impl Flights {
         }
         let brief = field.brief(states, time).unwrap_or(limits.tick);
         // A close passage of two spheres multiplies the rounding of their places.
-        let may_be_close = field.between.is_some();
-        let carried = |&slot: &u32| match self.last_step(slot) {
-            Some(step) if may_be_close && step.end == time => step.left,
-            _ => [DVec3::ZERO; 2],
-        };
-        let mut carried: Vec<[DVec3; 2]> = slots.iter().map(carried).collect();
-        carried.resize(positions.len(), [DVec3::ZERO; 2]);
+        let close = if field.between.is_some() { &slots[..] } else { &[] };
+        let carried = self.left_by_last_steps(close, time, positions.len());
         let start = Start {
             positions: &positions,
             velocities: &velocities,
@@ -256,40 +259,25 @@ impl Flights {
         };
         let before: Option<Vec<&CurveStep>> =
             slots.iter().map(|&slot| self.last_step(slot)).collect();
-        let paces = before.iter().flatten().map(|step| step.pace);
-        let shorter = |a: Pace, b: Pace| if b.trial < a.trial { b } else { a };
-        let known_pace = paces.reduce(shorter).unwrap_or(Pace::of(brief));
-        let mut pace = known_pace;
-        if limits.is_rough {
-            pace = Pace { trial: pace.trial.max(limits.tick), shortest: limits.tick };
-        }
+        let known_pace = shortest_pace(before.iter().flatten()).unwrap_or(Pace::of(brief));
+        let pace = limits.pace(known_pace);
         field.choose_friction(states, time, pace.trial);
         // The last step predicts this one only if no event was between, and if it was no rough step, which may be
         // of any length.
-        let leads_here = |step: &&CurveStep| !limits.is_rough && step.leads_to(time);
-        let continues = before.filter(|steps| steps.iter().all(leads_here));
-        let before: Option<Vec<PolynomialAcceleration>> = continues.map(|steps| {
-            let mut before: Vec<PolynomialAcceleration> =
-                steps.iter().map(|step| step.acceleration).collect();
-            if positions.len() > count {
-                let turning = |(&slot, step): (&u32, &&CurveStep)| self.turning_over(slot, step);
-                before.extend(slots.iter().zip(&steps).map(turning));
-            }
-            before
-        });
+        let before = before.filter(|steps| steps.iter().all(|step| step.leads_to(time)));
+        let before = before.filter(|_| !limits.is_rough);
+        let turned = if positions.len() > count { &slots[..] } else { &[] };
+        let before = before.map(|steps| self.accelerations_over(&steps, turned));
         let step = gauss_radau::step(&start, before.as_deref(), pace, &mut field);
         let held = field.held_over(&start, &step);
         let releases = held.releases.into_iter().map(|release| time + release).collect();
         let of_friction = Some(held.change).filter(|it| it.is_finite() && !limits.is_rough);
-        let changes = field.first_change(&start, &step).into_iter().chain(of_friction);
-        let change = changes.reduce(f64::min);
+        let changes = [field.first_change(&start, &step), of_friction];
+        let change = changes.into_iter().flatten().reduce(f64::min);
         let end =
             change.map_or(step.end, |change| (time + change).max(time.next_up()).min(step.end));
-        let turning = field
-            .turned()
-            .into_iter()
-            .map(|place| (slots[place], step.accelerations[count + place]));
-        let turning = turning.collect();
+        let turning = |&place: &usize| (slots[place], step.accelerations[count + place]);
+        let turning = field.turned().iter().map(turning).collect();
         // A rough step says nothing of the next one.
         let pace = if limits.is_rough { known_pace } else { step.pace };
         let mut free = held.free.into_iter();
@@ -303,6 +291,29 @@ impl Flights {
         let steps = bodies.iter().zip(step.accelerations).map(curve_of);
         let curves = slots.iter().copied().zip(steps.map(|step| Curve(Some(step)))).collect();
         JointStep { curves, turning, evaluations: field.evaluations, releases }
+    }
+
+    /// The parts of the states \[m\], \[m/s\] that the last steps of spheres left to the next ones, where they led to
+    /// `time` \[s\]; none for the others of `count`.
+    fn left_by_last_steps(&self, slots: &[u32], time: f64, count: usize) -> Vec<[DVec3; 2]> {
+        let left_by = |&slot: &u32| {
+            let last = self.last_step(slot).filter(|step| step.end == time);
+            last.map_or([DVec3::ZERO; 2], |step| step.left)
+        };
+        let mut left: Vec<[DVec3; 2]> = slots.iter().map(left_by).collect();
+        left.resize(count, [DVec3::ZERO; 2]);
+        left
+    }
+
+    /// The accelerations over steps, and behind them the angular ones of these spheres.
+    fn accelerations_over(
+        &self,
+        steps: &[&CurveStep],
+        turned: &[u32],
+    ) -> Vec<PolynomialAcceleration> {
+        let of_centres = steps.iter().map(|step| step.acceleration);
+        let turning = turned.iter().zip(steps);
+        of_centres.chain(turning.map(|(&slot, step)| self.turning_over(slot, step))).collect()
     }
 
     /// The angular acceleration of a sphere over its last step.
@@ -355,4 +366,9 @@ impl Flights {
         }
         self.curves[index as usize] = curve;
     }
+}
+
+/// The pace of the shortest trial among steps.
+fn shortest_pace<'a>(steps: impl Iterator<Item = &'a &'a CurveStep>) -> Option<Pace> {
+    steps.map(|step| step.pace).reduce(|a, b| if b.trial < a.trial { b } else { a })
 }

@@ -11,6 +11,7 @@ mod curve;
 mod curve_contacts;
 mod curves;
 mod free_field;
+mod friction_choice;
 mod friction_state;
 mod growth;
 mod joint_field;

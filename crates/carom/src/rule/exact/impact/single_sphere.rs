@@ -68,22 +68,9 @@ pub(crate) fn answer_single(
     }
     let sphere = member.index;
     if let Some(planar) = planar {
-        let PlanarSupport { valid_for, persists, belt_work, .. } = planar;
-        let lasting = corner.planes().zip(persists).filter(|it| it.1).map(|it| it.0.surface);
-        let contacts: Vec<Bodies> =
-            lasting.map(|surface| Bodies::Surface { sphere, surface }).collect();
-        let supported = planar.supported(slot);
-        let flies = |&bodies: &Bodies| flies_with(context, &member.species, bodies);
-        let is_on_curve = member.species.is_curved && contacts.iter().all(flies);
-        let support = if is_on_curve {
-            let (rotation, contact_work) = (None, ContactWork::None);
-            let members = vec![Supported { rotation, contact_work, ..supported }];
-            let renewal = f64::INFINITY;
-            Support { members, contacts, renewal, is_curved: true, belt_work }
-        } else {
-            let renewal = time + valid_for;
-            Support { members: vec![supported], contacts, renewal, is_curved: false, belt_work }
-        };
+        let surfaces = corner.planes().zip(planar.persists).filter(|it| it.1);
+        let surfaces = surfaces.map(|it| Bodies::Surface { sphere, surface: it.0.surface });
+        let support = support_by(context, &member, planar, surfaces.collect(), time);
         timeline.set_supported(support, time);
     }
     let is_answered = |timeline: &Timeline, surface: u32| {
@@ -101,6 +88,28 @@ pub(crate) fn answer_single(
         .map(|bodies| Unresolved { bodies, until: time + contact_duration })
         .collect();
     Changed::Sphere { slot, unresolved }
+}
+
+/// Returns the support of a sphere by planes from `time` \[s\] on: along a curve where it flies on one.
+fn support_by(
+    context: &StepContext,
+    member: &Member,
+    planar: PlanarSupport,
+    contacts: Vec<Bodies>,
+    time: f64,
+) -> Support {
+    let PlanarSupport { valid_for, belt_work, .. } = planar;
+    let supported = planar.supported(member.slot);
+    let flies = |&bodies: &Bodies| flies_with(context, &member.species, bodies);
+    let is_curved = member.species.is_curved && contacts.iter().all(flies);
+    let (member, renewal) = match is_curved {
+        true => {
+            let (rotation, contact_work) = (None, ContactWork::None);
+            (Supported { rotation, contact_work, ..supported }, f64::INFINITY)
+        }
+        false => (supported, time + valid_for),
+    };
+    Support { members: vec![member], contacts, renewal, is_curved, belt_work }
 }
 
 /// Applies the impulses of the surfaces on which the sphere closes, by Newton's law, and records them. All impact
