@@ -30,6 +30,17 @@ def test_a_ball_that_slides_comes_to_roll() -> None:
     assert world.rotational_energy == pytest.approx(0.2 * 0.01 * (50 / 7) ** 2, rel=0.02)
 
 
+def test_a_ball_on_a_belt_comes_to_roll_at_two_sevenths_of_its_speed() -> None:
+    world = carom.World()
+    world.add_force(carom.Gravity())
+    belt = carom.Collider(carom.HalfSpace(), friction=0.3, surface_velocity=(0.7, 0, 0))
+    world.add_collider(belt)
+    world.add_sphere(carom.Sphere(position=(0, 0.1, 0), radius=0.1, restitution=0.0))
+    world.step(frames=60)
+    assert world.velocities[0, 0] == pytest.approx(0.2, rel=1e-12)
+    assert world.scene().colliders[0].surface_velocity == (0.7, 0, 0)
+
+
 @pytest.mark.parametrize("rule", ["exact", "contact"])
 def test_an_impact_tells_its_impulse_of_friction(rule: Literal["exact", "contact"]) -> None:
     world = carom.World()

@@ -49,6 +49,24 @@ test("a ball that slides comes to roll", () => {
   assert.ok(world.kineticEnergy() > world.rotationalEnergy());
 });
 
+test("a ball on a belt comes to roll at two sevenths of its speed", () => {
+  const world = new World({ rule: "exact" });
+  world.addForce({ gravity: { acceleration: [0, -9.81, 0] } });
+  world.addCollider({ shape: "half-space", friction: 0.3, surfaceVelocity: [0.7, 0, 0] });
+  world.addSphere({ position: [0, 0.1, 0], radius: 0.1, restitution: 0 });
+  assert.ok(isNear(step(world, 60).velocities[0], 0.2, 1e-12));
+});
+
+test("a law gives the restitution at the speed of an impact", () => {
+  const world = new World({ rule: "exact", frameTime: 0.5 });
+  const restitutionLaw = { powerLaw: { speed: 0.25 } };
+  world.addCollider({ shape: "half-space", restitutionLaw });
+  world.addSphere({ position: [0, 1.1, 0], velocity: [0, -4, 0], radius: 0.1 });
+  world.step();
+  // 4 m/s is 16 times the speed, and 16 to the power of -1/4 is 1/2.
+  assert.ok(isNear(world.velocities[1], 2, 1e-12));
+});
+
 test("contacts and the account tell of friction", () => {
   const world = step(slidingBall(), 1);
   const [contact] = world.contacts;

@@ -1,0 +1,95 @@
+"""Materials, pairs of them, and laws of restitution: in scene files, in Python, in worlds."""
+
+import pickle
+
+import pytest
+
+import carom
+
+BILLIARD = """
+name = "billiard"
+[materials.steel]
+density = "7.8 g/cm^3"
+restitution = 0.95
+[materials.rubber]
+restitution_law = { power-law = { restitution = 0.9, speed = "1 m/s" } }
+[[material_pairs]]
+materials = ["steel", "felt"]
+restitution = 0.3
+[[material_pairs]]
+materials = ["steel", "steel"]
+restitution_law = { viscoelastic = { speed = "1e5 km/s" } }
+[materials.felt]
+friction = 0.2
+[[spheres]]
+position = [0.0, 1.0, 0.0]
+radius = 0.0285
+material = "steel"
+[[colliders]]
+shape = "half-space"
+material = "felt"
+"""
+
+
+def dropped() -> carom.Scene:
+    """A ball of steel above a floor of felt."""
+    return carom.Scene(
+        name="drop",
+        forces=[carom.Gravity((0, -10, 0))],
+        spheres=[carom.Sphere(position=(0, 5.5, 0), radius=0.5, material="steel")],
+        colliders=[carom.Collider(carom.HalfSpace(), material="felt")],
+        materials={
+            "steel": carom.Material(restitution=0.9, density=7800),
+            "felt": carom.Material(),
+        },
+        material_pairs=[carom.MaterialPair(["steel", "felt"], restitution=0.25)],
+    )
+
+
+def test_a_scene_with_materials_is_the_same_after_it_was_written_and_read() -> None:
+    scene = carom.Scene.from_toml(BILLIARD)
+    assert scene.spheres[0].material == "steel"
+    assert scene.materials["rubber"].restitution_law == carom.PowerLaw(1.0, 0.9)
+    assert scene.material_pairs[1].restitution_law == carom.Viscoelastic(1e8)
+    assert carom.Scene.from_toml(scene.to_toml()) == scene
+    assert pickle.loads(pickle.dumps(scene)) == scene
+
+
+def test_a_change_of_a_material_reaches_its_bodies() -> None:
+    scene = carom.Scene.from_toml(BILLIARD)
+    softer = scene.with_changes({"materials.steel.restitution": 0.5})
+    assert [carom.World(it).restitutions[0] for it in (scene, softer)] == [0.95, 0.5]
+
+
+def test_a_pair_of_materials_has_the_restitution_of_its_table() -> None:
+    impact = dropped().run(seconds=1.2).impacts[0]
+    ratio = impact["separation_speed"] / impact["approach_speed"]
+    assert ratio == pytest.approx(0.25, rel=1e-12)
+
+
+def test_a_ball_that_is_added_takes_the_fields_of_its_material() -> None:
+    world = carom.World(dropped())
+    world.add_sphere(carom.Sphere(position=(3, 5, 0), radius=0.5, material="steel"))
+    assert world.restitutions[1] == 0.9
+    assert world.masses[1] == world.masses[0]
+    assert world.scene().material_pairs == dropped().material_pairs
+    with pytest.raises(carom.CaromError, match="unknown material"):
+        world.add_sphere(carom.Sphere(position=(6, 5, 0), radius=0.5, material="stel"))
+
+
+def test_a_law_gives_the_restitution_at_the_speed_of_an_impact() -> None:
+    # 10 m/s is 16 times the speed, and 16 to the power of -1/4 is 1/2.
+    law = carom.PowerLaw(0.625)
+    ball = carom.Sphere(position=(0, 5.5, 0), radius=0.5, restitution_law=law)
+    forces, floor = [carom.Gravity((0, -10, 0))], carom.Collider(carom.HalfSpace())
+    scene = carom.Scene(name="law", forces=forces, spheres=[ball], colliders=[floor])
+    impact = scene.run(seconds=1.1).impacts[0]
+    ratio = impact["separation_speed"] / impact["approach_speed"]
+    assert ratio == pytest.approx(0.5, rel=1e-12)
+
+
+def test_wrong_values_are_refused_by_their_names() -> None:
+    with pytest.raises(carom.CaromError, match=r"MaterialPair\.restitution"):
+        carom.MaterialPair(("a", "b"), restitution=2.0)
+    with pytest.raises(TypeError, match=r"MaterialPair\.materials"):
+        carom.MaterialPair("steel")  # type: ignore[arg-type]
