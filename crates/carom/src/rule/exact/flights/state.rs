@@ -356,7 +356,9 @@ impl Flights {
     /// Makes a cluster of free spheres from `time` \[s\] on.
     pub fn set_supported(&mut self, support: Support, time: f64) {
         let Support { members, contacts, renewal, is_curved, belt_work } = support;
-        self.contact_work.colliders += belt_work;
+        // Contacts were said to take all that their spheres gained as they began to persist.
+        self.add_contact_work(-belt_work);
+        self.add_collider_work(belt_work);
         let slots = members.iter().map(|member| member.slot).collect();
         let cluster = Cluster { members: slots, contacts, renewal, is_curved };
         let cluster = self.clusters.add(cluster);
