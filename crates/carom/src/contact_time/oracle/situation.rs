@@ -10,6 +10,7 @@ use crate::surface::SurfaceMotion;
 use crate::surface::{Form, Rectangle};
 
 #[derive(Debug, Clone)]
+#[allow(clippy::large_enum_variant, reason = "a trial has one at a time")]
 pub enum Bodies {
     /// With the sum of the radii.
     Spheres {
