@@ -42,11 +42,12 @@ pub fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     });
 }
 
-/// Returns a sentence about the impact of the largest impulse after a time \[s\], for people who do not
-/// see the picture; `None` without an impact.
+/// Returns a sentence about the hardest impact after a time \[s\], for people who do not see the picture; `None`
+/// without an impact. In a row of touching balls, only the first impact has a speed of approach.
 pub fn hardest_after(view: &View, time: f64) -> Option<String> {
-    let after = view.impacts.iter().filter(|impact| impact.time > time);
-    let hardest = after.max_by(|a, b| a.impulse.total_cmp(&b.impulse))?;
+    let work = |impact: &ListedImpact| impact.impulse * impact.approach_speed;
+    let after = view.impacts.iter().filter(|it| it.time > time && work(it) > 0.0);
+    let hardest = after.max_by(|a, b| work(a).total_cmp(&work(b)))?;
     Some(sentence(view, hardest))
 }
 
