@@ -12,7 +12,7 @@ use crate::detect::contact::Bodies;
 use crate::friction::ContactFriction;
 use crate::rule::exact::contacts::{Member, Touch};
 use crate::rule::exact::context::StepContext;
-use crate::rule::exact::features::time_on;
+use crate::rule::exact::features::{is_over_face, time_on};
 use crate::surface::Form;
 
 /// The motion of a sphere over a piece of path.
@@ -154,6 +154,18 @@ impl CurvedContact<'_> {
         [acceleration, pressed.angular_acceleration_under(friction, motion.slides)]
     }
 
+    /// Whether both states are on the face of a band, or both beside it. A piece ends a little beyond the face, where
+    /// the rim is, which is sharply curved.
+    fn are_on_one_part(&self, one: &Member, other: &Member) -> bool {
+        let Bodies::Surface { surface, .. } = self.touch.bodies else { return true };
+        let Form::Band(band) = &self.context.system.surfaces[surface as usize].form else {
+            return true;
+        };
+        let is_over =
+            |it: &Member| is_over_face(band, [it.position + self.touch.shift, it.velocity]);
+        is_over(one) == is_over(other)
+    }
+
     /// Velocity \[m/s\] and angular velocity \[rad/s\] after `h` \[s\], by the method of Runge and Kutta.
     fn after(&self, start: &Member, motion: Motion, h: f64) -> [DVec3; 2] {
         let mut rates = [[DVec3::ZERO; 3]; 4];
@@ -171,6 +183,7 @@ impl CurvedContact<'_> {
             };
             let measured =
                 self.touch.measured_at(self.context, std::slice::from_ref(&member), self.time);
+            let measured = measured.filter(|_| self.are_on_one_part(start, &member));
             let touch = measured.unwrap_or(self.touch);
             let [acceleration, angular_acceleration] = self.rates(&member, &touch, motion);
             rates[stage] = [member.velocity, acceleration, angular_acceleration];
