@@ -82,6 +82,31 @@ fn a_chain_over_a_rough_cylinder_loses_what_its_contacts_take() {
 }
 
 #[test]
+fn a_row_of_balls_that_falls_on_a_rough_cylinder_loses_what_its_contacts_take() {
+    // The ball in the middle does not slide, and its neighbours lift it off.
+    let mut world = exact();
+    world.add_force(Gravity::new(vec(0.0, -G, 0.0))).unwrap();
+    let lying = DQuat::from_rotation_x(std::f64::consts::FRAC_PI_2);
+    let pose = Pose { position: DVec3::ZERO, rotation: lying };
+    let cylinder = Collider::new(Shape::Cylinder { radius: 0.3, height: 2.0 }, pose);
+    world.add_collider(cylinder.with_friction(0.5).with_restitution(0.3)).unwrap();
+    let ball = |number: i32| {
+        let place = vec(0.15 * f64::from(number - 4), 0.8, 0.01);
+        Sphere::new(place, 0.06).with_mass(0.1).with_restitution(0.3)
+    };
+    let balls: Vec<SphereId> =
+        (0..9).map(|number| world.add_sphere(ball(number)).unwrap()).collect();
+    for pair in balls.windows(2) {
+        let spring = Spring::between(pair[0], pair[1], 0.15);
+        world.add_spring(spring.with_stiffness(500.0).with_damping(0.5)).unwrap();
+    }
+    let start = world.total_energy();
+    let (account, left) = account_of_run(&mut world, 60, 1.0 / 60.0);
+    assert!(account.contacts < -0.01 * start, "{account:?}");
+    assert!(left.abs() < 1e-12 * start, "{left:e} J of {start} J");
+}
+
+#[test]
 fn a_soft_rough_cube_on_stairs_loses_what_its_contacts_take() {
     let mut world = exact();
     world.add_force(Gravity::new(vec(0.0, -G, 0.0))).unwrap();

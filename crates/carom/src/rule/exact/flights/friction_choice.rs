@@ -95,20 +95,16 @@ impl CurveContacts {
         spheres: &[ContactSphere],
         at: &Values,
     ) -> Vec<usize> {
-        let breaks = |&number: &usize| {
-            let (normal_force, friction) = self.forces[number];
-            let largest = self.contacts[number].friction * normal_force;
-            match self.states[number] {
-                FrictionState::Rolls => {
-                    let most = (1.0 + 0.5 * EXCESS) * largest + 0.5 * self.slack[number];
-                    friction.norm() > most
-                }
-                FrictionState::Slides { direction, .. } if begins[number] => {
-                    let sliding = self.sliding(number, moving, spheres, &at.accelerations);
-                    sliding.dot(direction) < 0.0
-                }
-                _ => false,
+        let breaks = |&number: &usize| match self.states[number] {
+            FrictionState::Rolls => {
+                let largest = (1.0 + 0.5 * EXCESS) * self.largest_friction(number);
+                self.forces[number].1.norm() > largest + 0.5 * self.slack[number]
             }
+            FrictionState::Slides { direction, .. } if begins[number] => {
+                let sliding = self.sliding(number, moving, spheres, &at.accelerations);
+                sliding.dot(direction) < 0.0
+            }
+            _ => false,
         };
         (0..self.contacts.len()).filter(breaks).collect()
     }
@@ -166,13 +162,16 @@ impl CurveContacts {
         are_any
     }
 
-    /// How far a contact is from sliding: the square of the largest friction, with what counts as rounding, less that of
-    /// its friction \[N²\].
+    /// How far a contact that rolls is from sliding: the largest friction, with what counts as rounding, less its own
+    /// \[N\].
     pub fn margin_of_rolling(&self, number: usize) -> f64 {
-        let (normal_force, friction) = self.forces[number];
-        let largest = self.contacts[number].friction * normal_force.max(0.0);
-        let most = (1.0 + EXCESS) * largest + self.slack[number];
-        most * most - friction.length_squared()
+        let most = (1.0 + EXCESS) * self.largest_friction(number) + self.slack[number];
+        most - self.forces[number].1.norm()
+    }
+
+    /// The largest friction in a contact \[N\]. Up to where it opens, its normal force is below zero by the slack.
+    fn largest_friction(&self, number: usize) -> f64 {
+        self.contacts[number].friction * (self.forces[number].0 + self.slack[number])
     }
 
     /// The acceleration of the slip of a contact for a unit of friction \[1/kg\].

@@ -382,7 +382,7 @@ impl JointField<'_> {
     }
 
     /// How far all contacts are from what they can do, in the order of their bounds: the normal force \[N\], then what
-    /// friction may add, \[N²\], or the slip along its first direction \[m/s\].
+    /// friction may add \[N\], or the slip along its first direction \[m/s\].
     fn margins(&self, states: [&[DVec3]; 2]) -> Vec<f64> {
         let moving = moving(states, self.spheres.len());
         let mut margins = Vec::new();
