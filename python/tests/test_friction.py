@@ -38,7 +38,7 @@ def test_a_ball_on_a_belt_comes_to_roll_at_two_sevenths_of_its_speed() -> None:
     world.add_sphere(carom.Sphere(position=(0, 0.1, 0), radius=0.1, restitution=0.0))
     world.step(frames=60)
     assert world.velocities[0, 0] == pytest.approx(0.2, rel=1e-12)
-    assert world.scene().colliders[0].surface_velocity == (0.7, 0, 0)
+    assert world.to_scene().colliders[0].surface_velocity == (0.7, 0, 0)
 
 
 @pytest.mark.parametrize("rule", ["exact", "contact"])

@@ -72,7 +72,7 @@ def test_a_ball_that_is_added_takes_the_fields_of_its_material() -> None:
     world.add_sphere(carom.Sphere(position=(3, 5, 0), radius=0.5, material="steel"))
     assert world.restitutions[1] == 0.9
     assert world.masses[1] == world.masses[0]
-    assert world.scene().material_pairs == dropped().material_pairs
+    assert world.to_scene().material_pairs == dropped().material_pairs
     with pytest.raises(carom.CaromError, match="unknown material"):
         world.add_sphere(carom.Sphere(position=(6, 5, 0), radius=0.5, material="stel"))
 
@@ -93,3 +93,7 @@ def test_wrong_values_are_refused_by_their_names() -> None:
         carom.MaterialPair(("a", "b"), restitution=2.0)
     with pytest.raises(TypeError, match=r"MaterialPair\.materials"):
         carom.MaterialPair("steel")  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match=r"Scene\.materials: must be a mapping of names"):
+        carom.Scene(name="x", materials=[carom.Material()])  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match=r"Scene\.materials\['felt'\]: must be a carom\.Material"):
+        carom.Scene(name="x", materials={"felt": 0.3})  # type: ignore[dict-item]

@@ -232,6 +232,9 @@ def _kind(hint: Any, where: str) -> _Kind | None:
     if get_origin(hint) is Sequence:
         elements = _kinds(get_args(hint)[0], where)
         return _sequence(elements, where) if elements else None
+    if get_origin(hint) is Mapping:
+        elements = _kinds(get_args(hint)[1], where)
+        return _named(elements, where) if elements else None
     if not _is_part(hint):
         return None
     return _part((hint,), [it for it in extras if isinstance(it, Whole)])
@@ -384,6 +387,15 @@ def _sequence(elements: Sequence[_Kind], where: str) -> _Kind:
         return "put it into a list" if is_element else None
 
     return _Kind(f"a sequence of {' or '.join(it.words for it in elements)}", keep, remedy=remedy)
+
+
+def _named(elements: Sequence[_Kind], where: str) -> _Kind:
+    def keep(value: Any) -> Any:
+        if not isinstance(value, Mapping) or not all(isinstance(name, str) for name in value):
+            return _OTHER
+        return {name: _kept(elements, it, f"{where}[{name!r}]") for name, it in value.items()}
+
+    return _Kind(f"a mapping of names to {' or '.join(it.words for it in elements)}", keep)
 
 
 def _is_part(hint: Any) -> bool:
