@@ -92,7 +92,7 @@ def test_wrong_values_are_refused_by_their_names() -> None:
     with pytest.raises(carom.CaromError, match=r"MaterialPair\.restitution"):
         carom.MaterialPair(("a", "b"), restitution=2.0)
     with pytest.raises(TypeError, match=r"MaterialPair\.materials"):
-        carom.MaterialPair("steel")  # type: ignore[arg-type]
+        carom.MaterialPair("steel")
     with pytest.raises(TypeError, match=r"Scene\.materials: must be a mapping of names"):
         carom.Scene(name="x", materials=[carom.Material()])  # type: ignore[arg-type]
     with pytest.raises(TypeError, match=r"Scene\.materials\['felt'\]: must be a carom\.Material"):
