@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping, Sequence
 from os import PathLike, fspath
 from typing import Any, Literal, TypedDict
 
 import numpy as np
 from gymnasium import spaces
+from numpy.typing import NDArray
 
 from carom._carom import MazeEpisodes
 from carom.errors import CaromError
@@ -97,9 +99,7 @@ class Episodes:
         threads: int | None = 1,
         autoreset_mode: str = "Disabled",
     ) -> None:
-        for name in given:
-            if name not in DEFAULTS:
-                raise TypeError(f"{name}: there is no such argument of a maze")
+        check_names(given, DEFAULTS, "a maze")
         arguments: dict[str, Any] = {**DEFAULTS, **given, "max_episode_steps": max_episode_steps}
         arguments["maze"] = fspath(arguments["maze"])
         start = arguments.pop("start")
@@ -109,6 +109,42 @@ class Episodes:
         self.action_space = spaces.Box(-1.0, 1.0, (2,), dtype=np.float32)
         step = arguments["frame_time"] * arguments["frames_per_step"]
         self.metadata = {**METADATA, "render_fps": max(1, round(1.0 / step))}
+
+
+def check_names(given: Mapping[str, object], known: Mapping[str, object], what: str) -> None:
+    """Checks the names of arguments of a kind of environments.
+
+    Raises:
+        TypeError: For an argument that there is not.
+    """
+    for name in given:
+        if name not in known:
+            raise TypeError(f"{name}: there is no such argument of {what}")
+
+
+def chosen(name: str, value: str, known: tuple[str, str]) -> str:
+    """One of two texts.
+
+    Raises:
+        CaromError: For any other.
+    """
+    if value not in known:
+        raise CaromError(f'{name}: must be "{known[0]}" or "{known[1]}", not "{value}"', name)
+    return value
+
+
+def checked_mask(mask: object, count: int) -> NDArray[np.bool_]:
+    """Which of the environments start again; all of them, unless given.
+
+    Raises:
+        CaromError: For anything but an array of bool with a value for each.
+    """
+    if mask is None:
+        return np.ones(count, np.bool_)
+    if not isinstance(mask, np.ndarray) or mask.dtype != np.bool_ or mask.shape != (count,):
+        message = f"reset_mask: must be an array of bool of shape ({count},)"
+        raise CaromError(message, "reset_mask")
+    return mask
 
 
 def checked_mode(render_mode: str | None) -> str | None:
@@ -155,3 +191,25 @@ def in_range(name: str, value: float, low: float, high: float) -> float:
     if not low <= value <= high:
         raise CaromError(f"{name}: must be in [{low:g}, {high:g}], not {value}", name)
     return value
+
+
+def seeds_of(
+    seed: int | Sequence[int | None] | None, count: int, drawn: Callable[[], int] | None
+) -> list[int | None]:
+    """The seed of each environment: those of a sequence, or ``seed``, ``seed + 1``, and so on.
+
+    Args:
+        seed: As `reset` takes it.
+        count: How many environments there are.
+        drawn: Gives a seed where there is none; ``None`` where all go on as they are.
+
+    Raises:
+        CaromError: For a seed that makes no sense.
+    """
+    if seed is None:
+        if drawn is None:
+            return [None] * count
+        seed = drawn()
+    if isinstance(seed, Sequence):
+        return [None if it is None else engine_seed(it) for it in seed]
+    return [engine_seed(seed + place) for place in range(count)]

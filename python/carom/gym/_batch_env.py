@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from carom._pictures.picture import Renderer
 from carom._run.batch import Batch
 from carom.errors import CaromError
-from carom.gym._arguments import checked_mode, engine_seed
+from carom.gym._arguments import checked_mask, checked_mode, seeds_of
 from carom.gym._random import Numbers
 
 Floats = NDArray[np.float32]
@@ -114,7 +114,7 @@ class BatchVectorEnv(_VectorEnv):
         for name in options or {}:
             if name != "reset_mask":
                 raise CaromError(f"options: there is no {name}, but reset_mask", "options")
-        mask = self._mask((options or {}).get("reset_mask"))
+        mask = checked_mask((options or {}).get("reset_mask"), self.num_envs)
         self._numbers.seed(self._seeds(seed))
         self._is_seeded = True
         self._begin_episodes(mask)
@@ -215,26 +215,9 @@ class BatchVectorEnv(_VectorEnv):
             "_final_info": mask.copy(),
         }
 
-    def _mask(self, mask: object) -> NDArray[np.bool_]:
-        if mask is None:
-            return np.ones(self.num_envs, np.bool_)
-        if (
-            not isinstance(mask, np.ndarray)
-            or mask.dtype != np.bool_
-            or mask.shape != (self.num_envs,)
-        ):
-            message = f"reset_mask: must be an array of bool of shape ({self.num_envs},)"
-            raise CaromError(message, "reset_mask")
-        return np.array(mask)
-
     def _seeds(self, seed: int | Sequence[int | None] | None) -> list[int | None]:
-        if seed is None:
-            if self._is_seeded:
-                return [None] * self.num_envs
-            seed = int(self.np_random.integers(2**63))
-        if isinstance(seed, Sequence):
-            return [None if it is None else engine_seed(it) for it in seed]
-        return [engine_seed(seed + place) for place in range(self.num_envs)]
+        drawn = None if self._is_seeded else lambda: int(self.np_random.integers(2**63))
+        return seeds_of(seed, self.num_envs, drawn)
 
 
 class BatchEnv(_Env):

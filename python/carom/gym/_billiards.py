@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from carom._run.batch import Batch
 from carom._scene.library import load
-from carom.errors import CaromError
-from carom.gym._arguments import in_range
+from carom.gym._arguments import check_names, chosen, in_range
 from carom.gym._batch_env import FRAMES_PER_SECOND, BatchEnv, BatchVectorEnv, Floats
 
 if TYPE_CHECKING:
@@ -31,7 +30,7 @@ MOVED = 1e-3
 """A ball was hit if it is farther than this from its place at the start of the episode [m]."""
 
 CELLS = (8, 4)
-"""Balls start in different cells of a grid of so many columns and rows."""
+"""Columns and rows of the grid over the table; each ball starts in a cell of its own."""
 
 CHUNK = 15
 """Frames between two looks whether all balls rest."""
@@ -107,17 +106,15 @@ class BilliardsVectorEnv(BatchVectorEnv):
         render_mode: str | None = None,
         **given: Unpack[BilliardsArguments],
     ) -> None:
-        for name in given:
-            if name not in DEFAULTS:
-                raise TypeError(f"{name}: there is no such argument of billiards")
+        check_names(given, DEFAULTS, "billiards")
         arguments: BilliardsArguments = {**DEFAULTS, **given}
         self._frames = int(in_range("frames_per_step", arguments["frames_per_step"], 0, 1e6))
         self._fastest = in_range("max_speed", arguments["max_speed"], 0.0, 100.0)
         self._ball_reward = in_range("ball_reward", arguments["ball_reward"], -1e9, 1e9)
         self._stroke_reward = in_range("stroke_reward", arguments["stroke_reward"], -1e9, 1e9)
         self._lost_reward = in_range("lost_reward", arguments["lost_reward"], -1e9, 1e9)
-        self._start = _choice("start", arguments["start"], ("random", "rack"))
-        rule = _choice("rule", arguments["rule"], ("exact", "contact"))
+        self._start = chosen("start", arguments["start"], ("random", "rack"))
+        rule = chosen("rule", arguments["rule"], ("exact", "contact"))
         still = {"spheres.0.velocity": (0, 0, 0), "spheres.0.angular_velocity": (0, 0, 0)}
         changes = {**still, "simulation.rule": rule}
         batch = Batch(load("billiards").with_changes(changes), num_envs, threads=threads)
@@ -251,19 +248,13 @@ class BilliardsEnv(BatchEnv):
         super().__init__(render_mode=render_mode, **given)
 
 
-def _choice(name: str, value: str, known: tuple[str, str]) -> str:
-    if value not in known:
-        raise CaromError(f'{name}: must be "{known[0]}" or "{known[1]}", not "{value}"', name)
-    return value
-
-
 def _random_places(drawn: NDArray[np.float64]) -> NDArray[np.float64]:
     """Places along x and z (k, 16, 2), each in a cell of its own, of numbers in [0, 1)."""
     columns, rows = CELLS
-    chosen = np.argsort(drawn[:, : columns * rows], axis=1, kind="stable")[:, :BALLS]
+    taken = np.argsort(drawn[:, : columns * rows], axis=1, kind="stable")[:, :BALLS]
     offsets = drawn[:, columns * rows :].reshape(-1, BALLS, 2)
     sizes = 2.0 * np.array(EDGES) / CELLS
-    corners = np.stack([chosen % columns, chosen // columns], axis=2) * sizes - EDGES
+    corners = np.stack([taken % columns, taken // columns], axis=2) * sizes - EDGES
     # Two balls in neighbouring cells never touch.
     margin = 1.01 * RADIUS
     return corners + margin + offsets * (sizes - 2.0 * margin)

@@ -10,14 +10,14 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
-from carom.errors import CaromError
 from carom.gym._arguments import (
     METADATA,
     Episodes,
     MazeArguments,
+    checked_mask,
     checked_mode,
     chosen_start,
-    engine_seed,
+    seeds_of,
 )
 from carom.gym._drawing import Drawing
 
@@ -100,7 +100,7 @@ class MazeVectorEnv(_Base):
             CaromError: For a start, a seed or a mask that makes no sense.
         """
         super().reset(seed=seed if isinstance(seed, int) else None)
-        mask = self._mask((options or {}).get("reset_mask"))
+        mask = checked_mask((options or {}).get("reset_mask"), self.num_envs)
         seeds = self._seeds(seed)
         self._is_seeded = True
         start = chosen_start(options)
@@ -167,26 +167,9 @@ class MazeVectorEnv(_Base):
         infos |= {"final_obs": final_obs, "_final_obs": mask}
         infos |= {"final_info": _infos((spread[0], spread[1]), mask), "_final_info": mask.copy()}
 
-    def _mask(self, mask: object) -> NDArray[np.bool_]:
-        if mask is None:
-            return np.ones(self.num_envs, np.bool_)
-        if (
-            not isinstance(mask, np.ndarray)
-            or mask.dtype != np.bool_
-            or mask.shape != (self.num_envs,)
-        ):
-            message = f"reset_mask: must be an array of bool of shape ({self.num_envs},)"
-            raise CaromError(message, "reset_mask")
-        return mask
-
     def _seeds(self, seed: int | Sequence[int | None] | None) -> list[int | None]:
-        if seed is None:
-            if self._is_seeded:
-                return [None] * self.num_envs
-            seed = int(self.np_random.integers(2**63))
-        if isinstance(seed, Sequence):
-            return [None if it is None else engine_seed(it) for it in seed]
-        return [engine_seed(seed + place) for place in range(self.num_envs)]
+        drawn = None if self._is_seeded else lambda: int(self.np_random.integers(2**63))
+        return seeds_of(seed, self.num_envs, drawn)
 
 
 def _infos(states: tuple[NDArray[Any], NDArray[Any]], mask: NDArray[np.bool_]) -> dict[str, Any]:

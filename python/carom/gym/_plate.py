@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 from carom._run.batch import Batch
 from carom._scene.parts import Collider, Contact, Gravity, Rectangle, Simulation, Sphere
 from carom._scene.scene import Scene
-from carom.errors import CaromError
-from carom.gym._arguments import in_range
+from carom.gym._arguments import check_names, chosen, in_range
 from carom.gym._batch_env import FRAMES_PER_SECOND, BatchEnv, BatchVectorEnv, Floats
 
 if TYPE_CHECKING:
@@ -95,9 +94,7 @@ class PlateVectorEnv(BatchVectorEnv):
         render_mode: str | None = None,
         **given: Unpack[PlateArguments],
     ) -> None:
-        for name in given:
-            if name not in DEFAULTS:
-                raise TypeError(f"{name}: there is no such argument of a plate")
+        check_names(given, DEFAULTS, "a plate")
         arguments: PlateArguments = {**DEFAULTS, **given}
         self._half = 0.5 * in_range("size", arguments["size"], 4.0 * RADIUS, 1e3)
         degrees = in_range("max_tilt_degrees", arguments["max_tilt_degrees"], 0.0, 30.0)
@@ -107,9 +104,7 @@ class PlateVectorEnv(BatchVectorEnv):
         self._rate = math.radians(speed)
         self._range = in_range("start_range", arguments["start_range"], 0.0, 1.0) * self._half
         self._frames = int(in_range("frames_per_step", arguments["frames_per_step"], 1, 1e6))
-        if arguments["rule"] not in ("contact", "exact"):
-            problem = f'must be "contact" or "exact", not "{arguments["rule"]}"'
-            raise CaromError(f"rule: {problem}", "rule")
+        chosen("rule", arguments["rule"], ("contact", "exact"))
         self._slopes = np.zeros((num_envs, 2))
         self._ups = np.ones(num_envs)
         self._rotations = np.tile((0.0, 0.0, 0.0, 1.0), (num_envs, 1))
