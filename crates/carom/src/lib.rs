@@ -64,6 +64,7 @@ mod persistent_contact;
 mod polynomial_flight;
 mod pose;
 mod query;
+mod random;
 mod real;
 mod rectangle;
 mod report;
