@@ -39,6 +39,7 @@ from carom._run.world import World
 from carom._scene.above import above
 from carom._scene.library import Listed, load, scene, scenes
 from carom._scene.parts import (
+    Andersen,
     Ball,
     Bend,
     Bisect,
@@ -87,6 +88,7 @@ from carom._scene.parts import (
     QuadraticDrag,
     RandomFill,
     Rectangle,
+    Rescale,
     RestitutionLaw,
     Ring,
     Row,
@@ -100,6 +102,7 @@ from carom._scene.parts import (
     Straight,
     Sun,
     Swing,
+    Thermostat,
     Torus,
     Track,
     Try,
@@ -107,6 +110,7 @@ from carom._scene.parts import (
     Viscoelastic,
     ViscousDrag,
     Vortex,
+    WhiteNoise,
     Wind,
 )
 from carom._scene.points import Points
@@ -134,6 +138,7 @@ __all__ = [
     "OVERLAPPING",
     "SENSOR_EVENT",
     "TRIGGER",
+    "Andersen",
     "Ball",
     "Batch",
     "Bend",
@@ -198,6 +203,7 @@ __all__ = [
     "RandomFill",
     "Rectangle",
     "Renderer",
+    "Rescale",
     "RestitutionLaw",
     "Ring",
     "Row",
@@ -223,6 +229,7 @@ __all__ = [
     "Swing",
     "Tangents",
     "Tape",
+    "Thermostat",
     "Torus",
     "Track",
     "Trajectory",
@@ -233,6 +240,7 @@ __all__ = [
     "Viscoelastic",
     "ViscousDrag",
     "Vortex",
+    "WhiteNoise",
     "Wind",
     "World",
     "ZoneAccount",

@@ -19,6 +19,8 @@ pub struct EnergyBalance {
     kicks: f64,
     /// Work of growing spheres \[J\].
     growth: f64,
+    /// Energy that a thermostat added \[J\].
+    thermostat: f64,
     /// Work of forces without a potential \[J\].
     forces: f64,
     /// Work of forces applied to single spheres \[J\].
@@ -61,17 +63,21 @@ impl EnergyBalance {
         integration_is: &'static str,
     ) -> Self {
         let EnergyAccount { contacts, colliders, kicks, growth, forces, applied, .. } = account;
-        let EnergyAccount { correction, emission, .. } = account;
+        let EnergyAccount { thermostat, correction, emission, .. } = account;
         let integration = end.total - start.total - account.total();
-        let given = [contacts, colliders, kicks, growth, forces, applied, correction, emission];
-        let largest =
-            given.iter().fold(start.largest.max(end.largest), |most, it| most.max(it.abs()));
+        let of_bodies = [contacts, colliders, kicks, growth, thermostat];
+        let given = [forces, applied, correction, emission];
+        let largest = of_bodies
+            .iter()
+            .chain(&given)
+            .fold(start.largest.max(end.largest), |most, it| most.max(it.abs()));
         let integration_part = if integration == 0.0 { 0.0 } else { integration.abs() / largest };
         Self {
             contacts,
             colliders,
             kicks,
             growth,
+            thermostat,
             forces,
             applied,
             correction,
@@ -94,6 +100,7 @@ impl EnergyBalance {
             ("  colliders", self.colliders, "given by moving colliders"),
             ("  kicks", self.kicks, "given by colliders that kick"),
             ("  growth", self.growth, "given by growing balls"),
+            ("  thermostat", self.thermostat, "given by the thermostat"),
             ("  forces", self.forces, "given by forces without a potential"),
             ("  applied", self.applied, "given by forces applied to single balls"),
             ("  correction", self.correction, "given by the correction of overlaps"),

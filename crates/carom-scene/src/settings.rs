@@ -6,7 +6,7 @@ use crate::error::Problem;
 use crate::scene::values::vector;
 use crate::scene::{
     Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, Rule, Scene,
-    Simulation, WindBack, Zones,
+    Simulation, Thermostat, WindBack, Zones,
 };
 
 impl Scene {
@@ -25,6 +25,22 @@ impl From<Boundary> for carom::Boundary {
     }
 }
 
+impl From<Thermostat> for carom::Thermostat {
+    fn from(thermostat: Thermostat) -> Self {
+        match thermostat {
+            Thermostat::Andersen { frequency, temperature, seed } => {
+                Self::Andersen { frequency, temperature, seed }
+            }
+            Thermostat::Rescale { interval, temperature } => {
+                Self::Rescale { interval, temperature }
+            }
+            Thermostat::WhiteNoise { interval, strength, seed } => {
+                Self::WhiteNoise { interval, strength, seed }
+            }
+        }
+    }
+}
+
 fn settings(simulation: &Simulation) -> Settings {
     let rule: carom::Rule = match simulation.rule {
         Rule::Discrete => discrete(&simulation.discrete).into(),
@@ -38,6 +54,7 @@ fn settings(simulation: &Simulation) -> Settings {
         .with_friction_combine_rule(simulation.friction_combine_rule.into())
         .with_spheres_collide(simulation.spheres_collide)
         .with_boundary(simulation.boundary.into())
+        .with_thermostat(simulation.thermostat.map(Into::into))
 }
 
 impl From<CombineRule> for carom::CombineRule {
@@ -106,13 +123,25 @@ fn integrator(integrator: Integrator) -> carom::Integrator {
     }
 }
 
+/// Whether a field of the settings is one of a thermostat.
+fn is_of_thermostat(field: &str) -> bool {
+    matches!(field, "frequency" | "interval" | "temperature" | "strength")
+}
+
 /// Converts an error of the settings; the path is that of the table which contains them.
 pub(crate) fn settings_problem(simulation: &Simulation, error: carom::Error) -> Problem {
     let path = match &error {
         carom::Error::Invalid { source, .. } if source.field == "size" => {
             "simulation.boundary.periodic"
         }
-        carom::Error::Invalid { source, .. } if source.field == "boundary" => "simulation",
+        carom::Error::Invalid { source, .. }
+            if matches!(source.field, "boundary" | "thermostat") =>
+        {
+            "simulation"
+        }
+        carom::Error::Invalid { source, .. } if is_of_thermostat(source.field) => {
+            "simulation.thermostat"
+        }
         _ => &format!("simulation.{}", simulation.rule),
     };
     Problem::of_physics(path, error)

@@ -71,7 +71,7 @@ const DEGREES: &str = "degrees";
 const RADIANS: &str = "rad";
 
 /// Unit of each field that has one.
-const FIELDS: [(&str, &str); 69] = [
+const FIELDS: [(&str, &str); 70] = [
     ("acceleration", "m/s²"),
     ("amplitude", "m"),
     ("amplitude_degrees", DEGREES),
@@ -100,6 +100,7 @@ const FIELDS: [(&str, &str); 69] = [
     ("gravity", "m/s²"),
     ("height", "m"),
     ("heights", "m"),
+    ("interval", "s"),
     ("kick", "m/s"),
     ("length", "m"),
     ("look_at", "m"),

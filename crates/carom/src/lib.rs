@@ -86,6 +86,7 @@ mod surface_motion;
 mod system;
 mod tangent;
 mod validate;
+mod thermostat;
 mod work;
 mod world;
 
@@ -119,7 +120,7 @@ pub use report::{
 pub use restitution::RestitutionLaw;
 pub use settings::{
     Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, Rule, Settings,
-    WindBack, Zones,
+    Thermostat, WindBack, Zones,
 };
 pub use sphere::{Mass, SOLID_BALL, Sphere, SphereMotion, THIN_SHELL, volume};
 pub use stress::{Stress, StressMeter};

@@ -110,6 +110,8 @@ pub struct EnergyAccount {
     pub kicks: f64,
     /// Work of spheres that grow \[J\].
     pub growth: f64,
+    /// Energy that a thermostat added \[J\]; < 0 where it took some.
+    pub thermostat: f64,
     /// Work of forces without a potential \[J\]: of drag, wind, vortices, dampers of springs, and any other
     /// [`Force`](crate::Force) that is not conservative.
     pub forces: f64,
@@ -126,7 +128,12 @@ pub struct EnergyAccount {
 impl EnergyAccount {
     /// The sum of all entries \[J\].
     pub fn total(&self) -> f64 {
-        let of_bodies = self.contacts + self.colliders + self.kicks + self.growth;
+        let of_bodies = self.contacts
+            + self.colliders
+            + self.kicks
+            + self.growth
+            + self.shear
+            + self.thermostat;
         of_bodies + self.forces + self.applied + self.correction + self.emission
     }
 
@@ -137,6 +144,7 @@ impl EnergyAccount {
             colliders: part * self.colliders,
             kicks: part * self.kicks,
             growth: part * self.growth,
+            thermostat: part * self.thermostat,
             forces: part * self.forces,
             applied: part * self.applied,
             correction: part * self.correction,
@@ -157,6 +165,7 @@ impl AddAssign for EnergyAccount {
         self.colliders += other.colliders;
         self.kicks += other.kicks;
         self.growth += other.growth;
+        self.thermostat += other.thermostat;
         self.forces += other.forces;
         self.applied += other.applied;
         self.correction += other.correction;

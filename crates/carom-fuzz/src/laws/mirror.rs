@@ -9,8 +9,8 @@ use super::trace::Trace;
 pub const LAW: Law = Law { name: "mirrored", pair };
 
 fn pair(scene: &Scene, _: &Trace) -> Option<Pair> {
-    // Sweeps go in one direction.
-    if scene.simulation.rule == Rule::Contact {
+    // Sweeps go in one direction, and random velocities are not mirrored.
+    if scene.simulation.rule == Rule::Contact || scene.simulation.thermostat.is_some() {
         return None;
     }
     // The cells of height fields and tracks are divided along the diagonals of one direction.

@@ -10,6 +10,7 @@ mod exact;
 mod impact_law;
 mod integrator;
 mod rule;
+mod thermostat;
 mod zones;
 
 pub use bisect::{Bisect, WindBack};
@@ -22,6 +23,7 @@ pub use exact::Exact;
 pub use impact_law::ImpactLaw;
 pub use integrator::Integrator;
 pub use rule::Rule;
+pub use thermostat::Thermostat;
 pub use zones::Zones;
 
 use crate::error::InvalidValue;
@@ -58,10 +60,13 @@ pub struct Settings {
     /// The boundary of space. It is part of the world, as its colliders are, and not of the rule, although
     /// `discrete` and `bisect` have no periodic box.
     pub boundary: Boundary,
+    /// The thermostat, if there is one. Only under the rule `exact`.
+    pub thermostat: Option<Thermostat>,
 }
 
 impl Default for Settings {
-    /// Rule `exact`, product of restitutions, geometric mean of frictions, spheres collide, open space.
+    /// Rule `exact`, product of restitutions, geometric mean of frictions, spheres collide, open space, no
+    /// thermostat.
     fn default() -> Self {
         Self {
             rule: Rule::default(),
@@ -69,6 +74,7 @@ impl Default for Settings {
             friction_combine_rule: CombineRule::GeometricMean,
             spheres_collide: true,
             boundary: Boundary::default(),
+            thermostat: None,
         }
     }
 }
@@ -99,7 +105,12 @@ impl Settings {
         Self { boundary, ..self }
     }
 
-    /// Returns an error for invalid parameters of the rule, or a boundary that the rule does not have.
+    /// Returns the settings with this thermostat, or without one.
+    pub fn with_thermostat(self, thermostat: Option<Thermostat>) -> Self {
+        Self { thermostat, ..self }
+    }
+
+    /// Returns an error for invalid parameters of the rule, or a boundary or thermostat that the rule does not have.
     pub(crate) fn validate(&self) -> Result<(), InvalidValue> {
         self.boundary.validate()?;
         if self.boundary != Boundary::Open {
@@ -107,6 +118,12 @@ impl Settings {
             let requirement =
                 "used with the rules `exact` and `contact`: others know no periodic box";
             validate::require(is_known, "boundary", requirement, "periodic")?;
+        }
+        if let Some(thermostat) = self.thermostat {
+            let is_known = matches!(self.rule, Rule::Exact(_));
+            let requirement = "used with the rule `exact`: others know no thermostat";
+            validate::require(is_known, "thermostat", requirement, "given")?;
+            thermostat.validate()?;
         }
         match self.rule {
             Rule::Discrete(_) => Ok(()),

@@ -2,6 +2,7 @@
 //! their own times.
 
 use super::attempt::Attempt;
+use super::thermostat;
 use crate::emitter;
 use crate::error::{Error, InvalidValue, Subject};
 use crate::forces;
@@ -12,6 +13,7 @@ use crate::settings::Exact;
 use crate::state::State;
 use crate::sum::Sum;
 use crate::system::System;
+use crate::thermostat::Kicks;
 use crate::validate;
 
 /// Takes a step from event to event. If that fails, no sphere was moved.
@@ -81,7 +83,11 @@ fn account_for_contacts(report: &mut StepReport, timeline: &mut Timeline, end: f
 }
 
 /// Accounts for the work of persistent contacts, and of zones, up to `time` \[s\].
-fn account_for_persistent_contacts(report: &mut StepReport, timeline: &mut Timeline, time: f64) {
+pub(super) fn account_for_persistent_contacts(
+    report: &mut StepReport,
+    timeline: &mut Timeline,
+    time: f64,
+) {
     timeline.report_zone_energy(time, &mut report.energy_account);
     let [friction, colliders] = timeline.take_contact_work(time);
     report.energy_account.contacts += friction;
@@ -89,7 +95,7 @@ fn account_for_persistent_contacts(report: &mut StepReport, timeline: &mut Timel
 }
 
 /// The work of moving colliders \[J\] that the written states have beyond that of the flights, at `time` \[s\].
-fn work_written(attempt: &mut Attempt, timeline: &Timeline, time: f64) -> f64 {
+pub(super) fn work_written(attempt: &mut Attempt, timeline: &Timeline, time: f64) -> f64 {
     let (system, motion) = attempt.state.split();
     exact::work_written(timeline, &system, motion, time)
 }
@@ -138,10 +144,12 @@ fn advance(
 ) -> Result<f64, Error> {
     let (start, length) = (attempt.start, attempt.length);
     emit(attempt, timeline, start)?;
+    let mut kicks = thermostat::kicks_after(attempt.state, start);
     let mut now = start;
     loop {
         let due = emitter::next_due(&attempt.state.emitters);
-        let span = Span { start, length, end: due.min(end) };
+        let kick = kicks.as_ref().map_or(f64::INFINITY, Kicks::next);
+        let span = Span { start, length, end: due.min(kick).min(end) };
         let Attempt { state, work, report, .. } = &mut *attempt;
         let (system, _) = state.split();
         if let Some(watch) = watch.take() {
@@ -150,12 +158,21 @@ fn advance(
         let came_to = exact::advance(&system, timeline, span, work, report, until)
             .map_err(|unfinished| refusal(unfinished, start))?;
         *watch = exact::end_watch(timeline, &system, came_to);
-        now = due;
+        now = span.end;
         let is_over = until == Until::NextImpact && !attempt.report.impacts.is_empty();
-        if due >= end || is_over {
+        if is_over {
             return Ok(came_to);
         }
-        emit(attempt, timeline, due)?;
+        if let Some(kicks) = kicks.as_mut().filter(|kicks| kicks.next() <= now) {
+            thermostat::kick_spheres(attempt, timeline, kicks)?;
+        }
+        if now >= end {
+            return Ok(came_to);
+        }
+        if due <= now {
+            emit(attempt, timeline, due)?;
+            kicks = thermostat::kicks_after(attempt.state, now);
+        }
     }
 }
 
@@ -188,7 +205,11 @@ fn emit(attempt: &mut Attempt, timeline: &mut Timeline, time: f64) -> Result<(),
 ///
 /// # Errors
 /// [`Error::NonFiniteState`] if one is nowhere; then none is moved.
-fn place_spheres(attempt: &mut Attempt, timeline: &Timeline, end: f64) -> Result<(), Error> {
+pub(super) fn place_spheres(
+    attempt: &mut Attempt,
+    timeline: &Timeline,
+    end: f64,
+) -> Result<(), Error> {
     let (start, length) = (attempt.start, attempt.length);
     let (system, motion) = attempt.state.split();
     exact::end(timeline, &system, motion, Span { start, length, end }).map_err(

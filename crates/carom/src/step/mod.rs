@@ -7,6 +7,7 @@ mod by_frame;
 mod growth;
 mod lookahead;
 mod sweep;
+mod thermostat;
 
 pub(crate) use attempt::Scratch;
 pub(crate) use lookahead::predict;
@@ -29,6 +30,7 @@ use crate::work::{StopRequest, Work};
 /// [`Error::Invalid`]
 pub(crate) fn check(state: &State, dt: f64) -> Result<(), Error> {
     check_length(state, dt)?;
+    check_thermostat(state, dt)?;
     growth::check(state, dt)?;
     state.check_emitters(state.clock.after(dt).seconds())?;
     match state.settings.rule {
@@ -47,6 +49,13 @@ fn check_length(state: &State, dt: f64) -> Result<(), Error> {
         .map_err(|invalid| invalid.about(Subject::Step))
 }
 
+/// Returns an error for a step of `dt` \[s\] that is too long for the thermostat.
+fn check_thermostat(state: &State, dt: f64) -> Result<(), Error> {
+    let Some(thermostat) = state.settings.thermostat else { return Ok(()) };
+    let end = state.clock.after(dt).seconds();
+    thermostat.check_step(dt, end).map_err(|invalid| invalid.about(Subject::Step))
+}
+
 /// Advances a world by `dt` \[s\], or until something happens in it, by the rule of its settings, and
 /// writes the report.
 ///
@@ -60,6 +69,7 @@ pub(crate) fn step(
     until: Until,
 ) -> Result<(), Error> {
     check_length(state, dt)?;
+    check_thermostat(state, dt)?;
     growth::check(state, dt)?;
     report.clear();
     if stop_request.is_some_and(StopRequest::is_made) {

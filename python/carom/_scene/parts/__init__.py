@@ -91,7 +91,18 @@ from carom._scene.parts.materials import (
     Viscoelastic,
 )
 from carom._scene.parts.part import Part, expect
-from carom._scene.parts.simulation import Bisect, Contact, Discrete, Exact, Periodic, Simulation
+from carom._scene.parts.simulation import (
+    Andersen,
+    Bisect,
+    Contact,
+    Discrete,
+    Exact,
+    Periodic,
+    Rescale,
+    Simulation,
+    Thermostat,
+    WhiteNoise,
+)
 from carom._scene.parts.spheres import SizedSphere, Sphere
 from carom._scene.parts.tracks import Bend, Curve, Gap, Piece, Straight, Track
 
@@ -99,6 +110,7 @@ __all__ = [
     "FORCES",
     "ORIGIN",
     "UNTURNED",
+    "Andersen",
     "Ball",
     "Bend",
     "Bisect",
@@ -165,6 +177,7 @@ __all__ = [
     "RadiusRange",
     "RandomFill",
     "Rectangle",
+    "Rescale",
     "Restitution",
     "RestitutionLaw",
     "Ring",
@@ -182,6 +195,7 @@ __all__ = [
     "Straight",
     "Sun",
     "Swing",
+    "Thermostat",
     "ThreeCounts",
     "Torus",
     "Track",
@@ -192,6 +206,7 @@ __all__ = [
     "Viscoelastic",
     "ViscousDrag",
     "Vortex",
+    "WhiteNoise",
     "Wind",
     "expect",
 ]

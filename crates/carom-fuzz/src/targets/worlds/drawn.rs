@@ -161,6 +161,9 @@ fn sensible(mut drawn: Drawn) -> Drawn {
     if !is_slow || !is_heavy {
         drawn.forces.retain(|it| LINEAR.iter().any(|kind| it.starts_with(kind)));
     }
+    if !is_exact {
+        drawn.choices.retain(|it| !it.starts_with("thermostat"));
+    }
     if is_periodic {
         // Such gravity has no end there.
         drawn.forces.retain(|it| !it.starts_with("mutual"));
@@ -183,6 +186,9 @@ fn choices() -> impl Strategy<Value = Vec<&'static str>> {
         "exact = { impact_law = \"sequential\" }",
         "exact = { impact_law = \"simultaneous\" }",
         "exact = { zone_budget = 2000 }",
+        "thermostat = { andersen = { frequency = 8.0, temperature = 0.5, seed = 4 } }",
+        "thermostat = { rescale = { interval = 0.05, temperature = 0.5 } }",
+        "thermostat = { white-noise = { interval = 0.03, strength = 0.5, seed = 4 } }",
         "contact = { sub_steps = 3, sweeps = 5, sleep_speed = 0.0 }",
         "contact = { sleep_speed = 0.0 }",
         "contact = { converged = true }",

@@ -2,6 +2,8 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use glam::DVec3;
+
 use super::clearance::Clearance;
 use super::context::StepContext;
 use super::events::{Prediction, Schedule};
@@ -98,7 +100,7 @@ pub(crate) fn adopt<F: Fn(SphereId) -> f64>(
         }
     };
     let mut flights = Flights::new(system, motion, flight_of);
-    let Timeline { parameters, frame, .. } = *before;
+    let frame = before.frame;
     if before.has_friction() || friction_acts(system) {
         let rotation_of = |(index, id)| match arrivals.known.binary_search(id) {
             Ok(place) if before.has_friction() => before.flights.free_rotation_of(place, time),
@@ -119,10 +121,57 @@ pub(crate) fn adopt<F: Fn(SphereId) -> f64>(
     flights.set_stepped(&zone.indices(&system.spheres.id));
     let mut timeline = Timeline { parameters, flights, frame, zone, ..Timeline::default() };
     arrange(&mut timeline, system, time);
+    resume(before, system, (flights, zone), arrivals.next, time)
+}
+
+/// Begins other flights of all spheres at `time` \[s\], within a frame, from the states in the world's arrays.
+/// Persistent contacts are computed again, and spheres of a zone join it again.
+pub(crate) fn restart(before: &Timeline, system: &System, motion: &Motion, time: f64) -> Timeline {
+    let mut flights = Flights::new(system, motion, |_| Err(time));
+    if before.has_friction() {
+        let all = 0..motion.position.len();
+        flights.rotations = all.map(|index| Rotation::of(motion, index, time)).collect();
+    }
+    let mut zone = before.zone.clone();
+    flights.set_stepped(&zone.indices(&system.spheres.id));
+    zone.restart(system, time, [before.zone_tick(), before.spring_rate], &motion.velocity);
+    resume(before, system, (flights, zone), before.next_emission, time)
+}
+
+/// Begins another velocity \[m/s\] of a sphere in free flight, by its index, at `time` \[s\]. Returns the velocity
+/// before; `None`, and nothing changes, for a sphere that contacts, zones or curves connect with others.
+pub(crate) fn deflect(
+    timeline: &mut Timeline,
+    system: &System,
+    index: usize,
+    velocity: DVec3,
+    time: f64,
+) -> Option<DVec3> {
+    let slot = timeline.flights.slot_of[index];
+    let species = timeline.flights.species_of(slot);
+    if species.cluster.is_some() || species.is_stepped || species.is_curved {
+        return None;
+    }
+    let (position, before) = timeline.flights.state_of(slot, time);
+    timeline.begin_flight(slot, position, velocity, time);
+    timeline.find_clearance(system, slot);
+    predict_each(timeline, system, &[slot], time);
+    Some(before)
+}
+
+/// Continues a frame at `time` \[s\] with these flights and zone. The next spheres are emitted at `next` \[s\].
+fn resume(
+    before: &Timeline,
+    system: &System,
+    (flights, zone): (Flights, Zone),
+    next: f64,
+    time: f64,
+) -> Timeline {
+    let Timeline { parameters, frame, .. } = *before;
     timeline.work.begin(&timeline.flights.bodies);
     (timeline.force_tick, timeline.spring_rate) = (before.force_tick, before.spring_rate);
     timeline.work_tick = before.work_tick;
-    (timeline.next_emission, timeline.curves_until) = (arrivals.next, before.curves_until);
+    (timeline.next_emission, timeline.curves_until) = (next, before.curves_until);
     if timeline.flights.hold_forces {
         held_forces::renew(&mut timeline, system, time);
     }

@@ -49,8 +49,8 @@ pub(crate) use course::{Course, follow};
 pub(crate) use features::{NormalCurvature, curvature_of};
 pub(crate) use flights::{HeldMotion, SupportChange};
 pub(crate) use frame::{
-    Arrivals, HoldError, adopt, begin, end, persistent_contacts, start, tick_for_springs,
-    work_written,
+    Arrivals, HoldError, adopt, begin, deflect, end, persistent_contacts, restart, start,
+    tick_for_springs, work_written,
 };
 pub(crate) use look_along::{begin as begin_watch, end as end_watch};
 pub(crate) use neighbours::MAX_SPHERES;
