@@ -19,6 +19,8 @@ pub struct EnergyBalance {
     kicks: f64,
     /// Work of growing spheres \[J\].
     growth: f64,
+    /// Work of the steady shear of a periodic box \[J\].
+    shear: f64,
     /// Energy that a thermostat added \[J\].
     thermostat: f64,
     /// Work of forces without a potential \[J\].
@@ -63,9 +65,9 @@ impl EnergyBalance {
         integration_is: &'static str,
     ) -> Self {
         let EnergyAccount { contacts, colliders, kicks, growth, forces, applied, .. } = account;
-        let EnergyAccount { thermostat, correction, emission, .. } = account;
+        let EnergyAccount { shear, thermostat, correction, emission, .. } = account;
         let integration = end.total - start.total - account.total();
-        let of_bodies = [contacts, colliders, kicks, growth, thermostat];
+        let of_bodies = [contacts, colliders, kicks, growth, shear, thermostat];
         let given = [forces, applied, correction, emission];
         let largest = of_bodies
             .iter()
@@ -77,6 +79,7 @@ impl EnergyBalance {
             colliders,
             kicks,
             growth,
+            shear,
             thermostat,
             forces,
             applied,
@@ -100,6 +103,7 @@ impl EnergyBalance {
             ("  colliders", self.colliders, "given by moving colliders"),
             ("  kicks", self.kicks, "given by colliders that kick"),
             ("  growth", self.growth, "given by growing balls"),
+            ("  shear", self.shear, "given by steady shear"),
             ("  thermostat", self.thermostat, "given by the thermostat"),
             ("  forces", self.forces, "given by forces without a potential"),
             ("  applied", self.applied, "given by forces applied to single balls"),

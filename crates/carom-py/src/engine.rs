@@ -440,13 +440,14 @@ impl Engine {
 
     /// Returns the entries of the energy account [J] in the order of `carom.EnergyAccount`.
     #[pyo3(name = "_energy_account")]
-    fn energy_account(&self, py: Python<'_>) -> PyResult<[f64; 9]> {
+    fn energy_account(&self, py: Python<'_>) -> PyResult<[f64; 10]> {
         let account = self.lock(py)?.world.report().energy_account;
         Ok([
             account.contacts,
             account.colliders,
             account.kicks,
             account.growth,
+            account.shear,
             account.thermostat,
             account.forces,
             account.applied,

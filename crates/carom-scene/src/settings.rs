@@ -20,7 +20,7 @@ impl From<Boundary> for carom::Boundary {
     fn from(boundary: Boundary) -> Self {
         match boundary {
             Boundary::Open => Self::Open,
-            Boundary::Periodic { size } => Self::Periodic { size: vector(size) },
+            Boundary::Periodic { size, .. } => Self::Periodic { size: vector(size) },
         }
     }
 }
@@ -41,6 +41,14 @@ impl From<Thermostat> for carom::Thermostat {
     }
 }
 
+/// Shear rate of a boundary \[1/s\].
+fn shear_rate(boundary: Boundary) -> f64 {
+    match boundary {
+        Boundary::Open => 0.0,
+        Boundary::Periodic { shear_rate, .. } => shear_rate,
+    }
+}
+
 fn settings(simulation: &Simulation) -> Settings {
     let rule: carom::Rule = match simulation.rule {
         Rule::Discrete => discrete(&simulation.discrete).into(),
@@ -54,6 +62,7 @@ fn settings(simulation: &Simulation) -> Settings {
         .with_friction_combine_rule(simulation.friction_combine_rule.into())
         .with_spheres_collide(simulation.spheres_collide)
         .with_boundary(simulation.boundary.into())
+        .with_shear_rate(shear_rate(simulation.boundary))
         .with_thermostat(simulation.thermostat.map(Into::into))
 }
 
@@ -131,7 +140,7 @@ fn is_of_thermostat(field: &str) -> bool {
 /// Converts an error of the settings; the path is that of the table which contains them.
 pub(crate) fn settings_problem(simulation: &Simulation, error: carom::Error) -> Problem {
     let path = match &error {
-        carom::Error::Invalid { source, .. } if source.field == "size" => {
+        carom::Error::Invalid { source, .. } if matches!(source.field, "size" | "shear_rate") => {
             "simulation.boundary.periodic"
         }
         carom::Error::Invalid { source, .. }

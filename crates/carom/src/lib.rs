@@ -76,6 +76,7 @@ mod rule;
 mod seams;
 mod sensor;
 mod settings;
+mod shear;
 mod sphere;
 mod state;
 mod step;
@@ -85,8 +86,8 @@ mod surface;
 mod surface_motion;
 mod system;
 mod tangent;
-mod validate;
 mod thermostat;
+mod validate;
 mod work;
 mod world;
 

@@ -110,6 +110,9 @@ pub struct EnergyAccount {
     pub kicks: f64,
     /// Work of spheres that grow \[J\].
     pub growth: f64,
+    /// Work of the steady shear of a periodic box \[J\]: -V σ_xy times the shear rate and the time, with the stress
+    /// relative to the mean flow. [`World::kinetic_energy`](crate::World::kinetic_energy) is relative to it, too.
+    pub shear: f64,
     /// Energy that a thermostat added \[J\]; < 0 where it took some.
     pub thermostat: f64,
     /// Work of forces without a potential \[J\]: of drag, wind, vortices, dampers of springs, and any other
@@ -144,6 +147,7 @@ impl EnergyAccount {
             colliders: part * self.colliders,
             kicks: part * self.kicks,
             growth: part * self.growth,
+            shear: part * self.shear,
             thermostat: part * self.thermostat,
             forces: part * self.forces,
             applied: part * self.applied,
@@ -155,6 +159,7 @@ impl EnergyAccount {
     /// Adds work of nonconservative forces.
     pub(crate) fn add_force_work(&mut self, work: ForceWork) {
         self.forces += work.forces;
+        self.shear += work.shear;
         self.applied += work.applied;
     }
 }
@@ -165,6 +170,7 @@ impl AddAssign for EnergyAccount {
         self.colliders += other.colliders;
         self.kicks += other.kicks;
         self.growth += other.growth;
+        self.shear += other.shear;
         self.thermostat += other.thermostat;
         self.forces += other.forces;
         self.applied += other.applied;

@@ -6,6 +6,7 @@ use crate::bodies::Spheres;
 use crate::id::SphereId;
 use crate::random::Random;
 use crate::settings::Thermostat;
+use crate::shear::Shear;
 use crate::sum::Sum;
 
 /// A change of velocities at `time` \[s\].
@@ -94,10 +95,15 @@ impl Kicks {
 }
 
 /// Returns the velocities of all spheres after a change of all at `time` \[s\], in m/s.
-pub(crate) fn velocities_after(thermostat: Thermostat, spheres: &Spheres, time: f64) -> Vec<DVec3> {
+pub(crate) fn velocities_after(
+    thermostat: Thermostat,
+    spheres: &Spheres,
+    shear: Option<Shear>,
+    time: f64,
+) -> Vec<DVec3> {
     match thermostat {
         Thermostat::Andersen { .. } => spheres.velocities().to_vec(),
-        Thermostat::Rescale { temperature, .. } => rescaled(spheres, temperature),
+        Thermostat::Rescale { temperature, .. } => rescaled(spheres, shear, temperature),
         Thermostat::WhiteNoise { interval, strength, seed } => {
             let variance = strength * interval;
             let number = (time / interval).round();
@@ -108,13 +114,16 @@ pub(crate) fn velocities_after(thermostat: Thermostat, spheres: &Spheres, time: 
     }
 }
 
-/// Returns the velocities, scaled to a kinetic temperature \[J\]. Spheres at rest stay so.
-fn rescaled(spheres: &Spheres, temperature: f64) -> Vec<DVec3> {
-    let terms = spheres.masses().iter().zip(spheres.velocities());
-    let energies = terms.map(|(m, v)| m * v.length_squared());
+/// Returns the velocities, scaled about the mean flow to a kinetic temperature \[J\]. Spheres at rest stay so.
+fn rescaled(spheres: &Spheres, shear: Option<Shear>, temperature: f64) -> Vec<DVec3> {
+    let flow = |place: &DVec3| shear.map_or(DVec3::ZERO, |shear| shear.velocity_at(*place));
+    let own = spheres.velocities().iter().zip(spheres.positions()).map(|(v, x)| *v - flow(x));
+    let own: Vec<DVec3> = own.collect();
+    let energies = spheres.masses().iter().zip(&own).map(|(m, v)| m * v.length_squared());
     let present = energies.collect::<Sum>().value() / (3.0 * spheres.len() as f64);
     let factor = if present > 0.0 { (temperature / present).sqrt() } else { 1.0 };
-    spheres.velocities().iter().map(|&velocity| factor * velocity).collect()
+    let places = spheres.positions().iter();
+    own.iter().zip(places).map(|(&velocity, x)| flow(x) + factor * velocity).collect()
 }
 
 /// Returns normally distributed changes of velocity with a standard deviation \[m/s\] and zero total momentum.

@@ -393,12 +393,12 @@ export interface Simulation {
   /** Whether spheres may overlap at the start. */
   allowOverlap: boolean;
   /** A periodic box about the origin [m], `Infinity` along an open axis; under `exact`. */
-  boundary: "open" | { periodic: { size: [number, number, number] } };
+  boundary: "open" | { periodic: { size: [number, number, number]; shearRate?: number } };
   /** What changes the velocities of all spheres; under `exact`. Temperatures are k T [J]. */
   thermostat?:
     | { andersen: { frequency: number; temperature: number; seed: number } }
     | { rescale: { interval: number; temperature: number } }
-    | { "white-noise": { interval: number; strength: number; seed: number } };
+    | { whiteNoise: { interval: number; strength: number; seed: number } };
   /**
    * Parameters of `exact`: how simultaneous impacts among touching spheres are resolved; duration
    * of a contact [s]; largest number of impacts per sphere and frame; whether contacts that take

@@ -212,8 +212,8 @@ export class World {
 
   get energyAccount() {
     const [contacts, colliders, kicks, growth, ...others] = this.#world.energyAccount;
-    const [thermostat, forces, applied, correction, emission] = others;
-    const ofBodies = { contacts, colliders, kicks, growth, thermostat };
+    const [shear, thermostat, forces, applied, correction, emission] = others;
+    const ofBodies = { contacts, colliders, kicks, growth, shear, thermostat };
     return { ...ofBodies, forces, applied, correction, emission };
   }
 

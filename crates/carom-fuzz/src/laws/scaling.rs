@@ -68,8 +68,9 @@ fn scaled(scene: &Scene, scale: Scale) -> Scene {
     simulation.exact.force_tick *= time;
     simulation.bisect.tolerance *= length;
     simulation.thermostat.iter_mut().for_each(|it| scale_thermostat(it, scale));
-    if let Boundary::Periodic { size } = &mut simulation.boundary {
+    if let Boundary::Periodic { size, shear_rate } = &mut simulation.boundary {
         scale_vector(size, length);
+        *shear_rate *= scale.of(0, 0, -1);
     }
     scene.forces.iter_mut().for_each(|it| scale_force(it, scale));
     scene.spheres.iter_mut().for_each(|it| scale_sphere(it, scale));

@@ -132,6 +132,10 @@ pub enum Boundary {
     Periodic {
         /// Edges, in m, each > 0; `inf` along an open axis.
         size: Vector,
+        /// Shear rate, in 1/s: what is above, along y, moves along x with this times the distance. By default 0. Only
+        /// under the rule `exact`.
+        #[serde(default, skip_serializing_if = "is_default")]
+        shear_rate: f64,
     },
 }
 

@@ -2,7 +2,7 @@
 //! their own times.
 
 use super::attempt::Attempt;
-use super::thermostat;
+use super::{shear, thermostat};
 use crate::emitter;
 use crate::error::{Error, InvalidValue, Subject};
 use crate::forces;
@@ -10,6 +10,7 @@ use crate::id::SphereId;
 use crate::report::StepReport;
 use crate::rule::exact::{self, Arrivals, HoldError, Span, Timeline, Unfinished, Until, Watch};
 use crate::settings::Exact;
+use crate::shear::Shear;
 use crate::state::State;
 use crate::sum::Sum;
 use crate::system::System;
@@ -36,6 +37,7 @@ pub(super) fn step(mut attempt: Attempt, parameters: Exact, until: Until) -> Res
             *log = timeline.end_support_log();
         }
         account_for_contacts(attempt.report, &mut timeline, end);
+        shear::account_for_impacts(attempt);
         place_spheres(attempt, &timeline, end)?;
         attempt.report.energy_account.colliders += work_written(attempt, &timeline, end);
         timeline.write_radii(&mut attempt.state.spheres.properties.radius, end);
@@ -61,7 +63,8 @@ fn watch_over(attempt: &mut Attempt) -> Option<Watch> {
     let (start, presence) = (attempt.start, attempt.state.presence.clone());
     let (system, _) = attempt.state.split();
     let presence = (!system.trigger_tree.is_empty()).then_some(presence);
-    let measures_work = system.has_nonconservative_forces();
+    let is_sheared = Shear::of(system.settings).is_some();
+    let measures_work = system.has_nonconservative_forces() || is_sheared;
     (presence.is_some() || measures_work).then(|| Watch::new(presence, measures_work, start))
 }
 

@@ -6,6 +6,7 @@ mod by_event;
 mod by_frame;
 mod growth;
 mod lookahead;
+mod shear;
 mod sweep;
 mod thermostat;
 
@@ -31,6 +32,7 @@ use crate::work::{StopRequest, Work};
 pub(crate) fn check(state: &State, dt: f64) -> Result<(), Error> {
     check_length(state, dt)?;
     check_thermostat(state, dt)?;
+    shear::check(state)?;
     growth::check(state, dt)?;
     state.check_emitters(state.clock.after(dt).seconds())?;
     match state.settings.rule {
@@ -70,6 +72,7 @@ pub(crate) fn step(
 ) -> Result<(), Error> {
     check_length(state, dt)?;
     check_thermostat(state, dt)?;
+    shear::check(state)?;
     growth::check(state, dt)?;
     report.clear();
     if stop_request.is_some_and(StopRequest::is_made) {

@@ -6,6 +6,8 @@ use super::attempt::Attempt;
 use super::by_event::{account_for_persistent_contacts, place_spheres, work_written};
 use crate::error::Error;
 use crate::rule::exact::{self, Timeline};
+use crate::settings::Settings;
+use crate::shear::Shear;
 use crate::state::State;
 use crate::sum::Sum;
 use crate::thermostat::{Kicked, Kicks, velocities_after};
@@ -33,8 +35,8 @@ pub(super) fn kick_spheres(
             }
             Some(Kicked::All) => {
                 place_spheres(attempt, timeline, time)?;
-                let spheres = &attempt.state.spheres;
-                let velocities = velocities_after(kicks.thermostat(), spheres, time);
+                let (shear, spheres) = (Shear::of(&attempt.state.settings), &attempt.state.spheres);
+                let velocities = velocities_after(kicks.thermostat(), spheres, shear, time);
                 restart_with(attempt, timeline, &velocities, time);
             }
             None => {}
@@ -43,7 +45,7 @@ pub(super) fn kick_spheres(
     Ok(())
 }
 
-/// Gives a sphere, by its index, a velocity \[m/s\] at `time` \[s\].
+/// Gives a sphere, by its index, a velocity relative to the mean flow \[m/s\] at `time` \[s\].
 fn kick_one(
     attempt: &mut Attempt,
     timeline: &mut Timeline,
@@ -59,9 +61,15 @@ fn kick_one(
     }
     place_spheres(attempt, timeline, time)?;
     let mut velocities = attempt.state.spheres.velocities().to_vec();
-    velocities[index] = velocity;
+    let place = attempt.state.spheres.positions()[index];
+    velocities[index] = velocity + flow_at(&attempt.state.settings, place);
     restart_with(attempt, timeline, &velocities, time);
     Ok(())
+}
+
+/// Mean velocity of spheres at a place in a box in steady shear, elsewhere zero \[m/s\].
+fn flow_at(settings: &Settings, place: DVec3) -> DVec3 {
+    Shear::of(settings).map_or(DVec3::ZERO, |shear| shear.velocity_at(place))
 }
 
 /// Restarts all flights at `time` \[s\], where the spheres were placed, with these velocities \[m/s\].
@@ -69,8 +77,12 @@ fn restart_with(attempt: &mut Attempt, timeline: &mut Timeline, velocities: &[DV
     account_for_persistent_contacts(attempt.report, timeline, time);
     attempt.report.energy_account.colliders += work_written(attempt, timeline, time);
     let (system, motion) = attempt.state.split();
-    let changes = motion.velocity.iter().zip(velocities).zip(&system.spheres.mass);
-    let gained = changes.map(|((&from, &to), mass)| 0.5 * mass * (to - from).dot(to + from));
+    let changes = motion.velocity.iter().zip(velocities);
+    let bodies = motion.position.iter().zip(&system.spheres.mass);
+    let gained = changes.zip(bodies).map(|((&from, &to), (&place, mass))| {
+        let flow = flow_at(system.settings, place);
+        0.5 * mass * (to - from).dot((to - flow) + (from - flow))
+    });
     attempt.report.energy_account.thermostat += gained.collect::<Sum>().value();
     motion.velocity.copy_from_slice(velocities);
     *timeline = exact::restart(timeline, &system, motion, time);

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from typing import ClassVar, Literal, TypeAlias
 
 from carom._scene.parts.choices import CombineRule, ImpactLaw, Integrator, Rule
-from carom._scene.parts.kinds import Count, LargeNumber, NonNegative, Period, Positive
+from carom._scene.parts.kinds import Count, Finite, LargeNumber, NonNegative, Period, Positive
 from carom._scene.parts.part import Part
 
 
@@ -99,10 +99,13 @@ class Periodic(Part):
 
     Attributes:
         size: Edges [m], each > 0; infinite along an axis that is open.
+        shear_rate: Shear rate, in 1/s: what is above, along y, moves along x with this times the
+            distance. By default 0. Only under the rule ``exact``.
     """
 
     tag: ClassVar[str] = "periodic"
     size: Period = (math.inf, math.inf, math.inf)
+    shear_rate: Finite = 0.0
 
 
 @dataclass(frozen=True)

@@ -164,6 +164,9 @@ fn sensible(mut drawn: Drawn) -> Drawn {
     if !is_exact {
         drawn.choices.retain(|it| !it.starts_with("thermostat"));
     }
+    if drawn.around.kind == "sheared" {
+        drawn = alone_in_shear(drawn);
+    }
     if is_periodic {
         // Such gravity has no end there.
         drawn.forces.retain(|it| !it.starts_with("mutual"));
@@ -172,6 +175,27 @@ fn sensible(mut drawn: Drawn) -> Drawn {
     if drawn.emitter.is_some() {
         drawn.obstacles.clear();
     }
+    drawn
+}
+
+/// Smooth balls that nothing acts on, without which no box is sheared.
+fn alone_in_shear(mut drawn: Drawn) -> Drawn {
+    drawn.rule = "exact";
+    drawn.forces.clear();
+    drawn.obstacles.clear();
+    (drawn.springs, drawn.emitter, drawn.has_floor) = (None, None, false);
+    let Material { restitution, law, .. } = drawn.material;
+    let (rolling, spinning) = (None, None);
+    drawn.material = Material {
+        restitution,
+        law,
+        has_pair: false,
+        friction: None,
+        rolling,
+        spinning,
+        tangential: None,
+    };
+    drawn.balls.iter_mut().for_each(|ball| ball.spin = None);
     drawn
 }
 
@@ -203,7 +227,7 @@ fn choices() -> impl Strategy<Value = Vec<&'static str>> {
 
 fn around() -> impl Strategy<Value = Around> {
     let kind = prop_oneof![
-        10 => Just("container"), 4 => Just("periodic"), 2 => Just("nothing"), 1 => Just("half-spaces")
+        10 => Just("container"), 4 => Just("periodic"), 2 => Just("sheared"), 2 => Just("nothing"), 1 => Just("half-spaces")
     ];
     // Turned or not.
     let turn = prop_oneof![Just([0.0; 3]), vector_of(180.0)];

@@ -14,6 +14,7 @@
 //! Predictions hold across frames. `docs/physics/exact.md` has the stages under the same names.
 
 mod answer;
+mod arrange;
 mod budget;
 mod changed;
 mod clearance;
@@ -122,7 +123,7 @@ pub(crate) fn advance(
     let mut context = StepContext::new(system, parameters, span, work, report);
     answer::check_forces(timeline, &context, span.start)?;
     let mut counts = SpanCounts::begin(timeline, work);
-    let due = frame::ArrangementDue::of(timeline, system);
+    let due = arrange::ArrangementDue::of(timeline, system);
     let mut end = span.end;
     while let Some(next) = next(timeline, end) {
         let (is_event, is_outgrown) =

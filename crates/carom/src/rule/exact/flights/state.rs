@@ -19,6 +19,7 @@ use crate::detect::contact::Bodies;
 use crate::integrate::gauss_legendre;
 use crate::polynomial_flight::PolynomialAcceleration;
 use crate::rule::periodic;
+use crate::shear::Shear;
 use crate::system::System;
 
 /// The flights of all spheres, and the clusters that persistent contacts make of them.
@@ -72,10 +73,16 @@ impl Flights {
         let components =
             Components::of(system, |index| species[number_of[index] as usize].is_curved);
         let period = system.settings.boundary.period();
+        let shear = Shear::of(system.settings);
         let body = |index: usize| {
-            let position = periodic::wrapped(motion.position[index], period);
-            let velocity = motion.velocity[index];
-            let begun = |time| Body { position, velocity, time, species: 0, generation: 0 };
+            let state = [motion.position[index], motion.velocity[index]];
+            let begun = |time| {
+                let [position, velocity] = match shear {
+                    Some(shear) => shear.wrapped(state, time),
+                    None => [periodic::wrapped(state[0], period), state[1]],
+                };
+                Body { position, velocity, time, species: 0, generation: 0 }
+            };
             let flight = flight_of(index).unwrap_or_else(begun);
             Body { species: number_of[index], ..flight }
         };

@@ -198,7 +198,7 @@ fn account_for_motion(
         let index = timeline.flights.index_of[slot as usize] as usize;
         let applied = system.spheres.applied_force.get(index).copied().unwrap_or(DVec3::ZERO);
         let [forces, applied] = [force, applied].map(|force| force.dot(way));
-        account.add_force_work(ForceWork { forces, applied });
+        account.add_force_work(ForceWork { forces, applied, ..ForceWork::default() });
     }
 }
 
