@@ -71,7 +71,7 @@ const DEGREES: &str = "degrees";
 const RADIANS: &str = "rad";
 
 /// Unit of each field that has one.
-const FIELDS: [(&str, &str); 70] = [
+const FIELDS: [(&str, &str); 72] = [
     ("acceleration", "m/s²"),
     ("amplitude", "m"),
     ("amplitude_degrees", DEGREES),
@@ -114,6 +114,7 @@ const FIELDS: [(&str, &str); 70] = [
     ("pitch_degrees", DEGREES),
     ("pivot", "m"),
     ("position", "m"),
+    ("positions", "m"),
     ("radius", "m"),
     ("radius_range", "m"),
     ("rate", "rad/s"),
@@ -134,6 +135,7 @@ const FIELDS: [(&str, &str); 70] = [
     ("surface_velocity", "m/s"),
     ("temperature", "J"),
     ("tolerance", "m"),
+    ("times", "s"),
     ("top_radius", "m"),
     ("tube_radius", "m"),
     ("velocity", "m/s"),
