@@ -81,7 +81,7 @@ impl Thermostat {
         validate::positive("interval", self.interval())
     }
 
-    /// Returns an error for a step of `h` \[s\] up to `end` \[s\] with more intervals than can be told apart.
+    /// Returns an error for a step of `h` \[s\] up to `end` \[s\] with more intervals than have exact numbers.
     pub(crate) fn check_step(self, h: f64, end: f64) -> Result<(), InvalidValue> {
         let interval = self.interval();
         let are_few = h / interval <= MOST_PER_STEP && end.abs() / interval <= MOST_INTERVALS;

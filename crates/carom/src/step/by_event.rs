@@ -2,11 +2,13 @@
 //! their own times.
 
 use super::attempt::Attempt;
+use super::place::{
+    account_for_persistent_contacts, no_longer_finite, place_spheres, work_written,
+};
 use super::{shear, thermostat};
 use crate::emitter;
 use crate::error::{Error, InvalidValue, Subject};
 use crate::forces;
-use crate::id::SphereId;
 use crate::report::StepReport;
 use crate::rule::exact::{self, Arrivals, HoldError, Span, Timeline, Unfinished, Until, Watch};
 use crate::settings::Exact;
@@ -83,24 +85,6 @@ fn account_for_contacts(report: &mut StepReport, timeline: &mut Timeline, end: f
         report.energy_account.kicks += kicked;
     }
     account_for_persistent_contacts(report, timeline, end);
-}
-
-/// Accounts for the work of persistent contacts, and of zones, up to `time` \[s\].
-pub(super) fn account_for_persistent_contacts(
-    report: &mut StepReport,
-    timeline: &mut Timeline,
-    time: f64,
-) {
-    timeline.report_zone_energy(time, &mut report.energy_account);
-    let [friction, colliders] = timeline.take_contact_work(time);
-    report.energy_account.contacts += friction;
-    report.energy_account.colliders += colliders;
-}
-
-/// The work of moving colliders \[J\] that the written states have beyond that of the flights, at `time` \[s\].
-pub(super) fn work_written(attempt: &mut Attempt, timeline: &Timeline, time: f64) -> f64 {
-    let (system, motion) = attempt.state.split();
-    exact::work_written(timeline, &system, motion, time)
 }
 
 /// The flights of all spheres at the start of the step, which ends at `end` \[s\]: flights of the step before
@@ -204,25 +188,6 @@ fn emit(attempt: &mut Attempt, timeline: &mut Timeline, time: f64) -> Result<(),
     Ok(())
 }
 
-/// Moves all spheres to the ends of their flights at `end` \[s\].
-///
-/// # Errors
-/// [`Error::NonFiniteState`] if one is nowhere; then none is moved.
-pub(super) fn place_spheres(
-    attempt: &mut Attempt,
-    timeline: &Timeline,
-    end: f64,
-) -> Result<(), Error> {
-    let (start, length) = (attempt.start, attempt.length);
-    let (system, motion) = attempt.state.split();
-    exact::end(timeline, &system, motion, Span { start, length, end }).map_err(
-        |(index, quantity)| {
-            let sphere = attempt.state.spheres.ids()[index];
-            no_longer_finite(sphere, quantity, start)
-        },
-    )
-}
-
 /// Returns the error of a step that starts at `time` \[s\] and was not taken to its end.
 fn refusal(unfinished: Unfinished, time: f64) -> Error {
     match unfinished {
@@ -234,12 +199,6 @@ fn refusal(unfinished: Unfinished, time: f64) -> Error {
             Error::TooManyImpacts { sphere, limit, companions, at, time }
         }
     }
-}
-
-/// The error for a sphere with a quantity that exceeded the range of numbers, in a step that starts at `time`
-/// \[s\].
-fn no_longer_finite(sphere: SphereId, quantity: &'static str, time: f64) -> Error {
-    Error::NonFiniteState { sphere, quantity, time }
 }
 
 /// Returns the errors of a step of this length \[s\] that do not depend on forces.

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::attempt::Attempt;
-use super::by_event::{account_for_persistent_contacts, place_spheres, work_written};
+use super::place::{account_for_persistent_contacts, place_spheres, work_written};
 use crate::error::Error;
 use crate::rule::exact::{self, Timeline};
 use crate::settings::Settings;
@@ -45,7 +45,7 @@ pub(super) fn kick_spheres(
     Ok(())
 }
 
-/// Gives a sphere, by its index, a velocity relative to the mean flow \[m/s\] at `time` \[s\].
+/// Sets the velocity of a sphere, by its index, relative to the mean flow \[m/s\] at `time` \[s\].
 fn kick_one(
     attempt: &mut Attempt,
     timeline: &mut Timeline,

@@ -127,7 +127,7 @@ pub(crate) fn restart(before: &Timeline, system: &System, motion: &Motion, time:
     resume(before, system, (flights, zone), before.next_emission, time)
 }
 
-/// Gives a sphere in free flight, by its index, another velocity relative to the mean flow \[m/s\] at `time` \[s\].
+/// Sets the velocity of a sphere in free flight, by its index, relative to the mean flow \[m/s\] at `time` \[s\].
 /// Returns that before; `None`, and nothing changes, for a sphere that contacts, zones or curves connect with others.
 pub(crate) fn deflect(
     timeline: &mut Timeline,
