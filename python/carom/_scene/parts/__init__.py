@@ -30,7 +30,6 @@ from carom._scene.parts.colliders import (
     Rectangle,
     Shape,
     Steady,
-    Strike,
     Swing,
     Torus,
     Turn,
@@ -105,7 +104,7 @@ from carom._scene.parts.simulation import (
     Thermostat,
     WhiteNoise,
 )
-from carom._scene.parts.spheres import SizedSphere, Sphere
+from carom._scene.parts.spheres import SizedSphere, Sphere, Strike
 from carom._scene.parts.tracks import Bend, Curve, Gap, Piece, Straight, Track
 
 __all__ = [
@@ -153,9 +152,9 @@ __all__ = [
     "Gravity",
     "HalfSpace",
     "HeightField",
-    "Keyframes",
     "ImpactLaw",
     "Integrator",
+    "Keyframes",
     "LargeNumber",
     "Lattice",
     "Lengths",
@@ -196,8 +195,8 @@ __all__ = [
     "StaggeredRows",
     "Steady",
     "Straight",
-    "Sun",
     "Strike",
+    "Sun",
     "Swing",
     "Thermostat",
     "ThreeCounts",
