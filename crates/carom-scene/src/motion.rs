@@ -1,6 +1,6 @@
 //! Converts motions of colliders.
 
-use carom::{MotionPart, Pose, World};
+use carom::{DQuat, DVec3, Keyframe, Keyframes, MotionPart, Pose, World};
 
 use crate::error::Problem;
 use crate::scene::values::vector;
@@ -27,7 +27,30 @@ impl Motion {
                     phase: phase_degrees.to_radians(),
                 }
             }
+            Self::Keyframes { ref times, ref positions, ref rotations, pivot, repeat } => {
+                let keyframes = times.iter().enumerate().map(|(number, &time)| {
+                    let position = positions.get(number).map_or(DVec3::ZERO, |&it| vector(it));
+                    let rotation = rotations.get(number).copied().map(DQuat::from_array);
+                    Keyframe { time, position, rotation: rotation.unwrap_or(DQuat::IDENTITY) }
+                });
+                let keyframes = Keyframes::new(keyframes).about(vector(pivot));
+                let repeated = if repeat { keyframes.repeating() } else { keyframes };
+                MotionPart::Keyframes(repeated)
+            }
         }
+    }
+
+    /// Returns an error for a list of poses that is not as long as that of their times.
+    fn check_lengths(&self, path: &str) -> Result<(), Problem> {
+        let Self::Keyframes { times, positions, rotations, .. } = self else { return Ok(()) };
+        for (field, count) in [("positions", positions.len()), ("rotations", rotations.len())] {
+            if count != 0 && count != times.len() {
+                let wanted =
+                    format!("must have one for each of the {} times, not {count}", times.len());
+                return Err(Problem::new(format!("{path}.{field}"), wanted));
+            }
+        }
+        Ok(())
     }
 
     /// Returns the same motion with every vector turned.
@@ -38,6 +61,13 @@ impl Motion {
             Self::Oscillate { axis, .. } => *axis = turn(*axis),
             Self::Turn { axis, pivot, .. } | Self::Swing { axis, pivot, .. } => {
                 (*axis, *pivot) = (turn(*axis), turn(*pivot));
+            }
+            Self::Keyframes { positions, rotations, pivot, .. } => {
+                *pivot = turn(*pivot);
+                positions.iter_mut().for_each(|it| *it = turn(*it));
+                for [x, y, z, _] in rotations {
+                    [*x, *y, *z] = turn([*x, *y, *z]);
+                }
             }
         }
         part
@@ -63,8 +93,24 @@ impl Motion {
                 frequency,
                 phase_degrees: phase.to_degrees(),
             },
+            MotionPart::Keyframes(ref keyframes) => Self::of_keyframes(keyframes),
             _ => return None,
         })
+    }
+
+    fn of_keyframes(keyframes: &Keyframes) -> Self {
+        let list = keyframes.keyframes();
+        let moves = list.iter().any(|it| it.position != DVec3::ZERO);
+        let turns = list.iter().any(|it| it.rotation != DQuat::IDENTITY);
+        let positions = list.iter().filter(|_| moves).map(|it| it.position.to_array());
+        let rotations = list.iter().filter(|_| turns).map(|it| it.rotation.to_array());
+        Self::Keyframes {
+            times: list.iter().map(|it| it.time).collect(),
+            positions: positions.collect(),
+            rotations: rotations.collect(),
+            pivot: keyframes.pivot().to_array(),
+            repeat: keyframes.repeats(),
+        }
     }
 }
 
@@ -109,10 +155,11 @@ impl Collider {
 pub(crate) fn motion(collider: &Collider, path: &str) -> Result<carom::Motion, Problem> {
     for (i, part) in collider.motion.iter().enumerate() {
         let number = if collider.motion.len() == 1 { String::new() } else { format!("[{i}]") };
-        // Adding it to an empty world checks it.
-        let alone = carom::Collider::new(carom::Shape::HalfSpace, Pose::at(carom::DVec3::ZERO));
-        let added = World::default().add_collider(alone.with_motion([part.physical()]));
         let path = format!("{path}.motion{number}.{}", part.kind());
+        part.check_lengths(&path)?;
+        // Adding it to an empty world checks it.
+        let alone = carom::Collider::new(carom::Shape::HalfSpace, Pose::at(DVec3::ZERO));
+        let added = World::default().add_collider(alone.with_motion([part.physical()]));
         added.map_err(|error| in_degrees(part, Problem::of_physics(&path, error)))?;
     }
     Ok(collider.motion.iter().map(Motion::physical).collect::<Vec<_>>().into())

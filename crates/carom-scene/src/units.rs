@@ -71,7 +71,7 @@ const DEGREES: &str = "degrees";
 const RADIANS: &str = "rad";
 
 /// Unit of each field that has one.
-const FIELDS: [(&str, &str); 69] = [
+const FIELDS: [(&str, &str); 71] = [
     ("acceleration", "m/s²"),
     ("amplitude", "m"),
     ("amplitude_degrees", DEGREES),
@@ -113,6 +113,7 @@ const FIELDS: [(&str, &str); 69] = [
     ("pitch_degrees", DEGREES),
     ("pivot", "m"),
     ("position", "m"),
+    ("positions", "m"),
     ("radius", "m"),
     ("radius_range", "m"),
     ("rate", "rad/s"),
@@ -133,6 +134,7 @@ const FIELDS: [(&str, &str); 69] = [
     ("surface_velocity", "m/s"),
     ("temperature", "J"),
     ("tolerance", "m"),
+    ("times", "s"),
     ("top_radius", "m"),
     ("tube_radius", "m"),
     ("velocity", "m/s"),

@@ -1,8 +1,8 @@
 //! Motions of colliders of scene files reach the world, are written again, and wrong ones are refused with their line.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, PI};
 
-use carom::{DVec3, MotionPart};
+use carom::{DQuat, DVec3, Keyframe, MotionPart};
 use carom_scene::Scene;
 
 const TEXT: &str = "name = 'shaken'
@@ -75,6 +75,67 @@ fn a_scene_that_begins_later_goes_on_with_the_motion() {
         assert!((a.pose.rotation - b.pose.rotation).length() < 1e-13, "{a:?} {b:?}");
         assert!((a.velocity - b.velocity).length() < 1e-12, "{a:?} {b:?}");
     }
+}
+
+const LIFT: &str = "name = 'lift'
+[[colliders]]
+shape = 'half-space'
+position = [0, -1, 0]
+
+[colliders.motion.keyframes]
+times = ['500 ms', 2, 3]
+positions = [[0, 0, 0], [0, '20 cm', 0], [0, 0, 0]]
+rotations = [[0, 0, 0, 1], { axis = [0, 0, 1], degrees = 90 }, [0, 0, 0, 1]]
+pivot = [0.5, 0, 0]
+repeat = true
+";
+
+#[test]
+fn keyframes_reach_the_world_and_are_written_again() {
+    let scene = read(LIFT);
+    let world = scene.world().unwrap();
+    let (_, floor) = world.colliders().next().unwrap();
+    let Some(MotionPart::Keyframes(found)) = floor.motion.parts().first() else { panic!() };
+    let middle = Keyframe::at(2.0, DVec3::new(0.0, 0.2, 0.0));
+    let turned = DQuat::from_xyzw(0.0, 0.0, FRAC_1_SQRT_2, FRAC_1_SQRT_2);
+    let ends = [0.5, 3.0].map(|time| Keyframe::at(time, DVec3::ZERO));
+    let expected = [ends[0], middle.rotated(turned), ends[1]];
+    for (found, expected) in found.keyframes().iter().zip(expected) {
+        assert_eq!((found.time, found.position), (expected.time, expected.position));
+        // The sine and the cosine of 45°.
+        assert!((found.rotation - expected.rotation).length() < 1e-15);
+    }
+    assert!(found.repeats());
+    assert_eq!(found.pivot(), DVec3::new(0.5, 0.0, 0.0));
+    assert_eq!(read(&scene.to_toml()), scene);
+    let later = scene.colliders[0].beginning_at(0.7);
+    let later = Scene { colliders: vec![later], ..scene.clone() }.world().unwrap();
+    let mut world = scene.world().unwrap();
+    world.set_time(0.7).unwrap();
+    let [now, then] = [&world, &later].map(|it| it.colliders().next().unwrap().1.pose);
+    // A rounding of the times.
+    assert!((now.position - then.position).length() < 1e-15, "{now:?} {then:?}");
+}
+
+#[test]
+fn wrong_keyframes_are_refused_with_their_line() {
+    let expect = |from: &str, to: &str, parts: [&str; 2]| {
+        assert!(LIFT.contains(from));
+        let said = match Scene::from_toml(&LIFT.replace(from, to), "lift.toml") {
+            Ok(scene) => scene.world().unwrap_err().to_string(),
+            Err(error) => error.to_string(),
+        };
+        assert!(parts.iter().all(|part| said.contains(part)), "{said}");
+    };
+    let field = |name: &str| format!("colliders[0].motion.keyframes.{name}");
+    expect("2, 3]", "2]", [&field("positions"), "2 times"]);
+    expect(", [0, 0, 0, 1]]", "]", [&field("rotations"), "lift.toml:9"]);
+    expect("2, 3]", "2, 1]", [&field("times"), "ascending"]);
+    expect("[0, 0, 0]]", "[0, 1, 0]]", [&field("positions"), "repeats"]);
+    expect("'500 ms'", "'500 m'", ["lift.toml:7", "not in s"]);
+    expect("'20 cm'", "'20 s'", ["lift.toml:8", "not in m"]);
+    expect("pivot = [0.5, 0, 0]", "pivot = [inf, 0, 0]", [&field("pivot"), "lift.toml:10"]);
+    expect("repeat", "repeated", ["repeat", "lift.toml:11"]);
 }
 
 #[test]

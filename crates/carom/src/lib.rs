@@ -92,7 +92,7 @@ pub use glam::{DMat3, DQuat, DVec3};
 
 pub use bodies::Spheres;
 pub use collider::{Collider, Ends, Shape, Sides};
-pub use collider_motion::{Motion, MotionPart};
+pub use collider_motion::{Keyframe, Keyframes, Motion, MotionPart};
 pub use emitter::Emitter;
 pub use error::{Error, InvalidValue, Subject};
 pub use flight::Flight;

@@ -30,6 +30,8 @@ pub(crate) struct Drive {
     pub angular_acceleration: DVec3,
     /// A bound of the rate at which it repeats or turns \[rad/s\].
     pub rate: f64,
+    /// How long the accelerations stay continuous \[s\]; infinite unless they jump at some time.
+    pub smooth_for: f64,
     /// Whether it turns at some time.
     pub turns: bool,
 }

@@ -107,6 +107,45 @@ fn a_row_of_balls_that_falls_on_a_rough_cylinder_loses_what_its_contacts_take() 
 }
 
 #[test]
+fn a_net_that_falls_on_a_rough_sphere_loses_what_its_contacts_take() {
+    // Damped springs and many slips, each of which begins steps anew.
+    let mut world = exact();
+    world.add_force(Gravity::new(vec(0.0, -G, 0.0))).unwrap();
+    let sphere = Collider::new(Shape::Sphere { radius: 0.4 }, Pose::at(DVec3::ZERO));
+    world.add_collider(sphere.with_friction(0.5).with_restitution(0.3)).unwrap();
+    let along = |number: i32, from: f64| from + 0.15 * f64::from(number);
+    let ball = |number: i32| {
+        let place = vec(along(number / 5, -0.27), 0.8, along(number % 5, -0.28));
+        Sphere::new(place, 0.06).with_mass(0.05).with_restitution(0.2).with_friction(0.5)
+    };
+    let balls: Vec<SphereId> =
+        (0..25).map(|number| world.add_sphere(ball(number)).unwrap()).collect();
+    let knots = (0..25).flat_map(|first| [(first, first + 5), (first, first + 1)]);
+    let knots =
+        knots.filter(|&(first, second)| second < 25 && (second != first + 1 || second % 5 > 0));
+    for (first, second) in knots {
+        let spring = Spring::between(balls[first], balls[second], 0.15);
+        world.add_spring(spring.with_stiffness(300.0).with_damping(0.5)).unwrap();
+    }
+    let start = world.total_energy();
+    let (account, left) = account_of_run(&mut world, 30, 1.0 / 60.0);
+    assert!(account.contacts < -0.1 * start, "{account:?}");
+    // Rounding of some hundred steps.
+    assert!(left.abs() < 1e-14 * start, "{left:e} J of {start} J");
+}
+
+#[test]
+fn a_chain_whose_balls_touch_keeps_its_energy_up_to_its_contacts() {
+    // Between neighbours act forces of rounding, and torques of their friction.
+    let mut world = Chain { unit: 1.0, spacing: 0.04, restitution: 0.5 }.over_cylinder();
+    let start = world.total_energy();
+    let (account, left) = account_of_run(&mut world, 6, FRAME);
+    assert!(account.contacts < -0.001 * start, "{account:?}");
+    // Rounding of some hundred steps.
+    assert!(left.abs() < 1e-13 * start, "{left:e} J of {start} J");
+}
+
+#[test]
 fn a_soft_rough_cube_on_stairs_loses_what_its_contacts_take() {
     let mut world = exact();
     world.add_force(Gravity::new(vec(0.0, -G, 0.0))).unwrap();

@@ -192,6 +192,19 @@ export type Motion =
         frequency: number;
         phaseDegrees?: number;
       };
+    }
+  /**
+   * Through poses at ascending times [s]: displacements [m] and rotations, one for each time. At
+   * rest before and after, unless it repeats.
+   */
+  | {
+      keyframes: {
+        times: number[];
+        positions?: Vector[];
+        rotations?: Quaternion[];
+        pivot?: Vector;
+        repeat?: boolean;
+      };
     };
 
 /** Properties of a new collider. */

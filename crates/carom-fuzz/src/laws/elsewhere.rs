@@ -28,7 +28,9 @@ fn moved(scene: &Scene, by: DVec3) -> Scene {
         add(&mut collider.position);
         for motion in &mut collider.motion {
             match motion {
-                Motion::Turn { pivot, .. } | Motion::Swing { pivot, .. } => add(pivot),
+                Motion::Turn { pivot, .. }
+                | Motion::Swing { pivot, .. }
+                | Motion::Keyframes { pivot, .. } => add(pivot),
                 Motion::Steady { .. } | Motion::Oscillate { .. } => {}
             }
         }

@@ -78,6 +78,11 @@ fn mirror_collider(collider: &mut Collider) {
                 mirror_axis(axis);
                 mirror(pivot);
             }
+            Motion::Keyframes { positions, rotations, pivot, .. } => {
+                positions.iter_mut().for_each(mirror);
+                rotations.iter_mut().for_each(mirror_turn);
+                mirror(pivot);
+            }
         }
     }
     // Shapes of revolution are their own mirror images.

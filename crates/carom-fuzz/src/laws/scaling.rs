@@ -188,6 +188,11 @@ fn scale_motion(motion: &mut Motion, scale: Scale) {
             scale_vector(pivot, length);
             *frequency *= rate;
         }
+        Motion::Keyframes { times, positions, pivot, .. } => {
+            scale_vector(pivot, length);
+            positions.iter_mut().for_each(|it| scale_vector(it, length));
+            times.iter_mut().for_each(|it| *it /= rate);
+        }
     }
 }
 

@@ -3,7 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::values::{Vector, is_default};
+use super::rotation;
+use super::values::{Quaternion, Vector, is_default};
 
 /// A part of the motion of a collider, as a function of time.
 ///
@@ -58,6 +59,28 @@ pub enum Motion {
         #[serde(default, skip_serializing_if = "is_default")]
         phase_degrees: f64,
     },
+    /// Moves and turns through poses at given times, and rests before and after. Velocities are continuous.
+    Keyframes {
+        /// Times of the poses, in s: two or more, ascending.
+        times: Vec<f64>,
+        /// Displacements from the position of the collider, in m, one for each time. By default none.
+        #[serde(default, skip_serializing_if = "is_default")]
+        positions: Vec<Vector>,
+        /// Rotations from that of the collider, one for each time, about the axes of the world. By default none.
+        #[schemars(with = "Vec<rotation::Rotation>")]
+        #[serde(
+            default,
+            deserialize_with = "rotation::read_list",
+            skip_serializing_if = "is_default"
+        )]
+        rotations: Vec<Quaternion>,
+        /// The point about which it turns, from the position of the collider, in m. By default there.
+        #[serde(default, skip_serializing_if = "is_default")]
+        pivot: Vector,
+        /// Whether it repeats, before and after. The last pose has to be the first. By default not.
+        #[serde(default, skip_serializing_if = "is_default")]
+        repeat: bool,
+    },
 }
 
 impl Motion {
@@ -68,6 +91,7 @@ impl Motion {
             Self::Oscillate { .. } => "oscillate",
             Self::Turn { .. } => "turn",
             Self::Swing { .. } => "swing",
+            Self::Keyframes { .. } => "keyframes",
         }
     }
 }

@@ -46,6 +46,22 @@ pub(super) fn read_some<'de, D: Deserializer<'de>>(
     read(deserializer).map(Some)
 }
 
+/// Reads a list of rotations.
+pub(super) fn read_list<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Vec<Quaternion>, D::Error> {
+    struct One(Quaternion);
+
+    impl<'de> Deserialize<'de> for One {
+        fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+            read(deserializer).map(One)
+        }
+    }
+
+    let list = Vec::deserialize(deserializer)?;
+    Ok(list.into_iter().map(|One(rotation)| rotation).collect())
+}
+
 struct Reader;
 
 impl<'de> Visitor<'de> for Reader {

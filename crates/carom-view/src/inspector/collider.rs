@@ -133,6 +133,10 @@ fn motion_of(collider: &Collider) -> String {
         Motion::Swing { amplitude_degrees, frequency, .. } => {
             format!("swings by {amplitude_degrees}° at {frequency} Hz")
         }
+        Motion::Keyframes { ref times, repeat, .. } => {
+            let again = if repeat { ", again and again" } else { "" };
+            format!("moves through {} keyframes{again}", times.len())
+        }
     };
     collider.motion.iter().map(part).collect::<Vec<_>>().join(", ")
 }

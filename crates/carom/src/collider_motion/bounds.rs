@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use super::kinematics::Moment;
-use super::{Kinematics, Motion, MotionPart};
+use super::moment::Moment;
+use super::{Keyframes, Kinematics, Motion, MotionPart};
 use crate::norm::Norm;
 
 /// Upper bounds of the derivatives of a motion over a time.
@@ -32,6 +32,9 @@ impl MotionBounds {
         let last = motion.parts().len().saturating_sub(1);
         for (number, part) in motion.parts().iter().enumerate() {
             bounds = match *part {
+                MotionPart::Keyframes(ref keyframes) => {
+                    bounds.carried_through(keyframes, &state, (time, length))
+                }
                 MotionPart::Steady { velocity } => {
                     let speed = velocity.norm();
                     bounds.shifted(speed * length, [speed, 0.0, 0.0])
@@ -56,6 +59,36 @@ impl MotionBounds {
             }
         }
         bounds
+    }
+
+    /// Adds a motion by keyframes, from a state of the parts before it. Where it passes a keyframe, accelerations jump
+    /// and their derivatives have no bound.
+    fn carried_through(
+        self,
+        keyframes: &Keyframes,
+        before: &Kinematics,
+        (time, length): (Moment, f64),
+    ) -> Self {
+        let now = keyframes.way_at(time);
+        let (mut way, mut derivatives, mut turns) = (0.0f64, [0.0; 3], [[0.0; 3]; 3]);
+        let (pieces, passes) = keyframes.passed(time, length);
+        for piece in pieces {
+            let away = piece.places.iter().map(|&it| (it - now).norm());
+            way = away.fold(way, f64::max);
+            derivatives = largest(derivatives, piece.way_bounds());
+            for (number, turn) in turns.iter_mut().enumerate() {
+                *turn = largest(*turn, piece.turn_bounds(number));
+            }
+        }
+        let jerk = |[rate, growth, jerk]: [f64; 3]| {
+            [rate, growth, if passes { f64::INFINITY } else { jerk }]
+        };
+        let arm = (before.offset - keyframes.pivot()).norm();
+        let turned = turns
+            .into_iter()
+            .rev()
+            .fold(self, |bounds, turn| bounds.turned(arm, turn[0] * length, jerk(turn)));
+        turned.shifted(way.min(derivatives[0] * length), jerk(derivatives))
     }
 
     /// Adds a translation of at most `way` \[m\] with these bounds of its derivatives.
@@ -92,6 +125,11 @@ impl MotionBounds {
     }
 }
 
+/// Returns the larger of each pair of values.
+fn largest(first: [f64; 3], second: [f64; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|order| first[order].max(second[order]))
+}
+
 /// Returns the largest values of the derivatives of `A sin(2π f t + φ)`.
 fn sine(amplitude: f64, frequency: f64) -> [f64; 3] {
     let (size, rate) = (amplitude.abs(), TAU * frequency);
@@ -100,9 +138,54 @@ fn sine(amplitude: f64, frequency: f64) -> [f64; 3] {
 
 #[cfg(test)]
 mod tests {
-    use glam::DVec3;
+    use glam::{DQuat, DVec3};
 
+    use super::super::Keyframe;
     use super::*;
+
+    #[test]
+    fn derivatives_between_keyframes_are_below_their_bounds() {
+        let turned = |x: f64, y: f64, z: f64| DQuat::from_xyzw(x, y, z, 0.7).normalize();
+        let keyframes = Keyframes::new([
+            Keyframe::at(0.0, DVec3::ZERO),
+            Keyframe::at(0.5, DVec3::new(0.3, 0.1, -0.2)).rotated(turned(0.5, -0.2, 0.4)),
+            Keyframe::at(1.3, DVec3::new(-0.2, 0.6, 0.2)).rotated(turned(-0.3, 0.8, 0.1)),
+            Keyframe::at(2.0, DVec3::ZERO),
+        ]);
+        let keyframes = keyframes.about(DVec3::new(0.3, -1.0, 0.7)).repeating();
+        let swing = MotionPart::Swing {
+            axis: DVec3::Z,
+            pivot: DVec3::X,
+            amplitude: 0.6,
+            frequency: 0.2,
+            phase: 1.0,
+        };
+        let motion = Motion::new([swing, MotionPart::Keyframes(keyframes)]);
+        let (length, h) = (0.1, 1e-4);
+        for begin in [0.1, 0.35, 0.45, 1.0, 1.25, 1.95, 7.4] {
+            let bounds = MotionBounds::of(&motion, [begin, 0.0], length);
+            let at = |t: f64| Kinematics::of(&motion, [begin, t]);
+            let start = at(0.0);
+            for step in 0..1000 {
+                let [now, next] = [0.0, h].map(|t| at(f64::from(step) * h + t));
+                let jerk = (next.acceleration - now.acceleration) / h;
+                let spin_jerk = (next.angular_acceleration - now.angular_acceleration) / h;
+                let limits = [
+                    ((now.offset - start.offset).norm(), bounds.way),
+                    (now.velocity.norm(), bounds.speed),
+                    (now.acceleration.norm(), bounds.acceleration),
+                    (jerk.norm(), bounds.jerk),
+                    (now.angular_velocity.norm(), bounds.spin),
+                    (now.angular_acceleration.norm(), bounds.spin_growth),
+                    (spin_jerk.norm(), bounds.spin_jerk),
+                ];
+                for (value, bound) in limits {
+                    // Differences carry the rounding of 1e-14 over h.
+                    assert!(value <= bound + 1e-9, "{begin} {step}: {limits:?}");
+                }
+            }
+        }
+    }
 
     #[test]
     fn no_derivative_is_above_its_bound_and_some_come_near() {
@@ -111,9 +194,12 @@ mod tests {
         let turn = MotionPart::Turn { axis: DVec3::Y, pivot, rate: 1.3 };
         let swing = MotionPart::Swing { axis, pivot, amplitude: 0.6, frequency: 0.2, phase: 1.0 };
         let steady = MotionPart::Steady { velocity: DVec3::new(0.1, 0.2, 0.3) };
-        for parts in
-            [vec![oscillate], vec![turn], vec![steady, turn, swing], vec![swing, oscillate]]
-        {
+        for parts in [
+            vec![oscillate.clone()],
+            vec![turn.clone()],
+            vec![steady, turn, swing.clone()],
+            vec![swing, oscillate],
+        ] {
             let motion = Motion::new(parts);
             let (length, h) = (10.0, 1e-3);
             let bounds = MotionBounds::of(&motion, [2.0, 0.0], length);

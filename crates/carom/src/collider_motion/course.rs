@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::kinematics::Moment;
+use super::moment::Moment;
 use super::{Kinematics, Motion, MotionBounds};
 use crate::pose::Pose;
 use crate::rotation;
@@ -56,17 +56,17 @@ impl Course {
 
     /// Returns the pose of the collider after `h` \[s\], and the motion of its surfaces then, without a belt.
     pub fn place(&self, h: f64) -> (Pose, SurfaceMotion) {
-        self.place_in(&self.state(h))
+        self.place_in(h, &self.state(h))
     }
 
     /// Returns the displacement and motion of the collider after `h` \[s\].
     pub fn carriage(&self, h: f64) -> Carriage {
         let state = self.state(h);
-        let (pose, motion) = self.place_in(&state);
+        let (pose, motion) = self.place_in(h, &state);
         Carriage { to: pose.position, turn: self.turn_in(&state), motion }
     }
 
-    fn place_in(&self, state: &Kinematics) -> (Pose, SurfaceMotion) {
+    fn place_in(&self, h: f64, state: &Kinematics) -> (Pose, SurfaceMotion) {
         let rotation = if self.turns() {
             state.rotation * self.rest.rotation.normalize()
         } else {
@@ -77,6 +77,7 @@ impl Course {
             acceleration: state.acceleration,
             angular_acceleration: state.angular_acceleration,
             rate: self.rate(),
+            smooth_for: self.motion.smooth_for(self.moment(h)),
             turns: self.turns(),
         };
         let motion = SurfaceMotion {

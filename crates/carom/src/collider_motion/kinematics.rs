@@ -4,11 +4,10 @@ use std::f64::consts::TAU;
 
 use glam::{DQuat, DVec3};
 
-use super::{Motion, MotionPart};
-
-/// A time as the sum of a start on the world's clock and the time since then \[s\], so that phases of long runs are
-/// not rounded.
-pub(crate) type Moment = [f64; 2];
+use super::keyframes::{Piece, Place};
+use super::moment::Moment;
+use super::{Keyframes, Motion, MotionPart};
+use crate::norm::Norm;
 
 /// Displacement of a collider from rest, with its derivatives in time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,6 +60,60 @@ impl Kinematics {
             MotionPart::Swing { axis, pivot, amplitude, frequency, phase } => {
                 self.turned(axis.normalize(), pivot, sine(amplitude, frequency, phase, time))
             }
+            MotionPart::Keyframes(ref keyframes) => self.carried_through(keyframes, time),
+        }
+    }
+
+    /// Adds a motion by keyframes.
+    fn carried_through(self, keyframes: &Keyframes, time: Moment) -> Self {
+        let pivot = keyframes.pivot();
+        match keyframes.place_at(time) {
+            Some(Place::Moves(piece, part)) => self.carried_on(piece, pivot, part),
+            Some(Place::Rests(keyframe)) => {
+                let rest = [keyframe.position, DVec3::ZERO, DVec3::ZERO];
+                self.rotated(keyframe.rotation.normalize(), pivot).shifted(rest)
+            }
+            None => self,
+        }
+    }
+
+    /// Adds the motion at a part s of a piece between keyframes: the rotation
+    ///
+    /// ```text
+    /// q₀ exp(w₁ (1 - (1 - s)³)) exp(w₂ (3 s² - 2 s³)) exp(w₃ s³)
+    /// ```
+    ///
+    /// (Kim, Kim and Shin, SIGGRAPH 1995, "Hermite quaternion curve"), then the displacement.
+    pub(super) fn carried_on(self, piece: &Piece, pivot: DVec3, part: f64) -> Self {
+        let (s, rest, rate) = (part, 1.0 - part, piece.length.recip());
+        let [first, middle, last] = piece.turns;
+        let in_time =
+            |[value, slope, change]: [f64; 3]| [value, slope * rate, change * rate * rate];
+        let weights = [
+            [s * s * s, 3.0 * s * s, 6.0 * s],
+            [s * s * (3.0 - 2.0 * s), 6.0 * s * rest, 6.0 - 12.0 * s],
+            [1.0 - rest * rest * rest, 3.0 * rest * rest, -6.0 * rest],
+        ];
+        let turned = [last, middle, first].into_iter().zip(weights.map(in_time));
+        let state = turned.fold(self, |state, (turn, weights)| {
+            let angle = turn.norm();
+            if angle == 0.0 {
+                return state;
+            }
+            state.turned(turn / angle, pivot, weights.map(|it| angle * it))
+        });
+        state.rotated(piece.rotation, pivot).shifted(piece.way_at(part))
+    }
+
+    /// Adds a fixed rotation about a pivot.
+    fn rotated(self, rotation: DQuat, pivot: DVec3) -> Self {
+        Self {
+            offset: pivot + rotation * (self.offset - pivot),
+            velocity: rotation * self.velocity,
+            acceleration: rotation * self.acceleration,
+            rotation: rotation * self.rotation,
+            angular_velocity: rotation * self.angular_velocity,
+            angular_acceleration: rotation * self.angular_acceleration,
         }
     }
 
@@ -112,7 +165,24 @@ fn sine(amplitude: f64, frequency: f64, phase: f64, [start, gone]: Moment) -> [f
 
 #[cfg(test)]
 mod tests {
+    use super::super::Keyframe;
     use super::*;
+    use crate::rotation;
+
+    fn keyframes(pivot: DVec3) -> Keyframes {
+        let at = |time: f64, [x, y, z]: [f64; 3], turn: DQuat| {
+            Keyframe::at(time, DVec3::new(x, y, z)).rotated(turn)
+        };
+        let turned = |vector: [f64; 3]| rotation::turned(DQuat::IDENTITY, vector.into(), 1.0);
+        Keyframes::new([
+            at(-1.0, [0.0; 3], turned([0.1, 0.2, -0.3])),
+            at(0.5, [0.3, 0.1, -0.2], turned([0.9, -0.2, 0.4])),
+            at(3.0, [-0.2, 0.6, 0.2], turned([0.3, 0.8, 0.4])),
+            at(6.0, [0.0; 3], turned([0.1, 0.2, -0.3])),
+        ])
+        .about(pivot)
+        .repeating()
+    }
 
     #[test]
     fn derivatives_of_a_sum_are_those_of_its_places() {
@@ -122,6 +192,7 @@ mod tests {
             MotionPart::Oscillate { axis, amplitude: 0.4, frequency: 0.3, phase: 0.2 },
             MotionPart::Turn { axis: DVec3::new(0.0, 1.0, 0.4), pivot, rate: 1.3 },
             MotionPart::Swing { axis, pivot, amplitude: 0.6, frequency: 0.2, phase: 1.0 },
+            MotionPart::Keyframes(keyframes(pivot)),
             MotionPart::Steady { velocity: DVec3::new(0.1, 0.2, 0.3) },
         ]);
         let h = 1e-4;

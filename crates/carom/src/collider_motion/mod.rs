@@ -2,7 +2,10 @@
 
 mod bounds;
 mod course;
+mod keyframes;
 mod kinematics;
+mod moment;
+mod tangents;
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
@@ -11,7 +14,9 @@ use glam::DVec3;
 
 pub(crate) use bounds::MotionBounds;
 pub(crate) use course::{Carriage, Course};
+pub use keyframes::{Keyframe, Keyframes};
 pub(crate) use kinematics::Kinematics;
+use moment::Moment;
 
 use crate::error::InvalidValue;
 use crate::norm::Norm;
@@ -22,7 +27,7 @@ use crate::validate;
 ///
 /// Axes are directions in the world, of any length but zero. A pivot is a point of the axis, relative to the
 /// position of the collider at rest, in the coordinates of the world. `t` is the time on the world's clock.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum MotionPart {
@@ -64,6 +69,8 @@ pub enum MotionPart {
         /// Phase \[rad\].
         phase: f64,
     },
+    /// Moves and turns through poses at given times.
+    Keyframes(Keyframes),
 }
 
 /// How a collider moves, as a function of the time on the world's clock.
@@ -139,7 +146,17 @@ impl Motion {
         self.parts.iter().any(|part| match part {
             MotionPart::Steady { .. } | MotionPart::Oscillate { .. } => false,
             MotionPart::Turn { .. } | MotionPart::Swing { .. } => true,
+            MotionPart::Keyframes(keyframes) => keyframes.turns(),
         })
+    }
+
+    /// Returns how long accelerations stay continuous after a time \[s\]; infinite but for keyframes.
+    fn smooth_for(&self, time: Moment) -> f64 {
+        let of = |part: &MotionPart| match part {
+            MotionPart::Keyframes(keyframes) => keyframes.piece_left(time),
+            _ => f64::INFINITY,
+        };
+        self.parts.iter().map(of).fold(f64::INFINITY, f64::min)
     }
 
     pub(crate) fn validate(&self) -> Result<(), InvalidValue> {
@@ -171,7 +188,10 @@ impl MotionPart {
             }
             _ => None,
         };
-        let mut part = *self;
+        let mut part = self.clone();
+        if let Self::Keyframes(keyframes) = &mut part {
+            *keyframes = keyframes.beginning_at(time);
+        }
         if let Self::Oscillate { frequency, phase, .. } | Self::Swing { frequency, phase, .. } =
             &mut part
         {
@@ -186,6 +206,7 @@ impl MotionPart {
             Self::Oscillate { frequency, .. } => TAU * frequency,
             Self::Swing { amplitude, frequency, .. } => TAU * frequency * amplitude.abs().max(1.0),
             Self::Turn { rate, .. } => rate.abs(),
+            Self::Keyframes(ref keyframes) => keyframes.rate(),
         }
     }
 
@@ -206,6 +227,7 @@ impl MotionPart {
                 validate::finite("pivot", pivot)?;
                 validate_sine(amplitude, frequency, phase)
             }
+            Self::Keyframes(ref keyframes) => keyframes.validate(),
         }
     }
 }

@@ -20,7 +20,7 @@ pub(super) fn are_one(first: &Collider, second: &Collider) -> bool {
     }
     let [parts, others] = [first, second].map(|it| it.motion.parts());
     let rests = [first, second].map(|it| rest_pose(it).position);
-    let is_same = |(&part, &other): (&MotionPart, &MotionPart)| are_same([part, other], rests);
+    let is_same = |(part, other): (&MotionPart, &MotionPart)| are_same([part, other], rests);
     parts.len() == others.len() && parts.iter().zip(others).all(is_same)
 }
 
@@ -36,7 +36,7 @@ pub(super) fn rest_pose(collider: &Collider) -> Pose {
 }
 
 /// Returns whether two parts move colliders with these positions at rest \[m\] in the same way.
-fn are_same(parts: [MotionPart; 2], rests: [DVec3; 2]) -> bool {
+fn are_same(parts: [&MotionPart; 2], rests: [DVec3; 2]) -> bool {
     let [(first, pivot), (second, other)] = parts.map(without_pivot);
     let is_one_place = match (pivot, other) {
         (Some(pivot), Some(other)) => {
@@ -50,15 +50,19 @@ fn are_same(parts: [MotionPart; 2], rests: [DVec3; 2]) -> bool {
 }
 
 /// A part of a motion with its pivot at the position at rest, and the pivot \[m\].
-fn without_pivot(part: MotionPart) -> (MotionPart, Option<DVec3>) {
+fn without_pivot(part: &MotionPart) -> (MotionPart, Option<DVec3>) {
     let zero = DVec3::ZERO;
-    match part {
+    match *part {
         MotionPart::Turn { axis, pivot, rate } => {
             (MotionPart::Turn { axis, pivot: zero, rate }, Some(pivot))
         }
         MotionPart::Swing { axis, pivot, amplitude, frequency, phase } => {
             (MotionPart::Swing { axis, pivot: zero, amplitude, frequency, phase }, Some(pivot))
         }
-        MotionPart::Steady { .. } | MotionPart::Oscillate { .. } => (part, None),
+        MotionPart::Keyframes(ref keyframes) => {
+            let at_rest = keyframes.clone().about(zero);
+            (MotionPart::Keyframes(at_rest), Some(keyframes.pivot()))
+        }
+        MotionPart::Steady { .. } | MotionPart::Oscillate { .. } => (part.clone(), None),
     }
 }

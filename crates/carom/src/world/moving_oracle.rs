@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 use super::World;
 use crate::collider::{Collider, Shape};
-use crate::collider_motion::MotionPart;
+use crate::collider_motion::{Keyframe, Keyframes, MotionPart};
 use crate::forces::Gravity;
 use crate::mesh::Mesh;
 use crate::pose::Pose;
@@ -30,7 +30,14 @@ impl Numbers {
     fn motion(&mut self) -> MotionPart {
         let axis = self.vector() + 1.5 * DVec3::Y;
         let (pivot, frequency) = (self.vector(), 1.0 + 0.5 * self.next());
-        match (1.5 * self.next() + 1.5) as u32 {
+        match (2.0 * self.next() + 2.0) as u32 {
+            3 => {
+                let turned = DQuat::from_axis_angle(axis.normalize(), 0.5);
+                let middle = Keyframe::at(0.4, 0.2 * self.vector()).rotated(turned);
+                let ends = [0.0, 1.1].map(|time| Keyframe::at(time, DVec3::ZERO));
+                let keyframes = Keyframes::new([ends[0], middle, ends[1]]).repeating();
+                MotionPart::Keyframes(keyframes.about(pivot))
+            }
             0 => MotionPart::Oscillate { axis, amplitude: 0.2, frequency, phase: self.next() },
             1 => MotionPart::Swing { axis, pivot, amplitude: 0.3, frequency, phase: self.next() },
             _ => MotionPart::Turn { axis, pivot, rate: 2.0 * self.next() },

@@ -5,6 +5,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod keyframes;
 mod riding;
 
 use std::f64::consts::{PI, TAU};
@@ -333,7 +334,9 @@ fn motion_is_a_function_of_the_clock() {
         oscillate(vec(0.0, 2.0, 0.0), 0.1, 0.3, 1.0),
         MotionPart::Steady { velocity: vec(0.0, 0.0, 0.2) },
     ];
-    let gate = || Collider::new(Shape::HalfSpace, Pose::at(vec(1.0, 2.0, 3.0))).with_motion(motion);
+    let gate = || {
+        Collider::new(Shape::HalfSpace, Pose::at(vec(1.0, 2.0, 3.0))).with_motion(motion.clone())
+    };
     let mut stepped = world(exact());
     let id = stepped.add_collider(gate()).unwrap();
     run(&mut stepped, 90);

@@ -24,6 +24,8 @@ from carom._scene.parts.kinds import (
     Positive,
     Quaternion,
     Restitution,
+    Rotations,
+    Times,
     Triangles,
     Vector,
     Vertices,
@@ -357,7 +359,33 @@ class Swing(Part):
     phase_degrees: Finite = 0.0
 
 
-Motion: TypeAlias = Steady | Oscillate | Turn | Swing
+@dataclass(frozen=True)
+class Keyframes(Part):
+    """Moves and turns through poses at given times, and rests before and after.
+
+    Velocities are continuous.
+
+    Attributes:
+        times: Times of the poses [s]: two or more, ascending.
+        positions: Displacements from the position of the collider [m], one for each time. By
+            default none.
+        rotations: Rotations from that of the collider, one for each time, about the axes of the
+            world. By default none.
+        pivot: The point about which it turns, from the position of the collider [m]. By default
+            there.
+        repeat: Whether it repeats, before and after. The last pose has to be the first. By default
+            not.
+    """
+
+    tag: ClassVar[str] = "keyframes"
+    times: Times
+    positions: Vertices = ()
+    rotations: Rotations = ()
+    pivot: Vector = ORIGIN
+    repeat: bool = False
+
+
+Motion: TypeAlias = Steady | Oscillate | Turn | Swing | Keyframes
 """A part of the motion of a collider, as a function of time."""
 
 

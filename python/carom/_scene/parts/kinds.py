@@ -66,6 +66,10 @@ Direction: TypeAlias = Annotated[
 """A vector of any length but zero."""
 Quaternion: TypeAlias = Annotated[Numeric, Numbers("four numbers", 4), _QUATERNION, Turn]
 """A rotation x, y, z, w."""
+Rotations: TypeAlias = Annotated[Sequence[Quaternion] | NDArray[Any], Rows(Quaternion)]
+"""Rotations x, y, z, w, one a row."""
+Times: TypeAlias = Annotated[Numeric, Numbers("numbers")]
+"""Times in a row [s]."""
 Color: TypeAlias = Annotated[
     Sequence[float] | str,
     _THREE,

@@ -332,7 +332,7 @@ fn obstacle() -> impl Strategy<Value = Obstacle> {
 fn part() -> impl Strategy<Value = String> {
     let axis = vector().prop_filter("has a direction", |it| it.iter().any(|part| part.abs() > 0.1));
     let frequency = (-1.0..1.5f64).prop_map(|it| 10f64.powf(it));
-    (0..4, axis, vector(), frequency, (-1.0..1.0, 0.0..360.0)).prop_map(
+    (0..5, axis, vector(), frequency, (-1.0..1.0, 0.0..360.0)).prop_map(
         |(kind, axis, pivot, frequency, (size, phase))| {
             let (amplitude, angle) = (size / frequency, 60.0 * size / frequency.max(1.0));
             let sine = format!("frequency = {frequency:?}, phase_degrees = {phase:?}");
@@ -341,6 +341,18 @@ fn part() -> impl Strategy<Value = String> {
                 0 => format!("{{ steady = {{ velocity = {pivot:?} }} }}"),
                 1 => format!("{{ oscillate = {{ {axis}, amplitude = {amplitude:?}, {sine} }} }}"),
                 2 => format!("{{ turn = {{ {axis}, pivot = {pivot:?}, rate = {:?} }} }}", 5.0 * size),
+                3 => {
+                    let times = [0.0, 0.25, 0.5, 1.0].map(|part| part / frequency);
+                    let [x, y, z] = pivot.map(|it| it * amplitude);
+                    let turned = format!("{{ {axis}, degrees = {angle:?} }}");
+                    let unturned = "[0, 0, 0, 1]";
+                    format!(
+                        "{{ keyframes = {{ times = {times:?}, repeat = {}, pivot = {pivot:?}, \
+                         positions = [[0, 0, 0], [{x:?}, {y:?}, {z:?}], [{y:?}, {z:?}, 0], \
+                         [0, 0, 0]], rotations = [{unturned}, {turned}, {turned}, {unturned}] }} }}",
+                        phase < 180.0
+                    )
+                }
                 _ => format!(
                     "{{ swing = {{ {axis}, pivot = {pivot:?}, amplitude_degrees = {angle:?}, {sine} }} }}"
                 ),

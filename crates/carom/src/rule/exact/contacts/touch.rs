@@ -10,6 +10,7 @@ use crate::respond::{TouchingContact, belt_of};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::features::{NormalCurvature, curvature_of, separation};
 use crate::surface::{Form, SurfaceMotion};
+use crate::surface_motion::Drive;
 
 /// Two bodies that touch.
 #[derive(Debug, Clone, Copy)]
@@ -42,6 +43,8 @@ pub(crate) struct Touch {
     pub drive: DVec3,
     /// Bound of the relative rate of change of `drive` \[rad/s\].
     pub drive_rate: f64,
+    /// How long `drive` stays continuous \[s\].
+    pub drive_smooth_for: f64,
     /// From the position of body 2 to its image beside body 1 \[m\].
     pub shift: DVec3,
     /// The contact was predicted, so rounding does not decide on it.
@@ -189,11 +192,14 @@ impl Touch {
         let spin = motion.angular_velocity;
         // The centripetal acceleration of what turns with the surface.
         let surface_pull = -spin.cross(spin.cross(center - motion.origin));
-        let (drive, drive_rate) = motion.drive.map_or((DVec3::ZERO, 0.0), |drive| {
-            let arm = center - motion.origin;
-            (drive.acceleration + drive.angular_acceleration.cross(arm), drive.rate)
-        });
-        Self { surface_velocity, surface_spin: spin, surface_pull, drive, drive_rate, ..self }
+        let Some(Drive { acceleration, angular_acceleration, rate, smooth_for, .. }) = motion.drive
+        else {
+            return Self { surface_velocity, surface_spin: spin, surface_pull, ..self };
+        };
+        let drive = acceleration + angular_acceleration.cross(center - motion.origin);
+        let (drive_rate, drive_smooth_for) = (rate, smooth_for);
+        let touch = Self { surface_velocity, surface_spin: spin, surface_pull, ..self };
+        Self { drive, drive_rate, drive_smooth_for, ..touch }
     }
 
     /// The bodies, not yet measured.
@@ -222,6 +228,7 @@ impl Touch {
             surface_pull: DVec3::ZERO,
             drive: DVec3::ZERO,
             drive_rate: 0.0,
+            drive_smooth_for: f64::INFINITY,
         }
     }
 }

@@ -214,6 +214,18 @@ impl CurveContacts {
         for _ in 0..2 {
             self.remove_accelerations(moving, spheres, at);
         }
+        self.add_turning_sizes(spheres, &mut at.sizes);
+    }
+
+    /// Makes the size of an angular acceleration at least that of the centre's acceleration by the radius: friction follows
+    /// from what acts on the centres, and rounding of that is no rate of change.
+    fn add_turning_sizes(&self, spheres: &[ContactSphere], sizes: &mut [f64]) {
+        let rough = self.contacts.iter().filter(|contact| contact.friction > 0.0);
+        for (place, _) in rough.flat_map(CurveContact::ends) {
+            let least = sizes[place] / spheres[place].radius;
+            let size = &mut sizes[spheres.len() + place];
+            *size = size.max(least);
+        }
     }
 
     /// Adds the accelerations \[m/s²\] of the forces under which no gap opens or closes, and nothing that rolls slides.

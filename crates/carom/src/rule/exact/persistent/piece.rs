@@ -53,7 +53,7 @@ pub(super) fn turning_time(
     for touch in touches {
         let spin = touch.form_spin().norm();
         if touch.drive_rate > 0.0 {
-            time = time.min(TURN_OF_DRIVE / touch.drive_rate);
+            time = time.min(TURN_OF_DRIVE / touch.drive_rate).min(touch.drive_smooth_for);
         } else if spin > 0.0 {
             time = time.min(TURN_OF_SPIN / spin).min(frame_left);
         }
