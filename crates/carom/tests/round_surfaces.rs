@@ -230,3 +230,20 @@ fn largest_missing(world: &mut World, frames: usize) -> f64 {
     }
     largest
 }
+
+#[test]
+fn balls_that_touch_in_a_bowl_lose_what_their_contacts_take() {
+    for friction in [0.0, 0.3] {
+        let collider = at_origin(Shape::Bowl { radius: HOLLOW, opening: 1.5 });
+        let mut world = world(collider.with_friction(friction).with_restitution(0.5), 1.0);
+        for (x, y, z) in [(0.1, -0.3, 0.0), (-0.1, -0.2, 0.1), (0.0, -0.1, -0.1), (0.1, 0.0, 0.1)] {
+            let ball = Sphere::new(DVec3::new(x, y, z), 0.06).with_mass(1.0).with_restitution(0.5);
+            world.add_sphere(ball.with_friction(friction)).unwrap();
+        }
+        let missing = largest_missing(&mut world, 192);
+        let deepest = world.overlaps(0.0).iter().map(|it| it.depth).fold(0.0, f64::max);
+        // Rounding of some thousand steps at 40 J, and of the gaps.
+        assert!(missing < 1e-12, "{friction}: {missing:e}");
+        assert!(deepest < 1e-13, "{friction}: {deepest:e}");
+    }
+}
