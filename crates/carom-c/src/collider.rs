@@ -302,7 +302,8 @@ pub unsafe extern "C" fn carom_world_set_collider(
             let (kick, groups, user_data) = (before.kick, before.groups, before.user_data);
             let collider = collider.physical(Some(before.shape))?;
             let collider = collider.with_kick(kick).with_groups(groups).with_user_data(user_data);
-            let collider = collider.with_surface_velocity(before.surface_velocity);
+            let mut collider = collider.with_surface_velocity(before.surface_velocity);
+            collider.captures = before.captures && collider.trigger;
             replace(inner, own, with_motion(collider, before.motion))
         })
     })

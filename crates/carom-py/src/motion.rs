@@ -4,6 +4,7 @@
 #![allow(rustdoc::broken_intra_doc_links)]
 
 use carom::{DVec3, SphereId};
+use carom_scene::scene::Strike;
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 
@@ -40,6 +41,20 @@ impl Engine {
         let (sphere, impulse) = (sphere(id)?, vector("impulse", impulse)?);
         let point = vector("point", point)?;
         self.change(id.py(), |inner| Ok(inner.world.apply_impulse_at(sphere, impulse, point)?))
+    }
+
+    /// Strikes a sphere with a cue: speed, azimuth and elevation in degrees, offset to the right
+    /// and up, and the mass of the cue.
+    #[pyo3(name = "_strike")]
+    fn strike_with(&self, id: &Bound<'_, PyAny>, numbers: [f64; 6]) -> PyResult<()> {
+        let number = sphere(id)?;
+        let [speed, azimuth_degrees, elevation_degrees, right, up, cue_mass] = numbers;
+        let offset = [right, up];
+        let strike = Strike { speed, azimuth_degrees, elevation_degrees, offset, cue_mass };
+        self.change(id.py(), |inner| {
+            let strike = strike.on_radius(inner.world.sphere(number)?.radius);
+            Ok(inner.world.strike(number, strike).map(drop)?)
+        })
     }
 
     /// Sets the velocity of a sphere [m/s].

@@ -7,7 +7,7 @@ use crate::materials::{MaterialNumbers, friction};
 use crate::requirement::{check, check_positive};
 use crate::scene::values::{quaternion, vector};
 use crate::scene::{Collider, Emitter, End, RestitutionLaw, Shape, Side, Sphere};
-use crate::{meshes, track};
+use crate::{meshes, strike, track};
 
 /// Adds the sphere that stands at `path` in the scene.
 pub(crate) fn add_sphere(
@@ -63,7 +63,11 @@ pub(crate) fn sphere(sphere: &Sphere, path: &str) -> Result<carom::Sphere, Probl
         .with_groups(Groups { groups: sphere.groups, collides_with: sphere.collides_with })
         .with_user_data(sphere.user_data);
     let law = sphere.restitution_law;
-    Ok(law.map_or(physical, |law| physical.with_restitution_law(law.into())))
+    let physical = law.map_or(physical, |law| physical.with_restitution_law(law.into()));
+    match &sphere.strike {
+        Some(strike) => strike::struck(physical, strike, &format!("{path}.strike")),
+        None => Ok(physical),
+    }
 }
 
 impl Sphere {
@@ -202,7 +206,11 @@ pub(crate) fn collider(collider: &Collider) -> Result<carom::Collider, String> {
         Some(law) => solid.with_restitution_law(law.into()),
         None => solid,
     };
-    Ok(if collider.trigger { solid.as_trigger() } else { solid })
+    Ok(match (collider.trigger, collider.capture) {
+        (false, false) => solid,
+        (true, false) => solid.as_trigger(),
+        (_, true) => solid.capturing(),
+    })
 }
 
 /// Converts the emitter that stands at `path`; only its sphere is checked.

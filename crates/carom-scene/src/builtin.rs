@@ -10,6 +10,7 @@ macro_rules! embed {
 
 embed!(
     "billiards.toml",
+    "nine-ball.toml",
     "pour.toml",
     "cradle.toml",
     "cradle-on-threads.toml",

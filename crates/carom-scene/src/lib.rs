@@ -55,6 +55,7 @@ pub mod scene;
 mod schema;
 mod settings;
 mod springs;
+mod strike;
 mod table;
 mod text;
 mod track;

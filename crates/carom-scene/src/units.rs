@@ -71,25 +71,28 @@ const DEGREES: &str = "degrees";
 const RADIANS: &str = "rad";
 
 /// Unit of each field that has one.
-const FIELDS: [(&str, &str); 71] = [
+const FIELDS: [(&str, &str); 74] = [
     ("acceleration", "m/s²"),
     ("amplitude", "m"),
     ("amplitude_degrees", DEGREES),
     ("anchor", "m"),
     ("angular_velocity", "rad/s"),
     ("arc_degrees", DEGREES),
+    ("azimuth_degrees", DEGREES),
     ("bank_degrees", DEGREES),
     ("bottom_radius", "m"),
     ("center", "m"),
     ("coefficient", "kg/s"),
     ("contact_duration", "s"),
     ("core_radius", "m"),
+    ("cue_mass", "kg"),
     ("damping", "kg/s"),
     ("degrees", DEGREES),
     ("density", "kg/m³"),
     ("diameter", "m"),
     ("drop", "m"),
     ("duration", "s"),
+    ("elevation_degrees", DEGREES),
     ("euler_degrees", DEGREES),
     ("facet_degrees", DEGREES),
     ("far", "m"),

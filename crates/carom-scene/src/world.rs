@@ -122,6 +122,9 @@ fn add_collider(
             format!("must be at least 0 and less than 180, not {opening_degrees}")
         })?;
     }
+    check(collider.trigger || !collider.capture, &format!("{path}.capture"), || {
+        "needs `trigger = true`".into()
+    })?;
     let motion = motion::motion(collider, path)?;
     let physical = if motion.is_empty() {
         physical

@@ -219,6 +219,9 @@ pub struct Collider {
     pub friction: Friction,
     /// A trigger reports contact and deflects nothing.
     pub trigger: bool,
+    /// Whether a sphere that enters this trigger leaves the world at the end of the step, as in the pocket of a billiard
+    /// table. Its energy is in [`EnergyAccount::emission`](crate::EnergyAccount::emission).
+    pub captures: bool,
     /// Speed \[m/s\], >= 0, that an impact adds along the normal, as the bumpers of a pinball machine do: a sphere
     /// that comes with v leaves with `e v + kick`. Its energy is in
     /// [`EnergyAccount::kicks`](crate::EnergyAccount::kicks).
@@ -246,6 +249,7 @@ impl Collider {
             restitution_law: None,
             friction: Friction::default(),
             trigger: false,
+            captures: false,
             kick: 0.0,
             groups: Groups::DEFAULT,
             material: 0,
@@ -320,6 +324,25 @@ impl Collider {
         Self { trigger: true, ..self }
     }
 
+    /// Returns the collider as a trigger that takes out the spheres that enter it.
+    ///
+    /// ```
+    /// use carom::{Collider, DVec3, Pose, Shape, Sphere, World};
+    ///
+    /// let mut world = World::default();
+    /// let pocket = Collider::new(Shape::Sphere { radius: 0.1 }, Pose::at(DVec3::X));
+    /// world.add_collider(pocket.capturing())?;
+    /// let ball = world.add_sphere(Sphere::new(DVec3::ZERO, 0.1).with_velocity(DVec3::X))?;
+    /// let report = world.step(1.0)?;
+    /// assert!((report.sensor_events[0].time - 0.8).abs() < 1e-15);
+    /// assert_eq!(report.retired, [ball]);
+    /// assert!(world.spheres().is_empty());
+    /// # Ok::<(), carom::Error>(())
+    /// ```
+    pub fn capturing(self) -> Self {
+        Self { trigger: true, captures: true, ..self }
+    }
+
     /// Returns the collider with a kick: it adds this speed \[m/s\] along the normal in every impact.
     pub fn with_kick(self, kick: f64) -> Self {
         Self { kick, ..self }
@@ -351,6 +374,8 @@ impl Collider {
         validate::unit_interval("restitution", self.restitution)?;
         self.restitution_law.map_or(Ok(()), |law| law.validate())?;
         validate::non_negative("kick", self.kick)?;
+        let is_possible = self.trigger || !self.captures;
+        validate::require(is_possible, "captures", "false for what is no trigger", true)?;
         self.friction.validate()
     }
 }

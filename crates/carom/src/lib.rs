@@ -115,6 +115,7 @@ pub use report::{
     BodyPair, ContactAccount, EnergyAccount, Impact, ImpactGroup, LedgerEntry, Overlap,
     SensorEvent, StageCounts, StepReport, TriggerContact, ZoneAccount,
 };
+pub use respond::Strike;
 pub use restitution::RestitutionLaw;
 pub use settings::{
     Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, Rule, Settings,

@@ -39,7 +39,7 @@ pub struct StepReport {
     pub sensor_events: Vec<SensorEvent>,
     /// Spheres that emitters added, ascending.
     pub emitted: Vec<SphereId>,
-    /// Spheres that emitters removed for new ones.
+    /// Spheres that emitters removed for new ones, or that entered triggers that capture.
     pub retired: Vec<SphereId>,
     /// Ids of spheres that emitters left out for want of room: no sphere ever has them.
     pub left_out: Vec<SphereId>,
@@ -119,7 +119,7 @@ pub struct EnergyAccount {
     /// Work \[J\], against forces that have a potential or are linear, of moving spheres out of overlaps, or in
     /// front of a surface, or along with a stepped zone until its first tick.
     pub correction: f64,
-    /// Energy of the spheres that emitters added, minus the energy of those that they removed \[J\].
+    /// Energy of the spheres that emitters added, minus the energy of those that they or triggers removed \[J\].
     pub emission: f64,
 }
 

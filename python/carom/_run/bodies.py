@@ -201,6 +201,23 @@ class Bodies(Engine):
         parts.expect("sphere", sphere, parts.Sphere)
         self._set_sphere(id, f"spheres = [{toml_value(sphere, 'sphere')}]")
 
+    def strike(self, id: int, strike: parts.Strike) -> None:
+        """Strikes a sphere with a cue: its velocity and its angular velocity change at once.
+
+        Raises:
+            UnknownError: If the world does not (or no longer) contain it.
+            CaromError: For a number that makes no sense.
+
+        >>> import carom
+        >>> world = carom.World()
+        >>> ball = world.add_sphere(carom.Sphere(radius=0.0286, mass=0.17))
+        >>> world.strike(ball, carom.Strike(speed=2.0, offset=(0.0, -0.4)))
+        >>> world.velocities[0, 0].round(2), world.angular_velocities[0, 2].round(1)
+        (np.float64(2.35), np.float64(82.3))
+        """
+        angles = (strike.azimuth_degrees, strike.elevation_degrees)
+        self._strike(id, (strike.speed, *angles, *strike.offset, strike.cue_mass))
+
     @property
     def groups(self) -> NDArray[np.uint64]:
         """Groups that spheres are in, one bit for each of 32, shape (n,). A copy; can be assigned.

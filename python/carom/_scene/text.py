@@ -104,6 +104,7 @@ _KINDS: dict[str, type[parts.Part]] = {
     "sphere": parts.Sphere,
     "spheres": parts.Sphere,
     "springs": parts.Spring,
+    "strike": parts.Strike,
     "sun": parts.Sun,
     "tries": parts.Try,
 }

@@ -47,6 +47,8 @@ export interface SphereDescription {
   orientation?: Quaternion;
   /** Angular velocity [rad/s]; default: no rotation. */
   angularVelocity?: Vector;
+  /** The blow of a cue that sets it in motion, besides its velocities. */
+  strike?: Strike;
   /** Moment of inertia divided by m r², > 0; default: 0.4, that of a solid ball. */
   inertiaFactor?: number;
   /** Groups that it is in, one bit for each of 32; default: 1, the first. */
@@ -59,6 +61,20 @@ export interface SphereDescription {
   color?: Iterable<number>;
   /** How the surface reflects light; without effect on motion. */
   finish?: Finish;
+}
+
+/** The blow of a cue, by which it hits a sphere at one instant and one point. */
+export interface Strike {
+  /** Speed of the cue [m/s], >= 0. */
+  speed: number;
+  /** Direction from above, counterclockwise from +x [degrees]; default: 0. */
+  azimuthDegrees?: number;
+  /** Angle by which the cue points down, in [0, 90] [degrees]; default: 0. */
+  elevationDegrees?: number;
+  /** Offset from the centre to the right and up, in parts of the radius; default: none. */
+  offset?: [number, number];
+  /** Mass of the cue [kg], > 0; default: 0.567. */
+  cueMass?: number;
 }
 
 /** A sphere in a world. */
@@ -193,10 +209,7 @@ export type Motion =
         phaseDegrees?: number;
       };
     }
-  /**
-   * Through poses at ascending times [s]: displacements [m] and rotations, one for each time. At
-   * rest before and after, unless it repeats.
-   */
+  /** Through displacements [m] and rotations at times [s], with rest before and after or repeated. */
   | {
       keyframes: {
         times: number[];
@@ -246,6 +259,8 @@ export interface ColliderDescription {
   tangentialRestitution?: number;
   /** Whether it is a trigger, which reports contact at the end of a frame but deflects nothing. */
   trigger?: boolean;
+  /** Whether a sphere that enters this trigger leaves the world. */
+  capture?: boolean;
   /** Speed that an impact adds along the normal [m/s], >= 0; default: 0. */
   kick?: number;
   /** Groups that it is in, one bit for each of 32; default: 1, the first. */

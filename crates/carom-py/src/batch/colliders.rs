@@ -105,7 +105,7 @@ pub fn changed(
 ) -> Result<Collider, Failure> {
     let mut collider = world.collider(id)?;
     if let Some(motion) = motion {
-        collider = collider.with_motion(motion.parts().iter().copied());
+        collider = collider.with_motion(motion.parts().iter().cloned());
     }
     for (quantity, values) in columns {
         let width = quantity.width();

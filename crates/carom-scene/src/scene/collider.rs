@@ -52,7 +52,7 @@ pub struct Collider {
     #[schemars(range(min = 0.0, max = 1.0))]
     #[serde(default = "one")]
     pub restitution: f64,
-    /// Restitution by the speed of approach, instead of `restitution`.
+    /// Restitution by the speed of approach; beside it `restitution` does not count.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub restitution_law: Option<RestitutionLaw>,
     /// Coulomb's coefficient of friction, >= 0, under the rules `exact` and `contact`. If missing, the other body's
@@ -75,6 +75,9 @@ pub struct Collider {
     /// Whether it only reports spheres and deflects none.
     #[serde(default, skip_serializing_if = "is_default")]
     pub trigger: bool,
+    /// Whether a sphere that enters this trigger leaves the scene, as in the pocket of a billiard table.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub capture: bool,
     /// Speed that an impact adds along the normal, in m/s, >= 0: a sphere that comes with v leaves with e v + kick.
     #[schemars(range(min = 0.0))]
     #[serde(default, skip_serializing_if = "is_default")]
@@ -120,6 +123,7 @@ impl Collider {
             spinning_friction: None,
             tangential_restitution: None,
             trigger: false,
+            capture: false,
             kick: 0.0,
             groups: first_group(),
             collides_with: all_groups(),

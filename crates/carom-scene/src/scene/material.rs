@@ -1,7 +1,8 @@
 //! Materials, and what their contacts do.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::finish::Finish;
 use super::values::Color;
@@ -14,7 +15,7 @@ pub struct Material {
     #[schemars(range(min = 0.0, max = 1.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub restitution: Option<f64>,
-    /// Restitution by the speed of approach, instead of `restitution`.
+    /// Restitution by the speed of approach; beside it `restitution` does not count.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub restitution_law: Option<RestitutionLaw>,
     /// Coulomb's coefficient of friction, >= 0.
@@ -50,12 +51,13 @@ pub struct Material {
 #[serde(deny_unknown_fields)]
 pub struct MaterialPair {
     /// Names of the two materials, which may be the same.
+    #[serde(deserialize_with = "two_names")]
     pub materials: [String; 2],
     /// Coefficient of restitution in [0, 1]. If missing, the combine rule gives it.
     #[schemars(range(min = 0.0, max = 1.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub restitution: Option<f64>,
-    /// Restitution by the speed of approach, instead of `restitution`.
+    /// Restitution by the speed of approach; beside it `restitution` does not count.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub restitution_law: Option<RestitutionLaw>,
     /// Coulomb's coefficient of friction, >= 0. If missing, the combine rule gives it.
@@ -74,6 +76,13 @@ pub struct MaterialPair {
     #[schemars(range(min = 0.0, max = 1.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tangential_restitution: Option<f64>,
+}
+
+/// Reads the names of a pair; the error of lists of another length speaks of names.
+fn two_names<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[String; 2], D::Error> {
+    let names = Vec::<String>::deserialize(deserializer)?;
+    <[String; 2]>::try_from(names)
+        .map_err(|names| D::Error::custom(format!("has {} names, not two", names.len())))
 }
 
 /// Restitution that depends on the speed of approach v along the normal.

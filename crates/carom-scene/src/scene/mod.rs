@@ -15,6 +15,7 @@ mod rotation;
 mod simulation;
 mod sphere;
 mod spring;
+mod strike;
 mod suggestion;
 mod track;
 pub(crate) mod values;
@@ -39,6 +40,7 @@ pub use simulation::{
 };
 pub use sphere::Sphere;
 pub use spring::Spring;
+pub use strike::Strike;
 pub use suggestion::Try;
 pub use track::{Piece, Track};
 pub use values::{Color, Quaternion, Vector};

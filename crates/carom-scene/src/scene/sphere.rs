@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::finish::Finish;
 use super::material::RestitutionLaw;
 use super::rotation;
+use super::strike::Strike;
 use super::values::{
     Color, Quaternion, Vector, all_groups, are_all_groups, first_group, is_default, is_first_group,
     is_unturned, one, unturned,
@@ -49,7 +50,7 @@ pub struct Sphere {
     #[schemars(range(min = 0.0, max = 1.0))]
     #[serde(default = "one")]
     pub restitution: f64,
-    /// Restitution by the speed of approach, instead of `restitution`.
+    /// Restitution by the speed of approach; beside it `restitution` does not count.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub restitution_law: Option<RestitutionLaw>,
     /// Coulomb's coefficient of friction, >= 0, under the rules `exact` and `contact`. If missing, the other body's
@@ -77,6 +78,9 @@ pub struct Sphere {
     /// Angular velocity, in rad/s. In an emitter: in the emitter's coordinates.
     #[serde(default, skip_serializing_if = "is_default")]
     pub angular_velocity: Vector,
+    /// The blow of a cue that sets it in motion, besides its velocities. In an emitter: in the emitter's coordinates.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub strike: Option<Strike>,
     /// Moment of inertia divided by mass and square of the radius, > 0: 0.4 for a solid ball (default), 2/3 for a
     /// thin shell.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
@@ -118,6 +122,7 @@ impl Sphere {
             spinning_friction: None,
             tangential_restitution: None,
             orientation: unturned(),
+            strike: None,
             angular_velocity: [0.0; 3],
             inertia_factor: SOLID_BALL,
             groups: first_group(),

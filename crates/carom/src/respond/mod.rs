@@ -4,6 +4,7 @@
 mod combine;
 mod complementarity;
 mod contact_force;
+mod cue;
 mod face;
 mod friction;
 mod generalized_reflection;
@@ -23,6 +24,7 @@ mod touching;
 
 pub(crate) use contact_force::contact_forces_within;
 pub use contact_force::{ContactForces, contact_forces};
+pub use cue::Strike;
 pub(crate) use friction::{FrictionContact, SpinningSphere, apply_friction};
 pub(crate) use group::rounding_of;
 pub(crate) use kick::kick;

@@ -4,6 +4,7 @@
 mod attempt;
 mod by_event;
 mod by_frame;
+mod capture;
 mod growth;
 mod lookahead;
 mod sweep;
@@ -71,8 +72,18 @@ pub(crate) fn step(
     let requirement = "`exact` to know of events";
     validate::require(knows_events, "rule", requirement, "one that knows nothing but frames")
         .map_err(|invalid| invalid.about(Subject::Settings))?;
-    let mut attempt = Attempt::new(state, scratch, report, work, dt);
-    match rule {
+    advance(Attempt::new(state, scratch, report, work, dt), stop_request, until)?;
+    capture::capture(state, report);
+    Ok(())
+}
+
+/// Moves all spheres by the rule of the settings.
+fn advance(
+    mut attempt: Attempt,
+    stop_request: Option<&StopRequest>,
+    until: Until,
+) -> Result<(), Error> {
+    match attempt.state.settings.rule {
         Rule::Discrete(parameters) => {
             by_frame::step(&mut attempt, |state, frame, scratch, report| {
                 let (system, motion) = state.split();

@@ -10,6 +10,7 @@ mod moving_oracle;
 mod poses;
 mod queries;
 pub(crate) mod snapshot;
+mod strike;
 #[cfg(feature = "serde")]
 mod written;
 

@@ -424,9 +424,12 @@ class Collider(Part):
             that act one after the other. By default none.
         material: Name of its material, whose fields count where its own are ``None``, or a
             restitution of 1 or the finish ``"satin"``.
-        restitution_law: Restitution by the speed of approach, instead of ``restitution``.
+        restitution_law: Restitution by the speed of approach; beside it ``restitution`` does not
+            count.
         surface_velocity: Velocity of the material along the surface, in its own coordinates [m/s],
             as of a conveyor belt: friction feels it, and the shape stays.
+        capture: Whether a sphere that enters this trigger leaves the scene, as in the pocket of a
+            billiard table.
     """
 
     shape: Shape
@@ -452,6 +455,7 @@ class Collider(Part):
     material: str | None = None
     restitution_law: RestitutionLaw | None = None
     surface_velocity: Vector = ORIGIN
+    capture: bool = False
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -66,6 +66,12 @@ Direction: TypeAlias = Annotated[
 """A vector of any length but zero."""
 Quaternion: TypeAlias = Annotated[Numeric, Numbers("four numbers", 4), _QUATERNION, Turn]
 """A rotation x, y, z, w."""
+CueOffset: TypeAlias = Annotated[
+    Sequence[float],
+    Numbers("two numbers", 2),
+    Requirement("below 1 in size, on the sphere", lambda it: math.hypot(*it) < 1),
+]
+"""Offset of a cue to the right and up, in parts of the radius."""
 Rotations: TypeAlias = Annotated[Sequence[Quaternion] | NDArray[Any], Rows(Quaternion)]
 """Rotations x, y, z, w, one a row."""
 Times: TypeAlias = Annotated[Numeric, Numbers("numbers")]

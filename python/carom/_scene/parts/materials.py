@@ -66,7 +66,8 @@ class Material(Part):
 
     Attributes:
         restitution: Coefficient of restitution in [0, 1].
-        restitution_law: Restitution by the speed of approach, instead of ``restitution``.
+        restitution_law: Restitution by the speed of approach; beside it ``restitution`` does not
+            count.
         friction: Coulomb's coefficient of friction, >= 0.
         rolling_friction: Coefficient of rolling friction, >= 0.
         spinning_friction: Coefficient of spinning friction, >= 0.
@@ -94,7 +95,8 @@ class MaterialPair(Part):
     Attributes:
         materials: Names of the two materials, which may be the same.
         restitution: Coefficient of restitution in [0, 1]. If missing, the combine rule gives it.
-        restitution_law: Restitution by the speed of approach, instead of ``restitution``.
+        restitution_law: Restitution by the speed of approach; beside it ``restitution`` does not
+            count.
         friction: Coulomb's coefficient of friction, >= 0. If missing, the combine rule gives it.
         rolling_friction: Coefficient of rolling friction, >= 0. If missing, the combine rule gives
             it.

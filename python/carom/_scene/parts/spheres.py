@@ -5,7 +5,7 @@ Made by `cargo xtask parts` of the schema of scene files, which says what is to 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Annotated, TypeAlias
 
 from carom._scene.checks import Whole
@@ -14,6 +14,8 @@ from carom._scene.parts.kinds import (
     ORIGIN,
     UNTURNED,
     Color,
+    CueOffset,
+    Finite,
     LargeNumber,
     NonNegative,
     Number,
@@ -25,6 +27,27 @@ from carom._scene.parts.kinds import (
 from carom._scene.parts.materials import RestitutionLaw
 from carom._scene.parts.part import Part
 from carom._scene.parts.together import NO_SIZE, expect_one, has_size
+
+
+@dataclass(frozen=True)
+class Strike(Part):
+    """The blow of a cue, by which it hits a sphere at one instant and one point without loss of energy.
+
+    Attributes:
+        speed: Speed of the cue [m/s], >= 0.
+        azimuth_degrees: Direction of the cue from above, in degrees from +x towards -z,
+            counterclockwise. By default 0.
+        elevation_degrees: Angle by which the cue points down [degrees], in [0, 90]. By default 0.
+        offset: Offset of the cue from the centre to the right and up, as seen along it, in parts of
+            the radius; its size is below 1. By default none.
+        cue_mass: Mass of the cue [kg], > 0. By default 0.567 kg, 20 ounces.
+    """
+
+    speed: NonNegative
+    azimuth_degrees: Finite = 0.0
+    elevation_degrees: Restitution = field(default_factory=Restitution)
+    offset: CueOffset = (0.0, 0.0)
+    cue_mass: Positive = field(default_factory=Positive)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,7 +85,10 @@ class Sphere(Part):
         user_data: A number for programs to find it by; no part of the physics.
         material: Name of its material, whose fields count where its own are ``None``, or a
             restitution of 1 or the finish ``"satin"``.
-        restitution_law: Restitution by the speed of approach, instead of ``restitution``.
+        restitution_law: Restitution by the speed of approach; beside it ``restitution`` does not
+            count.
+        strike: The blow of a cue that sets it in motion, besides its velocities. In an emitter: in
+            the emitter's coordinates.
     """
 
     position: Vector = ORIGIN
@@ -86,6 +112,7 @@ class Sphere(Part):
     user_data: LargeNumber = 0
     material: str | None = None
     restitution_law: RestitutionLaw | None = None
+    strike: Strike | None = None
 
     def __post_init__(self) -> None:
         super().__post_init__()

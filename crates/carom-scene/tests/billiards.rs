@@ -1,0 +1,82 @@
+//! Strikes and pockets of scene files, and the scene `nine-ball`.
+
+use carom_scene::{Library, Scene};
+
+const TEXT: &str = "name = 'shot'
+[[spheres]]
+radius = '28.575 mm'
+mass = 0.17
+strike = { speed = '2 m/s', azimuth_degrees = 90, offset = [0.2, 0.3] }
+
+[[colliders]]
+shape = { sphere = { radius = 0.03 } }
+position = [1, 0, 0]
+trigger = true
+capture = true
+";
+
+fn read(text: &str) -> Scene {
+    Scene::from_toml(text, "shot.toml").unwrap()
+}
+
+#[test]
+fn strike_sets_the_ball_in_motion_and_is_written_again() {
+    let scene = read(TEXT);
+    let world = scene.world().unwrap();
+    let (velocity, spin) =
+        (world.spheres().velocities()[0], world.spheres().angular_velocities()[0]);
+    // Counterclockwise from above: from +x to -z. The spin is 5/2 of the offset, as a part of `v/R`.
+    let speed = 2.0 * 2.0 / (1.0 + 0.17 / 0.567 + 2.5 * (0.2 * 0.2 + 0.3 * 0.3));
+    assert!((velocity - carom::DVec3::new(0.0, 0.0, -speed)).length() < 1e-15, "{velocity}");
+    let turning = 2.5 * speed / 0.028575;
+    // Up for English on the right, along -x for topspin.
+    let expected = carom::DVec3::new(-0.3 * turning, 0.2 * turning, 0.0);
+    assert!((spin - expected).length() < 1e-12, "{spin} {expected}");
+    assert!(world.colliders().next().unwrap().1.captures);
+    assert_eq!(read(&scene.to_toml()), scene);
+}
+
+#[test]
+fn wrong_strikes_and_pockets_are_refused_with_their_line() {
+    let expect = |from: &str, to: &str, parts: [&str; 2]| {
+        assert!(TEXT.contains(from));
+        let said = match Scene::from_toml(&TEXT.replace(from, to), "shot.toml") {
+            Ok(scene) => scene.world().unwrap_err().to_string(),
+            Err(error) => error.to_string(),
+        };
+        assert!(parts.iter().all(|part| said.contains(part)), "{said}");
+    };
+    let strike = "shot.toml:5";
+    expect("'2 m/s'", "-2", [strike, "spheres[0].strike.speed"]);
+    expect("'2 m/s'", "'2 m'", [strike, "not in m/s"]);
+    expect("speed = '2 m/s', ", "", [strike, "speed"]);
+    expect("offset = [0.2, 0.3]", "offset = [0.6, 0.8]", [strike, "spheres[0].strike.offset"]);
+    expect("= 90", "= inf", [strike, "spheres[0].strike.azimuth_degrees"]);
+    expect("offset = [0.2, 0.3]", "elevation_degrees = 91", [strike, "elevation_degrees"]);
+    expect("offset = [0.2, 0.3]", "cue_mass = 0", [strike, "spheres[0].strike.cue_mass"]);
+    expect("offset", "ofset", [strike, "offset"]);
+    expect("trigger = true\n", "", ["shot.toml:10", "colliders[0].capture"]);
+}
+
+/// A break in which no ball leaves the table but through pockets, and the account of energy closes.
+#[test]
+fn nine_balls_stay_on_the_table_until_they_fall_into_pockets() {
+    let (scene, _) = Library::new().find("nine-ball", &[]).unwrap();
+    let mut world = scene.world().unwrap();
+    let before = world.total_energy();
+    let (mut account, mut fallen) = (0.0, Vec::new());
+    for _ in 0..720 {
+        let report = world.step(scene.simulation.frame_time).unwrap();
+        account += report.energy_account.total();
+        fallen.extend(report.retired.iter().copied());
+    }
+    for place in world.spheres().positions() {
+        let [x, z] = [place.x.abs(), place.z.abs()];
+        assert!(x < 1.38 && z < 0.745 && (place.y - 0.028575).abs() < 1e-6, "{place}");
+    }
+    assert_eq!(world.spheres().len() + fallen.len(), 10);
+    assert!(!fallen.is_empty());
+    // Rounding of the energy of the cue ball.
+    let off = world.total_energy() - before - account;
+    assert!(off.abs() < 1e-12 * before, "{off} of {before}");
+}
