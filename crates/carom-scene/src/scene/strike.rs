@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::values::is_default;
 
-/// The blow of a cue, by which it hits a sphere at one instant and one point without loss of energy.
+/// The blow of a cue on a sphere, at one instant and one point, without loss of energy.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Strike {

@@ -30,7 +30,6 @@ from carom._scene.parts.colliders import (
     Rectangle,
     Shape,
     Steady,
-    Strike,
     Swing,
     Torus,
     Turn,
@@ -94,7 +93,7 @@ from carom._scene.parts.materials import (
 )
 from carom._scene.parts.part import Part, expect
 from carom._scene.parts.simulation import Bisect, Contact, Discrete, Exact, Periodic, Simulation
-from carom._scene.parts.spheres import SizedSphere, Sphere
+from carom._scene.parts.spheres import SizedSphere, Sphere, Strike
 from carom._scene.parts.tracks import Bend, Curve, Gap, Piece, Straight, Track
 
 __all__ = [
@@ -141,9 +140,9 @@ __all__ = [
     "Gravity",
     "HalfSpace",
     "HeightField",
-    "Keyframes",
     "ImpactLaw",
     "Integrator",
+    "Keyframes",
     "LargeNumber",
     "Lattice",
     "Lengths",
@@ -183,8 +182,8 @@ __all__ = [
     "StaggeredRows",
     "Steady",
     "Straight",
-    "Sun",
     "Strike",
+    "Sun",
     "Swing",
     "ThreeCounts",
     "Torus",

@@ -66,6 +66,8 @@ Direction: TypeAlias = Annotated[
 """A vector of any length but zero."""
 Quaternion: TypeAlias = Annotated[Numeric, Numbers("four numbers", 4), _QUATERNION, Turn]
 """A rotation x, y, z, w."""
+Elevation: TypeAlias = Annotated[float, Requirement("in [0, 90]", lambda value: 0 <= value <= 90)]
+"""An angle above the horizon in degrees, in [0, 90]."""
 CueOffset: TypeAlias = Annotated[
     Sequence[float],
     Numbers("two numbers", 2),

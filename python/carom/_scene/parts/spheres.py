@@ -5,7 +5,7 @@ Made by `cargo xtask parts` of the schema of scene files, which says what is to 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Annotated, TypeAlias
 
 from carom._scene.checks import Whole
@@ -15,6 +15,7 @@ from carom._scene.parts.kinds import (
     UNTURNED,
     Color,
     CueOffset,
+    Elevation,
     Finite,
     LargeNumber,
     NonNegative,
@@ -31,7 +32,7 @@ from carom._scene.parts.together import NO_SIZE, expect_one, has_size
 
 @dataclass(frozen=True)
 class Strike(Part):
-    """The blow of a cue, by which it hits a sphere at one instant and one point without loss of energy.
+    """The blow of a cue on a sphere, at one instant and one point, without loss of energy.
 
     Attributes:
         speed: Speed of the cue [m/s], >= 0.
@@ -45,9 +46,9 @@ class Strike(Part):
 
     speed: NonNegative
     azimuth_degrees: Finite = 0.0
-    elevation_degrees: Restitution = field(default_factory=Restitution)
+    elevation_degrees: Elevation = 0.0
     offset: CueOffset = (0.0, 0.0)
-    cue_mass: Positive = field(default_factory=Positive)
+    cue_mass: Positive = 0.567
 
 
 @dataclass(frozen=True, kw_only=True)
