@@ -200,7 +200,7 @@ impl Timeline {
     pub(super) fn begin_free_flight(&mut self, member: &Member, time: f64) {
         let Member { slot, position, velocity, species, .. } = *member;
         self.set_free(slot, time);
-        if self.flights.are_curved() {
+        if species.is_curved {
             self.flights.set_free_acceleration(slot, species.acceleration);
         }
         self.begin_flight(slot, position, velocity, time);

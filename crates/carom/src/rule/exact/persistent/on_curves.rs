@@ -18,8 +18,15 @@ use crate::rule::exact::flights::{
 /// Angle \[rad\] below which two normals count as one: they differ by rounding.
 pub(super) const SAME_NORMAL: f64 = 1e-9;
 
-/// Whether all spheres in these contacts fly on curves with them: they touch each other and surfaces at rest, and no
-/// contact follows from others.
+/// Whether contacts between these members may make curves of their flights: forces do, or a surface that turns the
+/// normal.
+pub(super) fn may_bend(members: &[Member], touches: &[Touch]) -> bool {
+    let turns = |touch: &Touch| touch.first.is_none() && touch.is_curved();
+    members.iter().all(|member| member.species.is_curved) || touches.iter().any(turns)
+}
+
+/// Whether all spheres in these contacts can fly on curves with them: they touch each other and surfaces at rest, and
+/// no contact follows from others.
 pub(super) fn fly_so(context: &StepContext, members: &[Member], touches: &[Touch]) -> bool {
     let Some(mut contacts) = contacts(context, members, touches) else { return false };
     let positions: Vec<DVec3> = members.iter().map(|member| member.position).collect();
@@ -180,8 +187,8 @@ fn spheres(context: &StepContext, members: &[Member]) -> Vec<ContactSphere> {
     members.iter().map(sphere).collect()
 }
 
-/// Whether a sphere of this species flies on curves with a contact: no rolling or spinning friction acts there, and the
-/// sphere does not grow.
+/// Whether a sphere of this species can fly on curves with a contact: no rolling or spinning friction acts there, and
+/// the sphere does not grow.
 pub(in crate::rule::exact) fn flies_with(
     context: &StepContext,
     species: &Species,
@@ -189,7 +196,7 @@ pub(in crate::rule::exact) fn flies_with(
 ) -> bool {
     let ContactFriction { rolling, spinning, .. } = friction_of(bodies, context.system);
     let only_slides = rolling == 0.0 && spinning == 0.0;
-    species.is_curved && species.growth_speed == 0.0 && only_slides
+    !context.system.holds_forces_of_all() && species.growth_speed == 0.0 && only_slides
 }
 
 /// Whether the last of several touches is with a surface that touches its sphere where another one does.
