@@ -58,6 +58,8 @@ pub(super) fn pressing_with_friction(
     let stays = |&number: &usize| presses[number] || is_idle(number);
     let persistent: Vec<Touch> =
         (0..touches.len()).filter(stays).map(|number| touches[number]).collect();
+    let (persistent, found) =
+        without_pulling(context, members, (persistent, found), (&motion, &spheres))?;
     if !fly_so(context, members, &persistent) {
         return None;
     }
@@ -71,6 +73,29 @@ pub(super) fn pressing_with_friction(
     let part = |touch: &Touch| largest / members[touch.second].species.mass;
     let largest = all.iter().map(part).fold(0.0, f64::max);
     Some((all, Accelerations { each, largest }))
+}
+
+/// The persistent touches without those that pull at once where a step begins with them, and the accelerations of the
+/// members \[m/s²\]; `None` where the spheres do not fly on curves with them.
+///
+/// Friction may allow several solutions, of which a step takes one and the search for contacts that press another.
+fn without_pulling(
+    context: &StepContext,
+    members: &[Member],
+    (mut touches, mut accelerations): (Vec<Touch>, Vec<DVec3>),
+    (motion, spheres): (&MotionOfMembers, &[ContactSphere]),
+) -> Option<(Vec<Touch>, Vec<DVec3>)> {
+    loop {
+        let mut contacts = contacts(context, members, &touches)?;
+        let mut values = motion.free();
+        contacts.choose_states(motion.moving(), spheres, &values, 0.0);
+        contacts.add(motion.moving(), spheres, &mut values);
+        let Some(number) = contacts.hardest_pull(spheres, &values.sizes) else {
+            return Some((touches, accelerations));
+        };
+        touches.remove(number);
+        accelerations = values.accelerations;
+    }
 }
 
 /// Normal force and friction \[N\] on body 2 of each touch of a cluster on curves, as it moves now; `None` if it is none.
