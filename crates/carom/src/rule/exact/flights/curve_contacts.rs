@@ -339,7 +339,8 @@ impl CurveContacts {
             match (self.states[contact], moving) {
                 (FrictionState::Slides { direction, least, .. }, Some(moving)) => {
                     let slip = self.slip(contact, moving, spheres);
-                    let against = friction * continued(direction, slip, least);
+                    let along = direction - direction.dot(normal) * normal;
+                    let against = friction * continued(along / along.norm(), slip, least);
                     directions.push(ForceDirection { force: normal - against, ..of_normal });
                 }
                 (FrictionState::Rolls, Some(_)) => {
@@ -375,8 +376,8 @@ fn coupling(
     sum
 }
 
-/// The direction of a slip \[m/s\] that was along `direction` at the start. It goes on smoothly through a slip of zero,
-/// and below the `least` slip it is that of the start.
+/// The direction of a slip \[m/s\] that would be along `direction` if it were that of the start, which turns with the
+/// surface. It goes on smoothly through a slip of zero, and below the `least` slip it is that direction.
 fn continued(direction: DVec3, slip: DVec3, least: f64) -> DVec3 {
     let speed = slip.norm();
     if speed <= least {
