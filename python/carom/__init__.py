@@ -39,6 +39,7 @@ from carom._run.world import World
 from carom._scene.above import above
 from carom._scene.library import Listed, load, scene, scenes
 from carom._scene.parts import (
+    Andersen,
     Ball,
     Bend,
     Bisect,
@@ -88,6 +89,7 @@ from carom._scene.parts import (
     QuadraticDrag,
     RandomFill,
     Rectangle,
+    Rescale,
     RestitutionLaw,
     Ring,
     Row,
@@ -102,6 +104,7 @@ from carom._scene.parts import (
     Strike,
     Sun,
     Swing,
+    Thermostat,
     Torus,
     Track,
     Try,
@@ -109,6 +112,7 @@ from carom._scene.parts import (
     Viscoelastic,
     ViscousDrag,
     Vortex,
+    WhiteNoise,
     Wind,
 )
 from carom._scene.points import Points
@@ -136,6 +140,7 @@ __all__ = [
     "OVERLAPPING",
     "SENSOR_EVENT",
     "TRIGGER",
+    "Andersen",
     "Ball",
     "Batch",
     "Bend",
@@ -201,6 +206,7 @@ __all__ = [
     "RandomFill",
     "Rectangle",
     "Renderer",
+    "Rescale",
     "RestitutionLaw",
     "Ring",
     "Row",
@@ -227,6 +233,7 @@ __all__ = [
     "Swing",
     "Tangents",
     "Tape",
+    "Thermostat",
     "Torus",
     "Track",
     "Trajectory",
@@ -237,6 +244,7 @@ __all__ = [
     "Viscoelastic",
     "ViscousDrag",
     "Vortex",
+    "WhiteNoise",
     "Wind",
     "World",
     "ZoneAccount",

@@ -19,6 +19,8 @@ pub fn run() -> Outcome {
     for (package, test) in [("carom", "rough_meshes"), ("carom-scene", "scenes")] {
         cargo(&[&OPTIMISED[..], &[package, "--test", test, "--", "--ignored"]].concat())?;
     }
+    let threads = ["--test", "gases_on_threads", "--features", "rayon", "--", "--ignored"];
+    cargo(&[&OPTIMISED[..], &["carom"], &threads].concat())?;
     let grading = ["carom-grade", "--", "--ignored"];
     cargo(&[&OPTIMISED[..], &grading].concat())?;
     tests_of_releases()?;

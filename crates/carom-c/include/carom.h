@@ -427,6 +427,10 @@ typedef struct {
     double kicks;
     /// Work of growing spheres [J].
     double growth;
+    /// Work of the steady shear of a periodic box [J].
+    double shear;
+    /// Energy that a thermostat added [J]; < 0 where it took some.
+    double thermostat;
     /// Work of forces without a potential [J]: drag, wind, vortices, dampers, forces of the program.
     double forces;
     /// Work of the forces applied to single spheres [J].

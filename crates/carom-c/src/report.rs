@@ -254,6 +254,10 @@ pub struct CaromEnergyAccount {
     pub kicks: f64,
     /// Work of growing spheres [J].
     pub growth: f64,
+    /// Work of the steady shear of a periodic box [J].
+    pub shear: f64,
+    /// Energy that a thermostat added [J]; < 0 where it took some.
+    pub thermostat: f64,
     /// Work of forces without a potential [J]: drag, wind, vortices, dampers, forces of the program.
     pub forces: f64,
     /// Work of the forces applied to single spheres [J].
@@ -278,6 +282,8 @@ pub unsafe extern "C" fn carom_world_energy_account(
             colliders: account.colliders,
             kicks: account.kicks,
             growth: account.growth,
+            shear: account.shear,
+            thermostat: account.thermostat,
             forces: account.forces,
             applied: account.applied,
             correction: account.correction,

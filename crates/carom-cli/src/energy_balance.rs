@@ -19,6 +19,10 @@ pub struct EnergyBalance {
     kicks: f64,
     /// Work of growing spheres \[J\].
     growth: f64,
+    /// Work of the steady shear of a periodic box \[J\].
+    shear: f64,
+    /// Energy that a thermostat added \[J\].
+    thermostat: f64,
     /// Work of forces without a potential \[J\].
     forces: f64,
     /// Work of forces applied to single spheres \[J\].
@@ -61,17 +65,22 @@ impl EnergyBalance {
         integration_is: &'static str,
     ) -> Self {
         let EnergyAccount { contacts, colliders, kicks, growth, forces, applied, .. } = account;
-        let EnergyAccount { correction, emission, .. } = account;
+        let EnergyAccount { shear, thermostat, correction, emission, .. } = account;
         let integration = end.total - start.total - account.total();
-        let given = [contacts, colliders, kicks, growth, forces, applied, correction, emission];
-        let largest =
-            given.iter().fold(start.largest.max(end.largest), |most, it| most.max(it.abs()));
+        let of_bodies = [contacts, colliders, kicks, growth, shear, thermostat];
+        let given = [forces, applied, correction, emission];
+        let largest = of_bodies
+            .iter()
+            .chain(&given)
+            .fold(start.largest.max(end.largest), |most, it| most.max(it.abs()));
         let integration_part = if integration == 0.0 { 0.0 } else { integration.abs() / largest };
         Self {
             contacts,
             colliders,
             kicks,
             growth,
+            shear,
+            thermostat,
             forces,
             applied,
             correction,
@@ -94,6 +103,8 @@ impl EnergyBalance {
             ("  colliders", self.colliders, "given by moving colliders"),
             ("  kicks", self.kicks, "given by colliders that kick"),
             ("  growth", self.growth, "given by growing balls"),
+            ("  shear", self.shear, "given by steady shear"),
+            ("  thermostat", self.thermostat, "given by the thermostat"),
             ("  forces", self.forces, "given by forces without a potential"),
             ("  applied", self.applied, "given by forces applied to single balls"),
             ("  correction", self.correction, "given by the correction of overlaps"),

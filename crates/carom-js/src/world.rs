@@ -163,14 +163,15 @@ impl World {
     }
 
     /// Returns the energy account \[J\]: work of contacts, of moving colliders, of kicks, of growth, of
-    /// forces without a potential, of applied forces and of the correction of overlaps, and the energy of
+    /// shear, of a thermostat, of forces without a potential, of applied forces and of the correction of overlaps, and the energy of
     /// emitted spheres minus that of removed ones.
     #[wasm_bindgen(getter, js_name = energyAccount)]
     pub fn energy_account(&self) -> Vec<f64> {
         let account = self.world.report().energy_account;
         let of_bodies = [account.contacts, account.colliders, account.kicks, account.growth];
+        let driven = [account.shear, account.thermostat];
         let others = [account.forces, account.applied, account.correction, account.emission];
-        of_bodies.into_iter().chain(others).collect()
+        of_bodies.into_iter().chain(driven).chain(others).collect()
     }
 
     /// Returns the quality of the solutions of the rule `contact`: sub-steps with limited impulses,

@@ -440,18 +440,12 @@ impl Engine {
 
     /// Returns the entries of the energy account [J] in the order of `carom.EnergyAccount`.
     #[pyo3(name = "_energy_account")]
-    fn energy_account(&self, py: Python<'_>) -> PyResult<[f64; 8]> {
+    fn energy_account(&self, py: Python<'_>) -> PyResult<Vec<f64>> {
         let account = self.lock(py)?.world.report().energy_account;
-        Ok([
-            account.contacts,
-            account.colliders,
-            account.kicks,
-            account.growth,
-            account.forces,
-            account.applied,
-            account.correction,
-            account.emission,
-        ])
+        let of_bodies = [account.contacts, account.colliders, account.kicks, account.growth];
+        let driven = [account.shear, account.thermostat];
+        let others = [account.forces, account.applied, account.correction, account.emission];
+        Ok([&of_bodies[..], &driven, &others].concat())
     }
 
     /// Returns the quality of the solutions of the rule `contact`: sub-steps with limited impulses,

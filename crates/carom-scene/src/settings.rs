@@ -6,7 +6,7 @@ use crate::error::Problem;
 use crate::scene::values::vector;
 use crate::scene::{
     Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, Rule, Scene,
-    Simulation, WindBack, Zones,
+    Simulation, Thermostat, WindBack, Zones,
 };
 
 impl Scene {
@@ -20,8 +20,32 @@ impl From<Boundary> for carom::Boundary {
     fn from(boundary: Boundary) -> Self {
         match boundary {
             Boundary::Open => Self::Open,
-            Boundary::Periodic { size } => Self::Periodic { size: vector(size) },
+            Boundary::Periodic { size, .. } => Self::Periodic { size: vector(size) },
         }
+    }
+}
+
+impl From<Thermostat> for carom::Thermostat {
+    fn from(thermostat: Thermostat) -> Self {
+        match thermostat {
+            Thermostat::Andersen { frequency, temperature, seed } => {
+                Self::Andersen { frequency, temperature, seed }
+            }
+            Thermostat::Rescale { interval, temperature } => {
+                Self::Rescale { interval, temperature }
+            }
+            Thermostat::WhiteNoise { interval, strength, seed } => {
+                Self::WhiteNoise { interval, strength, seed }
+            }
+        }
+    }
+}
+
+/// Shear rate of a boundary \[1/s\].
+fn shear_rate(boundary: Boundary) -> f64 {
+    match boundary {
+        Boundary::Open => 0.0,
+        Boundary::Periodic { shear_rate, .. } => shear_rate,
     }
 }
 
@@ -38,6 +62,8 @@ fn settings(simulation: &Simulation) -> Settings {
         .with_friction_combine_rule(simulation.friction_combine_rule.into())
         .with_spheres_collide(simulation.spheres_collide)
         .with_boundary(simulation.boundary.into())
+        .with_shear_rate(shear_rate(simulation.boundary))
+        .with_thermostat(simulation.thermostat.map(Into::into))
 }
 
 impl From<CombineRule> for carom::CombineRule {
@@ -106,13 +132,25 @@ fn integrator(integrator: Integrator) -> carom::Integrator {
     }
 }
 
+/// Whether a field of the settings is one of a thermostat.
+fn is_of_thermostat(field: &str) -> bool {
+    matches!(field, "frequency" | "interval" | "temperature" | "strength")
+}
+
 /// Converts an error of the settings; the path is that of the table which contains them.
 pub(crate) fn settings_problem(simulation: &Simulation, error: carom::Error) -> Problem {
     let path = match &error {
-        carom::Error::Invalid { source, .. } if source.field == "size" => {
+        carom::Error::Invalid { source, .. } if matches!(source.field, "size" | "shear_rate") => {
             "simulation.boundary.periodic"
         }
-        carom::Error::Invalid { source, .. } if source.field == "boundary" => "simulation",
+        carom::Error::Invalid { source, .. }
+            if matches!(source.field, "boundary" | "thermostat") =>
+        {
+            "simulation"
+        }
+        carom::Error::Invalid { source, .. } if is_of_thermostat(source.field) => {
+            "simulation.thermostat"
+        }
         _ => &format!("simulation.{}", simulation.rule),
     };
     Problem::of_physics(path, error)

@@ -71,7 +71,7 @@ const DEGREES: &str = "degrees";
 const RADIANS: &str = "rad";
 
 /// Unit of each field that has one.
-const FIELDS: [(&str, &str); 74] = [
+const FIELDS: [(&str, &str); 75] = [
     ("acceleration", "m/s²"),
     ("amplitude", "m"),
     ("amplitude_degrees", DEGREES),
@@ -103,6 +103,7 @@ const FIELDS: [(&str, &str); 74] = [
     ("gravity", "m/s²"),
     ("height", "m"),
     ("heights", "m"),
+    ("interval", "s"),
     ("kick", "m/s"),
     ("length", "m"),
     ("look_at", "m"),

@@ -257,6 +257,7 @@ fn own(edit: &Edit, before: &Simulation, session: &Session) -> Edit {
         friction_combine_rule,
         allow_overlap,
         boundary,
+        thermostat,
         exact,
         bisect,
         discrete,

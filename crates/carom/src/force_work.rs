@@ -9,11 +9,14 @@ pub(crate) struct ForceWork {
     pub forces: f64,
     /// Work of forces applied to single spheres.
     pub applied: f64,
+    /// Work of steady shear on the motion relative to the mean flow.
+    pub shear: f64,
 }
 
 impl AddAssign for ForceWork {
     fn add_assign(&mut self, other: Self) {
         self.forces += other.forces;
         self.applied += other.applied;
+        self.shear += other.shear;
     }
 }

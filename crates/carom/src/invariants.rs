@@ -7,12 +7,19 @@ use glam::DVec3;
 use crate::bodies::Spheres;
 use crate::forces::{Force, Interactions, SphereState, SphereStates, Spring};
 use crate::numbered::Numbered;
+use crate::shear::Shear;
 use crate::sum::Sum;
 
-/// Kinetic energy \[J\], `Σ m v² / 2 + I w² / 2`.
-pub fn kinetic_energy(spheres: &Spheres) -> f64 {
+/// Kinetic energy \[J\], `Σ m v² / 2 + I w² / 2`; in a box in steady shear of the motion relative to the mean flow.
+pub fn kinetic_energy(spheres: &Spheres, shear: Option<Shear>) -> f64 {
+    let energy = |m: &f64, v: DVec3| 0.5 * m * v.dot(v);
     let terms = spheres.masses().iter().zip(spheres.velocities());
-    let of_motion = terms.map(|(m, v)| 0.5 * m * v.dot(*v));
+    let Some(shear) = shear else {
+        let of_motion = terms.map(|(m, v)| energy(m, *v));
+        return of_motion.chain(rotational(spheres)).collect::<Sum>().value();
+    };
+    let terms = terms.zip(spheres.positions());
+    let of_motion = terms.map(|((m, v), x)| energy(m, *v - shear.velocity_at(*x)));
     of_motion.chain(rotational(spheres)).collect::<Sum>().value()
 }
 

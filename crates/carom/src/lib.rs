@@ -64,6 +64,7 @@ mod persistent_contact;
 mod polynomial_flight;
 mod pose;
 mod query;
+mod random;
 mod real;
 mod rectangle;
 mod report;
@@ -75,6 +76,7 @@ mod rule;
 mod seams;
 mod sensor;
 mod settings;
+mod shear;
 mod sphere;
 mod state;
 mod step;
@@ -84,6 +86,7 @@ mod surface;
 mod surface_motion;
 mod system;
 mod tangent;
+mod thermostat;
 mod validate;
 mod work;
 mod world;
@@ -119,7 +122,7 @@ pub use respond::Strike;
 pub use restitution::RestitutionLaw;
 pub use settings::{
     Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, Rule, Settings,
-    WindBack, Zones,
+    Thermostat, WindBack, Zones,
 };
 pub use sphere::{Mass, SOLID_BALL, Sphere, SphereMotion, THIN_SHELL, volume};
 pub use stress::{Stress, StressMeter};

@@ -110,6 +110,11 @@ pub struct EnergyAccount {
     pub kicks: f64,
     /// Work of spheres that grow \[J\].
     pub growth: f64,
+    /// Work of the steady shear of a periodic box \[J\]: -V σ_xy times the shear rate and the time, with the stress
+    /// relative to the mean flow. [`World::kinetic_energy`](crate::World::kinetic_energy) is relative to it, too.
+    pub shear: f64,
+    /// Energy that a thermostat added \[J\]; < 0 where it took some.
+    pub thermostat: f64,
     /// Work of forces without a potential \[J\]: of drag, wind, vortices, dampers of springs, and any other
     /// [`Force`](crate::Force) that is not conservative.
     pub forces: f64,
@@ -126,7 +131,12 @@ pub struct EnergyAccount {
 impl EnergyAccount {
     /// The sum of all entries \[J\].
     pub fn total(&self) -> f64 {
-        let of_bodies = self.contacts + self.colliders + self.kicks + self.growth;
+        let of_bodies = self.contacts
+            + self.colliders
+            + self.kicks
+            + self.growth
+            + self.shear
+            + self.thermostat;
         of_bodies + self.forces + self.applied + self.correction + self.emission
     }
 
@@ -137,6 +147,8 @@ impl EnergyAccount {
             colliders: part * self.colliders,
             kicks: part * self.kicks,
             growth: part * self.growth,
+            shear: part * self.shear,
+            thermostat: part * self.thermostat,
             forces: part * self.forces,
             applied: part * self.applied,
             correction: part * self.correction,
@@ -147,6 +159,7 @@ impl EnergyAccount {
     /// Adds work of nonconservative forces.
     pub(crate) fn add_force_work(&mut self, work: ForceWork) {
         self.forces += work.forces;
+        self.shear += work.shear;
         self.applied += work.applied;
     }
 }
@@ -157,6 +170,8 @@ impl AddAssign for EnergyAccount {
         self.colliders += other.colliders;
         self.kicks += other.kicks;
         self.growth += other.growth;
+        self.shear += other.shear;
+        self.thermostat += other.thermostat;
         self.forces += other.forces;
         self.applied += other.applied;
         self.correction += other.correction;

@@ -20,6 +20,7 @@ use crate::rule::contact::{self, Solver};
 use crate::rule::exact::{self, Timeline, Zone};
 use crate::sensor::Presence;
 use crate::settings::{Boundary, Rule, Settings};
+use crate::shear::Shear;
 use crate::system::System;
 use crate::validate;
 
@@ -87,7 +88,8 @@ impl State {
 
     /// Kinetic and potential energy \[J\], at `time` \[s\].
     pub fn total_energy(&self, time: f64) -> f64 {
-        invariants::kinetic_energy(&self.spheres) + self.potential_energy(time)
+        invariants::kinetic_energy(&self.spheres, Shear::of(&self.settings))
+            + self.potential_energy(time)
     }
 
     /// Potential energy \[J\] in nonconservative forces at `time` \[s\].

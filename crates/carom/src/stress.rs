@@ -8,6 +8,7 @@ use crate::collider::{Shape, Sides};
 use crate::error::{Error, Subject};
 use crate::report::BodyPair;
 use crate::settings::Boundary;
+use crate::shear::Shear;
 use crate::sum::Sum;
 use crate::validate;
 use crate::world::World;
@@ -21,7 +22,7 @@ use crate::world::World;
 #[non_exhaustive]
 pub struct Stress {
     /// Stress of motion: Σ m v v / V, mean over the ends of frames. Along periodic axes v is relative to the centre of
-    /// mass.
+    /// mass, and in a box in steady shear to the mean flow.
     pub kinetic: DMat3,
     /// Stress of impacts: Σ j l / (V t), with impulses j and the vectors l between the centres of the bodies.
     pub collisional: DMat3,
@@ -170,12 +171,22 @@ fn outer(a: DVec3, b: DVec3) -> DMat3 {
 /// Σ m v v \[J\], with velocities that along periodic axes are relative to the centre of mass.
 fn kinetic(world: &World) -> DMat3 {
     let spheres = world.spheres();
+    let shear = Shear::of(world.settings());
+    let flow = |place: DVec3| shear.map_or(DVec3::ZERO, |shear| shear.velocity_at(place));
+    let own: Vec<DVec3> =
+        spheres.velocities().iter().zip(spheres.positions()).map(|(v, &x)| *v - flow(x)).collect();
     let total: f64 = spheres.masses().iter().copied().collect::<Sum>().value();
     let is_periodic = world.settings().boundary.period().is_finite_mask();
-    let drift = if total > 0.0 { world.momentum() / total } else { DVec3::ZERO };
+    let mut momentum = [Sum::default(); 3];
+    for (&mass, &velocity) in spheres.masses().iter().zip(&own) {
+        let parts = (mass * velocity).to_array();
+        momentum.iter_mut().zip(parts).for_each(|(sum, part)| sum.add(part));
+    }
+    let momentum = DVec3::from_array(momentum.map(|sum| sum.value()));
+    let drift = if total > 0.0 { momentum / total } else { DVec3::ZERO };
     let drift = DVec3::select(is_periodic, drift, DVec3::ZERO);
     let mut tensor = Tensor::default();
-    for (&mass, &velocity) in spheres.masses().iter().zip(spheres.velocities()) {
+    for (&mass, &velocity) in spheres.masses().iter().zip(&own) {
         tensor.add(outer(mass * (velocity - drift), velocity - drift));
     }
     tensor.value()

@@ -1,9 +1,8 @@
-//! Surfaces of revolution under all rules: no sphere leaves a closed hollow or enters a solid, and motion on them is
-//! that of the closed forms.
+//! Surfaces of revolution under all rules: no sphere leaves a closed hollow or enters a solid.
 //!
 //! It proves nothing about shapes that move otherwise than steadily.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::PI;
 
 use carom::{
     Bisect, Collider, Contact, DQuat, DVec3, Discrete, Ends, Exact, Gravity, Pose, Rule, Settings,
@@ -209,79 +208,6 @@ fn billiard_in_a_sphere_keeps_its_angular_momentum() {
     let change = (momentum(&world) - before).length() / before.length();
     // Some 30 impacts, each within a few roundings of central.
     assert!(change < 1e-13, "{change}");
-}
-
-/// Times at which a quantity passes zero upwards \[s\], by lines between frames.
-fn crossings(world: &mut World, frame: f64, duration: f64, of: impl Fn(&World) -> f64) -> Vec<f64> {
-    let (mut times, mut before) = (Vec::new(), of(world));
-    while world.time() < duration {
-        world.step(frame).unwrap();
-        let now = of(world);
-        if before < 0.0 && now >= 0.0 {
-            times.push(world.time() - frame * now / (now - before));
-        }
-        before = now;
-    }
-    times
-}
-
-/// Swings of a ball at the bottom of a hollow, from an amplitude \[rad\] about its axis: the mean period.
-fn period(shape: Shape, rotation: DQuat, friction: f64, amplitude: f64) -> f64 {
-    let (radius, ball) = (1.0, 0.1);
-    let mut world = with_gravity(world(Exact::default()));
-    let pose = Pose::at(DVec3::ZERO).rotated(rotation);
-    world.add_collider(Collider::new(shape, pose).with_friction(friction)).unwrap();
-    let place = (radius - ball) * DVec3::new(libm::sin(amplitude), -libm::cos(amplitude), 0.0);
-    world.add_sphere(Sphere::new(place, ball).with_restitution(0.0)).unwrap();
-    let times = crossings(&mut world, 1.0 / 240.0, 10.0, |it| it.spheres().positions()[0].x);
-    (times[times.len() - 1] - times[0]) / (times.len() - 1) as f64
-}
-
-#[test]
-fn bowls_and_pipes_swing_with_the_period_of_a_pendulum() {
-    let bowl = (Shape::Bowl { radius: 1.0, opening: FRAC_PI_2 }, DQuat::IDENTITY);
-    let lying = DQuat::from_rotation_x(FRAC_PI_2);
-    let pipe = (Shape::Pipe { radius: 1.0, length: 2.0, closed: Ends::NONE }, lying);
-    let amplitude: f64 = 0.05;
-    // 1 + θ²/16 + 11 θ⁴/3072 of small swings.
-    let square = amplitude * amplitude;
-    let stretch = 1.0 + square / 16.0 + 11.0 * square * square / 3072.0;
-    for (friction, factor) in [(0.0, 1.0), (1.0, 1.4)] {
-        for (shape, rotation) in [&bowl, &pipe] {
-            let expected = 2.0 * PI * (factor * 0.9 / G).sqrt() * stretch;
-            let found = period(shape.clone(), *rotation, friction, amplitude);
-            // A ball goes in pieces of 2e-4 rad, whose errors add up.
-            assert!(
-                (found / expected - 1.0).abs() < 1e-5,
-                "{shape:?} {friction}: {found} {expected}"
-            );
-        }
-    }
-}
-
-#[test]
-fn a_ball_that_rolls_in_an_upright_pipe_swings_up_and_down() {
-    let mut world = with_gravity(world(Exact::default()));
-    let pipe = Shape::Pipe { radius: 1.0, length: 20.0, closed: Ends::NONE };
-    world.add_collider(Collider::new(pipe, Pose::at(DVec3::ZERO)).with_friction(1e3)).unwrap();
-    let (radius, rate) = (0.1, 6.0);
-    // Without slip where it touches the wall.
-    let speed = rate * 0.9;
-    let ball = Sphere::new(DVec3::new(0.9, 0.0, 0.0), radius)
-        .with_restitution(0.0)
-        .with_velocity(DVec3::new(0.0, 0.0, -speed))
-        .with_angular_velocity(DVec3::new(0.0, -speed / radius, 0.0));
-    world.add_sphere(ball).unwrap();
-    let omega = (2.0_f64 / 7.0).sqrt() * rate;
-    let drop = 5.0 / 7.0 * G / (omega * omega);
-    let mut worst = 0.0_f64;
-    for _ in 0..600 {
-        world.step(1.0 / 120.0).unwrap();
-        let expected = -drop * (1.0 - libm::cos(omega * world.time()));
-        worst = worst.max((world.spheres().positions()[0].y - expected).abs());
-    }
-    // The same pieces.
-    assert!(worst < 1e-6 * drop, "{worst}");
 }
 
 /// A ball of .1 m falls along the axis of a shape, or a little beside it.

@@ -308,7 +308,7 @@ fn tiles_that_share_a_motion_are_one_plate() {
     let turning = |x: f64| MotionPart::Turn { axis: DVec3::Z, pivot: vec(-x, 0.0, 0.0), rate: 0.5 };
     let rising = vec(0.1, 0.2, 0.0);
     let moved = |it: Collider, way: usize| match way {
-        0 => it.with_motion([shaken]),
+        0 => it.with_motion([shaken.clone()]),
         1 => {
             let part = turning(it.pose.position.x);
             it.with_motion([part])

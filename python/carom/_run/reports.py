@@ -43,6 +43,10 @@ class EnergyAccount(NamedTuple):
     """Work of the kicks of colliders [J]."""
     growth: float
     """Work of spheres that grow [J]."""
+    shear: float
+    """Work of the steady shear of a periodic box [J]."""
+    thermostat: float
+    """Energy that a thermostat added [J]; < 0 where it took some."""
     forces: float
     """Work of forces without a potential [J]: drag, wind, vortices, dampers of springs."""
     applied: float

@@ -118,6 +118,7 @@ _CHOICES: dict[str, tuple[type[parts.Part], ...]] = {
     "pieces": get_args(parts.Piece),
     "restitution_law": get_args(parts.RestitutionLaw),
     "shape": get_args(parts.Shape),
+    "thermostat": get_args(parts.Thermostat),
 }
 """What may be described under a name; tags distinguish the variants."""
 

@@ -2,6 +2,7 @@
 
 import type { Finish, Material, MaterialPair, RestitutionLaw } from "./materials.js";
 import type { Shape } from "./shapes.js";
+import type { Thermostat } from "./thermostats.js";
 
 /** Three numbers x, y, z: an array, a typed array, or any iterable, for example `THREE.Vector3`. */
 export type Vector = Iterable<number>;
@@ -414,14 +415,13 @@ export interface Simulation {
   spheresCollide: boolean;
   /** How the restitution of a contact follows from those of its two bodies. */
   combineRule: CombineRule;
-  /**
-   * How the friction of a contact follows from those of its two bodies; default: `geometric-mean`.
-   */
+  /** How the friction of a contact follows from those of its bodies; default: `geometric-mean`. */
   frictionCombineRule?: CombineRule;
   /** Whether spheres may overlap at the start. */
   allowOverlap: boolean;
   /** A periodic box about the origin [m], `Infinity` along an open axis; under `exact`. */
-  boundary: "open" | { periodic: { size: [number, number, number] } };
+  boundary: "open" | { periodic: { size: [number, number, number]; shearRate?: number } };
+  thermostat?: Thermostat;
   /**
    * Parameters of `exact`: how simultaneous impacts among touching spheres are resolved; duration
    * of a contact [s]; largest number of impacts per sphere and frame; whether contacts that take

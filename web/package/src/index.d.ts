@@ -36,6 +36,7 @@ import type {
 
 export * from "./descriptions.js";
 export * from "./materials.js";
+export * from "./thermostats.js";
 export * from "./queries.js";
 export * from "./reports.js";
 export * from "./shapes.js";

@@ -10,6 +10,7 @@ const HYPHENATED = new Map([
   ["mutualGravity", "mutual-gravity"],
   ["quadraticDrag", "quadratic-drag"],
   ["powerLaw", "power-law"],
+  ["whiteNoise", "white-noise"],
 ]);
 const UNHYPHENATED = new Map([...HYPHENATED].map(([camel, kebab]) => [kebab, camel]));
 

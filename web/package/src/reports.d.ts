@@ -97,6 +97,10 @@ export interface EnergyAccount {
   kicks: number;
   /** Work of growing spheres [J]. */
   growth: number;
+  /** Work of the steady shear of a periodic box [J]. */
+  shear: number;
+  /** Energy that a thermostat added [J]; < 0 where it took some. */
+  thermostat: number;
   /** Work of forces without a potential [J]: drag, wind, vortices, dampers of springs. */
   forces: number;
   /** Work of the forces applied to single spheres [J]. */

@@ -212,8 +212,9 @@ export class World {
 
   get energyAccount() {
     const [contacts, colliders, kicks, growth, ...others] = this.#world.energyAccount;
-    const [forces, applied, correction, emission] = others;
-    return { contacts, colliders, kicks, growth, forces, applied, correction, emission };
+    const [shear, thermostat, forces, applied, correction, emission] = others;
+    const ofBodies = { contacts, colliders, kicks, growth, shear, thermostat };
+    return { ...ofBodies, forces, applied, correction, emission };
   }
 
   get contactAccount() {

@@ -204,6 +204,7 @@ fn threads() -> Outcome {
         run(threads, &named("carom", "contact_rule")?, &["bits"])?;
         run(threads, &named("carom", "exact")?, &[])?;
     }
+    run("1", &named("carom", "gases_on_threads")?, &[])?;
     run("1", &named("carom-scene", "scenes")?, &["hashes"])?;
     run("3", &named("carom-scene", "scenes")?, &["hashes"])
 }

@@ -1,6 +1,6 @@
 //! Inelastic spheres: cooling of a gas, and collapse.
 
-use carom::{CombineRule, DVec3, Error, RestitutionLaw, Rule, Sphere, World};
+use carom::{CombineRule, DVec3, Error, Exact, RestitutionLaw, Rule, Sphere, Thermostat, World};
 
 use super::claim::{Claim, Expected, Measured, Outcome, Tolerance};
 use super::setup::{FRAME, run_until, world};
@@ -14,12 +14,28 @@ const COLLISIONS: f64 = 20.0;
 const FILLING: Filling = Filling { count: 16_384, packing_fraction: 0.05 };
 /// Viscoelastic spheres, with e = 0.94 at the thermal speed.
 const LAW: RestitutionLaw = RestitutionLaw::Viscoelastic { speed: 2.6e6 };
+/// Gas that white noise drives to a temperature of about 1.
+const DRIVEN: Filling = Filling { count: 2_048, packing_fraction: 0.05 };
+/// Its restitution.
+const DRIVEN_E: f64 = 0.9;
+/// Strength of the noise.
+const STRENGTH: f64 = 0.045;
+/// Frames until the driven gas is steady, and in which it is measured, of one collision of each sphere.
+const DRIVEN_FRAMES: [u32; 2] = [60, 200];
 const REASON: &str =
     "0.24 % as speeds are not quite Maxwell's (van Noije, Ernst 1998), statistics 0.25 %";
 
 pub fn claims() -> Vec<Claim> {
     let dissipation = (1.0 - E) * (1.0 + E);
+    let driven = Claim::new(
+        format!("gas driven by white noise, e = {DRIVEN_E}: steady T by that of kinetic theory"),
+        Expected::value(1.0, "van Noije and Ernst 1998, with their second Sonine coefficient"),
+        Tolerance::relative(0.02, "statistics 0.7 %, correlated velocities 1 %"),
+        |_| driven_temperature(),
+    );
+    let driven = driven.about(Rule::Exact(Exact::default()));
     vec![
+        driven,
         Claim::new(
             format!("cooling gas, e = {E}: -ln(T/T0) for each collision of a sphere"),
             Expected::value(dissipation / 3.0, "Haff 1983, T = T0 exp(-(1-e²) n/3)"),
@@ -92,6 +108,35 @@ fn viscoelastic_cooling(rule: Rule) -> Outcome {
     }
     let ratio = (risen(&cooling) - half) / (half - 1.0);
     Ok(Measured::in_world(&cooling, ratio))
+}
+
+/// Mean temperature of a gas that white noise drives, divided by that of kinetic theory.
+fn driven_temperature() -> Outcome {
+    let mut world = gas(DRIVEN, Speeds::Equilibrium, Rule::Exact(Exact::default()), 1)?;
+    let interval = 0.1 * DRIVEN.time_of(1.0);
+    let noise = Thermostat::WhiteNoise { interval, strength: STRENGTH, seed: 1 };
+    let settings = world.settings().with_combine_rule(CombineRule::Minimum);
+    world.set_settings(settings.with_thermostat(Some(noise)))?;
+    for id in world.spheres().ids().to_vec() {
+        world.set_sphere(id, world.sphere(id)?.with_restitution(DRIVEN_E))?;
+    }
+    let [before, measured] = DRIVEN_FRAMES;
+    let mut sum = 0.0;
+    for frame in 0..before + measured {
+        world.step(DRIVEN.time_of(1.0))?;
+        sum += if frame < before { 0.0 } else { world.kinetic_energy() };
+    }
+    let count = DRIVEN.count as f64;
+    let temperature = sum / f64::from(measured) / (1.5 * count);
+    // The noise keeps the momentum, so one of all spheres does not count.
+    let heating = STRENGTH * (1.0 - 1.0 / count);
+    let (e, dissipation) = (DRIVEN_E, (1.0 - DRIVEN_E) * (1.0 + DRIVEN_E));
+    // The rate of collisions at the temperature 1 is 4π χ n σ²/√π.
+    let bare = 3.0 * heating / (dissipation * DRIVEN.collision_rate());
+    let sonine =
+        16.0 * (1.0 - e) * (1.0 - 2.0 * e * e) / (241.0 - 177.0 * e + 30.0 * (1.0 - e) * e * e);
+    let expected = libm::pow(bare / (1.0 + 3.0 / 16.0 * sonine), 2.0 / 3.0);
+    Ok(Measured::in_world(&world, temperature / expected))
 }
 
 /// Value farthest from 1 until the temperature has fallen to a half.

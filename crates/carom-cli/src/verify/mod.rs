@@ -27,6 +27,7 @@ mod resting;
 mod rolling;
 mod runs;
 mod setup;
+mod shear;
 mod silo;
 mod simultaneous;
 mod single_impacts;
@@ -68,7 +69,7 @@ pub fn verify(args: &Verify) -> Result<(), Failure> {
 type Topic = (&'static str, fn() -> Vec<Claim>);
 
 /// All topics, in the order in which their claims are printed.
-const TOPICS: [Topic; 20] = [
+const TOPICS: [Topic; 21] = [
     ("motion", motion::claims),
     ("forces", forces::claims),
     ("impacts", single_impacts::claims),
@@ -77,6 +78,7 @@ const TOPICS: [Topic; 20] = [
     ("billiard", billiard::claims),
     ("fluid", fluid::claims),
     ("granular", granular::claims),
+    ("shear", shear::claims),
     ("conservation", conservation::claims),
     ("resting", resting::claims),
     ("friction", friction::claims),

@@ -1,7 +1,7 @@
 //! Surfaces of revolution under the rule `exact`: pendulums in bowls and pipes, a ball that rolls in an upright pipe,
 //! loops, a billiard in a sphere; and a turntable.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::FRAC_PI_2;
 
 use carom::{
     Collider, Contact, DQuat, DVec3, Ends, Error, Exact, Gravity, Pose, Rule, Shape, Sphere, World,
@@ -16,7 +16,9 @@ const HOLLOW: f64 = 1.0;
 const BALL: f64 = 0.1;
 /// Where the centre of a ball runs \[m\].
 const PATH: f64 = HOLLOW - BALL;
-const PIECES: &str = "a ball on a surface of revolution goes in pieces of 2e-4 rad";
+/// Of the swings \[rad\].
+const AMPLITUDE: f64 = 1.0;
+const STEPS: &str = "rounding of the steps of 15th order";
 
 pub fn claims() -> Vec<Claim> {
     let mut claims = swings();
@@ -57,15 +59,12 @@ fn place(world: &World) -> DVec3 {
 fn swings() -> Vec<Claim> {
     let claim = |name: &str, friction: f64, world: fn(f64) -> Result<World, Error>| {
         let factor = if friction > 0.0 { 1.4 } else { 1.0 };
-        let amplitude: f64 = 0.05;
-        // 1 + θ²/16 + 11 θ⁴/3072 of small swings.
-        let stretch = 1.0 + amplitude.powi(2) / 16.0 + 11.0 * amplitude.powi(4) / 3072.0;
-        let expected = 2.0 * PI * (factor * PATH / G).sqrt() * stretch;
+        let expected = 4.0 * quarter_period(factor * PATH);
         Claim::new(
             name,
             Expected::value(expected, "Landau and Lifshitz, Mechanics (1976), 11 and 39"),
-            Tolerance::relative(1e-5, PIECES),
-            move |_| period(world(friction)?, amplitude),
+            Tolerance::relative(1e-12, STEPS),
+            move |_| period(world(friction)?, expected),
         )
     };
     vec![
@@ -82,65 +81,81 @@ fn swings() -> Vec<Claim> {
     ]
 }
 
-/// Mean period of the swings of a ball from an amplitude \[rad\].
-fn period(mut world: World, amplitude: f64) -> Outcome {
-    let place = PATH * DVec3::new(libm::sin(amplitude), -libm::cos(amplitude), 0.0);
-    world.add_sphere(Sphere::new(place, BALL).with_restitution(0.0))?;
-    let frame = 1.0 / 240.0;
-    let (mut first, mut last, mut count, mut before) = (0.0, 0.0, 0.0, place.x);
-    while world.time() < 10.0 {
-        world.step(frame)?;
-        let now = self::place(&world).x;
-        if before < 0.0 && now >= 0.0 {
-            last = world.time() - frame * now / (now - before);
-            if first == 0.0 {
-                first = last;
-            } else {
-                count += 1.0;
-            }
-        }
-        before = now;
+/// Quarter of the period of a pendulum of this length \[m\] from the amplitude, by the arithmetic-geometric mean \[s\].
+fn quarter_period(length: f64) -> f64 {
+    let (mut a, mut b) = (1.0, libm::cos(0.5 * AMPLITUDE));
+    for _ in 0..8 {
+        (a, b) = (0.5 * (a + b), (a * b).sqrt());
     }
-    Ok(Measured::in_world(&world, (last - first) / count))
+    (length / G).sqrt() * FRAC_PI_2 / a
+}
+
+/// Mean period of some swings of a ball from the amplitude, by its state about when they are `expected` to end \[s\].
+fn period(mut world: World, expected: f64) -> Outcome {
+    let place = PATH * DVec3::new(libm::sin(AMPLITUDE), -libm::cos(AMPLITUDE), 0.0);
+    world.add_sphere(Sphere::new(place, BALL).with_restitution(0.0))?;
+    let swings = 4.75;
+    world.step(swings * expected)?;
+    let late = self::place(&world).x / world.spheres().velocities()[0].x;
+    let measured = (swings * expected - late) / swings;
+    Ok(Measured::in_world(&world, measured))
 }
 
 /// Claims about the least height from which a ball gets round.
 fn loops() -> Vec<Claim> {
-    let claim = |name: &str, friction: f64, expected: f64, tolerance| {
-        let source = if friction > 0.0 { "0.7 v² and the slip near the top" } else { "energy" };
-        Claim::new(name, Expected::value(expected, source), tolerance, move |_| {
-            least_height(friction)
-        })
+    let claim = |name: &str, friction: f64, expected: f64| {
+        Claim::new(
+            name,
+            Expected::value(expected, "0.7 v² and the slip near the top"),
+            Tolerance::absolute(1e-3, "three digits are given"),
+            move |_| least_height(friction),
+        )
     };
-    let slips = Tolerance::absolute(1e-3, "three digits are given");
     vec![
-        claim(
+        Claim::new(
             "exact: least height for a loop without friction, 5/2 (R - r) [R - r]",
-            0.0,
-            2.5,
-            Tolerance::relative(1e-5, PIECES),
+            Expected::value(2.5, "energy"),
+            Tolerance::relative(1e-12, STEPS),
+            |_| height_without_force(),
         ),
-        claim("exact: least height for a loop with friction .3 [R - r]", 0.3, 2.731, slips),
-        claim("exact: least height for a loop with friction .5 [R - r]", 0.5, 2.712, slips),
-        claim(
-            "exact: least height for a loop with friction 1: near 27/10 [R - r]",
-            1.0,
-            2.703,
-            slips,
-        ),
+        claim("exact: least height for a loop with friction .3 [R - r]", 0.3, 2.731),
+        claim("exact: least height for a loop with friction .5 [R - r]", 0.5, 2.712),
+        claim("exact: least height for a loop with friction 1: near 27/10 [R - r]", 1.0, 2.703),
     ]
 }
 
-/// Least height above the lowest place of the centre, in parts of the radius of its path, from which a ball that
-/// slides or rolls gets round.
+/// Height above the lowest place of the centre, in parts of the radius of its path, from which the wall exerts no force
+/// on a ball that slides over the top. The force grows linearly with the height, so two heights give it.
+fn height_without_force() -> Outcome {
+    let [low, high] = [2.6, 3.0];
+    let [(_, less), (world, more)] = [force_at_the_top(low)?, force_at_the_top(high)?];
+    Ok(Measured::in_world(&world, low - less * (high - low) / (more - less)))
+}
+
+/// Force of the wall on a ball at the top \[N\] that comes from this height, in parts of the radius of its path.
+fn force_at_the_top(height: f64) -> Result<(World, f64), Fault> {
+    let mut world = lying_pipe(0.0)?;
+    let speed = (2.0 * G * height * PATH).sqrt();
+    let ball = Sphere::new(DVec3::Y * -PATH, BALL).with_restitution(0.0);
+    world.add_sphere(ball.with_velocity(DVec3::X * speed))?;
+    while place(&world).y < (1.0 - 1e-14) * PATH {
+        // Most of the way to the top, at this speed.
+        let way = PATH * libm::atan2(place(&world).x, place(&world).y);
+        world.step(0.9 * way / world.spheres().velocities()[0].length())?;
+    }
+    let force = world.contacts().first().map(|contact| contact.normal_force);
+    Ok((world, force.ok_or("the ball left the wall")?))
+}
+
+/// Least height above the lowest place of the centre, in parts of the radius of its path, from which a ball that rolls
+/// gets round.
 fn least_height(friction: f64) -> Outcome {
-    // h of a ball at the lowest place: its kinetic energy over its weight.
-    let share = if friction > 0.0 { 0.7 } else { 0.5 };
     let (mut low, mut high) = (2.0, 3.2);
     let mut last = None;
     for _ in 0..20 {
         let height = 0.5 * (low + high);
-        let speed = (height * PATH * G / share).sqrt();
+        // The kinetic energy of a ball that rolls is 0.7 m v².
+        let speed = (height * PATH * G / 0.7).sqrt();
         let (world, goes_round) = round(friction, speed)?;
         last = Some(world);
         if goes_round { high = height } else { low = height }
@@ -213,7 +228,7 @@ fn half_pipe() -> Vec<Claim> {
     let sliding = Claim::new(
         "exact: and loses as it slides to and fro for 5 s afterwards [part]",
         Expected::no_error("without friction a fixed wall does no work"),
-        Tolerance::absolute(1e-7, PIECES),
+        Tolerance::absolute(1e-12, STEPS),
         move |_| {
             let mut world = drop()?;
             run(&mut world, 1.0)?;
@@ -264,7 +279,7 @@ fn upright_pipe() -> Claim {
     Claim::new(
         "exact: a ball that rolls round an upright pipe swings with sqrt(2/7) of its rate [part of 2 x 0.68 m]",
         Expected::no_error("Gualtieri et al., Am. J. Phys. 74, 497 (2006)"),
-        Tolerance::absolute(1e-5, PIECES),
+        Tolerance::absolute(1e-12, STEPS),
         move |_| {
             let pipe = Shape::Pipe { radius: HOLLOW, length: 20.0, closed: Ends::NONE };
             let mut world = hollow(pipe, DQuat::IDENTITY, 1e3)?;

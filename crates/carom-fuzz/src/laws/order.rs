@@ -12,7 +12,9 @@ fn pair(scene: &Scene, _: &Trace) -> Option<Pair> {
     // Other rules, and this impact law, answer the contacts of a sphere one after the other.
     let is_exact = scene.simulation.rule == Rule::Exact;
     let in_turn = scene.simulation.exact.impact_law == ImpactLaw::Sequential;
-    if !is_exact || in_turn || !scene.generators.is_empty() {
+    // Random numbers belong to ids.
+    let is_random = scene.simulation.thermostat.is_some();
+    if !is_exact || in_turn || is_random || !scene.generators.is_empty() {
         return None;
     }
     let count = scene.spheres.len() as u64;

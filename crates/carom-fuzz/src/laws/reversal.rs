@@ -10,7 +10,8 @@ use super::trace::{Frame, Trace};
 pub const LAW: Law = Law { name: "run back", pair };
 
 fn pair(scene: &Scene, trace: &Trace) -> Option<Pair> {
-    if scene.simulation.rule != Rule::Exact || !is_reversible(scene) {
+    let is_driven = scene.simulation.thermostat.is_some() || scene.settings().shear_rate != 0.0;
+    if scene.simulation.rule != Rule::Exact || is_driven || !is_reversible(scene) {
         return None;
     }
     // No further than to where a contact lasted: it began without an impact that could be run back.

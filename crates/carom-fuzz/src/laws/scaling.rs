@@ -5,6 +5,7 @@ use carom::DVec3;
 use carom_scene::Scene;
 use carom_scene::scene::{
     Boundary, Collider, Emitter, Force, Motion, Piece, RestitutionLaw, Shape, Sphere, Spring,
+    Thermostat,
 };
 
 use super::pair::{Agreement, Law, Pair};
@@ -66,8 +67,10 @@ fn scaled(scene: &Scene, scale: Scale) -> Scene {
     simulation.exact.zone_tick *= time;
     simulation.exact.force_tick *= time;
     simulation.bisect.tolerance *= length;
-    if let Boundary::Periodic { size } = &mut simulation.boundary {
+    simulation.thermostat.iter_mut().for_each(|it| scale_thermostat(it, scale));
+    if let Boundary::Periodic { size, shear_rate } = &mut simulation.boundary {
         scale_vector(size, length);
+        *shear_rate *= scale.of(0, 0, -1);
     }
     scene.forces.iter_mut().for_each(|it| scale_force(it, scale));
     scene.spheres.iter_mut().for_each(|it| scale_sphere(it, scale));
@@ -79,6 +82,23 @@ fn scaled(scene: &Scene, scale: Scale) -> Scene {
         scale_sphere(sphere, scale);
     }
     scene
+}
+
+fn scale_thermostat(thermostat: &mut Thermostat, scale: Scale) {
+    match thermostat {
+        Thermostat::Andersen { frequency, temperature, .. } => {
+            *frequency *= scale.of(0, 0, -1);
+            *temperature *= scale.of(2, 1, -2);
+        }
+        Thermostat::Rescale { interval, temperature } => {
+            *interval *= scale.of(0, 0, 1);
+            *temperature *= scale.of(2, 1, -2);
+        }
+        Thermostat::WhiteNoise { interval, strength, .. } => {
+            *interval *= scale.of(0, 0, 1);
+            *strength *= scale.of(2, 0, -3);
+        }
+    }
 }
 
 fn scale_vector(vector: &mut [f64; 3], factor: f64) {

@@ -36,7 +36,7 @@ pub use mesh::{HeightField, Mesh};
 pub use motion::Motion;
 pub use simulation::{
     Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, Rule,
-    Simulation, WindBack, Zones,
+    Simulation, Thermostat, WindBack, Zones,
 };
 pub use sphere::Sphere;
 pub use spring::Spring;

@@ -28,6 +28,9 @@ pub struct Simulation {
     pub allow_overlap: bool,
     /// Open space or a periodic box.
     pub boundary: Boundary,
+    /// Thermostat, if there is one; only under the rule `exact`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub thermostat: Option<Thermostat>,
     /// Parameters of the rule `exact`.
     pub exact: Exact,
     /// Parameters of the rule `bisect`.
@@ -54,6 +57,7 @@ impl Default for Simulation {
             friction_combine_rule: CombineRule::GeometricMean,
             allow_overlap: false,
             boundary: Boundary::default(),
+            thermostat: None,
             exact: Exact::default(),
             bisect: Bisect::default(),
             discrete: Discrete::default(),
@@ -128,6 +132,49 @@ pub enum Boundary {
     Periodic {
         /// Edges, in m, each > 0; `inf` along an open axis.
         size: Vector,
+        /// Shear rate, in 1/s: what is above, along y, moves along x with this times the distance. By default 0. Only
+        /// under the rule `exact`.
+        #[serde(default, skip_serializing_if = "is_default")]
+        shear_rate: f64,
+    },
+}
+
+/// What changes the velocities of all balls, at times that do not depend on frames.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Thermostat {
+    /// Each ball gets a velocity of Maxwell's distribution at random times (Andersen).
+    Andersen {
+        /// Mean number of these times in a second, in Hz, > 0.
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
+        frequency: f64,
+        /// Temperature k T, in J, > 0.
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
+        temperature: f64,
+        /// Seed of the times and velocities. By default 0.
+        #[serde(default)]
+        seed: u64,
+    },
+    /// All velocities are multiplied so that two thirds of the mean kinetic energy is the temperature.
+    Rescale {
+        /// Time from one change to the next, in s, > 0.
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
+        interval: f64,
+        /// Temperature k T, in J, > 0.
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
+        temperature: f64,
+    },
+    /// Random changes of all velocities that keep the momentum: a driven granular gas.
+    WhiteNoise {
+        /// Time from one change to the next, in s, > 0.
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
+        interval: f64,
+        /// Variance that each component of a velocity gains in a second, in m2/s3, > 0.
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
+        strength: f64,
+        /// Seed of the changes. By default 0.
+        #[serde(default)]
+        seed: u64,
     },
 }
 

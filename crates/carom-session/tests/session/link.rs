@@ -154,7 +154,7 @@ fn edits() -> Vec<Edit> {
         .with_rotation(DQuat::from_xyzw(a, b, c, d))
         .with_max_spheres(u32::MAX)
         .with_count(u32::MAX - 1);
-    let boundary = Boundary::Periodic { size: [f64::INFINITY, b, d] };
+    let boundary = Boundary::Periodic { size: [f64::INFINITY, b, d], shear_rate: a };
     let friction = Friction::sliding(a).with_rolling(b).with_spinning(c);
     let simulation = Simulation { frame_time: b, boundary, ..Simulation::default() };
     let all = SphereChange {

@@ -8,6 +8,7 @@ use super::instant::Instant;
 use super::sphere_surface;
 use crate::bounds::Bounds;
 use crate::settings::nearest_image;
+use crate::shear::Shear;
 use crate::surface::{Form, Role, Surface};
 
 /// A sphere, or an image of one.
@@ -19,20 +20,16 @@ struct Image {
     is_own: bool,
 }
 
-/// Visits overlaps of more than `tolerance` \[m\] in a box with these edges \[m\], infinite along open axes, with
-/// their depths; the same bodies perhaps several times.
-pub(crate) fn visit(
-    instant: &Instant,
-    period: DVec3,
-    tolerance: f64,
-    mut visit: impl FnMut(Bodies, f64),
-) {
+/// Visits overlaps of more than `tolerance` \[m\] in a periodic box, with their depths; the same bodies perhaps
+/// several times.
+pub(crate) fn visit(instant: &Instant, tolerance: f64, mut visit: impl FnMut(Bodies, f64)) {
+    let faces = Faces::of(instant);
     let radii = &instant.system.spheres.radius;
     let largest = radii.iter().copied().fold(0.0, f64::max);
     let mut images = Vec::new();
     let bodies = instant.motion.position.iter().zip(radii);
     for (sphere, (&center, radius)) in (0..).zip(bodies) {
-        add_images(sphere, center, radius + largest, period, &mut images);
+        faces.add_images(sphere, center, radius + largest, &mut images);
     }
     if instant.system.settings.spheres_collide {
         let radius = |image: &Image| radii[image.sphere as usize];
@@ -49,13 +46,13 @@ pub(crate) fn visit(
             }
         });
     }
-    of_surfaces(instant, period, tolerance, visit);
+    of_surfaces(instant, &faces, tolerance, visit);
 }
 
 /// Visits surfaces at rest that images of spheres overlap.
 fn of_surfaces(
     instant: &Instant,
-    period: DVec3,
+    faces: &Faces,
     tolerance: f64,
     mut visit: impl FnMut(Bodies, f64),
 ) {
@@ -69,7 +66,7 @@ fn of_surfaces(
         images.clear();
         // A surface may be of any size.
         let center = instant.motion.position[sphere as usize];
-        add_images(sphere, center, f64::INFINITY, period, &mut images);
+        faces.add_images(sphere, center, f64::INFINITY, &mut images);
         for Image { center, .. } in &images {
             near.clear();
             instant.system.tree.near(&Bounds::around(*center, DVec3::splat(radius)), &mut near);
@@ -87,20 +84,42 @@ fn of_surfaces(
     }
 }
 
-/// Adds a sphere where it is in the box about the origin, and its images that come within `reach` \[m\] of
-/// that box.
-fn add_images(sphere: u32, center: DVec3, reach: f64, period: DVec3, images: &mut Vec<Image>) {
-    let is_periodic = period.is_finite_mask();
-    let center = nearest_image(center, period);
-    let offsets = |axis: usize| if is_periodic.test(axis) { -1..=1 } else { 0..=0 };
-    for x in offsets(0) {
-        for y in offsets(1) {
-            for z in offsets(2) {
-                let boxes = DVec3::new(f64::from(x), f64::from(y), f64::from(z));
-                let shift = DVec3::select(is_periodic, boxes * period, DVec3::ZERO);
-                let (place, is_own) = (center + shift, boxes == DVec3::ZERO);
-                if is_own || (place.abs() - reach).cmple(0.5 * period).all() {
-                    images.push(Image { sphere, center: place, is_own });
+/// The box that repeats itself, at some time.
+struct Faces {
+    /// Its edges \[m\], infinite along open axes.
+    period: DVec3,
+    /// How far the box above has slid along x, at most half an edge \[m\].
+    slide: f64,
+}
+
+impl Faces {
+    fn of(instant: &Instant) -> Self {
+        let settings = instant.system.settings;
+        let period = settings.boundary.period();
+        let slide = Shear::of(settings).map_or(0.0, |shear| {
+            let rest = shear.slide(instant.time).1;
+            rest - (rest / period.x).round() * period.x
+        });
+        Self { period, slide }
+    }
+
+    /// Adds a sphere where it is in the box about the origin, and its images that come within `reach` \[m\] of
+    /// that box.
+    fn add_images(&self, sphere: u32, center: DVec3, reach: f64, images: &mut Vec<Image>) {
+        let Self { period, slide } = *self;
+        let is_periodic = period.is_finite_mask();
+        let center = nearest_image(center, period);
+        let offsets = |axis: usize| if is_periodic.test(axis) { -1..=1 } else { 0..=0 };
+        for x in offsets(0) {
+            for y in offsets(1) {
+                for z in offsets(2) {
+                    let boxes = DVec3::new(f64::from(x), f64::from(y), f64::from(z));
+                    let mut shift = DVec3::select(is_periodic, boxes * period, DVec3::ZERO);
+                    shift.x += boxes.y * slide;
+                    let (place, is_own) = (center + shift, boxes == DVec3::ZERO);
+                    if is_own || (place.abs() - reach).cmple(0.5 * period).all() {
+                        images.push(Image { sphere, center: place, is_own });
+                    }
                 }
             }
         }

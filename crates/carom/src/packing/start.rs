@@ -5,6 +5,7 @@ use glam::DVec3;
 use crate::collider::{Collider, Shape, Sides};
 use crate::error::{Error, InvalidValue, Subject};
 use crate::pose::Pose;
+use crate::random::Random;
 use crate::settings::{Boundary, Settings};
 use crate::sphere::{Sphere, volume};
 use crate::validate;
@@ -167,7 +168,7 @@ pub fn start(start: &Start) -> Result<World, Error> {
     };
     let by_density = libm::cbrt(DILUTE / final_fraction);
     let factor = (LARGEST * spacing.min_element() / largest).min(by_density).min(1.0);
-    let mut random = Random(*seed);
+    let mut random = Random::new(*seed);
     let places = random.some_of(sides.iter().product(), radii.len());
     let velocities = thermal_velocities(&start.relative_masses(), &mut random);
     let spheres = radii.iter().zip(start.all_masses()).zip(places.into_iter().zip(velocities));
@@ -236,44 +237,4 @@ fn thermal_velocities(masses: &[f64], random: &mut Random) -> Vec<DVec3> {
     let momentum: DVec3 = masses.iter().zip(&velocities).map(|(&mass, &v)| mass * v).sum();
     velocities.iter_mut().for_each(|velocity| *velocity -= momentum / total);
     velocities
-}
-
-/// Random numbers, the same on every machine: SplitMix64 (Steele, Lea and Flood, OOPSLA 2014).
-struct Random(u64);
-
-impl Random {
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut bits = self.0;
-        bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        bits ^ (bits >> 31)
-    }
-
-    /// Returns a uniform random number in (0, 1].
-    fn number(&mut self) -> f64 {
-        ((self.bits() >> 11) + 1) as f64 / (1u64 << 53) as f64
-    }
-
-    /// Returns a random number of the standard normal distribution (Box and Muller, Ann. Math. Stat. 29, 610
-    /// (1958)).
-    fn normal(&mut self) -> f64 {
-        let radius = (-2.0 * libm::log(self.number())).sqrt();
-        radius * libm::cos(std::f64::consts::TAU * self.number())
-    }
-
-    fn normal_vector(&mut self) -> DVec3 {
-        DVec3::new(self.normal(), self.normal(), self.normal())
-    }
-
-    /// Returns `some` different numbers below `count` in random order (Fisher and Yates).
-    fn some_of(&mut self, count: usize, some: usize) -> Vec<usize> {
-        let mut numbers: Vec<usize> = (0..count).collect();
-        for place in 0..some {
-            let left = (count - place) as u64;
-            numbers.swap(place, place + (self.bits() % left) as usize);
-        }
-        numbers.truncate(some);
-        numbers
-    }
 }

@@ -9,6 +9,8 @@ use crate::work::Work;
 
 /// Impulses count as found once they change by less than this part of the largest that friction allows.
 const SETTLED: f64 = f64::EPSILON;
+/// Impulses that stay as they are up to this part of the momentum at hand change by rounding of the velocities.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
 /// Sweeps over the contacts of a group, at most. Each takes kinetic energy, so any number will do.
 const MOST_SWEEPS: usize = 1000;
 
@@ -52,6 +54,11 @@ impl SpinningSphere {
         0.5 * self.inertia_factor * self.mass * speed * speed
     }
 
+    /// Speed of the fastest point of its surface, at most \[m/s\].
+    fn surface_speed(&self) -> f64 {
+        self.velocity.norm() + self.radius * self.angular_velocity.norm()
+    }
+
     /// How easily an impulse across the normal moves the sphere's surface \[1/kg\].
     fn mobility(&self) -> f64 {
         (1.0 + 1.0 / self.inertia_factor) / self.mass
@@ -83,6 +90,13 @@ impl FrictionContact {
     fn mass(&self, spheres: &[SpinningSphere]) -> f64 {
         let first = self.first.map_or(0.0, |first| spheres[first].mobility());
         1.0 / (first + spheres[self.second].mobility())
+    }
+
+    /// The mass of a slip times the speeds of the surfaces \[N s\].
+    fn momentum(&self, spheres: &[SpinningSphere]) -> f64 {
+        let places = self.first.into_iter().chain([self.second]);
+        let speeds: f64 = places.map(|place| spheres[place].surface_speed()).sum();
+        self.mass(spheres) * (speeds + self.surface_velocity.norm())
     }
 
     /// The largest impulse of friction \[N s\].
@@ -145,6 +159,9 @@ fn sweeps(
     largest: f64,
 ) -> f64 {
     let mut energy = Sum::default();
+    let momenta = contacts.iter().map(|contact| contact.momentum(spheres));
+    let rounding = ROUNDING * momenta.fold(0.0, f64::max);
+    let mut moved_before = f64::INFINITY;
     for _ in 0..MOST_SWEEPS {
         let mut moved = 0.0_f64;
         for (contact, &target) in contacts.iter_mut().zip(targets) {
@@ -158,7 +175,9 @@ fn sweeps(
             energy.add(0.5 * change.dot(slip + contact.slip(spheres)));
             moved = moved.max(change.norm());
         }
-        let is_settled = contacts.len() == 1 || moved <= SETTLED * largest;
+        let is_rounding = moved <= rounding && moved >= moved_before;
+        moved_before = moved;
+        let is_settled = contacts.len() == 1 || moved <= SETTLED * largest || is_rounding;
         if is_settled || !work.spend(contacts.len() as u64) {
             break;
         }

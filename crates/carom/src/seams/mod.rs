@@ -87,7 +87,9 @@ impl Seams {
         if self.joined.is_empty() {
             return plain;
         }
-        let mut surfaces = Vec::with_capacity(plain.len());
+        let forms = self.joined.values().filter_map(|it| it.forms.as_ref());
+        let most = plain.len() + forms.map(Vec::len).sum::<usize>();
+        let mut surfaces = Vec::with_capacity(most);
         for own in plain.chunk_by(|first, second| first.collider == second.collider) {
             let number = own[0].collider.0;
             match (self.joined.get(&number), colliders.get(number)) {

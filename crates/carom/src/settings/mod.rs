@@ -10,6 +10,7 @@ mod exact;
 mod impact_law;
 mod integrator;
 mod rule;
+mod thermostat;
 mod zones;
 
 pub use bisect::{Bisect, WindBack};
@@ -22,6 +23,7 @@ pub use exact::Exact;
 pub use impact_law::ImpactLaw;
 pub use integrator::Integrator;
 pub use rule::Rule;
+pub use thermostat::Thermostat;
 pub use zones::Zones;
 
 use crate::error::InvalidValue;
@@ -58,10 +60,16 @@ pub struct Settings {
     /// The boundary of space. It is part of the world, as its colliders are, and not of the rule, although
     /// `discrete` and `bisect` have no periodic box.
     pub boundary: Boundary,
+    /// Shear rate of the periodic box \[1/s\]: its images above and below, along y, move along x with this times their
+    /// distance, and so does the mean flow (Lees and Edwards, J. Phys. C 5, 1921 (1972)). Zero: no shear. Only under
+    /// the rule `exact`, in a box with finite edges along x and y.
+    pub shear_rate: f64,
+    /// The thermostat, if there is one. Only under the rule `exact`.
+    pub thermostat: Option<Thermostat>,
 }
 
 impl Default for Settings {
-    /// Rule `exact`, product of restitutions, geometric mean of frictions, spheres collide, open space.
+    /// Rule `exact`, product of restitutions, geometric mean of frictions, spheres collide, open space, no shear, no thermostat.
     fn default() -> Self {
         Self {
             rule: Rule::default(),
@@ -69,6 +77,8 @@ impl Default for Settings {
             friction_combine_rule: CombineRule::GeometricMean,
             spheres_collide: true,
             boundary: Boundary::default(),
+            shear_rate: 0.0,
+            thermostat: None,
         }
     }
 }
@@ -99,7 +109,17 @@ impl Settings {
         Self { boundary, ..self }
     }
 
-    /// Returns an error for invalid parameters of the rule, or a boundary that the rule does not have.
+    /// Returns the settings with this shear rate of the periodic box \[1/s\].
+    pub fn with_shear_rate(self, shear_rate: f64) -> Self {
+        Self { shear_rate, ..self }
+    }
+
+    /// Returns the settings with this thermostat, or without one.
+    pub fn with_thermostat(self, thermostat: Option<Thermostat>) -> Self {
+        Self { thermostat, ..self }
+    }
+
+    /// Returns an error for invalid parameters of the rule, or a boundary or thermostat that the rule does not have.
     pub(crate) fn validate(&self) -> Result<(), InvalidValue> {
         self.boundary.validate()?;
         if self.boundary != Boundary::Open {
@@ -108,11 +128,30 @@ impl Settings {
                 "used with the rules `exact` and `contact`: others know no periodic box";
             validate::require(is_known, "boundary", requirement, "periodic")?;
         }
+        self.validate_shear()?;
+        if let Some(thermostat) = self.thermostat {
+            let is_known = matches!(self.rule, Rule::Exact(_));
+            let requirement = "used with the rule `exact`: others know no thermostat";
+            validate::require(is_known, "thermostat", requirement, "given")?;
+            thermostat.validate()?;
+        }
         match self.rule {
             Rule::Discrete(_) => Ok(()),
             Rule::Bisect(parameters) => parameters.validate(),
             Rule::Exact(parameters) => parameters.validate(),
             Rule::Contact(parameters) => parameters.validate(),
         }
+    }
+
+    /// Returns an error for a shear rate that is not a number, or where no box can be sheared.
+    fn validate_shear(&self) -> Result<(), InvalidValue> {
+        let (rate, size) = (self.shear_rate, self.boundary.period());
+        validate::finite_number("shear_rate", rate)?;
+        let is_exact = matches!(self.rule, Rule::Exact(_));
+        let requirement = "zero under rules other than `exact`";
+        validate::require(rate == 0.0 || is_exact, "shear_rate", requirement, rate)?;
+        let is_closed = size.x.is_finite() && size.y.is_finite();
+        let requirement = "zero without a periodic box with finite edges along x and y";
+        validate::require(rate == 0.0 || is_closed, "shear_rate", requirement, rate)
     }
 }

@@ -2,16 +2,21 @@
 //! their own times.
 
 use super::attempt::Attempt;
+use super::place::{
+    account_for_persistent_contacts, no_longer_finite, place_spheres, work_written,
+};
+use super::{shear, thermostat};
 use crate::emitter;
 use crate::error::{Error, InvalidValue, Subject};
 use crate::forces;
-use crate::id::SphereId;
 use crate::report::StepReport;
 use crate::rule::exact::{self, Arrivals, HoldError, Span, Timeline, Unfinished, Until, Watch};
 use crate::settings::Exact;
+use crate::shear::Shear;
 use crate::state::State;
 use crate::sum::Sum;
 use crate::system::System;
+use crate::thermostat::Kicks;
 use crate::validate;
 
 /// Takes a step from event to event. If that fails, no sphere was moved.
@@ -34,6 +39,7 @@ pub(super) fn step(mut attempt: Attempt, parameters: Exact, until: Until) -> Res
             *log = timeline.end_support_log();
         }
         account_for_contacts(attempt.report, &mut timeline, end);
+        shear::account_for_impacts(attempt);
         place_spheres(attempt, &timeline, end)?;
         attempt.report.energy_account.colliders += work_written(attempt, &timeline, end);
         timeline.write_radii(&mut attempt.state.spheres.properties.radius, end);
@@ -59,7 +65,8 @@ fn watch_over(attempt: &mut Attempt) -> Option<Watch> {
     let (start, presence) = (attempt.start, attempt.state.presence.clone());
     let (system, _) = attempt.state.split();
     let presence = (!system.trigger_tree.is_empty()).then_some(presence);
-    let measures_work = system.has_nonconservative_forces();
+    let is_sheared = Shear::of(system.settings).is_some();
+    let measures_work = system.has_nonconservative_forces() || is_sheared;
     (presence.is_some() || measures_work).then(|| Watch::new(presence, measures_work, start))
 }
 
@@ -78,20 +85,6 @@ fn account_for_contacts(report: &mut StepReport, timeline: &mut Timeline, end: f
         report.energy_account.kicks += kicked;
     }
     account_for_persistent_contacts(report, timeline, end);
-}
-
-/// Accounts for the work of persistent contacts, and of zones, up to `time` \[s\].
-fn account_for_persistent_contacts(report: &mut StepReport, timeline: &mut Timeline, time: f64) {
-    timeline.report_zone_energy(time, &mut report.energy_account);
-    let [friction, colliders] = timeline.take_contact_work(time);
-    report.energy_account.contacts += friction;
-    report.energy_account.colliders += colliders;
-}
-
-/// The work of moving colliders \[J\] that the written states have beyond that of the flights, at `time` \[s\].
-fn work_written(attempt: &mut Attempt, timeline: &Timeline, time: f64) -> f64 {
-    let (system, motion) = attempt.state.split();
-    exact::work_written(timeline, &system, motion, time)
 }
 
 /// The flights of all spheres at the start of the step, which ends at `end` \[s\]: flights of the step before
@@ -138,10 +131,12 @@ fn advance(
 ) -> Result<f64, Error> {
     let (start, length) = (attempt.start, attempt.length);
     emit(attempt, timeline, start)?;
+    let mut kicks = thermostat::kicks_after(attempt.state, start);
     let mut now = start;
     loop {
         let due = emitter::next_due(&attempt.state.emitters);
-        let span = Span { start, length, end: due.min(end) };
+        let kick = kicks.as_ref().map_or(f64::INFINITY, Kicks::next);
+        let span = Span { start, length, end: due.min(kick).min(end) };
         let Attempt { state, work, report, .. } = &mut *attempt;
         let (system, _) = state.split();
         if let Some(watch) = watch.take() {
@@ -150,12 +145,21 @@ fn advance(
         let came_to = exact::advance(&system, timeline, span, work, report, until)
             .map_err(|unfinished| refusal(unfinished, start))?;
         *watch = exact::end_watch(timeline, &system, came_to);
-        now = due;
+        now = span.end;
         let is_over = until == Until::NextImpact && !attempt.report.impacts.is_empty();
-        if due >= end || is_over {
+        if is_over {
             return Ok(came_to);
         }
-        emit(attempt, timeline, due)?;
+        if let Some(kicks) = kicks.as_mut().filter(|kicks| kicks.next() <= now) {
+            thermostat::kick_spheres(attempt, timeline, kicks)?;
+        }
+        if now >= end {
+            return Ok(came_to);
+        }
+        if due <= now {
+            emit(attempt, timeline, due)?;
+            kicks = thermostat::kicks_after(attempt.state, now);
+        }
     }
 }
 
@@ -184,21 +188,6 @@ fn emit(attempt: &mut Attempt, timeline: &mut Timeline, time: f64) -> Result<(),
     Ok(())
 }
 
-/// Moves all spheres to the ends of their flights at `end` \[s\].
-///
-/// # Errors
-/// [`Error::NonFiniteState`] if one is nowhere; then none is moved.
-fn place_spheres(attempt: &mut Attempt, timeline: &Timeline, end: f64) -> Result<(), Error> {
-    let (start, length) = (attempt.start, attempt.length);
-    let (system, motion) = attempt.state.split();
-    exact::end(timeline, &system, motion, Span { start, length, end }).map_err(
-        |(index, quantity)| {
-            let sphere = attempt.state.spheres.ids()[index];
-            no_longer_finite(sphere, quantity, start)
-        },
-    )
-}
-
 /// Returns the error of a step that starts at `time` \[s\] and was not taken to its end.
 fn refusal(unfinished: Unfinished, time: f64) -> Error {
     match unfinished {
@@ -210,12 +199,6 @@ fn refusal(unfinished: Unfinished, time: f64) -> Error {
             Error::TooManyImpacts { sphere, limit, companions, at, time }
         }
     }
-}
-
-/// The error for a sphere with a quantity that exceeded the range of numbers, in a step that starts at `time`
-/// \[s\].
-fn no_longer_finite(sphere: SphereId, quantity: &'static str, time: f64) -> Error {
-    Error::NonFiniteState { sphere, quantity, time }
 }
 
 /// Returns the errors of a step of this length \[s\] that do not depend on forces.

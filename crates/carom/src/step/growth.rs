@@ -53,6 +53,8 @@ fn obstacle(state: &State) -> Option<&'static str> {
         (turns, "zero where spheres turn"),
         (has_inelastic, "zero where a restitution is not 1, and beside pairs of materials"),
         (state.emitters.iter().len() > 0, "zero in a world with emitters"),
+        (state.settings.thermostat.is_some(), "zero beside a thermostat"),
+        (state.settings.shear_rate != 0.0, "zero in a box in steady shear"),
         (surfaces().any(moves), "zero beside colliders that move or kick"),
         (surfaces().any(reports), "zero beside triggers"),
         (state.colliders.list().iter().any(is_mesh), "zero beside meshes"),

@@ -29,6 +29,10 @@ pub(crate) fn predict(
     by_event::check_room(state)?;
     growth::check(state, horizon)?;
     by_event::check_closed_form(&now.system, "path").map_err(|it| it.about(Subject::Query))?;
+    let is_free = state.settings.thermostat.is_none() && state.settings.shear_rate == 0.0;
+    let requirement = "predicted in a world without a thermostat and shear";
+    validate::require(is_free, "path", requirement, "under one")
+        .map_err(|invalid| invalid.about(Subject::Query))?;
     let parameters = match state.settings.rule {
         Rule::Exact(parameters) => parameters,
         Rule::Discrete(_) | Rule::Bisect(_) | Rule::Contact(_) => Exact::default(),

@@ -7,7 +7,10 @@ mod by_frame;
 mod capture;
 mod growth;
 mod lookahead;
+mod place;
+mod shear;
 mod sweep;
+mod thermostat;
 
 pub(crate) use attempt::Scratch;
 pub(crate) use lookahead::predict;
@@ -30,7 +33,7 @@ use crate::work::{StopRequest, Work};
 /// [`Error::Invalid`]
 pub(crate) fn check(state: &State, dt: f64) -> Result<(), Error> {
     check_length(state, dt)?;
-    growth::check(state, dt)?;
+    check_combinations(state, dt)?;
     state.check_emitters(state.clock.after(dt).seconds())?;
     match state.settings.rule {
         Rule::Exact(parameters) => by_event::check(state, parameters, dt),
@@ -48,6 +51,15 @@ fn check_length(state: &State, dt: f64) -> Result<(), Error> {
         .map_err(|invalid| invalid.about(Subject::Step))
 }
 
+/// Returns an error for what shear, growth or the thermostat cannot be combined with in a step of `dt` \[s\].
+fn check_combinations(state: &State, dt: f64) -> Result<(), Error> {
+    shear::check(state)?;
+    growth::check(state, dt)?;
+    let Some(thermostat) = state.settings.thermostat else { return Ok(()) };
+    let end = state.clock.after(dt).seconds();
+    thermostat.check_step(dt, end).map_err(|invalid| invalid.about(Subject::Step))
+}
+
 /// Advances a world by `dt` \[s\], or until something happens in it, by the rule of its settings, and
 /// writes the report.
 ///
@@ -61,7 +73,7 @@ pub(crate) fn step(
     until: Until,
 ) -> Result<(), Error> {
     check_length(state, dt)?;
-    growth::check(state, dt)?;
+    check_combinations(state, dt)?;
     report.clear();
     if stop_request.is_some_and(StopRequest::is_made) {
         return Err(Error::Stopped { time: state.clock.seconds() });

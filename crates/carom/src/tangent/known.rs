@@ -30,6 +30,12 @@ pub(super) fn check(world: &World) -> Result<(), DerivativeError> {
     if world.colliders().any(|(_, collider)| collider.surface_velocity != DVec3::ZERO) {
         return refuse("colliders with a surface velocity");
     }
+    if system.settings.thermostat.is_some() {
+        return refuse("a thermostat");
+    }
+    if system.settings.shear_rate != 0.0 {
+        return refuse("a box in steady shear");
+    }
     if system.spheres.growth_speed.iter().any(|&speed| speed > 0.0) {
         return refuse("spheres that grow");
     }

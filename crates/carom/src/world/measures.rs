@@ -9,11 +9,13 @@ use crate::detect::image_overlaps;
 use crate::detect::instant::Instant;
 use crate::invariants;
 use crate::report::{BodyPair, Overlap};
+use crate::shear::Shear;
 
 impl World {
-    /// Kinetic energy \[J\] of translation and rotation.
+    /// Kinetic energy \[J\] of translation and rotation. In a box in steady shear
+    /// ([`Settings::shear_rate`](crate::Settings::shear_rate)) it is that of the motion relative to the mean flow.
     pub fn kinetic_energy(&self) -> f64 {
-        invariants::kinetic_energy(self.spheres())
+        invariants::kinetic_energy(self.spheres(), Shear::of(self.settings()))
     }
 
     /// Kinetic energy of rotation \[J\].
@@ -113,7 +115,7 @@ impl World {
     fn add_overlaps_of_images(&self, now: &Instant, tolerance: f64, overlaps: &mut Vec<Overlap>) {
         let period = now.system.settings.boundary.period();
         if period.is_finite_mask().any() {
-            image_overlaps::visit(now, period, tolerance, |bodies, depth| {
+            image_overlaps::visit(now, tolerance, |bodies, depth| {
                 overlaps.push(Overlap { between: BodyPair::of(bodies, &now.system), depth });
             });
         }

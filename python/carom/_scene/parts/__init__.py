@@ -92,7 +92,18 @@ from carom._scene.parts.materials import (
     Viscoelastic,
 )
 from carom._scene.parts.part import Part, expect
-from carom._scene.parts.simulation import Bisect, Contact, Discrete, Exact, Periodic, Simulation
+from carom._scene.parts.simulation import (
+    Andersen,
+    Bisect,
+    Contact,
+    Discrete,
+    Exact,
+    Periodic,
+    Rescale,
+    Simulation,
+    Thermostat,
+    WhiteNoise,
+)
 from carom._scene.parts.spheres import SizedSphere, Sphere, Strike
 from carom._scene.parts.tracks import Bend, Curve, Gap, Piece, Straight, Track
 
@@ -100,6 +111,7 @@ __all__ = [
     "FORCES",
     "ORIGIN",
     "UNTURNED",
+    "Andersen",
     "Ball",
     "Bend",
     "Bisect",
@@ -167,6 +179,7 @@ __all__ = [
     "RadiusRange",
     "RandomFill",
     "Rectangle",
+    "Rescale",
     "Restitution",
     "RestitutionLaw",
     "Ring",
@@ -185,6 +198,7 @@ __all__ = [
     "Strike",
     "Sun",
     "Swing",
+    "Thermostat",
     "ThreeCounts",
     "Torus",
     "Track",
@@ -195,6 +209,7 @@ __all__ = [
     "Viscoelastic",
     "ViscousDrag",
     "Vortex",
+    "WhiteNoise",
     "Wind",
     "expect",
 ]

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import ClassVar, Literal
+from typing import ClassVar, Literal, TypeAlias
 
 from carom._scene.parts.choices import CombineRule, ImpactLaw, Integrator, Rule
-from carom._scene.parts.kinds import Count, NonNegative, Period, Positive
+from carom._scene.parts.kinds import Count, Finite, LargeNumber, NonNegative, Period, Positive
 from carom._scene.parts.part import Part
 
 
@@ -99,10 +99,63 @@ class Periodic(Part):
 
     Attributes:
         size: Edges [m], each > 0; infinite along an axis that is open.
+        shear_rate: Shear rate, in 1/s: what is above, along y, moves along x with this times the
+            distance. By default 0. Only under the rule ``exact``.
     """
 
     tag: ClassVar[str] = "periodic"
     size: Period = (math.inf, math.inf, math.inf)
+    shear_rate: Finite = 0.0
+
+
+@dataclass(frozen=True)
+class Andersen(Part):
+    """Each ball gets a velocity of Maxwell's distribution at random times (Andersen).
+
+    Attributes:
+        frequency: Mean number of these times in a second, in Hz, > 0.
+        temperature: Temperature k T [J], > 0.
+        seed: Seed of the times and velocities. By default 0.
+    """
+
+    tag: ClassVar[str] = "andersen"
+    frequency: Positive
+    temperature: Positive
+    seed: LargeNumber = 0
+
+
+@dataclass(frozen=True)
+class Rescale(Part):
+    """All velocities are multiplied so that two thirds of the mean kinetic energy is the temperature.
+
+    Attributes:
+        interval: Time from one change to the next [s], > 0.
+        temperature: Temperature k T [J], > 0.
+    """
+
+    tag: ClassVar[str] = "rescale"
+    interval: Positive
+    temperature: Positive
+
+
+@dataclass(frozen=True)
+class WhiteNoise(Part):
+    """Random changes of all velocities that keep the momentum: a driven granular gas.
+
+    Attributes:
+        interval: Time from one change to the next [s], > 0.
+        strength: Variance that each component of a velocity gains in a second, in m2/s3, > 0.
+        seed: Seed of the changes. By default 0.
+    """
+
+    tag: ClassVar[str] = "white-noise"
+    interval: Positive
+    strength: Positive
+    seed: LargeNumber = 0
+
+
+Thermostat: TypeAlias = Andersen | Rescale | WhiteNoise
+"""What changes the velocities of all spheres, at times that do not depend on frames."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -120,6 +173,7 @@ class Simulation(Part):
             default ``geometric-mean``.
         allow_overlap: Whether spheres may overlap each other or colliders at the start.
         boundary: Open space or a periodic box.
+        thermostat: Thermostat, if there is one; only under the rule ``exact``.
         exact: Parameters of the rule ``exact``.
         bisect: Parameters of the rule ``bisect``.
         discrete: Parameters of the rule ``discrete``.
@@ -134,6 +188,7 @@ class Simulation(Part):
     friction_combine_rule: CombineRule = "geometric-mean"
     allow_overlap: bool = False
     boundary: Literal["open"] | Periodic = "open"
+    thermostat: Thermostat | None = None
     exact: Exact = field(default_factory=Exact)
     bisect: Bisect = field(default_factory=Bisect)
     discrete: Discrete = field(default_factory=Discrete)

@@ -59,6 +59,11 @@ fn simulation(drawn: &Drawn) -> String {
             "boundary = {{ periodic = {{ size = [{width:?}, {width:?}, {width:?}] }} }}\n"
         );
     }
+    if drawn.around.kind == "sheared" {
+        text += &format!(
+            "boundary = {{ periodic = {{ size = [{width:?}, {width:?}, {width:?}], shear_rate = 1.5 }} }}\n"
+        );
+    }
     for choice in &drawn.choices {
         text += &format!("{choice}\n");
     }

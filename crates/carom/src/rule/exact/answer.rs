@@ -97,6 +97,9 @@ fn answer(
         EventTarget::Surface(surface) if timeline.flights.growth.is_some() => {
             impact::answer_growing_single(timeline, context, slot, surface, time)
         }
+        EventTarget::Sphere(other) if timeline.neighbours.sliding().is_some() => {
+            impact::answer_sheared_pair(timeline, context, [slot, other], time)
+        }
         EventTarget::Sphere(other) => impact::answer_pair(timeline, context, [slot, other], time),
         EventTarget::Surface(surface) => {
             impact::answer_single(timeline, context, slot, Some(surface), time)

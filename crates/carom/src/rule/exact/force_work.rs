@@ -4,11 +4,13 @@ use glam::DVec3;
 
 use super::seen::Seen;
 use crate::bodies::Properties;
+use crate::flight::Flight;
 use crate::force_work::ForceWork;
 use crate::forces::{self, SphereState, Spring, SpringEnd};
 use crate::integrate::gauss_legendre::integral;
 use crate::sensor::FlightSegment;
 use crate::settings::nearest_image;
+use crate::shear::Shear;
 use crate::system::System;
 
 /// Work of nonconservative forces during a watch.
@@ -68,6 +70,11 @@ impl ForceTally {
         let index = segment.index as usize;
         let [start, end] = [segment.from, segment.to].map(|time| segment.flight_from(time));
         let way = end.position - start.position;
+        if let Some(shear) = Shear::of(system.settings) {
+            let along = |state: &Flight| state.velocity.x - shear.velocity_at(state.position).x;
+            let (before, after) = (along(&start), along(&end));
+            self.work.shear += 0.5 * mass[index] * (after - before) * (after + before);
+        }
         self.work.forces += seen.held_force.dot(way);
         if seen.is_stepped {
             return;

@@ -2,12 +2,13 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::clearance::Clearance;
+use glam::DVec3;
+
+use super::arrange::arrange;
 use super::context::StepContext;
 use super::events::{Prediction, Schedule};
 use super::flights::{self, Body, Flights, Growth, Rotation};
 use super::moving;
-use super::neighbours::{Contents, Neighbours, SURFACES_PER_SPHERE};
 use super::pair_times::PairSearch;
 use super::persistent::{self, held_forces, piece_end};
 use super::predict;
@@ -22,18 +23,9 @@ use crate::parallel;
 use crate::persistent_contact::PersistentContact;
 use crate::report::StepReport;
 use crate::settings::{Exact, Zones};
-use crate::surface::Role;
+use crate::shear::Shear;
 use crate::system::System;
 use crate::work::Work;
-
-/// In a periodic box, spheres are ordered by place again after this many cell crossings per sphere: seldom enough
-/// to cost little, often enough that neighbours stay near each other in memory.
-const CROSSINGS_PER_ARRANGEMENT: u64 = 10;
-/// Cell crossings per sphere before spheres are ordered again, where all fit into the fast caches in any order.
-const CROSSINGS_OF_FEW: u64 = 100;
-/// On open axes the spheres are ordered again after this many events per sphere: they may have gathered in
-/// outermost cells, which no sphere leaves.
-const EVENTS_PER_ARRANGEMENT: u64 = 24;
 
 /// Spheres that were added or removed since the timeline was made.
 pub(crate) struct Arrivals<'a, F: Fn(SphereId) -> f64> {
@@ -55,8 +47,9 @@ pub(crate) fn start(
 ) -> Timeline {
     let mut flights = Flights::new(system, motion, |_| Err(time));
     flights.growth = Growth::of(&flights.species, time);
-    // Zones step spheres with the radius of the start, so growth excludes them.
-    let zones = if flights.growth.is_some() { Zones::Never } else { parameters.zones };
+    // Zones step spheres with the radius of the start, and images that stand still.
+    let excludes_zones = flights.growth.is_some() || Shear::of(system.settings).is_some();
+    let zones = if excludes_zones { Zones::Never } else { parameters.zones };
     let parameters = parameters.with_zones(zones);
     if zones == Zones::Never {
         zone = Zone::default();
@@ -98,7 +91,7 @@ pub(crate) fn adopt<F: Fn(SphereId) -> f64>(
         }
     };
     let mut flights = Flights::new(system, motion, flight_of);
-    let Timeline { parameters, frame, .. } = *before;
+    let frame = before.frame;
     if before.has_friction() || friction_acts(system) {
         let rotation_of = |(index, id)| match arrivals.known.binary_search(id) {
             Ok(place) if before.has_friction() => before.flights.free_rotation_of(place, time),
@@ -117,12 +110,60 @@ pub(crate) fn adopt<F: Fn(SphereId) -> f64>(
     let mut zone = before.zone.clone();
     zone.follow(&system.spheres.id);
     flights.set_stepped(&zone.indices(&system.spheres.id));
+    resume(before, system, (flights, zone), arrivals.next, time)
+}
+
+/// Begins other flights of all spheres at `time` \[s\], within a frame, from the states in the world's arrays.
+/// Persistent contacts are computed again, and spheres of a zone join it again.
+pub(crate) fn restart(before: &Timeline, system: &System, motion: &Motion, time: f64) -> Timeline {
+    let mut flights = Flights::new(system, motion, |_| Err(time));
+    if before.has_friction() {
+        let all = 0..motion.position.len();
+        flights.rotations = all.map(|index| Rotation::of(motion, index, time)).collect();
+    }
+    let mut zone = before.zone.clone();
+    flights.set_stepped(&zone.indices(&system.spheres.id));
+    zone.restart(system, time, [before.zone_tick(), before.spring_rate], &motion.velocity);
+    resume(before, system, (flights, zone), before.next_emission, time)
+}
+
+/// Sets the velocity of a sphere in free flight, by its index, relative to the mean flow \[m/s\] at `time` \[s\].
+/// Returns that before; `None`, and nothing changes, for a sphere that contacts, zones or curves connect with others.
+pub(crate) fn deflect(
+    timeline: &mut Timeline,
+    system: &System,
+    index: usize,
+    velocity: DVec3,
+    time: f64,
+) -> Option<DVec3> {
+    let slot = timeline.flights.slot_of[index];
+    let species = timeline.flights.species_of(slot);
+    if species.cluster.is_some() || species.is_stepped || species.is_curved {
+        return None;
+    }
+    let (position, before) = timeline.flights.state_of(slot, time);
+    let flow = Shear::of(system.settings).map_or(DVec3::ZERO, |it| it.velocity_at(position));
+    timeline.begin_flight(slot, position, flow + velocity, time);
+    timeline.find_clearance(system, slot);
+    predict_each(timeline, system, &[slot], time);
+    Some(before - flow)
+}
+
+/// Continues a frame at `time` \[s\] with these flights and zone. The next spheres are emitted at `next` \[s\].
+fn resume(
+    before: &Timeline,
+    system: &System,
+    (flights, zone): (Flights, Zone),
+    next: f64,
+    time: f64,
+) -> Timeline {
+    let Timeline { parameters, frame, .. } = *before;
     let mut timeline = Timeline { parameters, flights, frame, zone, ..Timeline::default() };
     arrange(&mut timeline, system, time);
     timeline.work.begin(&timeline.flights.bodies);
     (timeline.force_tick, timeline.spring_rate) = (before.force_tick, before.spring_rate);
     timeline.work_tick = before.work_tick;
-    (timeline.next_emission, timeline.curves_until) = (arrivals.next, before.curves_until);
+    (timeline.next_emission, timeline.curves_until) = (next, before.curves_until);
     if timeline.flights.hold_forces {
         held_forces::renew(&mut timeline, system, time);
     }
@@ -299,14 +340,25 @@ pub(crate) fn end(
     if let Some(lost) = flights::first_lost(&timeline.flights, span.end) {
         return Err(lost);
     }
-    let period = system.settings.boundary.period();
-    flights::write_motion(&timeline.flights, motion, period, span.end);
+    write_motion(timeline, system, motion, span.end);
     flights::write_spin(&timeline.flights.rotations, motion, span.end);
     reading(system, timeline.parameters, span, |context| {
         piece_end::write_motion(timeline, context, motion, span.end);
     });
     stepped::write_velocities(timeline, &system.spheres.id, motion, span.end);
     Ok(())
+}
+
+/// Writes where all spheres are at `time` \[s\], and their velocities.
+fn write_motion(timeline: &Timeline, system: &System, motion: &mut Motion, time: f64) {
+    let Some(shear) = Shear::of(system.settings) else {
+        let period = system.settings.boundary.period();
+        return flights::write_motion(&timeline.flights, motion, period, time);
+    };
+    flights::write_motion(&timeline.flights, motion, DVec3::INFINITY, time);
+    for (place, velocity) in motion.position.iter_mut().zip(&mut motion.velocity) {
+        [*place, *velocity] = shear.wrapped([*place, *velocity], time);
+    }
 }
 
 /// The work of moving colliders \[J\] that the states written at `time` \[s\] have beyond that of the flights.
@@ -346,77 +398,6 @@ pub(crate) fn persistent_contacts(
         contacts.sort_by_key(|contact| contact.between);
     }
     contacts
-}
-
-/// Orders the spheres by place and finds their neighbours as of `time` \[s\]. All predictions become void.
-fn arrange(timeline: &mut Timeline, system: &System, time: f64) {
-    timeline.moving_surfaces = (0u32..)
-        .zip(system.surfaces)
-        .filter(|(_, surface)| surface.role == Role::Deflects && !surface.motion.is_at_rest())
-        .map(|(number, _)| number)
-        .collect();
-    // The old schedule is dropped first, so that two never are in memory.
-    timeline.schedule = Schedule::default();
-    timeline.neighbours = Neighbours::default();
-    timeline.flights.make_room_to_grow(time, system.settings.boundary.period());
-    let order = contents(&timeline.flights, system, time).curve_order();
-    if order.windows(2).any(|pair| pair[0] > pair[1]) {
-        timeline.flights.reorder(&order);
-        timeline.work.reorder(&order);
-    }
-    timeline.neighbours = Neighbours::new(contents(&timeline.flights, system, time));
-    timeline.clearances.clear();
-    let Timeline { flights, moving_surfaces, .. } = timeline;
-    if flights.hold_forces && moving_surfaces.is_empty() && !system.surfaces.is_empty() {
-        timeline.clearances.resize(flights.bodies.len(), Clearance::NONE);
-    }
-    (timeline.events, timeline.cell_crossings) = (0, 0);
-    stepped::find_near(timeline);
-}
-
-fn contents<'a>(flights: &'a Flights, system: &System<'a>, time: f64) -> Contents<'a> {
-    Contents {
-        flights,
-        time,
-        period: system.settings.boundary.period(),
-        surfaces: system.surfaces,
-        tree: system.tree,
-        spheres_collide: system.settings.spheres_collide,
-        groups: &system.spheres.groups,
-        index_of: &flights.index_of,
-    }
-}
-
-/// Numbers of events and cell crossings after which the spheres are ordered again.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct ArrangementDue {
-    events: u64,
-    cell_crossings: u64,
-}
-
-impl ArrangementDue {
-    /// The numbers for these spheres.
-    pub fn of(timeline: &Timeline, system: &System) -> Self {
-        // Finding the surfaces near each cell takes long where there are many.
-        let of_surfaces = system.surfaces.len() / SURFACES_PER_SPHERE;
-        let count = timeline.flights.bodies.len().max(of_surfaces) as u64;
-        let is_closed = system.settings.boundary.period().is_finite();
-        match (is_closed, timeline.are_many()) {
-            (true, true) => Self::after_crossings(CROSSINGS_PER_ARRANGEMENT * count),
-            (true, false) => Self::after_crossings(CROSSINGS_OF_FEW * count),
-            (false, _) => Self { events: EVENTS_PER_ARRANGEMENT * count, cell_crossings: u64::MAX },
-        }
-    }
-
-    /// Whether the spheres must be ordered now.
-    #[inline(always)]
-    pub fn is_now(self, timeline: &Timeline) -> bool {
-        timeline.events > self.events || timeline.cell_crossings > self.cell_crossings
-    }
-
-    fn after_crossings(cell_crossings: u64) -> Self {
-        Self { events: u64::MAX, cell_crossings }
-    }
 }
 
 /// Orders the spheres and predicts all their events, at `now` \[s\]. This follows the event that makes it due, not

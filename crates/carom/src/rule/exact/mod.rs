@@ -14,6 +14,7 @@
 //! Predictions hold across frames. `docs/physics/exact.md` has the stages under the same names.
 
 mod answer;
+mod arrange;
 mod budget;
 mod changed;
 mod clearance;
@@ -49,8 +50,8 @@ pub(crate) use course::{Course, follow};
 pub(crate) use features::{NormalCurvature, curvature_of};
 pub(crate) use flights::{HeldMotion, SupportChange};
 pub(crate) use frame::{
-    Arrivals, HoldError, adopt, begin, end, persistent_contacts, start, tick_for_springs,
-    work_written,
+    Arrivals, HoldError, adopt, begin, deflect, end, persistent_contacts, restart, start,
+    tick_for_springs, work_written,
 };
 pub(crate) use look_along::{begin as begin_watch, end as end_watch};
 pub(crate) use neighbours::MAX_SPHERES;
@@ -122,7 +123,7 @@ pub(crate) fn advance(
     let mut context = StepContext::new(system, parameters, span, work, report);
     answer::check_forces(timeline, &context, span.start)?;
     let mut counts = SpanCounts::begin(timeline, work);
-    let due = frame::ArrangementDue::of(timeline, system);
+    let due = arrange::ArrangementDue::of(timeline, system);
     let mut end = span.end;
     while let Some(next) = next(timeline, end) {
         let (is_event, is_outgrown) =

@@ -273,6 +273,10 @@ pub(super) fn cross_cell(timeline: &mut Timeline, context: &mut StepContext, slo
     let state = timeline.flights.state_of(slot, now);
     let search = &mut context.searches[0];
     timeline.cross_cell(slot, state.into(), &mut search.near);
+    if timeline.neighbours.has_left_sheared_box(slot) {
+        timeline.begin_flight(slot, state.0, state.1, now);
+        return predict(timeline, context, slot, now);
+    }
     let mut events = timeline.schedule.next_events(slot);
     search.search_found(timeline, slot, now);
     timeline.note_near_zone(slot, &search.near);

@@ -30,6 +30,8 @@ pub(crate) struct Timeline {
     pub(super) parameters: Exact,
     pub(super) flights: Flights,
     pub(super) neighbours: Neighbours,
+    /// Until when the neighbours are valid, on the world's clock \[s\]; finite where radii grow or images slide.
+    pub(super) neighbours_until: f64,
     pub(super) schedule: Schedule,
     /// Moving surfaces that deflect spheres.
     pub(super) moving_surfaces: Vec<u32>,
@@ -92,9 +94,9 @@ impl Timeline {
         !(is_free && self.flights.are_curved())
     }
 
-    /// Until when neighbours are known, as radii grow, on the world's clock \[s\].
+    /// Until when neighbours are known, as radii grow or images slide, on the world's clock \[s\].
     pub(super) fn room_until(&self) -> f64 {
-        self.flights.room_until()
+        self.neighbours_until
     }
 
     /// Writes the radii of all spheres at `time` \[s\] if some grow, in metres.
@@ -200,7 +202,7 @@ impl Timeline {
     pub(super) fn begin_free_flight(&mut self, member: &Member, time: f64) {
         let Member { slot, position, velocity, species, .. } = *member;
         self.set_free(slot, time);
-        if self.flights.are_curved() {
+        if species.is_curved {
             self.flights.set_free_acceleration(slot, species.acceleration);
         }
         self.begin_flight(slot, position, velocity, time);
@@ -339,6 +341,12 @@ impl Timeline {
     fn wrap_into_box(&mut self, slot: u32) -> bool {
         let body = &mut self.flights.bodies[slot as usize];
         let level = self.flights.species[body.species as usize].level;
+        if let Some(sliding) = self.neighbours.sliding() {
+            let state = [body.position, body.velocity];
+            [body.position, body.velocity] =
+                self.neighbours.wrap_sliding((slot, level), sliding, state, body.time);
+            return true;
+        }
         let wrapped = self.neighbours.wrap(slot, level, body.position);
         body.position = wrapped.unwrap_or(body.position);
         wrapped.is_some()

@@ -78,7 +78,7 @@ impl PlacedSpring {
     }
 }
 
-/// The components of all spheres that fly on curves, without persistent contacts.
+/// The components of all spheres that fly on curves, by their forces or along persistent contacts.
 #[derive(Debug, Clone, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Components {
@@ -137,6 +137,15 @@ impl Components {
         let most_evaluations =
             if takes_short_steps { MOST_WITH_SHORT_STEPS } else { MOST_EVALUATIONS };
         Self { of_spheres, components, due: Vec::new(), most_evaluations }
+    }
+
+    /// Adds the sphere with this index, of `count`, as a component of its own, unless it is in one.
+    pub fn add_single(&mut self, index: u32, count: usize) {
+        if self.of_sphere(index).is_none() {
+            self.of_spheres.resize(count, NONE);
+            self.of_spheres[index as usize] = self.components.len() as u32;
+            self.components.push(Component { members: vec![index], ..Component::default() });
+        }
     }
 
     pub fn get(&self, number: u32) -> &Component {

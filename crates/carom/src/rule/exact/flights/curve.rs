@@ -11,7 +11,7 @@ const LONGEST_GUESS: f64 = 64.0;
 /// One step of the flight of a sphere.
 #[derive(Debug, Clone, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(crate) struct Curve(pub(super) Option<CurveStep>);
+pub(crate) struct Curve(pub(super) Option<Box<CurveStep>>);
 
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

@@ -74,7 +74,7 @@ impl Flights {
         if !self.species[body.species as usize].is_curved {
             return None;
         }
-        let step = self.curves[self.index_of[slot as usize] as usize].0.as_ref();
+        let step = self.curves[self.index_of[slot as usize] as usize].0.as_deref();
         step.filter(|step| step.generation == body.generation)
     }
 
@@ -149,6 +149,9 @@ impl Flights {
     /// The species of a sphere without the forces of its persistent contacts, at `time` \[s\].
     pub fn free_species_at(&self, slot: u32, time: f64) -> Species {
         let free = *self.free_species_of(slot);
+        if !free.is_curved {
+            return free;
+        }
         let body = &self.bodies[slot as usize];
         match self.step_of(slot, body) {
             Some(step) => {
@@ -289,7 +292,8 @@ impl Flights {
             CurveStep { generation, acceleration, end, is_smooth, pace, left, free }
         };
         let steps = bodies.iter().zip(step.accelerations).map(curve_of);
-        let curves = slots.iter().copied().zip(steps.map(|step| Curve(Some(step)))).collect();
+        let curves =
+            slots.iter().copied().zip(steps.map(|step| Curve(Some(Box::new(step))))).collect();
         JointStep { curves, turning, evaluations: field.evaluations, releases }
     }
 
@@ -326,7 +330,7 @@ impl Flights {
 
     /// The last step of a sphere on a curve, even if its flight ended early.
     fn last_step(&self, slot: u32) -> Option<&CurveStep> {
-        self.curves[self.index_of[slot as usize] as usize].0.as_ref()
+        self.curves[self.index_of[slot as usize] as usize].0.as_deref()
     }
 
     /// The rest of a sphere's step, if a flight that begins at `time` \[s\] in this state \[m\], \[m/s\] continues
@@ -339,7 +343,8 @@ impl Flights {
         let acceleration = step.acceleration.from(age);
         let free = step.free.as_deref().map(|free| Box::new(free.from(age)));
         let left = [DVec3::ZERO; 2];
-        goes_on.then(|| Curve(Some(CurveStep { acceleration, free, left, ..step.clone() })))
+        goes_on
+            .then(|| Curve(Some(Box::new(CurveStep { acceleration, free, left, ..step.clone() }))))
     }
 
     /// Continues a sphere's new flight along the rest of a step.

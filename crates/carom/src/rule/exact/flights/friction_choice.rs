@@ -12,6 +12,10 @@ const SLOW: f64 = 1e-9;
 /// Part of the speeds in a contact below which friction keeps its direction over a step, that of the slip in the middle.
 /// Where a slip begins or ends, its direction may turn ever faster the smaller it is, and no step of finite length follows.
 const SMALL: f64 = 0.05;
+/// Most times that the directions of small slips are found, each of which depends on the others.
+const MOST_TURNS: usize = 8;
+/// Directions of friction that differ by less than this are the same.
+const SAME_DIRECTION: f64 = 1e-6;
 /// A slip ends a step of constant direction where it exceeds that part by this factor.
 const BEYOND: f64 = 1.01;
 /// Part of a slip that counts as none below which its direction is rounding.
@@ -25,6 +29,8 @@ pub(super) const OPENS: f64 = 1e-9;
 const ROUNDING: f64 = 1e-12;
 /// The relaxation has converged when forces change by less than this part of the largest.
 const CONVERGED: f64 = 1e-13;
+/// Part of the forces at work below which contact forces do not converge further: they are rounding of the former.
+const HARDLY_PRESSES: f64 = 1e-2;
 /// Most changes of states after it.
 const MOST_CHANGES: usize = 8;
 /// Most sweeps of the relaxation.
@@ -44,20 +50,86 @@ impl CurveContacts {
         if !self.have_friction() {
             return;
         }
-        let slow = self.states_by_slip(moving, spheres, free);
-        let mut at = free.clone();
-        self.add(moving, spheres, &mut at);
-        if self.turn_small_slips(moving, spheres, &at.accelerations, length) {
-            at.clone_from(free);
-            self.add(moving, spheres, &mut at);
+        // The contacts were found to press with friction against the slips that there are, of which those count as none
+        // that are so beside the whole acceleration.
+        let net: Vec<f64> = free.accelerations.iter().map(|it| it.norm()).collect();
+        for (length, sizes) in [(length, &free.sizes), (0.0, &free.sizes), (0.0, &net)] {
+            let slow = self.states_by_slip(moving, spheres, sizes);
+            let at = self.states_over((moving, spheres), free, &slow, length);
+            if self.hardest_pull(spheres, &at.sizes).is_none() {
+                return;
+            }
         }
+    }
+
+    /// Changes the states by slip, of which those up to `slow` \[m/s\] count as none, to those for a step of some length
+    /// \[s\]. Returns the accelerations with them \[m/s²\].
+    fn states_over(
+        &mut self,
+        (moving, spheres): (Moving, &[ContactSphere]),
+        free: &Values,
+        slow: &[f64],
+        length: f64,
+    ) -> Values {
+        let at = self.turn_until_settled(moving, spheres, free, length);
         for (slack, contact) in self.slack.iter_mut().zip(&self.contacts) {
             *slack = OPENS * spheres[contact.second].mass * at.sizes[contact.second];
         }
-        if self.contacts_that_break(&vec![false; slow.len()], moving, spheres, &at).is_empty() {
-            return;
+        let pulls = self.hardest_pull(spheres, &at.sizes).is_some();
+        let none_begins = vec![false; slow.len()];
+        if !pulls && self.contacts_that_break(&none_begins, moving, spheres, &at).is_empty() {
+            return at;
+        }
+        if pulls {
+            // Friction may allow several solutions: that of the search for contacts that press.
+            self.forces.fill((0.0, DVec3::ZERO));
         }
         self.relax(moving, spheres, free);
+        let begins = self.begin_slips(slow, moving, spheres);
+        self.change_broken(begins, slow, (moving, spheres), free)
+    }
+
+    /// Finds the directions of small slips, each of which depends on the others. Returns the accelerations with them
+    /// \[m/s²\].
+    fn turn_until_settled(
+        &mut self,
+        moving: Moving,
+        spheres: &[ContactSphere],
+        free: &Values,
+        length: f64,
+    ) -> Values {
+        let mut at = self.accelerations_with(moving, spheres, free);
+        for _ in 0..MOST_TURNS {
+            let turn = self.turn_small_slips(moving, spheres, &at.accelerations, length);
+            if turn > 0.0 {
+                at = self.accelerations_with(moving, spheres, free);
+            }
+            if turn <= SAME_DIRECTION {
+                break;
+            }
+        }
+        at
+    }
+
+    /// The accelerations with contacts \[m/s²\].
+    fn accelerations_with(
+        &mut self,
+        moving: Moving,
+        spheres: &[ContactSphere],
+        free: &Values,
+    ) -> Values {
+        let mut at = free.clone();
+        self.add(moving, spheres, &mut at);
+        at
+    }
+
+    /// Begins a slip in each contact that rolls with the largest friction. Returns in which.
+    fn begin_slips(
+        &mut self,
+        slow: &[f64],
+        moving: Moving,
+        spheres: &[ContactSphere],
+    ) -> Vec<bool> {
         let mut begins = vec![false; slow.len()];
         for number in 0..self.contacts.len() {
             let (normal_force, friction) = self.forces[number];
@@ -68,12 +140,23 @@ impl CurveContacts {
                 self.begin_slip(number, slow[number], moving, spheres);
             }
         }
+        begins
+    }
+
+    /// Changes the states of contacts that roll with too much friction, or in which friction moves the surfaces where a
+    /// slip `begins`. Returns the accelerations with contacts \[m/s²\].
+    fn change_broken(
+        &mut self,
+        mut begins: Vec<bool>,
+        slow: &[f64],
+        (moving, spheres): (Moving, &[ContactSphere]),
+        free: &Values,
+    ) -> Values {
+        let mut at = self.accelerations_with(moving, spheres, free);
         for _ in 0..MOST_CHANGES {
-            at.clone_from(free);
-            self.add(moving, spheres, &mut at);
             let broken = self.contacts_that_break(&begins, moving, spheres, &at);
             if broken.is_empty() {
-                return;
+                break;
             }
             for number in broken {
                 if begins[number] {
@@ -83,7 +166,19 @@ impl CurveContacts {
                 }
                 begins[number] = !begins[number];
             }
+            at = self.accelerations_with(moving, spheres, free);
         }
+        at
+    }
+
+    /// The contact that pulls most, beyond rounding of the sizes of accelerations \[m/s²\]; `None` if none pulls.
+    pub fn hardest_pull(&self, spheres: &[ContactSphere], sizes: &[f64]) -> Option<usize> {
+        let beyond = |number: &usize| {
+            let place = self.contacts[*number].second;
+            self.forces[*number].0 + OPENS * spheres[place].mass * sizes[place]
+        };
+        let pulling = (0..self.contacts.len()).filter(|number| beyond(number) < 0.0);
+        pulling.min_by(|one, other| beyond(one).total_cmp(&beyond(other)))
     }
 
     /// The contacts that roll with more than the largest friction, and those of the ones where slip `begins` in which
@@ -122,7 +217,7 @@ impl CurveContacts {
     }
 
     /// Sets the direction of friction on small slips to that in the middle of a step, or of what is left of it.
-    /// Returns whether there are small slips.
+    /// Returns the largest change of a direction.
     ///
     /// With the deceleration c by friction and the acceleration p of the slip s by all else, friction along the unit
     /// vector of `s + p T` leaves the slip in that direction after T, and ends it where `|s + p T| = c T`.
@@ -132,8 +227,8 @@ impl CurveContacts {
         spheres: &[ContactSphere],
         accelerations: &[DVec3],
         length: f64,
-    ) -> bool {
-        let mut are_any = false;
+    ) -> f64 {
+        let mut turn = 0.0f64;
         for number in 0..self.contacts.len() {
             let FrictionState::Slides { direction, least, most_back, most } = self.states[number]
             else {
@@ -154,12 +249,12 @@ impl CurveContacts {
             let middle = slip + time * other;
             let speed = middle.norm();
             if speed > 0.0 {
+                turn = turn.max((middle / speed - direction).norm());
                 let direction = middle / speed;
                 self.states[number] = FrictionState::Slides { direction, least, most_back, most };
-                are_any = true;
             }
         }
-        are_any
+        turn
     }
 
     /// How far a contact that rolls is from sliding: the largest friction, with what counts as rounding, less its own
@@ -191,24 +286,25 @@ impl CurveContacts {
         spheres: &[ContactSphere],
         free: &Values,
     ) -> Vec<DVec3> {
-        self.states_by_slip(moving, spheres, free);
+        self.states_by_slip(moving, spheres, &free.sizes);
         self.forces.fill((0.0, DVec3::ZERO));
         self.relax(moving, spheres, free)
     }
 
-    /// Sets the states by whether surfaces slide. Returns the slip of each contact that counts as none \[m/s\].
+    /// Sets the states by whether surfaces slide beside the speeds and these accelerations \[m/s²\]. Returns the slip of
+    /// each contact that counts as none \[m/s\].
     fn states_by_slip(
         &mut self,
         moving: Moving,
         spheres: &[ContactSphere],
-        free: &Values,
+        accelerations: &[f64],
     ) -> Vec<f64> {
         self.find_normals(moving.positions);
         let slow_of = |contact: &CurveContact| {
             let speed = |(place, _): (usize, f64)| {
                 let radius = spheres[place].radius;
                 let turning = radius * moving.angular_velocities[place].norm();
-                let falls = (free.sizes[place] * radius).sqrt();
+                let falls = (accelerations[place] * radius).sqrt();
                 moving.velocities[place].norm() + turning + falls
             };
             SLOW * contact.ends().map(speed).sum::<f64>()
@@ -239,6 +335,11 @@ impl CurveContacts {
     /// Source: Moreau, Comput. Methods Appl. Mech. Eng. 177, 329 (1999), section 7; Jean, ibid., 235.
     fn relax(&mut self, moving: Moving, spheres: &[ContactSphere], free: &Values) -> Vec<DVec3> {
         let mut accelerations = free.accelerations.clone();
+        let at_work = |contact: &CurveContact| {
+            let forces = contact.ends().map(|(place, _)| spheres[place].mass * free.sizes[place]);
+            forces.fold(0.0, f64::max)
+        };
+        let least = HARDLY_PRESSES * self.contacts.iter().map(at_work).fold(0.0, f64::max);
         for number in 0..self.contacts.len() {
             let (normal_force, friction) = self.forces[number];
             let normal_force = normal_force.max(0.0);
@@ -253,7 +354,7 @@ impl CurveContacts {
                 change = change.max(by);
                 largest = largest.max(self.forces[number].0);
             }
-            if change <= CONVERGED * largest {
+            if change <= CONVERGED * largest.max(least) {
                 break;
             }
         }

@@ -138,7 +138,7 @@ impl<'a> JointField<'a> {
         let flights = self.flights;
         let friction_of = |bodies: Bodies| friction_of(bodies, system).sliding;
         let place_of = |index: u32| {
-            let place = component.members.binary_search(&index).ok()?;
+            let place = component.members.iter().position(|&member| member == index)?;
             Some(self.place_of[place])
         };
         let mut touched = Vec::new();

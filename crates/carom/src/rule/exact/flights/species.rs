@@ -38,8 +38,8 @@ pub(crate) struct Species {
     pub free: u32,
     /// Whether these spheres are in a stepped zone.
     pub is_stepped: bool,
-    /// Whether the flight of the sphere is a `Curve`: forces without a closed form act on it, and no contacts whose
-    /// forces are held. Such a sphere has a species of its own.
+    /// Whether the flight of the sphere is a `Curve`: forces without a closed form act on it, or persistent contacts
+    /// that turn, and no contacts whose forces are held. Such a sphere has a species of its own.
     pub is_curved: bool,
 }
 

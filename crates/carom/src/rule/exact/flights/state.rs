@@ -19,6 +19,8 @@ use crate::detect::contact::Bodies;
 use crate::integrate::gauss_legendre;
 use crate::polynomial_flight::PolynomialAcceleration;
 use crate::rule::periodic;
+use crate::shear::Shear;
+use crate::surface::{Form, Role};
 use crate::system::System;
 
 /// The flights of all spheres, and the clusters that persistent contacts make of them.
@@ -68,14 +70,21 @@ impl Flights {
         let SpeciesOfSpheres { species, number_of, hold_forces, forces_vary } =
             SpeciesOfSpheres::of(system);
         let count = number_of.len();
-        let are_curved = species.iter().any(|species| species.is_curved);
+        let may_turn = || !system.holds_forces_of_all() && touch_may_turn(system);
+        let are_curved = species.iter().any(|it| it.is_curved) || may_turn();
         let components =
             Components::of(system, |index| species[number_of[index] as usize].is_curved);
         let period = system.settings.boundary.period();
+        let shear = Shear::of(system.settings);
         let body = |index: usize| {
-            let position = periodic::wrapped(motion.position[index], period);
-            let velocity = motion.velocity[index];
-            let begun = |time| Body { position, velocity, time, species: 0, generation: 0 };
+            let state = [motion.position[index], motion.velocity[index]];
+            let begun = |time| {
+                let [position, velocity] = match shear {
+                    Some(shear) => shear.wrapped(state, time),
+                    None => [periodic::wrapped(state[0], period), state[1]],
+                };
+                Body { position, velocity, time, species: 0, generation: 0 }
+            };
             let flight = flight_of(index).unwrap_or_else(begun);
             Body { species: number_of[index], ..flight }
         };
@@ -114,7 +123,7 @@ impl Flights {
         self.clusters.renumber(|slot| new_slots[slot as usize]);
     }
 
-    /// Whether spheres without contacts fly on curves.
+    /// Whether spheres may fly on curves.
     #[inline]
     pub fn are_curved(&self) -> bool {
         !self.curves.is_empty()
@@ -367,6 +376,10 @@ impl Flights {
                 self.rotate(slot, rotation, time);
             }
             let free = *self.species_of(slot);
+            if is_curved {
+                let index = self.index_of[slot as usize];
+                self.components.add_single(index, self.index_of.len());
+            }
             let species =
                 Species { acceleration, cluster: Some(cluster), contact_work, is_curved, ..free };
             let number = match self.spare_species.pop() {
@@ -403,4 +416,10 @@ impl Flights {
         let cluster = self.species_of(slot).cluster;
         cluster.map_or(0, |number| self.clusters.get(number).members.len() - 1)
     }
+}
+
+/// Whether normals of persistent contacts with surfaces may turn.
+fn touch_may_turn(system: &System) -> bool {
+    let is_flat = |form: &Form| matches!(form, Form::HalfSpace { .. } | Form::Facet(_));
+    system.surfaces.iter().any(|it| it.role == Role::Deflects && !is_flat(&it.form))
 }

@@ -7,9 +7,11 @@ mod group;
 mod growing;
 mod kick;
 mod pair;
+mod sheared;
 mod single_sphere;
 mod surface_contacts;
 
 pub(super) use growing::{answer_growing_pair, answer_growing_single};
 pub(super) use pair::answer_pair;
+pub(super) use sheared::answer_sheared_pair;
 pub(super) use single_sphere::answer_single;

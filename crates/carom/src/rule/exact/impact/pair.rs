@@ -98,16 +98,16 @@ fn is_alone(timeline: &Timeline, context: &mut StepContext, slots: [u32; 2], one
 }
 
 /// The impact of two spheres that touch nothing else; all impact laws give the same answer.
-struct PairImpact {
+pub(super) struct PairImpact {
     time: f64,
-    places: [DVec3; 2],
+    pub(super) places: [DVec3; 2],
     velocities_before: [DVec3; 2],
-    velocities: [DVec3; 2],
+    pub(super) velocities: [DVec3; 2],
     normal: DVec3,
     approach_speed: f64,
     restitution: f64,
     /// \[N s\]; `None` if a grazing contact turns out, by rounding, not to close.
-    impulse: Option<f64>,
+    pub(super) impulse: Option<f64>,
     /// What friction did, and angular velocities after it \[rad/s\].
     friction: Option<Box<(FrictionImpulses, [DVec3; 2])>>,
 }
@@ -115,9 +115,21 @@ struct PairImpact {
 impl PairImpact {
     #[inline(always)]
     fn at(timeline: &Timeline, context: &StepContext, slots: [u32; 2], time: f64) -> Self {
-        let species = slots.map(|slot| timeline.flights.species_of(slot));
-        let [(x1, v1), (x2, v2)] = slots.map(|slot| timeline.flights.state_of(slot, time));
+        let states @ [(x1, _), (x2, _)] = slots.map(|slot| timeline.flights.state_of(slot, time));
         let offset = periodic::wrapped(x2 - x1, context.period);
+        Self::of((timeline, context), slots, (states, offset), time)
+    }
+
+    /// The impact of spheres with these places \[m\] and velocities \[m/s\], from whose first centre an offset leads
+    /// to the second one \[m\].
+    #[inline(always)]
+    pub(super) fn of(
+        (timeline, context): (&Timeline, &StepContext),
+        slots: [u32; 2],
+        ([(x1, v1), (x2, v2)], offset): ([(DVec3, DVec3); 2], DVec3),
+        time: f64,
+    ) -> Self {
+        let species = slots.map(|slot| timeline.flights.species_of(slot));
         let normal = offset / offset.norm();
         let approach_speed = (v1 - v2).dot(normal);
         let restitution = if context.system.has_other_restitutions() {
@@ -161,7 +173,7 @@ impl PairImpact {
         self.friction = Some(Box::new((friction, members.map(|member| member.angular_velocity))));
     }
 
-    fn record(&self, timeline: &Timeline, context: &mut StepContext, slots: [u32; 2]) {
+    pub(super) fn record(&self, timeline: &Timeline, context: &mut StepContext, slots: [u32; 2]) {
         let Some(impulse) = self.impulse else { return };
         let species = slots.map(|slot| timeline.flights.species_of(slot));
         let [first, second] = slots.map(|slot| context.id_of(timeline, slot));

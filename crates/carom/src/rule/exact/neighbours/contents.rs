@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::grid::Grid;
 use super::region::OVERHANG;
+use super::sliding::Sliding;
 use crate::bounds::Bounds;
 use crate::detect::surface_tree::SurfaceTree;
 use crate::groups::Groups;
@@ -31,6 +32,8 @@ pub(crate) struct Contents<'a> {
     pub time: f64,
     /// Edges of the periodic box about the origin \[m\]; infinite along an open axis.
     pub period: DVec3,
+    /// Images of the box in steady shear.
+    pub sliding: Option<Sliding>,
     pub surfaces: &'a [Surface],
     pub tree: &'a SurfaceTree,
     /// Whether spheres collide with each other.
@@ -99,11 +102,14 @@ impl Contents<'_> {
             return (radius, self.surfaces.len());
         }
         let is_held = |&slot: &u32| self.flights.species_of(slot).level >= level;
-        let diameter = 2.0 * radius / (1.0 - 2.0 * OVERHANG) * SLACK;
+        let width = match &self.sliding {
+            Some(sliding) => sliding.width(2.0 * radius),
+            None => 2.0 * radius / (1.0 - 2.0 * OVERHANG),
+        };
         let spheres = self.slots().filter(is_held).count();
         let seek =
             if self.is_of_surfaces() { self.surfaces.len() / SURFACES_PER_SPHERE } else { spheres };
-        (diameter, seek)
+        (width * SLACK, seek)
     }
 
     /// Whether there are more than [`SURFACES_PER_SPHERE`] surfaces for each sphere.
@@ -127,7 +133,10 @@ impl Contents<'_> {
         let diameter = 2.0 * self.radius_of(0);
         let volume = grid.len() as f64 * grid.width().element_product();
         let crowd = count as f64 / volume * (diameter * diameter * diameter);
-        let is_crowded = self.spheres_collide && self.level_count() == 1 && crowd > CROWDED;
+        // Lists need images that stand still.
+        let is_still = self.sliding.is_none();
+        let is_crowded =
+            self.spheres_collide && is_still && self.level_count() == 1 && crowd > CROWDED;
         is_crowded.then(|| {
             let grid = self.grid(diameter * (1.0 + LIST_MARGIN), count);
             // Two adjacent regions, and the spheres that reach out of them, are as wide as a cell.

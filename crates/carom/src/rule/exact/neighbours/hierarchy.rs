@@ -15,6 +15,7 @@ use super::level::{Level, Levels};
 use super::neighbour::Neighbour;
 use super::neighbour_lists::{Crowd, NeighbourLists};
 use super::region::{CROSSING, LEAD, Region};
+use super::sliding::Sliding;
 use crate::groups::Groups;
 use crate::lanes::{LANES, Lanes};
 use crate::norm::Norm;
@@ -33,6 +34,8 @@ pub(crate) struct Neighbours {
     /// By slot, where spheres are crowded.
     lists: Option<NeighbourLists>,
     periodic_box: PeriodicBox,
+    /// Images of the box in steady shear. Regions and cells then lie in the coordinates of the search.
+    sliding: Option<Sliding>,
     images: Images,
     /// Whether spheres collide with each other.
     spheres_collide: bool,
@@ -62,6 +65,7 @@ impl Neighbours {
         // A neighbour is less than three cells away along each axis, of the coarsest grid.
         let images = match levels.first() {
             _ if !period.is_finite_mask().any() => Images::None,
+            _ if contents.sliding.is_some() => Images::Sliding,
             Some(level) if level.grid.is_wide() => Images::ByPlace,
             _ => Images::ByMark,
         };
@@ -70,6 +74,7 @@ impl Neighbours {
             regions: bodies.iter().map(nowhere).collect(),
             lists: are_crowded.then(|| NeighbourLists::new(bodies.len())),
             periodic_box: PeriodicBox::new(period),
+            sliding: contents.sliding,
             images,
             spheres_collide,
             groups: contents.groups_by_slot(),
@@ -201,6 +206,15 @@ impl Neighbours {
         self.periodic_box.shift(offset_between(region, other, neighbour.image_offset()))
     }
 
+    /// The shift to a neighbour's image beside the sphere at `slot` at `time` \[s\], \[m\], and its velocity \[m/s\].
+    pub fn image_motion_of(&self, slot: u32, neighbour: Neighbour, time: f64) -> [DVec3; 2] {
+        let Some(sliding) = self.sliding.filter(|_| !neighbour.is_in_same_box()) else {
+            return [self.shift_of(slot, neighbour), DVec3::ZERO];
+        };
+        let (region, other) = (self.region(slot), self.region(neighbour.slot()));
+        sliding.image_motion(offset_between(region, other, neighbour.image_offset()), time)
+    }
+
     /// Offsets \[m\] of several neighbours' images, one per lane.
     #[inline(always)]
     pub fn shifts_of<S: Simd>(
@@ -300,7 +314,7 @@ impl Neighbours {
         } else {
             DVec3::ZERO
         };
-        let center = position + lead;
+        let center = self.sliding.map_or(position + lead, |sliding| sliding.in_search(position));
         region.image_offset = periodic::image_offset_of(center, period);
         region.center = center - periodic::image_shift(region.image_offset, period);
         let cell = grid.cell_of(region.center);
@@ -426,6 +440,33 @@ impl Neighbours {
         }
         self.drop_offset(slot, level, offset);
         Some(position - periodic::image_shift(offset, period))
+    }
+
+    /// Wraps the state of a sphere in a box in steady shear, where a flight of it begins at `time` \[s\], into the box,
+    /// if its position \[m\] is elsewhere; its velocity \[m/s\] changes with the box.
+    pub fn wrap_sliding(
+        &mut self,
+        (slot, level): (u32, u32),
+        sliding: Sliding,
+        [position, velocity]: [DVec3; 2],
+        time: f64,
+    ) -> [DVec3; 2] {
+        let offset = sliding.image_offset_of(position, time);
+        self.drop_offset(slot, level, offset);
+        let [shift, speed] = sliding.image_motion(offset, time);
+        [position - shift, velocity - speed]
+    }
+
+    /// Images of the box in steady shear.
+    #[inline]
+    pub fn sliding(&self) -> Option<Sliding> {
+        self.sliding
+    }
+
+    /// Whether a sphere has left the box along y, in a box in steady shear.
+    #[inline]
+    pub fn has_left_sheared_box(&self, slot: u32) -> bool {
+        self.sliding.is_some() && self.region(slot).image_offset[1] != 0
     }
 
     /// Subtracts boxes from the image offset of a sphere; its neighbours' images change with it.

@@ -20,6 +20,8 @@ pub(crate) enum Images {
     ByPlace,
     /// By marks in cells and lists, in a narrow box.
     ByMark,
+    /// By marks in cells, in a box in steady shear.
+    Sliding,
 }
 
 /// A periodic box, with what the kernels read of it.

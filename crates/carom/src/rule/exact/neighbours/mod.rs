@@ -30,6 +30,7 @@ mod neighbour;
 mod neighbour_lists;
 mod paged_lists;
 mod region;
+mod sliding;
 mod surfaces;
 
 pub(super) use buffer::NeighbourBuffer;
@@ -38,3 +39,4 @@ pub(super) use hierarchy::Neighbours;
 pub(super) use images::Images;
 pub(crate) use neighbour::MAX_SPHERES;
 pub(super) use neighbour::Neighbour;
+pub(super) use sliding::Sliding;

@@ -80,6 +80,7 @@ impl PairQuery<'_> {
             (Some(false), false, Images::ByPlace) => run!(NEAREST),
             (Some(false), true, Images::ByPlace) => run!(NEAREST, ITSELF),
             (Some(false), true, Images::None) => run!(ITSELF),
+            (_, _, Images::Sliding) => run!(IMAGES, ITSELF, SPECIES, SLIDES),
             (Some(false), ..) => run!(IMAGES, ITSELF),
             (Some(true), ..) => run!(IMAGES, ITSELF, FALLS),
             (None, ..) => run!(IMAGES, ITSELF, FALLS, SPECIES),
@@ -104,6 +105,8 @@ const SPECIES: u8 = 8;
 const NEAREST: u8 = 16;
 /// Radii grow.
 const GROWS: u8 = 32;
+/// Images slide, as those of a box in steady shear.
+const SLIDES: u8 = 64;
 
 /// A query where only these `CASES` occur.
 struct PairKernel<'a, const CASES: u8> {
@@ -184,15 +187,26 @@ impl<'a, const CASES: u8> PairKernel<'a, CASES> {
         };
         let others = four.each_ref().map(|one| &timeline.flights.bodies[one.slot() as usize]);
         let flights = FlightLanes::of_each(simd, others);
-        let image_shift = if covers::<CASES>(NEAREST) {
+        let mut image_velocity = None;
+        let image_shift = if covers::<CASES>(SLIDES) {
+            let start = own.time.max(flights.time).to_array();
+            let motions: [[DVec3; 2]; LANES] = array::from_fn(|lane| {
+                timeline.neighbours.image_motion_of(*slot, four[lane], start[lane])
+            });
+            image_velocity = Some(Vector::each(simd, motions.map(|motion| motion[1])));
+            Some(Vector::each(simd, motions.map(|motion| motion[0])))
+        } else if covers::<CASES>(NEAREST) {
             let there = flights.position + flights.velocity * (all(*now) - flights.time);
             Some(timeline.neighbours.shifts_to_nearest(simd, there - Vector::all(simd, *here)))
         } else {
             covers::<CASES>(IMAGES).then(|| timeline.neighbours.shifts_of(simd, *slot, four))
         };
         let acceleration = covers::<CASES>(FALLS).then(|| Vector::all(simd, species.acceleration));
-        let Relative { start, offset, velocity } =
+        let Relative { start, offset, mut velocity } =
             Relative::between(&own, &flights, image_shift, acceleration);
+        if let Some(image_velocity) = image_velocity {
+            velocity = velocity + image_velocity;
+        }
         let (mut radius_sum, mut is_alike) = (all(species.radius + species.radius), is_there);
         if covers::<CASES>(SPECIES) {
             let theirs = others.map(|other| self.species_of(other));
@@ -283,10 +297,14 @@ impl<'a, const CASES: u8> PairKernel<'a, CASES> {
         let PairQuery { timeline, slot, .. } = *self.query;
         let other = &timeline.flights.bodies[near.slot() as usize];
         let [own, theirs] = [self.body, other].map(FlightLanes::of_one);
-        let shift = || timeline.neighbours.shift_of(slot, near).into();
-        let image_shift = covers::<CASES>(IMAGES | NEAREST).then(shift);
+        let start = self.body.time.max(other.time);
+        let [shift, image_velocity] = timeline.neighbours.image_motion_of(slot, near, start);
+        let image_shift = covers::<CASES>(IMAGES | NEAREST).then(|| shift.into());
         let acceleration = covers::<CASES>(FALLS).then(|| self.species.acceleration.into());
-        let relative = Relative::between(&own, &theirs, image_shift, acceleration);
+        let mut relative = Relative::between(&own, &theirs, image_shift, acceleration);
+        if covers::<CASES>(SLIDES) {
+            relative.velocity = relative.velocity + image_velocity.into();
+        }
         let mut radius_sum = self.species.radius + self.species_of(other).radius;
         let Relative { start, offset, velocity } = relative;
         let mut growth_speed = 0.0;

@@ -18,8 +18,15 @@ use crate::rule::exact::flights::{
 /// Angle \[rad\] below which two normals count as one: they differ by rounding.
 pub(super) const SAME_NORMAL: f64 = 1e-9;
 
-/// Whether all spheres in these contacts fly on curves with them: they touch each other and surfaces at rest, and no
-/// contact follows from others.
+/// Whether contacts between these members may make curves of their flights: forces do, or a surface that turns the
+/// normal.
+pub(super) fn may_bend(members: &[Member], touches: &[Touch]) -> bool {
+    let turns = |touch: &Touch| touch.first.is_none() && touch.is_curved();
+    members.iter().all(|member| member.species.is_curved) || touches.iter().any(turns)
+}
+
+/// Whether all spheres in these contacts can fly on curves with them: they touch each other and surfaces at rest, and
+/// no contact follows from others.
 pub(super) fn fly_so(context: &StepContext, members: &[Member], touches: &[Touch]) -> bool {
     let Some(mut contacts) = contacts(context, members, touches) else { return false };
     let positions: Vec<DVec3> = members.iter().map(|member| member.position).collect();
@@ -51,6 +58,8 @@ pub(super) fn pressing_with_friction(
     let stays = |&number: &usize| presses[number] || is_idle(number);
     let persistent: Vec<Touch> =
         (0..touches.len()).filter(stays).map(|number| touches[number]).collect();
+    let (persistent, found) =
+        without_pulling(context, members, (persistent, found), (&motion, &spheres))?;
     if !fly_so(context, members, &persistent) {
         return None;
     }
@@ -64,6 +73,29 @@ pub(super) fn pressing_with_friction(
     let part = |touch: &Touch| largest / members[touch.second].species.mass;
     let largest = all.iter().map(part).fold(0.0, f64::max);
     Some((all, Accelerations { each, largest }))
+}
+
+/// The persistent touches without those that pull at once where a step begins with them, and the accelerations of the
+/// members \[m/s²\]; `None` where the spheres do not fly on curves with them.
+///
+/// Friction may allow several solutions, of which a step takes one and the search for contacts that press another.
+fn without_pulling(
+    context: &StepContext,
+    members: &[Member],
+    (mut touches, mut accelerations): (Vec<Touch>, Vec<DVec3>),
+    (motion, spheres): (&MotionOfMembers, &[ContactSphere]),
+) -> Option<(Vec<Touch>, Vec<DVec3>)> {
+    loop {
+        let mut contacts = contacts(context, members, &touches)?;
+        let mut values = motion.free();
+        contacts.choose_states(motion.moving(), spheres, &values, 0.0);
+        contacts.add(motion.moving(), spheres, &mut values);
+        let Some(number) = contacts.hardest_pull(spheres, &values.sizes) else {
+            return Some((touches, accelerations));
+        };
+        touches.remove(number);
+        accelerations = values.accelerations;
+    }
 }
 
 /// Normal force and friction \[N\] on body 2 of each touch of a cluster on curves, as it moves now; `None` if it is none.
@@ -155,8 +187,8 @@ fn spheres(context: &StepContext, members: &[Member]) -> Vec<ContactSphere> {
     members.iter().map(sphere).collect()
 }
 
-/// Whether a sphere of this species flies on curves with a contact: no rolling or spinning friction acts there, and the
-/// sphere does not grow.
+/// Whether a sphere of this species can fly on curves with a contact: no rolling or spinning friction acts there, and
+/// the sphere does not grow.
 pub(in crate::rule::exact) fn flies_with(
     context: &StepContext,
     species: &Species,
@@ -164,7 +196,7 @@ pub(in crate::rule::exact) fn flies_with(
 ) -> bool {
     let ContactFriction { rolling, spinning, .. } = friction_of(bodies, context.system);
     let only_slides = rolling == 0.0 && spinning == 0.0;
-    species.is_curved && species.growth_speed == 0.0 && only_slides
+    !context.system.holds_forces_of_all() && species.growth_speed == 0.0 && only_slides
 }
 
 /// Whether the last of several touches is with a surface that touches its sphere where another one does.

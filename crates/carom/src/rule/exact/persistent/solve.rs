@@ -34,6 +34,7 @@ pub(crate) fn find(context: &StepContext, group: &mut Group) -> Result<Vec<Suppo
     let candidates = may_persist(context, group);
     let acts = |touch: &Touch| friction_of(touch.bodies, context.system).acts();
     if candidates.iter().any(acts)
+        && on_curves::may_bend(&group.members, &candidates)
         && let Some(supports) = find_on_curves(context, group, &candidates)
     {
         return Ok(supports);
@@ -91,11 +92,13 @@ fn find_smooth(
             group,
             accelerations_under(&group.members, &persistent, &forces),
         );
-        if on_curves::fly_so(context, &group.members, &persistent) {
-            return connected(group, &persistent, &accelerations, None);
-        }
         let frame_left = (context.start + context.length - group.time).max(0.0);
         let turning = turning_time(&group.members, &persistent, &accelerations, frame_left);
+        let is_bent = on_curves::may_bend(&group.members, &persistent)
+            && (turning < f64::INFINITY || group.members.iter().all(|it| it.species.is_curved));
+        if is_bent && on_curves::fly_so(context, &group.members, &persistent) {
+            return connected(group, &persistent, &accelerations, None);
+        }
         let (accelerations, valid_for) = if turning == f64::INFINITY {
             (accelerations, turning)
         } else {

@@ -198,7 +198,7 @@ fn account_for_motion(
         let index = timeline.flights.index_of[slot as usize] as usize;
         let applied = system.spheres.applied_force.get(index).copied().unwrap_or(DVec3::ZERO);
         let [forces, applied] = [force, applied].map(|force| force.dot(way));
-        account.add_force_work(ForceWork { forces, applied });
+        account.add_force_work(ForceWork { forces, applied, ..ForceWork::default() });
     }
 }
 
@@ -212,7 +212,7 @@ fn join(
 ) {
     let [position, velocity] = state;
     held_forces::prepare_zone(timeline, context.system, time);
-    if timeline.flights.species_of(slot).is_curved {
+    if timeline.flights.free_species_of(slot).is_curved {
         let acceleration = match moves {
             Moves::With(_) => timeline.flights.free_species_at(slot, time).acceleration,
             Moves::Under(acceleration) => acceleration,
@@ -265,7 +265,7 @@ fn accelerations(
     };
     let acceleration = |&(slot, [_, velocity]): &(u32, [DVec3; 2])| {
         let free = flights.free_species_of(slot);
-        if !flights.species_of(slot).is_curved {
+        if !free.is_curved {
             return free.acceleration;
         }
         let all = flights.acceleration_among(context.system, slot, time + half, state_of);

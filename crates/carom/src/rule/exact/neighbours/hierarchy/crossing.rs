@@ -19,13 +19,19 @@ impl Neighbours {
         if grid.is_closed() && species.flies_straight() {
             // Without branches on the direction, which the processor cannot predict. What is at rest
             // on a side has 0 / 0 there, which is never the least.
-            let velocity = body.velocity;
-            let offset = center_here - (body.position + (now - body.time) * velocity);
+            let (mut velocity, mut place) = (body.velocity, body.position);
+            if let Some(sliding) = &self.sliding {
+                (velocity, place) = (sliding.in_search(velocity), sliding.in_search(place));
+            }
+            let offset = center_here - (place + (now - body.time) * velocity);
             let distance = half_edges + DVec3::ONE.copysign(velocity) * offset;
             let first = (distance.max(DVec3::ZERO) / velocity.abs()).min_element();
             return (now + first).max(now.next_up());
         }
-        let (position, velocity) = body.state_at(species, now);
+        let (mut position, mut velocity) = body.state_at(species, now);
+        if let Some(sliding) = &self.sliding {
+            (velocity, position) = (sliding.in_search(velocity), sliding.in_search(position));
+        }
         let offset = center_here - position;
         let (low, high) = grid.without_ends(center, offset - half_edges, offset + half_edges);
         let mut first = f64::INFINITY;

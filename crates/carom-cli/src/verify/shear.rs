@@ -1,0 +1,105 @@
+//! Gases in steady shear: viscosity of elastic spheres, steady temperature of inelastic ones.
+
+use std::f64::consts::PI;
+
+use carom::{CombineRule, DVec3, Error, Exact, Rule, SphereMotion, Thermostat, World};
+
+use super::claim::{Claim, Expected, Measured, Outcome, Tolerance};
+use crate::gas::{Filling, Speeds, gas};
+
+/// Dense enough for half of the stress to be that of impacts.
+const VISCOUS: Filling = Filling { count: 2_048, packing_fraction: 0.2 };
+/// Shear rate of it, a twentieth of the collision rate.
+const RATE: f64 = 0.2;
+/// Collisions of each sphere before the stress is measured, and meanwhile.
+const COLLISIONS: [f64; 2] = [20.0, 500.0];
+
+/// Dilute, so that impacts move no momentum.
+const DILUTE: Filling = Filling { count: 500, packing_fraction: 0.005 };
+/// Its restitution.
+const E: f64 = 0.9;
+/// Collisions of each sphere before the temperature is measured, and meanwhile.
+const STEADY: [f64; 2] = [200.0, 800.0];
+
+pub fn claims() -> Vec<Claim> {
+    let viscosity = Claim::new(
+        "elastic gas of packing fraction 0.2 in steady shear: viscosity by that of Enskog",
+        Expected::value(1.0, "Enskog's theory (Chapman and Cowling 1970, 16.41)"),
+        Tolerance::relative(
+            0.05,
+            "statistics 1.4 %, Enskog 2 % (Alder, Gass and Wainwright 1970), nonlinear 1 %",
+        ),
+        |_| viscosity(),
+    );
+    let temperature = Claim::new(
+        format!("dilute gas, e = {E}, in steady shear: T by that of kinetic theory"),
+        Expected::value(1.0, "Grad's moments (Santos, Garzó and Dufty 2004)"),
+        Tolerance::relative(0.06, "density 3 %, statistics 1.5 %, higher moments 1 %"),
+        |_| steady_temperature(),
+    );
+    let claims = [viscosity.slow(), temperature.slow()];
+    claims.map(|claim| claim.about(Rule::Exact(Exact::default()))).into()
+}
+
+/// Creates a gas of the temperature 1 about the mean flow of a shear.
+fn sheared(filling: Filling, rate: f64) -> Result<World, Error> {
+    let mut world = gas(filling, Speeds::Equilibrium, Rule::Exact(Exact::default()), 1)?;
+    world.set_settings(world.settings().with_shear_rate(rate))?;
+    let spheres = world.spheres();
+    let motion = |index: usize| {
+        let position = spheres.positions()[index];
+        let flow = DVec3::new(rate * position.y, 0.0, 0.0);
+        SphereMotion {
+            id: spheres.ids()[index],
+            position,
+            velocity: spheres.velocities()[index] + flow,
+        }
+    };
+    let motions: Vec<SphereMotion> = (0..spheres.len()).map(motion).collect();
+    world.set_motions(&motions)?;
+    Ok(world)
+}
+
+/// Stress by shear rate of the elastic gas at the temperature 1, divided by Enskog's viscosity.
+fn viscosity() -> Outcome {
+    let mut world = sheared(VISCOUS, RATE)?;
+    let interval = VISCOUS.time_of(1.0);
+    let thermostat = Thermostat::Rescale { interval, temperature: 1.0 };
+    world.set_settings(world.settings().with_thermostat(Some(thermostat)))?;
+    let [before, measured] = COLLISIONS;
+    let mut work = 0.0;
+    for frame in 0..(before + measured) as u32 {
+        let account = world.step(interval)?.energy_account;
+        work += if f64::from(frame) < before { 0.0 } else { account.shear };
+    }
+    let volume = libm::pow(VISCOUS.edge(), 3.0);
+    let viscosity = work / (volume * RATE * RATE * measured * interval);
+    let p = VISCOUS.packing_fraction;
+    let contact_value = (1.0 - 0.5 * p) / ((1.0 - p) * (1.0 - p) * (1.0 - p));
+    let b = 4.0 * p;
+    let dilute = 1.016 * 5.0 / (16.0 * PI.sqrt());
+    let enskog = dilute * (1.0 / contact_value + 0.8 * b + 0.7615 * b * b * contact_value);
+    Ok(Measured::in_world(&world, viscosity / enskog))
+}
+
+/// Mean temperature of the inelastic gas, divided by that of Grad's moments.
+fn steady_temperature() -> Outcome {
+    let cooling = 5.0 / 12.0 * (1.0 - E) * (1.0 + E);
+    let stress = 0.5 * (1.0 + E) * (1.0 - (1.0 - E) / 3.0);
+    let reduced = (1.5 * cooling / stress).sqrt() * (stress + cooling);
+    // The rate of which the viscosity is the inverse is 4/5 of that of collisions.
+    let rate = reduced * 0.8 * DILUTE.collision_rate();
+    let mut world = sheared(DILUTE, rate)?;
+    world.set_settings(world.settings().with_combine_rule(CombineRule::Minimum))?;
+    for id in world.spheres().ids().to_vec() {
+        world.set_sphere(id, world.sphere(id)?.with_restitution(E))?;
+    }
+    let [before, measured] = STEADY;
+    let mut sum = 0.0;
+    for frame in 0..(before + measured) as u32 {
+        world.step(DILUTE.time_of(1.0))?;
+        sum += if f64::from(frame) < before { 0.0 } else { world.kinetic_energy() };
+    }
+    let temperature = sum / measured / (1.5 * DILUTE.count as f64);
+    Ok(Measured::in_world(&world, temperature))
+}

@@ -1,0 +1,57 @@
+//! Steady shear of a periodic box: what it can be combined with, and its work in impacts.
+
+use super::attempt::Attempt;
+use crate::error::{Error, Subject};
+use crate::report::BodyPair;
+use crate::shear::Shear;
+use crate::state::State;
+use crate::sum::Sum;
+use crate::validate;
+
+/// Adds the work of shear in the impacts of a step: they change velocities, and not those of the mean flow at the two
+/// centres.
+pub(super) fn account_for_impacts(attempt: &mut Attempt) {
+    let Some(shear) = Shear::of(&attempt.state.settings) else { return };
+    let spheres = &attempt.state.spheres;
+    let radius = |id| spheres.index_of(id).map_or(0.0, |index| spheres.radii()[index]);
+    let works = attempt.report.impacts.iter().map(|impact| {
+        let BodyPair::Spheres(first, second) = impact.between else { return 0.0 };
+        let height = (radius(first) + radius(second)) * impact.normal.y;
+        -shear.rate * height * impact.impulse * impact.normal.x
+    });
+    attempt.report.energy_account.shear += works.collect::<Sum>().value();
+}
+
+/// Returns an error for a world in steady shear with something that shear cannot be combined with.
+///
+/// # Errors
+/// [`Error::Invalid`] about the settings.
+pub(super) fn check(state: &State) -> Result<(), Error> {
+    if Shear::of(&state.settings).is_none() {
+        return Ok(());
+    }
+    let requirement = obstacle(state);
+    let rate = state.settings.shear_rate;
+    validate::require(requirement.is_none(), "shear_rate", requirement.unwrap_or_default(), rate)
+        .map_err(|invalid| invalid.about(Subject::Settings))
+}
+
+/// What prevents shear.
+fn obstacle(state: &State) -> Option<&'static str> {
+    let now = state.now();
+    let spheres = &state.spheres;
+    let is_under_force = state.forces.iter().len() > 0
+        || now.system.has_interactions()
+        || !spheres.applied_forces().is_empty();
+    let has_friction = now.system.frictions().any(|friction| friction.acts());
+    let turns = spheres.angular_velocities().iter().any(|it| it.length_squared() > 0.0);
+    [
+        (is_under_force, "zero where forces act on spheres"),
+        (has_friction, "zero where friction acts"),
+        (turns, "zero where spheres turn"),
+        (state.emitters.iter().len() > 0, "zero in a world with emitters"),
+        (state.colliders.list().iter().len() > 0, "zero in a world with colliders"),
+    ]
+    .into_iter()
+    .find_map(|(stands, requirement)| stands.then_some(requirement))
+}
