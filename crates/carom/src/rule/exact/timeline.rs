@@ -341,7 +341,7 @@ impl Timeline {
     fn wrap_into_box(&mut self, slot: u32) -> bool {
         let body = &mut self.flights.bodies[slot as usize];
         let level = self.flights.species[body.species as usize].level;
-        if let Some(sliding) = self.neighbours.sliding() {
+        if let Some(&sliding) = self.neighbours.sliding() {
             let state = [body.position, body.velocity];
             [body.position, body.velocity] =
                 self.neighbours.wrap_sliding((slot, level), sliding, state, body.time);

@@ -458,13 +458,13 @@ impl Neighbours {
     }
 
     /// Images of the box in steady shear.
-    #[inline]
-    pub fn sliding(&self) -> Option<Sliding> {
-        self.sliding
+    #[inline(always)]
+    pub fn sliding(&self) -> Option<&Sliding> {
+        self.sliding.as_ref()
     }
 
     /// Whether a sphere has left the box along y, in a box in steady shear.
-    #[inline]
+    #[inline(always)]
     pub fn has_left_sheared_box(&self, slot: u32) -> bool {
         self.sliding.is_some() && self.region(slot).image_offset[1] != 0
     }
