@@ -629,7 +629,7 @@ typedef struct {
     double position[3];
     /// Velocity then [m/s].
     double velocity[3];
-    /// Acceleration by everything but drag [m/s^2].
+    /// Acceleration by everything but drag [m/s^2]; along a round surface that of its beginning.
     double acceleration[3];
     /// Drag coefficient over mass [1/s], >= 0.
     double drag_rate;

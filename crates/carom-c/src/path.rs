@@ -45,7 +45,7 @@ pub struct CaromPathLeg {
     pub position: [f64; 3],
     /// Velocity then [m/s].
     pub velocity: [f64; 3],
-    /// Acceleration by everything but drag [m/s^2].
+    /// Acceleration by everything but drag [m/s^2]; along a round surface that of its beginning.
     pub acceleration: [f64; 3],
     /// Drag coefficient over mass [1/s], >= 0.
     pub drag_rate: f64,

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::flight::Flight;
+use crate::polynomial_flight::PolynomialFlight;
 use crate::report::Impact;
 
 /// A piece of a path: a flight from an event to the next.
@@ -15,8 +16,25 @@ pub struct PathLeg {
     pub end: f64,
     /// When the flight's own time is 0, on the world's clock \[s\]: its last event, which may be before now.
     pub flight_start: f64,
-    /// The motion over the piece; in a periodic box it may lead out of it.
+    /// The motion over the piece; in a periodic box it may lead out of it. Along a round surface or an edge it is the
+    /// motion as it begins; [`Self::state_at`] has all of it.
     pub flight: Flight,
+    /// The motion along a round surface or an edge.
+    pub(crate) curve: Option<PolynomialFlight>,
+}
+
+impl PathLeg {
+    /// Centre \[m\] and velocity \[m/s\] at a time of the piece on the world's clock \[s\].
+    pub fn state_at(&self, time: f64) -> (DVec3, DVec3) {
+        let age = time - self.flight_start;
+        self.curve.map_or_else(|| self.flight.after(age), |curve| curve.after(age))
+    }
+
+    /// Whether two pieces are of one motion.
+    pub(crate) fn continues(&self, before: &Self) -> bool {
+        let motion = |leg: &Self| (leg.flight_start, leg.flight, leg.curve);
+        motion(self) == motion(before)
+    }
 }
 
 /// Where a predicted path ends.
@@ -27,7 +45,7 @@ pub enum PathEnd {
     Horizon,
     /// At the last requested impact. A leg of zero length has the velocity after it.
     Impacts,
-    /// Where the motion has no closed form any more: a step would put the sphere into a stepped zone, or fail.
+    /// Where the motion cannot be followed: a step would put the sphere into a stepped zone, or fail.
     NoClosedForm,
 }
 
@@ -66,6 +84,6 @@ impl PredictedPath {
 
     fn state_at(&self, time: f64) -> Option<(DVec3, DVec3)> {
         let leg = self.legs.iter().rev().find(|leg| leg.start <= time)?;
-        (time <= leg.end).then(|| leg.flight.after(time - leg.flight_start))
+        (time <= leg.end).then(|| leg.state_at(time))
     }
 }

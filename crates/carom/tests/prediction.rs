@@ -175,3 +175,28 @@ fn what_has_no_closed_form_is_refused() {
     let error = world.predict(one, 1.0, 1).unwrap_err().to_string();
     assert!(error.starts_with("query: `path` must be such that"), "{error}");
 }
+
+#[test]
+fn a_ball_in_a_bowl_takes_the_path_that_was_predicted() {
+    for friction in [0.0, 0.3] {
+        let mut world = World::default();
+        world.add_force(Gravity::new(vec(0.0, -9.81, 0.0))).unwrap();
+        let bowl = Shape::Bowl { radius: 1.0, opening: 1.0 };
+        let bowl = Collider::new(bowl, Pose::at(DVec3::ZERO)).with_restitution(0.5);
+        world.add_collider(bowl.with_friction(friction)).unwrap();
+        let ball = Sphere::new(vec(0.5, 0.2, 0.1), 0.1).with_velocity(vec(0.0, 0.0, 1.0));
+        let ball = world.add_sphere(ball).unwrap();
+        let path = world.predict(ball, 3.0, usize::MAX).unwrap();
+        assert_eq!(path.end, PathEnd::Horizon);
+        assert!(path.impacts.len() > 3);
+        for _ in 0..192 {
+            world.step(1.0 / 64.0).unwrap();
+            let found = world.sphere(ball).unwrap();
+            let [position, velocity] =
+                [path.position_at(world.time()), path.velocity_at(world.time())];
+            // A frame removes rounding from the gap.
+            assert_close_vec(position.unwrap(), found.position, 1e-14);
+            assert_close_vec(velocity.unwrap(), found.velocity, 1e-13);
+        }
+    }
+}

@@ -163,7 +163,8 @@ LEG = np.dtype(
                              be before ``start``
 ``position``                 centre then [m]
 ``velocity``                 velocity then [m/s]
-``acceleration``             by everything but drag [m/s²]
+``acceleration``             by everything but drag [m/s²]; along a round surface that of its
+                             beginning
 ``drag_rate``                drag coefficient over mass [1/s], >= 0
 ============================ ===============================================================
 """

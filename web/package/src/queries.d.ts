@@ -52,7 +52,7 @@ export interface PathLeg {
   position: [number, number, number];
   /** Velocity then [m/s]. */
   velocity: [number, number, number];
-  /** Acceleration by everything but drag [m/s²]. */
+  /** Acceleration by everything but drag [m/s²]; along a round surface that of its beginning. */
   acceleration: [number, number, number];
   /** Drag coefficient over mass [1/s], >= 0. */
   dragRate: number;

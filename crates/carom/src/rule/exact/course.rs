@@ -8,6 +8,7 @@ use super::unfinished::Unfinished;
 use crate::flight::Flight;
 use crate::id::SphereId;
 use crate::path::{PathEnd, PathLeg};
+use crate::polynomial_flight::PolynomialFlight;
 use crate::report::{BodyPair, Impact, StepReport};
 use crate::system::System;
 use crate::work::Work;
@@ -40,7 +41,7 @@ pub(crate) fn follow(
     let mut now = span.start;
     let mut leg = leg_of(timeline, slot, now);
     loop {
-        if timeline.flights.is_stepped(slot) || timeline.flights.curve_of(slot).is_some() {
+        if timeline.flights.is_stepped(slot) {
             course.end = PathEnd::NoClosedForm;
         } else if course.impacts.len() >= most_impacts {
             course.end = PathEnd::Impacts;
@@ -64,7 +65,7 @@ pub(crate) fn follow(
         course.impacts.extend(context.report.impacts.drain(..).filter(|it| is_of(it, sphere)));
         context.report.groups.clear();
         let next_leg = leg_of(timeline, slot, now);
-        if (next_leg.flight, next_leg.flight_start) != (leg.flight, leg.flight_start) {
+        if !next_leg.continues(&leg) {
             course.legs.push(PathLeg { end: now, ..leg });
             leg = next_leg;
         }
@@ -124,8 +125,15 @@ fn meet_only(
 /// The piece of path that a sphere is on from `now` \[s\] on.
 fn leg_of(timeline: &Timeline, slot: u32, now: f64) -> PathLeg {
     let body = &timeline.flights.bodies[slot as usize];
-    let flight: Flight = body.flight(timeline.flights.species_of(slot));
-    PathLeg { start: now, end: now, flight_start: body.time, flight }
+    let curve = timeline.flights.curve_of(slot).map(|curve| curve.0);
+    let flight = match &curve {
+        Some(PolynomialFlight { position, velocity, acceleration }) => {
+            let (position, velocity) = (*position, *velocity);
+            Flight { position, velocity, acceleration: acceleration.at(0.0), drag_rate: 0.0 }
+        }
+        None => body.flight(timeline.flights.species_of(slot)),
+    };
+    PathLeg { start: now, end: now, flight_start: body.time, flight, curve }
 }
 
 fn is_of(impact: &Impact, sphere: SphereId) -> bool {
