@@ -115,6 +115,7 @@ impl Emissions {
     fn new(scene: &Scene) -> Result<Self, carom::Error> {
         let mut settings = scene.settings();
         settings.boundary = carom::Boundary::Open;
+        (settings.shear_rate, settings.thermostat) = (0.0, None);
         settings.spheres_collide = false;
         let (world, frame_time) = (World::new(settings)?, scene.simulation.frame_time);
         let mut emissions = Self { world, frame_time, known: 0, emitters: Vec::new() };

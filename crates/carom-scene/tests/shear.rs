@@ -1,5 +1,6 @@
 //! Steady shear of the periodic box of scene files: what is read, written, and refused.
 
+use carom_scene::Palette;
 use carom_scene::scene::Scene;
 
 const SHEARED: &str = r#"
@@ -20,6 +21,12 @@ fn a_box_in_shear_is_the_same_after_it_was_written_and_read() {
     world.step(3.0).unwrap();
     // Through the face above at 2 s, into the box that has slid by 3 m at 3 s.
     assert_eq!(world.spheres().positions()[0].to_array(), [1.0, -1.0, 0.0]);
+}
+
+#[test]
+fn balls_in_shear_have_colours() {
+    let scene = Scene::from_toml(SHEARED, "sheared.toml").unwrap();
+    assert!(Palette::new(&scene).is_ok());
 }
 
 #[test]
