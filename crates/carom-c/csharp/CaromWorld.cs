@@ -876,7 +876,7 @@ namespace Carom
     static class Native
     {
         const string Library = "carom_c";
-        const uint AbiVersion = 2;
+        const uint AbiVersion = 3;
 
         static Native() { Check(carom_check_abi(AbiVersion)); }
 

@@ -21,7 +21,7 @@
 
 /// The version of the interface in this header. Within one version functions are only added:
 /// structures, constants and parameters stay the same.
-#define CAROM_ABI_VERSION 2
+#define CAROM_ABI_VERSION 3
 
 /// Result of a call. After any status but CAROM_STATUS_OK the world is unchanged, unless the
 /// function states otherwise, and carom_last_error() returns the reason.

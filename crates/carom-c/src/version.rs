@@ -6,7 +6,7 @@ use crate::status::{CaromStatus, Failure, call};
 
 /// The version of the interface in this header. Within one version functions are only added:
 /// structures, constants and parameters stay the same.
-pub const CAROM_ABI_VERSION: u32 = 2;
+pub const CAROM_ABI_VERSION: u32 = 3;
 
 /// Returns the version of Carom, for example "0.1.0".
 #[unsafe(no_mangle)]

@@ -6,8 +6,8 @@ use std::mem::{align_of, offset_of, size_of};
 use carom_c::*;
 
 #[test]
-fn structures_of_version_2_lie_as_they_did() {
-    assert_eq!(CAROM_ABI_VERSION, 2);
+fn structures_of_version_3_lie_as_they_did() {
+    assert_eq!(CAROM_ABI_VERSION, 3);
     let sizes = [
         size_of::<CaromWorld>(),
         size_of::<CaromSnapshot>(),
@@ -53,13 +53,13 @@ fn structures_of_version_2_lie_as_they_did() {
     ];
     assert_eq!(of_queries, [32, 48, 56, 72, 72, 88, 8, 104]);
     assert_eq!(size_of::<CaromSpring>(), 72);
-    assert_eq!(size_of::<CaromEnergyAccount>(), 64);
+    assert_eq!(size_of::<CaromEnergyAccount>(), 80);
     let spring = [offset_of!(CaromSpring, to_point), offset_of!(CaromSpring, rest_length)];
     assert_eq!(spring, [16, 48]);
 }
 
 #[test]
-fn constants_of_version_2_are_what_they_were() {
+fn constants_of_version_3_are_what_they_were() {
     assert_eq!(CaromStatus::Panic as i32, 14);
     assert_eq!(CaromQuantity::AppliedForces as i32, 12);
     assert_eq!(CaromShape::Other as i32, 5);

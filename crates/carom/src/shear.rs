@@ -36,7 +36,7 @@ impl Shear {
     pub fn slide(&self, time: f64) -> (f64, f64) {
         let way = self.speed() * time;
         // The remainder is exact, so the same image gets the same place from any count of edges.
-        let rest = way % self.period.x;
+        let rest = libm::fmod(way, self.period.x);
         (((way - rest) / self.period.x).round(), rest)
     }
 

@@ -51,7 +51,7 @@ fn ball(place: DVec3, velocity: DVec3) -> Sphere {
 
 /// The place of a ball in a hollow at an angle from the lowest one \[rad\].
 fn in_hollow(angle: f64) -> DVec3 {
-    PATH * DVec3::new(angle.sin(), -angle.cos(), 0.0)
+    PATH * DVec3::new(libm::sin(angle), -libm::cos(angle), 0.0)
 }
 
 fn place(world: &World) -> DVec3 {
@@ -60,7 +60,7 @@ fn place(world: &World) -> DVec3 {
 
 /// Quarter of the period of a pendulum of this length \[m\] from an amplitude \[rad\], by the arithmetic-geometric mean.
 fn quarter_period(length: f64, amplitude: f64) -> f64 {
-    let (mut a, mut b) = (1.0, (0.5 * amplitude).cos());
+    let (mut a, mut b) = (1.0, libm::cos(0.5 * amplitude));
     for _ in 0..8 {
         (a, b) = (0.5 * (a + b), f64::sqrt(a * b));
     }
@@ -92,7 +92,7 @@ fn a_ball_in_a_bowl_keeps_its_energy_at_any_size_at_little_work() {
     for (is_rough, power) in
         [false, true].into_iter().flat_map(|it| [-20, 0, 20].map(|power| (it, power)))
     {
-        let scale = 2.0f64.powi(power);
+        let scale = libm::ldexp(1.0, power);
         let mut world = bowl(is_rough, scale);
         let place = in_hollow(1.0);
         let velocity = DVec3::new(0.0, 0.0, 1.0);
@@ -139,7 +139,7 @@ fn force_at_the_top(height: f64) -> f64 {
     world.add_sphere(ball(in_hollow(0.0), DVec3::X * (2.0 * G * height).sqrt())).unwrap();
     while place(&world).y < (1.0 - 1e-14) * PATH {
         // The time to the top, from before it.
-        let way = PATH * (PI - place(&world).x.atan2(-place(&world).y));
+        let way = PATH * (PI - libm::atan2(place(&world).x, -place(&world).y));
         world.step(0.9 * way / world.spheres().velocities()[0].length()).unwrap();
     }
     let weight = G * world.spheres().masses()[0];
@@ -184,7 +184,7 @@ fn a_ball_that_begins_to_slide_in_a_pipe_slows_down_by_its_closed_form() {
     let pose = Pose::at(DVec3::ZERO).rotated(DQuat::from_rotation_x(0.5 * PI));
     let mut world = world(Collider::new(pipe, pose).with_friction(friction), 1.0);
     let (start, speed) = (1.0f64, 4.0);
-    let along = DVec3::new(start.cos(), start.sin(), 0.0);
+    let along = DVec3::new(libm::cos(start), libm::sin(start), 0.0);
     // It turns a little faster than it rolls, so that friction drives it.
     let spin = -DVec3::Z * (speed * (1.0 + slip) / BALL);
     let ball = ball(in_hollow(start), along * speed).with_angular_velocity(spin);
@@ -193,15 +193,15 @@ fn a_ball_that_begins_to_slide_in_a_pipe_slows_down_by_its_closed_form() {
     let (weight, square) = (G * PATH, friction * friction);
     let a = weight * (2.0 - 4.0 * square) / (1.0 + 4.0 * square);
     let b = 6.0 * friction * weight / (1.0 + 4.0 * square);
-    let steady = |angle: f64| a * angle.cos() + b * angle.sin();
+    let steady = |angle: f64| a * libm::cos(angle) + b * libm::sin(angle);
     let square_at = |angle: f64| {
         let first = speed * speed - steady(start);
-        first * (2.0 * friction * (angle - start)).exp() + steady(angle)
+        first * libm::exp(2.0 * friction * (angle - start)) + steady(angle)
     };
     // It leaves the pipe soon after.
     for _ in 0..16 {
         world.step(FRAME).unwrap();
-        let angle = place(&world).x.atan2(-place(&world).y);
+        let angle = libm::atan2(place(&world).x, -place(&world).y);
         let off = world.spheres().velocities()[0].length_squared() - square_at(angle);
         // Rounding of some steps at 16 m²/s².
         assert!(off.abs() < 1e-12, "{angle}: {off:e}");
@@ -277,4 +277,24 @@ fn balls_that_touch_in_a_bowl_lose_what_their_contacts_take() {
         assert!(missing < 1e-12, "{friction}: {missing:e}");
         assert!(deepest < 1e-13, "{friction}: {deepest:e}");
     }
+}
+
+#[test]
+fn balls_that_jam_in_a_funnel_gain_no_energy() {
+    let funnel = Shape::Funnel { bottom_radius: 0.05, top_radius: 1.0, height: 1.0 };
+    let funnel = Collider::new(funnel, Pose::at(DVec3::new(0.0, -0.5, 0.0)));
+    let mut world = world(funnel.with_friction(0.3).with_restitution(0.0), 1.0);
+    for (x, y, z) in [(0.15, 0.1, 0.02), (-0.12, 0.15, -0.03), (0.03, 0.3, 0.13)] {
+        world.add_sphere(Sphere::new(DVec3::new(x, y, z), BALL).with_mass(1.0)).unwrap();
+    }
+    let mut gained = 0.0;
+    for frame in 0..192 {
+        let before = world.total_energy();
+        let account = world.step(FRAME).unwrap().energy_account.total();
+        gained += world.total_energy() - before - account;
+        // What a frame shows of a zone that begins in it, of 30 J.
+        assert!(gained < 1e-4, "{frame}: {gained:e}");
+    }
+    // A heap in a zone keeps its energy to the error of its first ticks.
+    assert!(gained < 1e-5, "{gained:e}");
 }

@@ -155,7 +155,7 @@ pub enum Thermostat {
         #[serde(default)]
         seed: u64,
     },
-    /// All velocities are multiplied so that two thirds of the mean kinetic energy is the temperature.
+    /// All velocities are scaled so that two thirds of the mean kinetic energy is the temperature.
     Rescale {
         /// Time from one change to the next, in s, > 0.
         #[schemars(extend("exclusiveMinimum" = 0.0))]

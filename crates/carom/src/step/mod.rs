@@ -53,7 +53,7 @@ fn check_length(state: &State, dt: f64) -> Result<(), Error> {
 
 /// Returns an error for what shear, growth or the thermostat cannot be combined with in a step of `dt` \[s\].
 fn check_combinations(state: &State, dt: f64) -> Result<(), Error> {
-    shear::check(state)?;
+    shear::check(state, dt)?;
     growth::check(state, dt)?;
     let Some(thermostat) = state.settings.thermostat else { return Ok(()) };
     let end = state.clock.after(dt).seconds();

@@ -8,6 +8,11 @@ use crate::state::State;
 use crate::sum::Sum;
 use crate::validate;
 
+/// Neighbours are found again each time images have slid by half the mean distance of spheres, so a large strain takes
+/// long.
+const MOST_STRAIN: f64 = 100.0;
+const TOO_FAST: &str = "at most 100 divided by the length of a step";
+
 /// Adds the work of shear in the impacts of a step: they change velocities, and not those of the mean flow at the two
 /// centres.
 pub(super) fn account_for_impacts(attempt: &mut Attempt) {
@@ -22,16 +27,18 @@ pub(super) fn account_for_impacts(attempt: &mut Attempt) {
     attempt.report.energy_account.shear += works.collect::<Sum>().value();
 }
 
-/// Returns an error for a world in steady shear with something that shear cannot be combined with.
+/// Returns an error for a world in steady shear with something that shear cannot be combined with, or with too much
+/// strain in a step of `dt` \[s\].
 ///
 /// # Errors
 /// [`Error::Invalid`] about the settings.
-pub(super) fn check(state: &State) -> Result<(), Error> {
+pub(super) fn check(state: &State, dt: f64) -> Result<(), Error> {
     if Shear::of(&state.settings).is_none() {
         return Ok(());
     }
-    let requirement = obstacle(state);
     let rate = state.settings.shear_rate;
+    let is_slow = rate.abs() * dt <= MOST_STRAIN;
+    let requirement = obstacle(state).or((!is_slow).then_some(TOO_FAST));
     validate::require(requirement.is_none(), "shear_rate", requirement.unwrap_or_default(), rate)
         .map_err(|invalid| invalid.about(Subject::Settings))
 }

@@ -126,7 +126,7 @@ class Andersen(Part):
 
 @dataclass(frozen=True)
 class Rescale(Part):
-    """All velocities are multiplied so that two thirds of the mean kinetic energy is the temperature.
+    """All velocities are scaled so that two thirds of the mean kinetic energy is the temperature.
 
     Attributes:
         interval: Time from one change to the next [s], > 0.

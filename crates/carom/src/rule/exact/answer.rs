@@ -57,6 +57,7 @@ fn answer_and_check(
     check_room_to_grow(timeline, context, &involved, event.time)?;
     restart_companions(timeline, context, event.time)?;
     check_work(timeline, context, slot, event.time)?;
+    check_steps(timeline, context, event.time);
     if is_counted {
         for slot in involved.into_iter().flatten() {
             count_short_flight(timeline, context, slot, event.time);
@@ -201,6 +202,15 @@ fn check_work(
     let sphere = context.id_of(timeline, slot);
     let companions = timeline.flights.companions(slot);
     Err(Unfinished::TooManyImpacts { sphere, limit, companions, time })
+}
+
+/// Puts spheres whose contacts take more steps of curves than a tick allows into a zone, if there are zones.
+fn check_steps(timeline: &mut Timeline, context: &mut StepContext, time: f64) {
+    let Some(index) = timeline.spent.take() else { return };
+    let slot = timeline.flights.slot_of[index as usize];
+    if context.has_zones() && !timeline.flights.is_stepped(slot) {
+        make_zone_about(timeline, context, slot, time);
+    }
 }
 
 /// Makes a zone of a sphere at `time` \[s\], and of what touches it.

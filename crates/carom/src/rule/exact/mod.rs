@@ -143,6 +143,12 @@ pub(crate) fn advance(
             counts.count_from_zero(timeline);
             frame::rearrange(timeline, system, now);
         }
+        if is_outgrown {
+            // Images that slide, or radii that grow, may do so often between events.
+            let flights = timeline.flights.bodies.len() as u64;
+            context.renewed += flights;
+            context.work.spend(UNITS_PER_FLIGHT * flights);
+        }
         look_along::follow(timeline, system);
         if work.is_stopped() {
             return Err(Unfinished::Stopped);

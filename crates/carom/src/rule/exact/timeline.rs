@@ -61,6 +61,9 @@ pub(crate) struct Timeline {
     pub(super) curves_until: f64,
     /// When the next spheres are emitted, on the world's clock \[s\].
     pub(super) next_emission: f64,
+    /// A sphere, by index, of a component whose flights only contacts bend, after the work of its tick was spent.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub(super) spent: Option<u32>,
     /// Slots of spheres whose flights restarted because those of companions did, and which are not predicted yet.
     pub(super) restarted: Vec<u32>,
     /// Watch over spheres during a step, for sensors and for the work of forces.
@@ -258,9 +261,14 @@ impl Timeline {
         let ends = given.map(|&slot| self.flight_end(slot, self.flights.species_of(slot)));
         let until = ends.fold(self.curves_until, f64::min);
         let tick_number = (now / self.work_tick).floor();
+        let is_linear = |&slot: &u32| !self.flights.free_species_of(slot).is_curved;
+        let only_contacts = slots.iter().all(is_linear);
         let mut is_rough = false;
         for &number in &numbers {
-            is_rough |= self.flights.components.begin_step(number, tick_number);
+            is_rough |= self.flights.components.begin_step(number, tick_number, only_contacts);
+        }
+        if is_rough && only_contacts {
+            self.spent = component.members.first().copied();
         }
         let tick = match self.spring_rate > 0.0 {
             true => self.force_tick,

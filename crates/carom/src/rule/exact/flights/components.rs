@@ -17,6 +17,9 @@ const MOST_FOR_EACH: u64 = 1 << 8;
 /// end, take many short steps.
 const MOST_WITH_SHORT_STEPS: u64 = 1 << 18;
 
+/// Allowed evaluations in a tick where only contacts bend the flights: such spheres can be in a zone instead.
+const MOST_BEFORE_ZONE: u64 = 1 << 16;
+
 /// A sphere that is in no component.
 const NONE: u32 = u32::MAX;
 
@@ -191,8 +194,8 @@ impl Components {
     }
 
     /// Notes that a step of a component begins, in the tick with this number. Returns whether the step must be a
-    /// rough one, because the work of the tick is spent.
-    pub fn begin_step(&mut self, number: u32, tick: f64) -> bool {
+    /// rough one, because the work of the tick is spent: less where `only_contacts` bend the flights.
+    pub fn begin_step(&mut self, number: u32, tick: f64, only_contacts: bool) -> bool {
         let component = &mut self.components[number as usize];
         let for_each = MOST_FOR_EACH * component.members.len() as u64;
         if component.tick != tick {
@@ -204,7 +207,8 @@ impl Components {
             component.allowed_for_events += for_each;
             self.due.retain(|&other| other != number);
         }
-        let allowed = self.most_evaluations.max(for_each) + component.allowed_for_events;
+        let most = if only_contacts { MOST_BEFORE_ZONE } else { self.most_evaluations };
+        let allowed = most.max(for_each) + component.allowed_for_events;
         component.evaluations > allowed
     }
 
