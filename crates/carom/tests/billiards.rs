@@ -37,9 +37,10 @@ fn level_strike_at_the_middle_gives_the_speed_of_an_elastic_impact() {
 /// The speed `F/m` and the spin of Leckie and Greenspan, for a tip at (a, c, b) from the centre with
 /// `c = √(R² - a² - b²)`, and a cue along (0, -cos θ, -sin θ).
 fn leckie_greenspan([a, b]: [f64; 2], theta: f64, speed: f64, cue_mass: f64) -> (f64, DVec3) {
-    let (sine, cosine) = theta.sin_cos();
+    let (sine, cosine) = libm::sincos(theta);
     let c = (RADIUS * RADIUS - a * a - b * b).sqrt();
-    let turning = a * a + (b * cosine).powi(2) + (c * sine).powi(2) - 2.0 * b * c * cosine * sine;
+    let turning =
+        a * a + (b * cosine) * (b * cosine) + (c * sine) * (c * sine) - 2.0 * b * c * cosine * sine;
     let force = 2.0 * MASS * speed / (1.0 + MASS / cue_mass + 2.5 / (RADIUS * RADIUS) * turning);
     let inertia = 0.4 * MASS * RADIUS * RADIUS;
     let spin = force / inertia * vec(-c * sine + b * cosine, a * sine, -a * cosine);
@@ -53,7 +54,7 @@ fn strikes_have_the_impulse_and_spin_of_leckie_and_greenspan() {
         let theta = numbers.between(0.0, 1.2);
         let place = [numbers.between(-0.5, 0.5) * RADIUS, numbers.between(-0.3, 0.6) * RADIUS];
         let (speed, cue_mass) = (numbers.between(0.1, 8.0), numbers.between(0.3, 0.8));
-        let direction = vec(0.0, -theta.cos(), -theta.sin());
+        let direction = vec(0.0, -libm::cos(theta), -libm::sin(theta));
         let [a, b] = place;
         let point = vec(a, (RADIUS * RADIUS - a * a - b * b).sqrt(), b);
         // Their tip is on the side that the cue comes from.
@@ -185,7 +186,7 @@ fn small_pocket_misses_no_fast_ball() {
         let mut numbers = Numbers(3);
         for _ in 0..50 {
             let way = numbers.vector().normalize();
-            let speed = 10f64.powf(numbers.between(0.0, 3.0));
+            let speed = libm::pow(10.0, numbers.between(0.0, 3.0));
             let aside = way.any_orthonormal_vector() * 0.012;
             let start = aside - numbers.between(0.1, 0.9) * speed * way;
             let fast = Sphere::new(start, 0.01).with_velocity(speed * way);
