@@ -83,6 +83,8 @@ test("contacts and the account tell of friction", () => {
       colliders: 0,
       kicks: 0,
       growth: 0,
+      shear: 0,
+      thermostat: 0,
       forces: 0,
       applied: 0,
       correction: 0,
