@@ -78,9 +78,9 @@ impl Gas {
         let ([one, other], share) = self.radii;
         let radii: Vec<f64> =
             (0..COUNT).map(|_| if numbers.next() < share { one } else { other }).collect();
-        let per_side = (COUNT as f64).cbrt().ceil();
+        let per_side = libm::cbrt(COUNT as f64).ceil();
         let volume: f64 = radii.iter().map(|&radius| carom::volume(radius)).sum();
-        let edge = (volume / self.packing).cbrt().max(2.0 * per_side * one.max(other) * 1.001);
+        let edge = libm::cbrt(volume / self.packing).max(2.0 * per_side * one.max(other) * 1.001);
         let along = |axis: usize| if self.is_open[axis] { f64::INFINITY } else { edge };
         let size = DVec3::new(along(0), along(1), along(2));
         let boundary = match self.is_open {

@@ -260,7 +260,7 @@ fn large_and_small_worlds_in_shear_move_alike() {
         world
     };
     for power in [-20, 20] {
-        let scale = f64::powi(2.0, power);
+        let scale = libm::ldexp(1.0, power);
         let spheres = (0..27).map(|index| {
             let sphere = gas(3, 0.9, 0.9).spheres().get(index);
             sphere
