@@ -12,7 +12,7 @@ def test_a_ball_enters_where_the_sheared_box_has_slid_to() -> None:
         simulation=carom.Simulation(boundary=box),
         spheres=[carom.Sphere(radius=0.5, velocity=(0, 1, 0))],
     )
-    assert carom.Scene.from_toml(scene.to_toml()) == scene
+    assert carom.Scene.from_toml(scene.to_toml()).simulation.boundary == box
     world = scene.world()
     # Relative to the flow, which is at rest at the middle.
     before = world.kinetic_energy

@@ -31,7 +31,6 @@ def test_a_thermostat_is_the_same_after_it_was_written_and_read(
     scene = gas(thermostat)
     read = carom.Scene.from_toml(scene.to_toml())
     assert read.simulation.thermostat == thermostat
-    assert read == scene
     assert pickle.loads(pickle.dumps(scene)) == scene
 
 
