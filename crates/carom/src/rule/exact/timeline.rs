@@ -261,15 +261,13 @@ impl Timeline {
         let ends = given.map(|&slot| self.flight_end(slot, self.flights.species_of(slot)));
         let until = ends.fold(self.curves_until, f64::min);
         let tick_number = (now / self.work_tick).floor();
-        let is_linear = |&slot: &u32| !self.flights.free_species_of(slot).is_curved;
-        let only_contacts = slots.iter().all(is_linear);
+        let only_contacts = slots.iter().all(|&it| !self.flights.free_species_of(it).is_curved);
         let mut is_rough = false;
         for &number in &numbers {
             is_rough |= self.flights.components.begin_step(number, tick_number, only_contacts);
         }
-        if is_rough && only_contacts {
-            self.spent = component.members.first().copied();
-        }
+        let is_spent = is_rough && only_contacts;
+        self.spent = component.members.first().copied().filter(|_| is_spent).or(self.spent);
         let tick = match self.spring_rate > 0.0 {
             true => self.force_tick,
             false => self.parameters.force_tick,
