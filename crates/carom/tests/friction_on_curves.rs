@@ -109,7 +109,7 @@ fn a_row_of_balls_that_falls_on_a_rough_cylinder_loses_what_its_contacts_take() 
 
 #[test]
 fn a_net_that_falls_on_a_rough_sphere_loses_what_its_contacts_take() {
-    // Damped springs and many slips, each of which begins steps anew.
+    // Damped springs and many slips, each of which begins new steps.
     let mut world = exact();
     world.add_force(Gravity::new(vec(0.0, -G, 0.0))).unwrap();
     let sphere = Collider::new(Shape::Sphere { radius: 0.4 }, Pose::at(DVec3::ZERO));

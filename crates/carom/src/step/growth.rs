@@ -1,5 +1,6 @@
 //! What growing spheres can be combined with.
 
+use super::obstacle;
 use crate::collider::{Collider, Shape};
 use crate::error::{Error, Subject};
 use crate::id::SphereId;
@@ -33,24 +34,16 @@ pub(super) fn check(state: &State, h: f64) -> Result<(), Error> {
 fn obstacle(state: &State) -> Option<&'static str> {
     let surfaces = || state.colliders.surfaces().iter();
     let is_mesh = |(_, it): (u64, &Collider)| matches!(it.shape, Shape::Mesh(_));
-    let now = state.now();
     let spheres = &state.spheres;
-    let is_under_force = state.forces.iter().len() > 0
-        || now.system.has_interactions()
-        || !spheres.applied_forces().is_empty();
-    let has_friction = now.system.frictions().any(|friction| friction.acts());
-    let turns = spheres.angular_velocities().iter().any(|it| it.length_squared() > 0.0);
     let mut restitutions = (0..spheres.len()).map(|it| spheres.properties.restitution(it));
     let has_inelastic = !restitutions.all(|it| it.is_elastic())
         || !surfaces().all(|it| it.restitution.is_elastic())
         || !state.material_pairs.is_empty();
     let moves = |it: &Surface| !it.motion.is_at_rest() || it.kick != 0.0;
     let reports = |it: &Surface| it.role == Role::Reports;
-    [
-        (!matches!(state.settings.rule, Rule::Exact(_)), "zero under rules other than `exact`"),
-        (is_under_force, "zero where forces act on spheres"),
-        (has_friction, "zero where friction acts"),
-        (turns, "zero where spheres turn"),
+    let is_other_rule = !matches!(state.settings.rule, Rule::Exact(_));
+    let of_rule = (is_other_rule, "zero under rules other than `exact`");
+    let others = [
         (has_inelastic, "zero where a restitution is not 1, and beside pairs of materials"),
         (state.emitters.iter().len() > 0, "zero in a world with emitters"),
         (state.settings.thermostat.is_some(), "zero beside a thermostat"),
@@ -58,7 +51,7 @@ fn obstacle(state: &State) -> Option<&'static str> {
         (surfaces().any(moves), "zero beside colliders that move or kick"),
         (surfaces().any(reports), "zero beside triggers"),
         (state.colliders.list().iter().any(is_mesh), "zero beside meshes"),
-    ]
-    .into_iter()
-    .find_map(|(stands, requirement)| stands.then_some(requirement))
+    ];
+    let of_forces = obstacle::of_forces(state);
+    obstacle::first([of_rule].into_iter().chain(of_forces).chain(others))
 }

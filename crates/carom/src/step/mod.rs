@@ -7,6 +7,7 @@ mod by_frame;
 mod capture;
 mod growth;
 mod lookahead;
+mod obstacle;
 mod place;
 mod shear;
 mod sweep;

@@ -1,6 +1,7 @@
 //! Steady shear of a periodic box: what it can be combined with, and its work in impacts.
 
 use super::attempt::Attempt;
+use super::obstacle;
 use crate::error::{Error, Subject};
 use crate::report::BodyPair;
 use crate::shear::Shear;
@@ -45,20 +46,9 @@ pub(super) fn check(state: &State, dt: f64) -> Result<(), Error> {
 
 /// What prevents shear.
 fn obstacle(state: &State) -> Option<&'static str> {
-    let now = state.now();
-    let spheres = &state.spheres;
-    let is_under_force = state.forces.iter().len() > 0
-        || now.system.has_interactions()
-        || !spheres.applied_forces().is_empty();
-    let has_friction = now.system.frictions().any(|friction| friction.acts());
-    let turns = spheres.angular_velocities().iter().any(|it| it.length_squared() > 0.0);
-    [
-        (is_under_force, "zero where forces act on spheres"),
-        (has_friction, "zero where friction acts"),
-        (turns, "zero where spheres turn"),
+    let others = [
         (state.emitters.iter().len() > 0, "zero in a world with emitters"),
         (state.colliders.list().iter().len() > 0, "zero in a world with colliders"),
-    ]
-    .into_iter()
-    .find_map(|(stands, requirement)| stands.then_some(requirement))
+    ];
+    obstacle::first(obstacle::of_forces(state).into_iter().chain(others))
 }
