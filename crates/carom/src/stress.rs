@@ -24,7 +24,7 @@ pub struct Stress {
     /// Stress of motion: Σ m v v / V, mean over the ends of frames. Along periodic axes v is relative to the centre of
     /// mass, and in a box in steady shear to the mean flow.
     pub kinetic: DMat3,
-    /// Stress of impacts: Σ j l / (V t), with impulses j and the vectors l between the centres of the bodies.
+    /// Stress of impacts, and of events at the edges of wells: Σ j l / (V t), with impulses j and the vectors l between the centres of the bodies.
     pub collisional: DMat3,
     /// Stress of persistent contacts: Σ F l / V, with the forces F at the ends of frames.
     pub contact: DMat3,
@@ -213,6 +213,9 @@ fn add_impacts(world: &World, length: f64, sum: &mut Tensor) {
     for impact in &world.report().impacts {
         let way = reach(world, &impact.between, length - impact.time) * impact.normal;
         sum.add(outer(impact.impulse * impact.normal + impact.tangential_impulse, way));
+    }
+    for event in &world.report().well_events {
+        sum.add(outer(event.impulse * event.normal, event.distance * event.normal));
     }
 }
 

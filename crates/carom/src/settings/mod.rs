@@ -9,6 +9,7 @@ mod discrete;
 mod exact;
 mod impact_law;
 mod integrator;
+mod pair_potential;
 mod rule;
 mod thermostat;
 mod zones;
@@ -22,6 +23,7 @@ pub use discrete::Discrete;
 pub use exact::Exact;
 pub use impact_law::ImpactLaw;
 pub use integrator::Integrator;
+pub use pair_potential::PairPotential;
 pub use rule::Rule;
 pub use thermostat::Thermostat;
 pub use zones::Zones;
@@ -66,10 +68,13 @@ pub struct Settings {
     pub shear_rate: f64,
     /// The thermostat, if there is one. Only under the rule `exact`.
     pub thermostat: Option<Thermostat>,
+    /// Potential energy between spheres besides their hard cores, if there is some. Only under the rule `exact`.
+    pub pair_potential: Option<PairPotential>,
 }
 
 impl Default for Settings {
-    /// Rule `exact`, product of restitutions, geometric mean of frictions, spheres collide, open space, no shear, no thermostat.
+    /// Rule `exact`, product of restitutions, geometric mean of frictions, spheres collide, open space, no shear, no thermostat, no
+    /// pair potential.
     fn default() -> Self {
         Self {
             rule: Rule::default(),
@@ -79,6 +84,7 @@ impl Default for Settings {
             boundary: Boundary::default(),
             shear_rate: 0.0,
             thermostat: None,
+            pair_potential: None,
         }
     }
 }
@@ -119,7 +125,13 @@ impl Settings {
         Self { thermostat, ..self }
     }
 
-    /// Returns an error for invalid parameters of the rule, or a boundary or thermostat that the rule does not have.
+    /// Returns the settings with this potential between spheres, or without one.
+    pub fn with_pair_potential(self, pair_potential: Option<PairPotential>) -> Self {
+        Self { pair_potential, ..self }
+    }
+
+    /// Returns an error for invalid parameters of the rule, or for a boundary, thermostat or pair potential that the rule
+    /// does not have.
     pub(crate) fn validate(&self) -> Result<(), InvalidValue> {
         self.boundary.validate()?;
         if self.boundary != Boundary::Open {
@@ -135,12 +147,24 @@ impl Settings {
             validate::require(is_known, "thermostat", requirement, "given")?;
             thermostat.validate()?;
         }
+        self.validate_pair_potential()?;
         match self.rule {
             Rule::Discrete(_) => Ok(()),
             Rule::Bisect(parameters) => parameters.validate(),
             Rule::Exact(parameters) => parameters.validate(),
             Rule::Contact(parameters) => parameters.validate(),
         }
+    }
+
+    /// Returns an error for a potential between spheres with invalid parameters, or that the rule does not have.
+    fn validate_pair_potential(&self) -> Result<(), InvalidValue> {
+        let Some(potential) = self.pair_potential else { return Ok(()) };
+        let is_known = matches!(self.rule, Rule::Exact(_));
+        let requirement = "used with the rule `exact`: others know no potential between spheres";
+        validate::require(is_known, "pair_potential", requirement, "given")?;
+        let requirement = "used where spheres collide";
+        validate::require(self.spheres_collide, "pair_potential", requirement, "given")?;
+        potential.validate()
     }
 
     /// Returns an error for a shear rate that is not a number, or where no box can be sheared.
