@@ -33,6 +33,7 @@ mod simultaneous;
 mod single_impacts;
 mod surfaces;
 mod tunnelling;
+mod wells;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -69,7 +70,7 @@ pub fn verify(args: &Verify) -> Result<(), Failure> {
 type Topic = (&'static str, fn() -> Vec<Claim>);
 
 /// All topics, in the order in which their claims are printed.
-const TOPICS: [Topic; 21] = [
+const TOPICS: [Topic; 22] = [
     ("motion", motion::claims),
     ("forces", forces::claims),
     ("impacts", single_impacts::claims),
@@ -79,6 +80,7 @@ const TOPICS: [Topic; 21] = [
     ("fluid", fluid::claims),
     ("granular", granular::claims),
     ("shear", shear::claims),
+    ("wells", wells::claims),
     ("conservation", conservation::claims),
     ("resting", resting::claims),
     ("friction", friction::claims),
