@@ -258,6 +258,7 @@ fn own(edit: &Edit, before: &Simulation, session: &Session) -> Edit {
         allow_overlap,
         boundary,
         thermostat,
+        pair_potential,
         exact,
         bisect,
         discrete,

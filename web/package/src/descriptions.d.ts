@@ -27,6 +27,8 @@ export interface SphereDescription {
   mass?: number;
   /** Density [kg/m³], > 0, instead of `mass`. */
   density?: number;
+  /** Speed at which the radius grows [m/s], >= 0, under `exact`; default: 0. */
+  growthSpeed?: number;
   /** Name of its material in a scene, whose fields count where its own are missing. */
   material?: string;
   /** Coefficient of restitution in [0, 1]; default: 1. */
@@ -422,6 +424,8 @@ export interface Simulation {
   /** A periodic box about the origin [m], `Infinity` along an open axis; under `exact`. */
   boundary: "open" | { periodic: { size: [number, number, number]; shearRate?: number } };
   thermostat?: Thermostat;
+  /** Well of two spheres [J], up to a multiple of the sum of their radii; under `exact`. */
+  pairPotential?: { squareWell: { depth: number; rangeRatio: number } };
   /**
    * Parameters of `exact`: how simultaneous impacts among touching spheres are resolved; duration
    * of a contact [s]; largest number of impacts per sphere and frame; whether contacts that take

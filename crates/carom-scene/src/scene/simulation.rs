@@ -31,6 +31,9 @@ pub struct Simulation {
     /// Thermostat, if there is one; only under the rule `exact`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub thermostat: Option<Thermostat>,
+    /// Potential energy of two balls by their distance, if there is some; only under the rule `exact`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pair_potential: Option<PairPotential>,
     /// Parameters of the rule `exact`.
     pub exact: Exact,
     /// Parameters of the rule `bisect`.
@@ -58,6 +61,7 @@ impl Default for Simulation {
             allow_overlap: false,
             boundary: Boundary::default(),
             thermostat: None,
+            pair_potential: None,
             exact: Exact::default(),
             bisect: Bisect::default(),
             discrete: Discrete::default(),
@@ -175,6 +179,20 @@ pub enum Thermostat {
         /// Seed of the changes. By default 0.
         #[serde(default)]
         seed: u64,
+    },
+}
+
+/// Potential energy of two balls besides their hard cores.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum PairPotential {
+    /// A well around each ball; a short one makes sticky balls.
+    SquareWell {
+        /// Depth of the well, in J; below 0 a shoulder, which repels.
+        depth: f64,
+        /// Range of the well, between centres, as a multiple of the sum of the radii, from 1.000001 to 100.
+        #[schemars(range(min = 1.000001, max = 100.0))]
+        range_ratio: f64,
     },
 }
 

@@ -158,6 +158,25 @@ Thermostat: TypeAlias = Andersen | Rescale | WhiteNoise
 """What changes the velocities of all spheres, at times that do not depend on frames."""
 
 
+@dataclass(frozen=True)
+class SquareWell(Part):
+    """A well around each ball; a short one makes sticky balls.
+
+    Attributes:
+        depth: Depth of the well [J]; below 0 a shoulder, which repels.
+        range_ratio: Range of the well, between centres, as a multiple of the sum of the radii, from
+            1.000001 to 100.
+    """
+
+    tag: ClassVar[str] = "square-well"
+    depth: Finite
+    range_ratio: Positive
+
+
+PairPotential: TypeAlias = SquareWell
+"""Potential energy of two spheres besides their hard cores."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Simulation(Part):
     """Rule, frame and other settings of the simulation.
@@ -174,6 +193,8 @@ class Simulation(Part):
         allow_overlap: Whether spheres may overlap each other or colliders at the start.
         boundary: Open space or a periodic box.
         thermostat: Thermostat, if there is one; only under the rule ``exact``.
+        pair_potential: Potential energy of two balls by their distance, if there is some; only
+            under the rule ``exact``.
         exact: Parameters of the rule ``exact``.
         bisect: Parameters of the rule ``bisect``.
         discrete: Parameters of the rule ``discrete``.
@@ -189,6 +210,7 @@ class Simulation(Part):
     allow_overlap: bool = False
     boundary: Literal["open"] | Periodic = "open"
     thermostat: Thermostat | None = None
+    pair_potential: PairPotential | None = None
     exact: Exact = field(default_factory=Exact)
     bisect: Bisect = field(default_factory=Bisect)
     discrete: Discrete = field(default_factory=Discrete)
