@@ -1,4 +1,4 @@
-"""Square wells and growth: in Python, in scene files, in worlds."""
+"""Square wells, growth and two dimensions: in Python, in scene files, in worlds."""
 
 import pickle
 
@@ -46,3 +46,18 @@ def test_a_range_inside_the_cores_is_refused() -> None:
         carom.SquareWell(depth=1.0, range_ratio=0.0)
     with pytest.raises(ValueError, match="range_ratio"):
         pair(pair_potential=carom.SquareWell(depth=1.0, range_ratio=0.5)).world()
+
+
+def test_discs_have_the_pressure_of_a_plane() -> None:
+    box = carom.Periodic((4, 4, float("inf")))
+    balls = [
+        carom.Sphere(position=(x, 0, 0), radius=0.5, velocity=(-x, 0, 0)) for x in (-1.0, 1.0)
+    ]
+    simulation = carom.Simulation(dimensions=2, boundary=box)
+    world = carom.Scene(name="discs", simulation=simulation, spheres=balls).world()
+    meter = carom.StressMeter(world)
+    meter.step(dt=0.25)
+    stress = meter.stress()
+    # Two masses of 1 kg at 1 m/s in 16 m2, by two dimensions.
+    assert stress.pressure == pytest.approx(2.0 / 16.0 / 2.0)
+    assert stress.dimensions == 2

@@ -65,6 +65,7 @@ fn settings(simulation: &Simulation) -> Settings {
     };
     Settings::default()
         .with_rule(rule)
+        .with_dimensions(simulation.dimensions)
         .with_combine_rule(simulation.combine_rule.into())
         .with_friction_combine_rule(simulation.friction_combine_rule.into())
         .with_spheres_collide(simulation.spheres_collide)
@@ -152,7 +153,10 @@ pub(crate) fn settings_problem(simulation: &Simulation, error: carom::Error) -> 
             "simulation.boundary.periodic"
         }
         carom::Error::Invalid { source, .. }
-            if matches!(source.field, "boundary" | "thermostat" | "pair_potential") =>
+            if matches!(
+                source.field,
+                "boundary" | "dimensions" | "thermostat" | "pair_potential"
+            ) =>
         {
             "simulation"
         }

@@ -250,6 +250,7 @@ fn own(edit: &Edit, before: &Simulation, session: &Session) -> Edit {
         };
     }
     take_over_what_is_changed!(
+        dimensions,
         frame_time,
         duration,
         spheres_collide,

@@ -409,6 +409,8 @@ export type CombineRule = "product" | "minimum" | "maximum" | "average" | "geome
 export interface Simulation {
   /** `exact` (the default) finds every impact at its exact time. */
   rule: "exact" | "contact" | "bisect" | "discrete";
+  /** Number of dimensions; with 2, spheres are discs in the plane z = 0. Default: 3. */
+  dimensions?: 2 | 3;
   /** Frame time [s], > 0; default: 1/60. */
   frameTime: number;
   /** Duration that is worth watching [s], > 0. */

@@ -22,6 +22,7 @@ mod granular;
 mod motion;
 mod mutual_gravity;
 mod packing;
+mod plane;
 mod report;
 mod resting;
 mod rolling;
@@ -70,7 +71,7 @@ pub fn verify(args: &Verify) -> Result<(), Failure> {
 type Topic = (&'static str, fn() -> Vec<Claim>);
 
 /// All topics, in the order in which their claims are printed.
-const TOPICS: [Topic; 22] = [
+const TOPICS: [Topic; 23] = [
     ("motion", motion::claims),
     ("forces", forces::claims),
     ("impacts", single_impacts::claims),
@@ -81,6 +82,7 @@ const TOPICS: [Topic; 22] = [
     ("granular", granular::claims),
     ("shear", shear::claims),
     ("wells", wells::claims),
+    ("plane", plane::claims),
     ("conservation", conservation::claims),
     ("resting", resting::claims),
     ("friction", friction::claims),

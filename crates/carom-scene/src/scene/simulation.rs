@@ -11,6 +11,10 @@ use super::values::{Vector, is_default};
 pub struct Simulation {
     /// The rule.
     pub rule: Rule,
+    /// Number of dimensions, 2 or 3. With 2 balls are discs in the plane z = 0. By default 3.
+    #[schemars(range(min = 2, max = 3))]
+    #[serde(skip_serializing_if = "is_three")]
+    pub dimensions: u32,
     /// Length of a frame, in s, > 0.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub frame_time: f64,
@@ -45,6 +49,10 @@ pub struct Simulation {
     pub contact: Contact,
 }
 
+fn is_three(dimensions: &u32) -> bool {
+    *dimensions == 3
+}
+
 fn is_geometric_mean(rule: &CombineRule) -> bool {
     *rule == CombineRule::GeometricMean
 }
@@ -53,6 +61,7 @@ impl Default for Simulation {
     fn default() -> Self {
         Self {
             rule: Rule::default(),
+            dimensions: 3,
             frame_time: 1.0 / 60.0,
             duration: 10.0,
             spheres_collide: true,

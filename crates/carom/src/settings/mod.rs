@@ -53,6 +53,9 @@ use crate::validate;
 pub struct Settings {
     /// The step rule, with its parameters.
     pub rule: Rule,
+    /// Number of dimensions, 2 or 3. With 2 the spheres are discs in the plane z = 0, and temperatures, stresses and
+    /// packing fractions are those of the plane; a sphere that leaves it is refused.
+    pub dimensions: u32,
     /// Restitution of a contact, from that of its two bodies.
     pub combine_rule: CombineRule,
     /// Friction of a contact, from that of its two bodies; each coefficient separately.
@@ -73,11 +76,12 @@ pub struct Settings {
 }
 
 impl Default for Settings {
-    /// Rule `exact`, product of restitutions, geometric mean of frictions, spheres collide, open space, no shear, no thermostat, no
+    /// Rule `exact`, three dimensions, product of restitutions, geometric mean of frictions, spheres collide, open space, no shear, no thermostat, no
     /// pair potential.
     fn default() -> Self {
         Self {
             rule: Rule::default(),
+            dimensions: 3,
             combine_rule: CombineRule::default(),
             friction_combine_rule: CombineRule::GeometricMean,
             spheres_collide: true,
@@ -93,6 +97,11 @@ impl Settings {
     /// Returns the settings with this rule, or the rule of these parameters.
     pub fn with_rule(self, rule: impl Into<Rule>) -> Self {
         Self { rule: rule.into(), ..self }
+    }
+
+    /// Returns the settings in 2 or 3 dimensions.
+    pub fn with_dimensions(self, dimensions: u32) -> Self {
+        Self { dimensions, ..self }
     }
 
     /// Returns the settings with this rule for the restitution of a contact.
@@ -134,6 +143,11 @@ impl Settings {
     /// does not have.
     pub(crate) fn validate(&self) -> Result<(), InvalidValue> {
         self.boundary.validate()?;
+        let is_known = matches!(self.dimensions, 2 | 3);
+        validate::require(is_known, "dimensions", "2 or 3", self.dimensions)?;
+        let is_flat = self.dimensions == 3 || self.boundary.period().z == f64::INFINITY;
+        let requirement = "infinite along z in two dimensions";
+        validate::require(is_flat, "size", requirement, self.boundary.period())?;
         if self.boundary != Boundary::Open {
             let is_known = matches!(self.rule, Rule::Exact(_) | Rule::Contact(_));
             let requirement =

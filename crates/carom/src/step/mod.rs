@@ -10,6 +10,7 @@ mod lookahead;
 mod obstacle;
 mod pair_potential;
 mod place;
+mod plane;
 mod shear;
 mod sweep;
 mod thermostat;
@@ -53,8 +54,9 @@ fn check_length(state: &State, dt: f64) -> Result<(), Error> {
         .map_err(|invalid| invalid.about(Subject::Step))
 }
 
-/// Returns an error for what shear, growth, a pair potential or the thermostat cannot be combined with in a step of `dt` \[s\].
+/// Returns an error for what two dimensions, shear, growth, a pair potential or the thermostat cannot be combined with in a step of `dt` \[s\].
 fn check_combinations(state: &State, dt: f64) -> Result<(), Error> {
+    plane::check(state)?;
     shear::check(state, dt)?;
     growth::check(state, dt)?;
     pair_potential::check(state)?;

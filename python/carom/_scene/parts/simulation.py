@@ -10,7 +10,15 @@ from dataclasses import dataclass, field
 from typing import ClassVar, Literal, TypeAlias
 
 from carom._scene.parts.choices import CombineRule, ImpactLaw, Integrator, Rule
-from carom._scene.parts.kinds import Count, Finite, LargeNumber, NonNegative, Period, Positive
+from carom._scene.parts.kinds import (
+    Count,
+    Finite,
+    LargeNumber,
+    NonNegative,
+    Number,
+    Period,
+    Positive,
+)
 from carom._scene.parts.part import Part
 
 
@@ -183,6 +191,8 @@ class Simulation(Part):
 
     Attributes:
         rule: The rule.
+        dimensions: Number of dimensions, 2 or 3. With 2 balls are discs in the plane z = 0. By
+            default 3.
         frame_time: Length of a frame [s], > 0.
         duration: Time worth watching [s], > 0: what a run takes by default.
         spheres_collide: Whether spheres collide with each other. They always collide with
@@ -202,6 +212,7 @@ class Simulation(Part):
     """
 
     rule: Rule = "exact"
+    dimensions: Number = field(default_factory=Number)
     frame_time: Positive = 1.0 / 60.0
     duration: Positive = 10.0
     spheres_collide: bool = True
