@@ -50,9 +50,7 @@ def test_a_range_inside_the_cores_is_refused() -> None:
 
 def test_discs_have_the_pressure_of_a_plane() -> None:
     box = carom.Periodic((4, 4, float("inf")))
-    balls = [
-        carom.Sphere(position=(x, 0, 0), radius=0.5, velocity=(-x, 0, 0)) for x in (-1.0, 1.0)
-    ]
+    balls = [carom.Sphere(position=(x, 0, 0), radius=0.5, velocity=(-x, 0, 0)) for x in (-1.0, 1.0)]
     simulation = carom.Simulation(dimensions=2, boundary=box)
     world = carom.Scene(name="discs", simulation=simulation, spheres=balls).world()
     meter = carom.StressMeter(world)

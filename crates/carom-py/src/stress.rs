@@ -46,12 +46,6 @@ impl StressEngine {
         })
     }
 
-    /// Number of dimensions of the world.
-    #[getter]
-    fn dimensions(&self) -> PyResult<u32> {
-        Ok(lock(&self.0)?.dimensions())
-    }
-
     /// Time measured so far [s].
     #[getter]
     fn time(&self) -> PyResult<f64> {

@@ -109,11 +109,6 @@ impl StressMeter {
         self.time += length;
     }
 
-    /// Number of dimensions of the world, 2 or 3.
-    pub fn dimensions(&self) -> u32 {
-        self.dimensions
-    }
-
     /// Time measured so far \[s\].
     pub fn time(&self) -> f64 {
         self.time

@@ -93,7 +93,7 @@ class StressMeter(Strict):
             CaromError: Before the first frame, and where the volume is not known.
         """
         kinetic, collisional, contact = map(np.array, self._meter.stress(volume))
-        dimensions = self._meter.dimensions
+        dimensions = self._world.simulation.dimensions
         return Stress(
             kinetic=kinetic, collisional=collisional, contact=contact, dimensions=dimensions
         )

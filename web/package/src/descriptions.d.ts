@@ -2,6 +2,7 @@
 
 import type { Finish, Material, MaterialPair, RestitutionLaw } from "./materials.js";
 import type { Shape } from "./shapes.js";
+import type { Strike } from "./strike.js";
 import type { Thermostat } from "./thermostats.js";
 
 /** Three numbers x, y, z: an array, a typed array, or any iterable, for example `THREE.Vector3`. */
@@ -64,20 +65,6 @@ export interface SphereDescription {
   color?: Iterable<number>;
   /** How the surface reflects light; without effect on motion. */
   finish?: Finish;
-}
-
-/** The blow of a cue, by which it hits a sphere at one instant and one point. */
-export interface Strike {
-  /** Speed of the cue [m/s], >= 0. */
-  speed: number;
-  /** Direction from above, counterclockwise from +x [degrees]; default: 0. */
-  azimuthDegrees?: number;
-  /** Angle by which the cue points down, in [0, 90] [degrees]; default: 0. */
-  elevationDegrees?: number;
-  /** Offset from the centre to the right and up, in parts of the radius; default: none. */
-  offset?: [number, number];
-  /** Mass of the cue [kg], > 0; default: 0.567. */
-  cueMass?: number;
 }
 
 /** A sphere in a world. */
