@@ -10,15 +10,7 @@ from dataclasses import dataclass, field
 from typing import ClassVar, Literal, TypeAlias
 
 from carom._scene.parts.choices import CombineRule, ImpactLaw, Integrator, Rule
-from carom._scene.parts.kinds import (
-    Count,
-    Finite,
-    LargeNumber,
-    NonNegative,
-    Number,
-    Period,
-    Positive,
-)
+from carom._scene.parts.kinds import Count, Finite, LargeNumber, NonNegative, Period, Positive
 from carom._scene.parts.part import Part
 
 
@@ -212,7 +204,7 @@ class Simulation(Part):
     """
 
     rule: Rule = "exact"
-    dimensions: Number = field(default_factory=Number)
+    dimensions: Count = 3
     frame_time: Positive = 1.0 / 60.0
     duration: Positive = 10.0
     spheres_collide: bool = True
