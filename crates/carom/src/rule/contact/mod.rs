@@ -8,7 +8,8 @@
 //! 2. **Accelerate.** Forces change velocities.
 //! 3. **Search.** Where a sphere may leave the margin of the last search, neighbours are found again.
 //! 4. **Prepare.** Normals, gaps and impacts; contacts begin with the impulses of the sub-step before.
-//! 5. **Sweep.** Each contact in turn gets the impulse that it needs, by Gauss and Seidel.
+//! 5. **Sweep.** Each contact in turn gets the impulse that it needs, by Gauss and Seidel; contacts of spheres with very
+//!    different masses in blocks.
 //! 6. **Follow cascades.** Small islands go from impact to impact.
 //! 7. **Keep energy.** Where impulses would add kinetic energy elsewhere, less of them is taken.
 //! 8. **Advance.** Positions follow the velocities.
@@ -17,58 +18,36 @@
 
 mod accelerate;
 mod advance;
-mod aim;
-mod batch;
+mod blocks;
 mod bounces;
 mod cascade;
-mod conjugate;
-mod coulomb;
-mod descent;
-mod dormant;
-mod drift;
+mod contacts;
 mod energy;
-mod flat;
-mod force_work;
 mod frame;
-mod gather;
 mod guard;
-mod images;
-mod impacts;
-mod incidence;
-mod kernel;
-mod landings;
-mod listing;
-mod materials;
-mod near_moving;
 mod neighbours;
-mod order;
 mod places;
 mod proximity;
+mod report;
 mod resolution;
-mod rest;
-mod row;
-mod search;
-mod slab;
-mod slab_totals;
+mod slabs;
 mod sleep;
 mod slots;
 mod solve;
 mod solver;
 mod sub_step;
-mod surfaces;
-mod swept;
-mod top_speed;
-mod wake;
-mod warm_start;
 
 pub(crate) use guard::{Passage, held};
-pub(crate) use listing::persistent_contacts;
 pub(crate) use places::turning_rate;
 pub(crate) use proximity::{Proximity, bearing, proximity};
+pub(crate) use report::listing::persistent_contacts;
 pub(crate) use resolution::{TURN, longest_frame_for_springs};
 pub(crate) use solver::{Scratch, Solver};
 
 use glam::DVec3;
+
+use self::report::{force_work, impacts};
+use self::sleep::wake;
 
 use crate::bodies::Motion;
 use crate::interval::Interval;
@@ -162,6 +141,7 @@ fn sub_step(
     force_work::find(system, solver, frame.time + start + 0.5 * h);
     solve::prepare(solver, &sub_step);
     solve::sweep(solver, &sub_step, parameters, report);
+    blocks::solve(solver, &sub_step);
     let first = report.impacts.len();
     let mut bounces = bounces::find(solver, &sub_step);
     let seeds = bounces::entangled(solver, &bounces, &sub_step);
