@@ -13,6 +13,7 @@ mod links;
 mod maze;
 mod narrow;
 mod pictures;
+mod pinball;
 mod plots;
 mod revisions;
 mod scenes;
