@@ -218,6 +218,10 @@ pub const MOUSE: &[(&str, &str)] = &[
     ("wheel", "come nearer or go away"),
     ("click on a ball", "pick it; beside all balls: pick none"),
     ("drag the picked ball", "pull it by a spring; let go to throw it"),
+    (
+        "drag from a cue ball",
+        "aim along its path; let go to strike, on the ball to put the cue away",
+    ),
     ("Ctrl + click", "throw a new ball that way"),
     ("double click", "turn about what was clicked"),
     ("drop a file", "open it as a scene or maze"),
