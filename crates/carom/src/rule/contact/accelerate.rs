@@ -2,10 +2,10 @@
 
 use fearless_simd::{Level, Simd, SimdMask, dispatch};
 
-use super::drift::Drift;
-use super::row::{self, BOUNDLESS, Row};
-use super::slab_totals::SlabTotals;
 use super::slots::Run;
+use super::slots::drift::Drift;
+use super::slots::row::{self, BOUNDLESS, Row};
+use super::slots::slab_totals::SlabTotals;
 use super::solver::Solver;
 use super::sub_step::SubStep;
 use crate::lanes::{LANES, Lanes};

@@ -4,9 +4,9 @@ use fearless_simd::{Level, Simd, SimdMask, dispatch};
 use glam::DVec3;
 
 use super::accelerate;
-use super::landings::Landed;
-use super::row::{self, BOUNDLESS};
+use super::slabs::landings::Landed;
 use super::slots::Run;
+use super::slots::row::{self, BOUNDLESS};
 use super::solver::{Bounce, Solver};
 use super::sub_step::SubStep;
 use crate::lanes::{LANES, Lanes};

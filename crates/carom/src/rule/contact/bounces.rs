@@ -2,14 +2,14 @@
 
 use glam::DVec3;
 
-use super::batch;
+use super::contacts::batch;
+use super::contacts::swept::FAR;
 use super::places::{Place, Places};
-use super::row::Row;
-use super::slab::{Slab, Slabs};
+use super::slabs::{Slab, Slabs};
 use super::slots::Slots;
+use super::slots::row::Row;
 use super::solver::{Bounce, Solver, Turn};
 use super::sub_step::SubStep;
-use super::swept::FAR;
 use crate::contact_time;
 use crate::detect::{Separation, known_in_front, sphere_surface};
 use crate::flight::Flight;

@@ -5,9 +5,9 @@ use fearless_simd::{Level, dispatch};
 use glam::DVec3;
 
 use super::accelerate::{kinetic_energy, work_of_impulses};
-use super::row::Row;
-use super::slab::Slab;
+use super::slabs::Slab;
 use super::slots::Run;
+use super::slots::row::Row;
 use super::solve;
 use super::solver::Solver;
 use super::sub_step::SubStep;

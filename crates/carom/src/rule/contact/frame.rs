@@ -1,14 +1,14 @@
 //! The beginning and the end of a frame: from the world to the solver, and back.
 
-use super::batch::ContactKinds;
-use super::dormant;
-use super::materials::Materials;
-use super::row::Row;
-use super::slab_totals::SlabTotals;
+use super::contacts::batch::ContactKinds;
+use super::contacts::dormant;
+use super::contacts::materials::Materials;
+use super::slabs::warm_start::WarmStart;
 use super::sleep;
+use super::sleep::wake;
+use super::slots::row::Row;
+use super::slots::slab_totals::SlabTotals;
 use super::solver::Solver;
-use super::wake;
-use super::warm_start::WarmStart;
 use crate::bodies::Motion;
 use crate::friction::Friction;
 use crate::report::StepReport;

@@ -6,15 +6,15 @@
 
 use glam::DVec3;
 
-use super::landings::Landings;
-use super::near_moving::NearMoving;
+use super::contacts::surfaces::{self, SurfaceContact};
+use super::neighbours::near_moving::NearMoving;
 use super::places::Places;
-use super::slab::Slab;
-use super::slab_totals::SlabTotals;
+use super::slabs::Slab;
+use super::slabs::landings::Landings;
 use super::slots::Run;
+use super::slots::slab_totals::SlabTotals;
 use super::solver::{Bounce, Solver, Turn};
 use super::sub_step::SubStep;
-use super::surfaces::{self, SurfaceContact};
 use crate::band::Band;
 use crate::contact_time;
 use crate::flight::Flight;

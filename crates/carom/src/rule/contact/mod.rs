@@ -17,58 +17,35 @@
 
 mod accelerate;
 mod advance;
-mod aim;
-mod batch;
 mod bounces;
 mod cascade;
-mod conjugate;
-mod coulomb;
-mod descent;
-mod dormant;
-mod drift;
+mod contacts;
 mod energy;
-mod flat;
-mod force_work;
 mod frame;
-mod gather;
 mod guard;
-mod images;
-mod impacts;
-mod incidence;
-mod kernel;
-mod landings;
-mod listing;
-mod materials;
-mod near_moving;
 mod neighbours;
-mod order;
 mod places;
 mod proximity;
+mod report;
 mod resolution;
-mod rest;
-mod row;
-mod search;
-mod slab;
-mod slab_totals;
+mod slabs;
 mod sleep;
 mod slots;
 mod solve;
 mod solver;
 mod sub_step;
-mod surfaces;
-mod swept;
-mod top_speed;
-mod wake;
-mod warm_start;
 
 pub(crate) use guard::{Passage, held};
-pub(crate) use listing::persistent_contacts;
 pub(crate) use places::turning_rate;
 pub(crate) use proximity::{Proximity, bearing, proximity};
+pub(crate) use report::listing::persistent_contacts;
 pub(crate) use resolution::{TURN, longest_frame_for_springs};
 pub(crate) use solver::{Scratch, Solver};
 
 use glam::DVec3;
+
+use self::report::{force_work, impacts};
+use self::sleep::wake;
 
 use crate::bodies::Motion;
 use crate::interval::Interval;

@@ -1,6 +1,6 @@
 //! Proximity of spheres: zones of the rule `exact` release those that are near no other.
 
-use super::dormant::Partner;
+use super::contacts::dormant::Partner;
 use super::solver::Solver;
 use super::sub_step::SLOP;
 use crate::id::SphereId;

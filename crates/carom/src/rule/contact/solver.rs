@@ -2,17 +2,17 @@
 
 use glam::DVec3;
 
-use super::batch::ContactKinds;
-use super::dormant::Dormant;
-use super::drift::Drift;
-use super::incidence::Incidence;
-use super::landings::Landings;
-use super::materials::Materials;
+use super::contacts::batch::ContactKinds;
+use super::contacts::dormant::Dormant;
+use super::contacts::materials::Materials;
 use super::places::Places;
-use super::search::Search;
-use super::slab::Slabs;
+use super::slabs::Slabs;
+use super::slabs::incidence::Incidence;
+use super::slabs::landings::Landings;
+use super::slabs::search::Search;
+use super::slabs::warm_start::WarmStart;
 use super::slots::Slots;
-use super::warm_start::WarmStart;
+use super::slots::drift::Drift;
 
 /// Spheres in their order of memory, their neighbours, and the impulses of their contacts: part of a
 /// snapshot, but not of the state hash.

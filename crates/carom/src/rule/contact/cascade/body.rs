@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use crate::rule::contact::landings::Landed;
-use crate::rule::contact::row::Row;
+use crate::rule::contact::slabs::landings::Landed;
+use crate::rule::contact::slots::row::Row;
 use crate::rule::contact::slots::{self, Slots};
 
 /// A sphere of an island.

@@ -8,9 +8,9 @@ use super::link::{Link, Role};
 use super::met::{Contact, Met, Partners};
 use crate::contact_time;
 use crate::flight::Flight;
+use crate::rule::contact::contacts::swept::FAR;
 use crate::rule::contact::places::Place;
 use crate::rule::contact::sub_step::SubStep;
-use crate::rule::contact::swept::FAR;
 
 /// Largest number of impacts per sphere of an island; later ones are answered together.
 const MOST_IMPACTS: usize = 8;

@@ -2,7 +2,7 @@
 
 use super::body::Body;
 use super::link::Link;
-use crate::rule::contact::incidence::Origin;
+use crate::rule::contact::slabs::incidence::Origin;
 use crate::rule::contact::slots::Slots;
 use crate::rule::contact::solver::Solver;
 use crate::rule::contact::sub_step::SubStep;

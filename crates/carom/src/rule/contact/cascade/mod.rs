@@ -11,10 +11,10 @@ mod island;
 mod link;
 mod met;
 
-use super::batch::Impulses;
+use super::contacts::batch::Impulses;
+use super::contacts::swept::FREE;
 use super::solver::Solver;
 use super::sub_step::SubStep;
-use super::swept::FREE;
 use crate::report::StepReport;
 use crate::system::System;
 use course::Course;
