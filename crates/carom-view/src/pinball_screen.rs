@@ -224,9 +224,10 @@ impl PinballScreen {
         let card = |ui: &mut Ui| {
             ui.label(RichText::new("Game over").size(36.0).strong());
             ui.label(RichText::new(format!("{score} points")).size(18.0));
-            ui.label(match score >= best {
-                true => "The best score so far.".to_owned(),
-                false => format!("Best score {best}."),
+            ui.label(if score >= best {
+                "The best score so far.".to_owned()
+            } else {
+                format!("Best score {best}.")
             });
             ui.add_space(12.0);
             again = ui.button(RichText::new("Play again").size(18.0)).clicked();
