@@ -2,17 +2,17 @@
 
 use glam::DVec3;
 
-use super::budget::Budget;
-use super::clearance::{Clearance, Obstacle};
-use super::contact_scale::RESOLVED_PATH;
 use super::contacts::Member;
+use super::contacts::contact_scale::RESOLVED_PATH;
 use super::events::{Event, NextEvents, PackedTarget, Prediction, Schedule, UpcomingEvent};
 use super::flights::{Component, Flights, JointStep, Species, StepLimits, Support, SupportChange};
-use super::frame_work::FrameWork;
+use super::neighbours::clearance::{Clearance, Obstacle};
 use super::neighbours::{NeighbourBuffer, Neighbours};
 use super::ticks;
 use super::watch::Watch;
-use super::zone::Zone;
+use super::zones::budget::Budget;
+use super::zones::frame_work::FrameWork;
+use super::zones::zone::Zone;
 use crate::report::EnergyAccount;
 use crate::settings::Exact;
 use crate::system::System;

@@ -16,7 +16,7 @@ use super::{NoClosedForm, with_friction};
 use crate::connected::Connected;
 use crate::norm::Norm;
 use crate::respond::{friction_of, restitution_of};
-use crate::rule::exact::contact_scale::ContactScale;
+use crate::rule::exact::contacts::contact_scale::ContactScale;
 use crate::rule::exact::contacts::{Group, Member, Touch};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::flights::{ContactWork, Support, Supported};

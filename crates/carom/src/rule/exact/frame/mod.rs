@@ -1,28 +1,30 @@
 //! The frame: its beginning, its end, and how added spheres join between frames.
 
+pub(crate) mod arrange;
+
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use glam::DVec3;
 
-use super::arrange::arrange;
-use super::context::StepContext;
-use super::events::{Prediction, Schedule};
-use super::flights::{self, Body, Flights, Growth, Rotation, Wells};
-use super::moving;
-use super::pair_times::PairSearch;
-use super::persistent::{self, held_forces, piece_end};
-use super::predict;
-use super::span::Span;
-use super::stepped;
-use super::ticks;
-use super::timeline::Timeline;
-use super::zone::Zone;
+use self::arrange::arrange;
 use crate::bodies::Motion;
 use crate::detect::instant::Instant;
 use crate::id::SphereId;
 use crate::parallel;
 use crate::persistent_contact::PersistentContact;
 use crate::report::StepReport;
+use crate::rule::exact::context::StepContext;
+use crate::rule::exact::events::{Prediction, Schedule};
+use crate::rule::exact::flights::{self, Body, Flights, Growth, Rotation, Wells};
+use crate::rule::exact::pair_times::PairSearch;
+use crate::rule::exact::persistent::{self, held_forces, piece_end};
+use crate::rule::exact::predict;
+use crate::rule::exact::predict::moving;
+use crate::rule::exact::span::Span;
+use crate::rule::exact::ticks;
+use crate::rule::exact::timeline::Timeline;
+use crate::rule::exact::zones;
+use crate::rule::exact::zones::zone::Zone;
 use crate::settings::{Exact, Zones};
 use crate::shear::Shear;
 use crate::system::System;
@@ -281,7 +283,7 @@ fn is_renewal_due(timeline: &Timeline, system: &System, start: f64) -> bool {
 ///
 /// # Errors
 /// A sphere on which a force is not finite.
-pub(super) fn force_tick(
+pub(crate) fn force_tick(
     timeline: &mut Timeline,
     system: &System,
     now: f64,
@@ -349,7 +351,7 @@ pub(crate) fn end(
     reading(system, timeline.parameters, span, |context| {
         piece_end::write_motion(timeline, context, motion, span.end);
     });
-    stepped::write_velocities(timeline, &system.spheres.id, motion, span.end);
+    zones::write_velocities(timeline, &system.spheres.id, motion, span.end);
     Ok(())
 }
 
@@ -408,7 +410,7 @@ pub(crate) fn persistent_contacts(
 /// the start of a frame: it predicts meetings again that were passed over, so results would depend on the frames.
 #[cold]
 #[inline(never)]
-pub(super) fn rearrange(timeline: &mut Timeline, system: &System, now: f64) {
+pub(crate) fn rearrange(timeline: &mut Timeline, system: &System, now: f64) {
     arrange(timeline, system, now);
     predict_all(timeline, system, now);
 }

@@ -1,7 +1,11 @@
 //! The watch over spheres: the flights along which sensors look and work is counted.
 
-use super::force_work::ForceTally;
-use super::seen::Seen;
+pub(crate) mod force_work;
+pub(crate) mod look_along;
+pub(crate) mod seen;
+
+use self::force_work::ForceTally;
+use self::seen::Seen;
 use crate::force_work::ForceWork;
 use crate::sensor::{Presence, Sensors};
 
@@ -11,13 +15,13 @@ pub(crate) struct Watch {
     /// Results of sensors; `None` without sensors.
     pub sensors: Option<Sensors>,
     /// Work of nonconservative forces; `None` without such forces.
-    pub(super) tally: Option<ForceTally>,
+    pub(crate) tally: Option<ForceTally>,
     /// By index.
-    pub(super) flights: Vec<Seen>,
+    pub(crate) flights: Vec<Seen>,
     /// Slots of spheres that began a flight since.
-    pub(super) begun: Vec<u32>,
+    pub(crate) begun: Vec<u32>,
     /// Start of the step, on the world's clock \[s\].
-    pub(super) step_start: f64,
+    pub(crate) step_start: f64,
 }
 
 impl Watch {

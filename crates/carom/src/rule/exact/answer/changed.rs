@@ -6,7 +6,7 @@ use crate::detect::contact::Bodies;
 ///
 /// Answers predict nothing, so that they read and write only the spheres of their event and those near them.
 #[derive(Debug)]
-pub(super) enum Changed {
+pub(crate) enum Changed {
     /// The two spheres of an impact. Those that `are_searched` have their neighbours, and when they meet them, in the
     /// working memory of the step context.
     Pair { slots: [u32; 2], are_searched: [bool; 2] },
@@ -33,7 +33,7 @@ impl Changed {
 /// Two bodies that hardly touch may meet, by the rounding of one formula, and have nothing to
 /// answer, by that of another.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Unresolved {
+pub(crate) struct Unresolved {
     pub bodies: Bodies,
     /// On the world's clock \[s\].
     pub until: f64,

@@ -7,12 +7,12 @@ use crate::force_work::ForceWork;
 use crate::forces::{self, SphereState};
 use crate::norm::Norm;
 use crate::rule::contact::{self, Passage};
-use crate::rule::exact::changed::Changed;
+use crate::rule::exact::answer::changed::Changed;
 use crate::rule::exact::contacts::{self, Group};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::flights::Species;
-use crate::rule::exact::moving::Around;
 use crate::rule::exact::persistent::held_forces;
+use crate::rule::exact::predict::moving::Around;
 use crate::rule::exact::timeline::Timeline;
 
 /// How a sphere that joins a zone moves until the next tick.

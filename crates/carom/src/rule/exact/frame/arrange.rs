@@ -1,11 +1,11 @@
 //! The arrangement: the spheres in order of place, and their neighbours.
 
-use super::clearance::Clearance;
-use super::events::Schedule;
-use super::flights::Flights;
-use super::neighbours::{Contents, Neighbours, SURFACES_PER_SPHERE, Sliding};
-use super::stepped;
-use super::timeline::Timeline;
+use crate::rule::exact::events::Schedule;
+use crate::rule::exact::flights::Flights;
+use crate::rule::exact::neighbours::clearance::Clearance;
+use crate::rule::exact::neighbours::{Contents, Neighbours, SURFACES_PER_SPHERE, Sliding};
+use crate::rule::exact::timeline::Timeline;
+use crate::rule::exact::zones;
 use crate::shear::Shear;
 use crate::surface::Role;
 use crate::system::System;
@@ -20,7 +20,7 @@ const CROSSINGS_OF_FEW: u64 = 100;
 const EVENTS_PER_ARRANGEMENT: u64 = 24;
 
 /// Orders the spheres by place and finds their neighbours as of `time` \[s\]. All predictions become void.
-pub(super) fn arrange(timeline: &mut Timeline, system: &System, time: f64) {
+pub(crate) fn arrange(timeline: &mut Timeline, system: &System, time: f64) {
     timeline.moving_surfaces = (0u32..)
         .zip(system.surfaces)
         .filter(|(_, surface)| surface.role == Role::Deflects && !surface.motion.is_at_rest())
@@ -45,7 +45,7 @@ pub(super) fn arrange(timeline: &mut Timeline, system: &System, time: f64) {
         timeline.clearances.resize(flights.bodies.len(), Clearance::NONE);
     }
     (timeline.events, timeline.cell_crossings) = (0, 0);
-    stepped::find_near(timeline);
+    zones::find_near(timeline);
 }
 
 /// Begins flights, at `time` \[s\], of the spheres that have left a box in steady shear along y since theirs began.
@@ -86,7 +86,7 @@ fn contents<'a>(flights: &'a Flights, system: &System<'a>, time: f64) -> Content
 
 /// Numbers of events and cell crossings after which the spheres are ordered again.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct ArrangementDue {
+pub(crate) struct ArrangementDue {
     events: u64,
     cell_crossings: u64,
 }

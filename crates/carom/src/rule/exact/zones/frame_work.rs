@@ -2,11 +2,11 @@
 
 use prefetch_index::prefetch_index;
 
-use super::flights::Body;
 use crate::report::StageCounts;
+use crate::rule::exact::flights::Body;
 
 /// Units of work that count as much as one flight of a sphere.
-pub(super) const UNITS_PER_FLIGHT: u64 = 32;
+pub(crate) const UNITS_PER_FLIGHT: u64 = 32;
 
 /// By how much the generation grew without impacts: a flight that an impact began adds one, which counts with the
 /// impact.
@@ -17,7 +17,7 @@ fn flights_between(before: u32, now: u32) -> u32 {
 /// Work in the frame, by slot, in flights.
 #[derive(Debug, Clone, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(super) struct FrameWork {
+pub(crate) struct FrameWork {
     /// Generation of each sphere's flight at the start of the frame.
     generations_before: Vec<u32>,
     /// Work of the groups of each sphere; empty where there was none.

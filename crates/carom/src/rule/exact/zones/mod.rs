@@ -4,9 +4,12 @@
 //! move the spheres, from tick to tick of the world's clock. Between ticks they fly straight, so that all
 //! others meet them at the exact time. What meets one joins it.
 
+pub(crate) mod budget;
+pub(crate) mod frame_work;
 mod join;
 mod near;
 mod tick;
+pub(crate) mod zone;
 
 pub(super) use join::{make_zone, make_zone_about, meet};
 pub(super) use near::find_near;

@@ -7,7 +7,7 @@ use crate::polynomial_flight::PolynomialFlight;
 
 /// A flight that sensors look along.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Seen {
+pub(crate) struct Seen {
     pub flight: Flight,
     pub curve: Option<PolynomialFlight>,
     pub flight_start: f64,

@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
+use super::Watch;
 use super::seen::Seen;
-use super::timeline::Timeline;
-use super::watch::Watch;
 use crate::id::SphereId;
+use crate::rule::exact::timeline::Timeline;
 use crate::sensor::FlightSegment;
 use crate::system::System;
 
@@ -22,7 +22,7 @@ pub(crate) fn begin(timeline: &mut Timeline, system: &System, mut watch: Watch, 
 
 /// Looks along the flights that ended since the last look.
 #[inline]
-pub(super) fn follow(timeline: &mut Timeline, system: &System) {
+pub(crate) fn follow(timeline: &mut Timeline, system: &System) {
     if timeline.watch.as_ref().is_some_and(|watch| !watch.begun.is_empty()) {
         look_along_ended(timeline, system);
     }

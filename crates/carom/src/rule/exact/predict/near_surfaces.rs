@@ -4,13 +4,13 @@ use std::borrow::Borrow;
 
 use glam::DVec3;
 
-use super::timeline::Timeline;
+use crate::rule::exact::timeline::Timeline;
 use crate::system::System;
 
 impl Timeline {
     /// Surfaces at rest that a sphere may meet in its neighbour region, with the shift \[m\] that brings them to
     /// where its position counts.
-    pub(super) fn surfaces_at_rest_near(&self, slot: u32) -> impl Iterator<Item = (u32, DVec3)> {
+    pub(crate) fn surfaces_at_rest_near(&self, slot: u32) -> impl Iterator<Item = (u32, DVec3)> {
         let level = self.flights.species_of(slot).level;
         let near = self.neighbours.surfaces_near(slot, level);
         near.filter(move |near| self.neighbours.meets_surface(slot, near.0))
@@ -18,7 +18,7 @@ impl Timeline {
 
     /// Surfaces at rest that a sphere may meet in its neighbour region, and then these moving ones, with the shift
     /// \[m\] that brings them to where its position counts.
-    pub(super) fn surfaces_with<T: Borrow<u32>>(
+    pub(crate) fn surfaces_with<T: Borrow<u32>>(
         &self,
         slot: u32,
         moving: impl IntoIterator<Item = T>,
@@ -31,7 +31,7 @@ impl Timeline {
 
     /// The images of a surface that a sphere may meet, with the shift \[m\] that brings each to where its position
     /// counts.
-    pub(super) fn images_of(
+    pub(crate) fn images_of(
         &self,
         system: &System,
         slot: u32,

@@ -12,10 +12,10 @@ use crate::surface::Form;
 /// in persistent contact with it.
 #[derive(Debug, Clone, Copy)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(super) struct Clearance(Bounds);
+pub(crate) struct Clearance(Bounds);
 
 /// A surface that a sphere may meet.
-pub(super) struct Obstacle<'a> {
+pub(crate) struct Obstacle<'a> {
     pub form: &'a Form,
     /// Offset \[m\] that moves the surface to the image beside the sphere's position.
     pub shift: DVec3,

@@ -1,25 +1,28 @@
 //! Prediction: what a sphere meets next.
 
+pub(crate) mod moving;
+pub(crate) mod near_surfaces;
+pub(crate) mod prefetch;
+
 use glam::DVec3;
 
-use super::changed::{Changed, Unresolved};
-use super::contacts::{MOST_PLANES, Plane};
-use super::context::StepContext;
-use super::events::{Event, EventTarget, NextEvents, PackedTarget, Prediction};
-use super::flights::{Body, Species};
-use super::frame_work::UNITS_PER_FLIGHT;
-use super::moving;
-use super::pair_times::{NearTest, PairSearch};
-use super::timeline::Timeline;
 use crate::contact_time::{self, Reach};
 use crate::detect::contact::Bodies;
 use crate::detect::sphere_surface;
+use crate::rule::exact::answer::changed::{Changed, Unresolved};
+use crate::rule::exact::contacts::{MOST_PLANES, Plane};
+use crate::rule::exact::context::StepContext;
+use crate::rule::exact::events::{Event, EventTarget, NextEvents, PackedTarget, Prediction};
+use crate::rule::exact::flights::{Body, Species};
+use crate::rule::exact::pair_times::{NearTest, PairSearch};
+use crate::rule::exact::timeline::Timeline;
+use crate::rule::exact::zones::frame_work::UNITS_PER_FLIGHT;
 use crate::surface::Surface;
 use crate::system::System;
 
 /// Predicts what the spheres that an answer changed meet next, as of `now` \[s\], and enters it into the schedule.
 #[inline]
-pub(super) fn changed(
+pub(crate) fn changed(
     timeline: &mut Timeline,
     context: &mut StepContext,
     changed: Changed,
@@ -68,14 +71,14 @@ fn enter_found(
 }
 
 /// Predicts what a sphere meets next as of `now` \[s\], and enters it into the schedule.
-pub(super) fn predict(timeline: &mut Timeline, context: &mut StepContext, slot: u32, now: f64) {
+pub(crate) fn predict(timeline: &mut Timeline, context: &mut StepContext, slot: u32, now: f64) {
     timeline.find_curve(context.system, slot);
     enter(timeline, context, slot, now);
     predict_restarted(timeline, context, now);
 }
 
 /// Predicts the next events of spheres whose flights restarted `now` \[s\] with those of companions.
-pub(super) fn predict_restarted(timeline: &mut Timeline, context: &mut StepContext, now: f64) {
+pub(crate) fn predict_restarted(timeline: &mut Timeline, context: &mut StepContext, now: f64) {
     if timeline.restarted.is_empty() {
         return;
     }
@@ -99,7 +102,7 @@ fn enter(timeline: &mut Timeline, context: &mut StepContext, slot: u32, now: f64
 
 /// Restarts the flights of the companions of restarted spheres, `now` \[s\].
 #[inline]
-pub(super) fn restart_companions(timeline: &mut Timeline, context: &mut StepContext, now: f64) {
+pub(crate) fn restart_companions(timeline: &mut Timeline, context: &mut StepContext, now: f64) {
     if timeline.flights.are_curved() {
         timeline.restart_companions(context.system);
         predict_restarted(timeline, context, now);
@@ -108,7 +111,7 @@ pub(super) fn restart_companions(timeline: &mut Timeline, context: &mut StepCont
 
 /// Moves a sphere to its second event, where the other sphere of its first one, due `now` \[s\], restarted before.
 /// That sphere's pair search found this one, so this one need not search again.
-pub(super) fn fall_back(timeline: &mut Timeline, context: &mut StepContext, slot: u32, now: f64) {
+pub(crate) fn fall_back(timeline: &mut Timeline, context: &mut StepContext, slot: u32, now: f64) {
     match timeline.schedule.next_events(slot).without_first() {
         Some(rest) if rest.first.is_never() || !timeline.is_void(&rest.first) => {
             timeline.reschedule(slot, rest)
@@ -121,7 +124,7 @@ pub(super) fn fall_back(timeline: &mut Timeline, context: &mut StepContext, slot
 ///
 /// Times follow from the flights alone: either sphere, and whenever it predicts a meeting, finds the
 /// same time to the bit.
-pub(super) fn prediction(
+pub(crate) fn prediction(
     timeline: &Timeline,
     system: &System,
     slot: u32,
@@ -240,7 +243,7 @@ fn bodies_of(timeline: &Timeline, sphere: u32, event: &Event) -> Option<Bodies> 
 }
 
 /// The bodies of the meeting that a sphere has at this very time \[s\], if it has one then.
-pub(super) fn meeting_at(timeline: &Timeline, slot: u32, time: f64) -> Option<Bodies> {
+pub(crate) fn meeting_at(timeline: &Timeline, slot: u32, time: f64) -> Option<Bodies> {
     let event = timeline.schedule.next_events(slot).first;
     let is_due = event.time == time && !timeline.is_void(&event);
     is_due.then(|| bodies_of(timeline, timeline.flights.index_of[slot as usize], &event))?
@@ -268,7 +271,7 @@ fn first_but(
 
 /// Moves a sphere that leaves its neighbour region at `now` \[s\] to the next one, and searches for
 /// what it may meet there.
-pub(super) fn cross_cell(timeline: &mut Timeline, context: &mut StepContext, slot: u32, now: f64) {
+pub(crate) fn cross_cell(timeline: &mut Timeline, context: &mut StepContext, slot: u32, now: f64) {
     context.counts.predictions += 1;
     let state = timeline.flights.state_of(slot, now);
     let search = &mut context.searches[0];

@@ -1,19 +1,23 @@
 //! Answers to events: what happens to the spheres of an event, and what it may cost.
 
-use super::changed::Changed;
-use super::context::StepContext;
-use super::events::{Event, EventTarget, NextEvents, PackedTarget, UpcomingEvent};
-use super::frame_work::UNITS_PER_FLIGHT;
-use super::persistent::held_forces;
-use super::timeline::Timeline;
-use super::unfinished::Unfinished;
-use super::{impact, predict, prefetch, stepped};
+pub(crate) mod changed;
+pub(crate) mod unfinished;
+
+use self::changed::Changed;
+use self::unfinished::Unfinished;
+use super::predict::prefetch;
+use super::{impact, predict, zones};
+use crate::rule::exact::context::StepContext;
+use crate::rule::exact::events::{Event, EventTarget, NextEvents, PackedTarget, UpcomingEvent};
+use crate::rule::exact::persistent::held_forces;
+use crate::rule::exact::timeline::Timeline;
+use crate::rule::exact::zones::frame_work::UNITS_PER_FLIGHT;
 
 /// The work allowed per sphere and frame is allowed in each part of a longer frame that has this many ticks.
 const TICKS_OF_A_FRAME: f64 = 8.0;
 
 /// Answers the next event of the sphere at `slot`. Returns its time \[s\].
-pub(super) fn event(
+pub(crate) fn event(
     timeline: &mut Timeline,
     context: &mut StepContext,
     slot: u32,
@@ -141,7 +145,7 @@ fn next_step(timeline: &mut Timeline, context: &mut StepContext, slot: u32, time
 
 /// Returns an error if a force was not finite up to `time` \[s\], or friction has no closed form and nothing is stepped.
 /// A force that is first not finite at the end of a frame is an error of the next one.
-pub(super) fn check_forces(
+pub(crate) fn check_forces(
     timeline: &Timeline,
     context: &StepContext,
     time: f64,
@@ -239,6 +243,6 @@ fn check_steps(timeline: &mut Timeline, context: &mut StepContext, time: f64) {
 
 /// Makes a zone of a sphere at `time` \[s\], and of what touches it.
 fn make_zone_about(timeline: &mut Timeline, context: &mut StepContext, slot: u32, time: f64) {
-    let changed = stepped::make_zone_about(timeline, context, slot, time);
+    let changed = zones::make_zone_about(timeline, context, slot, time);
     predict::changed(timeline, context, changed, time);
 }

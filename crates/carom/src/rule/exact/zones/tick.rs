@@ -11,11 +11,11 @@ use crate::forces;
 use crate::id::SphereId;
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::events::{NextEvents, Prediction};
-use crate::rule::exact::moving::Around;
 use crate::rule::exact::neighbours::NeighbourBuffer;
 use crate::rule::exact::predict;
+use crate::rule::exact::predict::moving::Around;
 use crate::rule::exact::timeline::Timeline;
-use crate::rule::exact::zone::Stepped;
+use crate::rule::exact::zones::zone::Stepped;
 use crate::rule::periodic;
 
 /// A sphere touches surfaces that are nearer than this part of its radius: the solver leaves less.

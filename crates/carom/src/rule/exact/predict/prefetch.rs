@@ -2,13 +2,13 @@
 
 use prefetch_index::prefetch_index;
 
-use super::events::UpcomingEvent;
-use super::timeline::Timeline;
+use crate::rule::exact::events::UpcomingEvent;
+use crate::rule::exact::timeline::Timeline;
 use crate::system::System;
 
 /// Fetches the data of the events at the head of the queue, where they are not in the fast caches.
 #[inline]
-pub(super) fn upcoming_events(timeline: &Timeline, system: &System) {
+pub(crate) fn upcoming_events(timeline: &Timeline, system: &System) {
     if !timeline.are_many() {
         return;
     }

@@ -3,19 +3,19 @@
 
 use glam::DVec3;
 
-use super::events::{Event, NextEvents, PackedTarget};
-use super::timeline::Timeline;
 use crate::contact_time;
 use crate::detect::contact::Bodies;
 use crate::detect::moving_surfaces::PlacedTree;
 use crate::norm::Norm;
 use crate::parallel;
+use crate::rule::exact::events::{Event, NextEvents, PackedTarget};
+use crate::rule::exact::timeline::Timeline;
 use crate::surface::LastCarriage;
 use crate::system::System;
 
 /// A place where a sphere may touch surfaces.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Around {
+pub(crate) struct Around {
     /// \[m\]
     pub place: DVec3,
     /// Distance up to which surfaces count \[m\].
@@ -47,7 +47,7 @@ impl Around {
 }
 
 /// The numbers of the surfaces that move and may be within reach of the sphere at `slot`, ascending.
-pub(super) fn near(
+pub(crate) fn near(
     timeline: &Timeline,
     system: &System,
     slot: u32,
@@ -70,7 +70,7 @@ pub(super) fn near(
 
 /// The surfaces of a collider that moves.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Mover<'a> {
+pub(crate) struct Mover<'a> {
     /// At the start of the frame.
     tree: PlacedTree<'a>,
     /// How far its origin moves within the frame, at most \[m\].
@@ -80,7 +80,7 @@ pub(super) struct Mover<'a> {
 }
 
 /// The colliders that move in the frame.
-pub(super) fn movers<'a>(timeline: &Timeline, system: &System<'a>) -> Vec<Mover<'a>> {
+pub(crate) fn movers<'a>(timeline: &Timeline, system: &System<'a>) -> Vec<Mover<'a>> {
     let times @ [_, length] = [0.0, timeline.frame[1] - timeline.frame[0]];
     let mover = |tree: PlacedTree<'a>| {
         let [way, spin] = tree.farthest(times);
@@ -91,13 +91,13 @@ pub(super) fn movers<'a>(timeline: &Timeline, system: &System<'a>) -> Vec<Mover<
 
 /// Working memory: surfaces near a sphere, and where their collider was last.
 #[derive(Default)]
-pub(super) struct Memory {
+pub(crate) struct Memory {
     near: Vec<u32>,
     last: LastCarriage,
 }
 
 /// Adds the meetings of all spheres with surfaces that move, within a frame that begins, to their next events.
-pub(super) fn meet_in_frame(timeline: &mut Timeline, system: &System) {
+pub(crate) fn meet_in_frame(timeline: &mut Timeline, system: &System) {
     let known = &*timeline;
     let (count, movers) = (known.flights.bodies.len(), movers(known, system));
     let found: Vec<Option<NextEvents>> = parallel::map(count, |memory: &mut Memory, slot| {
@@ -119,7 +119,7 @@ pub(super) fn meet_in_frame(timeline: &mut Timeline, system: &System) {
 
 /// Adds the meetings of a sphere with the surfaces of `movers`, within the frame and its flight, to its next events;
 /// those that it passes over do not count.
-pub(super) fn meet(
+pub(crate) fn meet(
     (timeline, system): (&Timeline, &System),
     slot: u32,
     movers: &[Mover],

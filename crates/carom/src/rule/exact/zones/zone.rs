@@ -3,8 +3,6 @@
 
 use glam::DVec3;
 
-use super::flights::{Flights, Rotation};
-use super::ticks::{first_tick_after, halvings, halvings_for_springs, part};
 use crate::bodies::{Motion, Properties, Spin};
 use crate::forces;
 use crate::id::SphereId;
@@ -14,6 +12,8 @@ use crate::parallel;
 use crate::persistent_contact::PersistentContact;
 use crate::report::{EnergyAccount, StepReport};
 use crate::rule::contact::{self, Proximity, Scratch, Solver};
+use crate::rule::exact::flights::{Flights, Rotation};
+use crate::rule::exact::ticks::{first_tick_after, halvings, halvings_for_springs, part};
 use crate::rule::periodic;
 use crate::settings::Contact;
 use crate::surface::Surface;

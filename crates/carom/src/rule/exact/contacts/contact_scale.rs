@@ -2,25 +2,25 @@
 
 use glam::DVec3;
 
-pub(super) use super::features::TOUCHING;
-use super::flights::{Flights, Species};
 use crate::norm::Norm;
+pub(in crate::rule::exact) use crate::rule::exact::features::TOUCHING;
+use crate::rule::exact::flights::{Flights, Species};
 
 /// Relative rounding of the time of a contact: that of the clock and of the sums that lead to the time.
-pub(super) const CLOCK_ROUNDING: f64 = 4.0 * f64::EPSILON;
+pub(crate) const CLOCK_ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// A persistent contact of spheres, or on a curve, is followed to this part of the radius: the error
 /// of the third order in the turn of its normal.
 const CURVE_RESOLUTION: f64 = 1e-9;
 /// Part of a radius by which a piece of path along a curve may miss its contacts at its end, before that
 /// is corrected. A bounce that is lower cannot be distinguished from it.
-pub(super) const MOST_MISSED: f64 = 1e-7;
+pub(crate) const MOST_MISSED: f64 = 1e-7;
 /// Impacts between which the bodies move by more than this part of a radius count as separate, however
 /// short the time between them is.
-pub(super) const RESOLVED_PATH: f64 = 1e-6;
+pub(crate) const RESOLVED_PATH: f64 = 1e-6;
 
 /// What can be resolved of the motion of two bodies near contact.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct ContactScale {
+pub(crate) struct ContactScale {
     /// Coordinates and radii that the gap is computed from \[m\].
     pub length: f64,
     /// Accelerations that may press the bodies together \[m/s²\].

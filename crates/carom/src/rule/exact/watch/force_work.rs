@@ -15,7 +15,7 @@ use crate::system::System;
 
 /// Work of nonconservative forces during a watch.
 #[derive(Debug, Clone, Default)]
-pub(super) struct ForceTally {
+pub(crate) struct ForceTally {
     pub work: ForceWork,
     dampers: Vec<Damper>,
     /// Numbers of the dampers at each sphere, by its index; empty without dampers.
