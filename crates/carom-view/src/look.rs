@@ -63,7 +63,7 @@ pub fn draw(view: &View, look: &DrawOptions, drawing: &mut Drawing) {
         add_contacts(view, drawing);
     }
     if look.marks.forces {
-        drawing.arrows.extend(contact_forces::arrows(view, look.blend));
+        contact_forces::add(view, look.blend, drawing);
     }
 }
 
