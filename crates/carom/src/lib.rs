@@ -38,6 +38,7 @@ mod collider;
 mod collider_motion;
 mod colliders;
 mod connected;
+mod contact_matrix;
 pub mod contact_time;
 pub mod detect;
 mod emitter;

@@ -8,7 +8,8 @@
 //! 2. **Accelerate.** Forces change velocities.
 //! 3. **Search.** Where a sphere may leave the margin of the last search, neighbours are found again.
 //! 4. **Prepare.** Normals, gaps and impacts; contacts begin with the impulses of the sub-step before.
-//! 5. **Sweep.** Each contact in turn gets the impulse that it needs, by Gauss and Seidel.
+//! 5. **Sweep.** Each contact in turn gets the impulse that it needs, by Gauss and Seidel; contacts of spheres with very
+//!    different masses in blocks.
 //! 6. **Follow cascades.** Small islands go from impact to impact.
 //! 7. **Keep energy.** Where impulses would add kinetic energy elsewhere, less of them is taken.
 //! 8. **Advance.** Positions follow the velocities.
@@ -17,6 +18,7 @@
 
 mod accelerate;
 mod advance;
+mod blocks;
 mod bounces;
 mod cascade;
 mod contacts;
@@ -139,6 +141,7 @@ fn sub_step(
     force_work::find(system, solver, frame.time + start + 0.5 * h);
     solve::prepare(solver, &sub_step);
     solve::sweep(solver, &sub_step, parameters, report);
+    blocks::solve(solver, &sub_step);
     let first = report.impacts.len();
     let mut bounces = bounces::find(solver, &sub_step);
     let seeds = bounces::entangled(solver, &bounces, &sub_step);

@@ -100,6 +100,11 @@ impl SurfaceContact {
         Impulses { normal, ..self.impulses }
     }
 
+    /// Slip at which friction ends \[m/s\].
+    pub fn slip(&self) -> DVec3 {
+        self.slip
+    }
+
     /// Whether the contact is an impact with a bounce.
     fn is_bounce(&self) -> bool {
         self.bias < 0.0 && self.approach > 0.0

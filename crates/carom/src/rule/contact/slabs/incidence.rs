@@ -18,7 +18,8 @@ impl Origin {
         slabs.list.get(number as usize).unwrap_or(&slabs.far)
     }
 
-    fn slab_mut(slabs: &mut Slabs, number: u32) -> &mut Slab {
+    /// The slab of a number, the far one last.
+    pub fn slab_mut(slabs: &mut Slabs, number: u32) -> &mut Slab {
         slabs.list.get_mut(number as usize).unwrap_or(&mut slabs.far)
     }
 

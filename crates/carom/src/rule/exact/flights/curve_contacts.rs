@@ -3,8 +3,8 @@
 
 use glam::DVec3;
 
-use super::contact_matrix::ContactMatrix;
 use super::friction_state::FrictionState;
+use crate::contact_matrix::ContactMatrix;
 use crate::integrate::gauss_radau::Values;
 use crate::norm::Norm;
 use crate::rule::exact::features::{Feature, NormalCurvature};

@@ -5,7 +5,6 @@ mod between;
 mod body;
 mod clusters;
 mod components;
-mod contact_matrix;
 mod contact_work;
 mod curve;
 mod curve_contacts;

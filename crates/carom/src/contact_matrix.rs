@@ -1,12 +1,13 @@
-//! The linear equations for the forces of contacts.
+//! Linear equations for the forces or impulses of contacts.
 
 /// Forces depend on each other where what one adds to the others is below this part of it.
 const DEPENDENT: f64 = 1e-8;
 
-/// What a unit of each force adds to the accelerations along the held directions \[1/kg\], as the product of a lower and
-/// an upper triangle (Gauss, without pivoting: the largest terms are on the diagonal).
+/// What a unit of each force adds to the accelerations along the directions of the contacts (of each impulse to the
+/// velocities) \[1/kg\], as the product of a lower and an upper triangle (Gauss, without pivoting: the largest terms are
+/// on the diagonal).
 #[derive(Default)]
-pub(super) struct ContactMatrix {
+pub(crate) struct ContactMatrix {
     count: usize,
     /// By rows.
     values: Vec<f64>,
