@@ -37,6 +37,7 @@ impl StressGauge {
         let stress = self.meter.stress(self.volume).ok()?;
         let rows = |tensor: DMat3| tensor.transpose().to_cols_array_2d();
         Some(MeanStress {
+            dimensions: stress.dimensions,
             pressure: stress.pressure(),
             kinetic: rows(stress.kinetic),
             collisional: rows(stress.collisional),
@@ -49,6 +50,8 @@ impl StressGauge {
 /// Mean stress \[Pa\], row by row, as in JSON.
 #[derive(Debug, Serialize)]
 pub struct MeanStress {
+    #[serde(skip)]
+    dimensions: u32,
     pressure: f64,
     kinetic: [[f64; 3]; 3],
     collisional: [[f64; 3]; 3],
@@ -59,7 +62,8 @@ pub struct MeanStress {
 impl MeanStress {
     /// Lines of the summary.
     pub fn rows(&self) -> Vec<(&'static str, String)> {
-        let trace = |part: &[[f64; 3]; 3]| (part[0][0] + part[1][1] + part[2][2]) / 3.0;
+        let dimensions = f64::from(self.dimensions);
+        let trace = |part: &[[f64; 3]; 3]| (part[0][0] + part[1][1] + part[2][2]) / dimensions;
         let parts = [&self.kinetic, &self.collisional, &self.contact].map(trace);
         let [kinetic, collisional, contact] = parts;
         let row = |[x, y, z]: [f64; 3]| format!("{x:.6e} {y:.6e} {z:.6e} Pa");

@@ -51,6 +51,7 @@ pub(crate) fn sphere(sphere: &Sphere, path: &str) -> Result<carom::Sphere, Probl
     };
     let physical = carom::Sphere::new(vector(sphere.position), radius)
         .with_velocity(vector(sphere.velocity))
+        .with_growth_speed(sphere.growth_speed)
         .with_mass(mass)
         .with_restitution(sphere.restitution)
         .with_friction(friction(
@@ -79,6 +80,7 @@ impl Sphere {
         };
         Self {
             velocity: sphere.velocity.to_array(),
+            growth_speed: sphere.growth_speed,
             mass,
             density,
             restitution: sphere.restitution,

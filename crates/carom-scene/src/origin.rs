@@ -116,6 +116,7 @@ impl Emissions {
         let mut settings = scene.settings();
         settings.boundary = carom::Boundary::Open;
         (settings.shear_rate, settings.thermostat) = (0.0, None);
+        settings.pair_potential = None;
         settings.spheres_collide = false;
         let (world, frame_time) = (World::new(settings)?, scene.simulation.frame_time);
         let mut emissions = Self { world, frame_time, known: 0, emitters: Vec::new() };

@@ -5,8 +5,8 @@ use carom::Settings;
 use crate::error::Problem;
 use crate::scene::values::vector;
 use crate::scene::{
-    Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, Rule, Scene,
-    Simulation, Thermostat, WindBack, Zones,
+    Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, PairPotential,
+    Rule, Scene, Simulation, Thermostat, WindBack, Zones,
 };
 
 impl Scene {
@@ -41,6 +41,13 @@ impl From<Thermostat> for carom::Thermostat {
     }
 }
 
+impl From<PairPotential> for carom::PairPotential {
+    fn from(potential: PairPotential) -> Self {
+        let PairPotential::SquareWell { depth, range_ratio } = potential;
+        Self::SquareWell { depth, range_ratio }
+    }
+}
+
 /// Shear rate of a boundary \[1/s\].
 fn shear_rate(boundary: Boundary) -> f64 {
     match boundary {
@@ -58,12 +65,14 @@ fn settings(simulation: &Simulation) -> Settings {
     };
     Settings::default()
         .with_rule(rule)
+        .with_dimensions(simulation.dimensions)
         .with_combine_rule(simulation.combine_rule.into())
         .with_friction_combine_rule(simulation.friction_combine_rule.into())
         .with_spheres_collide(simulation.spheres_collide)
         .with_boundary(simulation.boundary.into())
         .with_shear_rate(shear_rate(simulation.boundary))
         .with_thermostat(simulation.thermostat.map(Into::into))
+        .with_pair_potential(simulation.pair_potential.map(Into::into))
 }
 
 impl From<CombineRule> for carom::CombineRule {
@@ -144,12 +153,18 @@ pub(crate) fn settings_problem(simulation: &Simulation, error: carom::Error) -> 
             "simulation.boundary.periodic"
         }
         carom::Error::Invalid { source, .. }
-            if matches!(source.field, "boundary" | "thermostat") =>
+            if matches!(
+                source.field,
+                "boundary" | "dimensions" | "thermostat" | "pair_potential"
+            ) =>
         {
             "simulation"
         }
         carom::Error::Invalid { source, .. } if is_of_thermostat(source.field) => {
             "simulation.thermostat"
+        }
+        carom::Error::Invalid { source, .. } if matches!(source.field, "depth" | "range_ratio") => {
+            "simulation.pair_potential"
         }
         _ => &format!("simulation.{}", simulation.rule),
     };

@@ -71,7 +71,7 @@ const DEGREES: &str = "degrees";
 const RADIANS: &str = "rad";
 
 /// Unit of each field that has one.
-const FIELDS: [(&str, &str); 75] = [
+const FIELDS: [(&str, &str); 77] = [
     ("acceleration", "m/s²"),
     ("amplitude", "m"),
     ("amplitude_degrees", DEGREES),
@@ -89,6 +89,7 @@ const FIELDS: [(&str, &str); 75] = [
     ("damping", "kg/s"),
     ("degrees", DEGREES),
     ("density", "kg/m³"),
+    ("depth", "J"),
     ("diameter", "m"),
     ("drop", "m"),
     ("duration", "s"),
@@ -101,6 +102,7 @@ const FIELDS: [(&str, &str); 75] = [
     ("frame_time", "s"),
     ("frequency", "Hz"),
     ("gravity", "m/s²"),
+    ("growth_speed", "m/s"),
     ("height", "m"),
     ("heights", "m"),
     ("interval", "s"),

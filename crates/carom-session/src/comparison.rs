@@ -250,6 +250,7 @@ fn own(edit: &Edit, before: &Simulation, session: &Session) -> Edit {
         };
     }
     take_over_what_is_changed!(
+        dimensions,
         frame_time,
         duration,
         spheres_collide,
@@ -258,6 +259,7 @@ fn own(edit: &Edit, before: &Simulation, session: &Session) -> Edit {
         allow_overlap,
         boundary,
         thermostat,
+        pair_potential,
         exact,
         bisect,
         discrete,

@@ -82,6 +82,19 @@ pub enum Error {
         /// Start of the refused step \[s\].
         time: f64,
     },
+    /// A sphere with a pair potential rests on another body, which the rule `exact` does not follow.
+    #[error(
+        "sphere {sphere}, at {at} s: it rests on another body, which is not known beside a `pair_potential`; the \
+         state before the step, at {time} s, was kept"
+    )]
+    RestsInPotential {
+        /// The sphere.
+        sphere: SphereId,
+        /// When it happened \[s\].
+        at: f64,
+        /// Start of the refused step \[s\].
+        time: f64,
+    },
     /// A [`StopRequest`](crate::StopRequest) ended the step.
     #[error("the step that starts at {time} s was stopped; the state before it was kept")]
     Stopped {

@@ -89,6 +89,7 @@ mod system;
 mod tangent;
 mod thermostat;
 mod validate;
+mod well_event;
 mod work;
 mod world;
 
@@ -122,8 +123,8 @@ pub use report::{
 pub use respond::Strike;
 pub use restitution::RestitutionLaw;
 pub use settings::{
-    Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, Rule, Settings,
-    Thermostat, WindBack, Zones,
+    Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, PairPotential,
+    Rule, Settings, Thermostat, WindBack, Zones,
 };
 pub use sphere::{Mass, SOLID_BALL, Sphere, SphereMotion, THIN_SHELL, volume};
 pub use stress::{Stress, StressMeter};
@@ -131,6 +132,7 @@ pub use tangent::{
     ColliderVariation, DerivativeError, Margin, SphereTangent, SphereVariation, Tangents, Tape,
     Variation,
 };
+pub use well_event::{WellEvent, WellEventKind};
 pub use work::StopRequest;
 pub use world::World;
 pub use world::snapshot::Snapshot;

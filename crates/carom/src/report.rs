@@ -9,6 +9,7 @@ use crate::force_work::ForceWork;
 use crate::id::{ColliderId, SphereId};
 use crate::settings::ImpactLaw;
 use crate::system::System;
+use crate::well_event::WellEvent;
 
 /// Report of one step: impacts, triggers, emitted spheres, accounts.
 ///
@@ -33,6 +34,8 @@ pub struct StepReport {
     /// Under the rule `exact`, the groups of impacts that were answered together, in the order of
     /// their impacts; see [`Self::ledger`].
     pub groups: Vec<ImpactGroup>,
+    /// Events at the edges of wells ([`PairPotential`](crate::PairPotential)), in order of time.
+    pub well_events: Vec<WellEvent>,
     /// Spheres inside triggers, in order of sphere, then collider.
     pub triggers: Vec<TriggerContact>,
     /// When spheres entered and left triggers, in order of time, then of sphere and collider.
@@ -245,6 +248,7 @@ impl StepReport {
     pub(crate) fn clear(&mut self) {
         self.impacts.clear();
         self.groups.clear();
+        self.well_events.clear();
         self.triggers.clear();
         self.sensor_events.clear();
         self.emitted.clear();

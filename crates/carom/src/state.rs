@@ -80,10 +80,22 @@ impl State {
         Instant { system, motion: &self.spheres.motion, time }
     }
 
-    /// Potential energy \[J\] in all forces and springs that have one, at `time` \[s\].
+    /// Potential energy \[J\] in all forces, springs and wells that have one, at `time` \[s\].
     pub fn potential_energy(&self, time: f64) -> f64 {
         let Self { forces, springs, settings, spheres, .. } = self;
-        invariants::potential_energy(spheres, forces, springs, settings.boundary.period(), time)
+        let period = settings.boundary.period();
+        invariants::potential_energy(spheres, forces, springs, period, time) + self.well_energy()
+    }
+
+    /// Potential energy of pairs in wells \[J\]: of those that flights bind, or else by distances.
+    fn well_energy(&self) -> f64 {
+        if self.settings.pair_potential.is_none() {
+            return 0.0;
+        }
+        match &self.timeline {
+            Some(timeline) => timeline.well_energy(),
+            None => exact::well_energy(&self.now()),
+        }
     }
 
     /// Kinetic and potential energy \[J\], at `time` \[s\].
@@ -263,7 +275,14 @@ impl State {
     pub fn check_box(&self) -> Result<(), Error> {
         let smallest = self.settings.boundary.period().min_element();
         let largest = self.spheres.radii().iter().copied().fold(0.0, f64::max);
-        let requirement = "at least four times the radius of every sphere along every axis";
+        let (requirement, largest) = match self.settings.pair_potential {
+            Some(potential) => (
+                "at least four times the radius of every sphere, times the `range_ratio` of the pair potential, \
+                 along every axis",
+                potential.range_ratio() * largest,
+            ),
+            None => ("at least four times the radius of every sphere along every axis", largest),
+        };
         validate::require(smallest >= 4.0 * largest, "size", requirement, smallest)
             .map_err(|invalid| invalid.about(Subject::Settings))
     }

@@ -13,18 +13,20 @@ use crate::sum::Sum;
 use crate::validate;
 use crate::world::World;
 
-/// Mean stress in a volume over a time \[Pa\], positive where it presses.
+/// Mean stress in a volume over a time \[Pa\], positive where it presses. In two dimensions it is that in an area \[N/m\].
 ///
 /// Column k of each tensor is the momentum that goes through an area across axis k, for area and time. Source: Irving
 /// and Kirkwood, J. Chem. Phys. 18, 817 (1950); for contacts Love, *A Treatise on the Mathematical Theory of
 /// Elasticity* (1927), note B; `docs/physics/stress.md` has the formulas.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Stress {
+    /// Number of dimensions, 2 or 3.
+    pub dimensions: u32,
     /// Stress of motion: Σ m v v / V, mean over the ends of frames. Along periodic axes v is relative to the centre of
     /// mass, and in a box in steady shear to the mean flow.
     pub kinetic: DMat3,
-    /// Stress of impacts: Σ j l / (V t), with impulses j and the vectors l between the centres of the bodies.
+    /// Stress of impacts, and of events at the edges of wells: Σ j l / (V t), with impulses j and the vectors l between the centres of the bodies.
     pub collisional: DMat3,
     /// Stress of persistent contacts: Σ F l / V, with the forces F at the ends of frames.
     pub contact: DMat3,
@@ -36,10 +38,10 @@ impl Stress {
         self.kinetic + self.collisional + self.contact
     }
 
-    /// Pressure \[Pa\]: a third of the trace.
+    /// Pressure \[Pa\], or in two dimensions \[N/m\]: the trace divided by the number of dimensions.
     pub fn pressure(&self) -> f64 {
         let total = self.total();
-        (total.x_axis.x + total.y_axis.y + total.z_axis.z) / 3.0
+        (total.x_axis.x + total.y_axis.y + total.z_axis.z) / f64::from(self.dimensions)
     }
 }
 
@@ -77,6 +79,8 @@ pub struct StressMeter {
     contact: Tensor,
     /// Volume of the box around the spheres \[m³\], where there is one.
     volume: Option<f64>,
+    /// Number of dimensions.
+    dimensions: u32,
 }
 
 impl StressMeter {
@@ -90,6 +94,7 @@ impl StressMeter {
             collisional: Tensor::default(),
             contact: Tensor::default(),
             volume: volume_around(world),
+            dimensions: world.settings().dimensions,
         }
     }
 
@@ -109,7 +114,8 @@ impl StressMeter {
         self.time
     }
 
-    /// Volume of the periodic box, or of the first closed container \[m³\]; `None` without such a box.
+    /// Volume of the periodic box, or of the first closed container \[m³\], or its area in two dimensions \[m²\]; `None`
+    /// without such a box.
     pub fn volume(&self) -> Option<f64> {
         self.volume
     }
@@ -127,6 +133,7 @@ impl StressMeter {
             .map_err(|invalid| invalid.about(Subject::Query))?;
         let mean = |integral: &Tensor| integral.value() * (1.0 / (volume * self.time));
         Ok(Stress {
+            dimensions: self.dimensions,
             kinetic: mean(&self.kinetic),
             collisional: mean(&self.collisional),
             contact: mean(&self.contact),
@@ -134,14 +141,19 @@ impl StressMeter {
     }
 }
 
-/// Volume of the periodic box, or of the first closed container \[m³\].
+/// Volume of the periodic box, or of the first closed container \[m³\]; in two dimensions its area \[m²\].
 fn volume_around(world: &World) -> Option<f64> {
+    let in_space = |size: DVec3| match world.settings().dimensions {
+        2 => size.with_z(1.0),
+        _ => size,
+    };
     if let Boundary::Periodic { size } = world.settings().boundary {
+        let size = in_space(size);
         return size.is_finite().then(|| size.element_product());
     }
     world.colliders().find_map(|(_, collider)| match collider.shape {
         Shape::Container { size, open: Sides::NONE } if !collider.trigger => {
-            Some(size.element_product())
+            Some(in_space(size).element_product())
         }
         _ => None,
     })
@@ -213,6 +225,9 @@ fn add_impacts(world: &World, length: f64, sum: &mut Tensor) {
     for impact in &world.report().impacts {
         let way = reach(world, &impact.between, length - impact.time) * impact.normal;
         sum.add(outer(impact.impulse * impact.normal + impact.tangential_impulse, way));
+    }
+    for event in &world.report().well_events {
+        sum.add(outer(event.impulse * event.normal, event.distance * event.normal));
     }
 }
 

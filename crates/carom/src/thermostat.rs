@@ -29,6 +29,8 @@ pub(crate) enum Kicked {
 #[derive(Debug, Clone)]
 pub(crate) struct Kicks {
     thermostat: Thermostat,
+    /// Number of dimensions.
+    dimensions: u32,
     /// Number of the present interval: it ends at the multiple of the interval with the next number.
     number: f64,
     /// Changes in the present interval, the last one first.
@@ -36,22 +38,18 @@ pub(crate) struct Kicks {
 }
 
 impl Kicks {
-    /// The changes after `now` \[s\].
-    pub fn after(thermostat: Thermostat, spheres: &Spheres, now: f64) -> Self {
+    /// The changes after `now` \[s\] in 2 or 3 dimensions.
+    pub fn after(thermostat: Thermostat, spheres: &Spheres, dimensions: u32, now: f64) -> Self {
         let number = now / thermostat.interval();
         // An interval may end later than its rounded number says.
         let number = (number - 4.0 * f64::EPSILON * number.abs()).floor();
-        let mut kicks = Self { thermostat, number, due: Vec::new() };
+        let mut kicks = Self { thermostat, dimensions, number, due: Vec::new() };
         kicks.fill(spheres);
         kicks.due.retain(|kick| kick.time > now);
         while kicks.next() <= now {
             kicks.take(spheres);
         }
         kicks
-    }
-
-    pub fn thermostat(&self) -> Thermostat {
-        self.thermostat
     }
 
     /// Returns the time of the next change \[s\], or that of the end of an interval without one.
@@ -84,6 +82,7 @@ impl Kicks {
             let mut time = random.exponential();
             while time <= 1.0 {
                 let velocity = (temperature / mass).sqrt() * random.normal_vector();
+                let velocity = in_space(velocity, self.dimensions);
                 let of = Kicked::One(index, velocity);
                 self.due.push(Kick { time: (self.number + time) / frequency, of });
                 time += random.exponential();
@@ -94,33 +93,48 @@ impl Kicks {
     }
 }
 
+/// The part of a vector in 2 or 3 dimensions.
+fn in_space(vector: DVec3, dimensions: u32) -> DVec3 {
+    if dimensions == 2 { vector.with_z(0.0) } else { vector }
+}
+
 /// Returns the velocities of all spheres after a change of all at `time` \[s\], in m/s.
 pub(crate) fn velocities_after(
-    thermostat: Thermostat,
+    kicks: &Kicks,
     spheres: &Spheres,
     shear: Option<Shear>,
     time: f64,
 ) -> Vec<DVec3> {
+    let Kicks { thermostat, dimensions, .. } = *kicks;
     match thermostat {
         Thermostat::Andersen { .. } => spheres.velocities().to_vec(),
-        Thermostat::Rescale { temperature, .. } => rescaled(spheres, shear, temperature),
+        Thermostat::Rescale { temperature, .. } => {
+            rescaled(spheres, shear, temperature, dimensions)
+        }
         Thermostat::WhiteNoise { interval, strength, seed } => {
             let variance = strength * interval;
             let number = (time / interval).round();
             let noise = noise(spheres, (seed, number), variance.sqrt());
             let changed = spheres.velocities().iter().zip(noise);
-            changed.map(|(&velocity, noise)| velocity + noise).collect()
+            let changed = changed.map(|(&velocity, noise)| velocity + in_space(noise, dimensions));
+            changed.collect()
         }
     }
 }
 
 /// Returns the velocities, scaled about the mean flow to a kinetic temperature \[J\]. Spheres at rest stay so.
-fn rescaled(spheres: &Spheres, shear: Option<Shear>, temperature: f64) -> Vec<DVec3> {
+fn rescaled(
+    spheres: &Spheres,
+    shear: Option<Shear>,
+    temperature: f64,
+    dimensions: u32,
+) -> Vec<DVec3> {
     let flow = |place: &DVec3| shear.map_or(DVec3::ZERO, |shear| shear.velocity_at(*place));
     let own = spheres.velocities().iter().zip(spheres.positions()).map(|(v, x)| *v - flow(x));
     let own: Vec<DVec3> = own.collect();
     let energies = spheres.masses().iter().zip(&own).map(|(m, v)| m * v.length_squared());
-    let present = energies.collect::<Sum>().value() / (3.0 * spheres.len() as f64);
+    let present =
+        energies.collect::<Sum>().value() / (f64::from(dimensions) * spheres.len() as f64);
     let factor = if present > 0.0 { (temperature / present).sqrt() } else { 1.0 };
     let places = spheres.positions().iter();
     own.iter().zip(places).map(|(&velocity, x)| flow(x) + factor * velocity).collect()

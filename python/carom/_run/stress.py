@@ -25,11 +25,13 @@ class Stress:
         collisional: That of impacts [Pa], shape (3, 3).
         contact: That of persistent contacts [Pa], shape (3, 3), with the forces at the ends of
             frames.
+        dimensions: Number of dimensions; with 2, all stresses are in N/m.
     """
 
     kinetic: NDArray[np.float64]
     collisional: NDArray[np.float64]
     contact: NDArray[np.float64]
+    dimensions: int = 3
 
     @property
     def total(self) -> NDArray[np.float64]:
@@ -38,8 +40,8 @@ class Stress:
 
     @property
     def pressure(self) -> float:
-        """The pressure [Pa]: a third of the trace."""
-        return float(np.trace(self.total)) / 3.0
+        """The pressure [Pa]: the trace divided by the number of dimensions."""
+        return float(np.trace(self.total)) / self.dimensions
 
 
 class StressMeter(Strict):
@@ -91,4 +93,7 @@ class StressMeter(Strict):
             CaromError: Before the first frame, and where the volume is not known.
         """
         kinetic, collisional, contact = map(np.array, self._meter.stress(volume))
-        return Stress(kinetic=kinetic, collisional=collisional, contact=contact)
+        dimensions = self._world.simulation.dimensions
+        return Stress(
+            kinetic=kinetic, collisional=collisional, contact=contact, dimensions=dimensions
+        )

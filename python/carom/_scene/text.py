@@ -115,6 +115,7 @@ _CHOICES: dict[str, tuple[type[parts.Part], ...]] = {
     "forces": parts.FORCES,
     "generators": get_args(parts.Generator),
     "motion": get_args(parts.Motion),
+    "pair_potential": (parts.PairPotential,),
     "pieces": get_args(parts.Piece),
     "restitution_law": get_args(parts.RestitutionLaw),
     "shape": get_args(parts.Shape),

@@ -2,6 +2,7 @@
 
 import type { Finish, Material, MaterialPair, RestitutionLaw } from "./materials.js";
 import type { Shape } from "./shapes.js";
+import type { Strike } from "./strike.js";
 import type { Thermostat } from "./thermostats.js";
 
 /** Three numbers x, y, z: an array, a typed array, or any iterable, for example `THREE.Vector3`. */
@@ -27,6 +28,8 @@ export interface SphereDescription {
   mass?: number;
   /** Density [kg/m³], > 0, instead of `mass`. */
   density?: number;
+  /** Speed at which the radius grows [m/s], >= 0, under `exact`; default: 0. */
+  growthSpeed?: number;
   /** Name of its material in a scene, whose fields count where its own are missing. */
   material?: string;
   /** Coefficient of restitution in [0, 1]; default: 1. */
@@ -62,20 +65,6 @@ export interface SphereDescription {
   color?: Iterable<number>;
   /** How the surface reflects light; without effect on motion. */
   finish?: Finish;
-}
-
-/** The blow of a cue, by which it hits a sphere at one instant and one point. */
-export interface Strike {
-  /** Speed of the cue [m/s], >= 0. */
-  speed: number;
-  /** Direction from above, counterclockwise from +x [degrees]; default: 0. */
-  azimuthDegrees?: number;
-  /** Angle by which the cue points down, in [0, 90] [degrees]; default: 0. */
-  elevationDegrees?: number;
-  /** Offset from the centre to the right and up, in parts of the radius; default: none. */
-  offset?: [number, number];
-  /** Mass of the cue [kg], > 0; default: 0.567. */
-  cueMass?: number;
 }
 
 /** A sphere in a world. */
@@ -407,6 +396,8 @@ export type CombineRule = "product" | "minimum" | "maximum" | "average" | "geome
 export interface Simulation {
   /** `exact` (the default) finds every impact at its exact time. */
   rule: "exact" | "contact" | "bisect" | "discrete";
+  /** Number of dimensions; with 2, spheres are discs in the plane z = 0. Default: 3. */
+  dimensions?: 2 | 3;
   /** Frame time [s], > 0; default: 1/60. */
   frameTime: number;
   /** Duration that is worth watching [s], > 0. */
@@ -422,6 +413,8 @@ export interface Simulation {
   /** A periodic box about the origin [m], `Infinity` along an open axis; under `exact`. */
   boundary: "open" | { periodic: { size: [number, number, number]; shearRate?: number } };
   thermostat?: Thermostat;
+  /** Well of two spheres [J], up to a multiple of the sum of their radii; under `exact`. */
+  pairPotential?: { squareWell: { depth: number; rangeRatio: number } };
   /**
    * Parameters of `exact`: how simultaneous impacts among touching spheres are resolved; duration
    * of a contact [s]; largest number of impacts per sphere and frame; whether contacts that take

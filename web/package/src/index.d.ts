@@ -40,6 +40,7 @@ export * from "./thermostats.js";
 export * from "./queries.js";
 export * from "./reports.js";
 export * from "./shapes.js";
+export * from "./strike.js";
 
 /** Positions of the values in a row of `World.impactTable`; vectors take three numbers. */
 export const IMPACT_COLUMNS: Readonly<{

@@ -22,6 +22,7 @@ mod granular;
 mod motion;
 mod mutual_gravity;
 mod packing;
+mod plane;
 mod report;
 mod resting;
 mod rolling;
@@ -33,6 +34,7 @@ mod simultaneous;
 mod single_impacts;
 mod surfaces;
 mod tunnelling;
+mod wells;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -69,7 +71,7 @@ pub fn verify(args: &Verify) -> Result<(), Failure> {
 type Topic = (&'static str, fn() -> Vec<Claim>);
 
 /// All topics, in the order in which their claims are printed.
-const TOPICS: [Topic; 21] = [
+const TOPICS: [Topic; 23] = [
     ("motion", motion::claims),
     ("forces", forces::claims),
     ("impacts", single_impacts::claims),
@@ -79,6 +81,8 @@ const TOPICS: [Topic; 21] = [
     ("fluid", fluid::claims),
     ("granular", granular::claims),
     ("shear", shear::claims),
+    ("wells", wells::claims),
+    ("plane", plane::claims),
     ("conservation", conservation::claims),
     ("resting", resting::claims),
     ("friction", friction::claims),

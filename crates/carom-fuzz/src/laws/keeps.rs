@@ -140,11 +140,15 @@ impl Keeps {
         if !now.is_finite() {
             return Err(format!("has energy {now}"));
         }
-        let of_bodies =
-            [account.contacts, account.colliders, account.kicks, account.shear, account.thermostat];
+        let of_bodies = [account.contacts, account.colliders, account.kicks, account.growth];
+        let driven = [account.shear, account.thermostat];
         let others = [account.forces, account.applied, account.emission];
         let most = self.scale.max(world.kinetic_energy());
-        self.scale = of_bodies.iter().chain(&others).fold(most, |most, it| most.max(it.abs()));
+        self.scale = of_bodies
+            .iter()
+            .chain(&driven)
+            .chain(&others)
+            .fold(most, |most, it| most.max(it.abs()));
         let (change, scale) = (now - self.energy, self.scale);
         self.energy = now;
         let rest = change - account.total();

@@ -30,6 +30,7 @@ fn pair(scene: &Scene, _: &Trace) -> Option<Pair> {
         // Its temperature is that of motion relative to rest.
         || scene.simulation.thermostat.is_some()
         || scene.settings().shear_rate != 0.0
+        || scene.spheres.iter().any(|it| it.growth_speed != 0.0)
         || scene.springs.iter().any(|it| it.anchor.is_some())
         || scene.forces.iter().any(has_a_place);
     if is_fixed {

@@ -34,7 +34,10 @@ fn is_reversible(scene: &Scene) -> bool {
         && scene.springs.is_empty()
         && scene.material_pairs.is_empty()
         && scene.spheres.iter().all(|it| {
-            it.restitution == 1.0 && it.restitution_law.is_none() && is_smooth(it.friction)
+            it.restitution == 1.0
+                && it.restitution_law.is_none()
+                && is_smooth(it.friction)
+                && it.growth_speed == 0.0
         })
         && scene.colliders.iter().all(|it| {
             it.restitution == 1.0

@@ -4,8 +4,8 @@
 use carom::DVec3;
 use carom_scene::Scene;
 use carom_scene::scene::{
-    Boundary, Collider, Emitter, Force, Motion, Piece, RestitutionLaw, Shape, Sphere, Spring,
-    Thermostat,
+    Boundary, Collider, Emitter, Force, Motion, PairPotential, Piece, RestitutionLaw, Shape,
+    Sphere, Spring, Thermostat,
 };
 
 use super::pair::{Agreement, Law, Pair};
@@ -68,6 +68,9 @@ fn scaled(scene: &Scene, scale: Scale) -> Scene {
     simulation.exact.force_tick *= time;
     simulation.bisect.tolerance *= length;
     simulation.thermostat.iter_mut().for_each(|it| scale_thermostat(it, scale));
+    if let Some(PairPotential::SquareWell { depth, .. }) = &mut simulation.pair_potential {
+        *depth *= scale.of(2, 1, -2);
+    }
     if let Boundary::Periodic { size, shear_rate } = &mut simulation.boundary {
         scale_vector(size, length);
         *shear_rate *= scale.of(0, 0, -1);
@@ -112,6 +115,7 @@ fn scale_sphere(sphere: &mut Sphere, scale: Scale) {
     sphere.restitution_law.iter_mut().for_each(|it| scale_law(it, scale));
     let sizes = sphere.radius.iter_mut().chain(&mut sphere.diameter);
     sizes.for_each(|it| *it *= scale.of(1, 0, 0));
+    sphere.growth_speed *= scale.of(1, 0, -1);
     if sphere.density.is_none() {
         // What says neither has a kilogram.
         *sphere.mass.get_or_insert(1.0) *= scale.of(0, 1, 0);

@@ -35,8 +35,8 @@ pub use material::{Material, MaterialPair, RestitutionLaw};
 pub use mesh::{HeightField, Mesh};
 pub use motion::Motion;
 pub use simulation::{
-    Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, Rule,
-    Simulation, Thermostat, WindBack, Zones,
+    Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, PairPotential,
+    Rule, Simulation, Thermostat, WindBack, Zones,
 };
 pub use sphere::Sphere;
 pub use spring::Spring;

@@ -11,6 +11,10 @@ use super::values::{Vector, is_default};
 pub struct Simulation {
     /// The rule.
     pub rule: Rule,
+    /// Number of dimensions, 2 or 3. With 2 balls are discs in the plane z = 0. By default 3.
+    #[schemars(range(min = 2, max = 3))]
+    #[serde(skip_serializing_if = "is_three")]
+    pub dimensions: u32,
     /// Length of a frame, in s, > 0.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub frame_time: f64,
@@ -31,6 +35,9 @@ pub struct Simulation {
     /// Thermostat, if there is one; only under the rule `exact`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub thermostat: Option<Thermostat>,
+    /// Potential energy of two balls by their distance, if there is some; only under the rule `exact`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pair_potential: Option<PairPotential>,
     /// Parameters of the rule `exact`.
     pub exact: Exact,
     /// Parameters of the rule `bisect`.
@@ -42,6 +49,10 @@ pub struct Simulation {
     pub contact: Contact,
 }
 
+fn is_three(dimensions: &u32) -> bool {
+    *dimensions == 3
+}
+
 fn is_geometric_mean(rule: &CombineRule) -> bool {
     *rule == CombineRule::GeometricMean
 }
@@ -50,6 +61,7 @@ impl Default for Simulation {
     fn default() -> Self {
         Self {
             rule: Rule::default(),
+            dimensions: 3,
             frame_time: 1.0 / 60.0,
             duration: 10.0,
             spheres_collide: true,
@@ -58,6 +70,7 @@ impl Default for Simulation {
             allow_overlap: false,
             boundary: Boundary::default(),
             thermostat: None,
+            pair_potential: None,
             exact: Exact::default(),
             bisect: Bisect::default(),
             discrete: Discrete::default(),
@@ -175,6 +188,20 @@ pub enum Thermostat {
         /// Seed of the changes. By default 0.
         #[serde(default)]
         seed: u64,
+    },
+}
+
+/// Potential energy of two balls besides their hard cores.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum PairPotential {
+    /// A well around each ball; a short one makes sticky balls.
+    SquareWell {
+        /// Depth of the well, in J; below 0 a shoulder, which repels.
+        depth: f64,
+        /// Range of the well, between centres, as a multiple of the sum of the radii, from 1.000001 to 100.
+        #[schemars(range(min = 1.000001, max = 100.0))]
+        range_ratio: f64,
     },
 }
 

@@ -35,6 +35,10 @@ pub struct Sphere {
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub diameter: Option<f64>,
+    /// Speed at which the radius grows, in m/s, >= 0, under the rule `exact`. By default 0.
+    #[schemars(range(min = 0.0))]
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub growth_speed: f64,
     /// Mass, in kg, > 0; 1 if neither this nor `density` is given.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -112,6 +116,7 @@ impl Sphere {
             velocity: [0.0; 3],
             radius: Some(radius),
             diameter: None,
+            growth_speed: 0.0,
             mass: None,
             density: None,
             material: None,

@@ -21,6 +21,7 @@ mod driven;
 mod feature;
 mod growing;
 mod half_space;
+mod leaving;
 mod nearest;
 mod obstacle;
 #[cfg(test)]
@@ -37,6 +38,7 @@ mod turning;
 pub use bisection::{Bisection, Probe, bisect};
 pub use growing::sphere_sphere_growing;
 pub(crate) use growing::{GrowingApproach, growing_sphere_surface};
+pub use leaving::sphere_sphere_leaving;
 pub(crate) use reach::Reach;
 pub(crate) use sphere_sphere::Approach;
 pub use sphere_sphere::{sphere_sphere, sphere_sphere_linear};

@@ -2,6 +2,7 @@
 //!
 //! The broad phase proposes, one file per pair of shapes measures, `classify` decides.
 
+mod bound_pairs;
 pub(crate) mod broad_phase;
 mod classify;
 pub(crate) mod contact;
@@ -20,6 +21,7 @@ pub(crate) mod surface_tree;
 
 use glam::DVec3;
 
+pub(crate) use bound_pairs::bound_pairs;
 pub use classify::{ContactState, classify};
 pub use separation::Separation;
 pub(crate) use sphere_band::{sphere_band, sphere_band_known_in_front, sphere_round_solid};

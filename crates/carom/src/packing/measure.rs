@@ -21,7 +21,8 @@ pub struct Fluid {
     pub collision_rate: f64,
 }
 
-/// Returns the volume of the spheres divided by the volume of the box.
+/// Returns the volume of the spheres divided by the volume of the box, or in two dimensions their area divided by its
+/// area.
 ///
 /// # Errors
 /// [`Error::Invalid`] for a world whose box is not periodic along all axes: there `volume` has to be given \[m³\].
@@ -30,12 +31,17 @@ pub fn packing_fraction(world: &World, volume: Option<f64>) -> Result<f64, Error
 }
 
 pub(super) fn volume_of_spheres(world: &World) -> f64 {
-    world.spheres().radii().iter().map(|&radius| volume(radius)).collect::<Sum>().value()
+    let size = |&radius: &f64| match world.settings().dimensions {
+        2 => std::f64::consts::PI * radius * radius,
+        _ => volume(radius),
+    };
+    world.spheres().radii().iter().map(size).collect::<Sum>().value()
 }
 
 /// Returns the volume that contains the spheres \[m³\].
 pub(super) fn volume_around(world: &World, given: Option<f64>) -> Result<f64, Error> {
     let of_box = match world.settings().boundary {
+        Boundary::Periodic { size } if world.settings().dimensions == 2 => size.x * size.y,
         Boundary::Periodic { size } => size.element_product(),
         Boundary::Open => f64::INFINITY,
     };

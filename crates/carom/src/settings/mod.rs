@@ -9,6 +9,7 @@ mod discrete;
 mod exact;
 mod impact_law;
 mod integrator;
+mod pair_potential;
 mod rule;
 mod thermostat;
 mod zones;
@@ -22,6 +23,7 @@ pub use discrete::Discrete;
 pub use exact::Exact;
 pub use impact_law::ImpactLaw;
 pub use integrator::Integrator;
+pub use pair_potential::PairPotential;
 pub use rule::Rule;
 pub use thermostat::Thermostat;
 pub use zones::Zones;
@@ -51,6 +53,9 @@ use crate::validate;
 pub struct Settings {
     /// The step rule, with its parameters.
     pub rule: Rule,
+    /// Number of dimensions, 2 or 3. With 2 the spheres are discs in the plane z = 0, and temperatures, stresses and
+    /// packing fractions are those of the plane; a sphere that leaves it is refused.
+    pub dimensions: u32,
     /// Restitution of a contact, from that of its two bodies.
     pub combine_rule: CombineRule,
     /// Friction of a contact, from that of its two bodies; each coefficient separately.
@@ -66,19 +71,24 @@ pub struct Settings {
     pub shear_rate: f64,
     /// The thermostat, if there is one. Only under the rule `exact`.
     pub thermostat: Option<Thermostat>,
+    /// Potential energy between spheres besides their hard cores, if there is some. Only under the rule `exact`.
+    pub pair_potential: Option<PairPotential>,
 }
 
 impl Default for Settings {
-    /// Rule `exact`, product of restitutions, geometric mean of frictions, spheres collide, open space, no shear, no thermostat.
+    /// Rule `exact`, three dimensions, product of restitutions, geometric mean of frictions, spheres collide, open space, no shear, no thermostat, no
+    /// pair potential.
     fn default() -> Self {
         Self {
             rule: Rule::default(),
+            dimensions: 3,
             combine_rule: CombineRule::default(),
             friction_combine_rule: CombineRule::GeometricMean,
             spheres_collide: true,
             boundary: Boundary::default(),
             shear_rate: 0.0,
             thermostat: None,
+            pair_potential: None,
         }
     }
 }
@@ -87,6 +97,11 @@ impl Settings {
     /// Returns the settings with this rule, or the rule of these parameters.
     pub fn with_rule(self, rule: impl Into<Rule>) -> Self {
         Self { rule: rule.into(), ..self }
+    }
+
+    /// Returns the settings in 2 or 3 dimensions.
+    pub fn with_dimensions(self, dimensions: u32) -> Self {
+        Self { dimensions, ..self }
     }
 
     /// Returns the settings with this rule for the restitution of a contact.
@@ -119,9 +134,20 @@ impl Settings {
         Self { thermostat, ..self }
     }
 
-    /// Returns an error for invalid parameters of the rule, or a boundary or thermostat that the rule does not have.
+    /// Returns the settings with this potential between spheres, or without one.
+    pub fn with_pair_potential(self, pair_potential: Option<PairPotential>) -> Self {
+        Self { pair_potential, ..self }
+    }
+
+    /// Returns an error for invalid parameters of the rule, or for a boundary, thermostat or pair potential that the rule
+    /// does not have.
     pub(crate) fn validate(&self) -> Result<(), InvalidValue> {
         self.boundary.validate()?;
+        let is_known = matches!(self.dimensions, 2 | 3);
+        validate::require(is_known, "dimensions", "2 or 3", self.dimensions)?;
+        let is_flat = self.dimensions == 3 || self.boundary.period().z == f64::INFINITY;
+        let requirement = "infinite along z in two dimensions";
+        validate::require(is_flat, "size", requirement, self.boundary.period())?;
         if self.boundary != Boundary::Open {
             let is_known = matches!(self.rule, Rule::Exact(_) | Rule::Contact(_));
             let requirement =
@@ -135,12 +161,24 @@ impl Settings {
             validate::require(is_known, "thermostat", requirement, "given")?;
             thermostat.validate()?;
         }
+        self.validate_pair_potential()?;
         match self.rule {
             Rule::Discrete(_) => Ok(()),
             Rule::Bisect(parameters) => parameters.validate(),
             Rule::Exact(parameters) => parameters.validate(),
             Rule::Contact(parameters) => parameters.validate(),
         }
+    }
+
+    /// Returns an error for a potential between spheres with invalid parameters, or that the rule does not have.
+    fn validate_pair_potential(&self) -> Result<(), InvalidValue> {
+        let Some(potential) = self.pair_potential else { return Ok(()) };
+        let is_known = matches!(self.rule, Rule::Exact(_));
+        let requirement = "used with the rule `exact`: others know no potential between spheres";
+        validate::require(is_known, "pair_potential", requirement, "given")?;
+        let requirement = "used where spheres collide";
+        validate::require(self.spheres_collide, "pair_potential", requirement, "given")?;
+        potential.validate()
     }
 
     /// Returns an error for a shear rate that is not a number, or where no box can be sheared.

@@ -195,6 +195,9 @@ fn refusal(unfinished: Unfinished, time: f64) -> Error {
         Unfinished::NonFiniteForce { sphere } => no_longer_finite(sphere, "velocity", time),
         Unfinished::NoClosedForm { sphere, time: at } => Error::NeedsZone { sphere, at, time },
         Unfinished::NoRoomToGrow { sphere, time: at } => Error::NoRoomToGrow { sphere, at, time },
+        Unfinished::RestsInPotential { sphere, time: at } => {
+            Error::RestsInPotential { sphere, at, time }
+        }
         Unfinished::TooManyImpacts { sphere, limit, companions, time: at } => {
             Error::TooManyImpacts { sphere, limit, companions, at, time }
         }

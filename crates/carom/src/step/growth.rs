@@ -47,6 +47,7 @@ fn obstacle(state: &State) -> Option<&'static str> {
         (has_inelastic, "zero where a restitution is not 1, and beside pairs of materials"),
         (state.emitters.iter().len() > 0, "zero in a world with emitters"),
         (state.settings.thermostat.is_some(), "zero beside a thermostat"),
+        (state.settings.pair_potential.is_some(), "zero beside a pair potential"),
         (state.settings.shear_rate != 0.0, "zero in a box in steady shear"),
         (surfaces().any(moves), "zero beside colliders that move or kick"),
         (surfaces().any(reports), "zero beside triggers"),

@@ -4,7 +4,7 @@ use super::{by_event, growth};
 use crate::error::{Error, Subject};
 use crate::path::PredictedPath;
 use crate::rule::exact::{self, Span};
-use crate::settings::{Exact, Rule};
+use crate::settings::{Exact, Rule, Settings};
 use crate::state::State;
 use crate::validate;
 use crate::work::{StopRequest, Work};
@@ -29,8 +29,9 @@ pub(crate) fn predict(
     by_event::check_room(state)?;
     growth::check(state, horizon)?;
     by_event::check_closed_form(&now.system, "path").map_err(|it| it.about(Subject::Query))?;
-    let is_free = state.settings.thermostat.is_none() && state.settings.shear_rate == 0.0;
-    let requirement = "predicted in a world without a thermostat and shear";
+    let Settings { thermostat, shear_rate, pair_potential, .. } = state.settings;
+    let is_free = thermostat.is_none() && shear_rate == 0.0 && pair_potential.is_none();
+    let requirement = "predicted in a world without a thermostat, shear and a pair potential";
     validate::require(is_free, "path", requirement, "under one")
         .map_err(|invalid| invalid.about(Subject::Query))?;
     let parameters = match state.settings.rule {

@@ -8,7 +8,9 @@ mod capture;
 mod growth;
 mod lookahead;
 mod obstacle;
+mod pair_potential;
 mod place;
+mod plane;
 mod shear;
 mod sweep;
 mod thermostat;
@@ -52,10 +54,12 @@ fn check_length(state: &State, dt: f64) -> Result<(), Error> {
         .map_err(|invalid| invalid.about(Subject::Step))
 }
 
-/// Returns an error for what shear, growth or the thermostat cannot be combined with in a step of `dt` \[s\].
+/// Returns an error for what two dimensions, shear, growth, a pair potential or the thermostat cannot be combined with in a step of `dt` \[s\].
 fn check_combinations(state: &State, dt: f64) -> Result<(), Error> {
+    plane::check(state)?;
     shear::check(state, dt)?;
     growth::check(state, dt)?;
+    pair_potential::check(state)?;
     let Some(thermostat) = state.settings.thermostat else { return Ok(()) };
     let end = state.clock.after(dt).seconds();
     thermostat.check_step(dt, end).map_err(|invalid| invalid.about(Subject::Step))

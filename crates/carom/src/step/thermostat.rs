@@ -15,7 +15,7 @@ use crate::thermostat::{Kicked, Kicks, velocities_after};
 /// The changes that the thermostat makes after `now` \[s\], if there is one.
 pub(super) fn kicks_after(state: &State, now: f64) -> Option<Kicks> {
     let thermostat = state.settings.thermostat?;
-    Some(Kicks::after(thermostat, &state.spheres, now))
+    Some(Kicks::after(thermostat, &state.spheres, state.settings.dimensions, now))
 }
 
 /// Makes the changes of velocity that are due.
@@ -36,7 +36,7 @@ pub(super) fn kick_spheres(
             Some(Kicked::All) => {
                 place_spheres(attempt, timeline, time)?;
                 let (shear, spheres) = (Shear::of(&attempt.state.settings), &attempt.state.spheres);
-                let velocities = velocities_after(kicks.thermostat(), spheres, shear, time);
+                let velocities = velocities_after(kicks, spheres, shear, time);
                 restart_with(attempt, timeline, &velocities, time);
             }
             None => {}

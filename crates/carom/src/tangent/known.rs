@@ -36,6 +36,9 @@ pub(super) fn check(world: &World) -> Result<(), DerivativeError> {
     if system.settings.shear_rate != 0.0 {
         return refuse("a box in steady shear");
     }
+    if system.settings.pair_potential.is_some() {
+        return refuse("a pair potential");
+    }
     if system.spheres.growth_speed.iter().any(|&speed| speed > 0.0) {
         return refuse("spheres that grow");
     }

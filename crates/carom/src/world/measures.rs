@@ -23,7 +23,7 @@ impl World {
         invariants::rotational_energy(self.spheres())
     }
 
-    /// Potential energy \[J\] in all forces and springs that have one.
+    /// Potential energy \[J\] in all forces, springs and pair potentials that have one.
     pub fn potential_energy(&self) -> f64 {
         self.state.potential_energy(self.time())
     }

@@ -10,7 +10,15 @@ from dataclasses import dataclass, field
 from typing import ClassVar, Literal, TypeAlias
 
 from carom._scene.parts.choices import CombineRule, ImpactLaw, Integrator, Rule
-from carom._scene.parts.kinds import Count, Finite, LargeNumber, NonNegative, Period, Positive
+from carom._scene.parts.kinds import (
+    Count,
+    Finite,
+    LargeNumber,
+    NonNegative,
+    Number,
+    Period,
+    Positive,
+)
 from carom._scene.parts.part import Part
 
 
@@ -158,12 +166,33 @@ Thermostat: TypeAlias = Andersen | Rescale | WhiteNoise
 """What changes the velocities of all spheres, at times that do not depend on frames."""
 
 
+@dataclass(frozen=True)
+class SquareWell(Part):
+    """A well around each ball; a short one makes sticky balls.
+
+    Attributes:
+        depth: Depth of the well [J]; below 0 a shoulder, which repels.
+        range_ratio: Range of the well, between centres, as a multiple of the sum of the radii, from
+            1.000001 to 100.
+    """
+
+    tag: ClassVar[str] = "square-well"
+    depth: Finite
+    range_ratio: Positive
+
+
+PairPotential: TypeAlias = SquareWell
+"""Potential energy of two spheres besides their hard cores."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Simulation(Part):
     """Rule, frame and other settings of the simulation.
 
     Attributes:
         rule: The rule.
+        dimensions: Number of dimensions, 2 or 3. With 2 balls are discs in the plane z = 0. By
+            default 3.
         frame_time: Length of a frame [s], > 0.
         duration: Time worth watching [s], > 0: what a run takes by default.
         spheres_collide: Whether spheres collide with each other. They always collide with
@@ -174,6 +203,8 @@ class Simulation(Part):
         allow_overlap: Whether spheres may overlap each other or colliders at the start.
         boundary: Open space or a periodic box.
         thermostat: Thermostat, if there is one; only under the rule ``exact``.
+        pair_potential: Potential energy of two balls by their distance, if there is some; only
+            under the rule ``exact``.
         exact: Parameters of the rule ``exact``.
         bisect: Parameters of the rule ``bisect``.
         discrete: Parameters of the rule ``discrete``.
@@ -181,6 +212,7 @@ class Simulation(Part):
     """
 
     rule: Rule = "exact"
+    dimensions: Number = field(default_factory=Number)
     frame_time: Positive = 1.0 / 60.0
     duration: Positive = 10.0
     spheres_collide: bool = True
@@ -189,6 +221,7 @@ class Simulation(Part):
     allow_overlap: bool = False
     boundary: Literal["open"] | Periodic = "open"
     thermostat: Thermostat | None = None
+    pair_potential: PairPotential | None = None
     exact: Exact = field(default_factory=Exact)
     bisect: Bisect = field(default_factory=Bisect)
     discrete: Discrete = field(default_factory=Discrete)

@@ -90,6 +90,8 @@ class Sphere(Part):
             count.
         strike: The blow of a cue that sets it in motion, besides its velocities. In an emitter: in
             the emitter's coordinates.
+        growth_speed: Speed at which the radius grows [m/s], >= 0, under the rule ``exact``. By
+            default 0.
     """
 
     position: Vector = ORIGIN
@@ -114,6 +116,7 @@ class Sphere(Part):
     material: str | None = None
     restitution_law: RestitutionLaw | None = None
     strike: Strike | None = None
+    growth_speed: NonNegative = 0.0
 
     def __post_init__(self) -> None:
         super().__post_init__()

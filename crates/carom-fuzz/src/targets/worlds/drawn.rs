@@ -24,6 +24,8 @@ pub struct Drawn {
     /// Part of the room that they fill.
     pub crowding: f64,
     pub springs: Option<Springs>,
+    /// Rate at which radii grow \[1/s\].
+    pub growth: Option<f64>,
 }
 
 /// What is around the balls.
@@ -129,10 +131,11 @@ pub fn drawn() -> impl Strategy<Value = Drawn> {
         vec(obstacle(), 0..3),
         (vec(ball(), 0..14), select(&[1.0, 1.0, 0.4][..])),
         weighted(0.2, springs()),
+        weighted(0.04, 0.01..0.3),
     );
     (settings, bodies).prop_map(|(settings, bodies)| {
         let (rule, choices, around, material, forces) = settings;
-        let (has_floor, emitter, obstacles, (balls, crowding), springs) = bodies;
+        let (has_floor, emitter, obstacles, (balls, crowding), springs, growth) = bodies;
         let drawn = Drawn {
             rule,
             choices,
@@ -145,6 +148,7 @@ pub fn drawn() -> impl Strategy<Value = Drawn> {
             balls,
             crowding,
             springs,
+            growth,
         };
         sensible(drawn)
     })
@@ -167,6 +171,12 @@ fn sensible(mut drawn: Drawn) -> Drawn {
     if drawn.around.kind == "sheared" {
         drawn = alone_in_shear(drawn);
     }
+    if drawn.choices.iter().any(|it| it.starts_with("pair_potential")) {
+        drawn = elastic(unlinked(drawn));
+    }
+    if drawn.growth.is_some() {
+        drawn = growing(drawn);
+    }
     if is_periodic {
         // Such gravity has no end there.
         drawn.forces.retain(|it| !it.starts_with("mutual"));
@@ -179,11 +189,37 @@ fn sensible(mut drawn: Drawn) -> Drawn {
 }
 
 /// Smooth balls that nothing acts on, without which no box is sheared.
-fn alone_in_shear(mut drawn: Drawn) -> Drawn {
-    drawn.rule = "exact";
+fn alone_in_shear(drawn: Drawn) -> Drawn {
+    let mut drawn = unlinked(drawn);
+    drawn.choices.retain(|it| !it.starts_with("pair_potential"));
     drawn.forces.clear();
     drawn.obstacles.clear();
-    (drawn.springs, drawn.emitter, drawn.has_floor) = (None, None, false);
+    drawn.has_floor = false;
+    drawn
+}
+
+/// Balls that grow, alone in what stands around them.
+fn growing(drawn: Drawn) -> Drawn {
+    let mut drawn = elastic(alone_in_shear(drawn));
+    drawn.choices.retain(|it| !it.starts_with("thermostat"));
+    (drawn.around.velocity, drawn.around.spin) = (None, None);
+    if drawn.around.kind == "sheared" {
+        drawn.around.kind = "periodic";
+    }
+    drawn
+}
+
+/// Bodies that lose no energy in impacts.
+fn elastic(mut drawn: Drawn) -> Drawn {
+    drawn.material = Material { restitution: 1.0, law: None, has_pair: false, ..drawn.material };
+    drawn
+}
+
+/// Smooth balls under gravity at most, as wells need them.
+fn unlinked(mut drawn: Drawn) -> Drawn {
+    drawn.rule = "exact";
+    drawn.forces.retain(|it| it.starts_with("gravity"));
+    (drawn.springs, drawn.emitter) = (None, None);
     let Material { restitution, law, .. } = drawn.material;
     let (rolling, spinning) = (None, None);
     drawn.material = Material {
@@ -213,6 +249,9 @@ fn choices() -> impl Strategy<Value = Vec<&'static str>> {
         "thermostat = { andersen = { frequency = 8.0, temperature = 0.5, seed = 4 } }",
         "thermostat = { rescale = { interval = 0.05, temperature = 0.5 } }",
         "thermostat = { white-noise = { interval = 0.03, strength = 0.5, seed = 4 } }",
+        "pair_potential = { square-well = { depth = 0.3, range_ratio = 1.5 } }",
+        "pair_potential = { square-well = { depth = -0.1, range_ratio = 1.2 } }",
+        "pair_potential = { square-well = { depth = 2.0, range_ratio = 1.01 } }",
         "contact = { sub_steps = 3, sweeps = 5, sleep_speed = 0.0 }",
         "contact = { sleep_speed = 0.0 }",
         "contact = { converged = true }",

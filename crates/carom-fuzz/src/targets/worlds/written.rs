@@ -79,12 +79,14 @@ fn ball(drawn: &Drawn, placed: &Placed, material: &str) -> String {
     let Placed { position, radius, ball } = placed;
     let (mass, velocity) = (10f64.powf(ball.mass), sum(ball.velocity, velocity_of_all(drawn)));
     let spin = ball.spin.map_or(String::new(), |it| format!("angular_velocity = {it:?}\n"));
+    let growth =
+        drawn.growth.map_or(String::new(), |it| format!("growth_speed = {:?}\n", it * radius));
     let groups = ball.groups.map_or(String::new(), |[groups, others]| {
         format!("groups = {groups}\ncollides_with = {others}\n")
     });
     format!(
         "[[spheres]]\nposition = {position:?}\nvelocity = {velocity:?}\nradius = {radius:?}\n\
-         mass = {mass:?}\ninertia_factor = {:?}\n{spin}{groups}{material}",
+         mass = {mass:?}\ninertia_factor = {:?}\n{spin}{growth}{groups}{material}",
         ball.inertia
     )
 }

@@ -55,6 +55,7 @@ fn answer_and_check(
     let changed = answer(timeline, context, slot, event);
     predict::changed(timeline, context, changed, event.time);
     check_room_to_grow(timeline, context, &involved, event.time)?;
+    check_free_of_rest(timeline, context, &involved, event.time)?;
     restart_companions(timeline, context, event.time)?;
     check_work(timeline, context, slot, event.time)?;
     check_steps(timeline, context, event.time);
@@ -100,6 +101,12 @@ fn answer(
         }
         EventTarget::Sphere(other) if timeline.neighbours.sliding().is_some() => {
             impact::answer_sheared_pair(timeline, context, [slot, other], time)
+        }
+        EventTarget::Sphere(other)
+            if timeline.flights.wells.is_some()
+                && impact::meet_at_edge(timeline, context, [slot, other], time) =>
+        {
+            impact::answer_at_edge(timeline, context, [slot, other], time)
         }
         EventTarget::Sphere(other) => impact::answer_pair(timeline, context, [slot, other], time),
         EventTarget::Surface(surface) => {
@@ -166,6 +173,23 @@ fn check_room_to_grow(
     overheated.map_or(Ok(()), |&slot| {
         let sphere = context.id_of(timeline, slot);
         Err(Unfinished::NoRoomToGrow { sphere, time })
+    })
+}
+
+/// Returns an error if a sphere beside a pair potential rests on something, at `time` \[s\].
+fn check_free_of_rest(
+    timeline: &Timeline,
+    context: &StepContext,
+    slots: &[Option<u32>],
+    time: f64,
+) -> Result<(), Unfinished> {
+    if timeline.flights.wells.is_none() {
+        return Ok(());
+    }
+    let rests = |slot: &&u32| timeline.flights.species_of(**slot).cluster.is_some();
+    slots.iter().flatten().find(rests).map_or(Ok(()), |&slot| {
+        let sphere = context.id_of(timeline, slot);
+        Err(Unfinished::RestsInPotential { sphere, time })
     })
 }
 

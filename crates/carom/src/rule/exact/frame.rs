@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::arrange::arrange;
 use super::context::StepContext;
 use super::events::{Prediction, Schedule};
-use super::flights::{self, Body, Flights, Growth, Rotation};
+use super::flights::{self, Body, Flights, Growth, Rotation, Wells};
 use super::moving;
 use super::pair_times::PairSearch;
 use super::persistent::{self, held_forces, piece_end};
@@ -18,6 +18,7 @@ use super::ticks;
 use super::timeline::Timeline;
 use super::zone::Zone;
 use crate::bodies::Motion;
+use crate::detect::instant::Instant;
 use crate::id::SphereId;
 use crate::parallel;
 use crate::persistent_contact::PersistentContact;
@@ -47,8 +48,10 @@ pub(crate) fn start(
 ) -> Timeline {
     let mut flights = Flights::new(system, motion, |_| Err(time));
     flights.growth = Growth::of(&flights.species, time);
-    // Zones step spheres with the radius of the start, and images that stand still.
-    let excludes_zones = flights.growth.is_some() || Shear::of(system.settings).is_some();
+    flights.wells = Wells::of(&Instant { system: *system, motion, time });
+    // Zones step spheres with the radius of the start, images that stand still, and no wells.
+    let excludes_zones =
+        flights.growth.is_some() || flights.wells.is_some() || Shear::of(system.settings).is_some();
     let zones = if excludes_zones { Zones::Never } else { parameters.zones };
     let parameters = parameters.with_zones(zones);
     if zones == Zones::Never {
@@ -117,6 +120,7 @@ pub(crate) fn adopt<F: Fn(SphereId) -> f64>(
 /// Persistent contacts are computed again, and spheres of a zone join it again.
 pub(crate) fn restart(before: &Timeline, system: &System, motion: &Motion, time: f64) -> Timeline {
     let mut flights = Flights::new(system, motion, |_| Err(time));
+    flights.wells.clone_from(&before.flights.wells);
     if before.has_friction() {
         let all = 0..motion.position.len();
         flights.rotations = all.map(|index| Rotation::of(motion, index, time)).collect();

@@ -44,6 +44,7 @@ mod ticks;
 mod timeline;
 mod unfinished;
 mod watch;
+mod well_energy;
 mod zone;
 
 pub(crate) use course::{Course, follow};
@@ -59,6 +60,7 @@ pub(crate) use span::Span;
 pub(crate) use timeline::Timeline;
 pub(crate) use unfinished::Unfinished;
 pub(crate) use watch::Watch;
+pub(crate) use well_energy::well_energy;
 pub(crate) use zone::Zone;
 
 use std::mem::take;

@@ -30,6 +30,13 @@ pub(crate) enum Unfinished {
         /// When it happened, on the world's clock \[s\].
         time: f64,
     },
+    /// A sphere with a potential between spheres rests on something.
+    RestsInPotential {
+        /// The sphere.
+        sphere: SphereId,
+        /// When it happened, on the world's clock \[s\].
+        time: f64,
+    },
     /// A force on a sphere is not finite.
     NonFiniteForce {
         /// The sphere.

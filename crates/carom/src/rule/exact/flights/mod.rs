@@ -22,6 +22,8 @@ mod state;
 mod support_change;
 mod support_log;
 mod tie;
+mod time_in_wells;
+mod wells;
 
 pub(super) use at_time::{first_lost, write_motion};
 pub(super) use body::Body;
@@ -38,3 +40,4 @@ pub(super) use rotation::{Rotation, write_spin};
 pub(super) use species::Species;
 pub(super) use state::Flights;
 pub(crate) use support_change::{HeldMotion, SupportChange};
+pub(super) use wells::Wells;

@@ -18,9 +18,12 @@ impl Flights {
         self.growth.map_or(species.radius, |growth| growth.radius_at(species, time))
     }
 
-    /// Radius for which neighbour lists are made for a species \[m\].
+    /// Radius for which neighbour lists are made for a species \[m\]: with growth or wells, that of its reach.
     #[inline]
     pub fn largest_radius(&self, species: &Species) -> f64 {
+        if let Some(wells) = &self.wells {
+            return wells.range_ratio * species.radius;
+        }
         self.growth.map_or(species.radius, |growth| growth.radius_at(species, growth.until))
     }
 

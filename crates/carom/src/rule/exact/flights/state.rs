@@ -13,6 +13,7 @@ use super::growth::Growth;
 use super::rotation::Rotation;
 use super::species::{Species, SpeciesOfSpheres};
 use super::support_change::SupportChange;
+use super::wells::Wells;
 use crate::bodies::Motion;
 use crate::contact_time::Reach;
 use crate::detect::contact::Bodies;
@@ -46,6 +47,8 @@ pub(crate) struct Flights {
     pub components: Components,
     /// How radii grow; `None` where none does.
     pub growth: Option<Growth>,
+    /// Wells around spheres; `None` without a potential between them.
+    pub wells: Option<Wells>,
     /// A sphere, by index, on which a force was not finite.
     pub lost: Option<u32>,
     /// Whether some forces are held constant for a time.
@@ -101,6 +104,7 @@ impl Flights {
             curves: if are_curved { vec![Curve::default(); count] } else { Vec::new() },
             components,
             growth: None,
+            wells: None,
             lost: None,
             hold_forces,
             forces_vary,

@@ -75,6 +75,9 @@ impl PairQuery<'_> {
         if self.timeline.flights.growth.is_some() {
             return run!(IMAGES, ITSELF, SPECIES, GROWS);
         }
+        if self.timeline.flights.wells.is_some() {
+            return run!(IMAGES, ITSELF, FALLS, SPECIES, WELLS);
+        }
         match (falls, neighbours.finds_itself(), neighbours.images()) {
             (Some(false), false, _) if !self.has_images => run!(),
             (Some(false), false, Images::ByPlace) => run!(NEAREST),
@@ -107,6 +110,8 @@ const NEAREST: u8 = 16;
 const GROWS: u8 = 32;
 /// Images slide, as those of a box in steady shear.
 const SLIDES: u8 = 64;
+/// There are wells around spheres.
+const WELLS: u8 = 128;
 
 /// A query where only these `CASES` occur.
 struct PairKernel<'a, const CASES: u8> {
@@ -229,7 +234,11 @@ impl<'a, const CASES: u8> PairKernel<'a, CASES> {
         let delay = approach.time(distance - radius_sum, distance + radius_sum);
         let mut time = (start + delay).select(meets, all(f64::INFINITY));
         let square = radius_sum * radius_sum;
-        let is_close = meets & (distance_squared - square).is_at_most(square * NEARLY_TOUCHING);
+        let is_close = if covers::<CASES>(WELLS) {
+            is_alike
+        } else {
+            meets & (distance_squared - square).is_at_most(square * NEARLY_TOUCHING)
+        };
         if is_close.any_true() {
             let times = self.close_meetings(four, time.to_array(), is_close.to_bitmask());
             time = Lanes::each(simd, times);
@@ -276,7 +285,7 @@ impl<'a, const CASES: u8> PairKernel<'a, CASES> {
         self.query.timeline.flights.growth.map_or(0.0, |growth| growth.since)
     }
 
-    /// Replaces the times \[s\] of the neighbours with these bits, which nearly touch.
+    /// Replaces the times \[s\] of the neighbours with these bits, which nearly touch or have wells.
     #[cold]
     #[inline(never)]
     fn close_meetings(
@@ -291,11 +300,12 @@ impl<'a, const CASES: u8> PairKernel<'a, CASES> {
         times
     }
 
-    /// When the sphere meets a neighbour that nearly touches it, on the world's clock \[s\]; infinite if
+    /// When the sphere meets a neighbour that nearly touches it or has a well, on the world's clock \[s\]; infinite if
     /// never.
     fn close_meeting(&self, near: Neighbour) -> f64 {
         let PairQuery { timeline, slot, .. } = *self.query;
-        let other = &timeline.flights.bodies[near.slot() as usize];
+        let flights = &timeline.flights;
+        let other = &flights.bodies[near.slot() as usize];
         let [own, theirs] = [self.body, other].map(FlightLanes::of_one);
         let start = self.body.time.max(other.time);
         let [shift, image_velocity] = timeline.neighbours.image_motion_of(slot, near, start);
@@ -312,11 +322,14 @@ impl<'a, const CASES: u8> PairKernel<'a, CASES> {
             growth_speed = self.species.growth_speed + self.species_of(other).growth_speed;
             radius_sum += growth_speed * (start - self.growing_since());
         }
-        if only_touch([self.body, other], &relative, [radius_sum, growth_speed]) {
-            return f64::INFINITY;
-        }
+        let only_touch = only_touch([self.body, other], &relative, [radius_sum, growth_speed]);
         let [offset, velocity] = [offset, velocity].map(DVec3::from);
-        let delay = if covers::<CASES>(GROWS) {
+        let delay = if covers::<CASES>(WELLS) {
+            let slots = [slot, near.slot()];
+            flights.time_in_wells(slots, [offset, velocity], radius_sum, only_touch)
+        } else if only_touch {
+            None
+        } else if covers::<CASES>(GROWS) {
             contact_time::sphere_sphere_growing(offset, velocity, radius_sum, growth_speed)
         } else {
             contact_time::sphere_sphere_linear(offset, velocity, radius_sum)

@@ -1,0 +1,114 @@
+//! Two dimensions (`docs/physics/motion.md`): discs in a plane, their pressure and temperature, and what leaves the
+//! plane.
+
+use std::f64::consts::PI;
+
+use carom::packing::packing_fraction;
+use carom::{
+    Boundary, Contact, DVec3, Error, Gravity, Settings, Sphere, StressMeter, Thermostat, World,
+};
+
+mod common;
+
+use common::{Numbers, assert_close, vec};
+
+fn settings() -> Settings {
+    Settings::default().with_dimensions(2)
+}
+
+/// Discs of diameter 1 on a square lattice in a periodic square, without momentum, whose mean kinetic energy is 1 J.
+fn gas(settings: Settings, side: usize, spacing: f64) -> World {
+    let edge = spacing * side as f64;
+    let size = vec(edge, edge, f64::INFINITY);
+    let mut world = World::new(settings.with_boundary(Boundary::Periodic { size })).unwrap();
+    let mut numbers = Numbers(3);
+    let count = side * side;
+    let mut velocities: Vec<DVec3> = (0..count)
+        .map(|_| vec(numbers.between(-1.0, 1.0), numbers.between(-1.0, 1.0), 0.0))
+        .collect();
+    let mean = velocities.iter().sum::<DVec3>() / count as f64;
+    velocities.iter_mut().for_each(|it| *it -= mean);
+    let square: f64 = velocities.iter().map(|it| it.length_squared()).sum();
+    for (number, velocity) in velocities.iter().enumerate() {
+        let place =
+            [number % side, number / side].map(|it| (it as f64 + 0.5) * spacing - 0.5 * edge);
+        let velocity = *velocity * (2.0 * count as f64 / square).sqrt();
+        let sphere = Sphere::new(vec(place[0], place[1], 0.0), 0.5).with_velocity(velocity);
+        world.add_sphere(sphere).unwrap();
+    }
+    world
+}
+
+#[test]
+fn discs_have_the_pressure_of_henderson() {
+    // Z = (1 + p²/8)/(1 - p)² at the packing fraction p (Henderson, Mol. Phys. 30, 971 (1975)).
+    for spacing in [2.0, 1.4] {
+        let mut world = gas(settings(), 24, spacing);
+        let fraction = packing_fraction(&world, None).unwrap();
+        assert_close(fraction, 0.25 * PI / (spacing * spacing), 1e-14);
+        world.step(20.0).unwrap();
+        let mut meter = StressMeter::new(&world);
+        for _ in 0..200 {
+            world.step(0.5).unwrap();
+            meter.add_frame(&world);
+        }
+        let area = meter.volume().unwrap();
+        assert_close(area, 576.0 * spacing * spacing, 1e-11);
+        let stress = meter.stress(None).unwrap();
+        // k T is 1 J, as the mean kinetic energy of two degrees of freedom; one of all discs is that of the momentum.
+        let compressibility = stress.pressure() * area / 576.0;
+        let free = 1.0 - fraction;
+        let expected = (1.0 + fraction * fraction / 8.0) / (free * free);
+        // Statistics of some 20,000 impacts and more; the equation is within 0.3 %.
+        assert_close(compressibility, expected, 0.01 * expected);
+        assert_eq!(stress.total().z_axis, DVec3::ZERO);
+        assert!(world.spheres().positions().iter().all(|it| it.z == 0.0));
+    }
+}
+
+#[test]
+fn thermostats_keep_discs_in_the_plane_and_at_their_temperature() {
+    let rescale = Thermostat::Rescale { interval: 0.25, temperature: 0.7 };
+    let mut world = gas(settings().with_thermostat(Some(rescale)), 8, 1.5);
+    world.step(0.5).unwrap();
+    // A disc has k T of kinetic energy.
+    assert_close(world.kinetic_energy(), 0.7 * 64.0, 1e-12);
+    let andersen = Thermostat::Andersen { frequency: 2.0, temperature: 0.7, seed: 3 };
+    let noise = Thermostat::WhiteNoise { interval: 0.1, strength: 0.5, seed: 3 };
+    for thermostat in [andersen, noise] {
+        let mut world = gas(settings().with_thermostat(Some(thermostat)), 8, 1.5);
+        let momentum = world.momentum();
+        for _ in 0..8 {
+            world.step(0.5).unwrap();
+        }
+        assert!(world.spheres().velocities().iter().all(|it| it.z == 0.0));
+        if thermostat == noise {
+            assert!(world.momentum().distance(momentum) < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn what_leaves_the_plane_is_refused() {
+    let disc = Sphere::new(DVec3::ZERO, 0.5);
+    for (sphere, field) in [
+        (disc.with_position(vec(0.0, 0.0, 0.1)), "position"),
+        (disc.with_velocity(vec(1.0, 0.0, 0.1)), "velocity"),
+        (disc.with_angular_velocity(vec(0.0, 1.0, 0.0)), "angular_velocity"),
+    ] {
+        for settings in [settings(), settings().with_rule(Contact::default())] {
+            let mut world = World::new(settings).unwrap();
+            world.add_sphere(sphere).unwrap();
+            let error = world.step(0.1).unwrap_err();
+            assert!(matches!(error, Error::Invalid { .. }), "{error}");
+            assert!(error.to_string().contains(field), "{error}");
+        }
+    }
+    let mut world = World::new(settings()).unwrap();
+    world.add_sphere(disc).unwrap();
+    world.add_force(Gravity::new(vec(0.0, -1.0, -1.0))).unwrap();
+    assert!(world.step(0.1).unwrap_err().to_string().contains("plane"));
+    let closed = Boundary::Periodic { size: DVec3::splat(4.0) };
+    assert!(World::new(settings().with_boundary(closed)).is_err());
+    assert!(World::new(settings().with_dimensions(1)).is_err());
+}
