@@ -185,13 +185,33 @@ shortcuts! {
     }
 }
 
-/// Controls of a maze, for the help.
-pub const MAZE: &[(&str, &str)] = &[
-    ("arrow keys, or W A S D", "tilt the maze"),
-    ("right drag", "tilt the maze"),
-    ("gamepad's stick", "tilt the maze"),
-    ("Enter, when it is won", "play again"),
-];
+/// Name of a game, and its controls with their texts, for the help.
+pub type GameControls = (&'static str, &'static [(&'static str, &'static str)]);
+
+/// Controls of a maze.
+pub const MAZE: GameControls = (
+    "Maze",
+    &[
+        ("arrow keys, or W A S D", "tilt the maze"),
+        ("right drag", "tilt the maze"),
+        ("gamepad's stick", "tilt the maze"),
+        ("Enter, when it is won", "play again"),
+    ],
+);
+
+/// Controls of pinball.
+pub const PINBALL: GameControls = (
+    "Pinball",
+    &[
+        ("left and right arrow, or A and D", "raise a flipper"),
+        ("down arrow, or S", "pull the plunger; let go to shoot"),
+        (
+            "a finger on the left or right half",
+            "raise a flipper; pull the plunger while the ball waits",
+        ),
+        ("Enter, when it is over", "play again"),
+    ],
+);
 
 /// Controls of the picture with the mouse, for the help.
 pub const MOUSE: &[(&str, &str)] = &[
@@ -200,6 +220,10 @@ pub const MOUSE: &[(&str, &str)] = &[
     ("wheel", "come nearer or go away"),
     ("click on a ball", "pick it; beside all balls: pick none"),
     ("drag the picked ball", "pull it by a spring; let go to throw it"),
+    (
+        "drag from a cue ball",
+        "aim along its path; let go to strike, on the ball to put the cue away",
+    ),
     ("Ctrl + click", "throw a new ball that way"),
     ("double click", "turn about what was clicked"),
     ("drop a file", "open it as a scene or maze"),

@@ -1,5 +1,6 @@
 //! The screen of a watched scene: its picture and panels.
 
+mod aim;
 mod card;
 mod departures;
 mod entries;
@@ -34,6 +35,7 @@ use crate::snapshot::Snapshot;
 use crate::studio::{Canvas, Studio};
 use crate::written_scene::WrittenScene;
 use crate::{impact_list, transport};
+use aim::Cue;
 use card::Card;
 use departures::Departures;
 pub use entries::PRESETS;
@@ -73,6 +75,8 @@ pub struct Watching {
     card: Card,
     /// The ball in the hand.
     grabbed: Option<Grab>,
+    /// The cue in the hand.
+    cue: Option<Cue>,
     /// The pictures of both rules; one rule uses the first.
     canvases: [Canvas; 2],
     drawing: Drawing,
@@ -185,6 +189,7 @@ impl Watching {
             thrown_after: None,
             card: Card::default(),
             grabbed: None,
+            cue: None,
             canvases: Default::default(),
             drawing: Drawing::default(),
             drawn: [None; 2],
@@ -432,6 +437,7 @@ impl Watching {
         if let Some(projection) = self.projection(rect) {
             let (view, blend) = (side_of(self.driver.view(), side), self.driver.blend());
             marker::draw(&ui.painter_at(rect), view, blend, &projection);
+            self.draw_aim(&ui.painter_at(rect), &projection, side);
         }
         if self.view().other.is_some() {
             sides::show(ui, rect, self.driver.view(), side, &mut self.commands);

@@ -82,6 +82,7 @@ fn open_from_the_chooser(first: usize) {
         let app = desk.state();
         let opened = app.watching().map(|it| it.view().scene.name.clone());
         let opened = opened.or_else(|| app.maze().map(|it| it.game().scene().name.clone()));
+        let opened = opened.or_else(|| app.pinball().map(|it| it.game().scene().name.clone()));
         assert_eq!(opened.as_deref(), Some(entry.name.as_str()));
         assert!(!app.notices().any_error());
     }
