@@ -16,6 +16,7 @@ pub enum Action {
     Redo,
     Faster,
     Slower,
+    Throw,
     SceneCamera,
     FrontCamera,
     TopCamera,
@@ -152,6 +153,7 @@ shortcuts! {
         Redo: [shift(command(Key::Z)), command(Key::Y)], "make the edit again that was taken back";
         Faster: [key(Key::Plus), key(Key::Equals)], "faster";
         Slower: [key(Key::Minus)], "slower";
+        Throw: [key(Key::B)], "throw a new ball to where the camera looks, and pick it";
     }
     View {
         SceneCamera: [key(Key::Num1)], "the scene's camera";

@@ -117,15 +117,7 @@ impl Watching {
         let Some(mut orbit) = self.viewpoint.orbit() else { return };
         let (origin, direction) = ray(orbit, response.rect, pointer);
         if modifiers.command {
-            let Throw { radius, mass, speed, restitution } = self.throw;
-            // In front of the camera, so that the user sees it fly away.
-            let position = origin + direction * (orbit.camera.near + 3.0 * radius);
-            let sphere = Sphere::new(position, radius)
-                .with_velocity(direction * speed)
-                .with_mass(mass)
-                .with_restitution(restitution);
-            self.commands
-                .push(Command::Edit(Edit::Throw { sphere: Box::new(sphere), color: None }));
+            self.throw_along(direction, orbit);
             return;
         }
         let blend = self.driver.blend();
@@ -139,6 +131,34 @@ impl Watching {
         }
         self.viewpoint.unfollow();
         self.commands.push(Command::Pick(picked));
+    }
+
+    /// Throws a ball along a direction (unit vector), from in front of the camera, so that the user
+    /// sees it fly away.
+    fn throw_along(&mut self, direction: DVec3, Orbit { camera, .. }: Orbit) {
+        let Throw { radius, mass, speed, restitution } = self.throw;
+        let sphere =
+            Sphere::new(camera.position + direction * (camera.near + 3.0 * radius), radius)
+                .with_velocity(direction * speed)
+                .with_mass(mass)
+                .with_restitution(restitution);
+        self.commands.push(Command::Edit(Edit::Throw { sphere: Box::new(sphere), color: None }));
+    }
+
+    /// Throws a ball to where the camera looks; it is picked as soon as it is there.
+    pub(super) fn throw_ahead(&mut self) {
+        let Some(orbit) = self.viewpoint.orbit() else { return };
+        self.thrown_after = Some(self.view().spheres.ids.last().copied());
+        self.throw_along(orbit.camera.ahead(), orbit);
+    }
+
+    /// Picks the ball that [`Self::throw_ahead`] has thrown, once it is there.
+    pub(super) fn pick_thrown(&mut self) {
+        let newest = self.view().spheres.ids.last().copied();
+        if self.thrown_after.is_some_and(|before| newest > before) {
+            self.thrown_after = None;
+            self.commands.push(Command::Pick(newest));
+        }
     }
 
     /// Returns what a zoom is about \[m\]: the ball under the pointer, else the picked one, else the

@@ -16,7 +16,7 @@ mod viewpoint;
 
 use std::sync::Arc;
 
-use carom::DVec3;
+use carom::{DVec3, SphereId};
 use carom_render::{Camera, Drawing, GpuError};
 use carom_scene::Source;
 use carom_scene::scene::{Rule, Scene, Simulation};
@@ -70,6 +70,8 @@ pub struct Watching {
     /// The open sheet of such a window.
     sheet: Panels,
     throw: Throw,
+    /// The newest ball before a throw whose ball is to be picked.
+    thrown_after: Option<Option<SphereId>>,
     card: Card,
     /// The ball in the hand.
     grabbed: Option<Grab>,
@@ -184,6 +186,7 @@ impl Watching {
             has_sheets: false,
             sheet: Panels::NONE,
             throw,
+            thrown_after: None,
             card: Card::default(),
             grabbed: None,
             cue: None,
@@ -241,6 +244,7 @@ impl Watching {
         let time_is_up = || began.elapsed().as_secs_f64() > INLINE_BUDGET;
         if self.driver.update(wall_seconds, time_is_up) {
             self.news += 1;
+            self.pick_thrown();
             let framing = self.viewpoint.framing(&self.driver.view().scene);
             self.departures.note(self.driver.view(), framing);
         }
@@ -270,6 +274,7 @@ impl Watching {
                 let next = transport::next_speed(speed, action == Action::Faster);
                 self.commands.push(Command::Speed(next));
             }
+            Action::Throw => self.throw_ahead(),
             Action::SceneCamera => self.viewpoint.look_from(Preset::Scene),
             Action::FrontCamera => self.viewpoint.look_from(Preset::Front),
             Action::TopCamera => self.viewpoint.look_from(Preset::Top),

@@ -103,6 +103,16 @@ fn the_window_with_plots(theme: Theme) {
     compare_in(theme, &mut desk, "window");
 }
 
+#[test]
+fn contact_forces_of_a_heap_are_chains() {
+    let setup = Setup { start: start("pour"), ..setup_for_pictures() };
+    let mut desk = desk_for_picture([800.0, 600.0], COARSE, setup);
+    set_theme(&mut desk, Theme::Light);
+    go_to(&mut desk, 4.0);
+    press(&mut desk, Key::C);
+    compare_in(Theme::Light, &mut desk, "contact_forces");
+}
+
 /// A cradle with a picked ball; in small windows with the sheet of the inspector.
 fn windows_of_four_sizes(theme: Theme) {
     let mut results = SnapshotResults::new();
