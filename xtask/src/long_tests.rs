@@ -21,6 +21,8 @@ pub fn run() -> Outcome {
     }
     let threads = ["--test", "gases_on_threads", "--features", "rayon", "--", "--ignored"];
     cargo(&[&OPTIMISED[..], &["carom"], &threads].concat())?;
+    let pinball = ["carom-pinball", "--test", "game", "--", "--ignored"];
+    cargo(&[&OPTIMISED[..], &pinball].concat())?;
     let grading = ["carom-grade", "--", "--ignored"];
     cargo(&[&OPTIMISED[..], &grading].concat())?;
     tests_of_releases()?;

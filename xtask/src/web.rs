@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 use std::process::Command;
+use std::time::{Duration, Instant};
 
 use crate::checks::programs;
 use crate::setup;
@@ -16,11 +17,21 @@ pub const PORT: &str = "8042";
 /// Largest compressed size of everything that a browser fetches to show the page \[bytes\].
 const BUDGET: u64 = 4_000_000;
 
-/// Builds the page in `web/dist`, and checks its size.
+/// Builds the page in `web/dist`, checks its size, and prints how it is seen.
 pub fn build() -> Outcome {
+    let began = Instant::now();
     build_module(&folder().join("module"), Purpose::Use)?;
     node(&["bundle.js", "module", "dist"], &[])?;
-    check_size(&folder().join("dist"))
+    check_size(&folder().join("dist"))?;
+    println!("{}", built(began.elapsed()));
+    Ok(())
+}
+
+/// Returns the line after a build that took this long.
+fn built(took: Duration) -> String {
+    let (minutes, seconds) = (took.as_secs() / 60, took.as_secs() % 60);
+    let address = format!("http://127.0.0.1:{PORT}/");
+    format!("Built in {minutes} min {seconds:02} s: cargo xtask web --serve shows it at {address}")
 }
 
 /// Builds a page in `web/dist` faster, which behaves like that of [`build`] but is large.
@@ -124,4 +135,16 @@ fn check_size(dist: &Path) -> Outcome {
         return Err(format!("the page is {all} bytes compressed; it may be {BUDGET}"));
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn after_a_build_its_time_and_the_address_of_the_page_are_printed() {
+        let line = built(Duration::from_secs(247));
+        assert!(line.starts_with("Built in 4 min 07 s: "), "{line}");
+        assert!(line.ends_with("http://127.0.0.1:8042/"), "{line}");
+    }
 }

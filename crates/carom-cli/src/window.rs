@@ -28,7 +28,7 @@ pub struct View {
     /// Step rule, instead of the scene's own.
     #[arg(long, short, value_parser = RULES, requires = "scene")]
     rule: Option<String>,
-    /// Watch a scene that is a maze, too, instead of playing in it.
+    /// Watch a scene that is a game, too, instead of playing it.
     #[arg(long, requires = "scene")]
     watch: bool,
     /// Folder for pictures and films; Pictures/carom in your own folder, unless given.
@@ -67,13 +67,10 @@ pub fn play(library: Library, maze: Maze, config: &Config) -> Result<(), Failure
     open(setup(library, Some(Start::Maze(Box::new(maze))), desktop, Quality::default()))
 }
 
-/// Starts a scene with a maze as a game, unless `watch` is set.
+/// Starts a scene that is a game as a game, unless `watch` is set.
 fn start(scene: Scene, source: Source, watch: bool) -> Start {
-    let maze = if watch { None } else { Maze::from_scene(&scene).ok() };
-    match maze {
-        Some(maze) => Start::Maze(Box::new(maze)),
-        None => Start::Scene(Box::new(scene), source),
-    }
+    let game = if watch { None } else { Start::game(&scene) };
+    game.unwrap_or_else(|| Start::Scene(Box::new(scene), source))
 }
 
 /// Creates the desktop with a folder for pictures and a page for links.

@@ -118,6 +118,36 @@ fn a_drawing_names_its_curves_and_axes() {
 }
 
 #[test]
+fn digits_and_decimal_commas_are_those_asked_for() {
+    let arguments = ["--digits", "3", "--decimal-comma"];
+    let text = String::from_utf8(plotted(&arguments, "plot.csv")).unwrap();
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some("time, s;kinetic, J;potential, J;total, J"));
+    assert_eq!(lines.next(), Some("0;0;80;80"));
+    // After a frame of 1/60 s: m g² t² / 2 is 0.01777... J.
+    assert_eq!(lines.next(), Some("0,0167;0,0178;80;80"));
+    let drawing = String::from_utf8(plotted(&["--decimal-comma"], "plot.svg")).unwrap();
+    assert!(drawing.contains("\n0,5\n") && !drawing.contains("\n0.5\n"), "{drawing}");
+}
+
+#[test]
+fn without_a_file_the_plot_is_drawn_in_the_terminal() {
+    let (_folder, scene) = fall();
+    let text = good(&["plot", &scene, "--ball", "0", "--of", "height"]);
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!(lines[0], "fall, rule exact");
+    assert_eq!(lines[2], "Height of ball 0, m");
+    // From 5 m at the upper left to 1 m at the lower right, and nowhere a code for a colour.
+    let rows: Vec<&str> = lines.iter().filter_map(|it| Some(it.split_once('│')?.1)).collect();
+    let is_drawn = |row: &str| row.chars().any(|it| ('\u{2801}'..='\u{28ff}').contains(&it));
+    assert_eq!(rows.len(), 14);
+    assert!(rows[0].starts_with(|it: char| it > '\u{2800}') && is_drawn(rows[13]), "{text}");
+    assert!(rows.iter().all(|row| is_drawn(row)) && !text.contains('\u{1b}'), "{text}");
+    assert!(lines.iter().any(|it| it.trim_start().starts_with("4 │")), "{text}");
+    assert_eq!(lines.last().map(|it| it.trim()), Some("time, s"));
+}
+
+#[test]
 fn an_empty_world_has_a_plot() {
     let folder = tempfile::tempdir().unwrap();
     let (scene, out) = (path(&folder, "nothing.toml"), path(&folder, "nothing.svg"));
@@ -141,6 +171,7 @@ fn what_cannot_be_plotted_is_said_in_a_line() {
     assert!(no_ball.contains("there is no ball 1"), "{no_ball}");
     let needless = refused(&["--ball", "0", "--of", "energy", "--out", &out], 2);
     assert!(needless.contains("--ball needs a quantity of a ball"), "{needless}");
+    assert!(refused(&["--digits", "3", "--out", &out], 2).contains("--digits is for tables"));
     std::fs::write(&out, "mine").unwrap();
     assert!(refused(&["--out", &out], 2).contains("--force"));
     assert_eq!(std::fs::read_to_string(&out).unwrap(), "mine");

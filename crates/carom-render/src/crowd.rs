@@ -23,16 +23,21 @@ impl Framing {
     }
 
     /// Returns the framing of a running scene: `first`, which its first seconds sweep, joined with
-    /// what is drawn now. Once the balls have left `first`, only what is drawn now counts.
+    /// what is drawn now. Balls that have left `first` count only once no ball is left in it: then
+    /// only what is drawn now counts.
     pub fn of_run(first: Option<Self>, drawing: &Drawing) -> Self {
         let now = Self::of_drawing(drawing);
         let (Some(first), Some(now)) = (first, now) else {
             return first.or(now).unwrap_or(Self::UNIT);
         };
-        if !first.whole.holds(&Bounds::at(now.balls.center())) {
-            return now;
+        let joined =
+            |balls: Bounds| Self { whole: first.whole.with(balls), balls: first.balls.with(balls) };
+        if first.whole.holds(&Bounds::at(now.balls.center())) {
+            return joined(now.balls);
         }
-        Self { whole: first.whole.with(now.balls), balls: first.balls.with(now.balls) }
+        let staying = drawing.balls.iter().filter(|it| first.whole.holds(&Bounds::at(it.center)));
+        let staying = staying.map(|ball| Bounds::from_sphere(ball.center, ball.radius));
+        Bounds::around(staying).map_or(now, joined)
     }
 }
 

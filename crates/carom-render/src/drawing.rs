@@ -128,6 +128,10 @@ pub struct Light {
     pub ground: [f32; 3],
 }
 
+/// Least mean light from above on surfaces, linear: under a darker sky, white light from all sides
+/// adds what is missing, so that the shaded half of a ball stays visible.
+const LEAST_AMBIENT: f32 = 0.35;
+
 impl Default for Light {
     /// A clear morning.
     fn default() -> Self {
@@ -158,15 +162,31 @@ impl Light {
         light
     }
 
-    /// Returns the same light under a dark sky, for dark surroundings.
+    /// Returns the same light under a dark sky, for dark surroundings. A sky that is darker already
+    /// stays as it is.
     pub fn at_dusk(self) -> Self {
+        let darker = |day: [f32; 3], dusk: Color| {
+            let dusk = linear(dusk);
+            if luminance(day) < luminance(dusk) { day } else { dusk }
+        };
         Self {
-            zenith: linear([0.26, 0.29, 0.36]),
-            horizon: linear([0.36, 0.39, 0.45]),
-            ground: linear([0.27, 0.28, 0.31]),
+            zenith: darker(self.zenith, [0.26, 0.29, 0.36]),
+            horizon: darker(self.horizon, [0.36, 0.39, 0.45]),
+            ground: darker(self.ground, [0.27, 0.28, 0.31]),
             ..self
         }
     }
+
+    /// Returns the white light from all sides that surfaces get besides that of the sky, linear.
+    pub(crate) fn fill(&self) -> f32 {
+        let sky = 0.5 * (luminance(self.zenith) + luminance(self.horizon));
+        (LEAST_AMBIENT - sky).max(0.0)
+    }
+}
+
+/// Returns the relative luminance of a linear colour (ITU-R BT.709-6, item 3.2).
+pub(crate) fn luminance([red, green, blue]: [f32; 3]) -> f32 {
+    0.2126 * red + 0.7152 * green + 0.0722 * blue
 }
 
 /// Converts sRGB to linear colour (IEC 61966-2-1).

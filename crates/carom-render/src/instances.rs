@@ -32,6 +32,7 @@ const WALL: f64 = 3.0;
 const INCLINE: f64 = 4.0;
 const FACET: f64 = 5.0;
 const TRIANGLE: f64 = 6.0;
+const PANE: f64 = 7.0;
 
 /// Value of the opacity for faces of which only the rims are drawn.
 const RIM: f64 = -1.0;
@@ -149,7 +150,7 @@ fn add_panel(
             boxes.push(packed_box(panel, size, eye));
         }
         Shape::Rectangle { size_x, size_z } => {
-            faces.push(packed_rectangle(panel, [size_x, size_z], eye));
+            faces.push(packed_rectangle(RECTANGLE, panel, [size_x, size_z], eye));
         }
         Shape::Mesh(ref mesh) => add_triangles(panel, mesh, eye, faces),
         // Spheres are balls; half-spaces and walls of containers cast no shadows and are added
@@ -209,7 +210,7 @@ fn add_walls(panel: &Panel, eye: DVec3, faces: &mut Vec<PackedPanel>) {
             Seen::Rim if wall.opacity == 1.0 => RIM,
             _ => wall.opacity,
         };
-        faces.push(packed_rectangle(&Panel { opacity, ..wall }, [size_x, size_z], eye));
+        faces.push(packed_rectangle(PANE, &Panel { opacity, ..wall }, [size_x, size_z], eye));
     }
 }
 
@@ -300,10 +301,15 @@ fn packed_facet(facet: &Facet, panel: &Panel, eye: DVec3) -> PackedPanel {
     ])
 }
 
-fn packed_rectangle(panel: &Panel, [size_x, size_z]: [f64; 2], eye: DVec3) -> PackedPanel {
+fn packed_rectangle(
+    kind: f64,
+    panel: &Panel,
+    [size_x, size_z]: [f64; 2],
+    eye: DVec3,
+) -> PackedPanel {
     let half = 0.5 * DVec3::new(size_x, 0.0, size_z);
     let size = (half, grid_distance(2.0 * half.max_element()));
-    packed_panel(panel, panel.pose.position - eye, RECTANGLE, size)
+    packed_panel(panel, panel.pose.position - eye, kind, size)
 }
 
 fn packed_box(panel: &Panel, size: DVec3, eye: DVec3) -> PackedPanel {

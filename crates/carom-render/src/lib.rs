@@ -28,6 +28,7 @@ mod look;
 #[cfg(not(target_arch = "wasm32"))]
 mod new_file;
 mod offscreen;
+mod orbits;
 mod picture;
 mod pipelines;
 #[cfg(feature = "film")]
@@ -39,6 +40,7 @@ mod renderer;
 mod round;
 mod shadow;
 mod stamp;
+mod surroundings;
 mod target;
 #[cfg(feature = "film")]
 mod yuv;
@@ -52,8 +54,9 @@ pub use film::{Film, FilmSummary};
 pub use film_error::FilmError;
 pub use framing::Framing;
 pub use gpu::{Gpu, GpuError};
-pub use look::{Roll, draw_world, spring_line};
+pub use look::{Roll, bodies, draw_world, spring_line};
 pub use offscreen::Offscreen;
+pub use orbits::Body;
 pub use picture::{Picture, PictureError};
 #[cfg(feature = "film")]
 pub use plain_film::recover_film;
@@ -62,5 +65,6 @@ pub use quality::Quality;
 pub use readback::Readback;
 pub use renderer::Renderer;
 pub use stamp::{caption, stamp};
+pub use surroundings::add_surroundings;
 pub use target::{COLOR_FORMAT, Target};
 pub use wgpu;

@@ -5,6 +5,8 @@ use carom_scene::scene::Color;
 use carom_scene::{Palette, Scene};
 
 use crate::drawing::{Arrow, Ball, Drawing, Light, Pattern};
+use crate::orbits::Body;
+use crate::surroundings::add_surroundings;
 
 /// Fills `drawing` with a world that has the colliders of `scene` in the same order. A ball has
 /// white bands if `rotation` returns an orientation for its number. Other balls are banded if the
@@ -18,7 +20,6 @@ pub fn draw_world(
 ) {
     drawing.clear();
     drawing.light = Light::of_scene(scene);
-    drawing.has_grid = true;
     let all = scene.all_colliders();
     for (i, (collider, (_, now))) in all.iter().zip(world.colliders()).enumerate() {
         if collider.visible {
@@ -40,6 +41,18 @@ pub fn draw_world(
             None => ball,
         });
     }
+    add_surroundings(&scene.forces, &bodies(world, palette), drawing);
+}
+
+/// Returns the spheres of a world, as bodies that may have orbits.
+pub fn bodies(world: &World, palette: &Palette) -> Vec<Body> {
+    let spheres = world.spheres();
+    let body = |(i, id): (usize, &SphereId)| {
+        let (radius, mass) = (spheres.radii()[i], spheres.masses()[i]);
+        let color = palette.sphere(id.number(), radius, mass).color;
+        Body { position: spheres.positions()[i], velocity: spheres.velocities()[i], mass, color }
+    };
+    spheres.ids().iter().enumerate().map(body).collect()
 }
 
 /// Returns the line that shows a spring or a thread between spheres at the positions that `place`

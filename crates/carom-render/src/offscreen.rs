@@ -58,6 +58,14 @@ impl Offscreen {
     /// [`GpuError::Lost`] if the device fails, [`GpuError::Memory`].
     pub fn draw(&mut self, drawing: &Drawing, camera: &Camera) -> Result<Picture, GpuError> {
         let readback = self.begin(drawing, camera)?;
+        self.finish(readback)
+    }
+
+    /// Waits for a picture that [`Self::begin`] started.
+    ///
+    /// # Errors
+    /// [`GpuError::Lost`] if the device fails.
+    pub fn finish(&self, readback: Readback) -> Result<Picture, GpuError> {
         readback.wait(&self.gpu.device)?;
         readback.picture()
     }

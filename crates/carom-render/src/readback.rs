@@ -78,7 +78,8 @@ impl Readback {
         let bytes = self.buffer.get_mapped_range(..).map_err(lost)?;
         let lines = bytes.chunks_exact(aligned_row(width) as usize);
         let used = 4 * width as usize;
-        let pixels = lines.flat_map(|line| &line[..used]).copied().collect();
+        let mut pixels = Vec::with_capacity(used * height as usize);
+        lines.for_each(|line| pixels.extend_from_slice(&line[..used]));
         Ok(Picture { width, height, pixels })
     }
 }

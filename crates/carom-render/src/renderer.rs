@@ -363,7 +363,7 @@ fn globals(
         of(camera.ahead().as_vec3(), sun.part_of(quality.shadow_texels)),
         of(right, 0.0),
         of(up, 0.0),
-        [width, height, 1.0 / quality.shadow_texels as f32, 0.0],
+        [width, height, 1.0 / quality.shadow_texels as f32, light.fill()],
         // Inclines go farther, as the balls that roll down them do.
         of(room[0], framing.whole.radius() as f32),
         of(room[1], 0.0),

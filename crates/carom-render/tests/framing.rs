@@ -121,3 +121,17 @@ fn what_has_left_the_first_framing_is_framed_where_it_is() {
     let now = Framing::of_run(Some(first), &drawing);
     assert!(now.whole.holds(&Bounds::at(DVec3::X * 100.0)), "{now:?}");
 }
+
+#[test]
+fn one_of_two_balls_that_runs_away_leaves_the_other_in_the_picture() {
+    let balls = "spheres = [{ position = [0.0, 0.5, 0.0], radius = 0.1 }, \
+        { position = [-1.0, 0.5, 0.0], velocity = [30.0, 0.1, 0.0], radius = 0.1 }]";
+    let first = framing(balls);
+    let mut drawing = Drawing::default();
+    for x in [0.0, 59.0] {
+        let sphere = carom::Shape::Sphere { radius: 0.1 };
+        let place = carom::Pose::at(DVec3::new(x, 0.5, 0.0));
+        drawing.add_collider(sphere, place, [1.0; 3], false);
+    }
+    assert_eq!(Framing::of_run(Some(first), &drawing).whole, first.whole);
+}

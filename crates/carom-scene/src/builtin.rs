@@ -11,6 +11,7 @@ macro_rules! embed {
 embed!(
     "billiards.toml",
     "nine-ball.toml",
+    "pinball.toml",
     "pour.toml",
     "cradle.toml",
     "cradle-on-threads.toml",

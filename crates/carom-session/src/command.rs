@@ -3,6 +3,7 @@
 use carom::SphereId;
 use carom_scene::scene::{Scene, Simulation};
 
+use crate::aim::Aim;
 use crate::edit::Edit;
 use crate::link::Link;
 
@@ -49,6 +50,8 @@ pub enum Command {
     /// Sets whether views contain the persistent contacts with their forces, which take time to
     /// compute.
     ShowContacts(bool),
+    /// Sets what views predict the path of: a ball that is aimed, or none.
+    Aim(Option<Aim>),
     /// Opens another scene; continues to play if it played.
     Open(Box<Scene>),
     /// Opens the scene of a link, goes to the time of the link and makes its changes at their
@@ -69,7 +72,7 @@ impl Command {
             Self::Play | Self::Pause | Self::Step | Self::StepBack | Self::Speed(_) => false,
             Self::Edit(_) | Self::EditFurther(_) | Self::Pick(_) => false,
             Self::Undo | Self::Redo | Self::RestartWithValues | Self::Compare(_) => false,
-            Self::ShowStateHash(_) | Self::ShowContacts(_) => false,
+            Self::ShowStateHash(_) | Self::ShowContacts(_) | Self::Aim(_) => false,
         }
     }
 
@@ -77,7 +80,7 @@ impl Command {
     /// of a seek.
     pub(crate) fn is_of_any_time(&self) -> bool {
         matches!(self, Self::Play | Self::Pause | Self::Speed(_) | Self::Pick(_))
-            || matches!(self, Self::ShowStateHash(_) | Self::ShowContacts(_))
+            || matches!(self, Self::ShowStateHash(_) | Self::ShowContacts(_) | Self::Aim(_))
     }
 
     /// Whether the command interrupts the current frame.
@@ -99,6 +102,7 @@ impl Command {
             | (Self::Speed(_), Self::Speed(_))
             | (Self::Pick(_), Self::Pick(_))
             | (Self::Compare(_), Self::Compare(_))
+            | (Self::Aim(_), Self::Aim(_))
             | (Self::ShowStateHash(_), Self::ShowStateHash(_))
             | (Self::ShowContacts(_), Self::ShowContacts(_)) => Some(later.clone()),
             _ => None,

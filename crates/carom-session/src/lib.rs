@@ -25,6 +25,7 @@
 
 #![warn(clippy::unwrap_used)]
 
+mod aim;
 mod change;
 mod command;
 mod comparison;
@@ -56,6 +57,7 @@ mod watched;
 #[cfg(not(target_arch = "wasm32"))]
 mod worker;
 
+pub use aim::Aim;
 pub use change::{Change, PastChange};
 pub use command::Command;
 pub use comparison::Comparison;

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use carom::StopRequest;
 
+use crate::aim::Aim;
 use crate::command::Command;
 use crate::edit::Edit;
 use crate::error::SessionError;
@@ -26,6 +27,8 @@ pub(crate) struct Player {
     last_edit: Option<(Edit, f64)>,
     shows_state_hash: bool,
     shows_contacts: bool,
+    /// The ball that is aimed.
+    aim: Option<Aim>,
     /// Ends the current frame early.
     stop_request: Option<StopRequest>,
     error: Option<Arc<SessionError>>,
@@ -42,6 +45,7 @@ impl Player {
             last_edit: None,
             shows_state_hash: false,
             shows_contacts: false,
+            aim: None,
             stop_request: None,
             error: None,
             has_news: true,
@@ -110,6 +114,7 @@ impl Player {
             Command::Pick(sphere) => self.watched.pick(sphere),
             Command::ShowStateHash(shows) => self.shows_state_hash = shows,
             Command::ShowContacts(shows) => self.shows_contacts = shows,
+            Command::Aim(aim) => self.aim = aim,
             Command::Step => {
                 self.play(false);
                 let stepped = self.watched.step();
@@ -252,6 +257,8 @@ impl Player {
         self.has_news = false;
         self.watched.fill(view);
         self.watched.fill_contacts(view, self.shows_contacts);
+        let world = self.watched.session().world();
+        view.aimed = self.aim.map_or_else(Vec::new, |aim| aim.path(world));
         view.playback = self.playback();
         let hashes = self.shows_state_hash.then(|| self.watched.state_hashes());
         view.playback.state_hash = hashes.map(|(hash, _)| hash);

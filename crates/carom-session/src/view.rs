@@ -65,6 +65,8 @@ pub struct View {
     ///
     /// [`Command::ShowContacts`]: crate::Command::ShowContacts
     pub contacts: Vec<PersistentContact>,
+    /// Points of the path of the ball that is aimed \[m\], see [`Aim::path`](crate::Aim::path); empty without one.
+    pub aimed: Vec<DVec3>,
     /// State of playback.
     pub playback: Playback,
     /// View of the same scene under the other rule, if two are compared.
@@ -173,6 +175,7 @@ impl Default for View {
             picked_readings: Vec::new(),
             impacts: Vec::new(),
             contacts: Vec::new(),
+            aimed: Vec::new(),
             playback: Playback::default(),
             other: None,
             distances: Vec::new(),

@@ -16,6 +16,7 @@ pub enum Action {
     Redo,
     Faster,
     Slower,
+    Throw,
     SceneCamera,
     FrontCamera,
     TopCamera,
@@ -152,6 +153,7 @@ shortcuts! {
         Redo: [shift(command(Key::Z)), command(Key::Y)], "make the edit again that was taken back";
         Faster: [key(Key::Plus), key(Key::Equals)], "faster";
         Slower: [key(Key::Minus)], "slower";
+        Throw: [key(Key::B)], "throw a new ball to where the camera looks, and pick it";
     }
     View {
         SceneCamera: [key(Key::Num1)], "the scene's camera";
@@ -183,13 +185,33 @@ shortcuts! {
     }
 }
 
-/// Controls of a maze, for the help.
-pub const MAZE: &[(&str, &str)] = &[
-    ("arrow keys, or W A S D", "tilt the maze"),
-    ("right drag", "tilt the maze"),
-    ("gamepad's stick", "tilt the maze"),
-    ("Enter, when it is won", "play again"),
-];
+/// Name of a game, and its controls with their texts, for the help.
+pub type GameControls = (&'static str, &'static [(&'static str, &'static str)]);
+
+/// Controls of a maze.
+pub const MAZE: GameControls = (
+    "Maze",
+    &[
+        ("arrow keys, or W A S D", "tilt the maze"),
+        ("right drag", "tilt the maze"),
+        ("gamepad's stick", "tilt the maze"),
+        ("Enter, when it is won", "play again"),
+    ],
+);
+
+/// Controls of pinball.
+pub const PINBALL: GameControls = (
+    "Pinball",
+    &[
+        ("left and right arrow, or A and D", "raise a flipper"),
+        ("down arrow, or S", "pull the plunger; let go to shoot"),
+        (
+            "a finger on the left or right half",
+            "raise a flipper; pull the plunger while the ball waits",
+        ),
+        ("Enter, when it is over", "play again"),
+    ],
+);
 
 /// Controls of the picture with the mouse, for the help.
 pub const MOUSE: &[(&str, &str)] = &[
@@ -198,6 +220,10 @@ pub const MOUSE: &[(&str, &str)] = &[
     ("wheel", "come nearer or go away"),
     ("click on a ball", "pick it; beside all balls: pick none"),
     ("drag the picked ball", "pull it by a spring; let go to throw it"),
+    (
+        "drag from a cue ball",
+        "aim along its path; let go to strike, on the ball to put the cue away",
+    ),
     ("Ctrl + click", "throw a new ball that way"),
     ("double click", "turn about what was clicked"),
     ("drop a file", "open it as a scene or maze"),

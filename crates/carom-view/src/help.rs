@@ -2,14 +2,14 @@
 
 use egui::{Align2, Context, Grid, RichText, Ui, Window};
 
-use crate::action::{Group, MAZE, MOUSE, SHORTCUTS};
+use crate::action::{GameControls, Group, MOUSE, SHORTCUTS};
 use crate::layout::{scrolled_within, show_closable};
 
 /// Width of the window from which on the list has two columns, in points.
 const TWO_COLUMNS: f32 = 900.0;
 
-/// Shows all shortcuts and mouse actions in groups; in a maze, first its controls.
-pub fn show(context: &Context, open: &mut bool, is_maze: bool) {
+/// Shows all shortcuts and mouse actions in groups; in a game, first its controls.
+pub fn show(context: &Context, open: &mut bool, game: Option<&GameControls>) {
     const TITLE: &str = "Keys and mouse";
     let window = Window::new(TITLE).anchor(Align2::CENTER_CENTER, [0.0, 0.0]).resizable(false);
     show_closable(TITLE, window, context, open, |ui| {
@@ -17,7 +17,7 @@ pub fn show(context: &Context, open: &mut bool, is_maze: bool) {
         let size = ui.ctx().content_rect().size();
         let room = (size.y - 90.0).max(120.0);
         scrolled_within(room).show(ui, |ui| {
-            let groups = groups(is_maze);
+            let groups = groups(game);
             if size.x < TWO_COLUMNS {
                 groups.iter().for_each(|group| list(ui, group));
                 return;
@@ -38,7 +38,7 @@ pub fn show(context: &Context, open: &mut bool, is_maze: bool) {
 type Listed = (&'static str, Vec<(String, &'static str)>);
 
 /// Returns the groups of the help.
-fn groups(is_maze: bool) -> Vec<Listed> {
+fn groups(game: Option<&GameControls>) -> Vec<Listed> {
     let plain = |all: &[(&str, &'static str)]| -> Vec<_> {
         all.iter().map(|(how, text)| ((*how).to_owned(), *text)).collect()
     };
@@ -46,9 +46,9 @@ fn groups(is_maze: bool) -> Vec<Listed> {
         let own = SHORTCUTS.iter().filter(|it| it.group == group);
         (group.title(), own.map(|it| (it.keys_text(), it.text)).collect())
     };
-    let maze = is_maze.then(|| ("Maze", plain(MAZE)));
+    let game = game.map(|(title, controls)| (*title, plain(controls)));
     let mouse = ("Mouse and fingers", plain(MOUSE));
-    maze.into_iter().chain(Group::ALL.map(of_keys)).chain([mouse]).collect()
+    game.into_iter().chain(Group::ALL.map(of_keys)).chain([mouse]).collect()
 }
 
 fn list(ui: &mut Ui, (title, rows): &Listed) {

@@ -1,7 +1,7 @@
 //! The interface of Carom, the same for desktop window and browser.
 //!
 //! [`App`] is the interface; a window ([`window::open`]), a web page or a test hosts it. It shows a
-//! scene, whose physics is in [`carom_session`], or a maze game. A key or a button makes an
+//! scene, whose physics is in [`carom_session`], or a game: a maze or pinball. A key or a button makes an
 //! [`Action`]; panels read the session's view and answer with commands.
 
 #![warn(clippy::unwrap_used)]
@@ -14,6 +14,7 @@ mod contact_forces;
 #[cfg(not(target_arch = "wasm32"))]
 mod desktop;
 mod exports;
+mod game_view;
 #[cfg(feature = "gamepad")]
 mod gamepad;
 mod help;
@@ -29,6 +30,7 @@ mod naming;
 mod notices;
 mod orbit;
 mod page;
+mod pinball_screen;
 mod plots;
 mod recorder;
 mod saved;
@@ -50,4 +52,5 @@ pub use desktop::{Desktop, default_folder};
 pub use host::{FilmMaker, Host, Inbox, ReadFile};
 pub use maze_screen::MazeScreen;
 pub use notices::Notices;
+pub use pinball_screen::PinballScreen;
 pub use watching::Watching;

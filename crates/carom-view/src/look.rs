@@ -1,7 +1,7 @@
 //! Turns the view of a session into a drawing.
 
 use carom::{DQuat, DVec3, SphereId};
-use carom_render::{Arrow, Ball, Drawing, Light, Pattern, spring_line};
+use carom_render::{Arrow, Ball, Body, Drawing, Light, Pattern, add_surroundings, spring_line};
 use carom_scene::scene::{self, Color, Finish};
 use carom_scene::{Coat, Palette};
 use carom_session::View;
@@ -53,16 +53,17 @@ const NORMAL_LENGTH: f64 = 1.5;
 pub fn draw(view: &View, look: &DrawOptions, drawing: &mut Drawing) {
     drawing.clear();
     let light = Light::of_scene(&view.scene);
-    drawing.has_grid = true;
     drawing.light = if look.dark { light.at_dusk() } else { light };
     add_colliders(view, drawing);
     add_spheres(view, look, drawing);
     add_springs(view, look, drawing);
+    let forces = view.setup.forces.iter().map(|(_, force)| force);
+    add_surroundings(forces, &bodies(view, look.blend), drawing);
     if look.marks.contacts {
         add_contacts(view, drawing);
     }
     if look.marks.forces {
-        drawing.arrows.extend(contact_forces::arrows(view, look.blend));
+        contact_forces::add(view, look.blend, drawing);
     }
 }
 
@@ -92,14 +93,29 @@ fn add_colliders(view: &View, drawing: &mut Drawing) {
     }
 }
 
+/// Returns the colour of a sphere.
+fn sphere_color(view: &View, index: usize) -> Color {
+    let of_scene = view.scene.colors.as_ref().and_then(|colors| colors.spheres);
+    view.spheres.paints[index].color.or(of_scene).unwrap_or(Palette::SPHERE)
+}
+
+/// Returns the spheres as bodies that may have orbits.
+fn bodies(view: &View, blend: f64) -> Vec<Body> {
+    let spheres = &view.spheres;
+    let body = |index: usize| Body {
+        position: place(view, index, blend),
+        velocity: spheres.velocities[index],
+        mass: spheres.masses[index],
+        color: sphere_color(view, index),
+    };
+    (0..spheres.ids.len()).map(body).collect()
+}
+
 fn add_spheres(view: &View, look: &DrawOptions, drawing: &mut Drawing) {
     let spheres = &view.spheres;
-    let common =
-        view.scene.colors.as_ref().and_then(|colors| colors.spheres).unwrap_or(Palette::SPHERE);
     for i in 0..spheres.ids.len() {
         let center = place(view, i, look.blend);
-        let paint = spheres.paints[i];
-        let coat = Coat { color: paint.color.unwrap_or(common), finish: paint.finish };
+        let coat = Coat { color: sphere_color(view, i), finish: spheres.paints[i].finish };
         let orientation = spheres.orientation(i, look.blend);
         drawing.balls.push(Ball::from_sphere(center, spheres.radii[i], coat, orientation));
         if look.marks.velocities {

@@ -2,16 +2,17 @@
 
 use carom::DVec3;
 use carom_maze::{Game, GameError, GameEvent, GameState, Maze, Options, Steering, Tilt};
-use carom_render::{Drawing, GpuError, Roll, draw_world};
+use carom_render::{GpuError, Roll, draw_world};
 use carom_scene::Palette;
 use carom_session::{Link, Pace};
-use egui::{Align2, Area, Frame, Id, Image, Key, Pos2, Response, RichText, Sense, Ui, Vec2};
+use egui::{Align2, Area, Frame, Id, Key, Response, RichText, Sense, Ui, Vec2};
 
+use crate::game_view::{GameView, Wish, count_line};
 use crate::layout::is_touched;
-use crate::orbit::{Orbit, Preset, zoom_asked};
+use crate::orbit::Preset;
 use crate::saved::SavedGame;
 use crate::snapshot::Snapshot;
-use crate::studio::{Canvas, Studio};
+use crate::studio::Studio;
 
 /// Friction of a rolling ball: enough to roll at the steepest tilt, but too little to hold it at
 /// walls.
@@ -31,12 +32,7 @@ pub struct MazeScreen {
     pace: Pace,
     palette: Palette,
     roll: Roll,
-    /// `None` until there is a picture to fit the maze into.
-    orbit: Option<Orbit>,
-    /// The preset that the camera starts from.
-    camera: Preset,
-    canvas: Canvas,
-    drawing: Drawing,
+    view: GameView,
     dark: bool,
     /// Tilt by a gamepad or a tilted device, each part in \[-1, 1\].
     pub stick: Option<Vec2>,
@@ -44,19 +40,8 @@ pub struct MazeScreen {
     finger: Option<Vec2>,
     /// Time played, including the win screen \[s\].
     clock: f64,
-    /// Last message, and the time until which it is shown, by the clock of the interface \[s\].
-    message: Option<(String, f64)>,
     /// Whether a continued game waits for the player.
     waits: bool,
-}
-
-/// Requests of the player besides tilting.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Wish {
-    /// Watch the maze as a scene, with all its values.
-    Watch,
-    /// Play another maze.
-    Next,
 }
 
 /// Keys, and the parts of the full tilt towards +x and +z that they give.
@@ -87,15 +72,11 @@ impl MazeScreen {
             pace,
             palette,
             roll: Roll::START,
-            orbit: None,
-            camera: Preset::Scene,
-            canvas: Canvas::default(),
-            drawing: Drawing::default(),
+            view: GameView::new(FROM),
             dark: false,
             stick: None,
             finger: None,
             clock: 0.0,
-            message: None,
             waits: false,
         })
     }
@@ -174,7 +155,7 @@ impl MazeScreen {
             GameEvent::Fell => "Off the edge - once more from the start".to_owned(),
             GameEvent::Won { .. } => return,
         };
-        self.message = Some((text, now + 2.0));
+        self.view.say(text, now);
     }
 
     /// Returns the tilt by keys, mouse, finger or gamepad.
@@ -222,7 +203,7 @@ impl MazeScreen {
     pub fn play_again(&mut self) {
         self.game.play_again();
         self.roll = Roll::START;
-        self.message = None;
+        self.view.say_nothing();
         if self.waits {
             self.go_on();
         }
@@ -257,17 +238,7 @@ impl MazeScreen {
 
     /// Moves the camera to a preset.
     pub fn look_from(&mut self, preset: Preset) {
-        self.orbit = None;
-        self.camera = preset;
-    }
-
-    fn preset(&mut self, preset: Preset, aspect: f64) -> Orbit {
-        self.draw();
-        let bounds = self.drawing.bounds().unwrap_or(carom_render::Bounds::UNIT);
-        if preset == Preset::Scene {
-            return Orbit::fitted(&bounds, FROM, aspect);
-        }
-        Orbit::preset(preset, None, &bounds, aspect)
+        self.view.look_from(preset);
     }
 
     fn draw(&mut self) {
@@ -278,13 +249,9 @@ impl MazeScreen {
         } else {
             self.game.tilt() * self.roll.rotation
         };
-        let Self { game, palette, drawing, .. } = self;
-        draw_world(game.scene(), game.world(), palette, |_| Some(rotation), drawing);
-        // A floor that became glass would hide where the ball may go.
-        self.drawing.keeps_whole = true;
-        if self.dark {
-            self.drawing.light = self.drawing.light.at_dusk();
-        }
+        let Self { game, palette, view, .. } = self;
+        draw_world(game.scene(), game.world(), palette, |_| Some(rotation), &mut view.drawing);
+        view.adapt(self.dark);
     }
 
     /// Shows the game and its counts. Returns a request of the player.
@@ -294,32 +261,18 @@ impl MazeScreen {
         let rect = ui.available_rect_before_wrap();
         let response = ui.allocate_rect(rect, Sense::click_and_drag());
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Maze"));
-        let size = rect.size() * ui.ctx().pixels_per_point();
-        if size.x < 1.0 || size.y < 1.0 {
-            return None;
-        }
-        let aspect = f64::from(size.x / size.y);
-        let mut orbit = match self.orbit {
-            Some(orbit) => orbit,
-            None => self.preset(self.camera, aspect),
-        };
-        self.hand(ui, &response, &mut orbit);
-        self.orbit = Some(orbit);
+        let drag = self.hand(ui, &response);
         self.draw();
-        studio.draw(&mut self.canvas, size, &self.drawing, &orbit.in_picture(aspect));
-        if let Some(texture) = self.canvas.texture() {
-            Image::new((texture, rect.size())).paint_at(ui, rect);
-        }
-        self.messages(ui, rect.center_top());
+        self.view.show(ui, &response, drag, studio);
         self.wait(ui);
         self.won(ui)
     }
 
-    /// Handles mouse and fingers in the picture.
-    fn hand(&mut self, ui: &Ui, response: &Response, orbit: &mut Orbit) {
+    /// Handles mouse and fingers in the picture. Returns the drag that turns the camera, in points.
+    fn hand(&mut self, ui: &Ui, response: &Response) -> Vec2 {
         let (is_touched, fingers) = ui.input(|input| (input.any_touches(), input.multi_touch()));
         self.finger = None;
-        let drag = if let Some(fingers) = fingers {
+        if let Some(fingers) = fingers {
             fingers.translation_delta
         } else if is_touched {
             self.finger = response.total_drag_delta();
@@ -328,12 +281,6 @@ impl MazeScreen {
             response.drag_delta()
         } else {
             Vec2::ZERO
-        };
-        let drag = drag / response.rect.height().max(1.0);
-        let [right, up] = [drag.x, -drag.y].map(|it| std::f64::consts::PI * f64::from(it));
-        orbit.turn(right, up);
-        if response.hovered() {
-            orbit.zoom(zoom_asked(ui));
         }
     }
 
@@ -344,35 +291,12 @@ impl MazeScreen {
         let mut counts: Vec<String> = collected.into_iter().collect();
         counts.push(format!("Time {:.1} s", self.game.elapsed()));
         counts.extend(self.game.best().map(|best| format!("Best {best:.1} s")));
-        let is_touched = is_touched(ui);
-        let row = |ui: &mut Ui| {
-            for count in counts {
-                ui.label(RichText::new(count).size(16.0).strong());
-                ui.separator();
-            }
-            ui.label(GOALS[usize::from(of == 0)]);
-            ui.weak(if is_touched {
-                "Drag with a finger to tilt the maze."
-            } else {
-                "Arrow keys or WASD tilt the maze; so does the right mouse button."
-            });
+        let hint = if is_touched(ui) {
+            "Drag with a finger to tilt the maze."
+        } else {
+            "Arrow keys or WASD tilt the maze; so does the right mouse button."
         };
-        let margin = egui::Margin::symmetric(8, 3);
-        Frame::new().inner_margin(margin).show(ui, |ui| ui.horizontal_wrapped(row));
-    }
-
-    fn messages(&self, ui: &Ui, top: Pos2) {
-        let now = ui.input(|input| input.time);
-        if let Some((text, _)) = self.message.as_ref().filter(|(_, until)| now < *until) {
-            let area = Area::new(Id::unique("what happened")).interactable(false);
-            area.pivot(Align2::CENTER_TOP).fixed_pos(top + Vec2::new(0.0, 16.0)).show(
-                ui.ctx(),
-                |ui| {
-                    let frame = Frame::window(ui.style());
-                    frame.show(ui, |ui| ui.label(RichText::new(text).size(26.0).strong()));
-                },
-            );
-        }
+        count_line(ui, &counts, GOALS[usize::from(of == 0)], hint);
     }
 
     /// Asks whether to continue an earlier game.
@@ -454,18 +378,8 @@ impl MazeScreen {
     ///
     /// # Errors
     /// [`GpuError`]
-    pub fn snapshot(
-        &mut self,
-        studio: &mut Studio,
-        [width, height]: [u32; 2],
-    ) -> Result<Snapshot, GpuError> {
+    pub fn snapshot(&mut self, studio: &mut Studio, size: [u32; 2]) -> Result<Snapshot, GpuError> {
         self.draw();
-        let aspect = f64::from(width) / f64::from(height);
-        let orbit = match self.orbit {
-            Some(orbit) => orbit,
-            None => self.preset(self.camera, aspect),
-        };
-        let camera = orbit.in_picture(aspect);
-        Ok(Snapshot { parts: vec![studio.picture([width, height], &self.drawing, &camera)?] })
+        self.view.snapshot(studio, size)
     }
 }

@@ -9,7 +9,7 @@ use serde::Serialize;
 #[derive(Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Status<'a> {
-    /// `"empty"`, `"scene"` or `"maze"`.
+    /// `"empty"`, `"scene"`, `"maze"` or `"pinball"`.
     screen: &'static str,
     /// Whether the chooser is open.
     choosing: bool,
@@ -31,6 +31,8 @@ pub struct Status<'a> {
     version: u32,
     /// The maze being played.
     maze: Option<Maze>,
+    /// The pinball game being played.
+    pinball: Option<Pinball>,
 }
 
 /// A watched scene.
@@ -78,6 +80,21 @@ struct Maze {
     ball: [f64; 3],
 }
 
+/// A pinball game being played.
+#[derive(Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Pinball {
+    scene: String,
+    score: u64,
+    /// Number of balls left, with the one in play.
+    balls: usize,
+    /// \[s\]
+    elapsed: f64,
+    over: bool,
+    /// Position of the ball in play \[m\].
+    ball: Option<[f64; 3]>,
+}
+
 impl<'a> Status<'a> {
     /// Reads the state of an interface.
     pub fn of(
@@ -96,6 +113,17 @@ impl<'a> Status<'a> {
                 elapsed: game.elapsed(),
                 won: screen.is_won(),
                 ball: game.ball_in_maze().0.to_array(),
+            }
+        });
+        let pinball = app.pinball().map(|screen| {
+            let game = screen.game();
+            Pinball {
+                scene: game.scene().name.clone(),
+                score: game.score(),
+                balls: game.balls(),
+                elapsed: game.elapsed(),
+                over: screen.is_over(),
+                ball: game.world().spheres().positions().first().map(|it| it.to_array()),
             }
         });
         let watching = app.watching().map(|watching| {
@@ -119,10 +147,11 @@ impl<'a> Status<'a> {
             }
         });
         Self {
-            screen: match (&watching, &maze) {
-                (Some(_), _) => "scene",
-                (None, Some(_)) => "maze",
-                (None, None) => "empty",
+            screen: match (&watching, &maze, &pinball) {
+                (Some(_), ..) => "scene",
+                (None, Some(_), _) => "maze",
+                (None, None, Some(_)) => "pinball",
+                (None, None, None) => "empty",
             },
             choosing: app.is_choosing(),
             scenes,
@@ -134,6 +163,7 @@ impl<'a> Status<'a> {
             watching,
             version,
             maze,
+            pinball,
         }
     }
 }

@@ -49,8 +49,10 @@ impl ContactMatrix {
                     continue;
                 }
                 let end = self.ranges[known][1];
-                for column in known + 1..end {
-                    below[column] -= factor * above[known * count + column];
+                let rest = known + 1..end;
+                let of_known = &above[known * count..][rest.clone()];
+                for (value, &other) in below[rest].iter_mut().zip(of_known) {
+                    *value -= factor * other;
                 }
                 self.ranges[row][1] = self.ranges[row][1].max(end);
             }

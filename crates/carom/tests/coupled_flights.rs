@@ -224,6 +224,31 @@ fn balls_of_a_cradle_that_touch_keep_their_energy() {
     assert!(impacts > 40, "{impacts}");
 }
 
+#[test]
+fn a_ball_on_a_spring_and_a_free_one_on_it_swing_as_one() {
+    // Two balls of 1 kg on 100 N/m, which press on each other all the time: half of it would have to pull beyond g.
+    let (stiffness, amplitude) = (100.0, 0.05);
+    for scale in [1e-6, 1.0, 1e6] {
+        let mut world = exact();
+        world.add_force(Gravity::new(vec(0.0, -G * scale, 0.0))).unwrap();
+        let start = -2.0 * G / stiffness - amplitude;
+        let lower = world.add_sphere(elastic(vec(0.0, start, 0.0) * scale, 0.1 * scale)).unwrap();
+        let place = vec(0.0, start + 0.2, 0.0) * scale;
+        let upper = world.add_sphere(elastic(place, 0.1 * scale).with_restitution(0.0)).unwrap();
+        let spring = Spring::to_point(lower, vec(0.0, -1.0, 0.0) * scale, scale);
+        world.add_spring(spring.with_stiffness(stiffness)).unwrap();
+        let rate = (stiffness / 2.0).sqrt();
+        for frame in 1..=300 {
+            world.step(1.0 / 60.0).unwrap();
+            let fallen = amplitude * (rate * f64::from(frame) / 60.0).cos();
+            let height = 0.2 - 2.0 * G / stiffness - fallen;
+            let is = world.sphere(upper).unwrap().position.y / scale;
+            // Rounding of some hundred steps.
+            assert_close(is, height, 1e-13);
+        }
+    }
+}
+
 /// Two balls on springs of 1 m to one hook, which press them together.
 fn pressed(scale: f64) -> World {
     let mut world = exact();

@@ -1,7 +1,7 @@
 //! Draws a running world.
 
 use carom::{SphereId, Spring};
-use carom_render::{Ball, Drawing, Light, spring_line};
+use carom_render::{Ball, Drawing, Light, add_surroundings, bodies, spring_line};
 use carom_scene::{Palette, Scene};
 
 use super::running::{Running, Seen};
@@ -18,7 +18,6 @@ pub fn draw(
 ) {
     drawing.clear();
     drawing.light = Light::of_scene(scene);
-    drawing.has_grid = true;
     let all = scene.all_colliders();
     let colliders = all.iter().zip(running.world().colliders());
     for (i, ((written, (_, now)), pose)) in colliders.zip(running.poses(time)).enumerate() {
@@ -36,4 +35,5 @@ pub fn draw(
         let coat = palette.sphere(seen.number, seen.radius, seen.mass);
         Ball::from_sphere(seen.position, seen.radius, coat, seen.orientation)
     }));
+    add_surroundings(&scene.forces, &bodies(running.world(), palette), drawing);
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use carom_render::{Camera, Film, FilmError, FilmSummary};
+use carom_render::{Camera, Film, FilmError, FilmSummary, Picture};
 
 use super::error::ShootError;
 use super::footage::Footage;
@@ -18,9 +18,12 @@ pub struct Order<'a> {
 
 /// A film that is being recorded.
 ///
-/// If it is dropped before [`Self::finish`], the frames recorded so far are kept as a film.
+/// If it is dropped before [`Self::finish`], the frames recorded so far but the last are kept as a
+/// film.
 pub struct Filming<'a> {
     film: Film,
+    /// The last frame, which is encoded while the next one is drawn.
+    last: Option<Picture>,
     footage: &'a mut dyn Footage,
     studio: &'a mut Studio,
     camera: Camera,
@@ -43,7 +46,8 @@ impl<'a> Filming<'a> {
         let [width, height] = studio.size();
         let film = Film::create(order.path, width, height, order.fps)?;
         let camera = studio.camera(footage, 0.0)?;
-        Ok(Self { film, footage, studio, camera, fps: f64::from(order.fps), frames: 0 })
+        let fps = f64::from(order.fps);
+        Ok(Self { film, last: None, footage, studio, camera, fps, frames: 0 })
     }
 
     /// Records a frame; returns its time \[s\].
@@ -52,16 +56,25 @@ impl<'a> Filming<'a> {
     /// [`ShootError`] if footage, graphics device or disk fails.
     pub fn take_frame(&mut self) -> Result<f64, ShootError> {
         let time = self.frames as f64 / self.fps;
-        self.film.add(&self.studio.picture(self.footage, time, &self.camera)?)?;
+        let shot = self.studio.begin(self.footage, time, &self.camera)?;
+        self.add_last()?;
+        self.last = Some(self.studio.finish(shot)?);
         self.frames += 1;
         Ok(time)
+    }
+
+    /// Adds the last frame to the film.
+    fn add_last(&mut self) -> Result<(), FilmError> {
+        self.last.take().map_or(Ok(()), |picture| self.film.add(&picture))
     }
 
     /// Completes the film.
     ///
     /// # Errors
     /// [`FilmError`] if the film has no frames, or the disk fails.
-    pub fn finish(self) -> Result<FilmSummary, FilmError> {
-        self.film.finish()
+    pub fn finish(mut self) -> Result<FilmSummary, FilmError> {
+        let added = self.add_last();
+        let summary = self.film.finish()?;
+        added.map(|()| summary)
     }
 }

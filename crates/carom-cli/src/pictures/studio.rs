@@ -1,6 +1,8 @@
 //! Makes pictures of footage.
 
-use carom_render::{Camera, Drawing, Framing, GpuError, Offscreen, Picture, caption, stamp};
+use carom_render::{
+    Camera, Drawing, Framing, GpuError, Offscreen, Picture, Readback, caption, stamp,
+};
 
 use super::args::PictureOptions;
 use super::error::ShootError;
@@ -12,6 +14,14 @@ pub struct Studio {
     look: PictureOptions,
     offscreen: Offscreen,
     drawing: Drawing,
+}
+
+/// A picture that the graphics device is drawing.
+#[derive(Debug)]
+pub struct Shot {
+    readback: Readback,
+    title: String,
+    words: Words,
 }
 
 impl Studio {
@@ -53,11 +63,35 @@ impl Studio {
         time: f64,
         camera: &Camera,
     ) -> Result<Picture, ShootError> {
-        let Words { stamp: now, caption: large } = footage.draw(time, &mut self.drawing)?;
-        let mut picture = self.offscreen.draw(&self.drawing, camera)?;
+        let shot = self.begin(footage, time, camera)?;
+        Ok(self.finish(shot)?)
+    }
+
+    /// Starts to draw the picture of footage at `time` \[s\], without waiting for it.
+    ///
+    /// # Errors
+    /// The same as those of [`Self::picture`].
+    pub fn begin(
+        &mut self,
+        footage: &mut dyn Footage,
+        time: f64,
+        camera: &Camera,
+    ) -> Result<Shot, ShootError> {
+        let words = footage.draw(time, &mut self.drawing)?;
+        let readback = self.offscreen.begin(&self.drawing, camera)?;
+        Ok(Shot { readback, title: footage.title().to_owned(), words })
+    }
+
+    /// Waits for a picture that [`Self::begin`] started.
+    ///
+    /// # Errors
+    /// [`GpuError`] if the graphics device fails.
+    pub fn finish(&self, shot: Shot) -> Result<Picture, GpuError> {
+        let Shot { readback, title, words } = shot;
+        let mut picture = self.offscreen.finish(readback)?;
         if !self.look.no_stamp {
-            stamp(&mut picture, &format!("{}   {now}", footage.title()));
-            large.into_iter().for_each(|text| caption(&mut picture, text));
+            stamp(&mut picture, &format!("{title}   {}", words.stamp));
+            words.caption.into_iter().for_each(|text| caption(&mut picture, text));
         }
         Ok(picture)
     }

@@ -27,9 +27,15 @@ pub struct Plot {
     /// in tables; the first ball is 0.
     #[arg(long, value_name = "N")]
     pub ball: Option<u64>,
-    /// The plot, .png or .svg, or its numbers, .csv.
+    /// The plot, .png or .svg, or its numbers, .csv. Without it, the plot is drawn in the terminal.
     #[arg(long, short, value_name = "PATH")]
-    pub out: PathBuf,
+    pub out: Option<PathBuf>,
+    /// Significant digits of the numbers in .csv; unless given, all.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=17))]
+    pub digits: Option<u8>,
+    /// Write numbers with a decimal comma; cells of .csv then have semicolons between them.
+    #[arg(long)]
+    pub decimal_comma: bool,
     /// Width of a figure and its height, in points: a pixel of .svg, two of .png.
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "720x320", value_parser = sides)]
     pub size: [u32; 2],

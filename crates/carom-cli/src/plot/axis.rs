@@ -12,22 +12,33 @@ const ROOM: f64 = 0.05;
 pub struct Axis {
     range: Range<f64>,
     marks: Marks,
+    decimal_comma: bool,
 }
 
 impl Axis {
     /// Axis of the places at which a figure has values.
-    pub fn across(figure: &Figure) -> Self {
-        Self::new(range(figure, |[x, _]| x, 0.0))
+    pub fn across(figure: &Figure, decimal_comma: bool) -> Self {
+        Self::new(range(figure, |[x, _]| x, 0.0), decimal_comma)
     }
 
     /// Axis of the values of a figure.
-    pub fn up(figure: &Figure) -> Self {
-        Self::new(range(figure, |[_, y]| y, ROOM))
+    pub fn up(figure: &Figure, decimal_comma: bool) -> Self {
+        Self::new(range(figure, |[_, y]| y, ROOM), decimal_comma)
     }
 
-    fn new(range: Range<f64>) -> Self {
+    fn new(range: Range<f64>, decimal_comma: bool) -> Self {
         let marks = Marks::between(range.start, range.end);
-        Self { range, marks }
+        Self { range, marks, decimal_comma }
+    }
+
+    /// Returns the place of a value on the axis: 0 at its start, 1 at its end.
+    pub fn part(&self, value: f64) -> f64 {
+        (value - self.range.start) / (self.range.end - self.range.start)
+    }
+
+    /// Returns the marked values with their texts.
+    pub fn marks(&self) -> impl Iterator<Item = (f64, String)> + '_ {
+        self.marks.values.iter().map(|value| (*value, self.format_ext(value)))
     }
 }
 
@@ -36,8 +47,7 @@ impl Ranged for Axis {
     type ValueType = f64;
 
     fn map(&self, value: &f64, (first, last): (i32, i32)) -> i32 {
-        let part = (value - self.range.start) / (self.range.end - self.range.start);
-        first + (part * f64::from(last - first)).round() as i32
+        first + (self.part(*value) * f64::from(last - first)).round() as i32
     }
 
     fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
@@ -52,7 +62,8 @@ impl Ranged for Axis {
 
 impl ValueFormatter<f64> for Axis {
     fn format_ext(&self, value: &f64) -> String {
-        text_of_mark(*value, self.marks.step)
+        let text = text_of_mark(*value, self.marks.step);
+        if self.decimal_comma { text.replace('.', ",") } else { text }
     }
 }
 

@@ -4,7 +4,9 @@ mod args;
 mod axis;
 mod sheet;
 mod subject;
+mod terminal;
 
+use std::io::Write;
 use std::path::Path;
 use std::sync::atomic::Ordering;
 
@@ -12,7 +14,7 @@ use carom::{SphereId, StopRequest};
 use carom_render::Picture;
 use carom_scene::Library;
 use carom_scene::unfinished::create_folders_of;
-use carom_session::figures::{self, Figure};
+use carom_session::figures::{self, Figure, TableStyle};
 use carom_session::{Session, SessionError, View};
 
 pub use args::Plot;
@@ -52,8 +54,14 @@ impl Format {
 
 /// Runs a scene and plots what was asked for.
 pub fn plot(library: &Library, args: &Plot) -> Result<(), Failure> {
-    let format = Format::of(&args.out)?;
-    args.replacing.check([args.out.as_path()])?;
+    let out = match &args.out {
+        Some(out) => Some((out.as_path(), Format::of(out)?)),
+        None => None,
+    };
+    if args.digits.is_some() && out.is_none_or(|(_, format)| format != Format::Csv) {
+        return Err(Failure::Usage("--digits is for tables: --out must end in .csv".to_owned()));
+    }
+    args.replacing.check(args.out.as_deref())?;
     let subjects = subjects(args)?;
     let rule = args.rule.iter().map(|rule| format!("simulation.rule={rule}"));
     let scene = args.choice.find(library, rule.chain(args.length.overrides()))?;
@@ -69,7 +77,12 @@ pub fn plot(library: &Library, args: &Plot) -> Result<(), Failure> {
     }
     let found = subjects.iter().flat_map(|subject| subject.figures(&view));
     let figures: Vec<Figure> = found.map(|it| Figure { mark: None, ..it }).collect();
-    write(&args.out, format, &Sheet { heading: heading(&view), figures, size: args.size })?;
+    let (heading, decimal_comma) = (heading(&view), args.decimal_comma);
+    let sheet = Sheet { heading, figures, size: args.size, decimal_comma };
+    match out {
+        Some((path, format)) => write(path, format, &sheet, args.digits)?,
+        None => anstream::stdout().write_all(terminal::text(&sheet).as_bytes())?,
+    }
     if interrupted { Err(Failure::Interrupted) } else { Ok(()) }
 }
 
@@ -115,9 +128,10 @@ fn heading(view: &View) -> String {
 }
 
 /// Writes the figures.
-fn write(path: &Path, format: Format, sheet: &Sheet) -> Result<(), Failure> {
+fn write(path: &Path, format: Format, sheet: &Sheet, digits: Option<u8>) -> Result<(), Failure> {
+    let style = TableStyle { digits, decimal_comma: sheet.decimal_comma };
     let text = match format {
-        Format::Csv => figures::table(&sheet.figures),
+        Format::Csv => figures::table(&sheet.figures, style),
         Format::Svg => sheet.svg()?,
         Format::Png => {
             let ([width, height], pixels) = sheet.pixels(FINENESS)?;

@@ -41,6 +41,8 @@ pub struct Sheet {
     pub figures: Vec<Figure>,
     /// Width and height of a figure in points.
     pub size: [u32; 2],
+    /// Whether numbers have a decimal comma.
+    pub decimal_comma: bool,
 }
 
 impl Sheet {
@@ -84,7 +86,8 @@ impl Sheet {
         let style = font(unit, 18).color(&INK);
         top.draw_text(&self.heading, &style, (at(unit, MARGIN), at(unit, 10)))?;
         for (part, figure) in rest.split_evenly((self.figures.len(), 1)).iter().zip(&self.figures) {
-            draw_figure(part, figure, (unit, piece))?;
+            let axes = [Axis::across, Axis::up].map(|axis| axis(figure, self.decimal_comma));
+            draw_figure(part, figure, axes, (unit, piece))?;
         }
         root.present()
     }
@@ -130,6 +133,7 @@ fn at(unit: u32, points: u32) -> i32 {
 fn draw_figure<B: DrawingBackend>(
     area: &Area<B>,
     figure: &Figure,
+    [across, up]: [Axis; 2],
     (unit, piece): (u32, usize),
 ) -> Drawn<B> {
     let (title, body) = area.split_vertically(unit * TITLE);
@@ -139,7 +143,7 @@ fn draw_figure<B: DrawingBackend>(
         .margin_bottom(unit * MARGIN)
         .x_label_area_size(unit * BELOW)
         .y_label_area_size(unit * BESIDE)
-        .build_cartesian_2d(Axis::across(figure), Axis::up(figure))?;
+        .build_cartesian_2d(across, up)?;
     chart
         .configure_mesh()
         .bold_line_style(GRID.stroke_width(unit))

@@ -22,7 +22,8 @@ struct Globals {
     ahead: vec4<f32>,
     right: vec4<f32>,
     up: vec4<f32>,
-    // Width and height of the picture in pixels, size of a texel as a part of a shadow map.
+    // Width and height of the picture in pixels, size of a texel as a part of a shadow map; w:
+    // white light from all sides besides that of the sky.
     picture: vec4<f32>,
     // The box in which half-spaces other than the ground are drawn; w: how much farther inclines
     // go.
@@ -56,15 +57,19 @@ fn light_through(map: vec4<f32>, layer: i32, part: f32, spread: f32) -> f32 {
         let half_texel = vec2<f32>(0.5 * globals.picture.z, 0.0);
         return 0.5 * (tap(place - half_texel, layer, depth) + tap(place + half_texel, layer, depth));
     }
-    var sum = 0.0;
-    let texel = globals.picture.z * spread;
-    for (var i = -1; i <= 1; i++) {
-        for (var j = -1; j <= 1; j++) {
-            // Rotated by atan(1/2), so that no two samples share a row or column.
-            let step = vec2<f32>(f32(i) + 0.5 * f32(j), f32(j) - 0.5 * f32(i));
-            sum += tap(place + step * texel, layer, depth);
-        }
+    // Three by three samples, rotated by atan(1/2), so that no two share a row or column.
+    let aside = vec2<f32>(1.0, -0.5) * globals.picture.z * spread;
+    let up = vec2<f32>(0.5, 1.0) * globals.picture.z * spread;
+    var sum = tap(place, layer, depth);
+    sum += tap(place - aside - up, layer, depth) + tap(place + aside - up, layer, depth);
+    sum += tap(place - aside + up, layer, depth) + tap(place + aside + up, layer, depth);
+    // Where the middle and the corners agree, so do the samples between them: most points are far
+    // from the edge of a shadow.
+    if sum == 0.0 || sum == 5.0 {
+        return 0.2 * sum;
     }
+    sum += tap(place - aside, layer, depth) + tap(place + aside, layer, depth);
+    sum += tap(place - up, layer, depth) + tap(place + up, layer, depth);
     return sum / 9.0;
 }
 
@@ -91,11 +96,16 @@ struct Surface {
     // From 0 to 1; used if the finish does not set it.
     gloss: f32,
     finish: f32,
+    // How dark shadows of the sun are, from 0 to 1.
+    shade: f32,
 }
 
 // Returns the part of the sun's light that arrives at a surface point, with shadows of others.
 // `spread`: 1 for soft shadows, 0 for hard ones.
 fn sunlight(point: vec3<f32>, normal: vec3<f32>, spread: f32) -> f32 {
+    if dot(normal, globals.to_sun.xyz) <= 0.0 {
+        return 0.0;
+    }
     let off = off_surface(point, normal, globals.to_sun.xyz, globals.to_sun.w, 0.6, 2.4);
     return light_through(globals.sun_from_eye * vec4<f32>(off, 1.0), 0, globals.ahead.w, 1.2 * spread);
 }
@@ -133,12 +143,13 @@ fn lit(surface: Surface) -> vec3<f32> {
 fn lit_by(surface: Surface, spread: f32) -> vec3<f32> {
     let n = surface.normal;
     let facing = dot(n, globals.to_sun.xyz);
-    let sunlit = sunlight(surface.point, n, spread);
+    let sunlit = mix(1.0, sunlight(surface.point, n, spread), surface.shade);
 
     let upward = 0.5 + 0.5 * n.y;
     let open = 0.58 + 0.42 * skylight(surface.point, n, spread);
-    let from_sky = mix(globals.horizon.rgb, globals.zenith.rgb, 0.5) * open;
-    let ambient = mix(globals.ground.rgb * 0.55, from_sky, upward);
+    let fill = globals.picture.w;
+    let from_sky = (mix(globals.horizon.rgb, globals.zenith.rgb, 0.5) + fill) * open;
+    let ambient = mix((globals.ground.rgb + fill) * 0.55, from_sky, upward);
     let direct = globals.sun.rgb * max(facing, 0.0) * sunlit;
     let diffuse = surface.color * (0.66 * ambient + 0.95 * direct);
     if surface.finish >= GLOSSY {

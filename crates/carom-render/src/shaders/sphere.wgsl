@@ -108,6 +108,7 @@ fn fragment(in: Varying) -> Pixel {
     surface.color = in.color.rgb;
     surface.gloss = 1.0;
     surface.finish = finish_of(in.color.w);
+    surface.shade = 1.0;
     let pattern = kind_of(in.color.w);
     if pattern == BANDED {
         let pixel = 2.0 * length(globals.up.xyz) * hit.along / (globals.picture.y * radius);
@@ -146,6 +147,7 @@ fn glass(in: Varying) -> Pixel {
     surface.normal = hit.normal;
     surface.color = in.color.rgb;
     surface.finish = GLASS;
+    surface.shade = 1.0;
     let facing = dot(hit.normal, globals.to_sun.xyz);
     let shine = polish(surface, sunlight(hit.point, hit.normal, 1.0) * step(0.0, facing));
     // The ray bends where it enters and where it leaves.
@@ -210,6 +212,7 @@ fn small_fragment(in: SmallVarying) -> @location(0) vec4<f32> {
     surface.color = in.color.rgb;
     surface.gloss = 1.0;
     surface.finish = finish_of(in.color.w);
+    surface.shade = 1.0;
     return vec4<f32>(encoded(lit_by(surface, 0.0)), 1.0);
 }
 

@@ -32,6 +32,11 @@ const GROUND: f32 = 2.0;
 const WALL: f32 = 3.0;
 const INCLINE: f32 = 4.0;
 const FACET: f32 = 5.0;
+// A wall of a container.
+const PANE: f32 = 7.0;
+
+// How dark shadows are on upright walls of containers: at full strength they look like stains.
+const PANE_SHADE: f32 = 0.25;
 
 @vertex
 fn vertex(@builtin(vertex_index) index: u32, instance: Instance) -> Varying {
@@ -91,7 +96,8 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
     // Pieces of a larger surface have neither a grid nor edges of their own.
     let is_piece = in.kind == TRIANGLE || in.kind == FACET;
     if is_front {
-        if in.kind != BOX && !is_piece {
+        let is_water = in.kind == GROUND && in.finish == GLASS;
+        if in.kind != BOX && !is_piece && !is_water {
             color *= 1.0 - 0.10 * grid(place, in.extent.w, pixel);
         }
     } else if !is_piece {
@@ -99,7 +105,7 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
         color *= 1.0 + 0.5 * stripes(place.x + place.y, in.extent.w * 0.5, pixel.x + pixel.y);
     }
     var opacity = in.color.w;
-    let is_half_space = in.kind >= GROUND && !is_piece;
+    let is_half_space = in.kind >= GROUND && in.kind <= INCLINE;
     let inside = inside_room(in.point, in.kind);
     let inside_width = max(fwidth(inside), 1e-6 * distance);
     if is_half_space {
@@ -128,6 +134,9 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
     surface.color = color;
     surface.gloss = 0.0;
     surface.finish = in.finish;
+    let is_upright = in.kind == PANE && abs(surface.normal.y) < 0.5;
+    // What shines through hides a shadow on glass.
+    surface.shade = select(select(1.0, PANE_SHADE, is_upright), 0.0, in.finish == GLASS);
     var shown = lit(surface);
     if in.kind == GROUND {
         // The ground fades into the haze before its edge.

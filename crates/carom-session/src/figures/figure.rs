@@ -136,13 +136,44 @@ impl Figure {
 
     /// Returns the numbers as a table; see [`table`].
     pub fn to_csv(&self) -> String {
-        table(std::slice::from_ref(self))
+        table(std::slice::from_ref(self), TableStyle::default())
+    }
+}
+
+/// How the numbers of a table are written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct TableStyle {
+    /// Number of significant digits; without it, as many as give back the same number.
+    pub digits: Option<u8>,
+    /// Whether numbers have a decimal comma, and cells a semicolon between them.
+    pub decimal_comma: bool,
+}
+
+impl TableStyle {
+    fn separator(self) -> char {
+        if self.decimal_comma { ';' } else { ',' }
+    }
+
+    /// Formats a number.
+    fn number(self, value: f64) -> String {
+        let rounded = |digits: u8| {
+            let text = format!("{value:.*e}", usize::from(digits.max(1)) - 1);
+            text.parse().unwrap_or(value)
+        };
+        let text = self.digits.map_or(value, rounded).to_string();
+        if self.decimal_comma { text.replace('.', ",") } else { text }
+    }
+
+    /// Returns a cell of a table, in quotation marks if it contains a separator (RFC 4180).
+    fn quoted(self, cell: &str) -> String {
+        let is_plain = !cell.contains([self.separator(), '"', '\n']);
+        if is_plain { cell.to_owned() } else { format!("\"{}\"", cell.replace('"', "\"\"")) }
     }
 }
 
 /// Returns the numbers of figures as a table in CSV: a column for the horizontal axis and one for each
 /// curve. A curve at other positions than the one before has two columns.
-pub fn table(figures: &[Figure]) -> String {
+pub fn table(figures: &[Figure], style: TableStyle) -> String {
     let mut columns: Vec<(String, Vec<f64>)> = Vec::new();
     let mut along: &[[f64; 2]] = &[];
     for figure in figures {
@@ -159,26 +190,21 @@ pub fn table(figures: &[Figure]) -> String {
         }
     }
     let rows = columns.iter().map(|(_, values)| values.len()).max().unwrap_or_default();
-    let names: Vec<String> = columns.iter().map(|(name, _)| quoted(name)).collect();
+    let names: Vec<String> = columns.iter().map(|(name, _)| style.quoted(name)).collect();
+    let separator = style.separator().to_string();
     let row = |row: usize| {
         let cell = |(_, values): &(_, Vec<f64>)| {
-            values.get(row).map(|value| value.to_string()).unwrap_or_default()
+            values.get(row).map(|value| style.number(*value)).unwrap_or_default()
         };
-        columns.iter().map(cell).collect::<Vec<_>>().join(",")
+        columns.iter().map(cell).collect::<Vec<_>>().join(&separator)
     };
-    let lines = std::iter::once(names.join(",")).chain((0..rows).map(row));
+    let lines = std::iter::once(names.join(&separator)).chain((0..rows).map(row));
     lines.map(|line| line + "\n").collect()
 }
 
 /// Returns a name with its unit, for display.
 fn labelled(name: &str, unit: &str) -> String {
     if unit.is_empty() { name.to_owned() } else { format!("{name}, {unit}") }
-}
-
-/// Returns a cell of a table, in quotation marks if it contains a separator (RFC 4180).
-fn quoted(cell: &str) -> String {
-    let is_plain = !cell.contains([',', '"', '\n']);
-    if is_plain { cell.to_owned() } else { format!("\"{}\"", cell.replace('"', "\"\"")) }
 }
 
 #[cfg(test)]
@@ -201,6 +227,21 @@ mod tests {
         let expected = "\"time, s\",\"kinetic, J\",\"total, J\",\"time, s\",\"total, right, J\"\n\
                         0,1,0.1,0,1\n0.5,2,0.000000001,,\n";
         assert_eq!(text, expected);
+    }
+
+    #[test]
+    fn digits_count_from_the_first_one_that_is_not_zero() {
+        let style = TableStyle { digits: Some(3), decimal_comma: false };
+        let values = [123_456.0, 0.001_234_56, -2.0 / 3.0, 0.0, 9.999, f64::NAN];
+        let texts = values.map(|value| style.number(value));
+        assert_eq!(texts, ["123000", "0.00123", "-0.667", "0", "10", "NaN"]);
+    }
+
+    #[test]
+    fn a_table_with_decimal_commas_has_semicolons_between_its_cells() {
+        let curve = Curve::line("all", Hue::Red, &[1.25], |it| (*it, 2.0 * it));
+        let style = TableStyle { digits: None, decimal_comma: true };
+        assert_eq!(table(&[figure(vec![curve])], style), "time, s;Energy, J\n1,25;2,5\n");
     }
 
     #[test]

@@ -9,7 +9,7 @@ use carom::{DVec3, StageCounts};
 
 pub use axis::{Marks, text_of_mark};
 pub use distribution::speeds;
-pub use figure::{Curve, Figure, Form, Hue, table};
+pub use figure::{Curve, Figure, Form, Hue, TableStyle, table};
 
 use crate::readings::{PickedReading, Reading};
 use crate::view::View;

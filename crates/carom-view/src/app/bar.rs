@@ -160,11 +160,12 @@ impl App {
         }
     }
 
-    /// Returns the title of the present scene or maze.
+    /// Returns the title of the present scene or game.
     fn title(&self) -> Option<String> {
         match &self.screen {
             Screen::Empty => None,
             Screen::Maze(screen) => Some(screen.game().maze().title().to_owned()),
+            Screen::Pinball(screen) => Some(screen.game().table().title().to_owned()),
             Screen::Watching(watching) => {
                 let scene = &watching.view().scene;
                 let title = if scene.title.is_empty() { &scene.name } else { &scene.title };
@@ -191,7 +192,7 @@ impl App {
     fn view_menu(&mut self, ui: &mut Ui) -> Vec<Action> {
         let mut entries = match &self.screen {
             Screen::Watching(watching) => watching.cameras(),
-            Screen::Maze(_) => PRESETS.to_vec(),
+            Screen::Maze(_) | Screen::Pinball(_) => PRESETS.to_vec(),
             Screen::Empty => Vec::new(),
         };
         entries.push(Entry::once("Light or dark", Action::Theme));

@@ -1,13 +1,12 @@
 //! Makes links to the present view, and opens links.
 
-use carom_maze::Maze;
 use carom_session::{Command, Link};
 
 use super::{App, Screen};
 use crate::watching::Watching;
 
 impl App {
-    /// Opens the run of a link. A maze without past changes is played, anything else is watched. If
+    /// Opens the run of a link. A game without past changes is played, anything else is watched. If
     /// the link cannot be opened, an error is shown, in the chooser if nothing else is open.
     pub fn follow(&mut self, link: &Link) {
         let scene = match link.open_within(self.link_budget) {
@@ -15,8 +14,7 @@ impl App {
             Err(error) => return self.refuse_link(&error.to_string()),
         };
         let is_beginning = link.time().is_none() && link.changes().is_empty();
-        if is_beginning && let Ok(maze) = Maze::from_scene(&scene) {
-            self.play_linked(maze, link.clone());
+        if is_beginning && self.play_scene(&scene, || link.clone()) {
             return;
         }
         match Watching::replay(link, scene, self.threaded, &self.context) {
@@ -65,6 +63,9 @@ impl App {
                 link.show(context, Some((view, base)), link_text);
             }
             Screen::Maze(screen) => {
+                link.show(context, None, || format!("{}#{}", host.page(), screen.link()));
+            }
+            Screen::Pinball(screen) => {
                 link.show(context, None, || format!("{}#{}", host.page(), screen.link()));
             }
         }

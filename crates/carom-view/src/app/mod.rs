@@ -4,11 +4,13 @@ mod bar;
 mod choosing;
 mod files;
 mod links;
+mod opening;
 mod saving;
 
 use std::sync::Arc;
 
 use carom_maze::Maze;
+use carom_pinball::Table;
 use carom_render::Quality;
 use carom_scene::scene::Scene;
 use carom_scene::{Budget, Library, Source};
@@ -20,18 +22,19 @@ use crate::action::{self, Action};
 use crate::address::Address;
 use crate::chooser::{Asked, Chooser, invite};
 use crate::exports::Exports;
+use crate::game_view::Wish;
 use crate::help;
 use crate::host::{Host, Inbox};
 use crate::layout::{accept_slow_clicks, suit_fingers};
 use crate::link_dialog::LinkDialog;
-use crate::maze_screen::{MazeScreen, Wish};
+use crate::maze_screen::MazeScreen;
 use crate::notices::Notices;
 use crate::orbit::Preset;
+use crate::pinball_screen::PinballScreen;
 use crate::saved::{Panels, SavedValues};
 use crate::studio::Studio;
 use crate::theme::make_readable;
 use crate::watching::{Manner, Watching};
-use crate::written_scene::WrittenScene;
 
 /// What the interface needs at the start.
 pub struct Setup {
@@ -56,6 +59,8 @@ pub enum Start {
     Scene(Box<Scene>, Source),
     /// A maze to play.
     Maze(Box<Maze>),
+    /// A pinball table to play on.
+    Pinball(Box<Table>),
     /// The run of a link.
     Link(Box<Link>),
 }
@@ -94,6 +99,7 @@ enum Screen {
     Empty,
     Watching(Box<Watching>),
     Maze(Box<MazeScreen>),
+    Pinball(Box<PinballScreen>),
 }
 
 impl App {
@@ -138,76 +144,14 @@ impl App {
         match setup.start {
             Some(Start::Scene(scene, source)) => app.watch(*scene, source),
             Some(Start::Maze(maze)) => app.play(*maze),
+            Some(Start::Pinball(table)) => {
+                let link = Link::to_scene(table.scene());
+                app.play_pinball(*table, link);
+            }
             Some(Start::Link(link)) => app.follow(&link),
             None => app.welcome(),
         }
         Ok(app)
-    }
-
-    /// Opens a scene: plays a maze, watches any other scene.
-    fn open(&mut self, scene: Scene, source: Source) {
-        match Maze::from_scene(&scene) {
-            Ok(maze) => self.play_linked(maze, Link::to_scene(&scene)),
-            Err(_) => self.watch(scene, source),
-        }
-    }
-
-    /// Watches a scene; shows an error if that is impossible.
-    pub fn watch(&mut self, scene: Scene, source: Source) {
-        match Watching::new(scene, source, self.threaded, &self.context) {
-            Ok(mut watching) => {
-                self.host.watch(&watching.source);
-                // A web page cannot reopen files.
-                if let Source::File(path) = &watching.source
-                    && cfg!(not(target_arch = "wasm32"))
-                {
-                    self.saved.remember(path);
-                    if let Ok(written) = WrittenScene::from_file(path, Vec::new()) {
-                        watching.set_written(written);
-                    }
-                }
-                watching.set_layout(self.saved.layout);
-                self.show(Screen::Watching(Box::new(watching)));
-            }
-            Err(error) => self.notices.complain(error),
-        }
-    }
-
-    /// Plays a maze.
-    pub fn play(&mut self, maze: Maze) {
-        let link = Link::to_scene(maze.scene());
-        self.play_linked(maze, link);
-    }
-
-    fn play_linked(&mut self, maze: Maze, link: Link) {
-        match MazeScreen::new(maze, link) {
-            Ok(mut screen) => {
-                self.keep_game();
-                if let Some(game) = &self.saved.game {
-                    screen.resume(game);
-                }
-                self.host.show_link(screen.link());
-                self.show(Screen::Maze(Box::new(screen)));
-            }
-            Err(error) => self.notices.complain(error),
-        }
-    }
-
-    /// Remembers the progress of the present game.
-    fn keep_game(&mut self) {
-        if let Screen::Maze(screen) = &self.screen {
-            self.saved.game = Some(screen.saved());
-        }
-    }
-
-    /// Replaces the content of the window; ends a film of the old content.
-    fn show(&mut self, screen: Screen) {
-        self.keep_game();
-        self.notices.clear();
-        self.chooser.close_all();
-        self.resumes = false;
-        self.exports.end_film();
-        self.screen = screen;
     }
 
     /// Returns the watched scene, if there is one.
@@ -241,6 +185,14 @@ impl App {
     pub fn maze(&self) -> Option<&MazeScreen> {
         match &self.screen {
             Screen::Maze(screen) => Some(screen),
+            _ => None,
+        }
+    }
+
+    /// Returns the game, if pinball is played.
+    pub fn pinball(&self) -> Option<&PinballScreen> {
+        match &self.screen {
+            Screen::Pinball(screen) => Some(screen),
             _ => None,
         }
     }
@@ -302,6 +254,7 @@ impl App {
             _ => match &mut self.screen {
                 Screen::Watching(watching) => watching.act(action),
                 Screen::Maze(screen) => act_in_maze(screen, action),
+                Screen::Pinball(screen) => act_in_pinball(screen, action),
                 Screen::Empty => {}
             },
         }
@@ -334,6 +287,9 @@ impl App {
                 Some((watching.view().scene.name.clone(), watching.view().time))
             }
             Screen::Maze(screen) => {
+                Some((screen.game().scene().name.clone(), screen.game().elapsed()))
+            }
+            Screen::Pinball(screen) => {
                 Some((screen.game().scene().name.clone(), screen.game().elapsed()))
             }
             Screen::Empty => None,
@@ -404,6 +360,13 @@ impl App {
                     .show(ui, |ui| screen.picture(ui, studio, manner.dark))
                     .inner;
             }
+            Screen::Pinball(screen) => {
+                let studio = &mut self.studio;
+                wish = egui::CentralPanel::default()
+                    .frame(margin)
+                    .show(ui, |ui| screen.picture(ui, studio, manner.dark))
+                    .inner;
+            }
         }
         if let Some(wanted) = wanted {
             self.save_plots(wanted);
@@ -413,12 +376,8 @@ impl App {
             Some(Asked::Chosen(chosen)) => self.take(chosen),
             None => {}
         }
-        let Screen::Maze(screen) = &self.screen else { return };
         match wish {
-            Some(Wish::Watch) => {
-                let scene = screen.game().maze().scene().clone();
-                self.watch(scene, Source::Registered);
-            }
+            Some(Wish::Watch) => self.watch_game(),
             Some(Wish::Next) => self.next_maze(),
             None => {}
         }
@@ -429,11 +388,16 @@ impl App {
             Screen::Empty => {}
             Screen::Watching(watching) => watching.advance(ui),
             // The game pauses behind the dialog.
-            Screen::Maze(_) if self.chooser.is_open() => {}
+            Screen::Maze(_) | Screen::Pinball(_) if self.chooser.is_open() => {}
             Screen::Maze(screen) => {
                 screen.stick = self.host.stick();
                 let steering = screen.steering(ui);
                 if let Err(error) = screen.advance(ui, steering) {
+                    self.notices.complain(error);
+                }
+            }
+            Screen::Pinball(screen) => {
+                if let Err(error) = screen.advance(ui) {
                     self.notices.complain(error);
                 }
             }
@@ -442,6 +406,17 @@ impl App {
 }
 
 fn act_in_maze(screen: &mut MazeScreen, action: Action) {
+    match action {
+        Action::PlayOrPause => screen.play_or_pause(),
+        Action::Restart => screen.play_again(),
+        Action::SceneCamera => screen.look_from(Preset::Scene),
+        Action::FrontCamera => screen.look_from(Preset::Front),
+        Action::TopCamera => screen.look_from(Preset::Top),
+        _ => {}
+    }
+}
+
+fn act_in_pinball(screen: &mut PinballScreen, action: Action) {
     match action {
         Action::PlayOrPause => screen.play_or_pause(),
         Action::Restart => screen.play_again(),
@@ -467,9 +442,10 @@ impl eframe::App for App {
         self.cpu_seconds = frame.info().cpu_usage;
         let context = ui.ctx().clone();
         self.studio.begin_frame();
-        // A dialog takes the keys; on the win screen Enter starts again, and in the strip it chooses.
-        let is_won = self.maze().is_some_and(MazeScreen::is_won);
-        let is_taken = is_won || self.chooser.has_focus();
+        // A dialog takes the keys; on the last screen Enter starts again, and in the strip it chooses.
+        let is_over = self.maze().is_some_and(MazeScreen::is_won)
+            || self.pinball().is_some_and(PinballScreen::is_over);
+        let is_taken = is_over || self.chooser.has_focus();
         if !self.chooser.is_open() {
             for action in action::pressed(&context, is_taken) {
                 self.act(action);
@@ -487,8 +463,12 @@ impl eframe::App for App {
             self.act(action);
         }
         self.choose(&context);
-        let is_maze = self.maze().is_some();
-        help::show(&context, &mut self.help, is_maze);
+        let game = match &self.screen {
+            Screen::Maze(_) => Some(&action::MAZE),
+            Screen::Pinball(_) => Some(&action::PINBALL),
+            Screen::Watching(_) | Screen::Empty => None,
+        };
+        help::show(&context, &mut self.help, game);
         self.links();
         self.drop_target();
         self.notices.show(ui);

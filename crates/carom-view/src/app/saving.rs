@@ -15,6 +15,7 @@ impl App {
         let drawn = match &mut self.screen {
             Screen::Watching(watching) => watching.snapshot(&mut self.studio, manner, size),
             Screen::Maze(screen) => screen.snapshot(&mut self.studio, size),
+            Screen::Pinball(screen) => screen.snapshot(&mut self.studio, size),
             Screen::Empty => return None,
         };
         drawn.map_err(|error| self.notices.complain(error)).ok()
@@ -75,6 +76,7 @@ impl App {
         match &self.screen {
             Screen::Watching(watching) => watching.view().time,
             Screen::Maze(screen) => screen.clock(),
+            Screen::Pinball(screen) => screen.clock(),
             Screen::Empty => 0.0,
         }
     }

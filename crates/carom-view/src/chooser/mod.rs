@@ -15,7 +15,7 @@ use egui::{
 use crate::layout::{is_for_fingers, is_touched, scrolled_within};
 use crate::studio::{Canvas, Studio};
 pub use strip::{Asked, invite};
-use thumbnail::{Running, THUMBNAIL, Thumbnail};
+use thumbnail::{Running, THUMBNAIL, Thumbnail, is_dark};
 
 /// The strip and the dialog; they read all scenes whenever one of them opens.
 #[derive(Default)]
@@ -60,7 +60,7 @@ impl Card {
     /// Returns whether this card has a thumbnail of the same scene as `other`.
     fn shows_same(&self, other: &Self) -> bool {
         let [own, others] = [self, other].map(|card| card.entry.scene.as_ref().ok());
-        matches!(self.thumbnail, Thumbnail::Drawn(_)) && own.is_some() && own == others
+        matches!(self.thumbnail, Thumbnail::Drawn { .. }) && own.is_some() && own == others
     }
 }
 
@@ -349,10 +349,11 @@ impl Chooser {
         Some(Chosen::Scene(Box::new(scene), entry.source.clone()))
     }
 
-    /// Works on the first missing thumbnail of the cards that are `seen`, a little in each frame, so
-    /// that the interface goes on.
+    /// Works on the first thumbnail of the cards that are `seen` that is missing in the present theme,
+    /// a little in each frame, so that the interface goes on.
     fn draw_missing(&mut self, context: &Context, studio: &mut Studio, seen: &[usize]) {
-        let is_missing = |it: &usize| matches!(self.cards[*it].thumbnail, Thumbnail::Missing);
+        let dark = is_dark(context);
+        let is_missing = |it: &usize| self.cards[*it].thumbnail.is_wanted(dark);
         let Some(index) = seen.iter().copied().find(is_missing) else { return };
         context.request_repaint();
         let before = self.prepared.take().filter(|it| it.0 == index);
@@ -370,8 +371,8 @@ impl Chooser {
             return;
         }
         let mut canvas = Canvas::default();
-        running.draw(studio, &mut canvas, context.pixels_per_point());
-        *thumbnail = Thumbnail::Drawn(Box::new(canvas));
+        running.draw(studio, &mut canvas, context);
+        *thumbnail = Thumbnail::Drawn { canvas: Box::new(canvas), dark };
     }
 
     /// Runs the scene of the card under the pointer in its thumbnail, and no other.
@@ -382,9 +383,9 @@ impl Chooser {
             self.running = pointed.zip(running);
         }
         let Some((index, running)) = &mut self.running else { return };
-        let Thumbnail::Drawn(canvas) = &mut self.cards[*index].thumbnail else { return };
+        let Thumbnail::Drawn { canvas, .. } = &mut self.cards[*index].thumbnail else { return };
         running.advance(context.input(|input| f64::from(input.stable_dt)));
-        running.draw(studio, canvas, context.pixels_per_point());
+        running.draw(studio, canvas, context);
         context.request_repaint();
     }
 }

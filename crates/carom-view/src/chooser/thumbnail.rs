@@ -3,7 +3,7 @@
 use carom_render::{Camera, Drawing, Framing};
 use carom_scene::scene::Scene;
 use carom_session::{Session, View};
-use egui::{CornerRadius, Image, Response, Sense, Ui, Vec2};
+use egui::{Context, CornerRadius, Image, Response, Sense, Theme, Ui, Vec2};
 
 use crate::look::{self, DrawOptions, Marks};
 use crate::orbit::{Orbit, Preset};
@@ -26,17 +26,30 @@ const WORK_AT_ONCE: f64 = 2_500.0;
 /// The picture of a scene.
 pub(super) enum Thumbnail {
     Missing,
-    Drawn(Box<Canvas>),
+    Drawn {
+        canvas: Box<Canvas>,
+        /// Whether the theme was dark.
+        dark: bool,
+    },
     /// The scene cannot be read.
     Impossible,
 }
 
 impl Thumbnail {
+    /// Returns whether a picture can be drawn that is not there yet in this theme.
+    pub fn is_wanted(&self, dark: bool) -> bool {
+        match self {
+            Self::Missing => true,
+            Self::Drawn { dark: drawn, .. } => *drawn != dark,
+            Self::Impossible => false,
+        }
+    }
+
     /// Paints the picture in a place of this size; returns the response of the place.
     pub fn show(&self, ui: &mut Ui, size: Vec2, sense: Sense) -> Response {
         let (rect, response) = ui.allocate_exact_size(size, sense);
         let canvas = match self {
-            Self::Drawn(canvas) => canvas.texture(),
+            Self::Drawn { canvas, .. } => canvas.texture(),
             Self::Missing | Self::Impossible => None,
         };
         match canvas {
@@ -72,7 +85,7 @@ impl Running {
         let session = Session::new(scene.clone()).ok()?;
         let (mut view, mut drawing) = (View::default(), Drawing::default());
         session.fill(&mut view);
-        draw_into(&view, &mut drawing);
+        draw_into(&view, false, &mut drawing);
         let framing = Framing::of_run(Framing::of_scene(scene), &drawing);
         let aspect = f64::from(THUMBNAIL.x / THUMBNAIL.y);
         let of_scene = Camera::of_scene(scene);
@@ -114,16 +127,21 @@ impl Running {
         (WORK_AT_ONCE / spheres as f64).max(1.0) as u64
     }
 
-    /// Draws the present state.
-    pub fn draw(&mut self, studio: &mut Studio, canvas: &mut Canvas, pixels_per_point: f32) {
+    /// Draws the present state in the theme of the interface.
+    pub fn draw(&mut self, studio: &mut Studio, canvas: &mut Canvas, context: &Context) {
         self.session.fill(&mut self.view);
-        draw_into(&self.view, &mut self.drawing);
+        draw_into(&self.view, is_dark(context), &mut self.drawing);
         self.drawing.framing = Some(self.framing);
-        studio.draw(canvas, THUMBNAIL * pixels_per_point, &self.drawing, &self.camera);
+        studio.draw(canvas, THUMBNAIL * context.pixels_per_point(), &self.drawing, &self.camera);
     }
 }
 
-fn draw_into(view: &View, drawing: &mut Drawing) {
-    let look = DrawOptions { marks: Marks::default(), dark: false, blend: 1.0 };
+/// Returns whether the theme is dark.
+pub(super) fn is_dark(context: &Context) -> bool {
+    context.theme() == Theme::Dark
+}
+
+fn draw_into(view: &View, dark: bool, drawing: &mut Drawing) {
+    let look = DrawOptions { marks: Marks::default(), dark, blend: 1.0 };
     look::draw(view, &look, drawing);
 }

@@ -133,7 +133,7 @@ pub(super) fn show(ui: &mut Ui, view: &View, id: SphereId, commands: &mut Vec<Co
 }
 
 pub(super) fn show_throw(ui: &mut Ui, view: &View, throw: &mut Throw) {
-    ui.weak("Ctrl + click into the picture throws a ball that way.");
+    ui.weak("Ctrl + click into the picture throws a ball that way; B throws one to its middle.");
     number(ui, radius(), &mut throw.radius);
     number(ui, mass(), &mut throw.mass);
     number(ui, Field::not_negative("Speed", "m/s").hint("Speed of the throw"), &mut throw.speed);

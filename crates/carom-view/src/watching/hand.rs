@@ -1,6 +1,6 @@
 //! Mouse and fingers in the picture of a scene.
 
-use carom::{DVec3, Sphere};
+use carom::{DVec3, Sphere, SphereId};
 use carom_session::{Command, Edit};
 use egui::{CursorIcon, Modifiers, PointerButton, Pos2, Rect, Response, Ui};
 
@@ -12,13 +12,13 @@ use crate::inspector::Throw;
 use crate::look;
 use crate::orbit::{Orbit, zoom_asked};
 
-/// Distance from the picked ball within which the pointer takes it, in points.
+/// Distance from a ball within which the pointer takes it, in points.
 const REACH: f32 = 8.0;
 
 impl Watching {
     /// Handles mouse and fingers in the picture.
     pub(super) fn hand(&mut self, ui: &Ui, response: &Response, side: usize) {
-        if self.grab(ui, response, side) {
+        if self.aim(ui, response, side) || self.grab(ui, response, side) {
             return;
         }
         let Some(mut orbit) = self.viewpoint.orbit() else { return };
@@ -85,8 +85,14 @@ impl Watching {
 
     /// Returns whether a place on the screen is at the picked ball.
     fn is_at_picked(&self, rect: Rect, place: Pos2, side: usize) -> bool {
+        let picked = side_of(self.driver.view(), side).picked;
+        picked.is_some_and(|id| self.is_at(rect, place, side, id))
+    }
+
+    /// Returns whether a place on the screen is at a ball.
+    pub(super) fn is_at(&self, rect: Rect, place: Pos2, side: usize, id: SphereId) -> bool {
         let (view, blend) = (side_of(self.driver.view(), side), self.driver.blend());
-        let found = view.picked.and_then(|id| view.spheres.index_of(id)).and_then(|index| {
+        let found = view.spheres.index_of(id).and_then(|index| {
             let (center, radius) = (look::place(view, index, blend), view.spheres.radii[index]);
             let projection = self.projection(rect)?;
             Some((projection.place(center)?, projection.radius(center, radius)?))
@@ -111,15 +117,7 @@ impl Watching {
         let Some(mut orbit) = self.viewpoint.orbit() else { return };
         let (origin, direction) = ray(orbit, response.rect, pointer);
         if modifiers.command {
-            let Throw { radius, mass, speed, restitution } = self.throw;
-            // In front of the camera, so that the user sees it fly away.
-            let position = origin + direction * (orbit.camera.near + 3.0 * radius);
-            let sphere = Sphere::new(position, radius)
-                .with_velocity(direction * speed)
-                .with_mass(mass)
-                .with_restitution(restitution);
-            self.commands
-                .push(Command::Edit(Edit::Throw { sphere: Box::new(sphere), color: None }));
+            self.throw_along(direction, orbit);
             return;
         }
         let blend = self.driver.blend();
@@ -133,6 +131,34 @@ impl Watching {
         }
         self.viewpoint.unfollow();
         self.commands.push(Command::Pick(picked));
+    }
+
+    /// Throws a ball along a direction (unit vector), from in front of the camera, so that the user
+    /// sees it fly away.
+    fn throw_along(&mut self, direction: DVec3, Orbit { camera, .. }: Orbit) {
+        let Throw { radius, mass, speed, restitution } = self.throw;
+        let sphere =
+            Sphere::new(camera.position + direction * (camera.near + 3.0 * radius), radius)
+                .with_velocity(direction * speed)
+                .with_mass(mass)
+                .with_restitution(restitution);
+        self.commands.push(Command::Edit(Edit::Throw { sphere: Box::new(sphere), color: None }));
+    }
+
+    /// Throws a ball to where the camera looks; it is picked as soon as it is there.
+    pub(super) fn throw_ahead(&mut self) {
+        let Some(orbit) = self.viewpoint.orbit() else { return };
+        self.thrown_after = Some(self.view().spheres.ids.last().copied());
+        self.throw_along(orbit.camera.ahead(), orbit);
+    }
+
+    /// Picks the ball that [`Self::throw_ahead`] has thrown, once it is there.
+    pub(super) fn pick_thrown(&mut self) {
+        let newest = self.view().spheres.ids.last().copied();
+        if self.thrown_after.is_some_and(|before| newest > before) {
+            self.thrown_after = None;
+            self.commands.push(Command::Pick(newest));
+        }
     }
 
     /// Returns what a zoom is about \[m\]: the ball under the pointer, else the picked one, else the
@@ -177,7 +203,7 @@ impl Watching {
 }
 
 /// Returns origin \[m\] and direction of the ray through a place of the picture in `rect`.
-fn ray(orbit: Orbit, rect: Rect, pointer: Pos2) -> (DVec3, DVec3) {
+pub(super) fn ray(orbit: Orbit, rect: Rect, pointer: Pos2) -> (DVec3, DVec3) {
     let place = (pointer - rect.center()) / (0.5 * rect.size());
     let aspect = f64::from(rect.width() / rect.height());
     let camera = orbit.in_picture(aspect);

@@ -52,7 +52,7 @@ pub(super) fn label(view: &View) -> Option<String> {
 }
 
 /// Formats a speed so that the label keeps its width.
-fn three_digits(speed: f64) -> String {
+pub(super) fn three_digits(speed: f64) -> String {
     match speed {
         s if s != 0.0 && !(1e-2..1e4).contains(&s) => format!("{s:.1e}"),
         s if s < 10.0 => format!("{s:.2}"),

@@ -1,5 +1,6 @@
 //! The screen of a watched scene: its picture and panels.
 
+mod aim;
 mod card;
 mod departures;
 mod entries;
@@ -15,7 +16,7 @@ mod viewpoint;
 
 use std::sync::Arc;
 
-use carom::DVec3;
+use carom::{DVec3, SphereId};
 use carom_render::{Camera, Drawing, GpuError};
 use carom_scene::Source;
 use carom_scene::scene::{Rule, Scene, Simulation};
@@ -34,6 +35,7 @@ use crate::snapshot::Snapshot;
 use crate::studio::{Canvas, Studio};
 use crate::written_scene::WrittenScene;
 use crate::{impact_list, transport};
+use aim::Cue;
 use card::Card;
 use departures::Departures;
 pub use entries::PRESETS;
@@ -68,9 +70,13 @@ pub struct Watching {
     /// The open sheet of such a window.
     sheet: Panels,
     throw: Throw,
+    /// The newest ball before a throw whose ball is to be picked.
+    thrown_after: Option<Option<SphereId>>,
     card: Card,
     /// The ball in the hand.
     grabbed: Option<Grab>,
+    /// The cue in the hand.
+    cue: Option<Cue>,
     /// The pictures of both rules; one rule uses the first.
     canvases: [Canvas; 2],
     drawing: Drawing,
@@ -180,8 +186,10 @@ impl Watching {
             has_sheets: false,
             sheet: Panels::NONE,
             throw,
+            thrown_after: None,
             card: Card::default(),
             grabbed: None,
+            cue: None,
             canvases: Default::default(),
             drawing: Drawing::default(),
             drawn: [None; 2],
@@ -236,6 +244,7 @@ impl Watching {
         let time_is_up = || began.elapsed().as_secs_f64() > INLINE_BUDGET;
         if self.driver.update(wall_seconds, time_is_up) {
             self.news += 1;
+            self.pick_thrown();
             let framing = self.viewpoint.framing(&self.driver.view().scene);
             self.departures.note(self.driver.view(), framing);
         }
@@ -265,6 +274,7 @@ impl Watching {
                 let next = transport::next_speed(speed, action == Action::Faster);
                 self.commands.push(Command::Speed(next));
             }
+            Action::Throw => self.throw_ahead(),
             Action::SceneCamera => self.viewpoint.look_from(Preset::Scene),
             Action::FrontCamera => self.viewpoint.look_from(Preset::Front),
             Action::TopCamera => self.viewpoint.look_from(Preset::Top),
@@ -427,6 +437,7 @@ impl Watching {
         if let Some(projection) = self.projection(rect) {
             let (view, blend) = (side_of(self.driver.view(), side), self.driver.blend());
             marker::draw(&ui.painter_at(rect), view, blend, &projection);
+            self.draw_aim(&ui.painter_at(rect), &projection, side);
         }
         if self.view().other.is_some() {
             sides::show(ui, rect, self.driver.view(), side, &mut self.commands);

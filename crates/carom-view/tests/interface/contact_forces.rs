@@ -39,27 +39,27 @@ fn watching_balls_that_press() -> Desk {
     desk
 }
 
-/// Counts pixels in the colour of the arrows, purple: much red and blue, little green.
-fn purple_pixels(desk: &mut Desk) -> usize {
+/// Counts pixels in the colours of the lines, from yellow to red: much red, less green, little blue.
+fn glowing_pixels(desk: &mut Desk) -> usize {
     desk.remove_cursor();
     let picture = desk.render().expect("a picture");
-    let is_purple =
-        |red: u8, green: u8, blue: u8| green < 90 && red > green + 60 && blue > green + 90;
-    picture.pixels().filter(|pixel| is_purple(pixel[0], pixel[1], pixel[2])).count()
+    let is_one =
+        |red: u8, green: u8, blue: u8| red > 200 && green < 180 && blue < 60 && red - green > 40;
+    picture.pixels().filter(|pixel| is_one(pixel[0], pixel[1], pixel[2])).count()
 }
 
 #[test]
-fn arrows_are_in_the_picture_while_they_are_switched_on() {
+fn lines_are_in_the_picture_while_they_are_switched_on() {
     let mut desk = watching_balls_that_press();
-    let before = purple_pixels(&mut desk);
+    let before = glowing_pixels(&mut desk);
     press(&mut desk, Key::C);
     assert!(scene(&desk).view().contacts.len() >= 5);
-    let shown = purple_pixels(&mut desk);
-    assert!(shown > before + 500, "{before} {shown}");
+    let shown = glowing_pixels(&mut desk);
+    assert!(shown > before + 150, "{before} {shown}");
     desk.get_by_label("Measure").click();
     desk.run_steps(3);
     desk.get_by_label("Contact forces").click();
     desk.run_steps(3);
     assert!(scene(&desk).view().contacts.is_empty());
-    assert_eq!(purple_pixels(&mut desk), before);
+    assert_eq!(glowing_pixels(&mut desk), before);
 }

@@ -1,6 +1,7 @@
 //! The interface as a user meets it: keys, buttons, dropped and changed files, and their effects.
 //! The software driver draws; the physics runs in the same thread, so that no timing matters.
 
+mod aim;
 mod card;
 mod contact_forces;
 mod contrast;
@@ -13,6 +14,7 @@ mod links;
 mod maze;
 mod narrow;
 mod pictures;
+mod pinball;
 mod plots;
 mod revisions;
 mod scenes;

@@ -4,12 +4,13 @@
 
 use carom_maze::Maze;
 use carom_session::Command;
-use carom_view::{Setup, Start};
+use carom_view::{Action, Setup, Start};
 use egui::{Key, Theme};
 use egui_kittest::{SnapshotOptions, SnapshotResults};
 
 use crate::desk::{Desk, SIZE, desk_for_picture, go_to, press, scene, setup_for_pictures, start};
 use crate::maze::{SHORT, win};
+use crate::pinball;
 
 /// Versions of the software driver round differently at edges of shapes, text and shadows: a
 /// thousandth of the pixels may differ. A visible change - another colour, a panel that moved, a
@@ -57,7 +58,9 @@ in_light_and_dark!(
     windows_of_four_sizes,
     two_rules,
     the_maze,
-    the_win_screen
+    the_win_screen,
+    pinball_in_two_sizes,
+    the_end_of_pinball
 );
 
 /// Compares the window with the picture of this name and theme.
@@ -100,6 +103,16 @@ fn the_window_with_plots(theme: Theme) {
     compare_in(theme, &mut desk, "window");
 }
 
+#[test]
+fn contact_forces_of_a_heap_are_chains() {
+    let setup = Setup { start: start("pour"), ..setup_for_pictures() };
+    let mut desk = desk_for_picture([800.0, 600.0], COARSE, setup);
+    set_theme(&mut desk, Theme::Light);
+    go_to(&mut desk, 4.0);
+    press(&mut desk, Key::C);
+    compare_in(Theme::Light, &mut desk, "contact_forces");
+}
+
 /// A cradle with a picked ball; in small windows with the sheet of the inspector.
 fn windows_of_four_sizes(theme: Theme) {
     let mut results = SnapshotResults::new();
@@ -133,6 +146,30 @@ fn the_maze(theme: Theme) {
     let mut desk = played(maze);
     set_theme(&mut desk, theme);
     compare_in(theme, &mut desk, "maze");
+}
+
+/// A ball in play, and a flipper that is raised.
+fn pinball_in_two_sizes(theme: Theme) {
+    let mut results = SnapshotResults::new();
+    for [width, height] in [[1280.0, 800.0], [390.0, 844.0]] {
+        let setup = Setup { start: pinball::start(), ..setup_for_pictures() };
+        let mut desk = desk_for_picture([width, height], COARSE, setup);
+        set_theme(&mut desk, theme);
+        pinball::shoot(&mut desk);
+        desk.key_down(Key::ArrowLeft);
+        desk.run_steps(4);
+        desk.state_mut().act(Action::PlayOrPause);
+        compare(&mut desk, &format!("pinball_{width}_{}", name_of(theme)), &mut results);
+    }
+    results.unwrap();
+}
+
+fn the_end_of_pinball(theme: Theme) {
+    let setup = Setup { start: pinball::start(), ..setup_for_pictures() };
+    let mut desk = desk_for_picture(SIZE, COARSE, setup);
+    set_theme(&mut desk, theme);
+    pinball::lose(&mut desk);
+    compare_in(theme, &mut desk, "pinball_over");
 }
 
 fn the_win_screen(theme: Theme) {

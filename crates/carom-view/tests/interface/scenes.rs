@@ -82,6 +82,7 @@ fn open_from_the_chooser(first: usize) {
         let app = desk.state();
         let opened = app.watching().map(|it| it.view().scene.name.clone());
         let opened = opened.or_else(|| app.maze().map(|it| it.game().scene().name.clone()));
+        let opened = opened.or_else(|| app.pinball().map(|it| it.game().scene().name.clone()));
         assert_eq!(opened.as_deref(), Some(entry.name.as_str()));
         assert!(!app.notices().any_error());
     }
@@ -337,6 +338,24 @@ fn surfaces_of_one_name_are_one_row_and_change_together() {
         );
     }
     assert_eq!(view.undoable, 1);
+}
+
+#[test]
+fn a_ball_is_thrown_and_its_speed_is_read_by_keyboard_alone() {
+    let mut desk = watching("bounce");
+    let before = scene(&desk).view().spheres.ids.len();
+    press(&mut desk, Key::B);
+    press(&mut desk, Key::Period);
+    desk.run_steps(3);
+    let view = scene(&desk).view();
+    assert_eq!(view.spheres.ids.len(), before + 1);
+    assert_eq!(view.picked, view.spheres.ids.last().copied());
+    let speed = view.spheres.velocities[before].length();
+    let picture = desk.get_by_role_and_label(Role::Image, "Scene");
+    let label = picture.value().expect("the label of the ball");
+    let shown = label.split(' ').rev().nth(1).and_then(|it| it.parse::<f64>().ok());
+    // Three digits are shown.
+    assert!(shown.is_some_and(|it| (it - speed).abs() < 6e-3 * speed), "{speed}: {label}");
 }
 
 #[test]

@@ -9,10 +9,10 @@ use crate::maze::playing;
 const PICTURE: Rect = Rect { min: Pos2::ZERO, max: Pos2::new(700.0, 560.0) };
 
 /// In the middle of the picture.
-const PLACE: Pos2 = Pos2::new(300.0, 330.0);
+pub const PLACE: Pos2 = Pos2::new(300.0, 330.0);
 
 /// Sends the events of a finger: the touch, and for the first finger also a pointer event.
-fn finger(desk: &mut Desk, id: u64, phase: TouchPhase, pos: Pos2) {
+pub fn finger(desk: &mut Desk, id: u64, phase: TouchPhase, pos: Pos2) {
     let events = &mut desk.input_mut().events;
     let button = |pressed| Event::PointerButton {
         pos,

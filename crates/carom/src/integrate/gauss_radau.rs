@@ -107,6 +107,8 @@ pub(crate) struct Step {
     /// Of each sphere.
     pub accelerations: Vec<PolynomialAcceleration>,
     pub pace: Pace,
+    /// Whether its error is small; else no shorter step was allowed.
+    pub is_accurate: bool,
 }
 
 /// Accelerations of some spheres \[m/s²\], and the sum of the sizes of their terms, at a time \[s\] with these
@@ -168,7 +170,8 @@ pub(crate) fn step(
                 trial = trial.max(pace.trial);
             }
             let pace = Pace { trial, ..pace }.after(length, is_good, rough);
-            return Step { end, accelerations: attempt.into_accelerations(), pace };
+            let accelerations = attempt.into_accelerations();
+            return Step { end, accelerations, pace, is_accurate: is_good };
         }
         pace.trial = (length * growth(error).clamp(MOST_SHRINKAGE, SAFETY)).max(shortest);
     }

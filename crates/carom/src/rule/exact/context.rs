@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use super::contact_scale::ContactScale;
-use super::moving::{self, Around};
+use super::contacts::contact_scale::ContactScale;
 use super::pair_times::PairSearch;
+use super::predict::moving::{self, Around};
 use super::span::Span;
 use super::timeline::Timeline;
 use crate::detect::sphere_surface;

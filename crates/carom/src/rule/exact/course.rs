@@ -1,10 +1,10 @@
 //! The course of one sphere: its next impacts and flights, while the others keep their flights.
 
+use super::answer::unfinished::Unfinished;
 use super::context::StepContext;
 use super::events::{Event, EventTarget, NextEvents, UpcomingEvent};
 use super::span::Span;
 use super::timeline::Timeline;
-use super::unfinished::Unfinished;
 use crate::flight::Flight;
 use crate::id::SphereId;
 use crate::path::{PathEnd, PathLeg};

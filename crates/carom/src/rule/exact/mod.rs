@@ -14,39 +14,26 @@
 //! Predictions hold across frames. `docs/physics/exact.md` has the stages under the same names.
 
 mod answer;
-mod arrange;
-mod budget;
-mod changed;
-mod clearance;
-mod contact_scale;
 mod contacts;
 mod context;
 mod course;
 mod events;
 mod features;
 mod flights;
-mod force_work;
 mod frame;
-mod frame_work;
 mod impact;
-mod look_along;
-mod moving;
-mod near_surfaces;
 mod neighbours;
 mod pair_times;
 mod persistent;
 mod predict;
-mod prefetch;
-mod seen;
 mod span;
-mod stepped;
 mod ticks;
 mod timeline;
-mod unfinished;
 mod watch;
 mod well_energy;
-mod zone;
+mod zones;
 
+pub(crate) use answer::unfinished::Unfinished;
 pub(crate) use course::{Course, follow};
 pub(crate) use features::{NormalCurvature, curvature_of};
 pub(crate) use flights::{HeldMotion, SupportChange};
@@ -54,21 +41,20 @@ pub(crate) use frame::{
     Arrivals, HoldError, adopt, begin, deflect, end, persistent_contacts, restart, start,
     tick_for_springs, work_written,
 };
-pub(crate) use look_along::{begin as begin_watch, end as end_watch};
 pub(crate) use neighbours::MAX_SPHERES;
 pub(crate) use span::Span;
 pub(crate) use timeline::Timeline;
-pub(crate) use unfinished::Unfinished;
 pub(crate) use watch::Watch;
+pub(crate) use watch::look_along::{begin as begin_watch, end as end_watch};
 pub(crate) use well_energy::well_energy;
-pub(crate) use zone::Zone;
+pub(crate) use zones::zone::Zone;
 
 use std::mem::take;
 
 use context::StepContext;
 use events::UpcomingEvent;
-use frame_work::UNITS_PER_FLIGHT;
 use pair_times::PairSearch;
+use zones::frame_work::UNITS_PER_FLIGHT;
 
 use crate::report::{StageCounts, StepReport};
 use crate::system::System;
@@ -125,7 +111,7 @@ pub(crate) fn advance(
     let mut context = StepContext::new(system, parameters, span, work, report);
     answer::check_forces(timeline, &context, span.start)?;
     let mut counts = SpanCounts::begin(timeline, work);
-    let due = arrange::ArrangementDue::of(timeline, system);
+    let due = frame::arrange::ArrangementDue::of(timeline, system);
     let mut end = span.end;
     while let Some(next) = next(timeline, end) {
         let (is_event, is_outgrown) =
@@ -134,14 +120,14 @@ pub(crate) fn advance(
             Next::Event(slot, event) => answer::event(timeline, &mut context, slot, event)?,
             Next::ForceTick(time) => renew_forces(timeline, &mut context, time)?,
             Next::ZoneTick => {
-                let now = stepped::tick(timeline, &mut context);
+                let now = zones::tick(timeline, &mut context);
                 predict::restart_companions(timeline, &mut context, now);
                 now
             }
             Next::Outgrown(time) => time,
         };
         if is_outgrown || is_event && due.is_now(timeline) {
-            look_along::follow(timeline, system);
+            watch::look_along::follow(timeline, system);
             counts.count_from_zero(timeline);
             frame::rearrange(timeline, system, now);
         }
@@ -151,7 +137,7 @@ pub(crate) fn advance(
             context.renewed += flights;
             context.work.spend(UNITS_PER_FLIGHT * flights);
         }
-        look_along::follow(timeline, system);
+        watch::look_along::follow(timeline, system);
         if work.is_stopped() {
             return Err(Unfinished::Stopped);
         }

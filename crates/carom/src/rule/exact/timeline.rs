@@ -2,17 +2,17 @@
 
 use glam::DVec3;
 
-use super::budget::Budget;
-use super::clearance::{Clearance, Obstacle};
-use super::contact_scale::RESOLVED_PATH;
 use super::contacts::Member;
+use super::contacts::contact_scale::RESOLVED_PATH;
 use super::events::{Event, NextEvents, PackedTarget, Prediction, Schedule, UpcomingEvent};
 use super::flights::{Component, Flights, JointStep, Species, StepLimits, Support, SupportChange};
-use super::frame_work::FrameWork;
+use super::neighbours::clearance::{Clearance, Obstacle};
 use super::neighbours::{NeighbourBuffer, Neighbours};
 use super::ticks;
 use super::watch::Watch;
-use super::zone::Zone;
+use super::zones::budget::Budget;
+use super::zones::frame_work::FrameWork;
+use super::zones::zone::Zone;
 use crate::report::EnergyAccount;
 use crate::settings::Exact;
 use crate::system::System;
@@ -61,7 +61,7 @@ pub(crate) struct Timeline {
     pub(super) curves_until: f64,
     /// When the next spheres are emitted, on the world's clock \[s\].
     pub(super) next_emission: f64,
-    /// A sphere, by index, of a component whose flights only contacts bend, after the work of its tick was spent.
+    /// A sphere, by index, in contact with others on curves, after the work of its tick was spent.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) spent: Option<u32>,
     /// Slots of spheres whose flights restarted because those of companions did, and which are not predicted yet.
@@ -266,15 +266,14 @@ impl Timeline {
         for &number in &numbers {
             is_rough |= self.flights.components.begin_step(number, tick_number, only_contacts);
         }
-        let is_spent = is_rough && only_contacts;
-        self.spent = component.members.first().copied().filter(|_| is_spent).or(self.spent);
-        let tick = match self.spring_rate > 0.0 {
-            true => self.force_tick,
-            false => self.parameters.force_tick,
-        };
+        let tick =
+            if self.spring_rate > 0.0 { self.force_tick } else { self.parameters.force_tick };
         let limits = StepLimits { until, tick, is_rough };
-        let JointStep { curves, turning, evaluations, releases } =
-            self.flights.step_from_start(system, (&component, &clusters), limits);
+        let step = self.flights.step_from_start(system, (&component, &clusters), limits);
+        let JointStep { curves, turning, evaluations, releases, is_accurate } = step;
+        let held = slots.iter().find(|&&slot| self.flights.cluster_on_curves(slot).is_some());
+        let held = held.filter(|_| is_rough && (only_contacts || !is_accurate));
+        self.spent = held.map(|&slot| self.flights.index_of[slot as usize]).or(self.spent);
         curves.into_iter().for_each(|(slot, curve)| self.flights.set_curve(slot, curve));
         for (slot, turning) in turning {
             self.flights.rotate_over_step(slot, turning, now);

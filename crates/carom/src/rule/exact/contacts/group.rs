@@ -3,7 +3,7 @@
 use super::member::Member;
 use super::touch::Touch;
 use crate::detect::contact::Bodies;
-use crate::rule::exact::contact_scale::ContactScale;
+use crate::rule::exact::contacts::contact_scale::ContactScale;
 
 /// Bodies that touch at one instant.
 pub(crate) struct Group {

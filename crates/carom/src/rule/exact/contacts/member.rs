@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::flight::Flight;
-use crate::rule::exact::contact_scale::ContactScale;
+use crate::rule::exact::contacts::contact_scale::ContactScale;
 use crate::rule::exact::flights::{Flights, Species};
 use crate::system::System;
 

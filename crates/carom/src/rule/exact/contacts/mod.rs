@@ -1,5 +1,6 @@
 //! Contacts at one instant: which bodies touch, and to what accuracy.
 
+pub(crate) mod contact_scale;
 mod gather;
 mod group;
 mod member;

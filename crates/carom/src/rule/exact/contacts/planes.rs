@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::norm::Norm;
-use crate::rule::exact::contact_scale::TOUCHING;
+use crate::rule::exact::contacts::contact_scale::TOUCHING;
 use crate::rule::exact::features::{are_within, is_over_face, separation};
 use crate::surface::{Form, Surface};
 

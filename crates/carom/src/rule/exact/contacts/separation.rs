@@ -6,7 +6,7 @@ use super::member::Member;
 use crate::detect::sphere_surface;
 use crate::id::ColliderId;
 use crate::norm::Norm;
-use crate::rule::exact::contact_scale::{CLOCK_ROUNDING, TOUCHING};
+use crate::rule::exact::contacts::contact_scale::{CLOCK_ROUNDING, TOUCHING};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::features::{has, is_above, is_part};
 use crate::rule::exact::timeline::Timeline;

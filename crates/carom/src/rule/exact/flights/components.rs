@@ -9,10 +9,12 @@ use crate::forces::{Spring, SpringEnd};
 use crate::system::System;
 
 /// Evaluations of the forces on the spheres of a component that are allowed in a tick: this many in total, or this
-/// many for each sphere if that is more, and as many for each sphere again with each event that begins new steps.
-/// Beyond it, rough steps lead to the end of the tick.
+/// many for each sphere if that is more. Beyond it, rough steps lead to the end of the tick.
 const MOST_EVALUATIONS: u64 = 1 << 16;
 const MOST_FOR_EACH: u64 = 1 << 8;
+/// Allowed evaluations for each sphere with each event that begins new steps: the first may be tried some times, and the
+/// next one becomes longer again.
+const MOST_FOR_EVENT: u64 = 1 << 10;
 /// Allowed evaluations in a tick where forces act between all spheres, or friction does: close passages, and slips that
 /// end, take many short steps.
 const MOST_WITH_SHORT_STEPS: u64 = 1 << 18;
@@ -204,7 +206,7 @@ impl Components {
         }
         if component.is_due {
             component.is_due = false;
-            component.allowed_for_events += for_each;
+            component.allowed_for_events += MOST_FOR_EVENT * component.members.len() as u64;
             self.due.retain(|&other| other != number);
         }
         let most = if only_contacts { MOST_BEFORE_ZONE } else { self.most_evaluations };

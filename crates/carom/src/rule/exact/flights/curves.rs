@@ -51,6 +51,8 @@ pub(crate) struct JointStep {
     pub turning: Vec<(u32, PolynomialAcceleration)>,
     /// By cluster, when one of its persistent contacts opens, on the world's clock \[s\]; infinite if none does.
     pub releases: Vec<f64>,
+    /// Whether its error is small.
+    pub is_accurate: bool,
 }
 
 impl Flights {
@@ -294,7 +296,8 @@ impl Flights {
         let steps = bodies.iter().zip(step.accelerations).map(curve_of);
         let curves =
             slots.iter().copied().zip(steps.map(|step| Curve(Some(Box::new(step))))).collect();
-        JointStep { curves, turning, evaluations: field.evaluations, releases }
+        let (evaluations, is_accurate) = (field.evaluations, step.is_accurate);
+        JointStep { curves, turning, evaluations, releases, is_accurate }
     }
 
     /// The parts of the states \[m\], \[m/s\] that the last steps of spheres left to the next ones, where they led to

@@ -7,12 +7,12 @@ use crate::detect::sphere_surface;
 use crate::norm::Norm;
 use crate::respond;
 use crate::restitution::Coefficient;
-use crate::rule::exact::contact_scale::{ContactScale, RESOLVED_PATH};
+use crate::rule::exact::contacts::contact_scale::{ContactScale, RESOLVED_PATH};
 use crate::rule::exact::contacts::{Group, Member};
 use crate::rule::exact::context::StepContext;
-use crate::rule::exact::moving::Around;
 use crate::rule::exact::neighbours::NeighbourBuffer;
 use crate::rule::exact::predict;
+use crate::rule::exact::predict::moving::Around;
 use crate::rule::exact::timeline::Timeline;
 
 /// The contacts that the spheres `struck` in a group close plastically within a contact duration of its impacts:

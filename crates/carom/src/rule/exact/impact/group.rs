@@ -14,15 +14,15 @@ use crate::norm::Norm;
 use crate::report::{BodyPair, Impact, ImpactGroup};
 use crate::respond;
 use crate::respond::TouchingContact;
-use crate::rule::exact::changed::{Changed, Unresolved};
-use crate::rule::exact::contact_scale::ContactScale;
+use crate::rule::exact::answer::changed::{Changed, Unresolved};
+use crate::rule::exact::contacts::contact_scale::ContactScale;
 use crate::rule::exact::contacts::{self, Group, Member, Touch};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::flights::Support;
-use crate::rule::exact::frame_work::UNITS_PER_FLIGHT;
 use crate::rule::exact::persistent::{piece_end, solve};
-use crate::rule::exact::stepped;
 use crate::rule::exact::timeline::Timeline;
+use crate::rule::exact::zones;
+use crate::rule::exact::zones::frame_work::UNITS_PER_FLIGHT;
 use crate::rule::periodic;
 
 /// Units of work that it takes to find what touches a sphere, and to predict what it meets next.
@@ -82,7 +82,7 @@ pub(super) fn answer(
         context.report.impacts.truncate(recorded[0]);
         context.report.groups.truncate(recorded[1]);
         let (group, _) = gather(timeline, context, seeds, surface, &joined, time);
-        return stepped::make_zone(timeline, context, &group);
+        return zones::make_zone(timeline, context, &group);
     }
     let Ok(supports) = found else {
         return refuse(timeline, context, &group);
@@ -106,7 +106,7 @@ pub(super) fn answer(
 /// Joins a group without an answer to a zone; without zones, the step fails.
 fn refuse(timeline: &mut Timeline, context: &mut StepContext, group: &Group) -> Changed {
     if context.has_zones() {
-        return stepped::make_zone(timeline, context, group);
+        return zones::make_zone(timeline, context, group);
     }
     context.unanswered = Some(group.members[0].slot);
     Changed::NONE

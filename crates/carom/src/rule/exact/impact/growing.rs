@@ -8,7 +8,7 @@ use crate::detect::contact::Bodies;
 use crate::detect::{Separation, known_in_front};
 use crate::norm::Norm;
 use crate::report::{BodyPair, Impact, ImpactGroup};
-use crate::rule::exact::changed::Changed;
+use crate::rule::exact::answer::changed::Changed;
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::timeline::Timeline;
 use crate::rule::periodic;

@@ -12,13 +12,13 @@ use crate::norm::Norm;
 use crate::report::{BodyPair, Impact};
 use crate::respond;
 use crate::restitution::Coefficient;
-use crate::rule::exact::changed::Changed;
+use crate::rule::exact::answer::changed::Changed;
 use crate::rule::exact::contacts::Member;
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::flights::Body;
 use crate::rule::exact::pair_times::NearTest;
-use crate::rule::exact::stepped;
 use crate::rule::exact::timeline::Timeline;
+use crate::rule::exact::zones;
 use crate::rule::periodic;
 
 /// Spheres nearer than this part of the distance of centres are tested closely for taking part in the impact. The
@@ -41,7 +41,7 @@ pub(crate) fn answer_pair(
     let are_free = timeline.flights.only_species().is_some() || {
         let species = slots.map(|slot| timeline.flights.species_of(slot));
         if species.iter().any(|species| species.is_stepped) {
-            return stepped::meet(timeline, context, slots, time);
+            return zones::meet(timeline, context, slots, time);
         }
         species[0].flies_like(species[1]) && species.iter().all(|species| species.cluster.is_none())
     };

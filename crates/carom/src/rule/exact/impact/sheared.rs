@@ -2,7 +2,7 @@
 //! meet at one instant are answered one pair after the other.
 
 use super::pair::PairImpact;
-use crate::rule::exact::changed::Changed;
+use crate::rule::exact::answer::changed::Changed;
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::timeline::Timeline;
 use crate::shear::Shear;

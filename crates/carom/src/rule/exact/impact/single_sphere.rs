@@ -14,7 +14,7 @@ use crate::detect::contact::Bodies;
 use crate::norm::Norm;
 use crate::report::{BodyPair, Impact, ImpactGroup};
 use crate::respond;
-use crate::rule::exact::changed::{Changed, Unresolved};
+use crate::rule::exact::answer::changed::{Changed, Unresolved};
 use crate::rule::exact::contacts::Member;
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::flights::{ContactWork, Support, Supported};

@@ -10,15 +10,15 @@ use crate::detect::contact::Bodies;
 use crate::norm::Norm;
 use crate::respond;
 use crate::restitution::Coefficient;
-use crate::rule::exact::contact_scale::ContactScale;
+use crate::rule::exact::contacts::contact_scale::ContactScale;
 use crate::rule::exact::contacts::{
     Corner, HoldingMesh, MOST_PLANES, Member, Plane, holding_mesh, touches_surface,
 };
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::features;
-use crate::rule::exact::moving::Around;
 use crate::rule::exact::pair_times::Neighbourhood;
 use crate::rule::exact::persistent::{free_acceleration, is_back_within};
+use crate::rule::exact::predict::moving::Around;
 use crate::rule::exact::timeline::Timeline;
 use crate::surface::Form;
 

@@ -1,7 +1,7 @@
 //! Events of two spheres at the edge of their well: they enter it, leave it, or turn back.
 
 use crate::norm::Norm;
-use crate::rule::exact::changed::Changed;
+use crate::rule::exact::answer::changed::Changed;
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::timeline::Timeline;
 use crate::rule::periodic;

@@ -21,6 +21,7 @@
 
 mod buffer;
 mod cells;
+pub(crate) mod clearance;
 mod contents;
 mod grid;
 mod hierarchy;

@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::accelerations::contacts_and_masses;
 use crate::norm::Norm;
 use crate::respond::{contact_forces_within, least_change};
-use crate::rule::exact::contact_scale::TOUCHING;
+use crate::rule::exact::contacts::contact_scale::TOUCHING;
 use crate::rule::exact::contacts::{Group, Member, Touch};
 use crate::rule::exact::context::StepContext;
 use crate::work::Work;

@@ -18,11 +18,16 @@ use crate::rule::exact::flights::{
 /// Angle \[rad\] below which two normals count as one: they differ by rounding.
 pub(super) const SAME_NORMAL: f64 = 1e-9;
 
-/// Whether contacts between these members may make curves of their flights: forces do, or a surface that turns the
-/// normal.
+/// Whether contacts between these members may make curves of their flights: forces on one of them do, or a surface that
+/// turns the normal.
 pub(super) fn may_bend(members: &[Member], touches: &[Touch]) -> bool {
     let turns = |touch: &Touch| touch.first.is_none() && touch.is_curved();
-    members.iter().all(|member| member.species.is_curved) || touches.iter().any(turns)
+    are_some_curved(members) || touches.iter().any(turns)
+}
+
+/// Whether forces make a curve of the flight of some member.
+pub(super) fn are_some_curved(members: &[Member]) -> bool {
+    members.iter().any(|member| member.species.is_curved)
 }
 
 /// Whether all spheres in these contacts can fly on curves with them: they touch each other and surfaces at rest, and

@@ -6,7 +6,7 @@ use super::accelerations::{Accelerations, IDLE, accelerations_under, forces, is_
 use super::correction::corrections;
 use crate::flight::Propagator;
 use crate::norm::Norm;
-use crate::rule::exact::contact_scale::{ContactScale, MOST_MISSED, TOUCHING};
+use crate::rule::exact::contacts::contact_scale::{ContactScale, MOST_MISSED, TOUCHING};
 use crate::rule::exact::contacts::{Group, Member, Touch};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::features::NormalCurvature;

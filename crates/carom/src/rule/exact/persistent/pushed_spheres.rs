@@ -11,7 +11,7 @@ use crate::detect::contact::Bodies;
 use crate::friction::ContactFriction;
 use crate::norm::Norm;
 use crate::respond::{friction_of, least_change};
-use crate::rule::exact::contact_scale::{ContactScale, TOUCHING};
+use crate::rule::exact::contacts::contact_scale::{ContactScale, TOUCHING};
 use crate::rule::exact::contacts::{Group, Member, Touch};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::flights::Species;

@@ -8,7 +8,7 @@ use crate::band::Band;
 use crate::contact_time;
 use crate::detect::contact::Bodies;
 use crate::flight::Flight;
-use crate::rule::exact::contact_scale::TOUCHING;
+use crate::rule::exact::contacts::contact_scale::TOUCHING;
 use crate::rule::exact::contacts::{Group, Touch};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::features::{is_over_face, time_on};

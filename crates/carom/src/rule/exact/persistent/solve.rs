@@ -16,7 +16,7 @@ use super::{NoClosedForm, with_friction};
 use crate::connected::Connected;
 use crate::norm::Norm;
 use crate::respond::{friction_of, restitution_of};
-use crate::rule::exact::contact_scale::ContactScale;
+use crate::rule::exact::contacts::contact_scale::ContactScale;
 use crate::rule::exact::contacts::{Group, Member, Touch};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::flights::{ContactWork, Support, Supported};
@@ -95,7 +95,7 @@ fn find_smooth(
         let frame_left = (context.start + context.length - group.time).max(0.0);
         let turning = turning_time(&group.members, &persistent, &accelerations, frame_left);
         let is_bent = on_curves::may_bend(&group.members, &persistent)
-            && (turning < f64::INFINITY || group.members.iter().all(|it| it.species.is_curved));
+            && (turning < f64::INFINITY || on_curves::are_some_curved(&group.members));
         if is_bent && on_curves::fly_so(context, &group.members, &persistent) {
             return connected(group, &persistent, &accelerations, None);
         }
