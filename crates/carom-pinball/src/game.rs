@@ -6,7 +6,8 @@ use carom_scene::scene::{Color, Scene};
 use crate::error::GameError;
 use crate::keys::Keys;
 use crate::lever::Lever;
-use crate::table::{Role, Table};
+use crate::role::Role;
+use crate::table::Table;
 
 /// Points for a kick of a bumper.
 const BUMPER: u64 = 100;

@@ -1,6 +1,6 @@
 //! What the player presses.
 
-use crate::table::Role;
+use crate::role::Role;
 
 /// The keys that are pressed in a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

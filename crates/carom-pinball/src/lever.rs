@@ -3,7 +3,7 @@
 use carom::{Collider, ColliderId, DQuat, DVec3, Motion, MotionPart, Pose};
 use carom_scene::scene;
 
-use crate::table::Role;
+use crate::role::Role;
 
 /// How a lever moves: from rest to pressed within a second, and how long that takes.
 #[derive(Debug, Clone)]

@@ -25,12 +25,14 @@ mod error;
 mod game;
 mod keys;
 mod lever;
+mod role;
 mod table;
 
 pub use error::{GameError, TableError};
 pub use game::{Game, GameEvent, GameState};
 pub use keys::Keys;
-pub use table::{Role, Table};
+pub use role::Role;
+pub use table::Table;
 
 /// The program of the README as a documentation test.
 #[cfg(doctest)]

@@ -5,6 +5,7 @@ use carom_session::{Aim, Command, Edit, SphereChange, View};
 use egui::{Align2, Color32, CursorIcon, FontId, Painter, PointerButton, Pos2, Response, Ui, Vec2};
 
 use super::Watching;
+use super::cue::Cue;
 use super::hand::ray;
 use super::marker::{Projection, three_digits};
 use super::sides::side_of;
@@ -18,16 +19,6 @@ const DOT: f32 = 2.0;
 
 /// Colours of dots and text, and of their borders.
 const INK: [Color32; 2] = [Color32::WHITE, Color32::from_black_alpha(200)];
-
-/// A cue at the cue ball.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Cue {
-    ball: SphereId,
-    /// Velocity that the blow will give the ball \[m/s\]; `None` while the pointer is on the ball.
-    velocity: Option<DVec3>,
-    /// The picture in which it is held.
-    side: usize,
-}
 
 impl Watching {
     /// Handles a drag from the cue ball; returns whether the drag is one.

@@ -2,6 +2,7 @@
 
 mod aim;
 mod card;
+mod cue;
 mod departures;
 mod entries;
 mod grab;
@@ -35,8 +36,8 @@ use crate::snapshot::Snapshot;
 use crate::studio::{Canvas, Studio};
 use crate::written_scene::WrittenScene;
 use crate::{impact_list, transport};
-use aim::Cue;
 use card::Card;
+use cue::Cue;
 use departures::Departures;
 pub use entries::PRESETS;
 use grab::Grab;
