@@ -159,7 +159,10 @@ impl BlockContact {
         let own = (normal - excess[0] / mobility[0]).max(0.0);
         let missed = mobility[0] * (own - normal).abs();
         if own == 0.0 {
-            return (State::Open, missed.max(mobility[1] * across[0].hypot(across[1])));
+            return (
+                State::Open,
+                missed.max(mobility[1] * (across[0] * across[0] + across[1] * across[1]).sqrt()),
+            );
         }
         let wanted = DVec3::new(
             across[0] - excess[1] / mobility[1],
