@@ -193,7 +193,7 @@ impl Game {
 
     /// Puts the next ball to the start if the drain took one.
     fn replace_ball(&mut self) -> Result<(), GameError> {
-        if self.world.spheres().len() > 0 {
+        if !self.world.spheres().is_empty() {
             return Ok(());
         }
         self.balls -= 1;
