@@ -131,7 +131,7 @@ mass = 2.0
     #[test]
     fn of_many_forces_the_strongest_have_lines() {
         let mut view = column().view().clone();
-        view.contacts = vec![view.contacts[0].clone(); 2 * MOST_LINES];
+        view.contacts = vec![view.contacts[0]; 2 * MOST_LINES];
         for (number, contact) in view.contacts.iter_mut().enumerate() {
             contact.normal_force = 1.0 + number as f64;
         }
