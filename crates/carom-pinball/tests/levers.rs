@@ -4,6 +4,9 @@ use carom::DVec3;
 use carom_pinball::{Game, Keys, Table, TableError};
 use carom_scene::scene::{Collider, Force, Motion, Scene, Shape, Sphere};
 
+/// A change of a scene.
+type Change = fn(&mut Scene);
+
 const RADIUS: f64 = 0.0135;
 /// Acceleration down the table \[m/s²\].
 const DOWN: f64 = 1.1;
@@ -131,7 +134,7 @@ fn scenes_that_are_no_table_say_what_is_missing() {
             rotations.swap(0, 1);
         }
     };
-    let cases: [(fn(&mut Scene), &str); 5] = [
+    let cases: [(Change, &str); 5] = [
         (no_drain, "no trigger with `capture` is named \"drain\""),
         (no_flipper, "no solid collider is named \"left flipper\""),
         (no_ball, "one at least"),
