@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-use carom_scene::{Budget, Entry, Library, Scene, SceneText};
+use carom_scene::{Budget, Entry, Library, Scene, SceneText, remarks};
 use serde_json::json;
 
 use crate::advice::unread;
@@ -75,7 +75,8 @@ pub fn check(library: &Library, files: &[PathBuf], budget: Budget) -> Result<(),
         match scene {
             Ok(scene) => {
                 writeln!(out, "{}: ok, \"{}\"", legible(&name), scene.name)?;
-                for advice in mesh_remarks_of(&scene).into_iter().chain(advice_for(&scene)) {
+                let remarks = mesh_remarks_of(&scene).into_iter().chain(remarks(&scene));
+                for advice in remarks.chain(advice_for(&scene)) {
                     writeln!(out, "{}: {advice}", legible(&name))?;
                 }
             }

@@ -4,7 +4,7 @@ use carom::{Ends, Friction, Groups, Mass, Pose, Sides, World};
 
 use crate::error::{Problem, SceneError};
 use crate::materials::{MaterialNumbers, friction};
-use crate::requirement::{check, check_positive};
+use crate::requirement::{check_energy, check_positive};
 use crate::scene::values::{quaternion, vector};
 use crate::scene::{Collider, Emitter, End, RestitutionLaw, Shape, Side, Sphere};
 use crate::{meshes, strike, track};
@@ -18,12 +18,7 @@ pub(crate) fn add_sphere(
 ) -> Result<(), Problem> {
     let material = materials.number(sphere.material.as_deref(), path)?;
     let sphere = self::sphere(sphere, path)?.with_material(material);
-    let energy = sphere.kilograms() * sphere.velocity.length_squared();
-    // A sphere that is itself not finite is refused by `add_sphere`, which names the field.
-    let is_finite = energy.is_finite() || !sphere.velocity.is_finite();
-    check(is_finite || !sphere.kilograms().is_finite(), &format!("{path}.velocity"), || {
-        "is too large: the kinetic energy is no number that a computer holds".into()
-    })?;
+    check_energy(&sphere, &format!("{path}.velocity"))?;
     world.add_sphere(sphere).map_err(|error| Problem::of_physics(path, error))?;
     Ok(())
 }

@@ -50,6 +50,7 @@ pub mod part;
 mod plain_text;
 #[cfg(feature = "recording")]
 pub mod recording;
+mod remarks;
 mod requirement;
 pub mod scene;
 mod schema;
@@ -78,6 +79,7 @@ pub use overrides::Override;
 pub use palette::{Coat, Paint, Palette};
 pub use parameters::Parameter;
 pub use plain_text::{NotText, text_of};
+pub use remarks::remarks;
 pub use scene::Scene;
 pub use schema::json_schema;
 pub use text::SceneText;

@@ -40,3 +40,13 @@ pub(crate) fn check_rotation(value: Quaternion, path: &str) -> Result<(), Proble
         format!("must be a quaternion x, y, z, w that is finite and not zero, not {value:?}")
     })
 }
+
+/// Refuses a sphere whose kinetic energy is not finite; `field` has its speed. A sphere that is itself not finite is
+/// left to the world, which names the field.
+pub(crate) fn check_energy(sphere: &carom::Sphere, field: &str) -> Result<(), Problem> {
+    let energy = sphere.kilograms() * sphere.velocity.length_squared();
+    let is_number = sphere.velocity.is_finite() && sphere.kilograms().is_finite();
+    check(energy.is_finite() || !is_number, field, || {
+        "is too large: the kinetic energy is no number that a computer holds".into()
+    })
+}

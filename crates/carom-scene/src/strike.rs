@@ -3,7 +3,7 @@
 use carom::{DVec3, World};
 
 use crate::error::Problem;
-use crate::requirement::check;
+use crate::requirement::{check, check_energy};
 use crate::scene::Strike;
 
 impl Strike {
@@ -37,7 +37,18 @@ pub(crate) fn struck(
     let mut world = World::default();
     // A sphere that is itself invalid is refused where it enters its own world, which names the field.
     let Ok(id) = world.add_sphere(sphere) else { return Ok(sphere) };
-    let invalid = |error| Problem::of_physics(path, error);
+    let invalid = |error| of_cue(Problem::of_physics(path, error));
     world.strike(id, strike.on_radius(sphere.radius)).map_err(invalid)?;
-    world.sphere(id).map_err(invalid)
+    let struck = world.sphere(id).map_err(invalid)?;
+    check_energy(&struck, &format!("{path}.speed"))?;
+    Ok(struck)
+}
+
+/// Names the speed of the cue where the velocity or the spin that it gives the ball is refused.
+fn of_cue(mut problem: Problem) -> Problem {
+    let of_ball = [".angular_velocity", ".velocity"];
+    if let Some(path) = of_ball.iter().find_map(|field| problem.field.strip_suffix(field)) {
+        problem.field = format!("{path}.speed");
+    }
+    problem
 }

@@ -43,6 +43,9 @@ const SYNONYMS: [(&str, &str); 34] = [
     ("weight", "mass"),
 ];
 
+/// Message about a table with several entries of which one is possible.
+const SAYS_SEVERAL: &str = "says several things: it has to say one thing";
+
 /// Hint for authors whose language writes decimals with a comma.
 pub(crate) const DECIMAL_POINT: &str = "decimals have a point, not a comma";
 
@@ -104,7 +107,11 @@ pub(crate) fn in_plain_words(message: &str) -> String {
     {
         return match expected.strip_prefix("an array of length ") {
             Some(wanted) => format!("has {count} values, not {wanted}"),
-            None => format!("{count} values are too many; {DECIMAL_POINT}"),
+            None if expected.ends_with(" in map") => SAYS_SEVERAL.to_owned(),
+            None if may_have_commas(count) => {
+                format!("{count} values are too many; {DECIMAL_POINT}")
+            }
+            None => format!("{count} values are too many"),
         };
     }
     if message == "invalid type: map, expected a sequence" {
@@ -114,7 +121,7 @@ pub(crate) fn in_plain_words(message: &str) -> String {
         return SAYS_NOTHING.to_owned();
     }
     if message.starts_with("wanted exactly 1 element") {
-        return "says several things: it has to say one thing".to_owned();
+        return SAYS_SEVERAL.to_owned();
     }
     let Some((found, expected)) = message.split_once(", expected ") else {
         return message.to_owned();
@@ -125,6 +132,11 @@ pub(crate) fn in_plain_words(message: &str) -> String {
         other => other,
     };
     format!("{found}, expected {}", name_of_type(expected))
+}
+
+/// Returns whether too many values may be three or four that have decimal commas, of a vector or a rotation.
+fn may_have_commas(count: &str) -> bool {
+    count.parse().is_ok_and(|count: u64| (4..=8).contains(&count))
 }
 
 /// Returns the first line of a message; without the list of valid names if one of them is

@@ -45,10 +45,13 @@ fn wrong_strikes_and_pockets_are_refused_with_their_line() {
             Err(error) => error.to_string(),
         };
         assert!(parts.iter().all(|part| said.contains(part)), "{said}");
+        assert!(!said.contains("decimals"), "{said}");
     };
     let strike = "shot.toml:5";
     expect("'2 m/s'", "-2", [strike, "spheres[0].strike.speed"]);
     expect("'2 m/s'", "'2 m'", [strike, "not in m/s"]);
+    expect("'2 m/s'", "1e200", [strike, "spheres[0].strike.speed"]);
+    expect("[0.2, 0.3]", "[0.2, 0.3, 0]", ["strike.offset: 3 values are too many", strike]);
     expect("speed = '2 m/s', ", "", [strike, "speed"]);
     expect("offset = [0.2, 0.3]", "offset = [0.6, 0.8]", [strike, "spheres[0].strike.offset"]);
     expect("= 90", "= inf", [strike, "spheres[0].strike.azimuth_degrees"]);

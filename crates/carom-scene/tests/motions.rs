@@ -118,6 +118,14 @@ fn keyframes_reach_the_world_and_are_written_again() {
 }
 
 #[test]
+fn two_motions_in_one_table_are_refused_as_several_things() {
+    let both = "motion = { steady = { velocity = [1, 0, 0] }, turn = { rate = 1 } }";
+    let text = format!("[[colliders]]\nshape = 'half-space'\n{both}");
+    let said = Scene::from_toml(&text, "two.toml").unwrap_err().to_string();
+    assert!(said.contains("colliders[0].motion: says several things"), "{said}");
+}
+
+#[test]
 fn wrong_keyframes_are_refused_with_their_line() {
     let expect = |from: &str, to: &str, parts: [&str; 2]| {
         assert!(LIFT.contains(from));
