@@ -58,7 +58,7 @@ fn of_restitution(path: &str, restitution: f64, is_law: bool) -> Option<String> 
 /// Returns a remark on keyframes that turn by half a turn or more: a rotation from 0 to 360 degrees is no motion.
 fn of_motion(path: &str, motion: &[Motion]) -> Option<String> {
     let is_far = |pair: &[[f64; 4]]| {
-        let [from, to] = [pair[0], pair[1]].map(|it| DQuat::from_array(it));
+        let [from, to] = [pair[0], pair[1]].map(DQuat::from_array);
         from.dot(to) < 0.0
     };
     let turns = motion.iter().any(|part| match part {

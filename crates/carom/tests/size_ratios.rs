@@ -106,9 +106,9 @@ fn a_ball_stands_on_a_column_of_small_ones() {
 
 #[test]
 fn blocks_have_the_same_bits_at_other_sizes() {
-    let unit = 2.0_f64.powi(-7);
+    let unit = 1.0 / 128.0;
     let one = after(on_four(Contact::default(), 20.0, 0.3, unit), 60, 1.0 / 64.0);
-    for scale in [2.0_f64.powi(-20), 2.0_f64.powi(20)] {
+    for scale in [1.0 / 1_048_576.0, 1_048_576.0] {
         let other = after(on_four(Contact::default(), 20.0, 0.3, unit * scale), 60, 1.0 / 64.0);
         for (a, b) in one.spheres().positions().iter().zip(other.spheres().positions()) {
             assert_eq!(*a * scale, *b);
