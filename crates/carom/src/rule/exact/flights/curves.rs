@@ -236,8 +236,7 @@ impl Flights {
         let mut positions: Vec<DVec3> = bodies.iter().map(|body| body.position).collect();
         let mut velocities: Vec<DVec3> = bodies.iter().map(|body| body.velocity).collect();
         let time = self.bodies[first as usize].time;
-        let states = [&positions[..], &velocities[..]];
-        field.hold(system, (component, clusters), states);
+        field.hold(system, (component, clusters), [&positions, &velocities]);
         let count = slots.len();
         if field.has_friction() {
             // Angles from the start follow the centres.
