@@ -176,7 +176,7 @@ impl BlockContact {
         if wanted.length() <= most {
             return (State::Sticks, missed);
         }
-        let direction = limited(wanted, 1.0).normalize_or_zero();
+        let direction = wanted / wanted.length();
         (State::Slides([direction.x, direction.y]), missed)
     }
 }
