@@ -106,6 +106,9 @@ impl Lever {
 
     /// Returns the pose that the lever has reached.
     fn pose(&self) -> Pose {
+        if self.at == 0.0 {
+            return self.rest.pose;
+        }
         self.rest.clone().with_motion(self.stroke.motion(1.0, 0.0, 0.0)).pose_at(self.at)
     }
 }

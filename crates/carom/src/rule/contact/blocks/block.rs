@@ -58,7 +58,8 @@ pub fn heavy_spheres(solver: &Solver) -> Vec<usize> {
 }
 
 impl Block {
-    /// Gathers the block about a heavy sphere; `None` if it has too many contacts.
+    /// Gathers the block about a heavy sphere; `None` if it has too many contacts, or one of them bounces. Restitution at
+    /// several contacts with friction may add energy (Kane 1984), and sweeps answer it one contact after the other.
     pub fn about(solver: &Solver, heavy: usize) -> Option<Self> {
         let mut block = Self::default();
         block.add_sphere(solver, heavy);
@@ -77,7 +78,8 @@ impl Block {
             }
             next += 1;
         }
-        Some(block)
+        let bounces = block.contacts.iter().any(BlockContact::bounces);
+        (!bounces).then_some(block)
     }
 
     /// Solves for the impulses of all contacts, with errors of velocities below a tolerance \[m/s\]. Returns whether

@@ -15,6 +15,9 @@ use crate::rule::contact::contacts::swept::FREE;
 
 /// Number of steps, at most.
 const MOST_STEPS: usize = 20;
+/// Where the steps do not lead to the tolerance, impulses with errors up to this multiple of it are taken; others stay as
+/// they were, since they might add energy.
+const ACCEPTED: f64 = 1e6;
 /// Errors of velocities of this part of the largest are rounding.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
@@ -87,6 +90,11 @@ impl BlockContact {
         let tangential = DVec3::from_array(tangential);
         let impulses = [normal, tangential.dot(self.axes[1]), tangential.dot(self.axes[2])];
         Self { impulses, ..self }
+    }
+
+    /// Whether the bodies separate faster than they are let go.
+    pub fn bounces(&self) -> bool {
+        self.bias < 0.0
     }
 
     /// The normal impulse \[N s\].
@@ -182,7 +190,7 @@ impl BlockContact {
 }
 
 /// Solves for the impulses of all contacts, from those at hand. Returns whether they changed: velocities were off by
-/// more than a tolerance \[m/s\] and than rounding, and are nearer now.
+/// more than a tolerance \[m/s\] and than rounding, and the equations are solved now.
 pub fn solve(contacts: &mut [BlockContact], spheres: &mut [BlockSphere], tolerance: f64) -> bool {
     let mobilities: Vec<[f64; 2]> =
         contacts.iter().map(|it| [0, 1].map(|axis| it.coupling(axis, it, axis, spheres))).collect();
@@ -210,10 +218,11 @@ pub fn solve(contacts: &mut [BlockContact], spheres: &mut [BlockSphere], toleran
         }
         states = next;
     }
-    let (best_contacts, best_spheres) = best.as_ref().unwrap_or(&before);
-    contacts.copy_from_slice(best_contacts);
-    spheres.copy_from_slice(best_spheres);
-    best.is_some()
+    let solved = best.filter(|_| error <= ACCEPTED * tolerance);
+    let (of_contacts, of_spheres) = solved.as_ref().unwrap_or(&before);
+    contacts.copy_from_slice(of_contacts);
+    spheres.copy_from_slice(of_spheres);
+    solved.is_some()
 }
 
 /// What each contact does next, and by how much velocities miss that at most \[m/s\].
