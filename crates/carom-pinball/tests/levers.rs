@@ -107,7 +107,8 @@ fn a_flipper_reaches_its_pressed_pose_in_the_time_of_its_keyframes_and_comes_bac
         2.0 * libm::atan2(turned.y.copysign(turned.y * turned.w), turned.w.abs())
     };
     let mut expected = 0.0;
-    let pressed = [true, true, true, true, false, false, true, false, false, false, false];
+    // In the last frame it stands.
+    let pressed = [true, true, true, true, false, false, true, false, false, false, false, false];
     for pressed in pressed {
         game.step(Keys { left: pressed, ..Keys::NONE }).unwrap();
         // Back takes twice as long as there.
