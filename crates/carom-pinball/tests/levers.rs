@@ -120,7 +120,9 @@ fn a_flipper_reaches_its_pressed_pose_in_the_time_of_its_keyframes_and_comes_bac
         let pivot = place.position + place.rotation * DVec3::new(-FLIPPER[0], 0.0, 0.0);
         assert!((pivot - (rest.position - DVec3::new(FLIPPER[0], 0.0, 0.0))).length() < 1e-15);
     }
-    assert_eq!(flipper(&game).pose, rest);
+    // Rounding of the sum of its steps.
+    let back = flipper(&game).pose;
+    assert!((back.position - rest.position).length() < 1e-15 && angle(&game).abs() < 1e-14);
     assert_eq!(flipper(&game).angular_velocity, DVec3::ZERO);
 }
 
