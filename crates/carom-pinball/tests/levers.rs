@@ -123,7 +123,7 @@ fn a_flipper_reaches_its_pressed_pose_in_the_time_of_its_keyframes_and_comes_bac
     // Rounding of the sum of its steps.
     let back = flipper(&game).pose;
     assert!((back.position - rest.position).length() < 1e-15 && angle(&game).abs() < 1e-14);
-    assert_eq!(flipper(&game).angular_velocity, DVec3::ZERO);
+    assert!(flipper(&game).angular_velocity.length() < 1e-12);
 }
 
 #[test]
