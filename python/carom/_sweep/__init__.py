@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from carom._scene.library import find
 from carom._scene.scene import Scene
-from carom._sweep.cluster import check_client, performing
+from carom._sweep.cluster import check_place, performing
 from carom._sweep.experiment import (
     Experiment,
     Fault,
@@ -111,7 +111,7 @@ def sweep(
     if client is None:
         check_not_in_worker()
     _check_choices(measure, version, on_error)
-    check_client(client)
+    check_place(client)
     plan = make_plan(grid, samples, repeats, seed)
     source = _source(scene)
     if not isinstance(source, Scene | Written) and not callable(source):
