@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from carom._sweep.dask_workers import DaskWorkers, check_client, local_client
 from carom._sweep.experiment import Experiment, Outcome, Run, fault, perform
+from carom._sweep.ray_workers import RayWorkers, check_ray, ray_session
 from carom._sweep.workers import Task, WorkerDiedError, Workers
 from carom.errors import RunError
 
@@ -105,12 +106,12 @@ def by_workers(workers: Workers, runs: Iterator[Run], total: int) -> Generator[l
 
 @contextlib.contextmanager
 def performing(
-    client: Client | Literal["serial"] | None,
+    client: Client | Literal["ray", "serial"] | None,
     experiment: Experiment,
     runs: Iterator[Run],
     total: int,
 ) -> Iterator[Iterator[list[Outcome]]]:
-    """Performs the runs by a client; by a cluster on this machine if there is none."""
+    """Performs the runs where ``client`` says; on a cluster of this machine if it is ``None``."""
     if client == "serial":
         yield serially(experiment, runs, total)
         return
@@ -122,6 +123,10 @@ def performing(
 @contextlib.contextmanager
 def _workers(client: Any, experiment: Experiment) -> Iterator[Workers]:
     with contextlib.ExitStack() as stack:
+        if client == "ray":
+            stack.enter_context(ray_session())
+            yield RayWorkers(experiment)
+            return
         client = stack.enter_context(local_client()) if client is None else client
         yield DaskWorkers(client, experiment)
 
@@ -133,7 +138,9 @@ def check_place(client: object) -> None:
         TypeError: If ``client`` is none.
         ModuleNotFoundError: Where a package is not installed.
     """
-    if client != "serial":
+    if client == "ray":
+        check_ray()
+    elif client != "serial":
         check_client(client)
 
 
