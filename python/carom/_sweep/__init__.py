@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from carom._scene.library import find
 from carom._scene.scene import Scene
-from carom._sweep.cluster import check_client, performing
+from carom._sweep.cluster import check_place, performing
 from carom._sweep.experiment import (
     Experiment,
     Fault,
@@ -46,7 +46,7 @@ def sweep(
     samples: pandas.DataFrame | Sequence[Mapping[str, Any]] | None = None,
     repeats: int | None = None,
     seed: int = 0,
-    client: Client | Literal["serial"] | None = None,
+    client: Client | Literal["ray", "serial"] | None = None,
     store: str | os.PathLike[str] | None = None,
     version: str = "",
     on_error: Literal["keep", "raise"] = "keep",
@@ -65,10 +65,10 @@ def sweep(
     parameters and the number of the repeat: independent of each other, and the same in a larger
     sweep.
 
-    Workers are processes of a `Dask <https://distributed.dask.org>`_ cluster, and need carom. When
-    one dies, another performs again what was in work, about a quarter of a second or a run. A
-    script that starts its own cluster must do so under ``if __name__ == "__main__":``, for the
-    processes import it.
+    Workers are processes of a cluster of `Dask <https://distributed.dask.org>`_ or `Ray
+    <https://docs.ray.io>`_, and need carom. When one dies, another performs again what was in work,
+    about a quarter of a second or a run. A script that starts its own cluster of Dask must do so
+    under ``if __name__ == "__main__":``, for the processes import it.
 
     Args:
         scene: A scene, the name of one, or a function of parameters that makes one.
@@ -79,8 +79,9 @@ def sweep(
         repeats: How many runs with seeds of their own there are for each point; unless given, one,
             with the seeds that the scene has.
         seed: Where the seeds of the repeats come from, >= 0.
-        client: The cluster; a process for each core of this machine unless given. ``"serial"``
-            works in this process.
+        client: The cluster; a process for each core of this machine unless given. ``"ray"`` is the
+            one of Ray to which this process or ``RAY_ADDRESS`` connects, or one on this machine.
+            ``"serial"`` works in this process.
         store: A file that takes each batch of runs as it is finished. What it holds already is not
             run again: it is found by the scene, the parameters and seed, the qualified name of
             ``measure``, and ``version``. Failed runs are not kept there.
@@ -95,7 +96,7 @@ def sweep(
             begin the first run; named.
         RunError: If a run fails and ``on_error`` says so, if the cluster is lost, or if a script
             calls this without ``if __name__ == "__main__":``.
-        ModuleNotFoundError: Where Dask is not installed.
+        ModuleNotFoundError: Where Dask, or Ray, is needed and not installed.
 
     >>> import carom
     >>> def height(world):
@@ -111,7 +112,7 @@ def sweep(
     if client is None:
         check_not_in_worker()
     _check_choices(measure, version, on_error)
-    check_client(client)
+    check_place(client)
     plan = make_plan(grid, samples, repeats, seed)
     source = _source(scene)
     if not isinstance(source, Scene | Written) and not callable(source):
