@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use carom::{Collider, DVec3, Shape, SpringEnd, World};
 use carom_scene::Scene;
-use carom_scene::scene::Simulation;
+use carom_scene::scene::{Emitter, Simulation};
 
 use crate::bounds::Bounds;
 
@@ -32,6 +32,10 @@ const NEAR_PLANE: [f64; 2] = [100.0, 4.0];
 /// farther, in radii of that box and in radii of the balls.
 const STAYING: [f64; 2] = [1.0, 40.0];
 
+/// Multiples of [`STAYING`], from which the first is taken within which half of the balls stay; the first of all if
+/// there is none. Only two where finite surfaces would become small.
+const STAYING_TIMES: [f64; 3] = [1.0, 2.0, 4.0];
+
 /// [`STAYING`] for balls that go farther than that while others stay.
 const LEAVING: [f64; 2] = [0.25, 12.0];
 
@@ -51,24 +55,35 @@ impl Framing {
         let visible: Vec<_> = scene.all_colliders().iter().map(|it| it.visible).collect();
         let colliders =
             || world.colliders().zip(&visible).filter(|it| *it.1).map(|((_, it), _)| it);
-        let surfaces = colliders().filter_map(|it| Bounds::of_shape(it.shape.clone(), it.pose));
-        let surfaces = Bounds::around(surfaces.chain(fixed_ends(&world)));
+        let finite = surfaces(&world, &visible, |_| true);
+        let fixed = Bounds::around(finite.into_iter().chain(fixed_ends(&world)));
         let balls = Bounds::around(spheres(&world).map(|it| it.1).chain(emitters(scene)));
-        let balls = balls.or(surfaces)?;
-        let radius = mean_radius(&world).unwrap_or(0.1 * balls.radius());
+        let balls = balls.or(fixed)?;
+        let radius = mean_radius(&world, scene).unwrap_or(0.1 * balls.radius());
         let reach = |[of_balls, of_box]: [f64; 2]| (of_balls * radius).max(of_box * balls.radius());
         let feet = feet(colliders(), &balls, reach(NEAR_PLANE));
-        let start = [surfaces, feet].into_iter().flatten().fold(balls, Bounds::with);
+        let start = [fixed, feet].into_iter().flatten().fold(balls, Bounds::with);
         let around = |[of_box, of_balls]: [f64; 2]| {
             start.grown((of_box * start.radius()).max(of_balls * radius))
         };
-        let limits = [STAYING, LEAVING, ALL_LEAVING].map(around);
-        let [staying, leaving, all_leaving] = sweep(&mut world, &scene.simulation, limits);
-        let balls = staying.map_or(balls, |swept| balls.with(swept));
-        let leaving = if staying.is_some() { leaving } else { all_leaving };
-        let whole = leaving.map_or(start, |swept| start.with(swept)).with(balls);
-        Some(Self { whole, balls })
+        let staying = STAYING_TIMES.map(|times| STAYING.map(|it| it * times));
+        let limits: Vec<Bounds> =
+            (staying.into_iter().chain([LEAVING, ALL_LEAVING])).map(around).collect();
+        let sweep = Sweep::new(&mut world, &scene.simulation, &limits, &visible);
+        Some(sweep.framing(start, balls, finite.is_some()))
     }
+}
+
+/// Returns the box around the finite visible colliders for which `counts` is true.
+fn surfaces(world: &World, visible: &[bool], counts: fn(&Collider) -> bool) -> Option<Bounds> {
+    let shown = world.colliders().zip(visible).filter(|it| *it.1).map(|((_, it), _)| it);
+    let boxes = shown.filter(|it| counts(it));
+    Bounds::around(boxes.filter_map(|it| Bounds::of_shape(it.shape.clone(), it.pose)))
+}
+
+fn moves(collider: &Collider) -> bool {
+    let has_velocity = collider.velocity != DVec3::ZERO || collider.angular_velocity != DVec3::ZERO;
+    has_velocity || !collider.motion.is_empty()
 }
 
 /// Returns the number of each sphere and the box around it.
@@ -81,11 +96,13 @@ fn spheres(world: &World) -> impl Iterator<Item = (u64, Bounds)> {
 
 /// Returns boxes around the positions at which emitters release balls.
 fn emitters(scene: &Scene) -> impl Iterator<Item = Bounds> {
-    scene.emitters.iter().map(|emitter| {
-        let sphere = &emitter.sphere;
-        let radius = sphere.radius.or(sphere.diameter.map(|it| 0.5 * it)).unwrap_or(0.5);
-        Bounds::from_sphere(emitter.position.into(), radius)
-    })
+    let around = |it: &Emitter| Bounds::from_sphere(it.position.into(), emitted_radius(it));
+    scene.emitters.iter().map(around)
+}
+
+fn emitted_radius(emitter: &Emitter) -> f64 {
+    let sphere = &emitter.sphere;
+    sphere.radius.or(sphere.diameter.map(|it| 0.5 * it)).unwrap_or(0.5)
 }
 
 /// Returns the points at which springs and threads are fixed.
@@ -120,8 +137,11 @@ fn tethered(world: &World) -> BTreeSet<u64> {
     tethered
 }
 
-fn mean_radius(world: &World) -> Option<f64> {
+/// Returns the mean radius of the balls at the start, else of those that emitters release.
+fn mean_radius(world: &World, scene: &Scene) -> Option<f64> {
+    let emitted = || scene.emitters.iter().map(emitted_radius).collect();
     let radii = world.spheres().radii();
+    let radii = if radii.is_empty() { emitted() } else { radii.to_vec() };
     (!radii.is_empty()).then(|| radii.iter().sum::<f64>() / radii.len() as f64)
 }
 
@@ -145,51 +165,81 @@ fn feet<'a>(
     Bounds::around(feet.map(Bounds::at))
 }
 
-/// Simulates the first seconds and returns three boxes around the space that balls sweep. The first
-/// is of balls that stay within `far`, or within `farthest` if they are tethered. The second is of
-/// the other balls while they are within `near`, the third of the same balls while they are within
-/// `farthest`.
-fn sweep(
-    world: &mut World,
-    simulation: &Simulation,
-    [far, near, farthest]: [Bounds; 3],
-) -> [Option<Bounds>; 3] {
-    #[derive(Clone, Copy, Default)]
-    struct Swept {
-        far: Option<Bounds>,
-        near: Option<Bounds>,
-        farthest: Option<Bounds>,
-        left: bool,
-    }
-    let add =
-        |to: &mut Option<Bounds>, more: Bounds| *to = Some(to.map_or(more, |it| it.with(more)));
-    let tethered = tethered(world);
-    let mut of_balls = BTreeMap::<u64, Swept>::new();
-    let frame_time = simulation.frame_time;
-    let frames = (FIRST_SECONDS.min(simulation.duration) / frame_time).ceil() as usize;
-    let mut work = 0;
-    for _ in 0..frames {
-        work += world.spheres().len().max(1);
-        if work > MOST_WORK || world.step(frame_time).is_err() {
-            break;
-        }
-        for (number, sphere) in spheres(world) {
-            let swept = of_balls.entry(number).or_default();
-            let limit = if tethered.contains(&number) { &farthest } else { &far };
-            swept.left |= !limit.holds(&sphere);
-            if !swept.left {
-                add(&mut swept.far, sphere);
-            }
-            if near.holds(&sphere) {
-                add(&mut swept.near, sphere);
-            }
-            if farthest.holds(&sphere) {
-                add(&mut swept.farthest, sphere);
-            }
+/// Space that a ball sweeps within a limit.
+#[derive(Clone, Copy, Default)]
+struct Swept {
+    within: Option<Bounds>,
+    left: bool,
+}
+
+impl Swept {
+    fn add(&mut self, limit: &Bounds, sphere: Bounds) {
+        if limit.holds(&sphere) {
+            self.within = Some(self.within.map_or(sphere, |it| it.with(sphere)));
+        } else {
+            self.left = true;
         }
     }
-    let around = |left: bool, which: fn(&Swept) -> Option<Bounds>| {
-        Bounds::around(of_balls.values().filter(|it| it.left == left).filter_map(which))
-    };
-    [around(false, |it| it.far), around(true, |it| it.near), around(true, |it| it.farthest)]
+}
+
+/// Space that balls and moving surfaces sweep in the first seconds.
+struct Sweep {
+    /// Of each ball within each limit. Tethered balls have the last limit in place of every other.
+    balls: BTreeMap<u64, Vec<Swept>>,
+    surfaces: Option<Bounds>,
+}
+
+impl Sweep {
+    /// Simulates the first seconds of a world, whose colliders are `visible` or not.
+    fn new(
+        world: &mut World,
+        simulation: &Simulation,
+        limits: &[Bounds],
+        visible: &[bool],
+    ) -> Self {
+        let tethered = tethered(world);
+        let farthest = &limits[limits.len() - 1];
+        let mut sweep = Self { balls: BTreeMap::new(), surfaces: None };
+        let frame_time = simulation.frame_time;
+        let frames = (FIRST_SECONDS.min(simulation.duration) / frame_time).ceil() as usize;
+        let mut work = 0;
+        for _ in 0..frames {
+            work += world.spheres().len().max(1);
+            if work > MOST_WORK || world.step(frame_time).is_err() {
+                break;
+            }
+            for (number, sphere) in spheres(world) {
+                let new = || vec![Swept::default(); limits.len()];
+                let swept = sweep.balls.entry(number).or_insert_with(new);
+                let is_tethered = tethered.contains(&number);
+                for (swept, limit) in swept.iter_mut().zip(limits) {
+                    swept.add(if is_tethered { farthest } else { limit }, sphere);
+                }
+            }
+            let moving = surfaces(world, visible, moves).filter(|it| limits[0].holds(it));
+            sweep.surfaces = Bounds::around(moving.into_iter().chain(sweep.surfaces));
+        }
+        sweep
+    }
+
+    /// Returns the framing of a scene whose parts are in the box `start`, its balls in the box `balls`, at the start.
+    fn framing(&self, start: Bounds, balls: Bounds, has_surfaces: bool) -> Framing {
+        let [near, farthest] = [STAYING_TIMES.len(), STAYING_TIMES.len() + 1];
+        let stay = |limit: &usize| self.balls.values().filter(|it| !it[*limit].left).count();
+        let limits = 0..if has_surfaces { 2 } else { STAYING_TIMES.len() };
+        let limit = limits.into_iter().find(|it| 2 * stay(it) >= self.balls.len()).unwrap_or(0);
+        let around = |stays: bool, within: usize| {
+            let balls = self.balls.values().filter(|it| it[limit].left != stays);
+            Bounds::around(balls.filter_map(|it| it[within].within))
+        };
+        let staying = around(true, limit);
+        let leaving = match (staying, has_surfaces) {
+            (Some(_), _) => near,
+            (None, true) => limit,
+            (None, false) => farthest,
+        };
+        let balls = staying.map_or(balls, |swept| balls.with(swept));
+        let others = [around(false, leaving), self.surfaces].into_iter().flatten();
+        Framing { whole: others.fold(start, Bounds::with).with(balls), balls }
+    }
 }

@@ -135,3 +135,32 @@ fn one_of_two_balls_that_runs_away_leaves_the_other_in_the_picture() {
     }
     assert_eq!(Framing::of_run(Some(first), &drawing).whole, first.whole);
 }
+
+#[test]
+fn a_fountain_is_in_the_picture_up_to_its_top() {
+    let emitter = "[[emitters]]\nposition = [0.0, 0.2, 0.0]\nperiod = 0.05\n\
+                   rotation = { axis = [0, 0, 1], degrees = 10 }\n\
+                   sphere = { radius = 0.05, velocity = [0.0, 8.0, 0.0] }\n";
+    let floor = "[[colliders]]\nshape = \"half-space\"\nrestitution = 0.5\n";
+    let whole = framing(&format!("{GRAVITY}{emitter}{floor}")).whole;
+    // (v cos 10°)² / 2g above the emitter.
+    let top = 0.2 + (8.0 * 10f64.to_radians().cos()).powi(2) / (2.0 * 9.81);
+    assert!(whole.max.y > 0.95 * top && whole.radius() < 6.0, "{whole:?}");
+}
+
+#[test]
+fn a_ball_that_leaves_a_track_alone_does_not_make_it_small() {
+    let track = "colliders = [{ shape = { box = { size = [1.0, 0.1, 0.2] } } }]\n";
+    let ball = "spheres = [{ position = [0.4, 0.2, 0.0], velocity = [1, 0, 0], radius = 0.03 }]\n";
+    let whole = framing(&format!("{GRAVITY}{track}{ball}")).whole;
+    assert!(whole.min.y > -1.5 && whole.min.y < -0.5, "{whole:?}");
+}
+
+#[test]
+fn colliders_that_move_are_in_the_picture_all_the_time() {
+    let lift = "[[colliders]]\nshape = { box = { size = [2.0, 0.2, 2.0] } }\n\
+                motion = { oscillate = { amplitude = 0.5, frequency = 0.4 } }\n";
+    let ball = "[[spheres]]\nposition = [0.0, 0.3, 0.0]\nradius = 0.1\n";
+    let whole = framing(&format!("{GRAVITY}{ball}{lift}")).whole;
+    assert!((whole.min.y + 0.6).abs() < 1e-3, "{whole:?}");
+}
