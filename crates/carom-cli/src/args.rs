@@ -111,10 +111,10 @@ pub enum Command {
     /// Write a scene file to start from: balls fall into a box, with a comment on every part.
     New(New),
     /// Make a scene file from a scene of Unity, a glTF file, or the last frame of a particle file (extended XYZ,
-    /// dump of LAMMPS); list the parts without a counterpart.
+    /// dump of LAMMPS, GSD); list the parts without a counterpart.
     Import(Import),
     /// Make a dense packing or a dense fluid in a periodic box, by spheres that grow (Lubachevsky and Stillinger). Ends
-    /// with code 1 if they jam before they are as dense as they are to be.
+    /// with code 1 if they jam before they have the density.
     Pack(Pack),
     /// Check scenes; print each error with its line.
     Check {
@@ -278,7 +278,7 @@ pub struct Run {
     /// before and after; `-` as by --out. Kept by the rule `exact` only.
     #[arg(long, value_name = "PATH")]
     pub ledger: Option<PathBuf>,
-    /// Tell the mean stress of the run, and its pressure; in VOLUME m³, by default that of the periodic box or of the
+    /// Print the mean stress of the run, and its pressure; in VOLUME m³, by default that of the periodic box or of the
     /// first closed container.
     #[arg(long, value_name = "VOLUME", num_args = 0..=1, require_equals = true, value_parser = positive)]
     pub stress: Option<Option<f64>>,

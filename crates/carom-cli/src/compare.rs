@@ -11,7 +11,7 @@ use carom_scene::unfinished::create_folders_of;
 use serde::Serialize;
 
 use crate::args::Compare;
-use crate::failure::Failure;
+use crate::failure::{Failure, unwritable};
 use crate::machine::Machine;
 use crate::standard_input::is_standard;
 use crate::table::{Side, Table};
@@ -135,7 +135,7 @@ impl<'a> Rows<'a> {
             Box::new(io::stdout())
         } else {
             let file = create_folders_of(path).and_then(|()| File::create(path));
-            Box::new(file.map_err(|error| cannot_write(path, &error))?)
+            Box::new(file.map_err(|error| unwritable(path, &error))?)
         };
         let mut rows = Self { path, out: BufWriter::new(out) };
         let mut header = "t".to_owned();
@@ -156,16 +156,12 @@ impl<'a> Rows<'a> {
     }
 
     fn write_line(&mut self, line: &str) -> Result<(), Failure> {
-        writeln!(self.out, "{line}").map_err(|error| cannot_write(self.path, &error))
+        writeln!(self.out, "{line}").map_err(|error| unwritable(self.path, &error))
     }
 
     fn finish(mut self) -> Result<(), Failure> {
-        self.out.flush().map_err(|error| cannot_write(self.path, &error))
+        self.out.flush().map_err(|error| unwritable(self.path, &error))
     }
-}
-
-fn cannot_write(path: &Path, error: &io::Error) -> Failure {
-    Failure::Fault(format!("cannot write {}: {error}", path.display()))
 }
 
 /// Result of the command.

@@ -1,6 +1,7 @@
 //! Failures of commands: a line on the standard error stream, and an exit code.
 
 use std::io::{self, Write};
+use std::path::Path;
 
 use carom::DerivativeError;
 use carom_scene::SceneError;
@@ -42,6 +43,14 @@ impl Failure {
             Self::Interrupted => 130,
         }
     }
+}
+
+/// Converts an error of writing a file or the standard output.
+pub fn unwritable(path: &Path, error: &io::Error) -> Failure {
+    if error.kind() == io::ErrorKind::BrokenPipe {
+        return Failure::OutputClosed;
+    }
+    Failure::Fault(format!("cannot write {}: {error}", path.display()))
 }
 
 /// Prints an error; in colour if the terminal supports it and `NO_COLOR` or a similar variable does

@@ -15,7 +15,7 @@ use carom_scene::unfinished::create_folders_of;
 use carom_unity::{ImportError, Mapping, Options, Project};
 
 use crate::args::Import;
-use crate::failure::{Failure, complain};
+use crate::failure::{Failure, complain, unwritable};
 use crate::replacing::Replacing;
 
 /// Imports a scene, or every scene of Unity in a folder.
@@ -34,6 +34,11 @@ pub fn import(import: &Import) -> Result<(), Failure> {
         let Imported { scene, omissions } = of_gltf(import)?;
         list(&import.path, &omissions);
         return one(import, &scene);
+    }
+    if import.path.is_file() && !ends_in(&import.path, "unity") {
+        let text = "can be imported are scenes of Unity (.unity), glTF (.gltf, .glb) and particle files (.xyz, \
+                    .extxyz, .lammpstrj, .dump, .gsd)";
+        return Err(Failure::Usage(format!("{}: {text}", import.path.display())));
     }
     let options = options(import)?;
     let project = Project::around(&import.path).map_err(refused)?;
@@ -54,7 +59,7 @@ pub fn import(import: &Import) -> Result<(), Failure> {
             Err(Failure::Usage(format!("{scene}: another scene of the folder has this name")))
         };
         match written {
-            Ok(()) => writeln!(io::stdout(), "{} is there", file.display())?,
+            Ok(()) => writeln!(io::stdout(), "wrote {}", file.display())?,
             Err(Failure::Fault(message) | Failure::Usage(message)) => {
                 failed += 1;
                 complain(&message);
@@ -73,7 +78,7 @@ fn one(import: &Import, scene: &Scene) -> Result<(), Failure> {
     match &import.out {
         Some(file) => {
             write(file, scene, import.replacing)?;
-            Ok(writeln!(io::stdout(), "{} is there", file.display())?)
+            Ok(writeln!(io::stdout(), "wrote {}", file.display())?)
         }
         None => Ok(io::stdout().lock().write_all(scene.to_toml().as_bytes())?),
     }
@@ -81,8 +86,11 @@ fn one(import: &Import, scene: &Scene) -> Result<(), Failure> {
 
 /// Whether the ending of the file is that of glTF.
 fn is_gltf(path: &Path) -> bool {
-    let is = |ending: &str| path.extension().is_some_and(|it| it.eq_ignore_ascii_case(ending));
-    is("gltf") || is("glb")
+    ends_in(path, "gltf") || ends_in(path, "glb")
+}
+
+fn ends_in(path: &Path, ending: &str) -> bool {
+    path.extension().is_some_and(|it| it.eq_ignore_ascii_case(ending))
 }
 
 /// Refuses a mapping of scripts for a file that has none.
@@ -153,10 +161,6 @@ fn write(file: &Path, scene: &Scene, replacing: Replacing) -> Result<(), Failure
     replacing.check([file])?;
     let written = create_folders_of(file).and_then(|()| std::fs::write(file, scene.to_toml()));
     written.map_err(|error| unwritable(file, &error))
-}
-
-fn unwritable(path: &Path, error: &io::Error) -> Failure {
-    Failure::Fault(format!("cannot write {}: {error}", path.display()))
 }
 
 fn refused(error: ImportError) -> Failure {

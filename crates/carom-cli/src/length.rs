@@ -42,7 +42,7 @@ pub fn countable(frames: f64, h: f64) -> Result<u64, Failure> {
     if frames < 2f64.powi(53) {
         Ok(frames as u64)
     } else {
-        Err(Failure::Usage(format!("{frames} frames of {h} s are more than can be counted")))
+        Err(Failure::Usage(format!("{frames:.3e} frames of {h} s are more than can be counted")))
     }
 }
 

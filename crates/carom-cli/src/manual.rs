@@ -6,7 +6,7 @@ use std::path::Path;
 use clap::CommandFactory;
 
 use crate::args::{Args, Completions};
-use crate::failure::Failure;
+use crate::failure::{Failure, unwritable};
 
 /// Prints the completion script of a shell.
 pub fn completions(completions: &Completions) -> Result<(), Failure> {
@@ -17,7 +17,7 @@ pub fn completions(completions: &Completions) -> Result<(), Failure> {
 
 /// Writes manual pages into a folder.
 pub fn pages(folder: &Path) -> Result<(), Failure> {
-    let failed = |error| Failure::Fault(format!("cannot write {}: {error}", folder.display()));
+    let failed = |error| unwritable(folder, &error);
     std::fs::create_dir_all(folder).map_err(failed)?;
     clap_mangen::generate_to(Args::command(), folder).map_err(failed)
 }

@@ -7,7 +7,7 @@ use std::path::Path;
 use carom_scene::unfinished::create_folders_of;
 
 use crate::args::New;
-use crate::failure::Failure;
+use crate::failure::{Failure, unwritable};
 use crate::replacing::already_there;
 
 /// Text of the scene; its name is `NAME`.
@@ -27,7 +27,7 @@ pub fn new(new: &New) -> Result<(), Failure> {
     let name = toml_text(&name);
     write(&file, &TEMPLATE.replace("\"NAME\"", &name), new.replacing.force)?;
     let mut out = io::stdout().lock();
-    writeln!(out, "{file} is there: change it, and run it with", file = file.display())?;
+    writeln!(out, "wrote {file}: change it, and run it with", file = file.display())?;
     writeln!(out, "    carom view {}", file.display())?;
     Ok(())
 }
@@ -49,8 +49,8 @@ fn write(file: &Path, content: &str, replaces: bool) -> Result<(), Failure> {
     let opened = create_folders_of(file).and_then(|()| options.open(file));
     let mut writing = opened.map_err(|error| match error.kind() {
         ErrorKind::AlreadyExists => already_there(file),
-        _ => Failure::Fault(format!("cannot write {}: {error}", file.display())),
+        _ => unwritable(file, &error),
     })?;
     let written = writing.write_all(content.as_bytes());
-    written.map_err(|error| Failure::Fault(format!("cannot write {}: {error}", file.display())))
+    written.map_err(|error| unwritable(file, &error))
 }

@@ -11,7 +11,7 @@ use carom_scene::recording::Trajectory;
 use carom_scene::scene::{self, Sphere};
 use carom_scene::unfinished::create_folders_of;
 
-use crate::failure::Failure;
+use crate::failure::{Failure, unwritable};
 use crate::interruption::interruption;
 use crate::length::positive;
 use crate::replacing::Replacing;
@@ -93,8 +93,7 @@ fn write(file: &Path, world: &World) -> Result<(), Failure> {
     if file.extension().is_some_and(|it| it.eq_ignore_ascii_case("toml")) {
         let text = scene_of(file, world).to_toml();
         let written = create_folders_of(file).and_then(|()| std::fs::write(file, text));
-        return written
-            .map_err(|error| Failure::Fault(format!("cannot write {}: {error}", file.display())));
+        return written.map_err(|error| unwritable(file, &error));
     }
     let mut trajectory = Trajectory::create(file)?;
     trajectory.write(world)?;

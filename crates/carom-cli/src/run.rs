@@ -88,6 +88,9 @@ fn once(
     let (mut replay, frames) = match (&args.link, &args.scene) {
         (Some(link), _) => link::begin(link, links)?,
         // Without a link there is a scene: the arguments require it.
+        (None, Some(scene)) if scene.contains("#scene=") || scene.contains("#file=") => {
+            return Err(Failure::Usage("a link is run by --link".to_owned()));
+        }
         (None, scene) => begin(library, scene.as_deref().unwrap_or_default(), args)?,
     };
 

@@ -129,10 +129,16 @@ fn columns_units_and_handedness_are_read_as_given() {
 fn what_makes_no_sense_is_refused_in_a_line() {
     let folder = tempfile::tempdir().unwrap();
     let right = plant(&folder, "none", "simtest1", "right.csv");
+    let sheet = path(&folder, "damaged.xlsx");
+    std::fs::write(&sheet, b"\x01\x02\x03").unwrap();
     for (arguments, expected) in [
         (vec!["grade", &right], "no scene has its name in that of the file"),
-        (vec!["grade", &right, "--scene", "tutorial1"], "does not know what the scene"),
+        (
+            vec!["grade", &right, "--scene", "tutorial1"],
+            "cannot be graded, because the course does not have",
+        ),
         (vec!["grade", &right, "--scene", "nowhere"], "nowhere"),
+        (vec!["grade", &sheet, "--scene", "simtest1"], "is no spreadsheet, or a damaged one"),
         (vec!["grade", "nowhere.csv", "--scene", "simtest1"], "cannot read nowhere.csv"),
         (vec!["grade", "--plant", "no-drga", "--scene", "simtest1"], "did you mean \"no-drag\"?"),
     ] {

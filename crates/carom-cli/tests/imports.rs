@@ -57,6 +57,12 @@ fn what_is_not_there_or_broken_is_one_line() {
     assert!(bad_line(&["import", &file], 1).contains("broken.unity:2: must be the head"));
     let empty = path(&folder, "");
     std::fs::remove_file(&file).unwrap();
+    let other = path(&folder, "run.npz");
+    std::fs::write(&other, b"PK\x03\x04").unwrap();
+    assert!(
+        bad_line(&["import", &other], 2).contains("run.npz: can be imported are scenes of Unity")
+    );
+    std::fs::remove_file(&other).unwrap();
     assert!(bad_line(&["import", &empty], 1).contains("holds no scene of Unity"));
 }
 

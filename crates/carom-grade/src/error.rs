@@ -70,7 +70,7 @@ pub enum GradeError {
         nearest: Option<&'static str>,
     },
     /// The scene has a part that the rule of the course does not support.
-    #[error("the course's rule does not know what the scene \"{scene}\" has: {what}")]
+    #[error("the scene \"{scene}\" cannot be graded, because the course does not have {what}")]
     NotOfTheCourse {
         /// Name of the scene.
         scene: String,

@@ -190,8 +190,13 @@ impl Table {
     /// [`GradeError`] if the file is none, or if the table lacks a column.
     pub fn find(path: &Path, bytes: &[u8], columns: &Columns) -> Result<Self, GradeError> {
         let refused = |problem: String| GradeError::Refused { path: path.to_owned(), problem };
+        let is_named_so = path.extension().is_some_and(|it| it.eq_ignore_ascii_case("xlsx"));
         match content(bytes) {
             Content::Other(what) => Err(refused(what.to_owned())),
+            Content::Text(_) if bytes.is_empty() => Err(refused("is empty".to_owned())),
+            Content::Text(_) if is_named_so => {
+                Err(refused("is no spreadsheet, or a damaged one".to_owned()))
+            }
             Content::Text(text) => Self::of(path, records(&text), columns),
             Content::Spreadsheet => {
                 let sheets = sheets(bytes).map_err(refused)?.into_iter();
@@ -257,16 +262,16 @@ fn records(text: &str) -> Records {
     Box::new(table.from_reader(bytes).into_records())
 }
 
-/// The separator that most of the first lines have twice. A comma counts least, because it may
+/// The separator that most of the first lines have twice, or once if none has. A comma counts least, because it may
 /// separate decimals.
 fn delimiter(text: &str) -> u8 {
     let lines: Vec<&str> = text.lines().take(MOST_BEFORE).collect();
-    let count = |letter: u8| {
-        let twice = |it: &&&str| it.bytes().filter(|byte| *byte == letter).count() >= 2;
-        lines.iter().filter(twice).count()
+    let count = |letter: u8, least: usize| {
+        let has = |it: &&&str| it.bytes().filter(|byte| *byte == letter).count() >= least;
+        lines.iter().filter(has).count()
     };
     let all = [b',', b';', b'\t'];
-    all.into_iter().max_by_key(|letter| count(*letter)).unwrap_or(b',')
+    all.into_iter().max_by_key(|&letter| (count(letter, 2), count(letter, 1))).unwrap_or(b',')
 }
 
 /// Converts the rows of a sheet to records with their lines.

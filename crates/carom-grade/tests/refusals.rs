@@ -52,6 +52,8 @@ fn columns_of_several_balls_are_complete_or_named() {
         ("x1,y1,x2,y2\n1,2,3,4\n", "no column \"t\" for the time"),
         ("t,ball,x1,y1\n1,2,3,4\n", "no column \"x\" for the position"),
         ("t,x_cm,y_cm\n1,2,3\n", "no column \"x\" for the position"),
+        ("t,y\n0.02,1\n", "no column \"x\" for the position; the columns are t, y"),
+        ("", "run.csv: is empty"),
     ] {
         let error = refusal(text.as_bytes());
         assert!(error.contains(expected), "{text}: {error}");

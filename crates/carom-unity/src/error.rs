@@ -84,7 +84,7 @@ pub(crate) fn read_text(path: &Path) -> Result<String, ImportError> {
         let line = 1 + before.iter().filter(|&&byte| byte == b'\n').count();
         let place = Place { file: path.into(), line };
         place.malformed(
-            "is no text: in Unity set Asset Serialization to Force Text, and save the scene anew",
+            "is no text: in Unity set Asset Serialization to Force Text, and save the scene again",
         )
     })
 }

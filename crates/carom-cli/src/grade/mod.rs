@@ -17,10 +17,10 @@ use carom_scene::unfinished::create_folders_of;
 
 pub use args::Grade;
 
-use refusal::{refused, unwritable};
+use refusal::refused;
 use row::Row;
 
-use crate::failure::{Failure, complain, legible};
+use crate::failure::{Failure, complain, legible, unwritable};
 use crate::table::{Side, Table};
 
 /// Grades runs, lists the known mistakes, or writes a run that contains some.

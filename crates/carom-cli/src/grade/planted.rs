@@ -9,8 +9,8 @@ use carom_scene::unfinished::create_folders_of;
 use serde::Serialize;
 
 use super::args::Grade;
-use super::refusal::{refused, unwritable};
-use crate::failure::Failure;
+use super::refusal::refused;
+use crate::failure::{Failure, unwritable};
 
 /// A mistake in the output of `--mistakes --json`.
 #[derive(Serialize)]

@@ -1,7 +1,4 @@
-//! Converts errors of grading and of writing files.
-
-use std::io;
-use std::path::Path;
+//! Converts errors of grading.
 
 use carom_grade::GradeError;
 
@@ -13,9 +10,4 @@ pub fn refused(error: GradeError) -> Failure {
         GradeError::Scene(error) => error.into(),
         error => Failure::Usage(error.to_string()),
     }
-}
-
-/// Converts an error of writing a file.
-pub fn unwritable(path: &Path, error: &io::Error) -> Failure {
-    Failure::Fault(format!("cannot write {}: {error}", path.display()))
 }

@@ -4,9 +4,8 @@ use std::path::Path;
 
 use carom_grade::Verdict;
 
-use super::refusal::unwritable;
 use super::row::Row;
-use crate::failure::Failure;
+use crate::failure::{Failure, unwritable};
 
 /// Columns of the file.
 const COLUMNS: [&str; 16] = [

@@ -21,7 +21,7 @@ pub use args::Plot;
 use sheet::Sheet;
 use subject::Subject;
 
-use crate::failure::Failure;
+use crate::failure::{Failure, unwritable};
 use crate::interruption::interruption;
 use crate::progress::Progress;
 
@@ -140,5 +140,5 @@ fn write(path: &Path, format: Format, sheet: &Sheet, digits: Option<u8>) -> Resu
         }
     };
     let written = create_folders_of(path).and_then(|()| std::fs::write(path, text));
-    written.map_err(|error| Failure::Fault(format!("cannot write {}: {error}", path.display())))
+    written.map_err(|error| unwritable(path, &error))
 }

@@ -236,10 +236,8 @@ pub(super) fn refused_forces(error: HoldError, time: f64) -> Error {
         HoldError::NotFinite(sphere) => no_longer_finite(sphere, "velocity", time),
         HoldError::TooStiff(rate) => InvalidValue {
             field: "stiffness",
-            requirement: "of springs, with their damping and the masses of their spheres, such that motion on \
-                          them has a rate of at most 2048 divided by the longer of the `force_tick` and the \
-                          `zone_tick` of the rule exact, in 1/s",
-            value: rate.to_string(),
+            requirement: "small enough for the `force_tick` and the `zone_tick` of the rule exact",
+            value: format!("so large that ticks must be shorter than {:.3e} s", 2048.0 / rate),
         }
         .about(Subject::Step),
     }

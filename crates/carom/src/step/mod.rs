@@ -86,8 +86,8 @@ pub(crate) fn step(
     let work = Work::new(stop_request);
     let rule = state.settings.rule;
     let knows_events = until == Until::End || matches!(rule, Rule::Exact(_));
-    let requirement = "`exact` to know of events";
-    validate::require(knows_events, "rule", requirement, "one that knows nothing but frames")
+    let requirement = "`exact` to step to an event";
+    validate::require(knows_events, "rule", requirement, "one that steps frames")
         .map_err(|invalid| invalid.about(Subject::Settings))?;
     advance(Attempt::new(state, scratch, report, work, dt), stop_request, until)?;
     capture::capture(state, report);
