@@ -26,7 +26,7 @@ from carom._sweep.experiment import (
 )
 from carom._sweep.experiment import experiment as make_experiment
 from carom._sweep.guard import check_not_in_worker
-from carom._sweep.plan import Plan, make_plan
+from carom._sweep.plan import Plan, make_part, make_plan
 from carom._sweep.runs import Failure, Runs
 from carom._sweep.store import Key, Store
 from carom.errors import CaromError, RunError, SceneError
@@ -49,6 +49,7 @@ def sweep(
     client: Client | Literal["ray", "serial"] | None = None,
     store: str | os.PathLike[str] | None = None,
     version: str = "",
+    part: tuple[int, int] | None = None,
     on_error: Literal["keep", "raise"] = "keep",
     progress: bool | None = None,
 ) -> Runs:
@@ -87,6 +88,10 @@ def sweep(
             ``measure``, and ``version``. Failed runs are not kept there.
         version: To be changed with what ``measure`` does; a warning tells where the code of
             ``measure`` has changed and this has not.
+        part: ``(i, n)`` performs only every n-th run, from number i on: a share for one of n
+            processes, such as the jobs of an array of Slurm. Each writes into a file of its own
+            beside ``store``. The results of other runs are ``None``. A sweep without ``part`` takes
+            in these files, and performs what is missing.
         on_error: ``"keep"`` has a run that raises kept among the errors, with a warning at the end;
             ``"raise"`` stops there.
         progress: Whether to show a line on stderr (by tqdm); if stderr is a terminal unless given.
@@ -113,7 +118,9 @@ def sweep(
         check_not_in_worker()
     _check_choices(measure, version, on_error)
     check_place(client)
+    share = make_part(part)
     plan = make_plan(grid, samples, repeats, seed)
+    rows = range(len(plan)) if share is None else share.rows(len(plan))
     source = _source(scene)
     if not isinstance(source, Scene | Written) and not callable(source):
         kind = type(source).__name__
@@ -129,13 +136,13 @@ def sweep(
     with ExitStack() as stack:
         kept = None
         if store is not None:
-            kept = stack.enter_context(Store(store, measure, version))
-        line = stack.enter_context(_progress_line(len(plan), progress))
+            kept = stack.enter_context(Store(store, measure, version, share))
+        line = stack.enter_context(_progress_line(len(rows), progress))
         book = _Book(plan, experiment, kept, on_error, line)
-        missing = book.missing()
+        missing = book.missing(rows)
         if (run := next(missing, None)) is not None:
             todo = itertools.chain([run], missing)
-            batches = performing(client, experiment, todo, len(plan))
+            batches = performing(client, experiment, todo, len(rows))
             for outcomes in stack.enter_context(batches):
                 book.enter(outcomes)
     return book.runs()
@@ -175,9 +182,9 @@ class _Book:
         self._keys: dict[int, Key] = {}
         self._has_warned = False
 
-    def missing(self) -> Iterator[Run]:
+    def missing(self, rows: Iterable[int]) -> Iterator[Run]:
         """The runs that are not finished, one by one: cluster and keys are at work together."""
-        for run in self._plan:
+        for run in map(self._plan.__getitem__, rows):
             if self._store is not None:
                 try:
                     key = self._store.key(run, self._experiment.scene_of(run))
