@@ -1,8 +1,13 @@
-"""Files of other programs: what Carom writes, ASE and the library of GSD read, and back."""
+"""Files of other programs: what Carom writes, ASE and the library of GSD read, and back.
+
+MDAnalysis and OVITO read it, too, where they are installed. MDAnalysis reads no dumps of LAMMPS
+that name the time.
+"""
 
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import ase.io
@@ -119,6 +124,69 @@ def test_the_library_of_gsd_reads_the_schema_of_hoomd(tmp_path: Path) -> None:
             assert run.orientations is not None
             turned = np.roll(run.orientations[row], 1, axis=1)
             np.testing.assert_array_equal(frame.particles.orientation, np.float32(turned))
+
+
+def frictionless() -> carom.Trajectory:
+    """Spheres without rotations."""
+    run = carom.load("cradle").run(frames=5)
+    assert run.angular_velocities is None
+    return run
+
+
+def test_the_library_of_gsd_reads_every_frame_of_spheres_that_do_not_turn(tmp_path: Path) -> None:
+    run = frictionless()
+    run.save(tmp_path / "run.gsd")
+    with gsd.hoomd.open(tmp_path / "run.gsd", "r") as frames:
+        for row, frame in enumerate(frames):
+            np.testing.assert_array_equal(frame.log["particles/position"], run.positions[row])
+
+
+@pytest.mark.parametrize("make", [spinning, frictionless])
+@pytest.mark.parametrize("ending", ["xyz", "gsd"])
+def test_mdanalysis_reads_every_frame(
+    ending: str, make: Callable[[], carom.Trajectory], tmp_path: Path
+) -> None:
+    analysis = pytest.importorskip("MDAnalysis")
+    run = make()
+    run.save(tmp_path / f"run.{ending}")
+    universe = analysis.Universe(tmp_path / f"run.{ending}")
+    assert len(universe.trajectory) == len(run)
+    for row, step in enumerate(universe.trajectory):
+        # It works in single precision.
+        np.testing.assert_array_equal(step.positions, run.positions[row].astype(np.float32))
+    if ending == "gsd" and run.box is not None:
+        assert universe.dimensions.tolist() == [*map(np.float32, SIDES), 90, 90, 90]
+
+
+@pytest.mark.parametrize("make", [spinning, frictionless])
+@pytest.mark.parametrize("ending", ["xyz", "lammpstrj", "gsd"])
+def test_ovito_reads_every_frame(
+    ending: str,
+    make: Callable[[], carom.Trajectory],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setenv("OVITO_GUI_MODE", "0")
+    ovito = pytest.importorskip("ovito.io")
+    run = make()
+    run.save(tmp_path / f"run.{ending}")
+    pipeline = ovito.import_file(str(tmp_path / f"run.{ending}"))
+    assert pipeline.num_frames == len(run)
+    # GSD has single precision, and the last digit of text is not always rounded right.
+    rtol, atol = (1e-7, 1e-9) if ending == "gsd" else (1e-15, 0.0)
+    for row in range(len(run)):
+        frame = pipeline.compute(row)
+        particles = frame.particles
+        for name, expected in [("Position", run.positions), ("Velocity", run.velocities)]:
+            np.testing.assert_allclose(particles[name][...], expected[row], rtol, atol)
+        # OVITO has radii in single precision.
+        np.testing.assert_array_equal(particles["Radius"][...], run.radii.astype(np.float32))
+        if run.box is not None:
+            # It takes the sides from the corners.
+            np.testing.assert_allclose(np.diag(frame.cell[...]), SIDES, rtol=1e-7)
+            assert frame.cell.pbc == (True, True, True)
+        if ending != "gsd":
+            assert frame.attributes["Time"] == run.time[row]
 
 
 def test_angular_momenta_of_gsd_are_those_of_hoomd(tmp_path: Path) -> None:

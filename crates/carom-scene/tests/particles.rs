@@ -123,6 +123,28 @@ fn an_empty_world_is_a_frame_of_every_format() {
 }
 
 #[test]
+fn files_keep_to_what_other_readers_expect() {
+    let folder = TempDir::new().unwrap();
+    let text = |name: &str| {
+        let path = folder.path().join(name);
+        recorded("simtest4", 3, &path);
+        String::from_utf8_lossy(&fs::read(path).unwrap()).into_owned()
+    };
+    // Plain XYZ has the position after the species.
+    let xyz = text("run.xyz");
+    assert!(xyz.lines().any(|line| line.starts_with("Properties=species:S:1:pos:R:3:id:I:1:")));
+    // LAMMPS names the units once.
+    let dump = text("run.lammpstrj");
+    assert!(dump.starts_with("ITEM: UNITS\nsi\n"));
+    assert_eq!(dump.matches("ITEM: UNITS").count(), 1);
+    assert_eq!(dump.matches("ITEM: TIME\n").count(), 3);
+    // Each name in the list of GSD has a chunk: these balls do not turn.
+    let gsd = text("run.gsd");
+    assert!(gsd.contains("particles/position\0particles/velocity\0"));
+    assert!(!gsd.contains("particles/orientation") && !gsd.contains("particles/angmom"));
+}
+
+#[test]
 fn gsd_keeps_every_bit_unless_another_program_changed_the_numbers() {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("run.gsd");

@@ -15,7 +15,10 @@ pub(super) fn write_header(
     cell: &FrameBox,
     number: u64,
 ) -> io::Result<()> {
-    writeln!(out, "ITEM: UNITS\nsi")?;
+    if number == 0 {
+        // Once, as LAMMPS does: OVITO takes a second one for the end of the file.
+        writeln!(out, "ITEM: UNITS\nsi")?;
+    }
     if let Some(time) = frame.time {
         writeln!(out, "ITEM: TIME\n{time:?}")?;
     }

@@ -81,11 +81,18 @@ impl TextTable {
         }
         for (i, id) in frame.ids.iter().enumerate() {
             let number = id + rows::first_number(self.format);
+            let position = &frame.positions[i];
             match self.format {
-                ParticleFormat::Dump => write!(self.out, "{number} 1")?,
-                _ => write!(self.out, "{} {number}", xyz::SPECIES)?,
+                ParticleFormat::Dump => {
+                    write!(self.out, "{number} 1")?;
+                    self.numbers(position)?;
+                }
+                _ => {
+                    write!(self.out, "{}", xyz::SPECIES)?;
+                    self.numbers(position)?;
+                    write!(self.out, " {number}")?;
+                }
             }
-            self.numbers(&frame.positions[i])?;
             self.numbers(of(frame.radii.as_deref(), i))?;
             self.numbers(of(frame.masses.as_deref(), i))?;
             self.numbers(of(frame.velocities.as_deref(), i).as_flattened())?;

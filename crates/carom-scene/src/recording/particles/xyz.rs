@@ -27,7 +27,8 @@ pub(super) fn write_header(
             "Lattice=\"{x:?} 0 0 0 {y:?} 0 0 0 {z:?}\" Origin=\"{origin}\" pbc=\"{letters}\" "
         )?;
     }
-    out.write_all(b"Properties=species:S:1:id:I:1:pos:R:3")?;
+    // Programs that know plain XYZ only take the columns after the species for the position.
+    out.write_all(b"Properties=species:S:1:pos:R:3:id:I:1")?;
     let others = [
         (frame.radii.is_some(), ":radius:R:1"),
         (frame.masses.is_some(), ":mass:R:1"),

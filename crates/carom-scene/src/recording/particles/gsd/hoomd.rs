@@ -9,7 +9,7 @@ use super::chunk::Chunk;
 use super::chunks::{Chunks, Fault};
 use crate::recording::particles::frame::{FrameBox, ParticleFrame};
 
-/// Names of all chunks that are written, in the order of their numbers.
+/// Names of all chunks that frames may have, in the order in which they are written.
 pub(super) const NAMES: [&str; 20] = [
     "configuration/step",
     "configuration/box",
@@ -33,7 +33,7 @@ pub(super) const NAMES: [&str; 20] = [
     "log/particles/angular_velocity",
 ];
 
-/// Returns the chunks of a frame with the numbers of their names, ascending.
+/// Returns the chunks of a frame with the places of their names in [`NAMES`], ascending.
 pub(super) fn chunks(
     frame: &ParticleFrame,
     number: u64,

@@ -26,6 +26,8 @@ pub(in crate::recording::particles) struct GsdWriter {
     frames: u64,
     /// Whether frames have rotations; the first frame decides.
     has_rotation: bool,
+    /// Places in [`hoomd::NAMES`] of the chunks of the first frame, in the order of their numbers.
+    places: Vec<usize>,
 }
 
 impl GsdWriter {
@@ -39,27 +41,26 @@ impl GsdWriter {
             lock(&file)?;
         }
         file.set_len(0)?;
-        let mut names = hoomd::NAMES.join("\0").into_bytes();
-        // A name that begins with 0 ends the list.
-        names.resize((names.len() + 2).next_multiple_of(SEGMENT), 0);
+        // A name that begins with 0 ends the list, which is empty until the first frame.
+        let names = (hoomd::NAMES.join("\0").len() + 2).next_multiple_of(SEGMENT);
         let index = HEADER as u64;
         let names_at = index + FIRST_ENTRIES * ENTRY as u64;
         let header = Header {
             index,
             entries: FIRST_ENTRIES,
             names: names_at,
-            segments: (names.len() / SEGMENT) as u64,
+            segments: (names / SEGMENT) as u64,
             schema_version: version(1, 4),
             version: version(2, 0),
             application: format!("carom {}", env!("CARGO_PKG_VERSION")),
             schema: "hoomd".to_owned(),
         };
         let mut start = header.to_bytes().to_vec();
-        start.resize(names_at as usize, 0);
-        start.extend(&names);
+        start.resize(names_at as usize + names, 0);
         file.write_all(&start)?;
         let end = start.len() as u64;
-        Ok(Self { file, header, entries: Vec::new(), end, frames: 0, has_rotation: false })
+        let (entries, places) = (Vec::new(), Vec::new());
+        Ok(Self { file, header, entries, end, frames: 0, has_rotation: false, places })
     }
 
     /// Appends a frame.
@@ -80,7 +81,13 @@ impl GsdWriter {
 
     fn append(&mut self, frame: &ParticleFrame) -> io::Result<()> {
         let (mut data, mut added) = (Vec::new(), Vec::new());
-        for (name, chunk) in hoomd::chunks(frame, self.frames, self.has_rotation) {
+        let chunks = hoomd::chunks(frame, self.frames, self.has_rotation);
+        if self.frames == 0 {
+            self.places = chunks.iter().map(|(place, _)| *place).collect();
+            self.write_names()?;
+        }
+        for (place, chunk) in chunks {
+            let Some(name) = self.places.iter().position(|it| *it == place) else { continue };
             let entry = Entry {
                 frame: self.frames,
                 rows: chunk.rows,
@@ -109,6 +116,14 @@ impl GsdWriter {
         self.end = end;
         self.frames += 1;
         Ok(())
+    }
+
+    /// Writes the names of the chunks of the first frame. Other programs fail at names that no chunk
+    /// of that frame has.
+    fn write_names(&mut self) -> io::Result<()> {
+        let names: Vec<&str> = self.places.iter().map(|&place| hoomd::NAMES[place]).collect();
+        self.file.seek(SeekFrom::Start(self.header.names))?;
+        self.file.write_all(names.join("\0").as_bytes())
     }
 
     /// Writes an index with more room after the data, then the header that names it. Returns where
