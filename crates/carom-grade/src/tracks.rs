@@ -166,7 +166,7 @@ impl Tracks {
     /// [`io::Error`] if writing to `out` fails.
     pub fn write(&self, out: impl Write) -> io::Result<()> {
         let mut table = csv::Writer::from_writer(out);
-        table.write_record(["t", "ball", "x", "y", "z", "vx", "vy", "vz"])?;
+        table.write_record(["t", "ball", "x", "y", "z", "vx", "vy", "vz"]).map_err(unwrapped)?;
         for frame in 1..self.times.len() {
             let time = digits(self.times[frame]);
             for (number, ball) in self.balls.iter().enumerate() {
@@ -175,10 +175,18 @@ impl Tracks {
                 let numbers =
                     position.to_array().into_iter().chain(velocity.to_array()).map(digits);
                 let row = [time.clone(), number.to_string()].into_iter().chain(numbers);
-                table.write_record(row)?;
+                table.write_record(row).map_err(unwrapped)?;
             }
         }
         table.flush()
+    }
+}
+
+/// Returns the error of the system with its kind, which the error of the table hides.
+fn unwrapped(error: csv::Error) -> io::Error {
+    match error.into_kind() {
+        csv::ErrorKind::Io(source) => source,
+        other => io::Error::other(format!("{other:?}")),
     }
 }
 
