@@ -17,6 +17,8 @@ pub(crate) const MOST_CONTACTS: usize = 64;
 pub(crate) struct CurveContact {
     pub first: CurveBody,
     pub second: usize,
+    /// From the centre of body 2 to its image beside body 1 \[m\].
+    pub shift: DVec3,
     /// Coulomb's coefficient.
     pub friction: f64,
 }
@@ -83,7 +85,10 @@ impl CurveContact {
 
     /// Unit normal from body 1 to body 2, and how it turns, with the spheres at these positions \[m\].
     fn normal_at(&self, positions: &[DVec3]) -> (DVec3, NormalCurvature) {
-        let center = positions[self.second];
+        let center = match self.shift {
+            DVec3::ZERO => positions[self.second],
+            shift => positions[self.second] + shift,
+        };
         match &self.first {
             CurveBody::Sphere(first) => Feature::Point(positions[*first]).normal_at(center),
             CurveBody::Feature(feature) => feature.normal_at(center),

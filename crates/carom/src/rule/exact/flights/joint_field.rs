@@ -8,6 +8,7 @@ use super::curve_contacts::{ContactSphere, CurveBody, CurveContact, CurveContact
 use super::free_field::FreeField;
 use super::friction_choice::OPENS;
 use super::friction_state::FrictionState;
+use super::image_beside::{shift_beside_sphere, shift_beside_surface};
 use super::species::Species;
 use super::state::Flights;
 use super::tie::{Tie, TieEnd, TiePath};
@@ -63,6 +64,8 @@ struct Touched<'a> {
     cluster: usize,
     /// Place of the sphere.
     sphere: usize,
+    /// From its centre to the image beside the surface \[m\].
+    shift: DVec3,
     form: &'a Form,
 }
 
@@ -145,18 +148,22 @@ impl<'a> JointField<'a> {
         for (cluster, &number) in clusters.iter().enumerate() {
             let contact = |bodies: &Bodies| match *bodies {
                 Bodies::Pair(first, second) => {
-                    let first = CurveBody::Sphere(place_of(first)?);
-                    let second = place_of(second)?;
-                    Some(CurveContact { first, second, friction: friction_of(*bodies) })
+                    let first = place_of(first)?;
+                    let (second, friction) = (place_of(second)?, friction_of(*bodies));
+                    let offset = positions[second] - positions[first];
+                    let shift = shift_beside_sphere(offset, self.period);
+                    let first = CurveBody::Sphere(first);
+                    Some(CurveContact { first, second, shift, friction })
                 }
                 Bodies::Surface { sphere, surface } => {
                     let (second, form) =
                         (place_of(sphere)?, &system.surfaces[surface as usize].form);
-                    let state = [positions[second], velocities[second]];
+                    let shift = shift_beside_surface(form, positions[second], self.period);
+                    let state = [positions[second] + shift, velocities[second]];
                     let feature = Feature::under(form, state, self.alone[second].radius)?;
-                    touched.push(Touched { cluster, sphere: second, form });
+                    touched.push(Touched { cluster, sphere: second, shift, form });
                     let (first, friction) = (CurveBody::Feature(feature), friction_of(*bodies));
-                    Some(CurveContact { first, second, friction })
+                    Some(CurveContact { first, second, shift, friction })
                 }
             };
             let contacts = flights.clusters.get(number).contacts.iter().filter_map(contact);
@@ -346,8 +353,8 @@ impl JointField<'_> {
             let first = opens.map_or(&mut change, |cluster| &mut releases[cluster]);
             *first = first.min(time);
         }
-        for &Touched { cluster, sphere, form } in &self.touched {
-            let (position, velocity) = (start.positions[sphere], start.velocities[sphere]);
+        for &Touched { cluster, sphere, shift, form } in &self.touched {
+            let (position, velocity) = (start.positions[sphere] + shift, start.velocities[sphere]);
             let acceleration = step.accelerations[sphere];
             let time = time_on_curve(form, &PolynomialFlight { position, velocity, acceleration });
             if time < length {
