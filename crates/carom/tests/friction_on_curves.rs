@@ -291,3 +291,32 @@ fn a_chain_of_blocks_is_braked_as_one() {
     assert_close(account.contacts, -0.5 * 12.0 * 1.5 * 1.5, 1e-12);
     assert!(left.abs() < 1e-13 * energy, "{left:e}");
 }
+
+#[test]
+fn touching_rough_balls_on_relaxed_springs_drift_on_together() {
+    let mut world = exact();
+    let part = |number: usize| -0.3 + 0.2 * number as f64;
+    let velocity = vec(0.2244513394091675, -1.3089890882059005, -1.2334153224781965);
+    let places: Vec<DVec3> =
+        (0..27).map(|it| vec(part(it / 9), 0.1 + part(it / 3 % 3), part(it % 3))).collect();
+    let ball = |&place: &DVec3| {
+        let ball = Sphere::new(place, 0.1).with_mass(1.0).with_velocity(velocity);
+        ball.with_restitution(0.3).with_friction(0.2)
+    };
+    let ids: Vec<SphereId> =
+        places.iter().map(|place| world.add_sphere(ball(place)).unwrap()).collect();
+    for (second, &place) in places.iter().enumerate() {
+        for first in (0..second).filter(|&first| places[first].distance(place) < 0.3) {
+            let length = places[first].distance(place);
+            let spring = Spring::between(ids[first], ids[second], length).with_stiffness(1000.0);
+            world.add_spring(spring).unwrap();
+        }
+    }
+    for _ in 0..32 {
+        world.step(FRAME).unwrap();
+    }
+    for (&place, &start) in world.spheres().positions().iter().zip(&places) {
+        // Springs that are too long by rounding, at some ten oscillations.
+        assert!(place.distance(start + 0.5 * velocity) < 1e-12, "{place}");
+    }
+}
