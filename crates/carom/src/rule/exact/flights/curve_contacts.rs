@@ -208,6 +208,14 @@ impl CurveContacts {
         self.fill_matrix(spheres)
     }
 
+    /// Whether the forces found last hold the contacts. Where friction jams bodies, forces that press would draw them
+    /// together: no finite ones hold them, and the slip ends at once.
+    ///
+    /// Source: Painlevé, C. R. Acad. Sci. 121, 112 (1895); Génot and Brogliato, Eur. J. Mech. A 18, 653 (1999).
+    pub fn are_jammed(&self) -> bool {
+        !self.matrix.is_definite()
+    }
+
     /// Finds the forces and adds their accelerations \[m/s²\] to those `at` this motion: first those of all centres, then
     /// the angular ones \[rad/s²\].
     pub fn add(&mut self, moving: Moving, spheres: &[ContactSphere], at: &mut Values) {

@@ -35,6 +35,8 @@ pub(super) struct HeldOver {
     pub releases: Vec<f64>,
     /// Time from the start \[s\] at which friction changes how it acts in a contact; infinite if it does not.
     pub change: f64,
+    /// Whether friction jams spheres, so that no forces hold their contacts.
+    pub is_jammed: bool,
 }
 
 /// A bound of what a contact can do.
@@ -307,12 +309,14 @@ impl JointField<'_> {
     /// Follows the persistent contacts over a step.
     pub fn held_over(&mut self, start: &Start, step: &Step) -> HeldOver {
         if self.contacts.is_empty() {
-            return HeldOver { free: Vec::new(), releases: Vec::new(), change: f64::INFINITY };
+            let (free, releases) = (Vec::new(), Vec::new());
+            return HeldOver { free, releases, change: f64::INFINITY, is_jammed: false };
         }
         let count = self.alone.len();
         let length = step.accelerations[0].length;
         let mut free = vec![[DVec3::ZERO; TERMS]; count];
         let mut bounds = Vec::new();
+        let mut is_jammed = false;
         for (node, &s) in NODES.iter().enumerate() {
             let state = |place: usize| {
                 let (position, velocity) = (start.positions[place], start.velocities[place]);
@@ -325,6 +329,7 @@ impl JointField<'_> {
             self.evaluate_free(start.time + s * length, &positions, &velocities, &mut values);
             free.iter_mut().zip(&values.accelerations).for_each(|(free, &at)| free[node] = at);
             self.add_contacts([&positions, &velocities], &mut values);
+            is_jammed |= self.contacts.iter().any(CurveContacts::are_jammed);
             let states = [&positions[..], &velocities[..]];
             if node == 0 {
                 bounds = self.bounds(&values);
@@ -361,7 +366,7 @@ impl JointField<'_> {
                 releases[cluster] = releases[cluster].min(time.max(SOONEST * length));
             }
         }
-        HeldOver { free, releases, change }
+        HeldOver { free, releases, change, is_jammed }
     }
 
     /// The bounds of what contacts can do, at the start of a step with these accelerations \[m/s²\].

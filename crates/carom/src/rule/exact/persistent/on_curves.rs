@@ -81,7 +81,7 @@ pub(super) fn pressing_with_friction(
 }
 
 /// The persistent touches without those that pull at once where a step begins with them, and the accelerations of the
-/// members \[m/s²\]; `None` where the spheres do not fly on curves with them.
+/// members \[m/s²\]; `None` where the spheres do not fly on curves with them, or friction jams them.
 ///
 /// Friction may allow several solutions, of which a step takes one and the search for contacts that press another.
 fn without_pulling(
@@ -95,6 +95,9 @@ fn without_pulling(
         let mut values = motion.free();
         contacts.choose_states(motion.moving(), spheres, &values, 0.0);
         contacts.add(motion.moving(), spheres, &mut values);
+        if contacts.are_jammed() {
+            return None;
+        }
         let Some(number) = contacts.hardest_pull(spheres, &values.sizes) else {
             return Some((touches, accelerations));
         };
