@@ -276,7 +276,6 @@ impl Flights {
         let before = before.map(|steps| self.accelerations_over(&steps, turned));
         let step = gauss_radau::step(&start, before.as_deref(), pace, &mut field);
         let held = field.held_over(&start, &step);
-        let is_jammed = held.is_jammed;
         let releases = held.releases.into_iter().map(|release| time + release).collect();
         let of_friction = Some(held.change).filter(|it| it.is_finite() && !limits.is_rough);
         let changes = [field.first_change(&start, &step), of_friction];
@@ -299,7 +298,7 @@ impl Flights {
         let curves =
             slots.iter().copied().zip(steps.map(|step| Curve(Some(Box::new(step))))).collect();
         let (evaluations, is_accurate) = (field.evaluations, step.is_accurate);
-        JointStep { curves, turning, evaluations, releases, is_accurate, is_jammed }
+        JointStep { curves, turning, evaluations, releases, is_accurate, is_jammed: held.is_jammed }
     }
 
     /// The parts of the states \[m\], \[m/s\] that the last steps of spheres left to the next ones, where they led to
