@@ -59,7 +59,7 @@ pub(crate) fn start(
     if zones == Zones::Never {
         zone = Zone::default();
     }
-    if friction_acts(system) {
+    if system.has_friction() {
         let all = 0..motion.position.len();
         flights.rotations = all.map(|index| Rotation::of(motion, index, time)).collect();
     }
@@ -97,7 +97,7 @@ pub(crate) fn adopt<F: Fn(SphereId) -> f64>(
     };
     let mut flights = Flights::new(system, motion, flight_of);
     let frame = before.frame;
-    if before.has_friction() || friction_acts(system) {
+    if before.has_friction() || system.has_friction() {
         let rotation_of = |(index, id)| match arrivals.known.binary_search(id) {
             Ok(place) if before.has_friction() => before.flights.free_rotation_of(place, time),
             Ok(_) => Rotation::of(motion, index, frame[0]),
@@ -177,11 +177,6 @@ fn resume(
     timeline.restarted.clear();
     predict_all(&mut timeline, system, time);
     timeline
-}
-
-/// Whether friction acts on some body.
-fn friction_acts(system: &System) -> bool {
-    system.frictions().any(|friction| friction.acts())
 }
 
 /// Prepares a frame from and to these times \[s\]. The next spheres are emitted at `next` \[s\].
