@@ -73,8 +73,11 @@ impl Flights {
         let SpeciesOfSpheres { species, number_of, hold_forces, forces_vary } =
             SpeciesOfSpheres::of(system);
         let count = number_of.len();
-        let may_turn = || !system.holds_forces_of_all() && touch_may_turn(system);
-        let are_curved = species.iter().any(|it| it.is_curved) || may_turn();
+        let rub_under_drag =
+            || system.has_friction() && species.iter().any(|it| it.drag_rate > 0.0);
+        let may_bend =
+            || !system.holds_forces_of_all() && (touch_may_turn(system) || rub_under_drag());
+        let are_curved = species.iter().any(|it| it.is_curved) || may_bend();
         let components =
             Components::of(system, |index| species[number_of[index] as usize].is_curved);
         let period = system.settings.boundary.period();

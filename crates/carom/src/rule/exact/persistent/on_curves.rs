@@ -30,6 +30,11 @@ pub(super) fn are_some_curved(members: &[Member]) -> bool {
     members.iter().any(|member| member.species.is_curved)
 }
 
+/// Whether drag in closed form slows some member.
+pub(super) fn are_some_slowed(members: &[Member]) -> bool {
+    members.iter().any(|member| member.species.drag_rate > 0.0)
+}
+
 /// Whether all spheres in these contacts can fly on curves with them: they touch each other and surfaces at rest, and
 /// no contact follows from others.
 pub(super) fn fly_so(context: &StepContext, members: &[Member], touches: &[Touch]) -> bool {

@@ -44,9 +44,32 @@ pub(crate) fn find(context: &StepContext, group: &mut Group) -> Result<Vec<Suppo
     let bearing = || persistent.iter().zip(&known_forces).filter(|it| *it.1 > least).map(|it| it.0);
     if bearing().any(acts) {
         let bearing: Vec<Touch> = bearing().copied().collect();
-        return with_friction::find(context, group, &candidates, &bearing);
+        return find_with_friction(context, group, &candidates, &bearing);
     }
     Ok(find_smooth(context, group, candidates, persistent, known_forces))
+}
+
+/// Computes the persistent contacts where friction acts in those that bear: in closed form if there is one, else, of
+/// spheres that drag slows and no others bear, on curves. Heaps are for zones, whether drag acts or not.
+///
+/// # Errors
+/// [`NoClosedForm`] if there are neither.
+fn find_with_friction(
+    context: &StepContext,
+    group: &mut Group,
+    candidates: &[Touch],
+    bearing: &[Touch],
+) -> Result<Vec<Support>, NoClosedForm> {
+    let may_bend = on_curves::are_some_slowed(&group.members)
+        && !with_friction::are_some_borne(&group.members, bearing);
+    if !may_bend {
+        return with_friction::find(context, group, candidates, bearing);
+    }
+    let members = group.members.clone();
+    with_friction::find(context, group, candidates, bearing).or_else(|error| {
+        group.members = members;
+        find_on_curves(context, group, candidates).ok_or(error)
+    })
 }
 
 /// Computes the persistent contacts of spheres that fly on curves with friction; `None` if they do not.
