@@ -14,6 +14,8 @@ use common::{G, account_of_run, assert_close, exact, vec, world};
 
 const FRAME: f64 = 1.0 / 64.0;
 const MU: f64 = 0.1;
+/// Sizes of worlds that scale every number without rounding.
+const SIZES: [f64; 3] = [1.0, 1.0 / 1_048_576.0, 1_048_576.0];
 /// Coefficient of drag \[kg/s\]: the rate of drag of a ball of 1 kg \[1/s\].
 const DRAG: f64 = 0.25;
 
@@ -64,9 +66,6 @@ impl UnderDrag {
         [way, speed, -angular_velocity.z * radius]
     }
 }
-
-/// Sizes of worlds that scale every number without rounding.
-const SIZES: [f64; 3] = [1.0, 1.0 / (1u32 << 20) as f64, (1u32 << 20) as f64];
 
 #[test]
 fn a_ball_that_rolls_under_drag_slows_at_five_sevenths_of_its_rate() {
