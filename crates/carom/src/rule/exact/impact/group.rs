@@ -27,6 +27,8 @@ use crate::rule::periodic;
 
 /// Units of work that it takes to find what touches a sphere, and to predict what it meets next.
 const UNITS_PER_MEMBER: u64 = 500;
+/// Sides of a ring that join the impacts of one sphere, at most.
+const MOST_SIDES: u32 = 16;
 /// A touch closes of itself if it closes faster than this part of the fastest one: far more than rounding.
 const CLOSING: f64 = 1e-6;
 
@@ -50,7 +52,7 @@ pub(super) fn answer(
     let (mut group, answer) = loop {
         let (mut group, work) = gather(timeline, context, seeds, surface, &joined, time);
         let allowed = *allowance.get_or_insert_with(|| allow_work(timeline, context, &group));
-        let answer = respond_to_impacts(timeline, context, &mut group, &merged);
+        let answer = respond_on_rings(timeline, context, &mut group, &merged);
         let found = follow_up::follow_ups(timeline, context, &group, &answer.struck(&group));
         if found.is_empty() || allowed == 0 || !context.work.spend(group.members.len() as u64) {
             timeline.flights.add_collider_work(work);
@@ -267,6 +269,27 @@ impl Answer {
         let touches = group.touches.iter().zip(&self.impulses);
         touches.filter(|(_, impulse)| **impulse > 0.0).map(|(touch, _)| touch.bodies).collect()
     }
+}
+
+/// Applies the impact law. Sides of a ring join until spheres on it close on none.
+fn respond_on_rings(
+    timeline: &Timeline,
+    context: &StepContext,
+    group: &mut Group,
+    merged: &[Bodies],
+) -> Answer {
+    let before = group.members.clone();
+    let mut answer = respond_to_impacts(timeline, context, group, merged);
+    for _ in 0..MOST_SIDES {
+        let closing = contacts::closing_sides(context, group, None);
+        if closing.is_empty() {
+            break;
+        }
+        group.members.clone_from(&before);
+        contacts::add_sides(context, group, &closing);
+        answer = respond_to_impacts(timeline, context, group, merged);
+    }
+    answer
 }
 
 /// Applies the impact law to every closing contact. If one of the `merged` contacts still closes
