@@ -351,3 +351,11 @@ def test_pictures_show_what_changes() -> None:
     after: Any = env.render()
     assert before.shape == (480, 640, 3) and before.dtype == np.uint8
     assert not np.array_equal(before, after)
+
+
+@pytest.mark.parametrize("name", [PLATE, BILLIARDS])
+@pytest.mark.filterwarnings("error")
+def test_pictures_are_announced_before_an_environment_is_made(name: str) -> None:
+    env = gymnasium.make(name, render_mode="rgb_array")
+    assert env.metadata["render_modes"] == ["rgb_array"]
+    assert env.metadata["render_fps"] > 0

@@ -99,9 +99,10 @@ def test_python_hears_what_a_person_does(lab: Laboratory) -> None:
     until(lambda: lab.python("viewer.playing"), "playing")
     lab.page.keyboard.press("p")
     until(lambda: not lab.python("viewer.playing"), "pausing")
-    # Keys of the notebook: they would delete the cell and add another.
+    # Keys of the notebook: they would delete the cell and add another. The last throws a ball.
     for key in "ddb":
         lab.page.keyboard.press(key)
+    until(lambda: lab.python("len(viewer.scene.spheres) == 3"), "a ball thrown")
     assert lab.page.locator(".jp-Notebook .jp-Cell").count() == len(CELLS)
 
 

@@ -177,6 +177,17 @@ def test_the_arrays_of_a_saved_trajectory_are_those_of_the_command_line(tmp_path
                 np.testing.assert_array_equal(one[name], other[name][start:])
 
 
+@pytest.mark.parametrize("ending", [".csv", ".glb", ""])
+def test_a_trajectory_is_not_saved_under_the_ending_of_another_format(
+    ending: str, tmp_path: Path
+) -> None:
+    path = tmp_path / f"run{ending}"
+    with pytest.raises(carom.CaromError, match=r"^path: .* must end in \.npz, ") as raised:
+        carom.load("cradle").run(frames=1).save(path)
+    assert raised.value.field == "path"
+    assert not path.exists()
+
+
 def test_a_file_of_something_else_is_no_trajectory(tmp_path: Path) -> None:
     path = tmp_path / "other.npz"
     np.savez(path, a=np.zeros(3))

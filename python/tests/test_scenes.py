@@ -170,6 +170,7 @@ def test_folders_of_scenes_are_searched(tmp_path: Path, monkeypatch: pytest.Monk
     file = tmp_path / "mine.toml"
     file.write_text('name = "mine"\ntitle = "My own"\n')
     assert carom.load(str(file)).title == "My own"
+    assert carom.load(file) == carom.load(str(file))
     assert carom.Scene.from_file(file).title == "My own"
     monkeypatch.setenv("CAROM_SCENES", str(tmp_path))
     assert carom.load("my own").name == "mine"

@@ -262,6 +262,12 @@ pub struct Run {
     /// the summary to the standard error stream.
     #[arg(long, short, value_name = "PATH")]
     pub out: Option<PathBuf>,
+    /// Add columns to the table of --out (.csv): the derivatives of each ball's place and velocity by a number that
+    /// the run starts with, exact through impacts. It is `acceleration`, or a `position`, `velocity`,
+    /// `angular_velocity`, `radius`, `mass`, `restitution` or `friction` of `spheres.N` or `colliders.N`, as
+    /// `spheres.0.velocity` (all of x, y, z) or `spheres.0.velocity.1` (y); repeatable. Known under `exact`.
+    #[arg(long, value_name = "NUMBER", requires = "out", conflicts_with = "link")]
+    pub sensitivity: Vec<String>,
     /// Write only every N-th frame of the trajectory.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
     pub every: u64,

@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 
+use carom::DerivativeError;
 use carom_scene::SceneError;
 use carom_scene::recording::RecordingError;
 use carom_session::{LinkError, SessionError};
@@ -95,6 +96,7 @@ impl From<RecordingError> for Failure {
             RecordingError::UnknownFormat { .. } => {
                 Self::Usage(format!("{message}, or .glb (an animation in glTF)"))
             }
+            RecordingError::NoFurtherColumns { .. } => Self::Usage(message),
             // The reader of the standard output closed it.
             RecordingError::Unwritable { source, .. }
                 if source.kind() == io::ErrorKind::BrokenPipe =>
@@ -132,6 +134,15 @@ impl From<carom::Error> for Failure {
     fn from(error: carom::Error) -> Self {
         match error {
             carom::Error::Stopped { .. } => Self::Interrupted,
+            error => Self::Fault(error.to_string()),
+        }
+    }
+}
+
+impl From<DerivativeError> for Failure {
+    fn from(error: DerivativeError) -> Self {
+        match error {
+            DerivativeError::Step(error) => error.into(),
             error => Self::Fault(error.to_string()),
         }
     }

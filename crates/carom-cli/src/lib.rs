@@ -34,6 +34,7 @@ mod recover;
 mod replacing;
 mod run;
 mod scenes;
+mod sensitivity;
 mod stage_work;
 mod standard_input;
 mod stress;

@@ -20,6 +20,7 @@ use crate::failure::{Failure, both, complain};
 use crate::interruption::interruption;
 use crate::link;
 use crate::progress::Progress;
+use crate::sensitivity::Sensitivity;
 use crate::standard_input::{STANDARD, is_standard};
 use crate::summary::{Observer, Summary};
 
@@ -90,7 +91,8 @@ fn once(
         (None, scene) => begin(library, scene.as_deref().unwrap_or_default(), args)?,
     };
 
-    let mut outputs = Outputs::create(args, &replay, frames)?;
+    let mut sensitivity = Sensitivity::of(replay.world(), &args.sensitivity)?;
+    let mut outputs = Outputs::create(args, &replay, frames, sensitivity.as_ref())?;
     replay.set_stop_request(Some(StopRequest::from(interrupted.clone())));
     let mut observer = Observer::new(replay.world());
     if let Some(volume) = args.stress {
@@ -101,9 +103,11 @@ fn once(
     for frame in 1..=frames {
         let start = replay.world().time();
         result = observer
-            .step(&mut replay)
-            .map_err(Failure::from)
-            .and_then(|()| outputs.write(frame, start, replay.world()));
+            .step(&mut replay, |replay| match &mut sensitivity {
+                Some(sensitivity) => replay.step_by(|world, dt| sensitivity.step(world, dt)),
+                None => Ok(replay.step()?),
+            })
+            .and_then(|()| outputs.write(frame, start, replay.world(), sensitivity.as_ref()));
         progress.show(frame, replay.world().time());
         if result.is_err() || interrupted.load(Ordering::Relaxed) {
             break;
@@ -169,8 +173,21 @@ fn is_animation(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("glb"))
 }
 
+/// Creates the file of a trajectory, with columns for derivatives.
+fn trajectory(
+    path: &Path,
+    replay: &Replay,
+    sensitivity: Option<&Sensitivity>,
+) -> Result<Trajectory, Failure> {
+    let file = trajectory_file(path, replay)?;
+    Ok(match sensitivity {
+        Some(sensitivity) => file.with_columns(sensitivity.columns())?,
+        None => file,
+    })
+}
+
 /// Creates the file of a trajectory. Animations are handled here, other formats by `recording`.
-fn trajectory(path: &Path, replay: &Replay) -> Result<Trajectory, Failure> {
+fn trajectory_file(path: &Path, replay: &Replay) -> Result<Trajectory, Failure> {
     if is_standard(path) {
         return Ok(Trajectory::csv(io::stdout(), STANDARD));
     }
@@ -232,7 +249,12 @@ struct Outputs {
 
 impl Outputs {
     /// Creates the files of a run.
-    fn create(args: &Run, replay: &Replay, frames: u64) -> Result<Self, Failure> {
+    fn create(
+        args: &Run,
+        replay: &Replay,
+        frames: u64,
+        sensitivity: Option<&Sensitivity>,
+    ) -> Result<Self, Failure> {
         let files =
             [("--out", &args.out), ("--impacts", &args.impacts), ("--ledger", &args.ledger)];
         let named = files.iter().filter_map(|(name, file)| Some((*name, file.as_deref()?)));
@@ -261,17 +283,24 @@ impl Outputs {
             let message = "--ledger needs the rule exact: the other rules keep no ledger";
             return Err(Failure::Usage(message.to_owned()));
         }
+        let trajectory = |path| trajectory(path, replay, sensitivity);
         // The trajectory comes last: if it is dropped, an unfinished file remains.
         Ok(Self {
             impacts: args.impacts.as_deref().map(impact_table).transpose()?,
             ledger: args.ledger.as_deref().map(ledger_table).transpose()?,
-            trajectory: args.out.as_deref().map(|path| trajectory(path, replay)).transpose()?,
+            trajectory: args.out.as_deref().map(trajectory).transpose()?,
             every: args.every,
         })
     }
 
     /// Writes the frame that started at `start` \[s\].
-    fn write(&mut self, frame: u64, start: f64, world: &World) -> Result<(), Failure> {
+    fn write(
+        &mut self,
+        frame: u64,
+        start: f64,
+        world: &World,
+        sensitivity: Option<&Sensitivity>,
+    ) -> Result<(), Failure> {
         if let Some(impacts) = &mut self.impacts {
             impacts.write(start, &world.report().impacts)?;
         }
@@ -281,7 +310,9 @@ impl Outputs {
         if let Some(trajectory) = &mut self.trajectory
             && frame.is_multiple_of(self.every)
         {
-            trajectory.write(world).map_err(|error| with_kept(error, trajectory.frames()))?;
+            let rows = sensitivity.map(Sensitivity::rows).unwrap_or_default();
+            let written = trajectory.write_with(world, &rows);
+            written.map_err(|error| with_kept(error, trajectory.frames()))?;
         }
         Ok(())
     }

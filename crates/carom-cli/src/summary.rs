@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use carom::{BodyPair, ColliderId, DVec3, EnergyAccount, StageCounts, World};
 use carom_scene::scene::{ImpactLaw, Integrator, Rule, WindBack};
-use carom_session::{Replay, SessionError};
+use carom_session::Replay;
 use serde::Serialize;
 
 use crate::advice::{Conduct, advice, unread};
@@ -95,10 +95,14 @@ impl Observer {
         Ok(())
     }
 
-    /// Steps a frame and collects its figures.
-    pub fn step(&mut self, replay: &mut Replay) -> Result<(), SessionError> {
+    /// Steps a frame by a function and collects its figures.
+    pub fn step(
+        &mut self,
+        replay: &mut Replay,
+        step: impl FnOnce(&mut Replay) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
         let began = Instant::now();
-        replay.step()?;
+        step(replay)?;
         self.stepping += began.elapsed();
         let (world, report) = (replay.world(), replay.world().report());
         self.frames += 1;

@@ -71,9 +71,20 @@ impl Replay {
     /// [`SessionError::World`] if the physics refuses the step; then nothing has moved.
     /// [`SessionError::Repeat`] if the frame was taken but a change there was refused.
     pub fn step(&mut self) -> Result<(), SessionError> {
-        self.world.step(self.setup.simulation.frame_time)?;
+        self.step_by(|world, dt| Ok(world.step(dt).map(|_| ())?))
+    }
+
+    /// Takes one frame by a function that advances the world by a time \[s\], and makes the changes at its end.
+    ///
+    /// # Errors
+    /// Those of the function; then nothing else is done. [`SessionError::Repeat`] if a change was refused.
+    pub fn step_by<E: From<SessionError>>(
+        &mut self,
+        step: impl FnOnce(&mut World, f64) -> Result<(), E>,
+    ) -> Result<(), E> {
+        step(&mut self.world, self.setup.simulation.frame_time)?;
         self.frame += 1;
-        self.make_changes()
+        Ok(self.make_changes()?)
     }
 
     /// Sets a request that ends steps early; see [`World::set_stop_request`].

@@ -14,7 +14,8 @@ from carom.errors import CaromError
 
 Floats = NDArray[np.float64]
 
-_ENDINGS = {".xyz", ".extxyz", ".lammpstrj", ".dump", ".gsd"}
+ENDINGS = {".xyz", ".extxyz", ".lammpstrj", ".dump", ".gsd"}
+"""Of file names, by which a format is known."""
 
 
 class Particles(NamedTuple):
@@ -33,7 +34,7 @@ class Particles(NamedTuple):
 
 def is_particle_file(path: str | os.PathLike[str]) -> bool:
     """Whether the ending of a file is that of a format of particles."""
-    return Path(path).suffix.lower() in _ENDINGS
+    return Path(path).suffix.lower() in ENDINGS
 
 
 def write(path: str | os.PathLike[str], particles: Particles) -> None:

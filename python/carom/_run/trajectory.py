@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import zipfile
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
@@ -192,11 +193,11 @@ class Trajectory:
         GSD (.gsd) are for other programs: they hold the states and the box, but no events.
 
         Args:
-            path: Of the file, with its ending; any other than these is that of an .npz file. A file
-                that is there is replaced.
+            path: Of the file, with its ending. A file that is there is replaced.
 
         Raises:
-            CaromError: If positions were not recorded, for a format of other programs.
+            CaromError: For another ending, or if positions were not recorded, for a format of other
+                programs.
             OSError: If it cannot be written.
 
         >>> import carom, tempfile, pathlib
@@ -211,6 +212,10 @@ class Trajectory:
         if particles.is_particle_file(path):
             particles.write(path, self._particles())
             return
+        if Path(path).suffix.lower() != ".npz":
+            known = ", ".join(sorted(particles.ENDINGS))
+            problem = f"must end in .npz, {known}; `to_pandas` makes a table"
+            raise CaromError(f"path: {os.fspath(path)} {problem}", "path")
         is_there = self._is_there()
         row, column = np.nonzero(is_there)
         arrays: dict[str, NDArray[Any]] = {

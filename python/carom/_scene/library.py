@@ -69,7 +69,11 @@ def scene(name: str, description: str = "") -> Callable[[_Maker], _Maker]:
     return register
 
 
-def load(name: str, changes: Mapping[str, Any] = NO_CHANGES, **parameters: Any) -> Scene:
+def load(
+    name: str | os.PathLike[str],
+    changes: Mapping[str, Any] = NO_CHANGES,
+    **parameters: Any,
+) -> Scene:
     """The scene with a name or title, in any case, or in a file whose path is given.
 
     Where no scene has this name or title, it is the only one whose title has all words of it.
@@ -93,6 +97,7 @@ def load(name: str, changes: Mapping[str, Any] = NO_CHANGES, **parameters: Any) 
     >>> carom.load("rain").title
     'Rain on a sphere'
     """
+    name = os.fspath(name)
     announced = _announced()
     text, found = _found(name, overrides(changes), announced)
     if text is None:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from carom._scene.library import find
 from carom._scene.scene import Scene
-from carom._sweep.cluster import check_client, performing
+from carom._sweep.cluster import check_place, performing
 from carom._sweep.experiment import (
     Experiment,
     Fault,
@@ -26,7 +26,7 @@ from carom._sweep.experiment import (
 )
 from carom._sweep.experiment import experiment as make_experiment
 from carom._sweep.guard import check_not_in_worker
-from carom._sweep.plan import Plan, make_plan
+from carom._sweep.plan import Plan, make_part, make_plan
 from carom._sweep.runs import Failure, Runs
 from carom._sweep.store import Key, Store
 from carom.errors import CaromError, RunError, SceneError
@@ -46,9 +46,10 @@ def sweep(
     samples: pandas.DataFrame | Sequence[Mapping[str, Any]] | None = None,
     repeats: int | None = None,
     seed: int = 0,
-    client: Client | Literal["serial"] | None = None,
+    client: Client | Literal["ray", "serial"] | None = None,
     store: str | os.PathLike[str] | None = None,
     version: str = "",
+    part: tuple[int, int] | None = None,
     on_error: Literal["keep", "raise"] = "keep",
     progress: bool | None = None,
 ) -> Runs:
@@ -65,10 +66,10 @@ def sweep(
     parameters and the number of the repeat: independent of each other, and the same in a larger
     sweep.
 
-    Workers are processes of a `Dask <https://distributed.dask.org>`_ cluster, and need carom. When
-    one dies, another performs again what was in work, about a quarter of a second or a run. A
-    script that starts its own cluster must do so under ``if __name__ == "__main__":``, for the
-    processes import it.
+    Workers are processes of a cluster of `Dask <https://distributed.dask.org>`_ or `Ray
+    <https://docs.ray.io>`_, and need carom. When one dies, another performs again what was in work,
+    about a quarter of a second or a run. A script that starts its own cluster of Dask must do so
+    under ``if __name__ == "__main__":``, for the processes import it.
 
     Args:
         scene: A scene, the name of one, or a function of parameters that makes one.
@@ -79,13 +80,18 @@ def sweep(
         repeats: How many runs with seeds of their own there are for each point; unless given, one,
             with the seeds that the scene has.
         seed: Where the seeds of the repeats come from, >= 0.
-        client: The cluster; a process for each core of this machine unless given. ``"serial"``
-            works in this process.
+        client: The cluster; a process for each core of this machine unless given. ``"ray"`` is the
+            one of Ray to which this process or ``RAY_ADDRESS`` connects, or one on this machine.
+            ``"serial"`` works in this process.
         store: A file that takes each batch of runs as it is finished. What it holds already is not
             run again: it is found by the scene, the parameters and seed, the qualified name of
             ``measure``, and ``version``. Failed runs are not kept there.
         version: To be changed with what ``measure`` does; a warning tells where the code of
             ``measure`` has changed and this has not.
+        part: ``(i, n)`` performs only every n-th run, from number i on: a share for one of n
+            processes, such as the jobs of an array of Slurm. Each writes into a file of its own
+            beside ``store``. The results of other runs are ``None``. A sweep without ``part`` takes
+            in these files, and performs what is missing.
         on_error: ``"keep"`` has a run that raises kept among the errors, with a warning at the end;
             ``"raise"`` stops there.
         progress: Whether to show a line on stderr (by tqdm); if stderr is a terminal unless given.
@@ -95,7 +101,7 @@ def sweep(
             begin the first run; named.
         RunError: If a run fails and ``on_error`` says so, if the cluster is lost, or if a script
             calls this without ``if __name__ == "__main__":``.
-        ModuleNotFoundError: Where Dask is not installed.
+        ModuleNotFoundError: Where Dask, or Ray, is needed and not installed.
 
     >>> import carom
     >>> def height(world):
@@ -111,8 +117,10 @@ def sweep(
     if client is None:
         check_not_in_worker()
     _check_choices(measure, version, on_error)
-    check_client(client)
+    check_place(client)
+    share = make_part(part)
     plan = make_plan(grid, samples, repeats, seed)
+    rows = range(len(plan)) if share is None else share.rows(len(plan))
     source = _source(scene)
     if not isinstance(source, Scene | Written) and not callable(source):
         kind = type(source).__name__
@@ -128,13 +136,13 @@ def sweep(
     with ExitStack() as stack:
         kept = None
         if store is not None:
-            kept = stack.enter_context(Store(store, measure, version))
-        line = stack.enter_context(_progress_line(len(plan), progress))
+            kept = stack.enter_context(Store(store, measure, version, share))
+        line = stack.enter_context(_progress_line(len(rows), progress))
         book = _Book(plan, experiment, kept, on_error, line)
-        missing = book.missing()
+        missing = book.missing(rows)
         if (run := next(missing, None)) is not None:
             todo = itertools.chain([run], missing)
-            batches = performing(client, experiment, todo, len(plan))
+            batches = performing(client, experiment, todo, len(rows))
             for outcomes in stack.enter_context(batches):
                 book.enter(outcomes)
     return book.runs()
@@ -174,9 +182,9 @@ class _Book:
         self._keys: dict[int, Key] = {}
         self._has_warned = False
 
-    def missing(self) -> Iterator[Run]:
+    def missing(self, rows: Iterable[int]) -> Iterator[Run]:
         """The runs that are not finished, one by one: cluster and keys are at work together."""
-        for run in self._plan:
+        for run in map(self._plan.__getitem__, rows):
             if self._store is not None:
                 try:
                     key = self._store.key(run, self._experiment.scene_of(run))

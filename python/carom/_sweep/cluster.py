@@ -1,15 +1,16 @@
-"""Where runs are performed: in this process, or by the workers of a Dask cluster."""
+"""Where runs are performed: in this process, or by the workers of a cluster."""
 
 from __future__ import annotations
 
 import contextlib
 import itertools
-import uuid
 from collections.abc import Generator, Iterator
 from typing import TYPE_CHECKING, Any, Literal
 
-from carom._sweep.experiment import Experiment, Fault, Outcome, Run, fault, perform
-from carom._sweep.guard import telling_of_missing_guards
+from carom._sweep.dask_workers import DaskWorkers, check_client, local_client
+from carom._sweep.experiment import Experiment, Outcome, Run, fault, perform
+from carom._sweep.ray_workers import RayWorkers, check_ray, ray_session
+from carom._sweep.workers import Task, WorkerDiedError, Workers
 from carom.errors import RunError
 
 if TYPE_CHECKING:
@@ -18,12 +19,9 @@ if TYPE_CHECKING:
 _BATCH_SECONDS = 0.25
 """Work in a batch: a task costs Dask about 1 ms, and what is in a batch can get lost together."""
 _BATCHES_WAITING = 2
-"""Batches for each thread, so that none waits for the client; Dask holds back all but these."""
+"""Batches for each thread, so that none waits for this process; the cluster gets no more."""
 _FEWEST_BATCHES = 16
 """A cluster that grows by demand, and has no worker yet, must see some."""
-
-_ANY_PORT = ":0"
-"""Where the dashboard of a cluster on this machine is: several may be at work."""
 
 
 class Pace:
@@ -59,9 +57,7 @@ def serially(experiment: Experiment, runs: Iterator[Run], total: int) -> Iterato
         yield outcomes
 
 
-def on_cluster(
-    client: Client, experiment: Experiment, runs: Iterator[Run], total: int
-) -> Generator[list[Outcome]]:
+def by_workers(workers: Workers, runs: Iterator[Run], total: int) -> Generator[list[Outcome]]:
     """Performs the runs on the workers of a cluster, and gives outcomes as they come.
 
     A batch whose worker dies is performed again by another one. If that happens too often, its
@@ -69,124 +65,86 @@ def on_cluster(
 
     Raises:
         RunError: If the cluster is lost.
-        Exception: What workers cannot import, or the like.
     """
-    from distributed import CancelledError, KilledWorker, as_completed, wait
-
-    # Sent once; as a task, it is made again where a worker takes it with it.
-    shared = client.submit(_itself, experiment, pure=False)
-    wait(shared)
-    if shared.status != "finished":
-        shared.result()
-    name, numbers = f"carom-sweep-{uuid.uuid4().hex}", itertools.count()
-    completed = as_completed(loop=client.loop)
-    pending: dict[Any, list[Run]] = {}
+    pending: dict[Task, list[Run]] = {}
     suspects: list[Run] = []
     pace = Pace(total)
-
-    def submit(batch: list[Run]) -> None:
-        key = f"{name}-{next(numbers)}"
-        future = client.submit(perform, shared, batch, key=key, pure=False)
-        pending[future] = batch
-        completed.add(future)
-
     try:
         while True:
-            threads = max(sum(client.nthreads().values()), 1)
+            threads = max(workers.threads(), 1)
             while len(pending) < max(_BATCHES_WAITING * threads, _FEWEST_BATCHES):
                 batch = pace.take(runs, threads)
                 if not batch:
                     break
-                submit(batch)
+                pending[workers.submit(batch)] = batch
             is_alone = not pending
             if is_alone:
                 if not suspects:
                     return
-                submit([suspects.pop()])
-            future = next(completed)
-            batch = pending.pop(future)
+                batch = [suspects.pop()]
+                pending[workers.submit(batch)] = batch
+            task = workers.wait(pending)
+            batch = pending.pop(task)
             try:
-                # What was lost on its way here is performed again.
-                outcomes, seconds = future.result()
-            except CancelledError as error:
-                raise RunError("client: the cluster is gone") from error
-            except Exception as error:
-                if isinstance(error, KilledWorker) and not is_alone:
-                    suspects += batch
+                outcomes, seconds = workers.result(task)
+            except WorkerDiedError as error:
+                if is_alone:
+                    yield _failed(batch, error.reason)
                 else:
-                    yield [Outcome(run.row, _fault_of_task(error)) for run in batch]
+                    suspects += batch
+            except RunError:
+                raise
+            except Exception as error:
+                yield _failed(batch, error)
             else:
                 pace.learn(len(batch), seconds)
                 yield outcomes
     finally:
         with contextlib.suppress(Exception):
-            client.cancel([*pending, shared])
+            workers.cancel(pending)
 
 
 @contextlib.contextmanager
 def performing(
-    client: Client | Literal["serial"] | None,
+    client: Client | Literal["ray", "serial"] | None,
     experiment: Experiment,
     runs: Iterator[Run],
     total: int,
 ) -> Iterator[Iterator[list[Outcome]]]:
-    """Performs the runs by a client; by a cluster on this machine if there is none."""
+    """Performs the runs where ``client`` says; on a cluster of this machine if it is ``None``."""
     if client == "serial":
         yield serially(experiment, runs, total)
         return
     with contextlib.ExitStack() as stack:
-        client = stack.enter_context(_local_client()) if client is None else client
-        yield stack.enter_context(contextlib.closing(on_cluster(client, experiment, runs, total)))
-
-
-def check_client(client: object) -> None:
-    """Checks that a client is one, and that there is what it takes.
-
-    Raises:
-        TypeError: If it is something else.
-        ModuleNotFoundError: Where Dask is not installed.
-    """
-    if client == "serial":
-        return
-    try:
-        from distributed import Client
-    except ModuleNotFoundError as error:
-        raise ModuleNotFoundError(
-            "carom.sweep works on a Dask cluster: pip install 'carom[sweep]', "
-            'or give client="serial" to work in this process',
-            name=error.name,
-        ) from error
-    if client is None:
-        return
-    if not isinstance(client, Client):
-        kind = type(client).__name__
-        raise TypeError(f'client: must be a distributed.Client or "serial", not a {kind}')
-    if client.asynchronous:
-        raise TypeError("client: must not be asynchronous")
+        workers = stack.enter_context(_workers(client, experiment))
+        yield stack.enter_context(contextlib.closing(by_workers(workers, runs, total)))
 
 
 @contextlib.contextmanager
-def _local_client() -> Iterator[Any]:
-    """A cluster on this machine, with a process of one thread for each core."""
-    from distributed import Client, LocalCluster
-
+def _workers(client: Any, experiment: Experiment) -> Iterator[Workers]:
     with contextlib.ExitStack() as stack:
-        with telling_of_missing_guards():
-            cluster = LocalCluster(
-                processes=True, threads_per_worker=1, dashboard_address=_ANY_PORT
-            )
-            stack.enter_context(cluster)
-            client = stack.enter_context(Client(cluster))
-        # A process that dies while it starts is not started again, unless the number is kept up.
-        count = len(cluster.workers)
-        cluster.adapt(minimum=count, maximum=count)
-        yield client
+        if client == "ray":
+            stack.enter_context(ray_session())
+            yield RayWorkers(experiment)
+            return
+        client = stack.enter_context(local_client()) if client is None else client
+        yield DaskWorkers(client, experiment)
 
 
-def _itself(experiment: Experiment) -> Experiment:
-    return experiment
+def check_place(client: object) -> None:
+    """Checks that there is what performs the runs.
+
+    Raises:
+        TypeError: If ``client`` is none.
+        ModuleNotFoundError: Where a package is not installed.
+    """
+    if client == "ray":
+        check_ray()
+    elif client != "serial":
+        check_client(client)
 
 
-def _fault_of_task(error: BaseException) -> Fault:
-    """Why a whole task failed; no traceback of this process tells that."""
-    return fault(error.with_traceback(None))
+def _failed(batch: list[Run], error: Exception) -> list[Outcome]:
+    """The outcomes of a batch that failed as a whole; no traceback of this process says why."""
+    why = fault(error.with_traceback(None))
+    return [Outcome(run.row, why) for run in batch]

@@ -52,6 +52,35 @@ class Plan:
         return (self[row] for row in range(len(self)))
 
 
+@dataclass(frozen=True)
+class Part:
+    """A share of the runs: every ``count``-th, from number ``index`` on."""
+
+    index: int
+    count: int
+
+    def rows(self, total: int) -> range:
+        """The rows of the table that it has."""
+        return range(self.index, total, self.count)
+
+
+def make_part(part: Any) -> Part | None:
+    """Reads which share of a sweep a process has.
+
+    Raises:
+        TypeError, CaromError: If it makes no sense.
+    """
+    if part is None:
+        return None
+    whole = (int, np.integer)
+    if not isinstance(part, tuple) or [isinstance(it, whole) for it in part] != [True, True]:
+        raise TypeError(f"part: must be a tuple of two whole numbers, not {part!r}")
+    index, count = (int(it) for it in part)
+    if not 0 <= index < count:
+        raise CaromError(f"part: must be (i, n) with 0 <= i < n, not {part!r}", "part")
+    return Part(index, count)
+
+
 def make_plan(
     grid: Mapping[str, Iterable[Any]] | None,
     samples: Any,

@@ -39,7 +39,8 @@ class Runs:
     Attributes:
         parameters: The parameters of each run.
         seeds: The seed of each run, in [0, 2^32); ``None`` where the scene kept its own.
-        results: What each run measured, arrays by name; ``None`` where it failed.
+        results: What each run measured, arrays by name; ``None`` where it failed or is no run
+            of this part.
         errors: The runs that failed; ``pandas.DataFrame(runs.errors)`` is a table of them.
     """
 

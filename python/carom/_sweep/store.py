@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import hashlib
 import io
 import json
 import os
+import re
 import sqlite3
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from pathlib import Path
 from types import TracebackType
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -18,7 +21,7 @@ from carom._scene.scene import Scene
 from carom._scene.text import toml_of
 from carom._sweep.experiment import Measured, Run
 from carom._sweep.fingerprint import fingerprint_of, tells_of_change
-from carom._sweep.plan import canonical_text
+from carom._sweep.plan import Part, canonical_text
 from carom.errors import CaromError
 
 _APPLICATION = 0x4361_726F
@@ -41,7 +44,7 @@ CREATE TABLE IF NOT EXISTS runs (
 """What was measured is an ``.npz``, with an array for each of the names (JSON)."""
 
 _CODE_TABLE = """
-CREATE TABLE IF NOT EXISTS codes (
+CREATE {kind} TABLE codes (
     key TEXT PRIMARY KEY,
     fingerprint TEXT NOT NULL
 )
@@ -60,13 +63,19 @@ class Key(NamedTuple):
 class Store:
     """A file of SQLite, into which one process writes.
 
-    SQLite commits a batch of runs wholly or not at all, whatever is killed when.
+    SQLite commits a batch of runs wholly or not at all, whatever is killed when. A part of a sweep
+    has a file of its own beside the store: processes on several machines share no file, as file
+    systems of clusters may not lock.
     """
 
     def __init__(
-        self, path: str | os.PathLike[str], measure: Callable[..., Any], version: str
+        self,
+        path: str | os.PathLike[str],
+        measure: Callable[..., Any],
+        version: str,
+        part: Part | None = None,
     ) -> None:
-        """Opens a store, or makes it.
+        """Opens a store, or makes it; the store of a whole sweep takes in the files of parts.
 
         Raises:
             CaromError: If it cannot be opened, or is another kind of file, or if ``measure`` has
@@ -74,31 +83,30 @@ class Store:
         """
         self._measure, self._version = _name_of(measure), version
         self._fingerprint = fingerprint_of(measure)
-        self._path = os.fspath(path)
-        try:
-            self._database = sqlite3.connect(self._path, timeout=_PATIENCE)
-            try:
-                self._prepare()
-            except BaseException:
-                self._database.close()
-                raise
-        except sqlite3.Error as error:
-            raise CaromError(f"store: {self._path}: {error}", "store") from error
+        with contextlib.ExitStack() as stack:
+            if part is None:
+                self._database = stack.enter_context(_opened(Path(path)))
+                self._databases = [self._database]
+                for file in _files_of_parts(Path(path)):
+                    self._take_in(file)
+            else:
+                own = Path(f"{os.fspath(path)}.{part.index}-of-{part.count}")
+                self._database = stack.enter_context(_opened(own))
+                self._databases = [self._database]
+                if Path(path).exists():
+                    self._databases.append(stack.enter_context(_opened(Path(path), "ro")))
+            self._open = stack.pop_all()
 
-    def _prepare(self) -> None:
-        [application] = self._database.execute("PRAGMA application_id").fetchone()
-        [number] = self._database.execute("PRAGMA user_version").fetchone()
-        [tables] = self._database.execute("SELECT count(*) FROM sqlite_master").fetchone()
-        if tables and (application, number) != (_APPLICATION, _FORMAT):
-            told = f"format {number}" if application == _APPLICATION else "another application"
-            raise CaromError(f"store: {self._path}: is a file of {told}", "store")
-        if not tables:
+    def _take_in(self, file: Path) -> None:
+        """Copies the runs of a part."""
+        with _opened(file), _naming(file):
+            self._database.execute("ATTACH ? AS part", (os.fspath(file),))
             with self._database:
-                self._database.execute(_TABLE)
-                self._database.execute(f"PRAGMA application_id = {_APPLICATION}")
-                self._database.execute(f"PRAGMA user_version = {_FORMAT}")
-        with self._database:
-            self._database.execute(_CODE_TABLE)
+                for table in ("runs", "codes"):
+                    self._database.execute(
+                        f"INSERT OR IGNORE INTO {table} SELECT * FROM part.{table}"
+                    )
+            self._database.execute("DETACH part")
 
     def __enter__(self) -> Store:
         return self
@@ -109,7 +117,7 @@ class Store:
         error: BaseException | None,
         where: TracebackType | None,
     ) -> None:
-        self._database.close()
+        self._open.close()
 
     def key(self, run: Run, scene: Scene) -> Key:
         """What a run is found by: its scene, parameters and seed, and how it is measured."""
@@ -120,16 +128,19 @@ class Store:
 
     def find(self, key: Key) -> Measured | None:
         """What a run has measured, if it is finished."""
-        question = "SELECT names, arrays FROM runs WHERE key = ?"
-        row = self._database.execute(question, (key.digest,)).fetchone()
+        row = self._row("SELECT names, arrays FROM runs WHERE key = ?", key)
         return None if row is None else _unpack(*row)
 
     def is_of_other_code(self, key: Key) -> bool:
         """Whether a finished run was measured before the code of ``measure`` was changed."""
-        question = "SELECT fingerprint FROM codes WHERE key = ?"
-        row = self._database.execute(question, (key.digest,)).fetchone()
+        row = self._row("SELECT fingerprint FROM codes WHERE key = ?", key)
         now = self._fingerprint
         return row is not None and now is not None and tells_of_change(row[0], now)
+
+    def _row(self, question: str, key: Key) -> tuple[Any, ...] | None:
+        """The first answer among the files."""
+        answers = (it.execute(question, (key.digest,)).fetchone() for it in self._databases)
+        return next((row for row in answers if row is not None), None)
 
     def add(self, finished: Iterable[tuple[Key, Measured]]) -> None:
         """Writes down finished runs, all or none of them; those that are there stay."""
@@ -143,6 +154,52 @@ class Store:
                 "INSERT OR IGNORE INTO runs VALUES (?, ?, ?, ?, ?, ?, ?)", rows
             )
             self._database.executemany("INSERT OR IGNORE INTO codes VALUES (?, ?)", codes)
+
+
+@contextlib.contextmanager
+def _opened(path: Path, mode: Literal["rwc", "ro"] = "rwc") -> Iterator[sqlite3.Connection]:
+    """A store, which is made if it is not there and may be written."""
+    with contextlib.ExitStack() as stack:
+        with _naming(path):
+            address = f"{path.absolute().as_uri()}?mode={mode}"
+            database = sqlite3.connect(address, timeout=_PATIENCE, uri=True)
+            stack.callback(database.close)
+            _prepare(database, path, mode)
+        yield database
+
+
+@contextlib.contextmanager
+def _naming(path: Path) -> Iterator[None]:
+    """Names the file in errors of SQLite."""
+    try:
+        yield
+    except sqlite3.Error as error:
+        raise CaromError(f"store: {path}: {error}", "store") from error
+
+
+def _prepare(database: sqlite3.Connection, path: Path, mode: Literal["rwc", "ro"]) -> None:
+    """Checks that a file is a store; makes one of a file that is empty."""
+    [application] = database.execute("PRAGMA application_id").fetchone()
+    [number] = database.execute("PRAGMA user_version").fetchone()
+    tables = {name for [name] in database.execute("SELECT name FROM sqlite_master")}
+    if tables and (application, number) != (_APPLICATION, _FORMAT):
+        told = f"format {number}" if application == _APPLICATION else "another application"
+        raise CaromError(f"store: {path}: is a file of {told}", "store")
+    if not tables:
+        with database:
+            database.execute(_TABLE)
+            database.execute(f"PRAGMA application_id = {_APPLICATION}")
+            database.execute(f"PRAGMA user_version = {_FORMAT}")
+    if "codes" not in tables:
+        with database:
+            # It belongs to the connection where the file must not be written.
+            database.execute(_CODE_TABLE.format(kind="TEMP" if mode == "ro" else ""))
+
+
+def _files_of_parts(path: Path) -> list[Path]:
+    """The files of parts beside a store, in order of their names."""
+    name = re.compile(re.escape(path.name) + r"\.\d+-of-\d+")
+    return sorted(it for it in path.absolute().parent.iterdir() if name.fullmatch(it.name))
 
 
 def _pack(measured: Mapping[str, Any]) -> tuple[str, bytes]:

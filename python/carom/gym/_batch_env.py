@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from carom._pictures.picture import Renderer
 from carom._run.batch import Batch
 from carom.errors import CaromError
-from carom.gym._arguments import checked_mask, checked_mode, seeds_of
+from carom.gym._arguments import METADATA, checked_mask, checked_mode, seeds_of
 from carom.gym._random import Numbers
 
 Floats = NDArray[np.float32]
@@ -64,7 +64,7 @@ class BatchVectorEnv(_VectorEnv):
         self._mode = AutoresetMode(autoreset_mode)
         self._restarts = self._mode == AutoresetMode.NEXT_STEP
         self.metadata = {
-            "render_modes": ["rgb_array"],
+            **METADATA,
             "render_fps": frames_per_second,
             "autoreset_mode": self._mode,
         }
@@ -222,6 +222,8 @@ class BatchVectorEnv(_VectorEnv):
 
 class BatchEnv(_Env):
     """One environment: a vector of one, whose episodes do not start by themselves."""
+
+    metadata = METADATA  # Of the class, for `gymnasium.make`.
 
     _of_many: ClassVar[Callable[..., BatchVectorEnv]]
 

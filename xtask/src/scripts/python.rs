@@ -15,7 +15,8 @@ const BASE: [&str; 2] = ["carom._carom", "carom.errors"];
 /// which imports nothing when it runs.
 const FORWARD: &str = "carom._scene.above";
 /// What is imported where it is needed, since the package does without it elsewhere.
-const OPTIONAL: [&str; 6] = ["carom.notebook", "distributed", "pandas", "scipy", "tqdm", "xarray"];
+const OPTIONAL: [&str; 7] =
+    ["carom.notebook", "distributed", "pandas", "ray", "scipy", "tqdm", "xarray"];
 
 /// One name that a module imports.
 #[derive(Debug, PartialEq, Eq)]

@@ -3,6 +3,7 @@
 mod advice;
 #[path = "../command/mod.rs"]
 mod command;
+mod sensitivity;
 mod tables;
 
 use std::path::Path;

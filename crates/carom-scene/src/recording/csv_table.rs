@@ -21,6 +21,8 @@ pub(super) const ANGULAR_VELOCITY: [&str; 3] = ["wx", "wy", "wz"];
 
 pub(super) struct CsvTable {
     writer: csv::Writer<TableFile>,
+    /// Names of the columns of further numbers.
+    further: Vec<String>,
     /// Whether the table has the columns of rotation; `None` before the first frame.
     has_rotation: Option<bool>,
 }
@@ -35,7 +37,7 @@ impl CsvTable {
     }
 
     fn of(file: TableFile) -> Self {
-        Self { writer: csv::Writer::from_writer(file), has_rotation: None }
+        Self { writer: csv::Writer::from_writer(file), further: Vec::new(), has_rotation: None }
     }
 
     /// Writes the header if it is not yet written. Returns whether the table has the columns of
@@ -47,7 +49,8 @@ impl CsvTable {
         let has_rotation = *self.has_rotation.insert(has_rotation());
         let rotation = ORIENTATION.iter().chain(&ANGULAR_VELOCITY);
         let more = rotation.filter(|_| has_rotation);
-        self.writer.write_record(HEADER.iter().chain(more))?;
+        let further = self.further.iter().map(String::as_str);
+        self.writer.write_record(HEADER.iter().chain(more).copied().chain(further))?;
         Ok(has_rotation)
     }
 
@@ -58,6 +61,15 @@ impl CsvTable {
 
 impl Format for CsvTable {
     fn write(&mut self, world: &World) -> io::Result<()> {
+        self.write_with(world, &[])
+    }
+
+    fn add_columns(&mut self, names: Vec<String>) -> bool {
+        self.further = names;
+        true
+    }
+
+    fn write_with(&mut self, world: &World, further: &[Vec<f64>]) -> io::Result<()> {
         let has_rotation = self.begin(|| world.has_spin())?;
         let spheres = world.spheres();
         let time = digits(world.time());
@@ -69,6 +81,9 @@ impl Format for CsvTable {
             if has_rotation {
                 self.write_numbers(&rotation::orientation(world, i))?;
                 self.write_numbers(&rotation::angular_velocity(world, i))?;
+            }
+            if let Some(numbers) = further.get(i) {
+                self.write_numbers(numbers)?;
             }
             self.writer.write_record(None::<&[u8]>)?;
         }

@@ -15,6 +15,12 @@ pub enum RecordingError {
         /// Path of the file.
         path: PathBuf,
     },
+    /// The format has no columns for further numbers.
+    #[error("{path} has no columns for further numbers: use .csv")]
+    NoFurtherColumns {
+        /// Path of the file.
+        path: PathBuf,
+    },
     /// The file cannot be written.
     #[error("cannot write {path}: {source}")]
     Unwritable {

@@ -109,12 +109,37 @@ impl Trajectory {
         Self { path: PathBuf::from(name), format, frames: 0 }
     }
 
+    /// Adds columns of further numbers beside each sphere, before the first frame.
+    ///
+    /// # Errors
+    /// [`RecordingError::NoFurtherColumns`] if the format is not CSV.
+    pub fn with_columns(mut self, names: Vec<String>) -> Result<Self, RecordingError> {
+        if self.format.add_columns(names) {
+            return Ok(self);
+        }
+        Err(RecordingError::NoFurtherColumns { path: self.path })
+    }
+
     /// Writes the current state of all spheres, by ascending number.
     ///
     /// # Errors
     /// [`RecordingError`] if the disk is full or gone.
     pub fn write(&mut self, world: &World) -> Result<(), RecordingError> {
-        self.format.write(world).map_err(|source| unwritable(&self.path, source))?;
+        self.write_with(world, &[])
+    }
+
+    /// Writes the current state of all spheres, by ascending number, each with its row of the numbers for
+    /// [added columns](Self::with_columns).
+    ///
+    /// # Errors
+    /// [`RecordingError`] if the disk is full or gone.
+    pub fn write_with(
+        &mut self,
+        world: &World,
+        further: &[Vec<f64>],
+    ) -> Result<(), RecordingError> {
+        let written = self.format.write_with(world, further);
+        written.map_err(|source| unwritable(&self.path, source))?;
         self.frames += 1;
         Ok(())
     }
