@@ -8,6 +8,7 @@ use super::curve_contacts::{ContactSphere, CurveBody, CurveContact, CurveContact
 use super::free_field::FreeField;
 use super::friction_choice::OPENS;
 use super::friction_state::FrictionState;
+use super::image_beside::{shift_beside_sphere, shift_beside_surface};
 use super::species::Species;
 use super::state::Flights;
 use super::tie::{Tie, TieEnd, TiePath};
@@ -34,6 +35,8 @@ pub(super) struct HeldOver {
     pub releases: Vec<f64>,
     /// Time from the start \[s\] at which friction changes how it acts in a contact; infinite if it does not.
     pub change: f64,
+    /// Whether friction jams spheres, so that no forces hold their contacts.
+    pub is_jammed: bool,
 }
 
 /// A bound of what a contact can do.
@@ -63,6 +66,8 @@ struct Touched<'a> {
     cluster: usize,
     /// Place of the sphere.
     sphere: usize,
+    /// From its centre to the image beside the surface \[m\].
+    shift: DVec3,
     form: &'a Form,
     /// Whether the sphere is on a ring of it.
     is_on_ring: bool,
@@ -149,27 +154,30 @@ impl<'a> JointField<'a> {
             let held = flights.clusters.get(number);
             for &bodies in &held.contacts {
                 let friction = friction_of(bodies);
-                let mut add = |first, second| {
-                    contacts.push(CurveContact { first, second, friction });
+                let mut add = |first, second, shift| {
+                    contacts.push(CurveContact { first, second, shift, friction });
                 };
                 match bodies {
                     Bodies::Pair(first, second) => {
-                        if let (Some(first), Some(second)) = (place_of(first), place_of(second)) {
-                            add(CurveBody::Sphere(first), second);
-                        }
+                        let places = place_of(first).zip(place_of(second));
+                        let Some((first, second)) = places else { continue };
+                        let offset = positions[second] - positions[first];
+                        let shift = shift_beside_sphere(offset, self.period);
+                        add(CurveBody::Sphere(first), second, shift);
                     }
                     Bodies::Surface { sphere, surface } => {
                         let Some(second) = place_of(sphere) else { continue };
                         let form = &system.surfaces[surface as usize].form;
+                        let shift = shift_beside_surface(form, positions[second], self.period);
                         let sides: Vec<DVec3> = held.sides_of(bodies).collect();
                         let is_on_ring = !sides.is_empty();
-                        touched.push(Touched { cluster, sphere: second, form, is_on_ring });
+                        touched.push(Touched { cluster, sphere: second, shift, form, is_on_ring });
                         let of_sides = sides.iter().map(|&side| Feature::side_of(form, side));
-                        let state = [positions[second], velocities[second]];
+                        let state = [positions[second] + shift, velocities[second]];
                         let under = || Feature::under(form, state, self.alone[second].radius);
                         let of_all = if is_on_ring { None } else { Some(under()) };
                         let features = of_sides.chain(of_all).flatten();
-                        features.for_each(|it| add(CurveBody::Feature(it), second));
+                        features.for_each(|it| add(CurveBody::Feature(it), second, shift));
                     }
                 }
             }
@@ -312,12 +320,14 @@ impl JointField<'_> {
     /// Follows the persistent contacts over a step.
     pub fn held_over(&mut self, start: &Start, step: &Step) -> HeldOver {
         if self.contacts.is_empty() {
-            return HeldOver { free: Vec::new(), releases: Vec::new(), change: f64::INFINITY };
+            let (free, releases) = (Vec::new(), Vec::new());
+            return HeldOver { free, releases, change: f64::INFINITY, is_jammed: false };
         }
         let count = self.alone.len();
         let length = step.accelerations[0].length;
         let mut free = vec![[DVec3::ZERO; TERMS]; count];
         let mut bounds = Vec::new();
+        let mut is_jammed = false;
         for (node, &s) in NODES.iter().enumerate() {
             let state = |place: usize| {
                 let (position, velocity) = (start.positions[place], start.velocities[place]);
@@ -330,6 +340,7 @@ impl JointField<'_> {
             self.evaluate_free(start.time + s * length, &positions, &velocities, &mut values);
             free.iter_mut().zip(&values.accelerations).for_each(|(free, &at)| free[node] = at);
             self.add_contacts([&positions, &velocities], &mut values);
+            is_jammed |= self.contacts.iter().any(CurveContacts::are_jammed);
             let states = [&positions[..], &velocities[..]];
             if node == 0 {
                 bounds = self.bounds(&values);
@@ -358,8 +369,8 @@ impl JointField<'_> {
             let first = opens.map_or(&mut change, |cluster| &mut releases[cluster]);
             *first = first.min(time);
         }
-        for &Touched { cluster, sphere, form, is_on_ring } in &self.touched {
-            let (position, velocity) = (start.positions[sphere], start.velocities[sphere]);
+        for &Touched { cluster, sphere, shift, form, is_on_ring } in &self.touched {
+            let (position, velocity) = (start.positions[sphere] + shift, start.velocities[sphere]);
             let acceleration = step.accelerations[sphere];
             let flight = PolynomialFlight { position, velocity, acceleration };
             let time = time_on_curve(form, &flight, is_on_ring);
@@ -367,7 +378,7 @@ impl JointField<'_> {
                 releases[cluster] = releases[cluster].min(time.max(SOONEST * length));
             }
         }
-        HeldOver { free, releases, change }
+        HeldOver { free, releases, change, is_jammed }
     }
 
     /// The bounds of what contacts can do, at the start of a step with these accelerations \[m/s²\].
