@@ -113,3 +113,26 @@ fn a_box_beside_the_plane_is_refused() {
     let error = refusal(&FLUID.replace("sphere", above));
     assert!(error.contains("generators[0].dense-fluid.max: must contain the plane"), "{error}");
 }
+
+#[test]
+fn what_drives_discs_out_of_the_plane_is_refused_by_name() {
+    let disc = "[[spheres]]\nradius = 0.1\nposition = [0.5, 0.2, 0]\n";
+    let collider = |rest: &str| format!("{disc}[[colliders]]\n{rest}\n");
+    for (rest, expected) in [
+        (format!("{disc}[[forces]]\nwind = {{ velocity = [0, 1, 1], coefficient = 1 }}"), "forces[0].wind: must act"),
+        (format!("{disc}[[forces]]\npoint-attractor = {{ gravitational_parameter = 1, position = [0, 0, 1] }}"), "forces[0].point-attractor: must act"),
+        (format!("{disc}[[springs]]\nsphere = 0\nanchor = [0, 0, 1]\nstiffness = 1"), "springs: `anchor` must be"),
+        ("[[emitters]]\nperiod = 1\nposition = [0, 0, 1]\nsphere = { radius = 0.1 }".into(), "emitters[0].position: must be"),
+        ("[[emitters]]\nperiod = 1\nsphere = { radius = 0.1 }\n[[forces]]\ngravity = { acceleration = [0, 0, -9.8] }".into(), "forces[0].gravity: must act"),
+        (collider("shape = { sphere = { radius = 0.5 } }\nposition = [2, 0, 0.1]"), "colliders[0].position: must be"),
+        (collider("shape = 'half-space'\nposition = [0, -3, 0]\nrotation = { axis = [1, 0, 0], degrees = 10 }"), "colliders[0].normal: must be"),
+        (collider("shape = { sphere = { radius = 0.5 } }\nposition = [2, 0, 0]\nvelocity = [0, 0, 1]"), "colliders[0].velocity: must be"),
+        ("[[spheres]]\nradius = 0.1\nvelocity = [0, 0, 1]".into(), "spheres[0].velocity: must be"),
+    ] {
+        let error = refusal(&rest);
+        assert!(error.contains(expected) && error.contains("plane z = 0"), "{rest}: {error}");
+    }
+    let rotated = "shape = { rectangle = { size_x = 4, size_z = 4 } }\nposition = [0, -3, 0]\n\
+                   rotation = { axis = [0, 0, 1], degrees = 30 }";
+    read("", &collider(rotated));
+}
