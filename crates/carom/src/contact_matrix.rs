@@ -13,6 +13,7 @@ pub(crate) struct ContactMatrix {
     values: Vec<f64>,
     /// First column of each row with a value, and the column after the last one.
     ranges: Vec<[usize; 2]>,
+    is_definite: bool,
 }
 
 impl ContactMatrix {
@@ -38,6 +39,7 @@ impl ContactMatrix {
     pub fn factorize(&mut self) -> bool {
         let count = self.count;
         let mut are_independent = true;
+        self.is_definite = true;
         for row in 0..count {
             let diagonal = self.values[row * count + row];
             for known in self.ranges[row][0]..row {
@@ -58,11 +60,18 @@ impl ContactMatrix {
             }
             let pivot = &mut self.values[row * count + row];
             if *pivot <= DEPENDENT * diagonal {
+                self.is_definite &= *pivot >= -DEPENDENT * diagonal;
                 *pivot = 0.0;
                 are_independent = false;
             }
         }
         are_independent
+    }
+
+    /// Whether every force, with those before it as they follow, moves its bodies along itself and not against it. Without
+    /// friction all do.
+    pub fn is_definite(&self) -> bool {
+        self.is_definite
     }
 
     /// Solves for the forces in place.

@@ -7,8 +7,8 @@
 mod common;
 
 use carom::{
-    Collider, DQuat, DVec3, Ends, EnergyAccount, Gravity, Pose, QuadraticDrag, Shape, Sphere,
-    SphereId, Spring, World,
+    Boundary, Collider, DQuat, DVec3, Ends, EnergyAccount, Gravity, Pose, QuadraticDrag, Settings,
+    Shape, Sphere, SphereId, Spring, World,
 };
 use common::{G, account_of_run, assert_close, exact, vec};
 
@@ -204,5 +204,66 @@ fn a_ball_that_a_spring_pulls_back_over_an_edge_comes_onto_the_face() {
                 assert_close(world.total_energy(), energy, 1e-12 * energy.abs());
             }
         }
+    }
+}
+
+/// An empty periodic world of this width along all axes \[m\].
+fn periodic(width: f64) -> World {
+    let boundary = Boundary::Periodic { size: DVec3::splat(width) };
+    World::new(Settings::default().with_boundary(boundary)).unwrap()
+}
+
+/// How far two places are apart by their nearest images \[m\].
+fn apart_in(world: &World, one: DVec3, other: DVec3) -> f64 {
+    world.settings().boundary.nearest_image(one - other).length()
+}
+
+#[test]
+fn a_turning_pair_on_a_spring_flies_through_the_sides_of_a_periodic_box() {
+    for unit in [1e-6, 1.0, 1e6] {
+        let mut world = periodic(2.0 * unit);
+        let (rate, drift) = (3.0, unit * vec(1.1, 0.7, -0.3));
+        let ball = |side: f64| {
+            let velocity = drift + side * rate * 0.1 * unit * DVec3::Y;
+            soft(side * 0.1 * unit * DVec3::X, 0.1 * unit).with_velocity(velocity)
+        };
+        let ids = [1.0, -1.0].map(|side| world.add_sphere(ball(side)).unwrap());
+        // It pulls with 20 N in units of length, and to turn takes 0.9 N.
+        world.add_spring(Spring::between(ids[0], ids[1], 0.0).with_stiffness(100.0)).unwrap();
+        let start = world.total_energy();
+        let (account, left) = account_of_run(&mut world, 192, FRAME);
+        assert_eq!(account.contacts, 0.0);
+        // Rounding of some hundred steps.
+        assert!((left / start).abs() < 1e-13, "unit {unit}: {left:e}");
+        let (angle, center) = (3.0 * rate, 3.0 * drift);
+        let arm = 0.1 * unit * vec(angle.cos(), angle.sin(), 0.0);
+        for (&place, side) in world.spheres().positions().iter().zip([1.0, -1.0]) {
+            let missed = apart_in(&world, place, center + side * arm) / unit;
+            assert!(missed < 1e-12, "unit {unit}: {missed:e}");
+        }
+    }
+}
+
+#[test]
+fn a_ball_on_a_spring_circles_a_fixed_ball_at_the_side_of_a_periodic_box() {
+    for (unit, friction) in [(1e-6, 0.0), (1.0, 0.0), (1.0, 0.4), (1e6, 0.4)] {
+        let mut world = periodic(4.0 * unit);
+        let middle = unit * vec(1.9, -1.9, 0.0);
+        let fixed = Collider::new(Shape::Sphere { radius: 0.5 * unit }, Pose::at(middle));
+        world.add_collider(fixed.with_friction(friction).with_restitution(0.0)).unwrap();
+        let speed = 1.3 * unit;
+        // It rolls.
+        let ball = soft(middle + 0.6 * unit * DVec3::Y, 0.1 * unit).with_friction(friction);
+        let ball = ball.with_velocity(speed * DVec3::X).with_angular_velocity(-13.0 * DVec3::Z);
+        let id = world.add_sphere(ball).unwrap();
+        world.add_spring(Spring::to_point(id, middle, 0.0).with_stiffness(100.0)).unwrap();
+        let start = world.total_energy();
+        let (_, left) = account_of_run(&mut world, 192, FRAME);
+        assert!((left / start).abs() < 1e-13, "unit {unit}: {left:e}");
+        let angle: f64 = 3.0 * speed / (0.6 * unit);
+        let expected = middle + 0.6 * unit * vec(angle.sin(), angle.cos(), 0.0);
+        let missed = apart_in(&world, world.spheres().positions()[0], expected) / unit;
+        // Rounding of a hundred steps and of places up to 2.
+        assert!(missed < 1e-12, "unit {unit}, friction {friction}: {missed:e}");
     }
 }

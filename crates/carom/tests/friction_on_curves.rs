@@ -291,3 +291,70 @@ fn a_chain_of_blocks_is_braked_as_one() {
     assert_close(account.contacts, -0.5 * 12.0 * 1.5 * 1.5, 1e-12);
     assert!(left.abs() < 1e-13 * energy, "{left:e}");
 }
+
+#[test]
+fn touching_rough_balls_on_relaxed_springs_drift_on_together() {
+    let mut world = exact();
+    let part = |number: usize| -0.3 + 0.2 * number as f64;
+    let velocity = vec(0.2244513394091675, -1.3089890882059005, -1.2334153224781965);
+    let places: Vec<DVec3> =
+        (0..27).map(|it| vec(part(it / 9), 0.1 + part(it / 3 % 3), part(it % 3))).collect();
+    let ball = |&place: &DVec3| {
+        let ball = Sphere::new(place, 0.1).with_mass(1.0).with_velocity(velocity);
+        ball.with_restitution(0.3).with_friction(0.2)
+    };
+    let ids: Vec<SphereId> =
+        places.iter().map(|place| world.add_sphere(ball(place)).unwrap()).collect();
+    for (second, &place) in places.iter().enumerate() {
+        for first in (0..second).filter(|&first| places[first].distance(place) < 0.3) {
+            let length = places[first].distance(place);
+            let spring = Spring::between(ids[first], ids[second], length).with_stiffness(1000.0);
+            world.add_spring(spring).unwrap();
+        }
+    }
+    for _ in 0..32 {
+        world.step(FRAME).unwrap();
+    }
+    for (&place, &start) in world.spheres().positions().iter().zip(&places) {
+        // Springs that are too long by rounding, at some ten oscillations.
+        assert!(place.distance(start + 0.5 * velocity) < 1e-12, "{place}");
+    }
+}
+
+/// A ball of 1 m, dropped onto two of 0.1 m that lie 0.35 m from the axis of a bowl of 3 m, where all lengths are in this
+/// unit \[m\].
+fn dropped_onto_two(unit: f64, friction: f64) -> World {
+    let mut world = exact();
+    world.add_force(Gravity::new(vec(0.0, -G * unit, 0.0))).unwrap();
+    let bowl = Shape::Bowl { radius: 3.0 * unit, opening: std::f64::consts::FRAC_PI_2 };
+    let bowl = Collider::new(bowl, Pose::at(vec(0.0, 3.0 * unit, 0.0)));
+    world.add_collider(bowl.with_friction(friction).with_restitution(0.0)).unwrap();
+    let lies = 3.0 - (2.9f64.powi(2) - 0.35f64.powi(2)).sqrt();
+    let bears = lies + (1.1f64.powi(2) - 0.35f64.powi(2)).sqrt();
+    let balls = [(0.35, lies + 1e-9, 0.1), (-0.35, lies + 1e-9, 0.1), (0.0, bears + 0.02, 1.0)];
+    for (x, y, radius) in balls {
+        let ball = Sphere::new(unit * vec(x, y, 0.0), unit * radius).with_density(1000.0);
+        world.add_sphere(ball.with_friction(friction).with_restitution(0.0)).unwrap();
+    }
+    world
+}
+
+#[test]
+fn friction_above_the_tangent_of_half_a_wedge_holds_a_heavy_ball_on_light_ones_in_a_bowl() {
+    // The angle between the normals of a light ball, at the bowl and at the heavy ball.
+    let half = 0.5 * ((0.35f64 / 1.1).asin() - (0.35f64 / 2.9).asin());
+    let height =
+        3.0 - (2.9f64.powi(2) - 0.35f64.powi(2)).sqrt() + (1.1f64.powi(2) - 0.35f64.powi(2)).sqrt();
+    for unit in [1e-6, 1.0, 1e6] {
+        for (friction, holds) in [(0.5 * half.tan(), false), (4.0 * half.tan(), true)] {
+            let mut world = dropped_onto_two(unit, friction);
+            let energy = world.total_energy();
+            let (_, left) = account_of_run(&mut world, 64, FRAME);
+            let sunk = height - world.spheres().positions()[2].y / unit;
+            // The impact squeezes them out by a part of the radius of the light balls.
+            assert_eq!(sunk < 0.01, holds, "unit {unit}, friction {friction}: {sunk}");
+            // Rounding of some hundred steps.
+            assert!((left / energy).abs() < 1e-11, "unit {unit}: {left:e} of {energy:e}");
+        }
+    }
+}

@@ -61,7 +61,7 @@ pub(crate) struct Timeline {
     pub(super) curves_until: f64,
     /// When the next spheres are emitted, on the world's clock \[s\].
     pub(super) next_emission: f64,
-    /// A sphere, by index, in contact with others on curves, after the work of its tick was spent.
+    /// A sphere, by index, in contact on curves, after the work of its tick was spent or where friction jams it.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) spent: Option<u32>,
     /// Slots of spheres whose flights restarted because those of companions did, and which are not predicted yet.
@@ -270,9 +270,10 @@ impl Timeline {
             if self.spring_rate > 0.0 { self.force_tick } else { self.parameters.force_tick };
         let limits = StepLimits { until, tick, is_rough };
         let step = self.flights.step_from_start(system, (&component, &clusters), limits);
-        let JointStep { curves, turning, evaluations, releases, is_accurate } = step;
+        let JointStep { curves, turning, evaluations, releases, .. } = step;
         let held = slots.iter().find(|&&slot| self.flights.cluster_on_curves(slot).is_some());
-        let held = held.filter(|_| is_rough && (only_contacts || !is_accurate));
+        let is_spent = step.is_jammed || is_rough && (only_contacts || !step.is_accurate);
+        let held = held.filter(|_| is_spent);
         self.spent = held.map(|&slot| self.flights.index_of[slot as usize]).or(self.spent);
         curves.into_iter().for_each(|(slot, curve)| self.flights.set_curve(slot, curve));
         for (slot, turning) in turning {

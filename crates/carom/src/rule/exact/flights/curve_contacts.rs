@@ -17,6 +17,8 @@ pub(crate) const MOST_CONTACTS: usize = 64;
 pub(crate) struct CurveContact {
     pub first: CurveBody,
     pub second: usize,
+    /// From the centre of body 2 to its image beside body 1 \[m\].
+    pub shift: DVec3,
     /// Coulomb's coefficient.
     pub friction: f64,
 }
@@ -83,7 +85,10 @@ impl CurveContact {
 
     /// Unit normal from body 1 to body 2, and how it turns, with the spheres at these positions \[m\].
     fn normal_at(&self, positions: &[DVec3]) -> (DVec3, NormalCurvature) {
-        let center = positions[self.second];
+        let center = match self.shift {
+            DVec3::ZERO => positions[self.second],
+            shift => positions[self.second] + shift,
+        };
         match &self.first {
             CurveBody::Sphere(first) => Feature::Point(positions[*first]).normal_at(center),
             CurveBody::Feature(feature) => feature.normal_at(center),
@@ -201,6 +206,14 @@ impl CurveContacts {
         self.states.fill(FrictionState::None);
         self.find_directions(None, spheres);
         self.fill_matrix(spheres)
+    }
+
+    /// Whether the forces found last hold the contacts. Where friction jams bodies, forces that press would draw them
+    /// together: no finite ones hold them, and the slip ends at once.
+    ///
+    /// Source: Painlevé, C. R. Acad. Sci. 121, 112 (1895); Génot and Brogliato, Eur. J. Mech. A 18, 653 (1999).
+    pub fn are_jammed(&self) -> bool {
+        !self.matrix.is_definite()
     }
 
     /// Finds the forces and adds their accelerations \[m/s²\] to those `at` this motion: first those of all centres, then

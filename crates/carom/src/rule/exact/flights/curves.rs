@@ -53,6 +53,8 @@ pub(crate) struct JointStep {
     pub releases: Vec<f64>,
     /// Whether its error is small.
     pub is_accurate: bool,
+    /// Whether friction jams spheres, so that no forces hold their contacts.
+    pub is_jammed: bool,
 }
 
 impl Flights {
@@ -296,7 +298,7 @@ impl Flights {
         let curves =
             slots.iter().copied().zip(steps.map(|step| Curve(Some(Box::new(step))))).collect();
         let (evaluations, is_accurate) = (field.evaluations, step.is_accurate);
-        JointStep { curves, turning, evaluations, releases, is_accurate }
+        JointStep { curves, turning, evaluations, releases, is_accurate, is_jammed: held.is_jammed }
     }
 
     /// The parts of the states \[m\], \[m/s\] that the last steps of spheres left to the next ones, where they led to

@@ -192,8 +192,10 @@ impl CurveContacts {
     ) -> Vec<usize> {
         let breaks = |&number: &usize| match self.states[number] {
             FrictionState::Rolls => {
+                let friction = self.forces[number].1.norm();
                 let largest = (1.0 + 0.5 * EXCESS) * self.largest_friction(number);
-                self.forces[number].1.norm() > largest + 0.5 * self.slack[number]
+                // Without friction a slip would have no direction, though a pull allows less than none.
+                friction > 0.0 && friction > largest + 0.5 * self.slack[number]
             }
             FrictionState::Slides { direction, .. } if begins[number] => {
                 let sliding = self.sliding(number, moving, spheres, &at.accelerations);

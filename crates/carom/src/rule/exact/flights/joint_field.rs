@@ -8,6 +8,7 @@ use super::curve_contacts::{ContactSphere, CurveBody, CurveContact, CurveContact
 use super::free_field::FreeField;
 use super::friction_choice::OPENS;
 use super::friction_state::FrictionState;
+use super::image_beside::{shift_beside_sphere, shift_beside_surface};
 use super::species::Species;
 use super::state::Flights;
 use super::tie::{Tie, TieEnd, TiePath};
@@ -34,6 +35,8 @@ pub(super) struct HeldOver {
     pub releases: Vec<f64>,
     /// Time from the start \[s\] at which friction changes how it acts in a contact; infinite if it does not.
     pub change: f64,
+    /// Whether friction jams spheres, so that no forces hold their contacts.
+    pub is_jammed: bool,
 }
 
 /// A bound of what a contact can do.
@@ -63,6 +66,8 @@ struct Touched<'a> {
     cluster: usize,
     /// Place of the sphere.
     sphere: usize,
+    /// From its centre to the image beside the surface \[m\].
+    shift: DVec3,
     form: &'a Form,
 }
 
@@ -145,18 +150,22 @@ impl<'a> JointField<'a> {
         for (cluster, &number) in clusters.iter().enumerate() {
             let contact = |bodies: &Bodies| match *bodies {
                 Bodies::Pair(first, second) => {
-                    let first = CurveBody::Sphere(place_of(first)?);
-                    let second = place_of(second)?;
-                    Some(CurveContact { first, second, friction: friction_of(*bodies) })
+                    let first = place_of(first)?;
+                    let (second, friction) = (place_of(second)?, friction_of(*bodies));
+                    let offset = positions[second] - positions[first];
+                    let shift = shift_beside_sphere(offset, self.period);
+                    let first = CurveBody::Sphere(first);
+                    Some(CurveContact { first, second, shift, friction })
                 }
                 Bodies::Surface { sphere, surface } => {
                     let (second, form) =
                         (place_of(sphere)?, &system.surfaces[surface as usize].form);
-                    let state = [positions[second], velocities[second]];
+                    let shift = shift_beside_surface(form, positions[second], self.period);
+                    let state = [positions[second] + shift, velocities[second]];
                     let feature = Feature::under(form, state, self.alone[second].radius)?;
-                    touched.push(Touched { cluster, sphere: second, form });
+                    touched.push(Touched { cluster, sphere: second, shift, form });
                     let (first, friction) = (CurveBody::Feature(feature), friction_of(*bodies));
-                    Some(CurveContact { first, second, friction })
+                    Some(CurveContact { first, second, shift, friction })
                 }
             };
             let contacts = flights.clusters.get(number).contacts.iter().filter_map(contact);
@@ -300,12 +309,14 @@ impl JointField<'_> {
     /// Follows the persistent contacts over a step.
     pub fn held_over(&mut self, start: &Start, step: &Step) -> HeldOver {
         if self.contacts.is_empty() {
-            return HeldOver { free: Vec::new(), releases: Vec::new(), change: f64::INFINITY };
+            let (free, releases) = (Vec::new(), Vec::new());
+            return HeldOver { free, releases, change: f64::INFINITY, is_jammed: false };
         }
         let count = self.alone.len();
         let length = step.accelerations[0].length;
         let mut free = vec![[DVec3::ZERO; TERMS]; count];
         let mut bounds = Vec::new();
+        let mut is_jammed = false;
         for (node, &s) in NODES.iter().enumerate() {
             let state = |place: usize| {
                 let (position, velocity) = (start.positions[place], start.velocities[place]);
@@ -318,6 +329,7 @@ impl JointField<'_> {
             self.evaluate_free(start.time + s * length, &positions, &velocities, &mut values);
             free.iter_mut().zip(&values.accelerations).for_each(|(free, &at)| free[node] = at);
             self.add_contacts([&positions, &velocities], &mut values);
+            is_jammed |= self.contacts.iter().any(CurveContacts::are_jammed);
             let states = [&positions[..], &velocities[..]];
             if node == 0 {
                 bounds = self.bounds(&values);
@@ -346,15 +358,15 @@ impl JointField<'_> {
             let first = opens.map_or(&mut change, |cluster| &mut releases[cluster]);
             *first = first.min(time);
         }
-        for &Touched { cluster, sphere, form } in &self.touched {
-            let (position, velocity) = (start.positions[sphere], start.velocities[sphere]);
+        for &Touched { cluster, sphere, shift, form } in &self.touched {
+            let (position, velocity) = (start.positions[sphere] + shift, start.velocities[sphere]);
             let acceleration = step.accelerations[sphere];
             let time = time_on_curve(form, &PolynomialFlight { position, velocity, acceleration });
             if time < length {
                 releases[cluster] = releases[cluster].min(time.max(SOONEST * length));
             }
         }
-        HeldOver { free, releases, change }
+        HeldOver { free, releases, change, is_jammed }
     }
 
     /// The bounds of what contacts can do, at the start of a step with these accelerations \[m/s²\].

@@ -13,6 +13,7 @@ mod free_field;
 mod friction_choice;
 mod friction_state;
 mod growth;
+mod image_beside;
 mod joint_field;
 mod lanes;
 mod radii;

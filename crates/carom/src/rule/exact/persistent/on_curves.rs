@@ -81,7 +81,7 @@ pub(super) fn pressing_with_friction(
 }
 
 /// The persistent touches without those that pull at once where a step begins with them, and the accelerations of the
-/// members \[m/s²\]; `None` where the spheres do not fly on curves with them.
+/// members \[m/s²\]; `None` where the spheres do not fly on curves with them, or friction jams them.
 ///
 /// Friction may allow several solutions, of which a step takes one and the search for contacts that press another.
 fn without_pulling(
@@ -95,6 +95,9 @@ fn without_pulling(
         let mut values = motion.free();
         contacts.choose_states(motion.moving(), spheres, &values, 0.0);
         contacts.add(motion.moving(), spheres, &mut values);
+        if contacts.are_jammed() {
+            return None;
+        }
         let Some(number) = contacts.hardest_pull(spheres, &values.sizes) else {
             return Some((touches, accelerations));
         };
@@ -171,7 +174,9 @@ fn are_same(one: &Touch, other: &Touch) -> bool {
 
 /// The contacts in the form of curves; `None` if some sphere does not fly on one with them.
 fn contacts(context: &StepContext, members: &[Member], touches: &[Touch]) -> Option<CurveContacts> {
-    if touches.len() > MOST_CONTACTS || context.period != DVec3::INFINITY {
+    // In a sheared box images slide past each other.
+    let is_sheared = context.system.settings.shear_rate != 0.0;
+    if touches.len() > MOST_CONTACTS || is_sheared {
         return None;
     }
     let contacts = touches.iter().map(|touch| contact(context, members, touch)).collect();
@@ -223,12 +228,14 @@ fn contact(context: &StepContext, members: &[Member], touch: &Touch) -> Option<C
         Bodies::Surface { surface, .. } => {
             let form = &context.system.surfaces[surface as usize].form;
             let Member { position, velocity, species, .. } = members[second];
-            CurveBody::Feature(Feature::under(form, [position, velocity], species.radius)?)
+            let state = [position + touch.shift, velocity];
+            CurveBody::Feature(Feature::under(form, state, species.radius)?)
         }
     };
     Some(CurveContact {
         first,
         second,
+        shift: touch.shift,
         friction: friction_of(touch.bodies, context.system).sliding,
     })
 }
