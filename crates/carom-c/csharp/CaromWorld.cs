@@ -200,6 +200,23 @@ namespace Carom
         public static CaromQueryFilter Default { get { return Native.carom_query_filter(); } }
     }
 
+    /// <summary>A pose that a collider reaches at a time [s]: displacement [m] and rotation from the pose at rest, along
+    /// and about the axes of the world.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct CaromKeyframe
+    {
+        public double Time;
+        public Double3 Position;
+        public Double4 Rotation;
+
+        public CaromKeyframe(double time, Double3 position, Double4 rotation)
+        {
+            Time = time;
+            Position = position;
+            Rotation = rotation;
+        }
+    }
+
     /// <summary>A ray from a point along a way to its end [m].</summary>
     [StructLayout(LayoutKind.Sequential)]
     public struct CaromRay
@@ -445,6 +462,15 @@ namespace Carom
         public void SetSurfaceVelocity(ulong collider, Double3 velocity)
         {
             Check(Native.carom_world_set_surface_velocity(Id, collider, ref velocity));
+        }
+
+        /// <summary>Moves a collider through two or more poses, ascending by time, and turns it about a pivot [m] from
+        /// its position at rest. It rests before and after, or the motion repeats. Without keyframes it stops where it
+        /// is without a motion.</summary>
+        public void SetKeyframes(ulong collider, CaromKeyframe[] keyframes, Double3 pivot, bool repeats)
+        {
+            var count = (UIntPtr)keyframes.Length;
+            Check(Native.carom_world_set_keyframes(Id, collider, keyframes, count, ref pivot, repeats ? 1u : 0u));
         }
 
         /// <summary>Removes a collider.</summary>
@@ -1162,6 +1188,10 @@ namespace Carom
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern CaromStatus carom_world_set_surface_velocity(
             WorldId world, ulong collider, ref Double3 velocity);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_set_keyframes(
+            WorldId world, ulong collider, [In] CaromKeyframe[] keyframes, UIntPtr count, ref Double3 pivot,
+            uint repeats);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern CaromStatus carom_world_remove_collider(WorldId world, ulong id);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]

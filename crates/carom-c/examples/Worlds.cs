@@ -162,6 +162,30 @@ static class Worlds
         }
     }
 
+    static void Motions()
+    {
+        using (var world = new CaromWorld())
+        {
+            var lift = CaromCollider.Default;
+            lift.Shape = CaromShape.Box;
+            lift.Size = new Double3(1.0, 0.5, 1.0);
+            var id = world.AddCollider(lift);
+            var level = new Double4(0.0, 0.0, 0.0, 1.0);
+            var keyframes = new[]
+            {
+                new CaromKeyframe(0.0, new Double3(), level),
+                new CaromKeyframe(2.0, new Double3(0.0, 1.0, 0.0), level),
+            };
+            world.SetKeyframes(id, keyframes, new Double3(), false);
+            for (var frame = 0; frame < 3; frame++) world.Step(1.0);
+            Expect(world.Collider(id).Position.Y == 1.0, "a lift arrives");
+            Expect(Refused(() => world.SetKeyframes(id, keyframes, new Double3(), true)).Status == CaromStatus.Invalid,
+                "it cannot repeat");
+            world.SetKeyframes(id, new CaromKeyframe[0], new Double3(), false);
+            Expect(world.Collider(id).Position.Y == 0.0, "it is back without its motion");
+        }
+    }
+
     static void Scenes(string[] hashes)
     {
         foreach (var pair in hashes)
@@ -216,6 +240,7 @@ static class Worlds
             Functions();
             Springs();
             Queries();
+        Motions();
             Scenes(arguments);
 #if UNITY_5_3_OR_NEWER
             Unity();

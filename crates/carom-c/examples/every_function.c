@@ -266,6 +266,14 @@ static void colliders_and_reports(void) {
     FAILS(CAROM_STATUS_INVALID, carom_world_set_surface_velocity(world, id, nowhere));
     FAILS(CAROM_STATUS_NULL, carom_world_set_surface_velocity(world, id, NULL));
     FAILS(CAROM_STATUS_UNKNOWN, carom_world_set_surface_velocity(world, 999, along));
+    const double pivot[3] = {0.0, 0.0, 0.0};
+    CaromKeyframe keyframes[2] = {{0.0, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}},
+                                  {1.0, {0.0, 1.0, 0.0}, {0.0, 0.0, 0.0, 1.0}}};
+    OK(carom_world_set_keyframes(world, id, keyframes, 2, pivot, 0));
+    FAILS(CAROM_STATUS_INVALID, carom_world_set_keyframes(world, id, keyframes, 2, pivot, 1));
+    FAILS(CAROM_STATUS_INVALID, carom_world_set_keyframes(world, id, keyframes, 1, pivot, 0));
+    FAILS(CAROM_STATUS_NULL, carom_world_set_keyframes(world, id, NULL, 2, pivot, 0));
+    OK(carom_world_set_keyframes(world, id, NULL, 0, pivot, 0));
     floor.shape = 17;
     FAILS(CAROM_STATUS_ARGUMENT, carom_world_set_collider(world, id, &floor));
     floor.shape = CAROM_SHAPE_CONTAINER;

@@ -317,6 +317,17 @@ typedef struct {
     double tangential_restitution;
 } CaromCollider;
 
+/// A pose that a collider reaches at a time.
+typedef struct {
+    /// Time on the world's clock [s].
+    double time;
+    /// Displacement from the pose at rest [m], along the axes of the world.
+    double position[3];
+    /// Rotation from the pose at rest, about the axes of the world: a quaternion x, y, z, w of any
+    /// length but zero.
+    double rotation[4];
+} CaromKeyframe;
+
 /// The state of a sphere that a force may depend on.
 typedef struct {
     /// Centre [m].
@@ -814,6 +825,13 @@ CaromStatus carom_world_set_surface_velocity(CaromWorld world, uint64_t collider
 
 /// Removes a collider.
 CaromStatus carom_world_remove_collider(CaromWorld world, uint64_t id);
+
+/// Moves a collider through two or more poses, ascending by time and without gaps in memory;
+/// velocities are continuous, and it rests before and after. It turns about `pivot`, three numbers
+/// [m] from the position at rest, along the axes of the world. If `repeats` is 1, the motion repeats
+/// before and after; the last pose has to be the first. The pose at rest is the one that the
+/// collider had without a motion. A `count` of 0 removes any motion, and the collider is at rest.
+CaromStatus carom_world_set_keyframes(CaromWorld world, uint64_t collider, const CaromKeyframe *keyframes, size_t count, const double *pivot, uint32_t repeats);
 
 /// Adds a force that is a function of the program. Writes its id to `id`, which may be null.
 CaromStatus carom_world_add_force(CaromWorld world, const CaromForce *force, uint64_t *id);

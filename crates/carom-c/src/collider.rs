@@ -193,7 +193,7 @@ impl CaromCollider {
     }
 }
 
-/// Returns the collider with the motion that it has in the world, which only text can describe.
+/// Returns the collider with the motion that it has in the world, which its structure cannot hold.
 fn with_motion(collider: Collider, motion: Motion) -> Collider {
     if motion.is_empty() { collider } else { collider.with_motion(motion) }
 }
@@ -218,6 +218,7 @@ fn describe(collider: &Collider, described: &mut scene::Collider) {
     let pose = collider.motion.rest().unwrap_or(collider.pose);
     described.position = pose.position.to_array();
     described.rotation = pose.rotation.to_array();
+    described.motion = collider.motion.parts().iter().filter_map(scene::Motion::of).collect();
     if collider.motion.is_empty() {
         described.velocity = collider.velocity.to_array();
         described.angular_velocity = collider.angular_velocity.to_array();
@@ -329,7 +330,11 @@ pub unsafe extern "C" fn carom_world_set_surface_velocity(
 }
 
 /// Replaces a collider, and its description.
-fn replace(inner: &mut Inner, own: ColliderId, collider: Collider) -> Result<(), Failure> {
+pub(crate) fn replace(
+    inner: &mut Inner,
+    own: ColliderId,
+    collider: Collider,
+) -> Result<(), Failure> {
     inner.world.set_collider(own, collider)?;
     let collider = inner.world.collider(own)?;
     let place = inner.world.colliders().position(|(other, _)| other == own);

@@ -20,6 +20,7 @@ mod collider;
 mod described;
 mod force;
 mod handle;
+mod keyframes;
 mod listing;
 mod measures;
 mod motion;
@@ -39,6 +40,7 @@ mod world;
 
 pub use collider::*;
 pub use force::*;
+pub use keyframes::*;
 pub use listing::*;
 pub use measures::*;
 pub use motion::*;

@@ -259,6 +259,52 @@ fn read(snapshot: CaromSnapshot) -> Checkpoint {
 }
 
 #[test]
+fn a_collider_moves_through_its_keyframes_and_a_snapshot_describes_them() {
+    let world = empty();
+    let (mut id, mut lift) = (0, carom_collider());
+    (lift.shape, lift.position) = (CaromShape::Box as i32, [0.0, 2.0, 0.0]);
+    // SAFETY: both are there.
+    ok(unsafe { carom_world_add_collider(world, &raw const lift, &raw mut id) });
+    let (level, half_turn) = ([0.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 0.0]);
+    let keyframes = [(0.0, [0.0; 3], level), (2.0, [0.0, 1.0, 0.0], level)]
+        .map(|(time, position, rotation)| CaromKeyframe { time, position, rotation });
+    let set = |keyframes: &[CaromKeyframe], repeats| {
+        let pivot = [0.0; 3];
+        // SAFETY: the keyframes and three numbers are there.
+        unsafe {
+            let (first, count) = (keyframes.as_ptr(), keyframes.len());
+            carom_world_set_keyframes(world, id, first, count, pivot.as_ptr(), repeats)
+        }
+    };
+    ok(set(&keyframes, 0));
+    let height = |world| {
+        let mut lift = carom_collider();
+        // SAFETY: a place for a collider.
+        ok(unsafe { carom_world_collider(world, id, &raw mut lift) });
+        lift.position[1]
+    };
+    let heights = [0, 1, 2].map(|_| {
+        ok(carom_world_step(world, 1.0));
+        height(world)
+    });
+    // Half of the way at half of the time, as the curve is symmetric; then it rests.
+    assert_eq!(heights, [2.5, 3.0, 3.0]);
+    let mut snapshot = CaromSnapshot::default();
+    // SAFETY: a place for a snapshot.
+    ok(unsafe { carom_world_snapshot(world, &raw mut snapshot) });
+    let checkpoint = read(snapshot);
+    assert_eq!(checkpoint.scene.colliders[0].motion.len(), 1);
+    // The last pose of a motion that repeats is the first.
+    assert_eq!(set(&keyframes, 1), CaromStatus::Invalid);
+    let turned = CaromKeyframe { rotation: half_turn, ..keyframes[1] };
+    assert_eq!(set(&[keyframes[0], turned], 2), CaromStatus::Invalid);
+    assert_eq!(height(world), 3.0);
+    ok(set(&[], 0));
+    assert_eq!(height(world), 2.0);
+    ok(carom_world_free(world));
+}
+
+#[test]
 fn no_rows_are_no_pointer() {
     let world = empty();
     // SAFETY: nothing is read.

@@ -9,9 +9,25 @@ use std::path::Path;
 use cbindgen::{Builder, Config};
 
 /// The sources in the order of their declarations in the header.
-const SOURCES: [&str; 17] = [
-    "version", "status", "world", "scene", "step", "sphere", "quantity", "motion", "collider",
-    "force", "spring", "listing", "report", "measures", "query", "path", "snapshot",
+const SOURCES: [&str; 18] = [
+    "version",
+    "status",
+    "world",
+    "scene",
+    "step",
+    "sphere",
+    "quantity",
+    "motion",
+    "collider",
+    "keyframes",
+    "force",
+    "spring",
+    "listing",
+    "report",
+    "measures",
+    "query",
+    "path",
+    "snapshot",
 ];
 /// Sources without declarations in the header.
 const OTHERS: [&str; 4] = ["described", "handle", "lib", "pointer"];

@@ -52,7 +52,7 @@ fn structures_of_version_3_lie_as_they_did() {
         size_of::<CaromPathLeg>(),
     ];
     assert_eq!(of_queries, [32, 48, 56, 72, 72, 88, 8, 104]);
-    assert_eq!(size_of::<CaromSpring>(), 72);
+    assert_eq!([size_of::<CaromSpring>(), size_of::<CaromKeyframe>()], [72, 64]);
     assert_eq!(size_of::<CaromEnergyAccount>(), 80);
     let spring = [offset_of!(CaromSpring, to_point), offset_of!(CaromSpring, rest_length)];
     assert_eq!(spring, [16, 48]);

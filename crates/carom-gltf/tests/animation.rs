@@ -151,6 +151,24 @@ fn colliders_move_as_they_do_in_the_world() {
 }
 
 #[test]
+fn a_collider_by_keyframes_has_keys_on_its_curve() {
+    let text = "name = \"lift\"\nsimulation = { frame_time = 0.0625 }\n\
+                [[colliders]]\nshape = { box = { size = [1, 1, 1] } }\n\
+                motion = { keyframes = { times = [0, 1], positions = [[0, 0, 0], [0, 2, 0]] } }\n";
+    let scene = Scene::from_toml(text, "lift").unwrap();
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("lift.glb");
+    record(&scene, 16, &path, |_| {});
+    let (times, places) = Recorded::read(&path).keys("collider 0", "translation").unwrap();
+    assert_eq!(times.len(), 17);
+    for (time, place) in times.iter().zip(&places) {
+        // Cubic, at rest at both ends; the keys have 32 bits.
+        let height = 2.0 * time * time * (3.0 - 2.0 * time);
+        assert!((place[1] - height).abs() <= 4.0 * f32::EPSILON, "{time}: {place:?}");
+    }
+}
+
+#[test]
 fn the_start_of_a_recording_comes_back_to_the_bit() {
     let folder = TempDir::new().unwrap();
     for name in ["cradle", "tutorial4", "billiards", "gas"] {

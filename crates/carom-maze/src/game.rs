@@ -2,7 +2,7 @@
 
 use carom::{
     BodyPair, ColliderId, Contact, DQuat, DVec3, Discrete, Error, Exact, Friction, Rule, Settings,
-    Snapshot, SphereId, World, Zones,
+    Snapshot, SphereId, World, Zones, rotation_vector,
 };
 use carom_scene::scene::Scene;
 
@@ -11,7 +11,7 @@ use crate::maze::{Maze, Role};
 use crate::options::Options;
 use crate::part::Part;
 use crate::progress::Progress;
-use crate::tilt::{Steering, Tilt, rotation_vector};
+use crate::tilt::{Steering, Tilt};
 
 /// Largest number of impacts of the ball in a frame. A rolling ball needs about ten. A frame that
 /// needs more is taken by the rule `discrete`, after some milliseconds.

@@ -151,15 +151,3 @@ fn approached(value: f64, target: f64, most: f64) -> f64 {
         _ => value + way.clamp(-most, most),
     }
 }
-
-/// Returns the rotation vector of a rotation \[rad\].
-pub(crate) fn rotation_vector(rotation: DQuat) -> DVec3 {
-    let imaginary = DVec3::new(rotation.x, rotation.y, rotation.z);
-    let sine = imaginary.length();
-    if sine == 0.0 {
-        return DVec3::ZERO;
-    }
-    // A quaternion and its negative are the same rotation; this one turns by less than half a turn.
-    let half = libm::atan2(sine, rotation.w.abs());
-    imaginary * (2.0 * half / sine).copysign(rotation.w)
-}

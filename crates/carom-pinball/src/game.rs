@@ -274,6 +274,11 @@ impl Game {
         self.score
     }
 
+    /// Sets the most points of a game that is over, to continue from an earlier session.
+    pub fn set_best(&mut self, best: Option<u64>) {
+        self.best = best;
+    }
+
     /// Returns the most points of a game that is over.
     pub fn best(&self) -> Option<u64> {
         self.best

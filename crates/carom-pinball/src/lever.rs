@@ -1,6 +1,6 @@
 //! Levers: colliders that a key moves from rest to a pressed pose and back, flippers and plungers.
 
-use carom::{Collider, ColliderId, DQuat, DVec3, Motion, MotionPart, Pose};
+use carom::{Collider, ColliderId, DQuat, DVec3, Motion, MotionPart, Pose, rotation_vector};
 use carom_scene::scene;
 
 use crate::role::Role;
@@ -32,8 +32,8 @@ impl Stroke {
             let given = rotations.get(i).map(|it| DQuat::from_array(*it));
             given.filter(|it| it.length_squared() > 0.0).map_or(DQuat::IDENTITY, DQuat::normalize)
         };
-        let begins_at_rest = place(0) == DVec3::ZERO && turn_of(rotation(0)) == DVec3::ZERO;
-        let (turn, shift) = (turn_of(rotation(1)), place(1));
+        let begins_at_rest = place(0) == DVec3::ZERO && rotation_vector(rotation(0)) == DVec3::ZERO;
+        let (turn, shift) = (rotation_vector(rotation(1)), place(1));
         let moves = turn != DVec3::ZERO || shift != DVec3::ZERO;
         (begins_at_rest && moves && rest < pressed && pressed < back).then(|| Self {
             turn,
@@ -111,15 +111,4 @@ impl Lever {
         }
         self.rest.clone().with_motion(self.stroke.motion(1.0, 0.0, 0.0)).pose_at(self.at)
     }
-}
-
-/// Returns the rotation vector of a rotation \[rad\], by the shorter way.
-fn turn_of(rotation: DQuat) -> DVec3 {
-    let imaginary = DVec3::new(rotation.x, rotation.y, rotation.z);
-    let sine = imaginary.length();
-    if sine == 0.0 {
-        return DVec3::ZERO;
-    }
-    let half = libm::atan2(sine, rotation.w.abs());
-    imaginary * (2.0 * half / sine).copysign(rotation.w)
 }

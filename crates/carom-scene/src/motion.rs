@@ -74,7 +74,7 @@ impl Motion {
     }
 
     /// Converts a part of a motion of `carom` to the fields of a scene file; `None` for one that they cannot say.
-    fn of(part: &MotionPart) -> Option<Self> {
+    pub fn of(part: &MotionPart) -> Option<Self> {
         Some(match *part {
             MotionPart::Steady { velocity } => Self::Steady { velocity: velocity.to_array() },
             MotionPart::Oscillate { axis, amplitude, frequency, phase } => Self::Oscillate {

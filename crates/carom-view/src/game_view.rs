@@ -1,10 +1,16 @@
-//! The picture of a game: its camera, what is drawn, and a message over it.
+//! What all games have on the screen: a picture, a pace, a link and a last screen.
 
 use carom::DVec3;
-use carom_render::{Bounds, Drawing, GpuError};
-use egui::{Align2, Area, Frame, Id, Image, Pos2, Rect, Response, RichText, Ui, Vec2};
+use carom_render::{Bounds, Drawing, GpuError, Roll};
+use carom_scene::scene::Scene;
+use carom_session::{Link, Pace};
+use egui::{
+    Align2, Area, Frame, Id, Image, Key, Modifiers, Pos2, Rect, Response, RichText, Ui, Vec2,
+};
 
+use crate::action::Action;
 use crate::orbit::{Orbit, Preset, zoom_asked};
+use crate::saved::SavedGame;
 use crate::snapshot::Snapshot;
 use crate::studio::{Canvas, Studio};
 
@@ -20,8 +26,149 @@ pub enum Wish {
     Next,
 }
 
-/// The picture of a game.
+/// A game on the screen.
+pub trait GameScreen {
+    /// Returns picture, pace and link of the game.
+    fn view(&self) -> &GameView;
+
+    /// Returns picture, pace and link of the game, to change them.
+    fn view_mut(&mut self) -> &mut GameView;
+
+    /// Returns the title for display.
+    fn title(&self) -> &str;
+
+    /// Returns the scene of the game at its start.
+    fn scene(&self) -> &Scene;
+
+    /// Returns the time played \[s\].
+    fn elapsed(&self) -> f64;
+
+    /// Returns the last screen, once the game is over.
+    fn last_screen(&self) -> Option<LastScreen>;
+
+    /// Returns the best result of all games: points, or a time \[s\].
+    fn best(&self) -> Option<f64>;
+
+    /// Returns what is kept of the game between starts.
+    fn saved(&self) -> Option<SavedGame>;
+
+    /// Continues an earlier game.
+    fn resume(&mut self, game: &SavedGame);
+
+    /// Starts again, and keeps the best result.
+    fn play_again(&mut self);
+
+    /// Draws the present state into the view.
+    fn draw(&mut self);
+
+    /// Shows the game. Returns a request of the player.
+    fn picture(&mut self, ui: &mut Ui, studio: &mut Studio, dark: bool) -> Option<Wish>;
+
+    /// Returns a link to the game with the best result as the one to beat.
+    fn challenge(&self) -> Link {
+        let link = self.view().link.clone();
+        let challenge = self.best().map(|best| link.clone().with_goal(best));
+        challenge.and_then(Result::ok).unwrap_or(link)
+    }
+
+    /// Performs the action of a key or button.
+    fn act(&mut self, action: Action) {
+        let view = self.view_mut();
+        match action {
+            Action::PlayOrPause => view.pace.set_playing(!view.pace.is_playing()),
+            Action::Restart => self.play_again(),
+            Action::SceneCamera => view.look_from(Preset::Scene),
+            Action::FrontCamera => view.look_from(Preset::Front),
+            Action::TopCamera => view.look_from(Preset::Top),
+            _ => {}
+        }
+    }
+
+    /// Shows the last screen once the game is over, on which Enter plays again. Returns a request of the player.
+    fn show_last_screen(&mut self, ui: &Ui) -> Option<Wish> {
+        let mut choice = self.last_screen()?.show(ui);
+        if choice.is_none() && ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Enter))
+        {
+            choice = Some(Choice::Again);
+        }
+        match choice? {
+            Choice::Leave(wish) => Some(wish),
+            Choice::Again => {
+                self.play_again();
+                None
+            }
+        }
+    }
+
+    /// Starts to draw the present picture in this size in pixels.
+    ///
+    /// # Errors
+    /// [`GpuError`]
+    fn snapshot(&mut self, studio: &mut Studio, size: [u32; 2]) -> Result<Snapshot, GpuError> {
+        self.draw();
+        self.view().snapshot(studio, size)
+    }
+}
+
+/// What is shown once a game is over.
+pub struct LastScreen {
+    pub heading: &'static str,
+    /// The result, and what else is to be said.
+    pub lines: Vec<String>,
+    /// Text of the button to another game, if there is one.
+    pub next: Option<&'static str>,
+}
+
+/// What the player chose on the last screen.
+#[derive(Debug, Clone, Copy)]
+enum Choice {
+    Again,
+    Leave(Wish),
+}
+
+impl LastScreen {
+    /// Shows the last screen. Returns what the player chose.
+    fn show(&self, ui: &Ui) -> Option<Choice> {
+        let mut choice = None;
+        let card = |ui: &mut Ui| {
+            ui.label(RichText::new(self.heading).size(44.0).strong());
+            for (i, line) in self.lines.iter().enumerate() {
+                let text = RichText::new(line);
+                ui.label(if i == 0 { text.size(18.0) } else { text });
+            }
+            ui.add_space(12.0);
+            if ui.button(RichText::new("Play again").size(18.0)).clicked() {
+                choice = Some(Choice::Again);
+            }
+            if let Some(next) = self.next
+                && ui.button(RichText::new(next).size(18.0)).clicked()
+            {
+                choice = Some(Choice::Leave(Wish::Next));
+            }
+            if ui.button("Watch it as a scene").clicked() {
+                choice = Some(Choice::Leave(Wish::Watch));
+            }
+        };
+        let area = Area::new(Id::unique("last screen")).anchor(Align2::CENTER_CENTER, [0.0, 0.0]);
+        area.show(ui.ctx(), |ui| {
+            let frame = Frame::window(ui.style()).inner_margin(28.0);
+            frame.show(ui, |ui| ui.vertical_centered(card));
+        });
+        choice
+    }
+}
+
+/// Picture, pace and link of a game.
 pub struct GameView {
+    /// A link to the game.
+    pub link: Link,
+    pub pace: Pace,
+    /// Time played, including the last screen \[s\]; films follow it.
+    pub clock: f64,
+    /// Turn of the ball's pattern by its path.
+    pub roll: Roll,
+    /// Whether the theme is dark.
+    pub dark: bool,
     /// Direction from the game to the camera.
     from: DVec3,
     /// `None` until there is a picture to fit the game into.
@@ -36,9 +183,16 @@ pub struct GameView {
 }
 
 impl GameView {
-    /// Creates the view from a direction.
-    pub fn new(from: DVec3) -> Self {
+    /// Creates the view of a game that is played, from a direction.
+    pub fn new(from: DVec3, link: Link) -> Self {
+        let mut pace = Pace::new();
+        pace.set_playing(true);
         Self {
+            link,
+            pace,
+            clock: 0.0,
+            roll: Roll::START,
+            dark: false,
             from,
             orbit: None,
             preset: Preset::Scene,
@@ -49,15 +203,21 @@ impl GameView {
     }
 
     /// Moves the camera to a preset.
-    pub fn look_from(&mut self, preset: Preset) {
+    fn look_from(&mut self, preset: Preset) {
         (self.orbit, self.preset) = (None, preset);
     }
 
+    /// Follows a game that starts again.
+    pub fn start_again(&mut self) {
+        self.roll = Roll::START;
+        self.message = None;
+    }
+
     /// Adapts the drawing to a game, and to the theme.
-    pub fn adapt(&mut self, dark: bool) {
+    pub fn adapt(&mut self) {
         // A floor that became glass would hide where the ball may go.
         self.drawing.keeps_whole = true;
-        if dark {
+        if self.dark {
             self.drawing.light = self.drawing.light.at_dusk();
         }
     }
@@ -102,11 +262,6 @@ impl GameView {
         self.message = Some((text, now + MESSAGE_SECS));
     }
 
-    /// Removes the message.
-    pub fn say_nothing(&mut self) {
-        self.message = None;
-    }
-
     fn show_message(&self, ui: &Ui, rect: Rect) {
         let now = ui.input(|input| input.time);
         let Some((text, _)) = self.message.as_ref().filter(|(_, until)| now < *until) else {
@@ -121,10 +276,7 @@ impl GameView {
     }
 
     /// Starts to draw the present picture in this size in pixels.
-    ///
-    /// # Errors
-    /// [`GpuError`]
-    pub fn snapshot(
+    fn snapshot(
         &self,
         studio: &mut Studio,
         [width, height]: [u32; 2],

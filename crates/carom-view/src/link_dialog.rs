@@ -69,10 +69,13 @@ impl LinkDialog {
         let window = window.resizable(false).default_width(460.0);
         let copied = &mut self.copied;
         show_closable(TITLE, window, context, &mut self.open, |ui| {
-            ui.label(
-                "It opens this run: the same scene, with everything that was \
-                 changed on the way, at the same time, to the bit.",
-            );
+            ui.label(match run {
+                Some(_) => {
+                    "It opens this run: the same scene, with everything that was \
+                     changed on the way, at the same time, to the bit."
+                }
+                None => "It opens this game, with your best result as the one to beat.",
+            });
             let mut text = link.as_str();
             ui.add(
                 TextEdit::multiline(&mut text)

@@ -2,16 +2,15 @@
 
 use carom::DVec3;
 use carom_maze::{Game, GameError, GameEvent, GameState, Maze, Options, Steering, Tilt};
-use carom_render::{GpuError, Roll, draw_world};
+use carom_render::draw_world;
 use carom_scene::Palette;
-use carom_session::{Link, Pace};
+use carom_scene::scene::Scene;
+use carom_session::Link;
 use egui::{Align2, Area, Frame, Id, Key, Response, RichText, Sense, Ui, Vec2};
 
-use crate::game_view::{GameView, Wish, count_line};
+use crate::game_view::{GameScreen, GameView, LastScreen, Wish, count_line};
 use crate::layout::is_touched;
-use crate::orbit::Preset;
 use crate::saved::SavedGame;
-use crate::snapshot::Snapshot;
 use crate::studio::Studio;
 
 /// Friction of a rolling ball: enough to roll at the steepest tilt, but too little to hold it at
@@ -28,18 +27,12 @@ const GOALS: [&str; 2] =
 /// A game that is being played.
 pub struct MazeScreen {
     game: Game,
-    link: Link,
-    pace: Pace,
     palette: Palette,
-    roll: Roll,
     view: GameView,
-    dark: bool,
     /// Tilt by a gamepad or a tilted device, each part in \[-1, 1\].
     pub stick: Option<Vec2>,
     /// Distance that a finger has been dragged in the picture, in points.
     finger: Option<Vec2>,
-    /// Time played, including the win screen \[s\].
-    clock: f64,
     /// Whether a continued game waits for the player.
     waits: bool,
 }
@@ -64,21 +57,8 @@ impl MazeScreen {
     pub fn new(maze: Maze, link: Link) -> Result<Self, GameError> {
         let game = Game::new(maze, Options::default())?;
         let palette = Palette::new(game.scene())?;
-        let mut pace = Pace::new();
-        pace.set_playing(true);
-        Ok(Self {
-            game,
-            link,
-            pace,
-            palette,
-            roll: Roll::START,
-            view: GameView::new(FROM),
-            dark: false,
-            stick: None,
-            finger: None,
-            clock: 0.0,
-            waits: false,
-        })
+        let view = GameView::new(FROM, link);
+        Ok(Self { game, palette, view, stick: None, finger: None, waits: false })
     }
 
     /// Returns whether the win screen is shown.
@@ -91,33 +71,6 @@ impl MazeScreen {
         &self.game
     }
 
-    /// Returns what is needed to continue the game later.
-    pub fn saved(&self) -> SavedGame {
-        SavedGame {
-            maze: self.link.to_string(),
-            progress: self.game.progress(),
-            rolls: self.rolls(),
-        }
-    }
-
-    /// Continues an earlier game, if it was in this maze.
-    pub fn resume(&mut self, game: &SavedGame) {
-        if game.maze != self.link.to_string()
-            || self.set_rolls(game.rolls).is_err()
-            || self.game.resume(&game.progress).is_err()
-        {
-            return;
-        }
-        let is_begun = self.game.elapsed() > 0.0;
-        self.pace.set_playing(!is_begun);
-        self.waits = is_begun;
-    }
-
-    /// A link to the maze.
-    pub fn link(&self) -> &Link {
-        &self.link
-    }
-
     /// Advances the game by the time since the last frame.
     ///
     /// # Errors
@@ -125,15 +78,15 @@ impl MazeScreen {
     pub fn advance(&mut self, ui: &Ui, steering: Steering) -> Result<(), GameError> {
         let wall_seconds = ui.input(|input| f64::from(input.unstable_dt));
         let now = ui.input(|input| input.time);
-        if self.waits && (steering != Steering::NONE || self.pace.is_playing()) {
+        if self.waits && (steering != Steering::NONE || self.view.pace.is_playing()) {
             self.go_on();
         }
-        for _ in 0..self.pace.frames_due(wall_seconds, self.game.frame_time()) {
-            self.clock += self.game.frame_time();
+        for _ in 0..self.view.pace.frames_due(wall_seconds, self.game.frame_time()) {
+            self.view.clock += self.game.frame_time();
             let before = self.game.ball_in_maze().0;
             let stepped = self.game.step(steering).map(<[_]>::to_vec);
             // A step that failed once would fail again.
-            let events = stepped.inspect_err(|_| self.pace.set_playing(false))?;
+            let events = stepped.inspect_err(|_| self.view.pace.set_playing(false))?;
             for event in events {
                 self.note(event, now);
             }
@@ -141,7 +94,7 @@ impl MazeScreen {
             // A jump back to the start is no rolling.
             let radius = self.game.maze().ball_radius();
             if way.length() < radius {
-                self.roll.on(way, DVec3::Y, radius);
+                self.view.roll.on(way, DVec3::Y, radius);
             }
         }
         ui.ctx().request_repaint();
@@ -184,31 +137,6 @@ impl MazeScreen {
         Steering::roll(held[0].clamp(-1.0, 1.0), held[1].clamp(-1.0, 1.0))
     }
 
-    /// Returns the time played, including the win screen \[s\]; films follow it.
-    pub fn clock(&self) -> f64 {
-        self.clock
-    }
-
-    /// Returns whether the game is running.
-    pub fn is_playing(&self) -> bool {
-        self.pace.is_playing()
-    }
-
-    /// Pauses or resumes the game.
-    pub fn play_or_pause(&mut self) {
-        self.pace.set_playing(!self.pace.is_playing());
-    }
-
-    /// Restarts the game and keeps the best time.
-    pub fn play_again(&mut self) {
-        self.game.play_again();
-        self.roll = Roll::START;
-        self.view.say_nothing();
-        if self.waits {
-            self.go_on();
-        }
-    }
-
     /// Returns whether the ball rolls by friction.
     pub fn rolls(&self) -> bool {
         self.game.options().friction > 0.0
@@ -236,38 +164,6 @@ impl MazeScreen {
         self.game.set_options(Options { levels_back, ..*self.game.options() })
     }
 
-    /// Moves the camera to a preset.
-    pub fn look_from(&mut self, preset: Preset) {
-        self.view.look_from(preset);
-    }
-
-    fn draw(&mut self) {
-        // Without friction nothing turns the ball; its pattern then follows its path along the
-        // maze, however the maze is tilted.
-        let rotation = if self.rolls() {
-            self.game.world().spheres().get(0).orientation
-        } else {
-            self.game.tilt() * self.roll.rotation
-        };
-        let Self { game, palette, view, .. } = self;
-        draw_world(game.scene(), game.world(), palette, |_| Some(rotation), &mut view.drawing);
-        view.adapt(self.dark);
-    }
-
-    /// Shows the game and its counts. Returns a request of the player.
-    pub fn picture(&mut self, ui: &mut Ui, studio: &mut Studio, dark: bool) -> Option<Wish> {
-        self.dark = dark;
-        self.counts(ui);
-        let rect = ui.available_rect_before_wrap();
-        let response = ui.allocate_rect(rect, Sense::click_and_drag());
-        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Maze"));
-        let drag = self.hand(ui, &response);
-        self.draw();
-        self.view.show(ui, &response, drag, studio);
-        self.wait(ui);
-        self.won(ui)
-    }
-
     /// Handles mouse and fingers in the picture. Returns the drag that turns the camera, in points.
     fn hand(&mut self, ui: &Ui, response: &Response) -> Vec2 {
         let (is_touched, fingers) = ui.input(|input| (input.any_touches(), input.multi_touch()));
@@ -291,6 +187,7 @@ impl MazeScreen {
         let mut counts: Vec<String> = collected.into_iter().collect();
         counts.push(format!("Time {:.1} s", self.game.elapsed()));
         counts.extend(self.game.best().map(|best| format!("Best {best:.1} s")));
+        counts.extend(self.view.link.goal().map(|goal| format!("To beat {goal:.1} s")));
         let hint = if is_touched(ui) {
             "Drag with a finger to tilt the maze."
         } else {
@@ -324,62 +221,104 @@ impl MazeScreen {
     }
 
     fn go_on(&mut self) {
-        self.pace.set_playing(true);
+        self.view.pace.set_playing(true);
         self.waits = false;
     }
+}
 
-    /// Shows the win screen. Returns a request of the player.
-    fn won(&mut self, ui: &Ui) -> Option<Wish> {
+impl GameScreen for MazeScreen {
+    fn view(&self) -> &GameView {
+        &self.view
+    }
+
+    fn view_mut(&mut self) -> &mut GameView {
+        &mut self.view
+    }
+
+    fn title(&self) -> &str {
+        self.game.maze().title()
+    }
+
+    fn scene(&self) -> &Scene {
+        self.game.maze().scene()
+    }
+
+    fn elapsed(&self) -> f64 {
+        self.game.elapsed()
+    }
+
+    fn last_screen(&self) -> Option<LastScreen> {
         let GameState::Won { time } = self.game.state() else { return None };
         let has_all = self.game.remaining().next().is_none();
         let is_best = has_all && self.game.best().is_some_and(|best| time <= best);
-        let mut again = false;
-        let mut wish = None;
-        Area::new(Id::unique("won")).anchor(Align2::CENTER_CENTER, [0.0, 0.0]).show(
-            ui.ctx(),
-            |ui| {
-                Frame::window(ui.style()).inner_margin(28.0).show(ui, |ui| {
-                    ui.vertical_centered(|ui| {
-                        ui.label(RichText::new("You win!").size(44.0).strong());
-                        let of = self.game.maze().collectibles().count();
-                        let collected = self.game.collected();
-                        let with = match of {
-                            0 => String::new(),
-                            _ => format!(", {collected} of {of} collected"),
-                        };
-                        ui.label(RichText::new(format!("{time:.1} s{with}")).size(18.0));
-                        ui.label(match self.game.best() {
-                            _ if is_best => "The best time so far.".to_owned(),
-                            Some(best) => format!("Best time {best:.1} s."),
-                            None => format!("Collect all {of} for a best time."),
-                        });
-                        ui.add_space(12.0);
-                        again = ui.button(RichText::new("Play again").size(18.0)).clicked();
-                        if ui.button(RichText::new("Next maze").size(18.0)).clicked() {
-                            wish = Some(Wish::Next);
-                        }
-                        if ui.button("Watch it as a scene").clicked() {
-                            wish = Some(Wish::Watch);
-                        }
-                    });
-                });
-            },
-        );
-        // Enter plays again, as on every win screen.
-        again |= wish.is_none()
-            && ui.input_mut(|input| input.consume_key(egui::Modifiers::NONE, Key::Enter));
-        if again {
-            self.play_again();
-        }
-        wish
+        let of = self.game.maze().collectibles().count();
+        let collected = self.game.collected();
+        let with = match of {
+            0 => String::new(),
+            _ => format!(", {collected} of {of} collected"),
+        };
+        let comparison = match self.game.best() {
+            _ if is_best => "The best time so far.".to_owned(),
+            Some(best) => format!("Best time {best:.1} s."),
+            None => format!("Collect all {of} for a best time."),
+        };
+        let mut lines = vec![format!("{time:.1} s{with}"), comparison];
+        lines.extend(self.view.link.goal().map(|goal| match has_all && time < goal {
+            true => format!("You beat {goal:.1} s."),
+            false => format!("{goal:.1} s are still to beat."),
+        }));
+        Some(LastScreen { heading: "You win!", lines, next: Some("Next maze") })
     }
 
-    /// Starts to draw the present picture in this size in pixels.
-    ///
-    /// # Errors
-    /// [`GpuError`]
-    pub fn snapshot(&mut self, studio: &mut Studio, size: [u32; 2]) -> Result<Snapshot, GpuError> {
+    fn best(&self) -> Option<f64> {
+        self.game.best()
+    }
+
+    fn saved(&self) -> Option<SavedGame> {
+        Some(SavedGame::Maze { progress: self.game.progress(), rolls: self.rolls() })
+    }
+
+    fn resume(&mut self, game: &SavedGame) {
+        let SavedGame::Maze { progress, rolls } = game else { return };
+        if self.set_rolls(*rolls).is_err() || self.game.resume(progress).is_err() {
+            return;
+        }
+        let is_begun = self.game.elapsed() > 0.0;
+        self.view.pace.set_playing(!is_begun);
+        self.waits = is_begun;
+    }
+
+    fn play_again(&mut self) {
+        self.game.play_again();
+        self.view.start_again();
+        if self.waits {
+            self.go_on();
+        }
+    }
+
+    fn draw(&mut self) {
+        // Without friction nothing turns the ball; its pattern then follows its path along the
+        // maze, however the maze is tilted.
+        let rotation = if self.rolls() {
+            self.game.world().spheres().get(0).orientation
+        } else {
+            self.game.tilt() * self.view.roll.rotation
+        };
+        let Self { game, palette, view, .. } = self;
+        draw_world(game.scene(), game.world(), palette, |_| Some(rotation), &mut view.drawing);
+        view.adapt();
+    }
+
+    fn picture(&mut self, ui: &mut Ui, studio: &mut Studio, dark: bool) -> Option<Wish> {
+        self.view.dark = dark;
+        self.counts(ui);
+        let rect = ui.available_rect_before_wrap();
+        let response = ui.allocate_rect(rect, Sense::click_and_drag());
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Maze"));
+        let drag = self.hand(ui, &response);
         self.draw();
-        self.view.snapshot(studio, size)
+        self.view.show(ui, &response, drag, studio);
+        self.wait(ui);
+        self.show_last_screen(ui)
     }
 }

@@ -1,8 +1,9 @@
-//! Values kept between starts: layout, marks, recent files, a game.
+//! Values kept between starts: layout, marks, recent files, games.
 
 use std::path::{Path, PathBuf};
 
 use carom_maze::Progress;
+use carom_session::Link;
 use eframe::Storage;
 use serde::{Deserialize, Serialize};
 
@@ -15,6 +16,9 @@ const KEY: &str = "carom";
 /// Largest number of recent files.
 const MOST_RECENT: usize = 6;
 
+/// Largest number of games.
+const MOST_GAMES: usize = 12;
+
 /// Values kept between starts and between scenes.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
@@ -23,18 +27,24 @@ pub struct SavedValues {
     pub layout: Layout,
     /// Recent scene files, newest first.
     pub recent: Vec<PathBuf>,
-    /// The last game.
-    pub game: Option<SavedGame>,
+    /// Links to games without the results to beat, and what is kept of the games; the last game first.
+    pub games: Vec<(String, SavedGame)>,
 }
 
-/// A game that can be continued.
+/// What is kept of a game.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct SavedGame {
-    /// A link to its maze.
-    pub maze: String,
-    pub progress: Progress,
-    /// Whether the ball rolls by friction.
-    pub rolls: bool,
+pub enum SavedGame {
+    /// A game in a maze, which can be continued.
+    Maze {
+        progress: Progress,
+        /// Whether the ball rolls by friction.
+        rolls: bool,
+    },
+    /// Games on a pinball table.
+    Pinball {
+        /// The most points of a game.
+        best: u64,
+    },
 }
 
 /// The visible parts of a scene and around it.
@@ -77,6 +87,20 @@ impl SavedValues {
         eframe::set_value(storage, KEY, self);
     }
 
+    /// Keeps a game, and forgets the oldest of too many.
+    pub fn keep_game(&mut self, link: &Link, game: SavedGame) {
+        let link = link.clone().without_goal().to_string();
+        self.games.retain(|(it, _)| *it != link);
+        self.games.insert(0, (link, game));
+        self.games.truncate(MOST_GAMES);
+    }
+
+    /// Returns what was kept of the game of a link.
+    pub fn game(&self, link: &Link) -> Option<&SavedGame> {
+        let link = link.clone().without_goal().to_string();
+        self.games.iter().find(|(it, _)| *it == link).map(|(_, game)| game)
+    }
+
     /// Adds a file to the recent ones.
     pub fn remember(&mut self, path: &Path) {
         let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
@@ -99,5 +123,21 @@ mod tests {
         assert_eq!(kept.recent, [PathBuf::from("/a.toml"), PathBuf::from("/b.toml")]);
         (0..20).for_each(|i| kept.remember(Path::new(&format!("/{i}.toml"))));
         assert_eq!(kept.recent.len(), MOST_RECENT);
+    }
+
+    #[test]
+    fn each_game_is_kept_once_with_or_without_a_result_to_beat() {
+        let link = |name: &str| Link::parse(&format!("scene={name}")).expect("a link");
+        let mut kept = SavedValues::default();
+        for (name, best) in [("pinball", 10), ("table", 20), ("pinball", 30)] {
+            kept.keep_game(&link(name), SavedGame::Pinball { best });
+        }
+        let challenge = link("pinball").with_goal(500.0).expect("a goal");
+        assert_eq!(kept.game(&challenge), Some(&SavedGame::Pinball { best: 30 }));
+        assert_eq!(kept.game(&link("table")), Some(&SavedGame::Pinball { best: 20 }));
+        assert_eq!((kept.games.len(), kept.game(&link("maze"))), (2, None));
+        (0..20)
+            .for_each(|i| kept.keep_game(&link(&format!("t{i}")), SavedGame::Pinball { best: 0 }));
+        assert_eq!(kept.games.len(), MOST_GAMES);
     }
 }

@@ -86,6 +86,10 @@ struct Maze {
 struct Pinball {
     scene: String,
     score: u64,
+    /// The most points of a game that is over.
+    best: Option<u64>,
+    /// Points to beat, if the link states them.
+    goal: Option<f64>,
     /// Number of balls left, with the one in play.
     balls: usize,
     /// \[s\]
@@ -120,6 +124,8 @@ impl<'a> Status<'a> {
             Pinball {
                 scene: game.scene().name.clone(),
                 score: game.score(),
+                best: game.best(),
+                goal: screen.goal(),
                 balls: game.balls(),
                 elapsed: game.elapsed(),
                 over: screen.is_over(),

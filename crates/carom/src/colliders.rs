@@ -1,5 +1,6 @@
 //! All colliders of a world, with the surfaces and trees made of them.
 
+use std::collections::BTreeSet;
 use std::mem::{self, Discriminant};
 use std::sync::{Arc, OnceLock};
 
@@ -19,6 +20,8 @@ pub(crate) struct Colliders {
     time: f64,
     /// Seams, found when first read after a change from outside.
     seams: OnceLock<Arc<Seams>>,
+    /// Seams before the last changes from outside, and the numbers of the colliders that these changed.
+    earlier: Option<(Arc<Seams>, BTreeSet<u64>)>,
     /// Those that move; found when first read after a change from outside, as seams.
     moving: OnceLock<Arc<MovingSurfaces>>,
     /// Made when first read after a change, as the trees.
@@ -40,7 +43,12 @@ impl Colliders {
             for (number, collider) in self.list.iter() {
                 surface::place(ColliderId(number), collider, self.time, &mut plain);
             }
-            let seams = self.seams.get_or_init(|| Arc::new(Seams::of(&self.list, &plain)));
+            let seams = self.seams.get_or_init(|| match &self.earlier {
+                Some((seams, changed)) if seams.remain(&self.list, &plain, changed) => {
+                    Arc::clone(seams)
+                }
+                _ => Arc::new(Seams::of(&self.list, &plain)),
+            });
             seams.applied(&self.list, plain)
         })
     }
@@ -73,8 +81,9 @@ impl Colliders {
 
     pub fn push(&mut self, mut collider: Collider) {
         collider.follow_motion(self.time);
+        let number = self.list.next_number();
         self.list.push(collider);
-        self.forget_seams();
+        self.check_seams([number]);
     }
 
     /// Replaces some of the colliders.
@@ -85,12 +94,12 @@ impl Colliders {
                 place.follow_motion(self.time);
             }
         }
-        self.forget_seams();
+        self.check_seams(changes.iter().map(|(id, _)| id.0));
     }
 
     pub fn remove(&mut self, id: ColliderId) -> Option<Collider> {
         let removed = self.list.remove(id.0);
-        self.forget_seams();
+        self.check_seams([id.0]);
         removed
     }
 
@@ -132,8 +141,21 @@ impl Colliders {
         self.list.values_mut().for_each(|collider| collider.follow_motion(time));
     }
 
+    /// Lets the seams be checked when they are next read, after changes of colliders with these numbers.
+    fn check_seams(&mut self, changed: impl IntoIterator<Item = u64>) {
+        if let Some(seams) = self.seams.take() {
+            self.earlier = Some((seams, BTreeSet::new()));
+        }
+        if let Some((_, numbers)) = &mut self.earlier {
+            numbers.extend(changed);
+        }
+        self.moving.take();
+        self.forget_surfaces();
+    }
+
     fn forget_seams(&mut self) {
         self.seams.take();
+        self.earlier = None;
         self.moving.take();
         self.forget_surfaces();
     }
@@ -167,6 +189,64 @@ mod written {
         fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
             let (time, list) = <(f64, Numbered<_>)>::deserialize(deserializer)?;
             Ok(Self { time, list, ..Self::default() })
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::collider::Shape;
+    use crate::collider_motion::{Motion, MotionPart};
+    use crate::pose::Pose;
+
+    /// Whole numbers of a linear congruential generator (Knuth, MMIX).
+    fn below(state: &mut u64, count: u64) -> u64 {
+        *state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (*state >> 33) % count
+    }
+
+    /// A tile, a ball or a half-space in one of nine places; some of them move.
+    fn random_collider(state: &mut u64) -> Collider {
+        let place = [0, 1].map(|_| below(state, 3) as f64);
+        let pose = Pose::at(DVec3::new(place[0], -0.5, place[1]));
+        let unit = DVec3::ONE;
+        let collider = match below(state, 8) {
+            0 => Collider::new(Shape::Sphere { radius: 0.5 }, pose),
+            1 => Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO)),
+            2 => Collider::new(Shape::Rectangle { size_x: 1.0, size_z: 1.0 }, pose),
+            _ => Collider::new(Shape::Box { size: unit }, pose),
+        };
+        match below(state, 6) {
+            0 => collider.moving(0.25 * unit, DVec3::ZERO),
+            1 => {
+                let velocity = 0.5 * unit;
+                collider.with_motion(Motion::new([MotionPart::Steady { velocity }]))
+            }
+            _ => collider,
+        }
+    }
+
+    #[test]
+    fn changed_colliders_have_the_surfaces_of_new_ones() {
+        let mut state = 1;
+        let mut colliders = Colliders::default();
+        for step in 0..400_u32 {
+            let numbers: Vec<u64> = colliders.list().iter().map(|(number, _)| number).collect();
+            let chosen = ColliderId(below(&mut state, numbers.len().max(1) as u64));
+            let chosen = numbers.get(chosen.0 as usize).map(|&it| ColliderId(it));
+            match (below(&mut state, 4), chosen) {
+                (0, Some(id)) if numbers.len() > 6 => drop(colliders.remove(id)),
+                (1 | 2, Some(id)) => colliders.set(&[(id, random_collider(&mut state))]),
+                _ => colliders.push(random_collider(&mut state)),
+            }
+            let Colliders { list, time, .. } = colliders.clone();
+            let made = Colliders { list, time, ..Colliders::default() };
+            assert_eq!(colliders.surfaces(), made.surfaces(), "step {step}");
+            colliders.advance(0.5, 0.5 * f64::from(step + 1));
         }
     }
 }

@@ -122,6 +122,7 @@ pub use report::{
 };
 pub use respond::Strike;
 pub use restitution::RestitutionLaw;
+pub use rotation::rotation_vector;
 pub use settings::{
     Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, PairPotential,
     Rule, Settings, Thermostat, WindBack, Zones,

@@ -15,8 +15,11 @@ pub(crate) fn turned(rotation: DQuat, angular_velocity: DVec3, h: f64) -> DQuat 
     }
 }
 
-/// The axis of the shorter way of a rotation of length 1, times its angle \[rad\].
-pub(crate) fn vector_of(rotation: DQuat) -> DVec3 {
+/// Returns the rotation vector of a rotation \[rad\]: its axis times its angle, by the shorter way.
+///
+/// The angle is `2 atan2(|(x, y, z)|, |w|)`. The quaternion must have length 1; a quaternion and its negative are the same
+/// rotation.
+pub fn rotation_vector(rotation: DQuat) -> DVec3 {
     let forward = if rotation.w < 0.0 { -rotation } else { rotation };
     let across = DVec3::new(forward.x, forward.y, forward.z);
     let sine = across.dot(across).sqrt();

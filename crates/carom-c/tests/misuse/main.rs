@@ -447,7 +447,7 @@ fn no_number_in_a_force(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatu
 }
 
 fn no_such_id(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatus]) {
-    let (world, id, function) = (bench.world, bench.no_id(), bench.below(11));
+    let (world, id, function) = (bench.world, bench.no_id(), bench.below(12));
     let (impulse, mut path) = ([0.0; 3], CaromPath::default());
     let (mut sphere, mut collider, mut index) = (carom_sphere(), carom_collider(), 0);
     // SAFETY: all places are there.
@@ -463,6 +463,7 @@ fn no_such_id(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatus]) {
             7 => carom_world_predict(world, id, 1.0, 9, &raw mut path),
             8 => carom_world_apply_impulse(world, id, impulse.as_ptr()),
             9 => carom_world_set_groups(world, id, 1, 1),
+            10 => carom_world_set_keyframes(world, id, null(), 0, impulse.as_ptr(), 0),
             _ => carom_world_index_of(world, id, &raw mut index),
         }
     };

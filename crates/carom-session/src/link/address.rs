@@ -63,6 +63,9 @@ fn fragment(link: &Link) -> String {
     if let Some(camera) = &link.camera {
         parts.push(("camera", camera.written()));
     }
+    if let Some(goal) = link.goal {
+        parts.push(("goal", number(goal)));
+    }
     let parts: Vec<String> = parts.iter().map(|(name, value)| format!("{name}={value}")).collect();
     parts.join("&")
 }

@@ -7,7 +7,7 @@ use thiserror::Error;
 use super::packed::PackedError;
 
 /// Names of the parts of a link.
-const PARTS: [&str; 8] = ["scene", "file", "name", "set", "rule", "edits", "t", "camera"];
+const PARTS: [&str; 9] = ["scene", "file", "name", "set", "rule", "edits", "t", "camera", "goal"];
 
 /// Quotes the beginning of a text in one line.
 pub fn quoted(text: &str) -> String {
@@ -68,6 +68,12 @@ pub enum LinkError {
     )]
     Camera {
         /// The camera as written, shortened.
+        found: String,
+    },
+    /// The result to beat is invalid.
+    #[error("the link says goal={found}; the result to beat must be a number, zero or positive")]
+    Goal {
+        /// The result as written, shortened.
         found: String,
     },
     /// A packed part cannot be unpacked.

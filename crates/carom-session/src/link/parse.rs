@@ -10,7 +10,7 @@ use super::camera::LinkCamera;
 use super::error::{LinkError, brief_problem, quoted};
 use super::packed::unpack;
 use super::rule::rule_override;
-use super::run::{Link, LinkSource};
+use super::run::{Link, LinkSource, checked_goal};
 use super::time::checked_time;
 use super::written;
 use crate::change::PastChange;
@@ -25,6 +25,7 @@ struct Once<'a> {
     edits: Option<&'a str>,
     t: Option<&'a str>,
     camera: Option<&'a str>,
+    goal: Option<&'a str>,
 }
 
 impl Link {
@@ -67,6 +68,7 @@ fn link(text: &str) -> Result<Link, LinkError> {
             "edits" => ("edits", &mut once.edits),
             "t" => ("t", &mut once.t),
             "camera" => ("camera", &mut once.camera),
+            "goal" => ("goal", &mut once.goal),
             "set" => {
                 overrides.push(decoded("set", value)?.parse::<Override>()?);
                 continue;
@@ -86,6 +88,7 @@ fn link(text: &str) -> Result<Link, LinkError> {
         changes: Arc::new(once.edits.map(edits).transpose()?.unwrap_or_default()),
         time: once.t.map(time).transpose()?,
         camera: once.camera.map(camera).transpose()?,
+        goal: once.goal.map(goal).transpose()?,
     })
 }
 
@@ -122,6 +125,11 @@ fn time(text: &str) -> Result<f64, LinkError> {
 
 fn camera(text: &str) -> Result<LinkCamera, LinkError> {
     LinkCamera::read(&decoded("camera", text)?)
+}
+
+fn goal(text: &str) -> Result<f64, LinkError> {
+    let goal = text.parse().map_err(|_| LinkError::Goal { found: quoted(text) })?;
+    checked_goal(goal)
 }
 
 fn unpacked(part: &'static str, packed: &str) -> Result<String, LinkError> {

@@ -25,6 +25,7 @@ use crate::change::PastChange;
 /// | `edits` | changes during the run, as TOML, packed |
 /// | `t` | time reached \[s\] |
 /// | `camera` | `x,y,z` of the camera and of the point that it looks at \[m\], and the vertical field of view \[°\] if it is not 35 |
+/// | `goal` | result to beat in a game: points, or a time \[s\] |
 ///
 /// Packed text is compressed by zlib and written in URL-safe base64 without padding.
 ///
@@ -47,6 +48,8 @@ pub struct Link {
     /// Time reached \[s\].
     pub(super) time: Option<f64>,
     pub(super) camera: Option<LinkCamera>,
+    /// Result to beat in a game: points, or a time \[s\].
+    pub(super) goal: Option<f64>,
 }
 
 /// The scene of a link.
@@ -66,7 +69,14 @@ pub enum LinkSource {
 impl Link {
     /// Creates a link to the beginning of a scene.
     pub fn new(source: LinkSource) -> Self {
-        Self { source, overrides: Vec::new(), changes: Arc::default(), time: None, camera: None }
+        Self {
+            source,
+            overrides: Vec::new(),
+            changes: Arc::default(),
+            time: None,
+            camera: None,
+            goal: None,
+        }
     }
 
     /// Adds overrides after the present ones.
@@ -97,6 +107,21 @@ impl Link {
         self.camera = camera;
     }
 
+    /// Sets the result to beat in a game: points, or a time \[s\].
+    ///
+    /// # Errors
+    /// [`LinkError::Goal`] if the result is negative or not finite.
+    pub fn with_goal(mut self, goal: f64) -> Result<Self, LinkError> {
+        self.goal = Some(checked_goal(goal)?);
+        Ok(self)
+    }
+
+    /// Removes the result to beat.
+    pub fn without_goal(mut self) -> Self {
+        self.goal = None;
+        self
+    }
+
     /// Scene of the link.
     pub fn source(&self) -> &LinkSource {
         &self.source
@@ -120,5 +145,19 @@ impl Link {
     /// Camera, if the link states one.
     pub fn camera(&self) -> Option<LinkCamera> {
         self.camera
+    }
+
+    /// Result to beat in a game, if the link states one: points, or a time \[s\].
+    pub fn goal(&self) -> Option<f64> {
+        self.goal
+    }
+}
+
+/// Returns the result to beat if it is valid.
+pub(super) fn checked_goal(goal: f64) -> Result<f64, LinkError> {
+    if goal >= 0.0 && goal.is_finite() {
+        Ok(goal.abs())
+    } else {
+        Err(LinkError::Goal { found: format!("{goal:?}") })
     }
 }

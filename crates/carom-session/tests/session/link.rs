@@ -113,6 +113,12 @@ fn links_are_readable() {
                     &set=title=%22a%20%26%20b%22&t=3.5";
     assert_eq!(link.to_fragment(), expected);
     assert_eq!(copied(&link).open().unwrap().title, "a & b");
+    // The result to beat in a game does not change its scene.
+    let challenge = link.clone().with_goal(12_300.0).unwrap();
+    assert_eq!(challenge.to_fragment(), format!("{expected}&goal=12300"));
+    assert_eq!(copied(&challenge).goal(), Some(12_300.0));
+    assert_eq!(challenge.open().unwrap(), link.open().unwrap());
+    assert_eq!(challenge.without_goal(), link);
     // Times have only as many digits as are needed to identify the frame.
     let mut scene = Scene::clone(built_in("simtest1").scene());
     for (frame_time, frame, time) in

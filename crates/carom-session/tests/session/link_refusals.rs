@@ -31,10 +31,13 @@ const LONGEST: usize = 300;
 
 #[test]
 fn every_mistake_is_told() {
-    let parts = "scene, file, name, set, rule, edits, t, camera";
+    let parts = "scene, file, name, set, rule, edits, t, camera, goal";
     let empty = "the link says nothing: after # it needs scene=NAME or file=...";
     let time =
         |t| format!("the link says t={t}; the time must be a number of seconds, zero or positive");
+    let goal = |it| {
+        format!("the link says goal={it}; the result to beat must be a number, zero or positive")
+    };
     let camera = |it| {
         let form = "it must be x,y,z to look from and x,y,z to look at, in m, and may have a field of view in degrees";
         format!("the link says camera={it}; {form}")
@@ -55,6 +58,8 @@ fn every_mistake_is_told() {
         ("sceen=simtest1", unknown("sceen")),
         (&format!("scene=simtest1&{}=1", "x".repeat(1000)), unknown(&long)),
         ("scene=a&scene=b", "the link says scene twice".to_owned()),
+        ("scene=a&goal=-1", goal("-1.0")),
+        ("scene=a&goal=many", goal("many")),
         ("scene=a&t=1&t=1", "the link says t twice".to_owned()),
         ("scene=a&rule=exact&rule=exact", "the link says rule twice".to_owned()),
         (

@@ -163,14 +163,12 @@ impl App {
     /// Returns the title of the present scene or game.
     fn title(&self) -> Option<String> {
         match &self.screen {
-            Screen::Empty => None,
-            Screen::Maze(screen) => Some(screen.game().maze().title().to_owned()),
-            Screen::Pinball(screen) => Some(screen.game().table().title().to_owned()),
             Screen::Watching(watching) => {
                 let scene = &watching.view().scene;
                 let title = if scene.title.is_empty() { &scene.name } else { &scene.title };
                 Some(title.clone())
             }
+            screen => screen.game().map(|game| game.title().to_owned()),
         }
     }
 

@@ -55,19 +55,18 @@ impl App {
     pub(super) fn links(&mut self) {
         let Self { address, link, host, context, screen, .. } = self;
         match screen {
-            Screen::Empty => link.close(),
             Screen::Watching(watching) => {
                 let (view, base) = watching.linked();
                 address.tell(view, base, &mut **host, context);
                 let link_text = || format!("{}#{}", host.page(), base.at(view));
                 link.show(context, Some((view, base)), link_text);
             }
-            Screen::Maze(screen) => {
-                link.show(context, None, || format!("{}#{}", host.page(), screen.link()));
-            }
-            Screen::Pinball(screen) => {
-                link.show(context, None, || format!("{}#{}", host.page(), screen.link()));
-            }
+            screen => match screen.game() {
+                Some(game) => {
+                    link.show(context, None, || format!("{}#{}", host.page(), game.challenge()));
+                }
+                None => link.close(),
+            },
         }
     }
 }

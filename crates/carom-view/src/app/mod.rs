@@ -22,14 +22,13 @@ use crate::action::{self, Action};
 use crate::address::Address;
 use crate::chooser::{Asked, Chooser, invite};
 use crate::exports::Exports;
-use crate::game_view::Wish;
+use crate::game_view::{GameScreen, Wish};
 use crate::help;
 use crate::host::{Host, Inbox};
 use crate::layout::{accept_slow_clicks, suit_fingers};
 use crate::link_dialog::LinkDialog;
 use crate::maze_screen::MazeScreen;
 use crate::notices::Notices;
-use crate::orbit::Preset;
 use crate::pinball_screen::PinballScreen;
 use crate::saved::{Panels, SavedValues};
 use crate::studio::Studio;
@@ -253,9 +252,11 @@ impl App {
             Action::Link => self.open_link(),
             _ => match &mut self.screen {
                 Screen::Watching(watching) => watching.act(action),
-                Screen::Maze(screen) => act_in_maze(screen, action),
-                Screen::Pinball(screen) => act_in_pinball(screen, action),
-                Screen::Empty => {}
+                screen => {
+                    if let Some(game) = screen.game_mut() {
+                        game.act(action);
+                    }
+                }
             },
         }
     }
@@ -286,13 +287,7 @@ impl App {
             Screen::Watching(watching) => {
                 Some((watching.view().scene.name.clone(), watching.view().time))
             }
-            Screen::Maze(screen) => {
-                Some((screen.game().scene().name.clone(), screen.game().elapsed()))
-            }
-            Screen::Pinball(screen) => {
-                Some((screen.game().scene().name.clone(), screen.game().elapsed()))
-            }
-            Screen::Empty => None,
+            screen => screen.game().map(|game| (game.scene().name.clone(), game.elapsed())),
         }
     }
 
@@ -353,19 +348,14 @@ impl App {
                 }
                 shown.inner.into_iter().for_each(|action| watching.act(action));
             }
-            Screen::Maze(screen) => {
-                let studio = &mut self.studio;
-                wish = egui::CentralPanel::default()
-                    .frame(margin)
-                    .show(ui, |ui| screen.picture(ui, studio, manner.dark))
-                    .inner;
-            }
-            Screen::Pinball(screen) => {
-                let studio = &mut self.studio;
-                wish = egui::CentralPanel::default()
-                    .frame(margin)
-                    .show(ui, |ui| screen.picture(ui, studio, manner.dark))
-                    .inner;
+            screen => {
+                if let Some(game) = screen.game_mut() {
+                    let studio = &mut self.studio;
+                    wish = egui::CentralPanel::default()
+                        .frame(margin)
+                        .show(ui, |ui| game.picture(ui, studio, manner.dark))
+                        .inner;
+                }
             }
         }
         if let Some(wanted) = wanted {
@@ -405,25 +395,23 @@ impl App {
     }
 }
 
-fn act_in_maze(screen: &mut MazeScreen, action: Action) {
-    match action {
-        Action::PlayOrPause => screen.play_or_pause(),
-        Action::Restart => screen.play_again(),
-        Action::SceneCamera => screen.look_from(Preset::Scene),
-        Action::FrontCamera => screen.look_from(Preset::Front),
-        Action::TopCamera => screen.look_from(Preset::Top),
-        _ => {}
+impl Screen {
+    /// Returns the game that is played.
+    fn game(&self) -> Option<&dyn GameScreen> {
+        match self {
+            Self::Maze(screen) => Some(&**screen),
+            Self::Pinball(screen) => Some(&**screen),
+            Self::Empty | Self::Watching(_) => None,
+        }
     }
-}
 
-fn act_in_pinball(screen: &mut PinballScreen, action: Action) {
-    match action {
-        Action::PlayOrPause => screen.play_or_pause(),
-        Action::Restart => screen.play_again(),
-        Action::SceneCamera => screen.look_from(Preset::Scene),
-        Action::FrontCamera => screen.look_from(Preset::Front),
-        Action::TopCamera => screen.look_from(Preset::Top),
-        _ => {}
+    /// Returns the game that is played, to change it.
+    fn game_mut(&mut self) -> Option<&mut dyn GameScreen> {
+        match self {
+            Self::Maze(screen) => Some(&mut **screen),
+            Self::Pinball(screen) => Some(&mut **screen),
+            Self::Empty | Self::Watching(_) => None,
+        }
     }
 }
 
@@ -443,8 +431,7 @@ impl eframe::App for App {
         let context = ui.ctx().clone();
         self.studio.begin_frame();
         // A dialog takes the keys; on the last screen Enter starts again, and in the strip it chooses.
-        let is_over = self.maze().is_some_and(MazeScreen::is_won)
-            || self.pinball().is_some_and(PinballScreen::is_over);
+        let is_over = self.screen.game().is_some_and(|it| it.last_screen().is_some());
         let is_taken = is_over || self.chooser.has_focus();
         if !self.chooser.is_open() {
             for action in action::pressed(&context, is_taken) {

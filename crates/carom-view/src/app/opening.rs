@@ -67,42 +67,43 @@ impl App {
 
     fn play_maze(&mut self, maze: Maze, link: Link) {
         match MazeScreen::new(maze, link) {
-            Ok(mut screen) => {
-                self.keep_game();
-                if let Some(game) = &self.saved.game {
-                    screen.resume(game);
-                }
-                self.host.show_link(screen.link());
-                self.show(Screen::Maze(Box::new(screen)));
-            }
+            Ok(screen) => self.begin(Screen::Maze(Box::new(screen))),
             Err(error) => self.notices.complain(error),
         }
     }
 
     pub(super) fn play_pinball(&mut self, table: Table, link: Link) {
         match PinballScreen::new(table, link) {
-            Ok(screen) => {
-                self.host.show_link(screen.link());
-                self.show(Screen::Pinball(Box::new(screen)));
-            }
+            Ok(screen) => self.begin(Screen::Pinball(Box::new(screen))),
             Err(error) => self.notices.complain(error),
         }
     }
 
-    /// Watches the present game as a scene.
-    pub(super) fn watch_game(&mut self) {
-        let scene = match &self.screen {
-            Screen::Maze(screen) => screen.game().maze().scene(),
-            Screen::Pinball(screen) => screen.game().table().scene(),
-            Screen::Watching(_) | Screen::Empty => return,
-        };
-        self.watch(scene.clone(), Source::Registered);
+    /// Begins a game, or continues an earlier one.
+    fn begin(&mut self, mut screen: Screen) {
+        self.keep_game();
+        if let Some(game) = screen.game_mut() {
+            if let Some(saved) = self.saved.game(&game.view().link) {
+                game.resume(saved);
+            }
+            self.host.show_link(&game.view().link);
+        }
+        self.show(screen);
     }
 
-    /// Remembers the progress of the present game.
+    /// Watches the present game as a scene.
+    pub(super) fn watch_game(&mut self) {
+        if let Some(game) = self.screen.game() {
+            self.watch(game.scene().clone(), Source::Registered);
+        }
+    }
+
+    /// Remembers the present game.
     pub(super) fn keep_game(&mut self) {
-        if let Screen::Maze(screen) = &self.screen {
-            self.saved.game = Some(screen.saved());
+        if let Some(game) = self.screen.game()
+            && let Some(saved) = game.saved()
+        {
+            self.saved.keep_game(&game.view().link, saved);
         }
     }
 

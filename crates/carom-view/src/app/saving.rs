@@ -14,9 +14,7 @@ impl App {
         let manner = self.manner();
         let drawn = match &mut self.screen {
             Screen::Watching(watching) => watching.snapshot(&mut self.studio, manner, size),
-            Screen::Maze(screen) => screen.snapshot(&mut self.studio, size),
-            Screen::Pinball(screen) => screen.snapshot(&mut self.studio, size),
-            Screen::Empty => return None,
+            screen => screen.game_mut()?.snapshot(&mut self.studio, size),
         };
         drawn.map_err(|error| self.notices.complain(error)).ok()
     }
@@ -75,9 +73,7 @@ impl App {
     fn film_clock(&self) -> f64 {
         match &self.screen {
             Screen::Watching(watching) => watching.view().time,
-            Screen::Maze(screen) => screen.clock(),
-            Screen::Pinball(screen) => screen.clock(),
-            Screen::Empty => 0.0,
+            screen => screen.game().map_or(0.0, |game| game.view().clock),
         }
     }
 

@@ -1,11 +1,13 @@
 //! Pinball by keys and by fingers.
 
 use carom_pinball::{Game, GameState, Table};
+use carom_session::Link;
 use carom_view::{Setup, Start};
 use egui::{Key, TouchPhase, Vec2};
 use egui_kittest::kittest::Queryable;
 
-use crate::desk::{Desk, desk, setup};
+use crate::desk::{Desk, desk, press, setup};
+use crate::links::copied_text;
 use crate::touch::{PLACE, finger};
 
 pub fn start() -> Option<Start> {
@@ -121,4 +123,34 @@ fn the_help_says_how_to_raise_the_flippers() {
     desk.key_press(Key::F1);
     desk.run_steps(3);
     desk.get_by_label("left and right arrow, or A and D");
+}
+
+#[test]
+fn the_best_score_is_kept_when_the_table_is_opened_again() {
+    let mut desk = playing();
+    lose(&mut desk);
+    let score = game(&desk).score();
+    for text in ["scene=cradle", "scene=pinball&goal=999999"] {
+        desk.state_mut().follow(&Link::parse(text).expect("a link"));
+        desk.run_steps(3);
+    }
+    assert_eq!((game(&desk).state(), game(&desk).best()), (GameState::Playing, Some(score)));
+    desk.get_by_label(&format!("Best {score}"));
+    desk.get_by_label("To beat 999999");
+}
+
+#[test]
+fn a_link_to_a_game_has_the_best_score_as_the_one_to_beat() {
+    let link = Link::parse("scene=pinball&goal=999999").expect("a link");
+    let mut desk = desk(Setup { start: Some(Start::Link(Box::new(link))), ..setup() });
+    lose(&mut desk);
+    desk.run_steps(2);
+    desk.get_by_label("999999 points are still to beat.");
+    let score = game(&desk).score();
+    press(&mut desk, Key::U);
+    desk.run_steps(2);
+    desk.get_by_label("Copy the link").click();
+    desk.run_steps(1);
+    let copied = copied_text(&desk).expect("something was copied");
+    assert_eq!(copied, format!("http://127.0.0.1:8042/#scene=pinball&goal={score}"));
 }

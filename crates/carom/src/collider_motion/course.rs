@@ -103,7 +103,7 @@ impl Course {
         let h = to - from;
         let velocity = (end.position - start.position) / h;
         let angular_velocity = if self.turns() {
-            rotation::vector_of(end.rotation * start.rotation.conjugate()) / h
+            rotation::rotation_vector(end.rotation * start.rotation.conjugate()) / h
         } else {
             DVec3::ZERO
         };

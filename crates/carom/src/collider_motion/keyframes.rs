@@ -303,7 +303,7 @@ fn pieces(given: &Given) -> Arc<[Piece]> {
         keyframes.windows(2).map(|two| two[1].position - two[0].position).collect();
     let velocities = tangents::of(&ways, &lengths, given.repeats);
     let rotations: Vec<DQuat> = keyframes.iter().map(|it| it.rotation.normalize()).collect();
-    let turn = |two: &[DQuat]| rotation::vector_of(two[0].conjugate() * two[1]);
+    let turn = |two: &[DQuat]| rotation::rotation_vector(two[0].conjugate() * two[1]);
     let turns: Vec<DVec3> = rotations.windows(2).map(turn).collect();
     let spins = tangents::of(&turns, &lengths, given.repeats);
     let piece = |(number, &length): (usize, &f64)| {
@@ -323,7 +323,7 @@ fn pieces(given: &Given) -> Arc<[Piece]> {
                 end,
             ],
             rotation: rotations[number],
-            turns: [start_turn, rotation::vector_of(middle), end_turn],
+            turns: [start_turn, rotation::rotation_vector(middle), end_turn],
         }
     };
     lengths.iter().enumerate().map(piece).collect()

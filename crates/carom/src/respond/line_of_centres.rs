@@ -22,8 +22,11 @@ pub fn line_of_centres(
     if normal_velocity >= 0.0 {
         return None;
     }
-    // The reduced mass m1 m2 / (m1 + m2), in a form that neither overflows nor underflows.
-    let reduced_mass = m1.min(m2) / (1.0 + m1.min(m2) / m1.max(m2));
-    let impulse = -(1.0 + restitution) * normal_velocity * reduced_mass;
+    let impulse = -(1.0 + restitution) * normal_velocity * reduced_mass(masses);
     Some(([v1 - impulse / m1 * normal, v2 + impulse / m2 * normal], impulse))
+}
+
+/// Returns the reduced mass `m1 m2 / (m1 + m2)` \[kg\], in a form that neither overflows nor underflows.
+pub(crate) fn reduced_mass([m1, m2]: [f64; 2]) -> f64 {
+    m1.min(m2) / (1.0 + m1.min(m2) / m1.max(m2))
 }

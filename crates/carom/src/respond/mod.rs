@@ -30,6 +30,7 @@ pub(crate) use group::rounding_of;
 pub(crate) use kick::kick;
 pub(crate) use least_change::least_change;
 pub use line_of_centres::line_of_centres;
+pub(crate) use line_of_centres::reduced_mass;
 pub use reflection::reflection;
 pub use resolve::resolve;
 pub(crate) use resolve::resolve_within;

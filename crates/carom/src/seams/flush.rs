@@ -11,6 +11,7 @@ use crate::bounds::Bounds;
 use crate::bounds_tree::{Bounded, BoundsTree};
 use crate::collider::{Collider, Shape};
 use crate::detect::surface_tree::{self, SurfaceTree};
+use crate::id::ColliderId;
 use crate::numbered::Numbered;
 use crate::surface::{Form, Role, Surface};
 
@@ -21,6 +22,7 @@ const MARGIN: f64 = 4e-9;
 
 /// A collider with flat faces.
 struct Flat<'a> {
+    id: ColliderId,
     collider: &'a Collider,
     /// Range of its surfaces.
     surfaces: Range<usize>,
@@ -46,11 +48,16 @@ impl Bounded for Leaf {
     }
 }
 
-/// Pairs of flush surfaces of different colliders, ascending.
-pub(super) fn pairs(colliders: &Numbered<Collider>, surfaces: &[Surface]) -> Vec<[u32; 2]> {
+/// Pairs of flush surfaces of different colliders, ascending. At least one collider of each pair satisfies `is_asked`.
+pub(super) fn pairs(
+    colliders: &Numbered<Collider>,
+    surfaces: &[Surface],
+    is_asked: impl Fn(ColliderId, &Collider) -> bool,
+) -> Vec<[u32; 2]> {
     let flats = flats(colliders, surfaces);
+    let asked: Vec<bool> = flats.iter().map(|it| is_asked(it.id, it.collider)).collect();
     let mut pairs = Vec::new();
-    if flats.len() < 2 {
+    if flats.len() < 2 || !asked.contains(&true) {
         return pairs;
     }
     let leaf = |(number, flat): (usize, &Flat)| flat.bounds.map(|bounds| Leaf { bounds, number });
@@ -70,7 +77,7 @@ pub(super) fn pairs(colliders: &Numbered<Collider>, surfaces: &[Surface]) -> Vec
         } else {
             near.extend((number + 1..flats.len()).filter(|&it| flats[it].bounds.is_some()));
         }
-        for other in near {
+        for other in near.into_iter().filter(|&it| asked[number] || asked[it]) {
             add_pairs(surfaces, &flats, [number, other], &mut trees, &mut pairs);
         }
     }
@@ -85,26 +92,29 @@ fn flats<'a>(colliders: &'a Numbered<Collider>, surfaces: &[Surface]) -> Vec<Fla
     for own in surfaces.chunk_by(|first, second| first.collider == second.collider) {
         let range = start..start + own.len();
         start = range.end;
-        let Some(collider) = colliders.get(own[0].collider.0) else { continue };
-        let is_flat = matches!(
-            collider.shape,
-            Shape::Rectangle { .. }
-                | Shape::HalfSpace
-                | Shape::Box { .. }
-                | Shape::Container { .. }
-                | Shape::Mesh(_)
-        );
-        if !is_flat || collider.trigger {
-            continue;
-        }
+        let id = own[0].collider;
+        let Some(collider) = colliders.get(id.0).filter(|it| has_faces(it)) else { continue };
         let bounds = own.iter().filter_map(|it| surface_tree::bounds(&it.form));
         let bounds = bounds.reduce(Bounds::union).map(|it| {
             let margin = MARGIN * (it.min.abs().max(it.max.abs())).max_element();
             it.widened(margin)
         });
-        flats.push(Flat { collider, surfaces: range, bounds });
+        flats.push(Flat { id, collider, surfaces: range, bounds });
     }
     flats
+}
+
+/// Returns whether a collider has flat faces that deflect spheres.
+pub(super) fn has_faces(collider: &Collider) -> bool {
+    let is_flat = matches!(
+        collider.shape,
+        Shape::Rectangle { .. }
+            | Shape::HalfSpace
+            | Shape::Box { .. }
+            | Shape::Container { .. }
+            | Shape::Mesh(_)
+    );
+    is_flat && !collider.trigger
 }
 
 /// Adds the flush faces of two colliders.

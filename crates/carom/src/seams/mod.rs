@@ -10,7 +10,8 @@ mod flush;
 mod motions;
 mod polyhedron;
 
-use std::collections::BTreeMap;
+use std::borrow::Cow;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::collider::Collider;
 use crate::collider_motion::Motion;
@@ -47,10 +48,8 @@ struct Joined {
 impl Seams {
     /// Finds the seams between colliders; `plain` are their surfaces without seams.
     pub fn of(colliders: &Numbered<Collider>, plain: &[Surface]) -> Self {
-        let is_moved = |(_, it): (u64, &Collider)| !it.motion.is_empty();
-        let at_rest = colliders.iter().any(is_moved).then(|| placed_at_rest(colliders));
-        let surfaces = at_rest.as_deref().unwrap_or(plain);
-        let pairs = flush::pairs(colliders, surfaces);
+        let surfaces = &*at_rest(colliders, plain);
+        let pairs = flush::pairs(colliders, surfaces, |_, _| true);
         let mut flush_with: BTreeMap<u64, Vec<u32>> = BTreeMap::new();
         for [first, second] in &pairs {
             for (own, other) in [(first, second), (second, first)] {
@@ -80,6 +79,26 @@ impl Seams {
             joined.insert(number, Joined { whole, rest, forms });
         }
         Self { joined, are_of_now }
+    }
+
+    /// Returns whether the seams are the same after changes of colliders, which have these numbers; `plain` are the
+    /// surfaces without seams. A change of colliders that are flush with no others, before and after it, leaves them.
+    pub fn remain(
+        &self,
+        colliders: &Numbered<Collider>,
+        plain: &[Surface],
+        changed: &BTreeSet<u64>,
+    ) -> bool {
+        if self.are_of_now || changed.iter().any(|number| self.joined.contains_key(number)) {
+            return false;
+        }
+        // Steady motion may have brought a face beside another one.
+        let is_asked = |id: ColliderId, collider: &Collider| {
+            changed.contains(&id.0) || motions::is_steady(collider)
+        };
+        let has_faces = |(number, it)| is_asked(ColliderId(number), it) && flush::has_faces(it);
+        !colliders.iter().any(has_faces)
+            || flush::pairs(colliders, &at_rest(colliders, plain), is_asked).is_empty()
     }
 
     /// Returns the surfaces of colliders with their seams; `plain` are those without.
@@ -135,15 +154,18 @@ fn wholes(numbers: &[u64], pairs: &[[u32; 2]], surfaces: &[Surface]) -> Vec<Coll
     (0..numbers.len()).map(|it| ColliderId(numbers[connected.root_of(it)])).collect()
 }
 
-/// Returns the surfaces of colliders in their poses at rest.
-fn placed_at_rest(colliders: &Numbered<Collider>) -> Vec<Surface> {
+/// Returns the surfaces of colliders in their poses at rest; `plain` are those in their present poses.
+fn at_rest<'a>(colliders: &Numbered<Collider>, plain: &'a [Surface]) -> Cow<'a, [Surface]> {
+    if colliders.iter().all(|(_, it)| it.motion.is_empty()) {
+        return Cow::Borrowed(plain);
+    }
     let mut surfaces = Vec::new();
     for (number, collider) in colliders.iter() {
         let pose = motions::rest_pose(collider);
         let still = Collider { pose, motion: Motion::default(), ..collider.clone() };
         surface::place(ColliderId(number), &still, 0.0, &mut surfaces);
     }
-    surfaces
+    Cow::Owned(surfaces)
 }
 
 /// Forms of a collider without the parts that flush faces of others cover.

@@ -57,7 +57,7 @@ impl World {
         let Pose { position, rotation } = collider.pose;
         let turn = pose.rotation.normalize() * rotation.normalize().conjugate();
         let velocity = (pose.position - position) / dt;
-        let moving = collider.moving(velocity, rotation::vector_of(turn) / dt);
+        let moving = collider.moving(velocity, rotation::rotation_vector(turn) / dt);
         self.check_collider(id, &moving)?;
         Ok(moving)
     }

@@ -115,6 +115,11 @@ impl BlockContact {
         [along, turn]
     }
 
+    /// Whether a sphere takes part in both contacts.
+    fn shares_sphere_with(&self, other: &Self) -> bool {
+        self.spheres.iter().flatten().any(|sphere| other.spheres.contains(&Some(*sphere)))
+    }
+
     /// What a unit of an impulse of another contact adds to the velocity along an axis \[1/kg\].
     fn coupling(&self, axis: usize, other: &Self, of_other: usize, spheres: &[BlockSphere]) -> f64 {
         let [along, turn] = self.directions(axis);
@@ -251,7 +256,9 @@ fn couplings(contacts: &[BlockContact], spheres: &[BlockSphere]) -> Vec<f64> {
     for contact in contacts {
         for axis in 0..3 {
             for other in contacts {
-                values.extend((0..3).map(|it| contact.coupling(axis, other, it, spheres)));
+                let coupled = |it| contact.coupling(axis, other, it, spheres);
+                let is_coupled = contact.shares_sphere_with(other);
+                values.extend((0..3).map(|it| if is_coupled { coupled(it) } else { 0.0 }));
             }
         }
     }

@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use crate::norm::Norm;
 use crate::report::ImpactGroup;
+use crate::respond::reduced_mass;
 use crate::sum::Sum;
 
 /// Momentum and energy of the spheres before and after.
@@ -41,7 +42,6 @@ pub(super) fn account_of_pair(
 ) -> ImpactGroup {
     let [m1, m2] = masses;
     let energy = |[v1, v2]: [DVec3; 2]| 0.5 * (m1 * v1.length_squared() + m2 * v2.length_squared());
-    let reduced_mass = m1.min(m2) / (1.0 + m1.min(m2) / m1.max(m2));
     let lost = (1.0 - restitution) * (1.0 + restitution);
     ImpactGroup {
         momentum_before: m1 * before[0] + m2 * before[1],
@@ -49,7 +49,7 @@ pub(super) fn account_of_pair(
         momentum_scale: m1 * before[0].norm() + m2 * before[1].norm(),
         energy_before: energy(before),
         energy_after: energy(after),
-        energy_demanded: -0.5 * reduced_mass * lost * approach_speed * approach_speed,
+        energy_demanded: -0.5 * reduced_mass(masses) * lost * approach_speed * approach_speed,
         ..ImpactGroup::default()
     }
 }

@@ -4,10 +4,11 @@
 use glam::DVec3;
 
 use super::account::{account_of, account_of_pair};
+use super::meeting::MeetingPair;
 use crate::detect::contact::Bodies;
 use crate::detect::{Separation, known_in_front};
-use crate::norm::Norm;
 use crate::report::{BodyPair, Impact, ImpactGroup};
+use crate::respond::reduced_mass;
 use crate::rule::exact::answer::changed::Changed;
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::timeline::Timeline;
@@ -23,23 +24,18 @@ pub(crate) fn answer_growing_pair(
     slots: [u32; 2],
     time: f64,
 ) -> Changed {
+    let meeting = MeetingPair::at(timeline, context, slots, time);
+    let MeetingPair { slots, masses, positions, normal, .. } = meeting;
     let flights = &timeline.flights;
-    let mut slots = slots;
-    slots.sort_unstable_by_key(|&slot| flights.index_of[slot as usize]);
-    let species = slots.map(|slot| flights.species_of(slot));
-    let masses @ [m1, m2] = species.map(|species| species.mass);
-    let growth_speed: f64 = species.iter().map(|species| species.growth_speed).sum();
-    let [(x1, v1), (x2, v2)] = slots.map(|slot| flights.state_of(slot, time));
-    let offset = periodic::wrapped(x2 - x1, context.period);
-    let normal = offset / offset.norm();
-    let approach_speed = growth_speed - (v2 - v1).dot(normal);
-    let reduced_mass = m1.min(m2) / (1.0 + m1.min(m2) / m1.max(m2));
+    let growth_speed: f64 = slots.iter().map(|&it| flights.species_of(it).growth_speed).sum();
+    let approach_speed = growth_speed - meeting.relative_velocity().dot(normal);
     // A graze may turn out, by rounding, not to close.
-    let impulse = 2.0 * reduced_mass * approach_speed.max(0.0);
-    let velocities = [v1 - impulse / m1 * normal, v2 + impulse / m2 * normal];
+    let impulse = 2.0 * reduced_mass(masses) * approach_speed.max(0.0);
+    let velocities = meeting.velocities_after(impulse);
     if impulse > 0.0 {
-        let account = account_of_pair([v1, v2], velocities, masses, approach_speed, 1.0);
-        let point = x1 + flights.radius_at(slots[0], time) * normal;
+        let before = meeting.velocities;
+        let account = account_of_pair(before, velocities, masses, approach_speed, 1.0);
+        let point = positions[0] + flights.radius_at(slots[0], time) * normal;
         let [first, second] = slots.map(|slot| context.id_of(timeline, slot));
         let impact = Impact {
             time: context.since_start(time),
@@ -54,7 +50,7 @@ pub(crate) fn answer_growing_pair(
         };
         context.record([impact], worked(account, growth_speed * impulse));
     }
-    for (slot, (place, velocity)) in slots.into_iter().zip([x1, x2].into_iter().zip(velocities)) {
+    for (slot, (place, velocity)) in slots.into_iter().zip(positions.into_iter().zip(velocities)) {
         begin_flight(timeline, slot, [place, velocity], impulse > 0.0, time);
     }
     Changed::Pair { slots, are_searched: [false; 2] }

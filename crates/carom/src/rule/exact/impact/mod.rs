@@ -6,6 +6,7 @@ mod friction;
 mod group;
 mod growing;
 mod kick;
+mod meeting;
 mod pair;
 mod sheared;
 mod single_sphere;

@@ -1,6 +1,8 @@
 //! Events of two spheres at the edge of their well: they enter it, leave it, or turn back.
 
+use super::meeting::MeetingPair;
 use crate::norm::Norm;
+use crate::respond::reduced_mass;
 use crate::rule::exact::answer::changed::Changed;
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::timeline::Timeline;
@@ -36,21 +38,16 @@ pub(crate) fn answer_at_edge(
     slots: [u32; 2],
     time: f64,
 ) -> Changed {
-    let flights = &timeline.flights;
-    let mut slots = slots;
-    slots.sort_unstable_by_key(|&slot| flights.index_of[slot as usize]);
-    let pair = slots.map(|slot| flights.index_of[slot as usize]);
-    let masses = slots.map(|slot| flights.species_of(slot).mass);
-    let [(x1, v1), (x2, v2)] = slots.map(|slot| flights.state_of(slot, time));
-    let offset = periodic::wrapped(x2 - x1, context.period);
-    let (distance, velocity) = (offset.norm(), v2 - v1);
-    let normal = offset / distance;
+    let meeting = MeetingPair::at(timeline, context, slots, time);
+    let MeetingPair { slots, masses, positions, distance, normal, .. } = meeting;
+    let pair = slots.map(|slot| timeline.flights.index_of[slot as usize]);
+    let velocity = meeting.relative_velocity();
     let Some(wells) = &timeline.flights.wells else { return Changed::NONE };
     let is_bound = wells.is_bound(pair);
     let edge = Edge { is_bound, depth: wells.depth, speed: velocity.dot(normal) };
-    let mut velocities = [v1, v2];
+    let mut velocities = meeting.velocities;
     if let Some((kind, impulse)) = edge.impulse(masses, velocity.norm()) {
-        velocities = [v1 - impulse / masses[0] * normal, v2 + impulse / masses[1] * normal];
+        velocities = meeting.velocities_after(impulse);
         let between = slots.map(|slot| context.id_of(timeline, slot));
         let time = context.since_start(time);
         context.report.well_events.push(WellEvent {
@@ -67,7 +64,7 @@ pub(crate) fn answer_at_edge(
             wells.set_bound(pair, !is_bound);
         }
     }
-    for (slot, (place, velocity)) in slots.into_iter().zip([x1, x2].into_iter().zip(velocities)) {
+    for (slot, (place, velocity)) in slots.into_iter().zip(positions.into_iter().zip(velocities)) {
         timeline.begin_flight(slot, place, velocity, time);
     }
     Changed::Pair { slots, are_searched: [false; 2] }
@@ -86,9 +83,9 @@ struct Edge {
 impl Edge {
     /// What happens to spheres with these masses \[kg\] and this relative speed \[m/s\], and the impulse \[N s\] that
     /// drives them apart; `None` for spheres that do not move through it.
-    fn impulse(&self, [m1, m2]: [f64; 2], relative_speed: f64) -> Option<(WellEventKind, f64)> {
+    fn impulse(&self, masses: [f64; 2], relative_speed: f64) -> Option<(WellEventKind, f64)> {
         let Self { is_bound, depth, speed } = *self;
-        let reduced_mass = m1.min(m2) / (1.0 + m1.min(m2) / m1.max(m2));
+        let reduced_mass = reduced_mass(masses);
         let (outwards, gained) = if is_bound { (1.0, depth) } else { (-1.0, -depth) };
         let through = outwards * speed;
         let least = if is_bound { LEAST_TURN * relative_speed } else { 0.0 };
