@@ -371,12 +371,12 @@ impl Flights {
 
     /// Makes a cluster of free spheres from `time` \[s\] on.
     pub fn set_supported(&mut self, support: Support, time: f64) {
-        let Support { members, contacts, renewal, is_curved, belt_work } = support;
+        let Support { members, contacts, sides, renewal, is_curved, belt_work } = support;
         // Contacts were said to take all that their spheres gained as they began to persist.
         self.add_contact_work(-belt_work);
         self.add_collider_work(belt_work);
         let slots = members.iter().map(|member| member.slot).collect();
-        let cluster = Cluster { members: slots, contacts, renewal, is_curved };
+        let cluster = Cluster { members: slots, contacts, sides, renewal, is_curved };
         let cluster = self.clusters.add(cluster);
         for Supported { slot, acceleration, rotation, contact_work } in members {
             if let Some(rotation) = rotation {

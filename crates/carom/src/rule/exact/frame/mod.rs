@@ -49,7 +49,8 @@ pub(crate) fn start(
     time: f64,
 ) -> Timeline {
     let mut flights = Flights::new(system, motion, |_| Err(time));
-    flights.growth = Growth::of(&flights.species, time);
+    let velocities = motion.velocity.iter().copied();
+    flights.growth = Growth::of(&flights.species, velocities, time);
     flights.wells = Wells::of(&Instant { system: *system, motion, time });
     // Zones step spheres with the radius of the start, images that stand still, and no wells.
     let excludes_zones =
@@ -192,7 +193,6 @@ pub(crate) fn begin(
     let goes_on = timeline.frame[1] == frame[0];
     set_frame(timeline, system, frame);
     timeline.next_emission = next;
-    timeline.flights.limit_heating();
     let are_applied = !system.spheres.applied_force.is_empty();
     timeline.curves_until = if are_applied { frame[1] } else { f64::INFINITY };
     let is_other_tick = set_force_tick(timeline, frame[1] - frame[0])?;

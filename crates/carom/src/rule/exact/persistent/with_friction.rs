@@ -230,6 +230,7 @@ fn support_pushed(group: &mut Group, pushed: PushedSpheres) -> Result<Support, N
     Ok(Support {
         members: members.iter().zip(rates).map(supported).collect(),
         contacts,
+        sides: Vec::new(),
         renewal: group.time + valid_for,
         is_curved: false,
         belt_work,
@@ -254,6 +255,7 @@ fn on_planes(
     let support = Support {
         members: vec![planar.supported(member.slot)],
         contacts: lasting.map(bodies).collect(),
+        sides: Vec::new(),
         renewal: group.time + valid_for,
         is_curved: false,
         belt_work,
@@ -307,6 +309,7 @@ fn over_curve(
             contact_work: ContactWork::Friction { moment, collider_power: 0.0 },
         }],
         contacts: own.iter().map(|touch| touch.bodies).collect(),
+        sides: own.iter().filter_map(Touch::ring_side).collect(),
         renewal: group.time + piece.valid_for,
         is_curved: false,
         belt_work: 0.0,
