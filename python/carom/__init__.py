@@ -33,6 +33,7 @@ from carom._run.tables import (
     OVERLAPPING,
     SENSOR_EVENT,
     TRIGGER,
+    WELL_EVENT,
 )
 from carom._run.trajectory import Trajectory
 from carom._run.world import World
@@ -142,6 +143,7 @@ __all__ = [
     "OVERLAPPING",
     "SENSOR_EVENT",
     "TRIGGER",
+    "WELL_EVENT",
     "Andersen",
     "Ball",
     "Batch",

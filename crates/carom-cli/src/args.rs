@@ -274,6 +274,9 @@ pub struct Run {
     /// Write every impact to a .csv file; `-` as by --out.
     #[arg(long, value_name = "PATH")]
     pub impacts: Option<PathBuf>,
+    /// Write every capture, dissociation and bounce at the edge of a square well to a .csv file; `-` as by --out.
+    #[arg(long, value_name = "PATH")]
+    pub wells: Option<PathBuf>,
     /// Write the ledger to a .csv file: every impact with the momentum and energy of its group
     /// before and after; `-` as by --out. Kept by the rule `exact` only.
     #[arg(long, value_name = "PATH")]

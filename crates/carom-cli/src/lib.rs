@@ -42,6 +42,7 @@ mod summary;
 mod table;
 mod verify;
 #[cfg(feature = "view")]
+mod well_totals;
 mod window;
 mod written;
 mod zone_totals;

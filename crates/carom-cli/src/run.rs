@@ -9,7 +9,7 @@ use std::time::Duration;
 use carom::{StopRequest, World};
 use carom_gltf::{Animation, ExportError};
 use carom_scene::recording::{
-    ImpactTable, LedgerTable, ParticleFormat, RecordingError, Trajectory,
+    ImpactTable, LedgerTable, ParticleFormat, RecordingError, Trajectory, WellTable,
 };
 use carom_scene::scene::Rule;
 use carom_scene::{Budget, ChangedFile, Library, Source};
@@ -28,7 +28,7 @@ use crate::summary::{Observer, Summary};
 /// of a link.
 pub fn run(library: &Library, args: &Run, links: Budget) -> Result<(), Failure> {
     let series = args.out.as_deref().into_iter().flat_map(series);
-    let tables = [&args.out, &args.impacts, &args.ledger].into_iter().flatten().cloned();
+    let tables = outputs_of(args).into_iter().flatten().cloned();
     let files: Vec<PathBuf> = tables.chain(series).collect();
     // The shell is responsible for the file to which the standard output is redirected.
     let named = files.iter().map(PathBuf::as_path).filter(|file| !is_standard(file));
@@ -49,6 +49,11 @@ pub fn run(library: &Library, args: &Run, links: Budget) -> Result<(), Failure> 
             return Err(Failure::Interrupted);
         }
     }
+}
+
+/// Files that a run writes, as far as they are given.
+fn outputs_of(args: &Run) -> [&Option<PathBuf>; 4] {
+    [&args.out, &args.impacts, &args.wells, &args.ledger]
 }
 
 /// Interval between checks of a watched file.
@@ -126,7 +131,7 @@ fn once(
     both(result, finished)?;
     check_energy(replay.world())?;
     let summary = Summary::new(&replay, observer);
-    let tables = [&args.out, &args.impacts, &args.ledger].into_iter().flatten();
+    let tables = outputs_of(args).into_iter().flatten();
     if tables.into_iter().any(|table| is_standard(table)) {
         summary.print(&mut io::stderr().lock(), args.json)?;
     } else {
@@ -212,6 +217,13 @@ fn impact_table(path: &Path) -> Result<ImpactTable, RecordingError> {
     ImpactTable::create(path)
 }
 
+fn well_table(path: &Path) -> Result<WellTable, RecordingError> {
+    if is_standard(path) {
+        return WellTable::csv(io::stdout(), STANDARD);
+    }
+    WellTable::create(path)
+}
+
 fn ledger_table(path: &Path) -> Result<LedgerTable, RecordingError> {
     if is_standard(path) {
         return LedgerTable::csv(io::stdout(), STANDARD);
@@ -246,6 +258,7 @@ fn with_kept(error: RecordingError, frames: u64) -> Failure {
 struct Outputs {
     trajectory: Option<Trajectory>,
     impacts: Option<ImpactTable>,
+    wells: Option<WellTable>,
     ledger: Option<LedgerTable>,
     every: u64,
 }
@@ -258,9 +271,9 @@ impl Outputs {
         frames: u64,
         sensitivity: Option<&Sensitivity>,
     ) -> Result<Self, Failure> {
-        let files =
-            [("--out", &args.out), ("--impacts", &args.impacts), ("--ledger", &args.ledger)];
-        let named = files.iter().filter_map(|(name, file)| Some((*name, file.as_deref()?)));
+        let names = ["--out", "--impacts", "--wells", "--ledger"];
+        let files = names.iter().zip(outputs_of(args));
+        let named = files.filter_map(|(name, file)| Some((*name, file.as_deref()?)));
         let named: Vec<(&str, &Path)> = named.collect();
         for (i, (name, file)) in named.iter().enumerate() {
             let same = named[..i].iter().find(|(_, other)| place_of(other) == place_of(file));
@@ -290,6 +303,7 @@ impl Outputs {
         // The trajectory comes last: if it is dropped, an unfinished file remains.
         Ok(Self {
             impacts: args.impacts.as_deref().map(impact_table).transpose()?,
+            wells: args.wells.as_deref().map(well_table).transpose()?,
             ledger: args.ledger.as_deref().map(ledger_table).transpose()?,
             trajectory: args.out.as_deref().map(trajectory).transpose()?,
             every: args.every,
@@ -306,6 +320,9 @@ impl Outputs {
     ) -> Result<(), Failure> {
         if let Some(impacts) = &mut self.impacts {
             impacts.write(start, &world.report().impacts)?;
+        }
+        if let Some(wells) = &mut self.wells {
+            wells.write(start, &world.report().well_events)?;
         }
         if let Some(ledger) = &mut self.ledger {
             ledger.write(start, world.report())?;
@@ -324,10 +341,10 @@ impl Outputs {
     fn finish(self) -> Result<(), Failure> {
         let trajectory = self.trajectory.map_or(Ok(()), Trajectory::finish);
         let impacts = self.impacts.map_or(Ok(()), ImpactTable::finish);
+        let wells = self.wells.map_or(Ok(()), WellTable::finish);
         let ledger = self.ledger.map_or(Ok(()), LedgerTable::finish);
-        let [trajectory, impacts, ledger] =
-            [trajectory, impacts, ledger].map(|it| it.map_err(Failure::from));
         // If the reader of the trajectory closed it, other errors are still reported.
-        both(both(impacts, ledger), trajectory)
+        let results = [impacts, wells, ledger, trajectory].map(|it| it.map_err(Failure::from));
+        results.into_iter().fold(Ok(()), both)
     }
 }

@@ -16,6 +16,7 @@ use crate::escapes::Escapes;
 use crate::failure::Failure;
 use crate::stage_work::StageWork;
 use crate::stress::{MeanStress, StressGauge};
+use crate::well_totals::WellTotals;
 use crate::written::written;
 use crate::zone_totals::ZoneTotals;
 
@@ -37,6 +38,7 @@ pub struct Observer {
     momentum_at_start: DVec3,
     frames: u64,
     impacts: u64,
+    wells: WellTotals,
     trigger_contacts: u64,
     emitted: u64,
     retired: u64,
@@ -70,6 +72,7 @@ impl Observer {
             momentum_at_start: world.momentum(),
             frames: 0,
             impacts: 0,
+            wells: WellTotals::default(),
             trigger_contacts: 0,
             emitted: 0,
             retired: 0,
@@ -107,6 +110,7 @@ impl Observer {
         let (world, report) = (replay.world(), replay.world().report());
         self.frames += 1;
         self.impacts += report.impacts.len() as u64;
+        self.wells.add(&report.well_events);
         self.trigger_contacts += report.triggers.len() as u64;
         self.emitted += report.emitted.len() as u64;
         self.retired += report.retired.len() as u64;
@@ -177,6 +181,9 @@ pub struct Summary {
     /// Number of spheres that emitters left out because they would have overlapped others.
     left_out: u64,
     impacts: u64,
+    /// Only with square wells.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    wells: Option<WellTotals>,
     /// Number of spheres in triggers, summed over frames.
     trigger_contacts: u64,
     unfinished_islands: u64,
@@ -283,6 +290,7 @@ impl Summary {
             retired: observer.retired,
             left_out: observer.left_out,
             impacts: observer.impacts,
+            wells: simulation.pair_potential.map(|_| observer.wells),
             trigger_contacts: observer.trigger_contacts,
             unfinished_islands: observer.unfinished_islands,
             work: observer.work.into(),
@@ -389,6 +397,7 @@ impl Summary {
             );
             rows.insert(5, ("ledger", text));
         }
+        rows.splice(5..5, self.wells.map(|wells| ("wells", wells.row())));
         if self.trigger_contacts > 0 {
             let text = format!("{} times a sphere in a frame", self.trigger_contacts);
             rows.insert(5, ("in triggers", text));

@@ -147,3 +147,33 @@ fn bench_refuses_a_gas_that_has_no_place() {
     bad(&["bench", "--n", "50"], 2);
     bad(&["bench", "--set", "nothing"], 2);
 }
+
+#[test]
+fn a_run_counts_the_events_of_its_wells_and_writes_them_to_a_table() {
+    let folder = tempfile::tempdir().unwrap();
+    let [scene, table] = ["gas.toml", "wells.csv"].map(|name| folder.path().join(name));
+    // The centres come from 1.75 m at 1 m/s: captured at 1.5 m, the cores meet, and the pair parts again.
+    let text = "name = 'gas'\n[simulation]\n\
+                pair_potential = { square-well = { depth = 0.5, range_ratio = 1.5 } }\n\
+                [[spheres]]\nradius = 0.5\nvelocity = [1, 0, 0]\n\
+                [[spheres]]\nradius = 0.5\nposition = [1.75, 0, 0]\n";
+    std::fs::write(&scene, text).unwrap();
+    let [scene, file] = [&scene, &table].map(|path| path.to_str().unwrap());
+    let summary = json(&["run", scene, "--seconds", "2", "--wells", file], 0);
+    assert_eq!(summary["wells"]["captures"], 1);
+    assert_eq!(summary["wells"]["dissociations"], 1);
+    assert_eq!(summary["wells"]["bounces"], 0);
+    assert_eq!(summary["impacts"], 1);
+    let mut reader = csv::Reader::from_path(&table).unwrap();
+    assert_eq!(
+        reader.headers().unwrap(),
+        ["t", "event", "ball1", "ball2", "nx", "ny", "nz", "distance", "impulse"].as_slice()
+    );
+    let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
+    assert_eq!(rows.iter().map(|row| &row[1]).collect::<Vec<_>>(), ["capture", "dissociation"]);
+    let number = |row: usize, column: usize| rows[row][column].parse::<f64>().unwrap();
+    // The edge takes what it gave: both impulses draw the pair together, by the same amount to rounding.
+    assert!((number(0, 0) - 0.25).abs() < 1e-15 && (number(0, 7) - 1.5).abs() < 1e-15);
+    assert!(number(0, 8) < 0.0 && (number(0, 8) - number(1, 8)).abs() < 1e-13);
+    assert!(json(&["run", "tutorial1", "--frames", "1"], 0).get("wells").is_none());
+}

@@ -165,6 +165,7 @@ fn what_cannot_be_plotted_is_said_in_a_line() {
         |arguments: &[&str], code| bad_line(&[&["plot", &scene], arguments].concat(), code);
     let other = path(&folder, "plot.pdf");
     assert!(refused(&["--out", &other], 2).contains("must end in .png, .svg or .csv"));
+    assert!(refused(&["--out", "-"], 2).contains("a plot goes into a file"));
     let of_ball = refused(&["--of", "height", "--out", &out], 2);
     assert!(of_ball.contains("--ball must name the ball"), "{of_ball}");
     let no_ball = refused(&["--ball", "1", "--out", &out], 2);

@@ -142,6 +142,18 @@ impl Engine {
         self.0.lock_py_attached(py).map_err(broken)
     }
 
+    /// Returns the words that `push` writes of the world.
+    fn words<'py>(
+        &self,
+        py: Python<'py>,
+        push: impl FnOnce(&mut Table, &Inner),
+    ) -> PyResult<Bound<'py, PyArray1<u64>>> {
+        let inner = &*self.lock(py)?;
+        let mut table = Table::default();
+        push(&mut table, inner);
+        Ok(PyArray1::from_vec(py, table.into_words()))
+    }
+
     /// Changes the world and updates the arrays.
     pub fn change<T>(
         &self,
@@ -365,37 +377,35 @@ impl Engine {
     /// Returns the impacts as words.
     #[pyo3(name = "_impact_words")]
     fn impact_words<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u64>>> {
-        let inner = &*self.lock(py)?;
-        let mut table = Table::default();
-        table.push_impacts(inner.frame_start, &inner.world.report().impacts);
-        Ok(PyArray1::from_vec(py, table.into_words()))
+        self.words(py, |table, it| table.push_impacts(it.frame_start, &it.world.report().impacts))
     }
 
     /// Returns the ledger as words.
     #[pyo3(name = "_ledger_words")]
     fn ledger_words<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u64>>> {
-        let inner = &*self.lock(py)?;
-        let mut table = Table::default();
-        table.push_ledger(inner.frame_start, inner.world.report());
-        Ok(PyArray1::from_vec(py, table.into_words()))
+        self.words(py, |table, it| table.push_ledger(it.frame_start, it.world.report()))
     }
 
     /// Returns the spheres inside triggers as words.
     #[pyo3(name = "_trigger_words")]
     fn trigger_words<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u64>>> {
-        let inner = &*self.lock(py)?;
-        let mut table = Table::default();
-        table.push_triggers(&inner.world.report().triggers);
-        Ok(PyArray1::from_vec(py, table.into_words()))
+        self.words(py, |table, it| table.push_triggers(&it.world.report().triggers))
     }
 
     /// Returns the events of sensors as words.
     #[pyo3(name = "_sensor_event_words")]
     fn sensor_event_words<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u64>>> {
-        let inner = &*self.lock(py)?;
-        let mut table = Table::default();
-        table.push_sensor_events(inner.frame_start, &inner.world.report().sensor_events);
-        Ok(PyArray1::from_vec(py, table.into_words()))
+        self.words(py, |table, it| {
+            table.push_sensor_events(it.frame_start, &it.world.report().sensor_events);
+        })
+    }
+
+    /// Returns the events of wells as words.
+    #[pyo3(name = "_well_event_words")]
+    fn well_event_words<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u64>>> {
+        self.words(py, |table, it| {
+            table.push_well_events(it.frame_start, &it.world.report().well_events);
+        })
     }
 
     /// Returns the overlaps deeper than `tolerance` [m] as words.
@@ -405,19 +415,15 @@ impl Engine {
         py: Python<'py>,
         tolerance: f64,
     ) -> PyResult<Bound<'py, PyArray1<u64>>> {
-        let inner = &*self.lock(py)?;
-        let mut table = Table::default();
-        table.push_overlaps(&py.detach(|| inner.world.overlaps(tolerance)));
-        Ok(PyArray1::from_vec(py, table.into_words()))
+        self.words(py, |table, it| {
+            table.push_overlaps(&py.detach(|| it.world.overlaps(tolerance)));
+        })
     }
 
     /// Returns the persistent contacts as words.
     #[pyo3(name = "_contact_words")]
     fn contact_words<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u64>>> {
-        let inner = &*self.lock(py)?;
-        let mut table = Table::default();
-        table.push_contacts(&py.detach(|| inner.world.contacts()));
-        Ok(PyArray1::from_vec(py, table.into_words()))
+        self.words(py, |table, it| table.push_contacts(&py.detach(|| it.world.contacts())))
     }
 
     /// Returns the work by stage: predictions, pair tests, events, cell crossings, groups, solver

@@ -7,7 +7,7 @@ use std::collections::TryReserveError;
 
 use carom::{
     Body, BodyPair, DVec3, Hit, Impact, LedgerEntry, NearBody, Overlap, PathLeg, PersistentContact,
-    SensorEvent, StepReport, TriggerContact,
+    SensorEvent, StepReport, TriggerContact, WellEvent, WellEventKind,
 };
 
 /// Rows of words; floating-point numbers are stored as their bits.
@@ -71,6 +71,21 @@ impl Table {
             self.numbers(event.point.to_array());
             self.numbers(event.normal.to_array());
             self.numbers([event.speed]);
+        }
+    }
+
+    /// Appends the events of wells of a frame that started at `start` \[s\].
+    pub fn push_well_events(&mut self, start: f64, events: &[WellEvent]) {
+        for event in events {
+            self.numbers([start + event.time]);
+            self.integers(event.between.map(|sphere| sphere.number() as i64));
+            self.integers([match event.kind {
+                WellEventKind::Capture => 0,
+                WellEventKind::Dissociation => 1,
+                _ => 2,
+            }]);
+            self.numbers(event.normal.to_array());
+            self.numbers([event.distance, event.impulse]);
         }
     }
 

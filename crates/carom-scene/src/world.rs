@@ -75,19 +75,38 @@ pub(crate) fn build(scene: &Scene, budget: Budget) -> Result<World, Problem> {
 
 /// Refuses a scene whose first step would fail.
 fn check_step(scene: &Scene, world: &World) -> Result<(), Problem> {
-    world.check_step(scene.simulation.frame_time).map_err(|error| match error {
-        carom::Error::Invalid { subject: carom::Subject::Settings, .. } => {
-            settings_problem(&scene.simulation, error)
+    world.check_step(scene.simulation.frame_time).map_err(|error| step_problem(scene, error))
+}
+
+/// Converts an error of the first step; the path is that of the part of the scene that it is about.
+fn step_problem(scene: &Scene, error: carom::Error) -> Problem {
+    let carom::Error::Invalid { subject, source } = &error else {
+        return Problem::new("simulation", error.to_string());
+    };
+    let carom::InvalidValue { field, requirement, value } = source;
+    if *field == "stiffness" || matches!(subject, carom::Subject::Spring(_)) {
+        return Problem::new("springs", format!("`{field}` must be {requirement}, not {value}"));
+    }
+    let in_list = |list: &str, number: u64, length: usize| {
+        (number < length as u64).then(|| format!("{list}[{number}]"))
+    };
+    let path = match subject {
+        carom::Subject::Settings => return settings_problem(&scene.simulation, error),
+        carom::Subject::Force(id) => {
+            let number = id.number() as usize;
+            let kind = scene.forces.get(number).map_or("", Force::kind);
+            let text = format!("must act {requirement}, not with {value} N on a sphere");
+            return Problem::new(format!("forces[{number}].{kind}"), text);
         }
-        carom::Error::Invalid { subject: carom::Subject::Emitter(id), .. } => {
-            Problem::of_physics(&format!("emitters[{}]", id.number()), error)
-        }
-        carom::Error::Invalid { ref source, .. } if source.field == "stiffness" => {
-            let carom::InvalidValue { requirement, value, .. } = source;
-            Problem::new("springs", format!("`stiffness` must be {requirement}, not {value}"))
-        }
-        other => Problem::new("simulation", other.to_string()),
-    })
+        carom::Subject::Emitter(id) => in_list("emitters", id.number(), scene.emitters.len()),
+        carom::Subject::Collider(id) => in_list("colliders", id.number(), scene.colliders.len()),
+        carom::Subject::Sphere(id) => in_list("spheres", id.number(), scene.spheres.len()),
+        _ => None,
+    };
+    match path {
+        Some(path) => Problem::of_physics(&path, error),
+        None => Problem::new("simulation", error.to_string()),
+    }
 }
 
 fn add_forces(world: &mut World, forces: &[Force]) -> Result<(), Problem> {

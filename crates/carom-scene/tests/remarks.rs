@@ -48,6 +48,33 @@ fn restitutions_beside_a_law_are_named() {
     let floor = format!("shape = 'half-space'\n{law}");
     expect("", &floor, ["colliders[0].restitution", "does not count"]);
     assert!(said(&law_alone, "shape = 'half-space'").is_empty());
+    let material = format!("shape = 'half-space'\n[materials.steel]\n{law}");
+    expect("", &material, ["materials.steel.restitution", "does not count"]);
+}
+
+#[test]
+fn kicks_and_belts_of_triggers_are_named() {
+    let trigger = "shape = 'half-space'\ntrigger = true";
+    let has_no_effect = "a trigger deflects nothing";
+    expect("", &format!("{trigger}\nkick = 2"), ["colliders[0].kick", has_no_effect]);
+    let belt = format!("{trigger}\nsurface_velocity = [1, 0, 0]");
+    expect("", &belt, ["colliders[0].surface_velocity", has_no_effect]);
+    assert!(said("", trigger).is_empty());
+}
+
+#[test]
+fn wells_among_balls_that_stay_at_rest_are_named() {
+    let wells = |velocity: &str| {
+        let text = format!(
+            "simulation = {{ pair_potential = {{ square-well = {{ depth = 1, range_ratio = 2 }} }} }}\n\
+             [[spheres]]\nradius = 0.5\nvelocity = {velocity}\n\
+             [[spheres]]\nradius = 0.5\nposition = [1.5, 0, 0]"
+        );
+        remarks(&Scene::from_toml(&text, "scene.toml").unwrap())
+    };
+    assert!(wells("[0.1, 0, 0]").is_empty());
+    let [remark] = &wells("[0, 0, 0]")[..] else { panic!("{:?}", wells("[0, 0, 0]")) };
+    assert!(remark.starts_with("simulation.pair_potential has no effect"), "{remark}");
 }
 
 #[test]
@@ -63,6 +90,8 @@ fn keyframes_half_a_turn_apart_are_named() {
     let motion = "colliders[0].motion";
     expect("", &turning([0.0, 360.0, 360.0]), [motion, "less than half a turn"]);
     expect("", &turning([0.0, 90.0, 300.0]), [motion, "less than half a turn"]);
+    expect("", &turning([0.0, 180.0, 300.0]), [motion, "less than half a turn"]);
+    expect("", &turning([17.0, 17.0, 197.0]), [motion, "less than half a turn"]);
     assert!(said("", &turning([0.0, 170.0, 300.0])).is_empty());
     assert!(said("", &turning([0.0, 0.0, 90.0])).is_empty());
 }

@@ -1,5 +1,7 @@
 //! Surfaces of revolution: a line or an arc beside an axis, turned about that.
 
+mod ring;
+
 use glam::{DVec2, DVec3};
 
 use crate::norm::Norm;
@@ -81,28 +83,20 @@ pub(crate) struct View {
     pub from_axis: f64,
 }
 
-/// Points count as on the axis of a band within this part of the size of the band.
-const ON_AXIS: f64 = 1e-9;
-/// A normal along or across the axis has a smaller component \[1\] in the other direction.
-const LEAST_TILT: f64 = 1e-3;
-
 impl ProfilePoint {
-    /// The view from the axis, where a whole ring is nearest and its mean normal is along the axis. A sphere there
-    /// approaches the ring more slowly than it moves along the axis.
-    fn over_ring(&self) -> Self {
-        let normal = DVec2::new(0.0, 1f64.copysign(self.normal.y));
-        Self { normal, curvatures: [0.0; 2], ..*self }
-    }
-}
-
-impl View {
-    /// Unit vector to the axis and the distance from it \[m\], where from the axis a ring of the face is nearest;
-    /// `None` on the axis.
-    pub fn way_to_ring(&self, band: &Band) -> Option<(DVec3, f64)> {
-        let inward = band.axis.cross(self.directions[1]);
-        let tilt = self.normal.dot(inward);
-        let is_ring = tilt > LEAST_TILT && self.normal.dot(band.axis).abs() > LEAST_TILT;
-        (is_ring && self.from_axis > ON_AXIS * band.reach()).then_some((inward, self.from_axis))
+    /// The view by this foot in the half-plane of these unit vectors, as if it were on the axis.
+    fn view(&self, axis: DVec3, radial: DVec3) -> View {
+        let world = |vector: DVec2| vector.x * radial + vector.y * axis;
+        View {
+            distance: self.distance,
+            normal: world(self.normal),
+            front: self.front,
+            front_normal: world(self.front_normal),
+            room: self.room,
+            directions: [world(DVec2::new(self.normal.y, -self.normal.x)), axis.cross(radial)],
+            curvatures: self.curvatures,
+            from_axis: 0.0,
+        }
     }
 }
 
@@ -146,24 +140,6 @@ impl Band {
         other[least] = 1.0;
         let across = other - other.dot(self.axis) * self.axis;
         across / across.norm()
-    }
-
-    fn view(&self, foot: &ProfilePoint, from_axis: f64, radial: DVec3) -> View {
-        let world = |vector: DVec2| vector.x * radial + vector.y * self.axis;
-        let along = world(DVec2::new(foot.normal.y, -foot.normal.x));
-        let is_on_axis = from_axis <= ON_AXIS * self.profile.size();
-        let is_ring = foot.normal.x < -LEAST_TILT && foot.normal.y.abs() > LEAST_TILT;
-        let foot = if is_on_axis && is_ring { &foot.over_ring() } else { foot };
-        View {
-            distance: foot.distance,
-            normal: world(foot.normal),
-            front: foot.front,
-            front_normal: world(foot.front_normal),
-            room: foot.room,
-            directions: [along, self.axis.cross(radial)],
-            curvatures: foot.curvatures,
-            from_axis,
-        }
     }
 
     /// How far the rims are from the place of the face nearest to a point \[m\], along the profile: the one against

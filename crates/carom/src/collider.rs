@@ -257,6 +257,15 @@ impl Collider {
         }
     }
 
+    /// Whether spheres pass it from behind.
+    pub(crate) fn is_open_from_behind(&self) -> bool {
+        match &self.shape {
+            Shape::Rectangle { .. } | Shape::Disc { .. } => true,
+            Shape::Mesh(mesh) => mesh.is_one_sided() && !mesh.is_closed(),
+            _ => false,
+        }
+    }
+
     /// Returns the collider with this shape.
     pub fn with_shape(self, shape: Shape) -> Self {
         Self { shape, ..self }

@@ -123,7 +123,7 @@ impl Emitter {
     }
 
     /// The sphere as it appears in the world.
-    fn emitted(&self) -> Sphere {
+    pub(crate) fn emitted(&self) -> Sphere {
         let rotation = self.rotation.normalize();
         Sphere {
             position: self.position + rotation * self.sphere.position,

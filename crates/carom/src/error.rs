@@ -68,11 +68,12 @@ pub enum Error {
         /// Start of the refused step \[s\].
         time: f64,
     },
-    /// Growth made a sphere 4096 times as fast as any was at the start of the step.
+    /// Growth made a sphere 256 times as fast as any was when the growth began, or took more impacts of it in a step
+    /// than [`Exact::max_impacts`](crate::Exact::max_impacts).
     #[error(
-        "sphere {sphere}, at {at} s: growth made it 4096 times as fast as any was at the start of the step, \
-         so there may be no room left to grow; the state before the step, at {time} s, was kept. Shorter \
-         frames with velocities scaled back between them, slower growth or an earlier end may help"
+        "sphere {sphere}, at {at} s: it has no room left to grow: neighbours or walls made it 256 times as fast as \
+         any was when growth began; the state before the step, at {time} s, was kept. End earlier, or take fewer \
+         or smaller spheres; `carom pack` makes dense packings"
     )]
     NoRoomToGrow {
         /// The sphere.

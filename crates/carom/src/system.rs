@@ -253,4 +253,9 @@ impl<'a> System<'a> {
         let of_pairs = self.material_pairs.list().iter().map(|pair| pair.friction);
         self.spheres.friction.iter().copied().chain(of_colliders).chain(of_pairs)
     }
+
+    /// Whether friction acts on some body.
+    pub fn has_friction(&self) -> bool {
+        self.frictions().any(|friction| friction.acts())
+    }
 }

@@ -1,5 +1,7 @@
 //! Events of two spheres in the step report, at the edge of their well.
 
+use std::fmt::{self, Display};
+
 use glam::DVec3;
 
 use crate::id::SphereId;
@@ -32,4 +34,14 @@ pub enum WellEventKind {
     Dissociation,
     /// They turn back: from inside, too slow to leave, or from outside at a shoulder.
     Bounce,
+}
+
+impl Display for WellEventKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Capture => "capture",
+            Self::Dissociation => "dissociation",
+            Self::Bounce => "bounce",
+        })
+    }
 }

@@ -4,8 +4,8 @@
 use std::iter::successors;
 
 use carom::{
-    BodyPair, Boundary, Collider, ConstantForce, Contact, DVec3, Emitter, Error, Friction, Impact,
-    Pose, Settings, Shape, Sides, Sphere, Spring, World, volume,
+    BodyPair, Boundary, Collider, ConstantForce, Contact, DQuat, DVec3, Emitter, Error, Friction,
+    Impact, Pose, Settings, Shape, Sides, Sphere, Spring, World, volume,
 };
 
 mod common;
@@ -286,6 +286,37 @@ fn growth_without_room_ends_in_an_error_and_keeps_the_state() {
     let error = world.step(0.6).map(drop).unwrap_err();
     assert!(matches!(error, Error::NoRoomToGrow { .. }), "{error}");
     assert_eq!(world.state_hash(), before);
+}
+
+#[test]
+fn a_sphere_between_walls_is_refused_at_256_times_its_speed_in_frames_of_any_length() {
+    // At an impact the sphere becomes 2 G faster, and the gap to the opposite wall times v - G stays the same.
+    let (growth, gap): (f64, f64) = (0.125, 1.0);
+    let first = 0.5 * gap / (1.0 + growth);
+    let gap_after_first = gap - 2.0 * growth * first;
+    let impacts = (255.0 / (2.0 * growth)).floor() + 1.0;
+    let fastest = 1.0 + 2.0 * growth * impacts;
+    let last_gap = gap_after_first * (1.0 + growth) / (fastest - growth);
+    let expected = (gap - last_gap) / (2.0 * growth);
+    for frame in [1.0 / 240.0, 1.0 / 7.0, 100.0] {
+        let mut world = World::default();
+        for (x, turn) in [(-1.0, -0.25), (1.0, 0.25)] {
+            let rotation = DQuat::from_rotation_z(turn * std::f64::consts::TAU);
+            let pose = Pose { position: vec(x, 0.0, 0.0), rotation };
+            world.add_collider(Collider::new(Shape::HalfSpace, pose)).unwrap();
+        }
+        let sphere = Sphere::new(DVec3::ZERO, 0.5).with_velocity(DVec3::X);
+        world.add_sphere(sphere.with_growth_speed(growth)).unwrap();
+        let error = loop {
+            if let Err(error) = world.step(frame) {
+                break error;
+            }
+        };
+        let Error::NoRoomToGrow { at, .. } = error else { panic!("{error}") };
+        // A thousand impacts, each rounded.
+        assert_close(at, expected, 1e-12);
+        assert!(!error.to_string().contains("restitution"), "{error}");
+    }
 }
 
 /// What a step says of growth in a world that was changed.

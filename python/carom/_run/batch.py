@@ -236,6 +236,14 @@ class Batch(Strict, Actions):
         """
         return _of_worlds(*self._sensor_event_words(), tables.SENSOR_EVENT)
 
+    @property
+    def well_events(self) -> NDArray[np.void]:
+        """What happened at edges of wells: records of `carom.WELL_EVENT`, after a field ``world``.
+
+        Those of the last frame, a copy, in the order of worlds.
+        """
+        return _of_worlds(*self._well_event_words(), tables.WELL_EVENT)
+
     def _number(self, index: int) -> int:
         count = len(self)
         number = as_index(index)

@@ -96,6 +96,30 @@ way of a sphere is straight within a frame.
 ============================ ===============================================================
 """
 
+WELL_EVENT = np.dtype(
+    [
+        ("time", "f8"),
+        ("sphere_1", "i8"),
+        ("sphere_2", "i8"),
+        ("kind", "i8"),
+        ("normal", "f8", (3,)),
+        ("distance", "f8"),
+        ("impulse", "f8"),
+    ]
+)
+"""Two spheres at the edge of their square well, in the order of time.
+
+============================ ===============================================================
+``time``                     when, on the world's clock [s]
+``sphere_1``, ``sphere_2``   ids of the spheres
+``kind``                     0 where they enter the well (capture), 1 where they leave it
+                             (dissociation), 2 where they turn back at its edge (bounce)
+``normal``                   unit vector from the first centre to the second
+``distance``                 of the centres [m]
+``impulse``                  that drives them apart [N s], negative where it draws them together
+============================ ===============================================================
+"""
+
 HIT = np.dtype(
     [
         ("collider", "i8"),

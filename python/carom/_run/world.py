@@ -266,6 +266,11 @@ class World(Strict, Queries, Bodies):
         return tables.records(self._sensor_event_words(), tables.SENSOR_EVENT)
 
     @property
+    def well_events(self) -> NDArray[np.void]:
+        """What happened at the edges of square wells in the last frame: `carom.WELL_EVENT`."""
+        return tables.records(self._well_event_words(), tables.WELL_EVENT)
+
+    @property
     def work(self) -> StageCounts:
         """The work of the last frame, counted by stage."""
         return StageCounts(*self._work())

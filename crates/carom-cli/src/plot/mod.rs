@@ -24,6 +24,7 @@ use subject::Subject;
 use crate::failure::{Failure, unwritable};
 use crate::interruption::interruption;
 use crate::progress::Progress;
+use crate::standard_input::is_standard;
 
 /// Pixels of a PNG file per point: as fine as print and dense screens show.
 const FINENESS: u32 = 2;
@@ -54,6 +55,11 @@ impl Format {
 
 /// Runs a scene and plots what was asked for.
 pub fn plot(library: &Library, args: &Plot) -> Result<(), Failure> {
+    if args.out.as_deref().is_some_and(is_standard) {
+        let text =
+            "--out: a plot goes into a file, .png, .svg or .csv; without --out it is drawn here";
+        return Err(Failure::Usage(text.to_owned()));
+    }
     let out = match &args.out {
         Some(out) => Some((out.as_path(), Format::of(out)?)),
         None => None,

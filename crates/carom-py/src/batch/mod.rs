@@ -297,6 +297,14 @@ impl BatchEngine {
             report.sensor_events.len()
         })
     }
+
+    /// Returns the events of wells in the last frame of all worlds as words, and their number for each world.
+    fn _well_event_words<'py>(&self, py: Python<'py>) -> PyResult<Words<'py>> {
+        self.words(py, |table, start, report| {
+            table.push_well_events(start, &report.well_events);
+            report.well_events.len()
+        })
+    }
 }
 
 sphere_properties!(BatchEngine, numbers "(n, s)", vectors "(n, s, 3)", rotations "(n, s, 4)");

@@ -1,9 +1,9 @@
 //! Dense fluids, by growth.
 
 use carom::packing::{self, Compressed, Compression, Enclosure, Start, Until};
-use carom::{Boundary, DVec3, World, volume};
+use carom::{Boundary, DVec3, World};
 
-use super::numbers::{Numbers, radii};
+use super::numbers::{Numbers, check_plane, in_space, radii};
 use crate::bodies::sphere;
 use crate::error::Problem;
 use crate::requirement::{check, check_non_negative, check_vector};
@@ -23,10 +23,31 @@ const JAMMED: f64 = 1e5;
 /// Box that a fluid fills.
 struct Place {
     enclosure: Enclosure,
-    /// Edges \[m\].
+    /// Edges \[m\]; that along z does not count in two dimensions.
     size: DVec3,
     /// Centre of the box \[m\].
     middle: DVec3,
+    /// Number of dimensions, 2 or 3.
+    dimensions: u32,
+}
+
+impl Place {
+    /// Volume \[m³\], or area \[m²\].
+    fn volume(&self) -> f64 {
+        match self.dimensions {
+            2 => self.size.x * self.size.y,
+            _ => self.size.element_product(),
+        }
+    }
+
+    /// Part of the box that spheres with these radii \[m\] fill.
+    fn filled(&self, radii: &[f64]) -> f64 {
+        let volumes = radii.iter().map(|&radius| match self.dimensions {
+            2 => std::f64::consts::PI * radius * radius,
+            _ => carom::volume(radius),
+        });
+        volumes.sum::<f64>() / self.volume()
+    }
 }
 
 /// Returns the spheres of a fluid that stands at `path`. The box of `world` is what it fills by default.
@@ -38,11 +59,12 @@ pub(super) fn spheres(
     check_non_negative(fluid.temperature, &format!("{path}.temperature"))?;
     check_vector(fluid.sphere.position, &format!("{path}.sphere.position"))?;
     let place = place(fluid, world, path)?;
-    let radii = all_radii(fluid, place.size.element_product(), path)?;
+    let radii = all_radii(fluid, &place, path)?;
     let spheres = templates(fluid, &radii, path)?;
     let masses = spheres.iter().map(carom::Sphere::kilograms).collect();
     let moved = grown(fluid, &place, radii, masses, path)?;
-    let temperature = 2.0 / 3.0 * moved.kinetic_energy() / f64::from(fluid.count);
+    let temperature =
+        2.0 / f64::from(place.dimensions) * moved.kinetic_energy() / f64::from(fluid.count);
     let factor = if temperature > 0.0 { (fluid.temperature / temperature).sqrt() } else { 0.0 };
     let (positions, velocities) = (moved.spheres().positions(), moved.spheres().velocities());
     let offset = place.middle + vector(fluid.sphere.position);
@@ -59,15 +81,18 @@ pub(super) fn spheres(
 }
 
 fn place(fluid: &DenseFluid, world: &World, path: &str) -> Result<Place, Problem> {
+    let settings = world.settings();
+    let dimensions = settings.dimensions;
     let Some(min) = fluid.min.or(fluid.max) else {
-        let Boundary::Periodic { size } = world.settings().boundary else {
+        let Boundary::Periodic { size } = settings.boundary else {
             let text = "needs `min` and `max` where the simulation has no periodic box";
             return Err(Problem::new(path, text));
         };
-        check(size.is_finite(), "simulation.boundary.periodic.size", || {
-            "must be finite along every axis for a `dense-fluid` without `min` and `max`".into()
+        check(in_space(size, dimensions).is_finite(), "simulation.boundary.periodic.size", || {
+            "must be finite along every axis, or x and y in two dimensions, for a `dense-fluid` without `min` and `max`".into()
         })?;
-        return Ok(Place { enclosure: Enclosure::Periodic { size }, size, middle: DVec3::ZERO });
+        let enclosure = Enclosure::Periodic { size };
+        return Ok(Place { enclosure, size, middle: DVec3::ZERO, dimensions });
     };
     let (Some(_), Some(max)) = (fluid.min, fluid.max) else {
         return Err(Problem::new(path, "needs both `min` and `max`, or neither"));
@@ -75,15 +100,18 @@ fn place(fluid: &DenseFluid, world: &World, path: &str) -> Result<Place, Problem
     check_vector(min, &format!("{path}.min"))?;
     check_vector(max, &format!("{path}.max"))?;
     let (low, high) = (vector(min), vector(max));
+    check_plane([low, high], dimensions, &format!("{path}.max"))?;
     let size = high - low;
-    check(size.min_element() > 0.0 && size.is_finite(), &format!("{path}.max"), || {
+    let has_edges = size.to_array()[..dimensions as usize].iter().all(|&edge| edge > 0.0);
+    check(has_edges && size.is_finite(), &format!("{path}.max"), || {
         format!("must be above `min` along every axis, not {max:?}")
     })?;
-    Ok(Place { enclosure: Enclosure::Walls { size }, size, middle: 0.5 * low + 0.5 * high })
+    let middle = in_space(0.5 * low + 0.5 * high, dimensions);
+    Ok(Place { enclosure: Enclosure::Walls { size }, size, middle, dimensions })
 }
 
-/// Radii of all spheres \[m\] in a volume \[m³\].
-fn all_radii(fluid: &DenseFluid, volume: f64, path: &str) -> Result<Vec<f64>, Problem> {
+/// Radii of all spheres \[m\] in a box.
+fn all_radii(fluid: &DenseFluid, place: &Place, path: &str) -> Result<Vec<f64>, Problem> {
     let count = fluid.count as usize;
     let Some(fraction) = fluid.packing_fraction else {
         let [smallest, largest] = radii(&fluid.sphere, fluid.radius_range, path)?;
@@ -98,8 +126,12 @@ fn all_radii(fluid: &DenseFluid, volume: f64, path: &str) -> Result<Vec<f64>, Pr
     check(sizes == (None, None, None), &path, || {
         "must not be given beside a radius, which says it already".into()
     })?;
-    let of_unit_radius = carom::volume(1.0);
-    Ok(vec![libm::cbrt(fraction * volume / (count as f64 * of_unit_radius)); count])
+    let (volume, number) = (place.volume(), count as f64);
+    let radius = match place.dimensions {
+        2 => (fraction * volume / (number * std::f64::consts::PI)).sqrt(),
+        _ => libm::cbrt(fraction * volume / (number * carom::volume(1.0))),
+    };
+    Ok(vec![radius; count])
 }
 
 /// Spheres with the properties that the scene gives them and these radii \[m\].
@@ -125,15 +157,18 @@ fn grown(
     masses: Vec<f64>,
     path: &str,
 ) -> Result<World, Problem> {
-    let room = place.size.element_product();
-    let fraction = radii.iter().map(|&radius| volume(radius)).sum::<f64>() / room;
+    let room = place.volume();
+    let fraction = place.filled(&radii);
     let name = if fluid.packing_fraction.is_some() { "packing_fraction" } else { "count" };
     let path = format!("{path}.{name}");
     let refused = |error: carom::Error| Problem::new(path.clone(), error.to_string());
     check(fraction < 1.0, &path, || {
         format!("must leave room: the spheres would fill {fraction:.4} of the box")
     })?;
-    let start = Start::of(radii, fluid.seed.into()).with_masses(masses).within(place.enclosure);
+    let start = Start::of(radii, fluid.seed.into())
+        .with_masses(masses)
+        .within(place.enclosure)
+        .with_dimensions(place.dimensions);
     let mut world = packing::start(&start).map_err(refused)?;
     if fluid.count == 1 {
         // It has nothing to collide with, and no momentum.

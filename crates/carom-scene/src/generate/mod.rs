@@ -33,7 +33,7 @@ impl Generator {
             }
             _ => {}
         }
-        let places = self.all_places(path)?;
+        let places = self.all_places(world.settings().dimensions, path)?;
         let Some(template) = self.sphere() else { return Ok(Vec::new()) };
         Ok(places.iter().map(|place| at(place.center, template)).collect())
     }
@@ -50,11 +50,12 @@ impl Generator {
             let position = (place.center + vector(turned.position)).to_array();
             Collider { name: place.named(&template.name), position, ..turned }
         };
-        Ok(self.all_places(path)?.iter().map(collider).collect())
+        Ok(self.all_places(3, path)?.iter().map(collider).collect())
     }
 
-    /// Places of a regular generator; empty for a random one, whose places depend on the world, and for a fluid.
-    fn all_places(&self, path: &str) -> Result<Vec<Place>, Problem> {
+    /// Places of a regular generator in 2 or 3 dimensions; empty for a random one, whose places depend on the world, and
+    /// for a fluid.
+    fn all_places(&self, dimensions: u32, path: &str) -> Result<Vec<Place>, Problem> {
         check_count(self, path)?;
         match self {
             Self::Row(row) => regular::row(row, path),
@@ -62,7 +63,8 @@ impl Generator {
             Self::StaggeredRows(rows) => rows::staggered(rows, path),
             Self::ClosePacking { counts, start, spacing, stacking, sphere } => {
                 let spacing = distance(*spacing, sphere, path)?;
-                regular::close_packing(*counts, *stacking, (*start, spacing), path)
+                let stacking = (dimensions == 3).then_some(*stacking);
+                regular::close_packing(*counts, stacking, (*start, spacing), path)
             }
             Self::Ring(ring) => regular::ring(ring, path),
             Self::Random { .. } | Self::DenseFluid(_) => Ok(Vec::new()),

@@ -24,21 +24,38 @@ impl Numbers {
         (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// Returns a point in the unit cube.
-    pub fn vector(&mut self) -> DVec3 {
-        DVec3::new(self.unit(), self.unit(), self.unit())
+    /// Returns a point in the unit cube, or in two dimensions in the unit square at z = 0.
+    pub fn vector(&mut self, dimensions: u32) -> DVec3 {
+        let (x, y) = (self.unit(), self.unit());
+        DVec3::new(x, y, if dimensions == 2 { 0.0 } else { self.unit() })
     }
 
-    /// Returns a unit vector, uniformly distributed: a random point of the unit ball, normalized.
-    pub fn direction(&mut self) -> DVec3 {
+    /// Returns a unit vector, uniformly distributed: a random point of the unit ball, or disc, normalized.
+    pub fn direction(&mut self, dimensions: u32) -> DVec3 {
         loop {
-            let point = 2.0 * self.vector() - 1.0;
+            let point = in_space(2.0 * self.vector(dimensions) - 1.0, dimensions);
             let length_squared = point.length_squared();
             if (1e-6..=1.0).contains(&length_squared) {
                 return point / length_squared.sqrt();
             }
         }
     }
+}
+
+/// Part of a vector in 2 or 3 dimensions: in the plane its z is 0.
+pub(super) fn in_space(vector: DVec3, dimensions: u32) -> DVec3 {
+    if dimensions == 2 { vector.with_z(0.0) } else { vector }
+}
+
+/// Checks that a box between two corners \[m\] contains the plane z = 0, where there are two dimensions.
+pub(super) fn check_plane(
+    [min, max]: [DVec3; 2],
+    dimensions: u32,
+    path: &str,
+) -> Result<(), Problem> {
+    check(dimensions == 3 || (min.z <= 0.0 && max.z >= 0.0), path, || {
+        "must contain the plane z = 0 with `min`, in two dimensions".into()
+    })
 }
 
 /// Smallest and largest radius of spheres with a size of their own or a range of sizes.

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashMap};
 use carom::{DVec3, World};
 
 use super::count::check_count;
-use super::numbers::{Numbers, radii};
+use super::numbers::{Numbers, check_plane, in_space, radii};
 use crate::error::Problem;
 use crate::requirement::{check, check_non_negative, check_vector};
 use crate::scene::values::vector;
@@ -27,8 +27,12 @@ impl Generator {
         let [smallest, largest] = radii(sphere, *radius_range, path)?;
         check_vector(*min, &format!("{path}.min"))?;
         check_vector(*max, &format!("{path}.max"))?;
-        let (min, room) = (vector(*min), vector(*max) - vector(*min));
-        let has_room = room.min_element() >= 2.0 * largest && room.is_finite();
+        let dimensions = world.settings().dimensions;
+        check_plane([*min, *max].map(vector), dimensions, &format!("{path}.max"))?;
+        let corners = [*min, *max].map(|corner| in_space(vector(corner), dimensions));
+        let (min, room) = (corners[0], corners[1] - corners[0]);
+        let along = &room.to_array()[..dimensions as usize];
+        let has_room = along.iter().all(|&it| it >= 2.0 * largest) && room.is_finite();
         check(has_room, &format!("{path}.max"), || {
             format!("must be above `min` by a diameter at least, not {max:?}")
         })?;
@@ -39,7 +43,11 @@ impl Generator {
         for _ in 0..*count {
             let radius = smallest + (largest - smallest) * numbers.unit();
             let free = (0..TRIES_PER_SPHERE)
-                .map(|_| corner + radius + numbers.vector() * (room - 2.0 * radius))
+                .map(|_| {
+                    let place = numbers.vector(dimensions) * (room - 2.0 * radius);
+                    let center = corner + radius + place;
+                    if dimensions == 2 { center.with_z(corner.z) } else { center }
+                })
                 .find(|&center| placed.is_free(center, radius));
             let Some(center) = free else {
                 let text = format!(
@@ -50,7 +58,7 @@ impl Generator {
                 return Err(Problem::new(format!("{path}.count"), text));
             };
             placed.add(center, radius);
-            let velocity = vector(sphere.velocity) + *speed * numbers.direction();
+            let velocity = vector(sphere.velocity) + *speed * numbers.direction(dimensions);
             spheres.push(Sphere {
                 position: center.to_array(),
                 velocity: velocity.to_array(),

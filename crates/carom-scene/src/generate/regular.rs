@@ -4,7 +4,7 @@ use carom::{DQuat, DVec3};
 
 use super::place::Place;
 use crate::error::Problem;
-use crate::requirement::{check_direction, check_positive, check_vector};
+use crate::requirement::{check, check_direction, check_positive, check_vector};
 use crate::scene::values::vector;
 use crate::scene::{Lattice, Ring, Row, Stacking, Vector};
 
@@ -31,16 +31,20 @@ pub(super) fn lattice(lattice: &Lattice, path: &str) -> Result<Vec<Place>, Probl
     Ok(cells.map(place).collect())
 }
 
-/// Places in a close packing, layer by layer; neighbours are `spacing` apart.
+/// Places in a close packing, layer by layer; neighbours are `spacing` apart. A packing without `stacking` is a
+/// triangular lattice in the plane of x and y.
 pub(super) fn close_packing(
     counts: [u32; 3],
-    stacking: Stacking,
+    stacking: Option<Stacking>,
     (start, spacing): (Vector, f64),
     path: &str,
 ) -> Result<Vec<Place>, Problem> {
     check_vector(start, &format!("{path}.start"))?;
     let start = vector(start);
     let [nx, ny, nz] = counts;
+    check(stacking.is_some() || nz == 1, &format!("{path}.counts"), || {
+        format!("must have one row in a layer in two dimensions, not {nz}")
+    })?;
     let rows = (0..ny).flat_map(|layer| (0..nz).map(move |row| [layer, row]));
     let rows = rows.map(|row| (row, start + spacing * row_of_packing(row, stacking)));
     let along = |([layer, row], first): ([u32; 2], DVec3)| {
@@ -53,7 +57,11 @@ pub(super) fn close_packing(
 }
 
 /// First place of a row in a close packing of spacing 1.
-fn row_of_packing([layer, row]: [u32; 2], stacking: Stacking) -> DVec3 {
+fn row_of_packing([layer, row]: [u32; 2], stacking: Option<Stacking>) -> DVec3 {
+    let (row_distance, layer_distance) = (0.75_f64.sqrt(), (2.0_f64 / 3.0).sqrt());
+    let Some(stacking) = stacking else {
+        return DVec3::new(0.5 * f64::from(layer % 2), f64::from(layer) * row_distance, 0.0);
+    };
     // A sphere lies above the middle of a triangle of the layer below: half a spacing further in
     // its row, and a third of the way to the next row. Two such shifts move a row by a whole
     // spacing.
@@ -62,7 +70,6 @@ fn row_of_packing([layer, row]: [u32; 2], stacking: Stacking) -> DVec3 {
             Stacking::Hcp => 2,
             Stacking::Fcc => 3,
         };
-    let (row_distance, layer_distance) = (0.75_f64.sqrt(), (2.0_f64 / 3.0).sqrt());
     DVec3::new(
         0.5 * f64::from((row + steps) % 2),
         f64::from(layer) * layer_distance,

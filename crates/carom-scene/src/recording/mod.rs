@@ -23,6 +23,7 @@ mod rotation;
 mod short_lines;
 mod table_file;
 mod vtk;
+mod wells;
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -41,6 +42,7 @@ pub use playback::Playback;
 pub use recovered::{Recovered, RecoveryError, complete, recover_by};
 pub use recovery::{recover, recover_table};
 pub use replay::{LineProblem, Replay, ReplayBall, ReplayError, ReplayFrame};
+pub use wells::WellTable;
 
 use error::unwritable;
 

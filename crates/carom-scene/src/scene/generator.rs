@@ -19,9 +19,9 @@ pub enum Generator {
     /// of colliders like the pegs of a Galton board.
     StaggeredRows(Box<StaggeredRows>),
     /// Close packing of equal spheres in hexagonal layers, one above the other along +y: in a layer
-    /// rows run along x, and every second row is shifted by half a sphere.
+    /// rows run along x, and every second row is shifted by half a sphere. In two dimensions each layer is one row.
     ClosePacking {
-        /// Spheres in a row, layers, and rows in a layer (along x, y and z), each >= 1.
+        /// Spheres in a row, layers, and rows in a layer (along x, y and z), each >= 1; one row in two dimensions.
         counts: [u32; 3],
         /// Centre of the first, in m.
         start: Vector,
@@ -42,7 +42,7 @@ pub enum Generator {
         /// How many, >= 1.
         #[schemars(range(min = 1))]
         count: u32,
-        /// Lower corner of the box, in m. Whole spheres lie in it.
+        /// Lower corner of the box, in m. Whole spheres lie in it, or in two dimensions discs at z = 0.
         min: Vector,
         /// Upper corner of the box, in m.
         max: Vector,
@@ -75,8 +75,8 @@ pub struct DenseFluid {
     pub temperature: f64,
     /// Seed; the same seed gives the same scene.
     pub seed: u32,
-    /// Part of the box that the spheres fill, in (0, 1): their radii follow from it. Above 0.6 they may jam before. Give
-    /// this, the radius of `sphere`, or `radius_range`.
+    /// Part of the box that the spheres fill, in (0, 1), in two dimensions part of the area: their radii follow from it.
+    /// Above 0.6 they may jam before. Give this, the radius of `sphere`, or `radius_range`.
     #[schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = 1.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub packing_fraction: Option<f64>,

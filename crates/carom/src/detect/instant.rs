@@ -7,6 +7,8 @@ use super::surface_tree::SurfaceTree;
 use super::{classify, sphere_sphere, sphere_surface};
 use crate::bodies::Motion;
 use crate::bounds::Bounds;
+use crate::collider::Collider;
+use crate::colliders::Colliders;
 use crate::integrate;
 use crate::surface::Role;
 use crate::system::System;
@@ -50,6 +52,17 @@ impl Instant<'_> {
                 integrate::acceleration(&self.system, self.motion, i, self.time).dot(normal)
             });
         Some(Contact { bodies: Bodies::Surface { sphere, surface }, separation, state })
+    }
+
+    /// Whether the sphere of an overlap leaves a collider that is open from behind: it passes from there.
+    pub fn passes_from_behind(&self, contact: &Contact, colliders: &Colliders) -> bool {
+        let Bodies::Surface { sphere, surface } = contact.bodies else { return false };
+        let surface = &self.system.surfaces[surface as usize];
+        let collider = colliders.list().get(surface.collider.0);
+        let velocity = self.motion.velocity[sphere as usize];
+        let relative = velocity - surface.motion.velocity_at(contact.separation.point);
+        collider.is_some_and(Collider::is_open_from_behind)
+            && relative.dot(contact.separation.normal) > 0.0
     }
 
     /// The contact of two bodies, if they are on the sides that collide.

@@ -24,7 +24,9 @@ use glam::DVec3;
 pub(crate) use bound_pairs::bound_pairs;
 pub use classify::{ContactState, classify};
 pub use separation::Separation;
-pub(crate) use sphere_band::{sphere_band, sphere_band_known_in_front, sphere_round_solid};
+pub(crate) use sphere_band::{
+    sphere_band, sphere_band_known_in_front, sphere_round_solid, sphere_side_of_band,
+};
 pub(crate) use sphere_box::sphere_box;
 pub use sphere_half_space::sphere_half_space;
 pub(crate) use sphere_mesh::{

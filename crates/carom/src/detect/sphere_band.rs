@@ -18,6 +18,19 @@ pub(crate) fn sphere_band_known_in_front(band: &Band, center: DVec3, radius: f64
     separation_of(&band.seen_from(center), center, radius)
 }
 
+/// Separation of one side of a ring of a surface of revolution and a sphere near the axis.
+///
+/// - `center`, `radius` \[m\] of the sphere
+/// - `side`: unit vector from the axis to the side
+pub(crate) fn sphere_side_of_band(
+    band: &Band,
+    center: DVec3,
+    radius: f64,
+    side: DVec3,
+) -> Separation {
+    separation_of(&band.side_seen_from(center, side), center, radius)
+}
+
 /// Separation of a solid of revolution and a sphere. Inside, the nearest face counts: minus its distance, minus the
 /// radius, along its normal.
 ///

@@ -1,5 +1,6 @@
 //! Compression by growth, and equilibration.
 
+use super::dimensions::Dimensions;
 use super::measure::{Fluid, Tally, Thermal, volume_around, volume_of_spheres};
 use crate::error::{Error, InvalidValue, Subject};
 use crate::sphere::SphereMotion;
@@ -37,7 +38,7 @@ pub struct Compression {
     pub growth: f64,
     /// Reduced pressure, > 1, at which the spheres count as jammed and the compression ends before its condition.
     pub most_pressure: f64,
-    /// Volume that contains the spheres \[m³\]; by default that of the periodic box.
+    /// Volume that contains the spheres \[m³\], in two dimensions the area \[m²\]; by default that of the periodic box.
     pub volume: Option<f64>,
 }
 
@@ -112,6 +113,7 @@ pub fn compress(world: &mut World, compression: &Compression) -> Result<Compress
         .map_err(about_settings)?;
     let mut course = Course {
         compression: *compression,
+        dimensions: thermal.dimensions,
         volume,
         energy,
         growth_speed: 0.5 * compression.growth * thermal.speed,
@@ -138,6 +140,7 @@ pub fn compress(world: &mut World, compression: &Compression) -> Result<Compress
 /// State of a compression.
 struct Course {
     compression: Compression,
+    dimensions: Dimensions,
     /// Volume that contains the spheres \[m³\].
     volume: f64,
     /// Kinetic energy to which velocities are scaled back \[J\].
@@ -184,7 +187,8 @@ impl Course {
     fn time_left(&self, mean_radius: f64) -> f64 {
         match self.compression.until {
             Until::PackingFraction(fraction) => {
-                let larger = libm::cbrt(fraction / self.compressed.packing_fraction) - 1.0;
+                let ratio = fraction / self.compressed.packing_fraction;
+                let larger = self.dimensions.edge(ratio) - 1.0;
                 larger.max(0.0) * mean_radius / self.growth_speed
             }
             Until::Pressure(_) | Until::CollisionRate(_) => f64::INFINITY,

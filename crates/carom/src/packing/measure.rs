@@ -1,9 +1,9 @@
 //! Measurements of a fluid of hard spheres: packing fraction, pressure and collision rate.
 
+use super::dimensions::Dimensions;
 use crate::error::{Error, Subject};
 use crate::report::BodyPair;
 use crate::settings::Boundary;
-use crate::sphere::volume;
 use crate::sum::Sum;
 use crate::validate;
 use crate::world::World;
@@ -31,18 +31,15 @@ pub fn packing_fraction(world: &World, volume: Option<f64>) -> Result<f64, Error
 }
 
 pub(super) fn volume_of_spheres(world: &World) -> f64 {
-    let size = |&radius: &f64| match world.settings().dimensions {
-        2 => std::f64::consts::PI * radius * radius,
-        _ => volume(radius),
-    };
-    world.spheres().radii().iter().map(size).collect::<Sum>().value()
+    let dimensions = Dimensions(world.settings().dimensions);
+    let volumes = world.spheres().radii().iter().map(|&radius| dimensions.of_sphere(radius));
+    volumes.collect::<Sum>().value()
 }
 
-/// Returns the volume that contains the spheres \[m³\].
+/// Returns the volume that contains the spheres \[m³\], or the area \[m²\].
 pub(super) fn volume_around(world: &World, given: Option<f64>) -> Result<f64, Error> {
     let of_box = match world.settings().boundary {
-        Boundary::Periodic { size } if world.settings().dimensions == 2 => size.x * size.y,
-        Boundary::Periodic { size } => size.element_product(),
+        Boundary::Periodic { size } => Dimensions(world.settings().dimensions).of_box(size),
         Boundary::Open => f64::INFINITY,
     };
     let volume = given.unwrap_or(of_box);
@@ -57,7 +54,8 @@ pub(super) fn volume_around(world: &World, given: Option<f64>) -> Result<f64, Er
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Thermal {
     pub count: f64,
-    /// Two thirds of the kinetic energy of a sphere \[J\].
+    pub dimensions: Dimensions,
+    /// Two thirds of the kinetic energy of a sphere \[J\]; all of it in two dimensions.
     pub temperature: f64,
     /// Thermal speed \[m/s\].
     pub speed: f64,
@@ -69,22 +67,29 @@ impl Thermal {
     pub fn of(world: &World) -> Self {
         let spheres = world.spheres();
         let count = spheres.len() as f64;
-        let temperature = 2.0 / 3.0 * world.kinetic_energy() / count;
+        let dimensions = Dimensions(world.settings().dimensions);
+        let temperature = 2.0 / dimensions.number() * world.kinetic_energy() / count;
         let mean_mass = spheres.masses().iter().copied().collect::<Sum>().value() / count;
         let mean_radius = spheres.radii().iter().copied().collect::<Sum>().value() / count;
-        Self { count, temperature, speed: (temperature / mean_mass).sqrt(), mean_radius }
+        let speed = (temperature / mean_mass).sqrt();
+        Self { count, dimensions, temperature, speed, mean_radius }
     }
 
     /// Returns the number of collisions of a sphere in a second at a packing fraction p, for spheres of one size,
-    /// by Enskog's theory with the contact value of Carnahan and Starling:
+    /// by Enskog's theory with the contact value of Carnahan and Starling, of discs with that of Henderson:
     ///
     /// ```text
     /// rate = 24/√π p χ v/d        χ = (1 - p/2)/(1 - p)³
+    /// rate = 8/√π p χ v/d         χ = (1 - 7p/16)/(1 - p)²
     /// ```
     pub fn enskog_rate(&self, packing_fraction: f64) -> f64 {
         let free = 1.0 - packing_fraction.min(0.9);
-        let contact_value = (1.0 - 0.5 * packing_fraction) / (free * free * free);
-        let per_crossing = 24.0 / std::f64::consts::PI.sqrt() * packing_fraction * contact_value;
+        let (neighbours, contact_value) = match self.dimensions.0 {
+            2 => (8.0, (1.0 - 0.4375 * packing_fraction) / (free * free)),
+            _ => (24.0, (1.0 - 0.5 * packing_fraction) / (free * free * free)),
+        };
+        let per_crossing =
+            neighbours / std::f64::consts::PI.sqrt() * packing_fraction * contact_value;
         per_crossing * self.speed / (2.0 * self.mean_radius)
     }
 }
@@ -92,7 +97,7 @@ impl Thermal {
 /// Sums over the frames of a measurement.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Tally {
-    /// Integral of Σ j R / (3 N k T) over time \[s\].
+    /// Integral of Σ j R / (D N k T) over time \[s\], with D dimensions.
     virial: f64,
     /// Collisions of spheres with each other.
     pub collisions: u64,
@@ -124,7 +129,7 @@ impl Tally {
         let temperature = 0.5 * (before.temperature + after.temperature);
         let crossing =
             (before.mean_radius + after.mean_radius) / (0.5 * (before.speed + after.speed));
-        self.virial += virial.value() / (3.0 * after.count * temperature);
+        self.virial += virial.value() / (after.dimensions.number() * after.count * temperature);
         self.rates += 2.0 * count as f64 / after.count * crossing;
         self.collisions += count;
         self.time += length;

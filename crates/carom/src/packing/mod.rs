@@ -18,6 +18,7 @@
 //! ```
 
 mod compress;
+mod dimensions;
 mod measure;
 mod rattlers;
 mod start;

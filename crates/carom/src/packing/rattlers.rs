@@ -5,9 +5,6 @@ use crate::report::BodyPair;
 use crate::validate;
 use crate::world::World;
 
-/// Number of contacts that hold a sphere in place: one more than the number of dimensions.
-const FEWEST_CONTACTS: usize = 4;
-
 /// Largest gap of a contact of a packing, relative to the sum of radii and multiplied by the reduced pressure.
 const CONTACT: f64 = 100.0;
 /// Reduced pressure below which no sphere is jammed.
@@ -26,8 +23,8 @@ pub fn jammed_rattlers(world: &World, pressure: f64) -> Result<Option<usize>, Er
     rattlers(world, CONTACT / pressure).map(Some)
 }
 
-/// Returns the number of rattlers of a packing: spheres with fewer than four contacts with colliders and with
-/// spheres that are not rattlers. A gap of less than `gap` times the sum of radii counts as a contact. Near jamming
+/// Returns the number of rattlers of a packing: spheres with fewer than four contacts, three in two dimensions, with
+/// colliders and with spheres that are not rattlers. A gap of less than `gap` times the sum of radii counts as a contact. Near jamming
 /// gaps are about the inverse of the reduced pressure p, and larger where the force is small: 100/p suits, with p a
 /// million or more.
 ///
@@ -63,16 +60,18 @@ pub fn rattlers(world: &World, gap: f64) -> Result<usize, Error> {
     }
     let mut contacts: Vec<usize> =
         neighbours.iter().zip(&held_by_colliders).map(|(near, walls)| near.len() + walls).collect();
+    // One more than the number of dimensions holds a sphere in place.
+    let fewest = world.settings().dimensions as usize + 1;
     let mut is_rattler = vec![false; spheres.len()];
     let mut loose: Vec<usize> =
-        (0..spheres.len()).filter(|&index| contacts[index] < FEWEST_CONTACTS).collect();
+        (0..spheres.len()).filter(|&index| contacts[index] < fewest).collect();
     while let Some(index) = loose.pop() {
         if std::mem::replace(&mut is_rattler[index], true) {
             continue;
         }
         for &other in &neighbours[index] {
             contacts[other] -= 1;
-            if contacts[other] < FEWEST_CONTACTS && !is_rattler[other] {
+            if contacts[other] < fewest && !is_rattler[other] {
                 loose.push(other);
             }
         }

@@ -2,12 +2,13 @@
 
 use glam::DVec3;
 
+use super::dimensions::Dimensions;
 use crate::collider::{Collider, Shape, Sides};
 use crate::error::{Error, InvalidValue, Subject};
 use crate::pose::Pose;
 use crate::random::Random;
 use crate::settings::{Boundary, Settings};
-use crate::sphere::{Sphere, volume};
+use crate::sphere::Sphere;
 use crate::validate;
 use crate::world::World;
 
@@ -19,17 +20,17 @@ const DILUTE: f64 = 0.05;
 /// Box about the origin that contains the spheres.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub enum Enclosure {
-    /// A periodic cube whose edge follows from the radii and the packing fraction.
+    /// A periodic cube, in two dimensions a square, whose edge follows from the radii and the packing fraction.
     #[default]
     Cube,
     /// A periodic box.
     Periodic {
-        /// Edges \[m\], each > 0.
+        /// Edges \[m\], each > 0; that along z does not count in two dimensions.
         size: DVec3,
     },
     /// A box with smooth, elastic walls.
     Walls {
-        /// Edges \[m\], each > 0.
+        /// Edges \[m\], each > 0; that along z does not count in two dimensions.
         size: DVec3,
     },
 }
@@ -46,6 +47,8 @@ pub struct Start {
     pub packing_fraction: f64,
     /// Mass of a sphere with a radius of 1 m \[kg\], > 0; masses of others are proportional to their volumes.
     pub mass_of_unit_radius: f64,
+    /// Number of dimensions, 2 or 3. In two dimensions volumes are areas.
+    pub dimensions: u32,
     /// Masses of the spheres \[kg\], each > 0, instead of those proportional to volumes.
     pub masses: Option<Vec<f64>>,
     /// Box that contains the spheres.
@@ -62,6 +65,7 @@ impl Start {
             seed,
             packing_fraction: 0.64,
             mass_of_unit_radius: 1.0,
+            dimensions: 3,
             masses: None,
             enclosure,
         }
@@ -70,6 +74,11 @@ impl Start {
     /// Sets the packing fraction at which the radii are reached.
     pub fn with_packing_fraction(self, packing_fraction: f64) -> Self {
         Self { packing_fraction, ..self }
+    }
+
+    /// Sets the number of dimensions, 2 or 3.
+    pub fn with_dimensions(self, dimensions: u32) -> Self {
+        Self { dimensions, ..self }
     }
 
     /// Replaces the masses \[kg\], one for each radius.
@@ -82,15 +91,20 @@ impl Start {
         Self { enclosure, ..self }
     }
 
-    /// Returns the edges of the box \[m\].
+    /// Returns the edges of the box \[m\]; that along z is infinite in two dimensions.
     fn size(&self) -> DVec3 {
-        match self.enclosure {
-            Enclosure::Cube => {
-                let total: f64 = self.radii.iter().map(|&radius| volume(radius)).sum();
-                DVec3::splat(libm::cbrt(total / self.packing_fraction))
-            }
+        let dimensions = Dimensions(self.dimensions);
+        let size = match self.enclosure {
+            Enclosure::Cube => DVec3::splat(dimensions.edge(self.volume() / self.packing_fraction)),
             Enclosure::Periodic { size } | Enclosure::Walls { size } => size,
-        }
+        };
+        if self.dimensions == 2 { size.with_z(f64::INFINITY) } else { size }
+    }
+
+    /// Returns the volume of all spheres \[m³\], or their area \[m²\].
+    fn volume(&self) -> f64 {
+        let dimensions = Dimensions(self.dimensions);
+        self.radii.iter().map(|&radius| dimensions.of_sphere(radius)).sum()
     }
 
     /// Returns the masses of the spheres \[kg\].
@@ -112,6 +126,8 @@ impl Start {
     }
 
     fn validate(&self) -> Result<(), InvalidValue> {
+        let is_known = matches!(self.dimensions, 2 | 3);
+        validate::require(is_known, "dimensions", "2 or 3", self.dimensions)?;
         let is_some = !self.radii.is_empty();
         validate::require(is_some, "radii", "those of at least one sphere", "none")?;
         self.radii.iter().try_for_each(|&radius| validate::positive("radius", radius))?;
@@ -130,7 +146,8 @@ impl Start {
         let is_part = fraction > 0.0 && fraction < 1.0;
         validate::require(is_part, "packing_fraction", "between 0 and 1", fraction)?;
         let size = self.size();
-        let is_closed = size.cmpgt(DVec3::ZERO).all() && size.is_finite();
+        let content = Dimensions(self.dimensions).of_box(size);
+        let is_closed = size.cmpgt(DVec3::ZERO).all() && content.is_finite();
         validate::require(is_closed, "size", "positive and finite along every axis", size)?;
         let largest = self.radii.iter().copied().fold(0.0, f64::max);
         let (least, requirement) = match self.enclosure {
@@ -144,9 +161,9 @@ impl Start {
     }
 }
 
-/// Returns a world with small spheres in a box about the origin, at random places of a simple cubic lattice, with
-/// random velocities and zero momentum. `k T` is the mass of the mean radius (with [`Start::masses`], the mean
-/// mass) times (1 m/s)².
+/// Returns a world with small spheres in a box about the origin, at random places of a simple cubic lattice (in two
+/// dimensions a square one), with random velocities and zero momentum. `k T` is the mass of the mean radius (with
+/// [`Start::masses`], the mean mass) times (1 m/s)².
 ///
 /// The radii are the requested ones times a common factor, which growth brings to 1.
 ///
@@ -157,50 +174,61 @@ pub fn start(start: &Start) -> Result<World, Error> {
     start.validate().map_err(|invalid| invalid.about(Subject::Settings))?;
     let Start { radii, seed, packing_fraction, enclosure, .. } = start;
     let size = start.size();
-    let mut world = empty(*enclosure, size)?;
-    let sides = places_along_edges(size, radii.len(), *enclosure);
+    let dimensions = Dimensions(start.dimensions);
+    let mut world = empty(*enclosure, dimensions, size)?;
+    let sides = places_along_edges(size, dimensions, radii.len(), *enclosure);
     let spacing = DVec3::from_array([0, 1, 2].map(|axis| size[axis] / sides[axis] as f64));
     let largest = radii.iter().copied().fold(0.0, f64::max);
-    let total: f64 = radii.iter().map(|&radius| volume(radius)).sum();
     let final_fraction = match enclosure {
         Enclosure::Cube => *packing_fraction,
-        _ => total / size.element_product(),
+        _ => start.volume() / dimensions.of_box(size),
     };
-    let by_density = libm::cbrt(DILUTE / final_fraction);
+    let by_density = dimensions.edge(DILUTE / final_fraction);
     let factor = (LARGEST * spacing.min_element() / largest).min(by_density).min(1.0);
     let mut random = Random::new(*seed);
     let places = random.some_of(sides.iter().product(), radii.len());
-    let velocities = thermal_velocities(&start.relative_masses(), &mut random);
+    let velocities = thermal_velocities(&start.relative_masses(), dimensions, &mut random);
     let spheres = radii.iter().zip(start.all_masses()).zip(places.into_iter().zip(velocities));
     for ((&radius, mass), (place, velocity)) in spheres {
         let number = [place % sides[0], place / sides[0] % sides[1], place / (sides[0] * sides[1])];
         let along = |axis: usize| (number[axis] as f64 + 0.5) * spacing[axis] - 0.5 * size[axis];
-        let sphere = Sphere::new(DVec3::from_array([0, 1, 2].map(along)), factor * radius)
-            .with_velocity(velocity)
-            .with_mass(mass);
+        let position = dimensions.project(DVec3::from_array([0, 1, 2].map(along)));
+        let sphere = Sphere::new(position, factor * radius).with_velocity(velocity).with_mass(mass);
         world.add_sphere(sphere)?;
     }
     Ok(world)
 }
 
 /// Returns an empty world with a box of these edges \[m\].
-fn empty(enclosure: Enclosure, size: DVec3) -> Result<World, Error> {
+fn empty(enclosure: Enclosure, dimensions: Dimensions, size: DVec3) -> Result<World, Error> {
+    let settings = Settings::default().with_dimensions(dimensions.0);
     if !matches!(enclosure, Enclosure::Walls { .. }) {
-        return World::new(Settings::default().with_boundary(Boundary::Periodic { size }));
+        return World::new(settings.with_boundary(Boundary::Periodic { size }));
     }
-    let mut world = World::new(Settings::default())?;
-    let walls = Shape::Container { size, open: Sides::NONE };
+    let mut world = World::new(settings)?;
+    let walls = if dimensions.0 == 2 {
+        let size = size.with_z(size.x.max(size.y));
+        Shape::Container { size, open: Sides { back: true, front: true, ..Sides::NONE } }
+    } else {
+        Shape::Container { size, open: Sides::NONE }
+    };
     world.add_collider(Collider::new(walls, Pose::at(DVec3::ZERO)))?;
     Ok(world)
 }
 
 /// Returns the numbers of lattice places along the edges of a box of a size \[m\], with at least `count` places in
 /// all.
-fn places_along_edges(size: DVec3, count: usize, enclosure: Enclosure) -> [usize; 3] {
+fn places_along_edges(
+    size: DVec3,
+    dimensions: Dimensions,
+    count: usize,
+    enclosure: Enclosure,
+) -> [usize; 3] {
     if enclosure == Enclosure::Cube {
-        return [places_along_an_edge(count); 3];
+        let side = places_along_an_edge(count, dimensions);
+        return [side, side, if dimensions.0 == 2 { 1 } else { side }];
     }
-    let mut is_long = [true; 3];
+    let mut is_long = [true, true, dimensions.0 == 3];
     loop {
         let long = || (0..3).filter(|&axis| is_long[axis]);
         let share = long().map(|axis| size[axis]).product::<f64>() / count as f64;
@@ -219,10 +247,10 @@ fn places_along_edges(size: DVec3, count: usize, enclosure: Enclosure) -> [usize
     }
 }
 
-/// Returns the number of places along an edge of the smallest cubic lattice with this many places.
-fn places_along_an_edge(count: usize) -> usize {
-    let mut side = 1;
-    while side * side * side < count {
+/// Returns the number of places along an edge of the smallest cubic or square lattice with this many places.
+fn places_along_an_edge(count: usize, dimensions: Dimensions) -> usize {
+    let mut side: usize = 1;
+    while side.pow(dimensions.0) < count {
         side += 1;
     }
     side
@@ -230,9 +258,9 @@ fn places_along_an_edge(count: usize) -> usize {
 
 /// Returns normally distributed velocities \[m/s\] with zero total momentum, whose variance for each mass belongs
 /// to one temperature. `masses` are relative to the mass whose variance is 1.
-fn thermal_velocities(masses: &[f64], random: &mut Random) -> Vec<DVec3> {
-    let mut velocities: Vec<DVec3> =
-        masses.iter().map(|&mass| random.normal_vector() / mass.sqrt()).collect();
+fn thermal_velocities(masses: &[f64], dimensions: Dimensions, random: &mut Random) -> Vec<DVec3> {
+    let mut velocity = |&mass: &f64| dimensions.project(random.normal_vector() / mass.sqrt());
+    let mut velocities: Vec<DVec3> = masses.iter().map(&mut velocity).collect();
     let total: f64 = masses.iter().sum();
     let momentum: DVec3 = masses.iter().zip(&velocities).map(|(&mass, &v)| mass * v).sum();
     velocities.iter_mut().for_each(|velocity| *velocity -= momentum / total);

@@ -3,6 +3,7 @@
 use super::obstacle;
 use crate::error::{Error, Subject};
 use crate::forces;
+use crate::settings::PairPotential;
 use crate::state::State;
 use crate::surface::Surface;
 use crate::validate;
@@ -12,15 +13,16 @@ use crate::validate;
 /// # Errors
 /// [`Error::Invalid`] about the settings.
 pub(super) fn check(state: &State) -> Result<(), Error> {
-    if state.settings.pair_potential.is_none() {
+    let Some(PairPotential::SquareWell { depth, range_ratio }) = state.settings.pair_potential
+    else {
         return Ok(());
-    }
+    };
     let requirement = obstacle(state);
     validate::require(
         requirement.is_none(),
         "pair_potential",
         requirement.unwrap_or_default(),
-        "given",
+        format!("a square well of {depth} J to {range_ratio} diameters"),
     )
     .map_err(|invalid| invalid.about(Subject::Settings))
 }

@@ -1,6 +1,6 @@
 //! Fast balls: they neither tunnel nor lose their way.
 
-use carom::{Collider, DQuat, DVec3, Pose, Shape, Sides, Sphere};
+use carom::{Collider, DQuat, DVec3, Pose, Settings, Shape, Sides, Sphere, World};
 
 use crate::{FRAME, add_box, add_wall, run, under_gravity, world};
 
@@ -122,4 +122,29 @@ fn a_fast_ball_that_passes_is_not_stopped() {
     let id = world.add_sphere(fast).unwrap();
     run(&mut world, 3);
     assert_eq!(world.sphere(id).unwrap().velocity, velocity);
+}
+
+#[test]
+fn a_ball_that_passes_a_plate_from_behind_flies_on_and_overlaps_nothing() {
+    let plate = Shape::Rectangle { size_x: 2.0, size_z: 2.0 };
+    for shape in [plate, Shape::Disc { radius: 1.0 }] {
+        for settings in [*world().settings(), Settings::default()] {
+            let mut world = World::new(settings).unwrap();
+            world.add_collider(Collider::new(shape.clone(), Pose::at(DVec3::ZERO))).unwrap();
+            let ball = Sphere::new(-2.0 * DVec3::Y, 0.5).with_velocity(DVec3::Y);
+            world.add_sphere(ball).unwrap();
+            for frame in 1..=240 {
+                run(&mut world, 1);
+                let free = f64::from(frame) * FRAME - 2.0;
+                let at = world.spheres().positions()[0].y;
+                // Under `contact` an overlap of less than a fiftieth of the radius is corrected.
+                assert!(
+                    (at - free).abs() < 0.0101,
+                    "{shape:?}, frame {frame}: {at} instead of {free}"
+                );
+                assert!(world.overlaps(0.0).is_empty(), "{shape:?}, frame {frame}");
+                assert_eq!(world.spheres().velocities()[0], DVec3::Y);
+            }
+        }
+    }
 }

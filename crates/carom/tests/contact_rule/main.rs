@@ -8,7 +8,7 @@ mod sleep;
 
 use carom::{
     BodyPair, Collider, Contact, DQuat, DVec3, Emitter, Friction, Gravity, Pose, Settings, Shape,
-    Sphere, World,
+    Sphere, Spring, World,
 };
 
 const G: f64 = 9.81;
@@ -386,6 +386,31 @@ fn a_turning_drum_takes_balls_along() {
     let angle = libm::atan2(mean.x, -mean.y).to_degrees();
     assert!((10.0..50.0).contains(&angle), "{angle}");
     assert!(world.report().energy_account.colliders != 0.0);
+}
+
+#[test]
+fn a_spring_loses_half_of_h_w_squared_of_its_energy_a_second_where_its_ball_rests_on_a_floor() {
+    const RATE_SQUARED: f64 = 20.0;
+    for sub_steps in [4, 8, 16] {
+        let rule = Contact::default().with_sub_steps(sub_steps);
+        let mut world = World::new(Settings::default().with_rule(rule)).unwrap();
+        world.add_force(Gravity::new(DVec3::new(0.0, -G, 0.0))).unwrap();
+        add_wall(&mut world, DVec3::Y, DVec3::ZERO, 0.0);
+        let ball = Sphere::new(DVec3::new(0.2, 0.1, 0.0), 0.1).with_mass(1.0);
+        let id = world.add_sphere(ball.with_restitution(0.0)).unwrap();
+        let spring = Spring::to_point(id, DVec3::new(0.0, 0.1, 0.0), 0.0);
+        world.add_spring(spring.with_stiffness(RATE_SQUARED)).unwrap();
+        let energy = |world: &World| world.total_energy() - G * world.spheres().positions()[0].y;
+        let before = energy(&world);
+        run(&mut world, 600);
+        // A sub-step, v' = v - h w² (x + h v/2) and x' = x + h v', has the determinant 1 - h² w²/2.
+        let (h, steps) = (FRAME / f64::from(sub_steps), 600 * sub_steps as i32);
+        let left = libm::pow(1.0 - 0.5 * h * h * RATE_SQUARED, f64::from(steps));
+        // The energy swings by h w about that of the scheme.
+        let swing = 2.0 * h * libm::sqrt(RATE_SQUARED);
+        let ratio = energy(&world) / before / left;
+        assert!((ratio - 1.0).abs() < swing, "{sub_steps} sub-steps: {ratio}");
+    }
 }
 
 #[test]

@@ -145,7 +145,8 @@ class ClosePacking(Part):
     In a layer rows run along x, and every second row is shifted by half a sphere.
 
     Attributes:
-        counts: Spheres in a row, layers, and rows in a layer (along x, y and z), each >= 1.
+        counts: Spheres in a row, layers, and rows in a layer (along x, y and z), each >= 1; one row
+            in two dimensions.
         start: Centre of the first [m].
         sphere: Properties of the spheres.
         spacing: Distance of the centres of neighbours [m], > 0. By default the diameter.
@@ -195,7 +196,8 @@ class RandomFill(Part):
 
     Attributes:
         count: How many, >= 1.
-        min: Lower corner of the box [m]. Whole spheres lie in it.
+        min: Lower corner of the box [m]. Whole spheres lie in it, or in two dimensions discs at z =
+            0.
         max: Upper corner of the box [m].
         seed: Seed; the same seed gives the same scene.
         sphere: Properties of the spheres.
@@ -231,9 +233,9 @@ class DenseFluid(Part):
             added.
         seed: Seed; the same seed gives the same scene.
         sphere: Properties of the spheres.
-        packing_fraction: Part of the box that the spheres fill, in (0, 1): their radii follow from
-            it. Above 0.6 they may jam before. Give this, the radius of ``sphere``, or
-            ``radius_range``.
+        packing_fraction: Part of the box that the spheres fill, in (0, 1), in two dimensions part
+            of the area: their radii follow from it. Above 0.6 they may jam before. Give this, the
+            radius of ``sphere``, or ``radius_range``.
         radius_range: Smallest and largest radius [m], evenly distributed, instead of that of
             ``sphere``.
         min: Lower corner of a box with walls [m], that whole spheres lie in; by default they fill

@@ -323,14 +323,15 @@ fn local(rectangle: &Rectangle, point: DVec3) -> DVec3 {
     DVec3::new(offset.dot(axis_x), offset.dot(normal), offset.dot(axis_z))
 }
 
-/// Whether a point that was in front comes down to a height \[m\] over the rectangle, or `beside` it \[m\].
+/// Whether a point that was in front comes down to a height \[m\] over the rectangle, or `beside` it \[m\]. One that
+/// rises may have come from behind.
 fn comes_through(
     rectangle: &Rectangle,
     [start, end]: [DVec3; 2],
     height: f64,
     beside: f64,
 ) -> bool {
-    if start.y < 0.0 || end.y >= height {
+    if start.y < 0.0 || end.y >= height.min(start.y) {
         return false;
     }
     let part = if start.y > height { (start.y - height) / (start.y - end.y) } else { 0.0 };

@@ -19,6 +19,10 @@ use crate::rule::contact::slots::slab_totals::SlabTotals;
 use crate::rule::contact::sub_step::{GROWTH, RELAXATION, SLOP, SubStep};
 use crate::surface::{Form, SurfaceMotion};
 
+/// Overlap as a part of the radius beyond which a sphere that leaves a face without an impulse came from behind it.
+/// Contacts that rest or bounce overlap less.
+const PASSING: f64 = 0.02;
+
 /// A centre counts as in front of a plane, or behind it, beyond this part of the radius.
 const LEAST_IN_FRONT: f64 = 0.5;
 
@@ -455,7 +459,12 @@ pub(crate) fn correct(run: &mut Run, contacts: &[SurfaceContact], places: &Place
         let (form, _) = places.at_end(contact.surface);
         let separation = sphere_surface(form, center, radius);
         let overlap = separation.map_or(0.0, |it| -it.distance - SLOP * radius).max(0.0);
-        if overlap > 0.0 {
+        let leaves = |normal| (run.velocity[slot].vector() - contact.velocity).dot(normal) > 0.0;
+        let passes = overlap > PASSING * radius
+            && places.is_open_from_behind(contact.surface)
+            && contact.impulses.normal == 0.0
+            && separation.is_some_and(|it| leaves(it.normal));
+        if overlap > 0.0 && !passes {
             let out = separation.map_or(DVec3::ZERO, |it| RELAXATION * overlap * it.normal);
             work += move_by(run, slot, out);
             largest = largest.max(overlap / radius);

@@ -228,6 +228,9 @@ fn check_work(
         return Ok(());
     }
     let sphere = context.id_of(timeline, slot);
+    if timeline.has_growth() {
+        return Err(Unfinished::NoRoomToGrow { sphere, time });
+    }
     let companions = timeline.flights.companions(slot);
     Err(Unfinished::TooManyImpacts { sphere, limit, companions, time })
 }

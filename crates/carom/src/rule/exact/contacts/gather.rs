@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::group::Group;
 use super::member::Member;
+use super::ring::with_sides;
 use super::separation::{has_at, holding_mesh, touching_distance, touching_gap};
 use super::touch::{Touch, TouchOrigin};
 use crate::detect::contact::Bodies;
@@ -252,7 +253,7 @@ impl<'a> Gathering<'a> {
         let places: BTreeMap<u32, usize> =
             self.members.keys().enumerate().map(|(place, &index)| (index, place)).collect();
         let members: Vec<Member> = self.members.into_values().collect();
-        let touches = self.touches.into_iter().filter_map(|(bodies, found)| {
+        let measured = self.touches.into_iter().filter_map(|(bodies, found)| {
             let (first, second) = match bodies {
                 Bodies::Pair(first, second) => (Some(places[&first]), places[&second]),
                 Bodies::Surface { sphere, .. } => (None, places[&sphere]),
@@ -262,7 +263,14 @@ impl<'a> Gathering<'a> {
             let touch = touch.measured_at(context, &members, time)?;
             Some(if found.is_handed_over { touch.handed_over(&members) } else { touch })
         });
-        let mut touches: Vec<Touch> = touches.collect();
+        let flights = &self.timeline.flights;
+        let sides_of = |touch: Touch| {
+            let cluster = flights.species_of(members[touch.second].slot).cluster;
+            let cluster = cluster.map(|number| flights.clusters.get(number));
+            let known = cluster.into_iter().flat_map(|it| it.sides_of(touch.bodies)).collect();
+            with_sides(context, &members, touch, known, time)
+        };
+        let mut touches: Vec<Touch> = measured.flat_map(sides_of).collect();
         leave_out_doubles(context, &members, &mut touches);
         leave_out_seams(context, &members, &mut touches);
         let fastest = members.iter().map(|member| member.velocity.norm()).fold(0.0, f64::max);

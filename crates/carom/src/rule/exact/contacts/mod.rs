@@ -5,6 +5,7 @@ mod gather;
 mod group;
 mod member;
 mod planes;
+mod ring;
 mod separation;
 mod touch;
 
@@ -12,5 +13,6 @@ pub(super) use gather::{gather, gather_cluster};
 pub(super) use group::Group;
 pub(super) use member::Member;
 pub(super) use planes::{Corner, MOST_PLANES, Plane};
+pub(super) use ring::{add_sides, closing_sides};
 pub(super) use separation::{HoldingMesh, holding_mesh, touches_surface};
 pub(super) use touch::Touch;

@@ -8,7 +8,10 @@ use crate::detect::{Separation, sphere_sphere};
 use crate::norm::Norm;
 use crate::respond::{TouchingContact, belt_of};
 use crate::rule::exact::context::StepContext;
-use crate::rule::exact::features::{NormalCurvature, curvature_of, separation};
+use crate::rule::exact::features::{
+    NormalCurvature, curvature_of, separation, separation_from_side,
+};
+use crate::rule::exact::flights::RingSide;
 use crate::surface::{Form, SurfaceMotion};
 use crate::surface_motion::Drive;
 
@@ -25,6 +28,8 @@ pub(crate) struct Touch {
     pub point: DVec3,
     /// Between the two surfaces \[m\]: nearly 0.
     pub gap: f64,
+    /// Unit vector from the axis to the side of the surface that is touched, where the sphere is on a ring.
+    pub side: Option<DVec3>,
     /// How the normal turns when the spheres slide.
     pub curvature: NormalCurvature,
     /// Velocity of the surface, extended to the centre of body 2 \[m/s\]: its normal part equals that at the
@@ -68,6 +73,12 @@ impl Touch {
     /// Whether the sphere at a place is one of the bodies.
     pub fn has(&self, place: usize) -> bool {
         self.places().any(|it| it == place)
+    }
+
+    /// The side of a ring that is touched.
+    pub fn ring_side(&self) -> Option<RingSide> {
+        let bodies = self.bodies;
+        self.side.map(|side| RingSide { bodies, side })
     }
 
     /// The part of a vector across the normal.
@@ -155,15 +166,20 @@ impl Touch {
             Bodies::Surface { surface, .. } => {
                 let (form, motion) = context.surface_at(surface, time);
                 let center = second.position + self.shift;
-                let mut separation =
-                    separation(&form, center, second.species.radius, self.is_predicted)?;
+                let radius = second.species.radius;
                 let turning_in_place = motion.turning_in_place(&form, center);
                 let velocity = second.velocity - (motion.velocity_at(center) - turning_in_place);
-                let curvature = curvature_of(&form, [center, velocity], &separation);
+                let (mut separation, curvature) = match self.side {
+                    Some(side) => separation_from_side(&form, center, radius, side)?,
+                    None => {
+                        let separation = separation(&form, center, radius, self.is_predicted)?;
+                        (separation, curvature_of(&form, [center, velocity], &separation))
+                    }
+                };
                 if let (Form::Rectangle(face), NormalCurvature::Flat) = (&form, curvature) {
                     // A centre on the edge counts, too.
                     let height = (center - face.center).dot(face.normal);
-                    separation.distance = height - second.species.radius;
+                    separation.distance = height - radius;
                     separation.normal = face.normal;
                 }
                 let touch = self.with(separation).with_motion(&motion, center);
@@ -175,10 +191,15 @@ impl Touch {
 
     /// The contact as the continuation of one with the neighbouring part of a mesh, unless the mesh bends there.
     pub(super) fn handed_over(self, members: &[Member]) -> Self {
-        let speed = self.relative_velocity(members).norm();
-        let is_unfelt = self.normal_velocity(members).abs() <= UNFELT * speed;
+        let is_unfelt = self.is_unfelt(members);
         let has_persisted = self.has_persisted || is_unfelt;
         Self { has_persisted, is_handed_over: is_unfelt, ..self }
+    }
+
+    /// Whether the bodies hardly close or part, for the speed with which they slide.
+    pub(super) fn is_unfelt(&self, members: &[Member]) -> bool {
+        let speed = self.relative_velocity(members).norm();
+        self.normal_velocity(members).abs() <= UNFELT * speed
     }
 
     fn with(self, separation: Separation) -> Self {
@@ -220,6 +241,7 @@ impl Touch {
             normal: DVec3::ZERO,
             point: DVec3::ZERO,
             gap: 0.0,
+            side: None,
             curvature: NormalCurvature::Flat,
             surface_velocity: DVec3::ZERO,
             turning_in_place: DVec3::ZERO,

@@ -8,6 +8,13 @@ use crate::band::{Band, View};
 use crate::norm::Norm;
 use crate::surface::Form;
 
+/// A part of a surface of revolution.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum BandPart {
+    Face,
+    Rim,
+}
+
 /// A part of a surface at rest, as if it went on past its borders.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Feature {
@@ -17,10 +24,11 @@ pub(crate) enum Feature {
     Line { point: DVec3, axis: DVec3 },
     /// A point, or a sphere about it \[m\].
     Point(DVec3),
-    /// The face of a surface of revolution.
-    Face(Band),
-    /// The rim of a surface of revolution.
-    Rim(Band),
+    /// A part of a surface of revolution. In the section along a unit vector from the axis, if any, it is as if it went
+    /// on past the axis.
+    Part { band: Band, part: BandPart, section: Option<DVec3> },
+    /// The side of a ring in a direction from the axis, a unit vector.
+    Side { band: Band, side: DVec3 },
 }
 
 impl Feature {
@@ -41,10 +49,25 @@ impl Feature {
             Form::Edge(edge) => Self::Line { point, axis: edge.axis },
             Form::Corner(_) => Self::Point(point),
             Form::Sphere { center, .. } => Self::Point(*center),
-            Form::Band(band) if is_over_face(band, [center, velocity]) => Self::Face(*band),
-            Form::Band(band) => Self::Rim(*band),
+            Form::Band(band) if band.has_ring_about(center) => Self::Plane(separation.normal),
+            Form::Band(band) => Self::of_band(band, [center, velocity]),
             Form::Box(_) | Form::Round(_) | Form::Closed(_) => return None,
         })
+    }
+
+    /// A side of a ring in a direction from the axis, a unit vector; `None` for other forms.
+    pub fn side_of(form: &Form, side: DVec3) -> Option<Self> {
+        match form {
+            Form::Band(band) => Some(Self::Side { band: *band, side }),
+            _ => None,
+        }
+    }
+
+    /// The part of a surface of revolution that has a sphere with this centre \[m\] and velocity \[m/s\], which is on no
+    /// ring of it.
+    fn of_band(band: &Band, state: [DVec3; 2]) -> Self {
+        let part = if is_over_face(band, state) { BandPart::Face } else { BandPart::Rim };
+        Self::Part { band: *band, part, section: band.section_through_axis(state) }
     }
 
     /// Unit normal at a sphere's centre \[m\], and how it turns.
@@ -63,8 +86,16 @@ impl Feature {
                 let offset = center - point;
                 (offset / offset.norm(), NormalCurvature::RoundFeature(offset.norm()))
             }
-            Self::Face(band) => of_view(band.face_seen_from(center)),
-            Self::Rim(band) => of_view(band.rim_seen_from(center)),
+            Self::Part { band, part, section } => {
+                let section = section.filter(|&section| band.is_in_section(center, section));
+                of_view(match (part, section) {
+                    (BandPart::Face, None) => band.face_seen_from(center),
+                    (BandPart::Rim, None) => band.rim_seen_from(center),
+                    (BandPart::Face, Some(section)) => band.side_face_seen_from(center, section),
+                    (BandPart::Rim, Some(section)) => band.side_rim_seen_from(center, section),
+                })
+            }
+            Self::Side { band, side } => of_view(band.side_seen_from(center, side)),
         }
     }
 }

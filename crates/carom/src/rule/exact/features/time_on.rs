@@ -35,6 +35,9 @@ pub(crate) fn time_on<M: AlongAxis>(
 /// Time \[s\] until a sphere with this centre \[m\] and velocity relative to a band \[m/s\] may slide off its face, along
 /// the profile.
 fn time_on_band<M: AlongAxis>(band: &Band, state: [DVec3; 2], motion: impl Fn(DVec3) -> M) -> f64 {
+    if band.has_ring_about(state[0]) {
+        return time_on_ring(band, state[0], motion);
+    }
     if band.disc_radius().is_some() || !is_over_face(band, state) {
         return f64::INFINITY;
     }
@@ -48,6 +51,14 @@ fn time_on_band<M: AlongAxis>(band: &Band, state: [DVec3; 2], motion: impl Fn(DV
         Some((inward, way)) => along.min(motion(inward).leaves(f64::NEG_INFINITY, way)),
         None => along,
     }
+}
+
+/// Time \[s\] until a sphere with this centre \[m\] leaves the axis of a band.
+fn time_on_ring<M: AlongAxis>(band: &Band, center: DVec3, motion: impl Fn(DVec3) -> M) -> f64 {
+    let reach = band.ring_reach();
+    let radial = band.radial_at(center);
+    let leaves = |axis: DVec3| motion(axis).leaves(-reach, reach);
+    leaves(radial).min(leaves(band.axis.cross(radial)))
 }
 
 /// Time \[s\] until a sphere with this centre \[m\] and velocity relative to a rectangle \[m/s\] may slide off
@@ -73,12 +84,15 @@ fn time_on_face<M: AlongAxis>(
 }
 
 /// Time \[s\] until a sphere with this flight, relative to a surface, may slide off the part of it that it is in
-/// contact with; infinite if it does not in the time of the flight.
-pub(crate) fn time_on_curve(form: &Form, flight: &PolynomialFlight) -> f64 {
+/// contact with, and may be on a ring; infinite if it does not in the time of the flight.
+pub(crate) fn time_on_curve(form: &Form, flight: &PolynomialFlight, is_on_ring: bool) -> f64 {
     let state = [flight.position, flight.velocity];
     let motion = |axis: DVec3| AxisPolynomial::of(flight, axis);
     match form {
-        Form::Band(band) => time_beside_rim(band, flight),
+        Form::Band(band) if is_on_ring || band.has_ring_about(flight.position) => {
+            time_on_ring(band, flight.position, motion)
+        }
+        Form::Band(band) => time_beside_rim(band, flight).min(time_to_ring(band, flight)),
         Form::Rectangle(rectangle) => {
             time_on_face(rectangle, state, motion).min(time_beside_face(rectangle, state, motion))
         }
@@ -110,9 +124,22 @@ fn time_beside_rim(band: &Band, flight: &PolynomialFlight) -> f64 {
     // Up to where the other part certainly has the sphere.
     let slack = 2.0 * TOUCHING * band.coordinates();
     let side = if is_over_face(band, [flight.position, flight.velocity]) { 1.0 } else { -1.0 };
-    let room = |time: f64| side * band.face_seen_from(flight.after(time).0).room + slack;
+    time_to_zero(flight, |center| side * band.face_seen_from(center).room + slack)
+}
+
+/// Time \[s\] until a sphere with this flight meets the opposite side of a ring of a band, on the axis.
+fn time_to_ring(band: &Band, flight: &PolynomialFlight) -> f64 {
+    let radial = band.radial_at(flight.position);
+    let time = time_to_zero(flight, |center| (center - band.center).dot(radial));
+    let is_on_ring = time < f64::INFINITY && band.has_ring_about(flight.after(time).0);
+    if is_on_ring { time } else { f64::INFINITY }
+}
+
+/// Time \[s\] until a distance of the centre of a sphere with this flight \[m\] is no longer positive.
+fn time_to_zero(flight: &PolynomialFlight, distance: impl Fn(DVec3) -> f64) -> f64 {
+    let room = |time: f64| distance(flight.after(time).0);
     let end = flight.acceleration.length;
-    // The room changes no faster than the sphere moves.
+    // The distance changes no faster than the sphere moves.
     let fastest = flight.fastest().norm();
     let (mut time, mut left) = (0.0, room(0.0));
     while time < end {

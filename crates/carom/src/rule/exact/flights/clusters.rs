@@ -5,6 +5,16 @@ use glam::DVec3;
 use super::contact_work::ContactWork;
 use crate::detect::contact::Bodies;
 
+/// A side of a ring that a sphere on the axis of a surface of revolution touches.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct RingSide {
+    /// The sphere and the surface.
+    pub bodies: Bodies,
+    /// Unit vector from the axis to the side.
+    pub side: DVec3,
+}
+
 /// Spheres held together by persistent contacts. Their forces hold until `renewal` or until an event
 /// of one of the spheres.
 #[derive(Debug, Clone, Default)]
@@ -15,6 +25,8 @@ pub(crate) struct Cluster {
     pub members: Vec<u32>,
     /// By index, ascending.
     pub contacts: Vec<Bodies>,
+    /// The sides in the contacts with rings.
+    pub sides: Vec<RingSide>,
     /// When the forces of the cluster are computed again, on the world's clock \[s\].
     pub renewal: f64,
     /// Whether the spheres fly on curves with these contacts, so that no forces are held.
@@ -28,6 +40,8 @@ pub(crate) struct Support {
     pub members: Vec<Supported>,
     /// Ascending.
     pub contacts: Vec<Bodies>,
+    /// The sides in the contacts with rings.
+    pub sides: Vec<RingSide>,
     /// When the forces are computed again, on the world's clock \[s\].
     pub renewal: f64,
     /// Whether the spheres fly on curves with these contacts.
@@ -51,6 +65,11 @@ pub(crate) struct Supported {
 impl Cluster {
     pub fn has(&self, contact: Bodies) -> bool {
         self.contacts.binary_search(&contact).is_ok()
+    }
+
+    /// The sides of a ring, as unit vectors from the axis, in the contact of two bodies; none if that is with no ring.
+    pub fn sides_of(&self, bodies: Bodies) -> impl Iterator<Item = DVec3> {
+        self.sides.iter().filter(move |it| it.bodies == bodies).map(|it| it.side)
     }
 
     /// The surfaces that a sphere, by its index, is in contact with.

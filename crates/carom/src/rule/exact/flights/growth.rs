@@ -3,10 +3,16 @@
 use glam::DVec3;
 
 use super::species::Species;
+use crate::norm::Norm;
 
 /// Neighbour lists are made for radii larger by this part. A larger part makes wider cells with more spheres in
 /// them, a smaller one more searches for neighbours.
 const ROOM_TO_GROW: f64 = 1.0 / 16.0;
+
+/// Growth makes no sphere faster than this many times the fastest sphere at its start, or the fastest radius. A gas
+/// without a thermostat reaches some fifty times at a packing fraction of 0.62. Spheres without room are struck ever
+/// more often and ever harder, without an end.
+const MOST_HEATED: f64 = 256.0;
 
 /// The growth of radii: when it began, and until when the neighbour lists are valid.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,10 +27,17 @@ pub(crate) struct Growth {
 }
 
 impl Growth {
-    /// The growth of spheres that have the radii of their species at `time` \[s\]; `None` if none grows.
-    pub fn of(species: &[Species], time: f64) -> Option<Self> {
-        let grows = species.iter().any(|it| it.growth_speed > 0.0);
-        grows.then_some(Self { since: time, until: time, speed_limit: f64::INFINITY })
+    /// The growth of spheres that have the radii of their species, and these velocities \[m/s\], at `time` \[s\];
+    /// `None` if none grows.
+    pub fn of(
+        species: &[Species],
+        velocities: impl Iterator<Item = DVec3>,
+        time: f64,
+    ) -> Option<Self> {
+        let growth_speed = species.iter().map(|it| it.growth_speed).fold(0.0, f64::max);
+        let fastest = velocities.map(Norm::norm).fold(growth_speed, f64::max);
+        let speed_limit = MOST_HEATED * fastest;
+        (growth_speed > 0.0).then_some(Self { since: time, until: time, speed_limit })
     }
 
     /// Radius of spheres of a species at `time` \[s\], in metres.

@@ -69,6 +69,8 @@ struct Touched<'a> {
     /// From its centre to the image beside the surface \[m\].
     shift: DVec3,
     form: &'a Form,
+    /// Whether the sphere is on a ring of it.
+    is_on_ring: bool,
 }
 
 /// The forces on the spheres of a component whose forces are not held.
@@ -148,28 +150,37 @@ impl<'a> JointField<'a> {
         };
         let mut touched = Vec::new();
         for (cluster, &number) in clusters.iter().enumerate() {
-            let contact = |bodies: &Bodies| match *bodies {
-                Bodies::Pair(first, second) => {
-                    let first = place_of(first)?;
-                    let (second, friction) = (place_of(second)?, friction_of(*bodies));
-                    let offset = positions[second] - positions[first];
-                    let shift = shift_beside_sphere(offset, self.period);
-                    let first = CurveBody::Sphere(first);
-                    Some(CurveContact { first, second, shift, friction })
+            let mut contacts: Vec<CurveContact> = Vec::new();
+            let held = flights.clusters.get(number);
+            for &bodies in &held.contacts {
+                let friction = friction_of(bodies);
+                let mut add = |first, second, shift| {
+                    contacts.push(CurveContact { first, second, shift, friction });
+                };
+                match bodies {
+                    Bodies::Pair(first, second) => {
+                        let places = place_of(first).zip(place_of(second));
+                        let Some((first, second)) = places else { continue };
+                        let offset = positions[second] - positions[first];
+                        let shift = shift_beside_sphere(offset, self.period);
+                        add(CurveBody::Sphere(first), second, shift);
+                    }
+                    Bodies::Surface { sphere, surface } => {
+                        let Some(second) = place_of(sphere) else { continue };
+                        let form = &system.surfaces[surface as usize].form;
+                        let shift = shift_beside_surface(form, positions[second], self.period);
+                        let sides: Vec<DVec3> = held.sides_of(bodies).collect();
+                        let is_on_ring = !sides.is_empty();
+                        touched.push(Touched { cluster, sphere: second, shift, form, is_on_ring });
+                        let of_sides = sides.iter().map(|&side| Feature::side_of(form, side));
+                        let state = [positions[second] + shift, velocities[second]];
+                        let under = || Feature::under(form, state, self.alone[second].radius);
+                        let of_all = if is_on_ring { None } else { Some(under()) };
+                        let features = of_sides.chain(of_all).flatten();
+                        features.for_each(|it| add(CurveBody::Feature(it), second, shift));
+                    }
                 }
-                Bodies::Surface { sphere, surface } => {
-                    let (second, form) =
-                        (place_of(sphere)?, &system.surfaces[surface as usize].form);
-                    let shift = shift_beside_surface(form, positions[second], self.period);
-                    let state = [positions[second] + shift, velocities[second]];
-                    let feature = Feature::under(form, state, self.alone[second].radius)?;
-                    touched.push(Touched { cluster, sphere: second, shift, form });
-                    let (first, friction) = (CurveBody::Feature(feature), friction_of(*bodies));
-                    Some(CurveContact { first, second, shift, friction })
-                }
-            };
-            let contacts = flights.clusters.get(number).contacts.iter().filter_map(contact);
-            let mut contacts: Vec<CurveContact> = contacts.collect();
+            }
             contacts.sort_by_key(|contact| contact.second);
             self.contacts.push(CurveContacts::new(contacts));
         }
@@ -358,10 +369,11 @@ impl JointField<'_> {
             let first = opens.map_or(&mut change, |cluster| &mut releases[cluster]);
             *first = first.min(time);
         }
-        for &Touched { cluster, sphere, shift, form } in &self.touched {
+        for &Touched { cluster, sphere, shift, form, is_on_ring } in &self.touched {
             let (position, velocity) = (start.positions[sphere] + shift, start.velocities[sphere]);
             let acceleration = step.accelerations[sphere];
-            let time = time_on_curve(form, &PolynomialFlight { position, velocity, acceleration });
+            let flight = PolynomialFlight { position, velocity, acceleration };
+            let time = time_on_curve(form, &flight, is_on_ring);
             if time < length {
                 releases[cluster] = releases[cluster].min(time.max(SOONEST * length));
             }

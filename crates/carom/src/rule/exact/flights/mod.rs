@@ -28,7 +28,7 @@ mod wells;
 
 pub(super) use at_time::{first_lost, write_motion};
 pub(super) use body::Body;
-pub(super) use clusters::{Cluster, Support, Supported};
+pub(super) use clusters::{Cluster, RingSide, Support, Supported};
 pub(super) use components::Component;
 pub(super) use contact_work::ContactWork;
 pub(super) use curve_contacts::{

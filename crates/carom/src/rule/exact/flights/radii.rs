@@ -6,10 +6,6 @@ use super::species::Species;
 use super::state::Flights;
 use crate::norm::Norm;
 
-/// In a step, growth makes no sphere faster than this many times the fastest sphere at the start, or the fastest
-/// radius. Spheres without room are struck ever more often and ever harder, and the step would not end.
-const MOST_HEATED: f64 = 4096.0;
-
 impl Flights {
     /// Radius of a sphere at `time` \[s\], in metres.
     #[inline]
@@ -34,15 +30,7 @@ impl Flights {
         }
     }
 
-    /// Limits how fast spheres become in a step that begins now.
-    pub fn limit_heating(&mut self) {
-        let Self { growth: Some(growth), bodies, species, .. } = self else { return };
-        let speeds = bodies.iter().map(|body| body.velocity.norm());
-        let growth_speeds = species.iter().map(|species| species.growth_speed);
-        growth.speed_limit = MOST_HEATED * speeds.chain(growth_speeds).fold(0.0, f64::max);
-    }
-
-    /// Whether growth made a sphere faster than the step allows.
+    /// Whether growth made a sphere so fast that it has no room left.
     pub fn is_overheated(&self, slot: u32) -> bool {
         let speed = self.bodies[slot as usize].velocity.norm();
         self.growth.is_some_and(|growth| speed > growth.speed_limit)

@@ -73,8 +73,11 @@ impl Flights {
         let SpeciesOfSpheres { species, number_of, hold_forces, forces_vary } =
             SpeciesOfSpheres::of(system);
         let count = number_of.len();
-        let may_turn = || !system.holds_forces_of_all() && touch_may_turn(system);
-        let are_curved = species.iter().any(|it| it.is_curved) || may_turn();
+        let rub_under_drag =
+            || system.has_friction() && species.iter().any(|it| it.drag_rate > 0.0);
+        let may_bend =
+            || !system.holds_forces_of_all() && (touch_may_turn(system) || rub_under_drag());
+        let are_curved = species.iter().any(|it| it.is_curved) || may_bend();
         let components =
             Components::of(system, |index| species[number_of[index] as usize].is_curved);
         let period = system.settings.boundary.period();
@@ -368,12 +371,12 @@ impl Flights {
 
     /// Makes a cluster of free spheres from `time` \[s\] on.
     pub fn set_supported(&mut self, support: Support, time: f64) {
-        let Support { members, contacts, renewal, is_curved, belt_work } = support;
+        let Support { members, contacts, sides, renewal, is_curved, belt_work } = support;
         // Contacts were said to take all that their spheres gained as they began to persist.
         self.add_contact_work(-belt_work);
         self.add_collider_work(belt_work);
         let slots = members.iter().map(|member| member.slot).collect();
-        let cluster = Cluster { members: slots, contacts, renewal, is_curved };
+        let cluster = Cluster { members: slots, contacts, sides, renewal, is_curved };
         let cluster = self.clusters.add(cluster);
         for Supported { slot, acceleration, rotation, contact_work } in members {
             if let Some(rotation) = rotation {

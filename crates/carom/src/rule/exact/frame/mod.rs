@@ -49,7 +49,8 @@ pub(crate) fn start(
     time: f64,
 ) -> Timeline {
     let mut flights = Flights::new(system, motion, |_| Err(time));
-    flights.growth = Growth::of(&flights.species, time);
+    let velocities = motion.velocity.iter().copied();
+    flights.growth = Growth::of(&flights.species, velocities, time);
     flights.wells = Wells::of(&Instant { system: *system, motion, time });
     // Zones step spheres with the radius of the start, images that stand still, and no wells.
     let excludes_zones =
@@ -59,7 +60,7 @@ pub(crate) fn start(
     if zones == Zones::Never {
         zone = Zone::default();
     }
-    if friction_acts(system) {
+    if system.has_friction() {
         let all = 0..motion.position.len();
         flights.rotations = all.map(|index| Rotation::of(motion, index, time)).collect();
     }
@@ -97,7 +98,7 @@ pub(crate) fn adopt<F: Fn(SphereId) -> f64>(
     };
     let mut flights = Flights::new(system, motion, flight_of);
     let frame = before.frame;
-    if before.has_friction() || friction_acts(system) {
+    if before.has_friction() || system.has_friction() {
         let rotation_of = |(index, id)| match arrivals.known.binary_search(id) {
             Ok(place) if before.has_friction() => before.flights.free_rotation_of(place, time),
             Ok(_) => Rotation::of(motion, index, frame[0]),
@@ -179,11 +180,6 @@ fn resume(
     timeline
 }
 
-/// Whether friction acts on some body.
-fn friction_acts(system: &System) -> bool {
-    system.frictions().any(|friction| friction.acts())
-}
-
 /// Prepares a frame from and to these times \[s\]. The next spheres are emitted at `next` \[s\].
 ///
 /// # Errors
@@ -197,7 +193,6 @@ pub(crate) fn begin(
     let goes_on = timeline.frame[1] == frame[0];
     set_frame(timeline, system, frame);
     timeline.next_emission = next;
-    timeline.flights.limit_heating();
     let are_applied = !system.spheres.applied_force.is_empty();
     timeline.curves_until = if are_applied { frame[1] } else { f64::INFINITY };
     let is_other_tick = set_force_tick(timeline, frame[1] - frame[0])?;

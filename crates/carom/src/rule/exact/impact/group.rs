@@ -8,7 +8,7 @@ use glam::DVec3;
 use super::account::account_of;
 use super::follow_up;
 use super::friction::{self, FrictionImpulses};
-use super::kick::kick_of;
+use super::kick::{Kicks, is_same, kick_in_group};
 use crate::detect::contact::Bodies;
 use crate::norm::Norm;
 use crate::report::{BodyPair, Impact, ImpactGroup};
@@ -27,9 +27,8 @@ use crate::rule::periodic;
 
 /// Units of work that it takes to find what touches a sphere, and to predict what it meets next.
 const UNITS_PER_MEMBER: u64 = 500;
-/// Contacts of a sphere and a collider whose normals differ by less are at one place, where faces share an edge or a
-/// corner: far more than the rounding of places.
-const SAME_NORMAL: f64 = 1e-9;
+/// Sides of a ring that join the impacts of one sphere, at most.
+const MOST_SIDES: u32 = 16;
 /// A touch closes of itself if it closes faster than this part of the fastest one: far more than rounding.
 const CLOSING: f64 = 1e-6;
 
@@ -53,7 +52,7 @@ pub(super) fn answer(
     let (mut group, answer) = loop {
         let (mut group, work) = gather(timeline, context, seeds, surface, &joined, time);
         let allowed = *allowance.get_or_insert_with(|| allow_work(timeline, context, &group));
-        let answer = respond_to_impacts(timeline, context, &mut group, &merged);
+        let answer = respond_on_rings(timeline, context, &mut group, &merged);
         let found = follow_up::follow_ups(timeline, context, &group, &answer.struck(&group));
         if found.is_empty() || allowed == 0 || !context.work.spend(group.members.len() as u64) {
             timeline.flights.add_collider_work(work);
@@ -272,6 +271,27 @@ impl Answer {
     }
 }
 
+/// Applies the impact law. Sides of a ring join until spheres on it close on none.
+fn respond_on_rings(
+    timeline: &Timeline,
+    context: &StepContext,
+    group: &mut Group,
+    merged: &[Bodies],
+) -> Answer {
+    let before = group.members.clone();
+    let mut answer = respond_to_impacts(timeline, context, group, merged);
+    for _ in 0..MOST_SIDES {
+        let closing = contacts::closing_sides(context, group, None);
+        if closing.is_empty() {
+            break;
+        }
+        group.members.clone_from(&before);
+        contacts::add_sides(context, group, &closing);
+        answer = respond_to_impacts(timeline, context, group, merged);
+    }
+    answer
+}
+
 /// Applies the impact law to every closing contact. If one of the `merged` contacts still closes
 /// then, all are answered plastically.
 fn respond_to_impacts(
@@ -327,7 +347,7 @@ fn respond_to_impacts(
     }
     let mut kicks = Kicks::default();
     if has_kicks {
-        kicks = kick(context, group, &mut impulses);
+        kicks = kick_in_group(context, group, &mut impulses);
         // A kick may have set bodies in motion towards others.
         resolve((&all, &plastic), group, &mut impulses);
     }
@@ -341,43 +361,6 @@ fn respond_to_impacts(
     let kick_work = kicks.work;
     let account = friction.add_to(ImpactGroup { energy_demanded, kick_work, ..account });
     Answer { approach_speeds, impulses, friction, kicks: kicks.speeds, account, cut_short }
-}
-
-/// The effect of kicks of surfaces on a group.
-#[derive(Default)]
-struct Kicks {
-    /// One per touch \[m/s\].
-    speeds: Vec<f64>,
-    /// Work \[J\].
-    work: f64,
-}
-
-/// Adds the kick of a surface to spheres that got an impulse of it; at an edge that faces of a collider share,
-/// once.
-fn kick(context: &StepContext, group: &mut Group, impulses: &mut [f64]) -> Kicks {
-    let mut kicks = Kicks { speeds: vec![0.0; impulses.len()], work: 0.0 };
-    let mut kicked: Vec<(BodyPair, DVec3)> = Vec::new();
-    for (place, touch) in group.touches.iter().enumerate() {
-        let Bodies::Surface { surface, .. } = touch.bodies else { continue };
-        let between = BodyPair::of(touch.bodies, context.system);
-        let is_kicked = |it: &(BodyPair, DVec3)| it.0 == between && is_same(it.1, touch.normal);
-        if impulses[place] <= 0.0 || kicked.iter().any(is_kicked) {
-            continue;
-        }
-        let member = &group.members[touch.second];
-        let speed = kick_of(context, member, (surface, touch.normal));
-        let mass = member.species.mass;
-        kicks.work += mass * speed * (touch.normal_velocity(&group.members) + 0.5 * speed);
-        kicks.speeds[place] = speed;
-        impulses[place] += mass * speed;
-        group.members[touch.second].velocity += speed * touch.normal;
-        kicked.push((between, touch.normal));
-    }
-    kicks
-}
-
-fn is_same(normal: DVec3, other: DVec3) -> bool {
-    (normal - other).norm() <= SAME_NORMAL
 }
 
 fn velocities_of(group: &Group) -> Vec<DVec3> {

@@ -109,7 +109,8 @@ fn support_by(
         }
         false => (supported, time + valid_for),
     };
-    Support { members: vec![member], contacts, renewal, is_curved, belt_work }
+    let (members, sides) = (vec![member], Vec::new());
+    Support { members, contacts, sides, renewal, is_curved, belt_work }
 }
 
 /// Applies the impulses of the surfaces on which the sphere closes, by Newton's law, and records them. All impact

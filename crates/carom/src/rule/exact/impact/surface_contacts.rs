@@ -69,7 +69,13 @@ impl<'a> SurfaceContacts<'a> {
             return self.corner.add(plane);
         }
         let it = &surfaces[surface as usize];
-        if matches!(it.form, Form::Facet(_)) {
+        let is_on_ring = || {
+            let moves_to_side = |direction: DVec3| {
+                features::side_of_ring(&it.form, [member.position, direction]).is_some()
+            };
+            moves_to_side(member.velocity) || moves_to_side(member.species.acceleration)
+        };
+        if matches!(it.form, Form::Facet(_)) || is_on_ring() {
             return None;
         }
         let separation =

@@ -30,6 +30,11 @@ pub(super) fn are_some_curved(members: &[Member]) -> bool {
     members.iter().any(|member| member.species.is_curved)
 }
 
+/// Whether drag in closed form slows some member.
+pub(super) fn are_some_slowed(members: &[Member]) -> bool {
+    members.iter().any(|member| member.species.drag_rate > 0.0)
+}
+
 /// Whether all spheres in these contacts can fly on curves with them: they touch each other and surfaces at rest, and
 /// no contact follows from others.
 pub(super) fn fly_so(context: &StepContext, members: &[Member], touches: &[Touch]) -> bool {
@@ -116,7 +121,8 @@ pub(super) fn forces_now(context: &StepContext, group: &Group) -> Option<Vec<(f6
     contacts.choose_states(motion.moving(), &spheres, &values, 0.0);
     contacts.add(motion.moving(), &spheres, &mut values);
     let force_of = |touch: &Touch| {
-        let place = ordered.iter().position(|it| it.bodies == touch.bodies);
+        let place =
+            ordered.iter().position(|it| it.bodies == touch.bodies && it.side == touch.side);
         place.map_or((0.0, DVec3::ZERO), |place| contacts.forces[place])
     };
     Some(touches.iter().map(force_of).collect())
@@ -229,7 +235,10 @@ fn contact(context: &StepContext, members: &[Member], touch: &Touch) -> Option<C
             let form = &context.system.surfaces[surface as usize].form;
             let Member { position, velocity, species, .. } = members[second];
             let state = [position + touch.shift, velocity];
-            CurveBody::Feature(Feature::under(form, state, species.radius)?)
+            CurveBody::Feature(match touch.side {
+                Some(side) => Feature::side_of(form, side)?,
+                None => Feature::under(form, state, species.radius)?,
+            })
         }
     };
     Some(CurveContact {

@@ -17,7 +17,7 @@ use crate::connected::Connected;
 use crate::norm::Norm;
 use crate::respond::{friction_of, restitution_of};
 use crate::rule::exact::contacts::contact_scale::ContactScale;
-use crate::rule::exact::contacts::{Group, Member, Touch};
+use crate::rule::exact::contacts::{self, Group, Member, Touch};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::flights::{ContactWork, Support, Supported};
 use crate::work::Work;
@@ -26,11 +26,42 @@ use crate::work::Work;
 /// rounding.
 pub(crate) const REST: f64 = 1e-12;
 
-/// Computes the persistent contacts of a group and their forces; sets their gaps and normal velocities to zero.
+/// Sides of a ring that are tried for one sphere, at most: each one halves the angle in which the sphere may close on
+/// another.
+const MOST_SIDES: u32 = 64;
+
+/// Computes the persistent contacts of a group and their forces; sets their gaps and normal velocities to zero. Sides of
+/// a ring join until spheres on it close on none.
 ///
 /// # Errors
 /// [`NoClosedForm`] where friction acts but on spheres that lie on one surface at rest each.
 pub(crate) fn find(context: &StepContext, group: &mut Group) -> Result<Vec<Support>, NoClosedForm> {
+    let before = group.members.clone();
+    for _ in 0..MOST_SIDES {
+        let supports = find_among(context, group)?;
+        let accelerations = accelerations_of(group, &supports);
+        let closing = contacts::closing_sides(context, group, Some(&accelerations));
+        if closing.is_empty() {
+            return Ok(supports);
+        }
+        group.members.clone_from(&before);
+        contacts::add_sides(context, group, &closing);
+    }
+    Err(NoClosedForm)
+}
+
+/// The acceleration of each member with its contacts \[m/s²\].
+fn accelerations_of(group: &Group, supports: &[Support]) -> Vec<DVec3> {
+    let supported = || supports.iter().flat_map(|support| &support.members);
+    let acceleration = |member: &Member| {
+        let own = supported().find(|it| it.slot == member.slot);
+        own.map_or(member.species.acceleration, |it| it.acceleration)
+    };
+    group.members.iter().map(acceleration).collect()
+}
+
+/// Computes the persistent contacts among the touches of a group.
+fn find_among(context: &StepContext, group: &mut Group) -> Result<Vec<Support>, NoClosedForm> {
     let candidates = may_persist(context, group);
     let acts = |touch: &Touch| friction_of(touch.bodies, context.system).acts();
     if candidates.iter().any(acts)
@@ -44,9 +75,32 @@ pub(crate) fn find(context: &StepContext, group: &mut Group) -> Result<Vec<Suppo
     let bearing = || persistent.iter().zip(&known_forces).filter(|it| *it.1 > least).map(|it| it.0);
     if bearing().any(acts) {
         let bearing: Vec<Touch> = bearing().copied().collect();
-        return with_friction::find(context, group, &candidates, &bearing);
+        return find_with_friction(context, group, &candidates, &bearing);
     }
     Ok(find_smooth(context, group, candidates, persistent, known_forces))
+}
+
+/// Computes the persistent contacts where friction acts in those that bear: in closed form if there is one, else, of
+/// spheres that drag slows and no others bear, on curves. Heaps are for zones, whether drag acts or not.
+///
+/// # Errors
+/// [`NoClosedForm`] if there are neither.
+fn find_with_friction(
+    context: &StepContext,
+    group: &mut Group,
+    candidates: &[Touch],
+    bearing: &[Touch],
+) -> Result<Vec<Support>, NoClosedForm> {
+    let may_bend = on_curves::are_some_slowed(&group.members)
+        && !with_friction::are_some_borne(&group.members, bearing);
+    if !may_bend {
+        return with_friction::find(context, group, candidates, bearing);
+    }
+    let members = group.members.clone();
+    with_friction::find(context, group, candidates, bearing).or_else(|error| {
+        group.members = members;
+        find_on_curves(context, group, candidates).ok_or(error)
+    })
 }
 
 /// Computes the persistent contacts of spheres that fly on curves with friction; `None` if they do not.
@@ -236,6 +290,7 @@ fn connected(
         let empty = || Support {
             members: Vec::new(),
             contacts: Vec::new(),
+            sides: Vec::new(),
             renewal,
             is_curved,
             belt_work: 0.0,
@@ -256,7 +311,11 @@ fn connected(
     for touch in touches {
         let root = of(&mut supports, touch.second);
         if let Some(support) = supports.get_mut(&root) {
-            support.contacts.push(touch.bodies);
+            // Sides of a ring are one contact.
+            if support.contacts.last() != Some(&touch.bodies) {
+                support.contacts.push(touch.bodies);
+            }
+            support.sides.extend(touch.ring_side());
         }
     }
     supports.into_values().collect()

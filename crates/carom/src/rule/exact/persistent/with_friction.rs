@@ -124,15 +124,24 @@ fn bearings(
         let surfaces = || own.iter().filter(|touch| touch.first.is_none());
         let plane = surfaces().next().filter(|touch| plane_of(context, member, touch).is_some());
         let is_one = surfaces().count() == 1 && plane.is_some();
-        let acceleration = member.species.acceleration;
-        let leans = |touch: &&Touch| {
-            let along = touch.normal.dot(acceleration).abs();
-            touch.first.is_some() && along <= LEANS * acceleration.norm()
-        };
-        let has_form = member.species.drag_rate == 0.0 && (is_one || own.iter().all(leans));
+        let only_leans = || own.iter().all(|touch| leans(member, touch));
+        let has_form = member.species.drag_rate == 0.0 && (is_one || only_leans());
         has_form.then(|| plane.map(|touch| **touch))
     };
     (0..group.members.len()).map(bearing).collect()
+}
+
+/// Whether a touch is with another sphere, across the acceleration of this one.
+fn leans(member: &Member, touch: &Touch) -> bool {
+    let acceleration = member.species.acceleration;
+    let along = touch.normal.dot(acceleration).abs();
+    touch.first.is_some() && along <= LEANS * acceleration.norm()
+}
+
+/// Whether some sphere rests on another one by a touch that presses.
+pub(super) fn are_some_borne(members: &[Member], pressing: &[Touch]) -> bool {
+    let bears = |touch: &Touch| touch.first.is_some() && !leans(&members[touch.second], touch);
+    pressing.iter().any(bears)
 }
 
 /// The sets of spheres, on planes or in flight, that push each other or other planes, with the contacts in which
@@ -221,6 +230,7 @@ fn support_pushed(group: &mut Group, pushed: PushedSpheres) -> Result<Support, N
     Ok(Support {
         members: members.iter().zip(rates).map(supported).collect(),
         contacts,
+        sides: Vec::new(),
         renewal: group.time + valid_for,
         is_curved: false,
         belt_work,
@@ -245,6 +255,7 @@ fn on_planes(
     let support = Support {
         members: vec![planar.supported(member.slot)],
         contacts: lasting.map(bodies).collect(),
+        sides: Vec::new(),
         renewal: group.time + valid_for,
         is_curved: false,
         belt_work,
@@ -298,6 +309,7 @@ fn over_curve(
             contact_work: ContactWork::Friction { moment, collider_power: 0.0 },
         }],
         contacts: own.iter().map(|touch| touch.bodies).collect(),
+        sides: own.iter().filter_map(Touch::ring_side).collect(),
         renewal: group.time + piece.valid_for,
         is_curved: false,
         belt_work: 0.0,

@@ -6,12 +6,14 @@ use std::mem::take;
 use glam::DVec3;
 
 use crate::bodies::Motion;
+use crate::detect::contact::Bodies;
 use crate::detect::sphere_surface;
 use crate::forces;
 use crate::id::SphereId;
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::events::{NextEvents, Prediction};
 use crate::rule::exact::neighbours::NeighbourBuffer;
+use crate::rule::exact::persistent::flies_with;
 use crate::rule::exact::predict;
 use crate::rule::exact::predict::moving::Around;
 use crate::rule::exact::timeline::Timeline;
@@ -56,7 +58,7 @@ pub(crate) fn tick(timeline: &mut Timeline, context: &mut StepContext) -> f64 {
 }
 
 /// Whether a sphere with this centre \[m\] that presses on others would join its zone again at once: friction acts,
-/// and it does not lie on a single surface at rest.
+/// and it does not lie on a single surface at rest, or drag slows it and it cannot fly on a curve there.
 fn would_rejoin(
     timeline: &Timeline,
     context: &StepContext,
@@ -78,8 +80,14 @@ fn would_rejoin(
     let around = Around::touching(center, species.radius, now);
     let mut touched = context.surfaces_near(timeline, slot, around).filter_map(touches);
     let Some(first) = touched.next() else { return false };
-    let is_at_rest = context.system.surfaces[first as usize].motion.is_at_rest();
-    !is_at_rest || touched.next().is_some() || species.drag_rate > 0.0
+    let motion = &context.system.surfaces[first as usize].motion;
+    let sphere = timeline.flights.index_of[slot as usize];
+    let bodies = Bodies::Surface { sphere, surface: first };
+    let follows_drag = species.drag_rate == 0.0
+        || (motion.belt == DVec3::ZERO
+            && context.period == DVec3::INFINITY
+            && flies_with(context, species, bodies));
+    !motion.is_at_rest() || touched.next().is_some() || !follows_drag
 }
 
 /// The image of a place \[m\] beside the position of a sphere at `now` \[s\] in a periodic box.
