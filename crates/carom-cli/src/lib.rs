@@ -41,8 +41,8 @@ mod stress;
 mod summary;
 mod table;
 mod verify;
-#[cfg(feature = "view")]
 mod well_totals;
+#[cfg(feature = "view")]
 mod window;
 mod written;
 mod zone_totals;
