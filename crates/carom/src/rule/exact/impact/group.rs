@@ -53,7 +53,9 @@ pub(super) fn answer(
         let (mut group, work) = gather(timeline, context, seeds, surface, &joined, time);
         let allowed = *allowance.get_or_insert_with(|| allow_work(timeline, context, &group));
         let answer = respond_on_rings(timeline, context, &mut group, &merged);
-        let found = follow_up::follow_ups(timeline, context, &group, &answer.struck(&group));
+        let mut found = follow_up::follow_ups(timeline, context, &group, &answer.struck(&group));
+        // What gathering leaves out, as a seam beside a plane, would be found again for ever.
+        found.retain(|it| !merged.contains(it));
         if found.is_empty() || allowed == 0 || !context.work.spend(group.members.len() as u64) {
             timeline.flights.add_collider_work(work);
             break (group, answer);
