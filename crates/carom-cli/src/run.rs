@@ -210,25 +210,14 @@ fn trajectory_file(path: &Path, replay: &Replay) -> Result<Trajectory, Failure> 
     Ok(Trajectory::create(path)?)
 }
 
-fn impact_table(path: &Path) -> Result<ImpactTable, RecordingError> {
-    if is_standard(path) {
-        return ImpactTable::csv(io::stdout(), STANDARD);
-    }
-    ImpactTable::create(path)
-}
-
-fn well_table(path: &Path) -> Result<WellTable, RecordingError> {
-    if is_standard(path) {
-        return WellTable::csv(io::stdout(), STANDARD);
-    }
-    WellTable::create(path)
-}
-
-fn ledger_table(path: &Path) -> Result<LedgerTable, RecordingError> {
-    if is_standard(path) {
-        return LedgerTable::csv(io::stdout(), STANDARD);
-    }
-    LedgerTable::create(path)
+/// Creates a table, if it has a path: in a file, or on the standard output.
+fn table<T>(
+    path: Option<&Path>,
+    create: impl FnOnce(&Path) -> Result<T, RecordingError>,
+    csv: impl FnOnce(io::Stdout, &str) -> Result<T, RecordingError>,
+) -> Result<Option<T>, RecordingError> {
+    let Some(path) = path else { return Ok(None) };
+    if is_standard(path) { csv(io::stdout(), STANDARD) } else { create(path) }.map(Some)
 }
 
 /// Canonical path of a file, which may not exist yet.
@@ -302,9 +291,9 @@ impl Outputs {
         let trajectory = |path| trajectory(path, replay, sensitivity);
         // The trajectory comes last: if it is dropped, an unfinished file remains.
         Ok(Self {
-            impacts: args.impacts.as_deref().map(impact_table).transpose()?,
-            wells: args.wells.as_deref().map(well_table).transpose()?,
-            ledger: args.ledger.as_deref().map(ledger_table).transpose()?,
+            impacts: table(args.impacts.as_deref(), ImpactTable::create, ImpactTable::csv)?,
+            wells: table(args.wells.as_deref(), WellTable::create, WellTable::csv)?,
+            ledger: table(args.ledger.as_deref(), LedgerTable::create, LedgerTable::csv)?,
             trajectory: args.out.as_deref().map(trajectory).transpose()?,
             every: args.every,
         })
