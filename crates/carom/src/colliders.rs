@@ -141,7 +141,7 @@ impl Colliders {
         self.list.values_mut().for_each(|collider| collider.follow_motion(time));
     }
 
-    /// Lets the seams be checked when they are next read, after changes of colliders with these numbers.
+    /// Marks the seams for a check at their next read, after changes of the colliders with these numbers.
     fn check_seams(&mut self, changed: impl IntoIterator<Item = u64>) {
         if let Some(seams) = self.seams.take() {
             self.earlier = Some((seams, BTreeSet::new()));

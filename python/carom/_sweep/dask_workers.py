@@ -68,7 +68,7 @@ class DaskWorkers:
         return done
 
     def cancel(self, tasks: Collection[Task]) -> None:
-        """Gives up tasks and the experiment."""
+        """Cancels tasks and drops the experiment."""
         self._client.cancel([*tasks, self._experiment])
 
 

@@ -62,7 +62,7 @@ class RayWorkers:
         return list(_copies(outcomes)), seconds
 
     def cancel(self, tasks: Collection[Task]) -> None:
-        """Gives up tasks."""
+        """Cancels tasks."""
         for task in tasks:
             self._ray.cancel(task)
 

@@ -45,4 +45,4 @@ class Workers(Protocol):
         """
 
     def cancel(self, tasks: Collection[Task]) -> None:
-        """Gives up tasks, and what all of them share."""
+        """Cancels tasks, and drops what all of them share."""
