@@ -1,4 +1,4 @@
-//! Continued rotations.
+//! Continued rotations, and axes that are turned.
 
 use glam::{DQuat, DVec3};
 
@@ -12,6 +12,28 @@ pub(crate) fn turned(rotation: DQuat, angular_velocity: DVec3, h: f64) -> DQuat 
         DQuat::from_xyzw(axis.x * sine, axis.y * sine, axis.z * sine, cosine) * rotation.normalize()
     } else {
         rotation
+    }
+}
+
+/// Components of a turned axis up to this size are rounding.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// The axes of a local frame in the world, for a rotation of length 1.
+///
+/// Components of the size of rounding are zero: after a quarter turn an axis is parallel to one of the world, so that
+/// a sphere that starts in a plane of symmetry stays in it.
+pub(crate) fn axes(rotation: DQuat) -> [DVec3; 3] {
+    DVec3::AXES.map(|axis| without_rounding(rotation * axis))
+}
+
+/// A unit vector without the components that are rounding.
+fn without_rounding(axis: DVec3) -> DVec3 {
+    let is_rounding = axis.abs().cmple(DVec3::splat(ROUNDING));
+    if (is_rounding & axis.cmpne(DVec3::ZERO)).any() {
+        let parallel = DVec3::select(is_rounding, DVec3::ZERO, axis);
+        parallel / parallel.length()
+    } else {
+        axis
     }
 }
 

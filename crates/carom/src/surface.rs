@@ -15,6 +15,7 @@ use crate::norm::Norm;
 use crate::pose::Pose;
 pub(crate) use crate::rectangle::Rectangle;
 use crate::restitution::BodyRestitution;
+use crate::rotation;
 use crate::round_solid::{Outline, RoundSolid};
 pub(crate) use crate::surface_motion::SurfaceMotion;
 
@@ -318,7 +319,7 @@ pub(crate) fn place(id: ColliderId, collider: &Collider, time: f64, surfaces: &m
         None => SurfaceMotion::of(collider),
     };
     let (center, rotation) = (pose.position, pose.rotation.normalize());
-    let axes @ [x, y, z] = [rotation * DVec3::X, rotation * DVec3::Y, rotation * DVec3::Z];
+    let axes @ [x, y, z] = rotation::axes(rotation);
     let mut add = |form, role| {
         let role = if trigger { Role::Reports } else { role };
         let collider = id;

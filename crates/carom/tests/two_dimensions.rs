@@ -1,11 +1,12 @@
 //! Two dimensions (`docs/physics/motion.md`): discs in a plane, their pressure and temperature, and what leaves the
 //! plane.
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 use carom::packing::packing_fraction;
 use carom::{
-    Boundary, Contact, DVec3, Error, Gravity, Settings, Sphere, StressMeter, Thermostat, World,
+    Bisect, Boundary, Collider, Contact, DQuat, DVec3, Discrete, Ends, Error, Exact, Gravity, Pose,
+    Rule, Settings, Shape, Sphere, StressMeter, Thermostat, World,
 };
 
 mod common;
@@ -85,6 +86,40 @@ fn thermostats_keep_discs_in_the_plane_and_at_their_temperature() {
         if thermostat == noise {
             assert!(world.momentum().distance(momentum) < 1e-12);
         }
+    }
+}
+
+/// Quarter turns are rounded; the axes that follow from them are not.
+#[test]
+fn discs_stay_in_the_plane_among_pillars_and_walls_that_are_turned_upright() {
+    let pillar = Shape::Cylinder { radius: 0.3, height: 1.0 };
+    let ring = Shape::Pipe { radius: 1.5, length: 1.0, closed: Ends::NONE };
+    let block = Shape::Box { size: vec(0.3, 1.0, 0.3) };
+    let upright = DQuat::from_rotation_x(FRAC_PI_2);
+    for rule in [
+        Rule::Exact(Exact::default()),
+        Rule::Contact(Contact::default()),
+        Rule::Discrete(Discrete::default()),
+        Rule::Bisect(Bisect::default()),
+    ] {
+        let mut world = World::new(settings().with_rule(rule)).unwrap();
+        world.add_force(Gravity::new(-9.81 * DVec3::Y)).unwrap();
+        let turns = [upright, DQuat::from_rotation_z(0.3) * upright, -upright.inverse()];
+        for (number, (shape, turn)) in [&pillar, &block, &ring].into_iter().zip(turns).enumerate() {
+            let place = [vec(-0.4, 0.0, 0.0), vec(0.6, 0.1, 0.0), DVec3::ZERO][number];
+            let collider = Collider::new(shape.clone(), Pose::at(place).rotated(turn));
+            world.add_collider(collider.with_restitution(0.9)).unwrap();
+        }
+        let ceiling = Pose::at(2.0 * DVec3::Y).rotated(DQuat::from_rotation_x(PI));
+        world.add_collider(Collider::new(Shape::HalfSpace, ceiling)).unwrap();
+        for x in [-0.5, -0.2, 0.1, 0.4] {
+            let disc = Sphere::new(vec(x, 0.8, 0.0), 0.1);
+            world.add_sphere(disc.with_restitution(0.8)).unwrap();
+        }
+        for _ in 0..200 {
+            world.step(1.0 / 60.0).unwrap();
+        }
+        assert!(world.spheres().positions().iter().all(|it| it.z == 0.0), "{rule:?}");
     }
 }
 

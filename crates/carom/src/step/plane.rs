@@ -7,6 +7,7 @@ use crate::emitter::EmitterState;
 use crate::error::{Error, InvalidValue, Subject};
 use crate::forces::{SphereState, Spring, SpringEnd};
 use crate::id::{ColliderId, EmitterId, ForceId, SpringId};
+use crate::rotation;
 use crate::sphere::Sphere;
 use crate::state::State;
 use crate::validate;
@@ -82,7 +83,7 @@ fn check_collider(collider: &Collider) -> Result<(), InvalidValue> {
     match collider.shape {
         Shape::Sphere { .. } => check_plane("position", collider.pose.position),
         Shape::HalfSpace | Shape::Rectangle { .. } | Shape::Disc { .. } => {
-            let normal = collider.pose.rotation * DVec3::Y;
+            let [_, normal, _] = rotation::axes(collider.pose.rotation.normalize());
             let is_parallel = normal.x == 0.0 && normal.y == 0.0;
             if is_parallel { Ok(()) } else { check_plane("normal", normal) }
         }
