@@ -1,10 +1,11 @@
-//! Keep energy: no impulse adds kinetic energy, neither by restitution in a group of contacts nor by a starting
-//! impulse that is no longer needed.
+//! Keep energy: no impulse adds kinetic energy beside the work of surfaces, neither by restitution in a group of
+//! contacts nor by a starting impulse that is no longer needed.
 
 use fearless_simd::{Level, dispatch};
 use glam::DVec3;
 
 use super::accelerate::{kinetic_energy, work_of_impulses};
+use super::contacts::surfaces::SurfaceContact;
 use super::slabs::Slab;
 use super::slots::Run;
 use super::slots::row::Row;
@@ -15,6 +16,10 @@ use crate::report::StepReport;
 
 /// Gains up to this part of the kinetic energy are rounding.
 const ROUNDING: f64 = 1e-14;
+
+/// Gains up to this part of the kinetic energy are left where surfaces move: few sweeps add and take as much, and less
+/// restitution for their sake would calm what is shaken.
+const SHAKEN: f64 = 1e-3;
 
 /// Largest number of rounds of further sweeps where impulses added kinetic energy; from [`SOFTENING`] on with less
 /// restitution.
@@ -28,17 +33,17 @@ const SOFTENING: u32 = 3;
 /// Restitution in a group of contacts may add energy whatever the sweeps: there, less is given back. As a
 /// last resort less of all impulses is taken.
 ///
-/// Belts do work, which counts as no gain. Moving surfaces do work, too: where there are any, it is accounted for, and
-/// nothing is taken back.
+/// Kicks, belts and moving surfaces do work, which counts as no gain.
 pub(super) fn keep(solver: &mut Solver, sub_step: &SubStep, report: &mut StepReport) -> bool {
     let before = solver.energy_before;
-    let mut change = change(solver, sub_step.h);
+    let h = sub_step.h;
+    let mut change = change(solver, h);
     let kicks = kick_work(solver);
     let mut round = 0;
-    let gains = |solver: &Solver, change: &Change| {
-        let driven = belt_work(solver);
-        let gain = change.gain - kicks - driven;
-        !solver.has_moving_surfaces && gain > ROUNDING * (before + driven.abs())
+    let tolerance = if solver.has_moving_surfaces { SHAKEN } else { ROUNDING };
+    let gains = |solver: &mut Solver, change: &Change| {
+        let driven = driven_work(solver, h);
+        change.gain - kicks - driven > tolerance * (before + driven.abs())
     };
     while gains(solver, &change) && round < ROUNDS {
         if round >= SOFTENING {
@@ -46,23 +51,30 @@ pub(super) fn keep(solver: &mut Solver, sub_step: &SubStep, report: &mut StepRep
         }
         solve::sweep_once(solver, true, report);
         solve::sweep_once(solver, false, report);
-        change = self::change(solver, sub_step.h);
+        change = self::change(solver, h);
         round += 1;
     }
     report.contact_account.limited_sub_steps += u32::from(round > 0);
+    let mut part = 1.0;
     if gains(solver, &change) {
-        take_less(solver, change.gain - belt_work(solver), sub_step.h);
-        change = self::change(solver, sub_step.h);
+        let gain = change.gain - driven_work(solver, h);
+        part = take_less(solver, gain, h);
+        change = self::change(solver, h);
     }
     let kicks = kick_work(solver);
     report.energy_account.kicks += kicks;
     report.energy_account.contacts += change.work - kicks;
-    if solver.has_moving_surfaces || solver.has_belts {
-        let work = surface_work(solver);
+    if is_driven(solver) {
+        let work = part * surface_work(solver);
         report.energy_account.colliders += work;
         report.energy_account.contacts -= work;
     }
     round > 0
+}
+
+/// Whether surfaces move, or friction acts and some are belts.
+fn is_driven(solver: &Solver) -> bool {
+    solver.has_moving_surfaces || solver.has_belts
 }
 
 /// Work of surfaces that move and of belts in a sub-step \[J\].
@@ -71,9 +83,33 @@ fn surface_work(solver: &Solver) -> f64 {
     surfaces.map(|contact| contact.work()).sum()
 }
 
-/// Work of belts in a sub-step \[J\], where no surface moves.
-fn belt_work(solver: &Solver) -> f64 {
-    if solver.has_belts { surface_work(solver) } else { 0.0 }
+/// The most energy \[J\] that belts and moving surfaces may add in a sub-step of `h` \[s\].
+fn driven_work(solver: &mut Solver, h: f64) -> f64 {
+    if !is_driven(solver) {
+        return 0.0;
+    }
+    solver.slabs.each(&mut solver.slots, |run, slab| {
+        let beside =
+            |it: &SurfaceContact| most_beside_work(it, run.accelerated(it.slot as usize, h));
+        slab.totals.energy = slab.surfaces.iter().map(beside).sum();
+    });
+    surface_work(solver) + solver.slabs.energy()
+}
+
+/// The most energy \[J\] that a moving surface may add beside its work, for the velocity of the sphere before impulses
+/// \[m/s\]: a sphere may have to leave the surface, which turns, or pulls away from a bounce.
+fn most_beside_work(contact: &SurfaceContact, before: DVec3) -> f64 {
+    if contact.velocity == DVec3::ZERO && contact.angular_velocity == DVec3::ZERO {
+        return 0.0;
+    }
+    // An impulse along the normal adds its product with the mean of the speeds before and after it; beside other
+    // impulses, at most that with the speed after them.
+    let leaving = if contact.is_bounce() {
+        0.5 * ((before - contact.velocity).dot(contact.normal) - contact.bias)
+    } else {
+        -contact.bias
+    };
+    contact.impulses.normal * leaving.max(0.0)
 }
 
 /// Work of the kicks of surfaces in a sub-step \[J\].
@@ -107,17 +143,18 @@ fn change(solver: &mut Solver, h: f64) -> Change {
     Change { gain: solver.slabs.energy() - solver.energy_before, work }
 }
 
-/// Reduces all impulses so that they add nothing, in a sub-step of `h` \[s\].
+/// Reduces all impulses so that they add nothing, in a sub-step of `h` \[s\]. Returns the part of them that is left.
 ///
 /// With the velocities v before them and v + d after, the kinetic energy of `v + s d` is a parabola in s
 /// that begins with a descent; s is the largest part that adds nothing. Momentum is kept for any s.
-fn take_less(solver: &mut Solver, gain: f64, h: f64) {
+fn take_less(solver: &mut Solver, gain: f64, h: f64) -> f64 {
     solver.slabs.each(&mut solver.slots, |run, slab| slab.totals.energy = of_change(&run, h));
     // K(s) = K(0) + s slope + s² change, with the energy of the change alone.
     let change = solver.slabs.energy();
     let slope = gain - change;
     let part = if change > 0.0 { (-slope / change).clamp(0.0, 1.0) } else { 0.0 };
     solver.slabs.each_run(&mut solver.slots, |mut run| take(&mut run, h, part));
+    part
 }
 
 /// Kinetic energy of the velocity changes by impulses \[J\].

@@ -44,7 +44,7 @@ pub(crate) struct SurfaceContact {
     /// Velocity of the material relative to the surface, along it \[m/s\]; zero without friction.
     pub belt: DVec3,
     /// Angular velocity of the surface \[rad/s\].
-    angular_velocity: DVec3,
+    pub angular_velocity: DVec3,
     /// Acceleration of the sphere relative to a turning surface, without forces \[m/s²\].
     swing: DVec3,
     /// Minus the least normal velocity after the sub-step \[m/s\].
@@ -110,7 +110,7 @@ impl SurfaceContact {
     }
 
     /// Whether the contact is an impact with a bounce.
-    fn is_bounce(&self) -> bool {
+    pub fn is_bounce(&self) -> bool {
         self.bias < 0.0 && self.approach > 0.0
     }
 
