@@ -162,7 +162,7 @@ fn every_mistake_is_told_with_its_line_and_field() {
         (
             "[camera]",
             "[simulation]\nrule = 'discrete'\nboundary = { periodic = { size = [9, 9, 9] } }\n[camera]",
-            "32: simulation.boundary: must be used with the rules `exact` and `contact`",
+            "32: simulation.boundary: must be open under rules other than `exact` and `contact`",
         ),
         (
             "[camera]",

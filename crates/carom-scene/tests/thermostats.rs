@@ -42,5 +42,8 @@ fn thermostats_that_make_no_sense_are_refused_with_their_line() {
     let other = scene("rescale = { interval = 1.0, temperature = 1.0 }")
         .replace("[simulation]", "[simulation]\nrule = \"contact\"");
     let error = Scene::from_toml(&other, "gas.toml").unwrap_err().to_string();
-    assert!(error.contains("simulation.thermostat: must be used with the rule `exact`"), "{error}");
+    assert!(
+        error.contains("simulation.thermostat: must be left out under rules other than `exact`"),
+        "{error}"
+    );
 }

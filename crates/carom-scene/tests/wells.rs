@@ -42,7 +42,8 @@ fn wells_that_make_no_sense_are_refused_with_their_line() {
     let well = "pair_potential = { square-well = { depth = 1.0, range_ratio = 1.5 } }";
     let error = read(&scene(&format!("rule = \"contact\"\n{well}"), "")).unwrap_err();
     assert!(
-        error.contains("simulation.pair_potential: must be used with the rule `exact`"),
+        error
+            .contains("simulation.pair_potential: must be left out under rules other than `exact`"),
         "{error}"
     );
 }

@@ -150,14 +150,13 @@ impl Settings {
         validate::require(is_flat, "size", requirement, self.boundary.period())?;
         if self.boundary != Boundary::Open {
             let is_known = matches!(self.rule, Rule::Exact(_) | Rule::Contact(_));
-            let requirement =
-                "used with the rules `exact` and `contact`: others know no periodic box";
+            let requirement = "open under rules other than `exact` and `contact`";
             validate::require(is_known, "boundary", requirement, "periodic")?;
         }
         self.validate_shear()?;
         if let Some(thermostat) = self.thermostat {
             let is_known = matches!(self.rule, Rule::Exact(_));
-            let requirement = "used with the rule `exact`: others know no thermostat";
+            let requirement = "left out under rules other than `exact`";
             validate::require(is_known, "thermostat", requirement, "given")?;
             thermostat.validate()?;
         }
@@ -174,9 +173,9 @@ impl Settings {
     fn validate_pair_potential(&self) -> Result<(), InvalidValue> {
         let Some(potential) = self.pair_potential else { return Ok(()) };
         let is_known = matches!(self.rule, Rule::Exact(_));
-        let requirement = "used with the rule `exact`: others know no potential between spheres";
+        let requirement = "left out under rules other than `exact`";
         validate::require(is_known, "pair_potential", requirement, "given")?;
-        let requirement = "used where spheres collide";
+        let requirement = "left out where spheres do not collide";
         validate::require(self.spheres_collide, "pair_potential", requirement, "given")?;
         potential.validate()
     }
