@@ -128,8 +128,10 @@ def test_a_signal_handler_in_the_middle_of_a_step_is_not_kept_waiting() -> None:
     assert seen == ["0.0", "this world is in the middle of a step"]
 
 
-def test_a_signal_handler_may_ask_the_world_how_far_it_is() -> None:
+@pytest.mark.parametrize("dt", [None, 1e6], ids=["short frames", "one frame of minutes"])
+def test_a_signal_handler_may_ask_the_world_how_far_it_is(dt: float | None) -> None:
     world = gas()
+    world.step()
     seen: list[float] = []
 
     def look(*_: object) -> None:
@@ -140,10 +142,11 @@ def test_a_signal_handler_may_ask_the_world_how_far_it_is() -> None:
     try:
         signal.setitimer(signal.ITIMER_REAL, 0.3)
         with pytest.raises(InterruptedError):
-            world.run(seconds=1e6)
+            world.run(seconds=1e6, dt=dt)
     finally:
         signal.signal(signal.SIGALRM, before)
     assert seen == [world.time]
+    assert seen[0] > 0
 
 
 def few(n: int, threads: int = 2) -> carom.Batch:
