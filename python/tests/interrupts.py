@@ -11,9 +11,12 @@ _PATIENCE = 300.0
 
 
 def at_work(work: float = 0.2) -> Callable[[], bool]:
-    """A condition that holds once this process has computed for so long from now on [s].
+    """Returns a condition that holds when this process has used some processor time from now on.
 
-    Processor time: a machine that lets the process wait does not make the condition hold.
+    Time on the clock passes while a busy machine lets the process wait.
+
+    Args:
+        work: The processor time [s].
     """
     begin = time.process_time()
     return lambda: time.process_time() - begin > work
@@ -57,7 +60,7 @@ def alarms_every(pause: float, handler: Callable[..., object]) -> Iterator[None]
 
 @contextmanager
 def turns_of_another_thread() -> Iterator[Callable[[], int]]:
-    """How often another thread of Python has got a turn in the block: a function that counts."""
+    """Yields a function that returns how often another thread of Python has run in the block."""
     count = 0
     ended = threading.Event()
 

@@ -44,7 +44,7 @@ describe("the page", () => {
     const wasm = await standIn.site.module();
     const half = wasm.length / 2;
     /** @type {() => void} */
-    let sendRest = () => assert.fail("the module is not asked for");
+    let sendRest = () => assert.fail("the module is not requested");
     const server = await passOn(standIn.site.url, (request, response) => {
       if (!request.url?.endsWith(".wasm")) return false;
       response.writeHead(200, { "Content-Length": wasm.length });
