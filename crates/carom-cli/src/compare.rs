@@ -12,7 +12,7 @@ use carom_scene::unfinished::create_folders_of;
 use serde::Serialize;
 
 use crate::args::Compare;
-use crate::failure::{Failure, unwritable};
+use crate::failure::{Failure, unwritable, unwritable_table};
 use crate::machine::Machine;
 use crate::standard_input::is_standard;
 use crate::table::{Side, Table};
@@ -185,8 +185,7 @@ impl<'a> Rows<'a> {
     }
 
     fn write_cells(&mut self, cells: impl Iterator<Item = String>) -> Result<(), Failure> {
-        let written = self.table.write_record(cells);
-        written.map_err(|error| unwritable(self.path, &io::Error::from(error)))
+        self.table.write_record(cells).map_err(|error| unwritable_table(self.path, error))
     }
 
     fn finish(mut self) -> Result<(), Failure> {
