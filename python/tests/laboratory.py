@@ -21,7 +21,7 @@ from playwright.sync_api import Page, sync_playwright
 
 CHROMIUM = os.environ.get("CHROMIUM", "/usr/bin/chromium")
 
-PATIENCE = 120.0
+PATIENCE = 300.0
 """How long the slowest machine may take for an action [s]: it draws in software."""
 
 SWITCHES = [

@@ -2,8 +2,6 @@
 
 import subprocess
 import sys
-import threading
-import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -13,6 +11,7 @@ import numpy as np
 import pytest
 from gymnasium.utils.env_checker import check_env
 from gymnasium.vector import AutoresetMode, VectorEnv
+from interrupts import turns_of_another_thread
 from numpy.typing import NDArray
 
 import carom.gym
@@ -135,22 +134,13 @@ def test_a_vector_of_thousands_is_the_same_on_any_number_of_threads() -> None:
 def test_other_threads_run_during_a_step() -> None:
     envs = carom.gym.MazeVectorEnv(500, threads=1, rule="discrete", frames_per_step=1000)
     envs.reset(seed=0)
-    took = [0.0]
-
-    def work() -> None:
-        began = time.perf_counter()
-        envs.step(np.zeros((500, 2), np.float32))
-        took[0] = time.perf_counter() - began
-
-    thread = threading.Thread(target=work)
-    ticks = 0
-    thread.start()
-    while thread.is_alive():
-        ticks += 1
-        time.sleep(0.001)
-    # A step that kept the others waiting would leave a few ticks at its ends. Of those that fit in,
-    # a tenth is enough on a machine at work.
-    assert ticks > 0.1 * took[0] / 0.002 > 3
+    actions = np.zeros((500, 2), np.float32)
+    with turns_of_another_thread() as turns:
+        before = turns()
+        envs.step(actions)
+        within = turns() - before
+    # A step that keeps the others waiting leaves them a turn at its begin and one at its end.
+    assert within > 10
 
 
 def test_the_name_with_its_module_is_enough() -> None:

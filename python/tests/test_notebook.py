@@ -139,7 +139,7 @@ def test_a_report_that_was_on_its_way_does_not_undo_a_command(
     assert caught_up["content"] == {"time": 0.0, "playing": False, "picked": None}
     viewer.play()
     before = {"time": 0.5, "playing": False, "picked": None, "number": caught_up["number"]}
-    viewer.set_state({"_shown": before, "_scene_shown": {"text": "", "number": 1}})
+    viewer.set_state({"_shown": before, "_scene_shown": {"text": "", "number": 0}})
     assert viewer.playing and viewer.time == 0.0 and viewer.scene.name == "simtest1"
     after = {"time": 0.5, "playing": True, "picked": 1, "number": sent[-1][0]["number"]}
     viewer.set_state({"_shown": after})
@@ -167,6 +167,21 @@ def test_what_was_edited_in_the_browser_is_the_scene(viewer: Viewer) -> None:
     viewer.set_state({"_scene_shown": {"text": "", "number": 0}})
     with pytest.raises(carom.CaromError, match="too large to come back"):
         _ = viewer.scene
+
+
+@pytest.mark.usefixtures("sent")
+def test_a_scene_on_its_way_is_out_of_date_only_after_what_may_change_it(viewer: Viewer) -> None:
+    viewer._ready = True
+    changed = carom.load("simtest1").with_changes({"colliders.0.restitution": 0.25})
+    viewer.seek(1.5)
+    told = {"text": changed.to_toml(), "number": viewer._last_command}
+    viewer.pick(2)
+    viewer.set_state({"_scene_shown": told})
+    assert viewer.scene == changed
+    told = {"text": "name = 'old'\n", "number": viewer._last_command}
+    viewer.set_restitution(0.5)
+    viewer.set_state({"_scene_shown": told})
+    assert viewer.scene == changed
 
 
 def test_another_scene_takes_the_place_of_one(viewer: Viewer, sent: list[tuple[Any, Any]]) -> None:

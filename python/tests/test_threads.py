@@ -6,13 +6,19 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 from collections.abc import Callable
+from functools import partial
+from typing import TypeAlias
 
 import pytest
-from interrupts import ctrl_c
+from interrupts import alarms_every, at_work, ctrl_c, turns_of_another_thread
 
 import carom
+
+Call: TypeAlias = Callable[[], object]
+
+_PATIENCE = 300
+"""How long a busy machine may take for what happens soon [s]."""
 
 
 def gas() -> carom.World:
@@ -32,26 +38,13 @@ def gas_scene() -> carom.Scene:
 @pytest.mark.parametrize("call", ["step", "run"])
 def test_other_threads_run_during_a_long_call(call: str) -> None:
     world = gas()
-    # Within one frame, for `run` looks up between two.
-    arguments = {"dt": 20.0, "frames": 1}
-    began, ended = [0.0], [0.0]
-
-    def work() -> None:
-        began[0] = time.perf_counter()
-        getattr(world, call)(**arguments)
-        ended[0] = time.perf_counter()
-
-    thread = threading.Thread(target=work)
-    ticks = []
-    thread.start()
-    while thread.is_alive():
-        ticks.append(time.perf_counter())
-        time.sleep(0.001)
-    within = [tick for tick in ticks if began[0] < tick < ended[0]]
-    took = ended[0] - began[0]
-    # A call that kept the others waiting would leave a few ticks at its ends. Of those that fit in,
-    # a tenth is enough on a machine at work.
-    assert len(within) > 0.1 * took / 0.002
+    with turns_of_another_thread() as turns:
+        before = turns()
+        # Within one frame, for `run` looks up between two.
+        getattr(world, call)(dt=100.0, frames=1)
+        within = turns() - before
+    # A call that keeps the others waiting leaves them a turn at its begin and one at its end.
+    assert within > 10
 
 
 def test_threads_that_use_one_world_wait_for_each_other() -> None:
@@ -93,7 +86,7 @@ def test_a_heap_is_stepped_in_a_forked_process_as_in_its_parent() -> None:
 
 def test_a_run_is_stopped_by_ctrl_c() -> None:
     world = gas()
-    with pytest.raises(KeyboardInterrupt) as stop, ctrl_c(after=0.5):
+    with pytest.raises(KeyboardInterrupt) as stop, ctrl_c(once=at_work()):
         world.run(seconds=1e6)
     stopped = world.time
     assert 0 < stopped < 1e6
@@ -108,7 +101,7 @@ def test_a_run_is_stopped_by_ctrl_c() -> None:
 def test_a_frame_of_minutes_is_stopped_by_ctrl_c() -> None:
     world = gas()
     before = world.state_hash
-    with pytest.raises(KeyboardInterrupt), ctrl_c(after=0.5):
+    with pytest.raises(KeyboardInterrupt), ctrl_c(once=at_work()):
         world.step(dt=1e6)
     assert world.time == 0
     assert world.state_hash == before
@@ -118,27 +111,27 @@ def test_a_frame_of_minutes_is_stopped_by_ctrl_c() -> None:
 
 def test_a_signal_handler_in_the_middle_of_a_step_is_not_kept_waiting() -> None:
     world, other = gas(), gas()
+    rings = [0]
     seen: list[str] = []
 
     def look(*_: object) -> None:
-        seen.append(f"{other.time}")
-        with pytest.raises(RuntimeError) as error:
-            seen.append(f"{world.time}")
-        seen.append(str(error.value))
-        raise InterruptedError
+        rings[0] += 1
+        try:
+            # Before the step begins, the world answers.
+            assert len(world) == 1000 and rings[0] < 1000
+        except RuntimeError as error:
+            seen.extend([str(other.time), str(error)])
+            raise InterruptedError from None
 
-    before = signal.signal(signal.SIGALRM, look)
-    try:
-        signal.setitimer(signal.ITIMER_REAL, 0.3)
-        with pytest.raises(InterruptedError):
-            world.step(dt=1e6)
-    finally:
-        signal.signal(signal.SIGALRM, before)
+    with alarms_every(0.02, look), pytest.raises(InterruptedError):
+        world.step(dt=1e6)
     assert seen == ["0.0", "this world is in the middle of a step"]
 
 
-def test_a_signal_handler_may_ask_the_world_how_far_it_is() -> None:
+@pytest.mark.parametrize("dt", [None, 1e6], ids=["short frames", "one frame of minutes"])
+def test_a_signal_handler_may_ask_the_world_how_far_it_is(dt: float | None) -> None:
     world = gas()
+    world.step()
     seen: list[float] = []
 
     def look(*_: object) -> None:
@@ -149,10 +142,11 @@ def test_a_signal_handler_may_ask_the_world_how_far_it_is() -> None:
     try:
         signal.setitimer(signal.ITIMER_REAL, 0.3)
         with pytest.raises(InterruptedError):
-            world.run(seconds=1e6)
+            world.run(seconds=1e6, dt=dt)
     finally:
         signal.signal(signal.SIGALRM, before)
     assert seen == [world.time]
+    assert seen[0] > 0
 
 
 def few(n: int, threads: int = 2) -> carom.Batch:
@@ -160,16 +154,19 @@ def few(n: int, threads: int = 2) -> carom.Batch:
     return carom.Batch("gas", n, threads=threads)
 
 
-def many_frames() -> None:
-    gas().step(dt=1e-3, frames=10**9)
+# Calls that would take for ever, of worlds that are there.
 
 
-def many_frames_of_many_spheres() -> None:
-    crowd().step(dt=1e-3, frames=10**9)
+def many_frames() -> Call:
+    return partial(gas().step, dt=1e-3, frames=10**9)
 
 
-def a_long_frame_of_many_spheres() -> None:
-    crowd().step(dt=1e6)
+def many_frames_of_many_spheres() -> Call:
+    return partial(crowd().step, dt=1e-3, frames=10**9)
+
+
+def a_long_frame_of_many_spheres() -> Call:
+    return partial(crowd().step, dt=1e6)
 
 
 def crowd() -> carom.World:
@@ -181,34 +178,34 @@ def crowd() -> carom.World:
     return world
 
 
-def many_worlds() -> None:
-    few(4).step(dt=1e-3, frames=10**9)
+def many_worlds() -> Call:
+    return partial(few(4).step, dt=1e-3, frames=10**9)
 
 
-def many_worlds_in_one_thread() -> None:
-    few(4, threads=1).step(dt=1e-3, frames=10**9)
+def many_worlds_in_one_thread() -> Call:
+    return partial(few(4, threads=1).step, dt=1e-3, frames=10**9)
 
 
-def a_long_frame_of_sub_steps() -> None:
+def a_long_frame_of_sub_steps() -> Call:
     overrides = {"simulation.rule": "contact", "simulation.contact.sub_steps": 2**32 - 1}
-    carom.load("pour", overrides).world().step(dt=1e3)
+    return partial(carom.load("pour", overrides).world().step, dt=1e3)
 
 
-def a_long_frame_of_worlds() -> None:
-    few(4).step(dt=1e6)
+def a_long_frame_of_worlds() -> Call:
+    return partial(few(4).step, dt=1e6)
 
 
-def a_long_frame_of_a_batch_of_sub_steps() -> None:
+def a_long_frame_of_a_batch_of_sub_steps() -> Call:
     overrides = {"simulation.rule": "contact", "simulation.contact.sub_steps": 2**32 - 1}
-    carom.Batch(carom.load("billiards", overrides), 4, threads=2).step(dt=1e3)
+    return partial(carom.Batch(carom.load("billiards", overrides), 4, threads=2).step, dt=1e3)
 
 
-def a_long_run() -> None:
-    gas().run(frames=10**6, dt=1e-3, quantities=[])
+def a_long_run() -> Call:
+    return partial(gas().run, frames=10**6, dt=1e-3, quantities=[])
 
 
 @pytest.mark.parametrize(
-    "call",
+    "prepared",
     [
         many_frames,
         many_frames_of_many_spheres,
@@ -221,15 +218,17 @@ def a_long_run() -> None:
         a_long_run,
     ],
 )
-def test_ctrl_c_ends_every_long_call(call: Callable[[], None]) -> None:
-    with pytest.raises(KeyboardInterrupt), ctrl_c(after=0.3):
+def test_ctrl_c_ends_every_long_call(prepared: Callable[[], Call]) -> None:
+    call = prepared()
+    with pytest.raises(KeyboardInterrupt), ctrl_c(once=at_work()):
         call()
 
 
 def test_worlds_of_a_batch_that_was_stopped_are_at_the_end_of_a_frame() -> None:
     batch = few(4)
-    with pytest.raises(KeyboardInterrupt), ctrl_c(after=0.3):
+    with pytest.raises(KeyboardInterrupt), ctrl_c(once=at_work()):
         batch.step(dt=1e-3, frames=10**9)
+    assert batch.times[0] > 0
     world = few(1).world(0)
     world.step(dt=1e-3, frames=round(batch.times[0] / 1e-3))
     assert int(world.state_hash, 16) == batch.state_hashes[0]
@@ -237,7 +236,7 @@ def test_worlds_of_a_batch_that_was_stopped_are_at_the_end_of_a_frame() -> None:
 
 def stepped_by(process: multiprocessing.Process) -> int:
     process.start()
-    process.join(30)
+    process.join(_PATIENCE)
     if process.is_alive():
         process.kill()
         pytest.fail("a child waits for threads of its parent")
@@ -263,7 +262,7 @@ def test_a_batch_made_before_a_fork_is_stepped_after_it() -> None:
     for _ in range(50):
         child = os.fork()
         if child == 0:
-            signal.alarm(20)
+            signal.alarm(_PATIENCE)
             batch.step()
             os._exit(int(batch.state_hashes[0] % 251))
         batch.step()
@@ -310,15 +309,10 @@ except MemoryError as error:
 def test_a_handler_that_comes_while_an_error_is_made_is_not_kept_waiting() -> None:
     world = gas()
     seen: list[float] = []
-    before = signal.signal(signal.SIGALRM, lambda *_: seen.append(world.time))
-    try:
-        signal.setitimer(signal.ITIMER_REAL, 0.001, 0.001)
-        for _ in range(300):
+    with alarms_every(0.001, lambda *_: seen.append(world.time)):
+        while len(seen) < 300:
             with pytest.raises(carom.CaromError):
                 world.step(dt=-1.0)
             with pytest.raises(carom.CaromError):
                 world.masses = -1
-    finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
-        signal.signal(signal.SIGALRM, before)
     assert set(seen) == {0.0}

@@ -8,6 +8,9 @@ import { chromium } from "playwright-core";
 /** Pictures and films from tests, for inspection after a change of the page. */
 const RESULTS = fileURLToPath(new URL("../test-results/", import.meta.url));
 
+/** Longest time for an action on the slowest machine [ms], which draws in software. */
+export const PATIENCE = 120_000;
+
 /** A name of this machine that browsers do not recognise as local. */
 export const STRANGE_NAME = "carom.test";
 
@@ -66,11 +69,22 @@ function options(graphics) {
   return {
     executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
     args: [...QUIET, ...GRAPHICS[graphics], `--host-resolver-rules=MAP ${STRANGE_NAME} 127.0.0.1`],
-    // A busy machine needs more time.
-    timeout: 120_000,
+    timeout: PATIENCE,
     // As root, Chromium does not start with its sandbox.
     chromiumSandbox: process.getuid?.() !== 0,
   };
+}
+
+/**
+ * Opens a new page in a context of its own, whose actions may take as long as on a busy machine.
+ *
+ * @param {import("playwright-core").Browser} browser
+ * @param {import("playwright-core").BrowserContextOptions} [options]
+ */
+export async function newPage(browser, options) {
+  const context = await browser.newContext(options);
+  context.setDefaultTimeout(PATIENCE);
+  return context.newPage();
 }
 
 /**

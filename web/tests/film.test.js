@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { after, before, test } from "node:test";
 
-import { complaints, keepDownload } from "./browser.js";
+import { complaints, keepDownload, newPage } from "./browser.js";
 import { StandIn } from "./stood_in.js";
 
 /** @type {StandIn} */
@@ -22,7 +22,7 @@ after(() => standIn?.clear());
  * @param {string[]} without
  */
 async function open(without = []) {
-  const page = await standIn.browser.newPage();
+  const page = await newPage(standIn.browser);
   const heard = complaints(page);
   await page.addInitScript((names) => {
     for (const name of names) {
@@ -102,14 +102,14 @@ test("every frame is in the film, at its own time, and the last is the last", as
   assert.ok(lastBrightness(path, 2 * 89 + 10, 30) > 230);
   assert.ok(lastBrightness(path, 2 * 89 - 10, 30) < 150);
   assert.deepEqual(heard, []);
-  await page.close();
+  await page.context().close();
 });
 
 test("frames of odd size lose their odd row and column", async () => {
   const { page } = await open();
   const { width, height } = probe(await film(page, { width: 321, height: 201, frames: 3 }));
   assert.deepEqual([width, height], [320, 200]);
-  await page.close();
+  await page.context().close();
 });
 
 test("without an encoder of H.264 the film is WebM", async () => {
@@ -123,7 +123,7 @@ test("without an encoder of H.264 the film is WebM", async () => {
   });
   const found = probe(await film(page, { width: 320, height: 200, frames: 10 }));
   assert.deepEqual([found.codec_name, found.times.length], ["vp9", 10]);
-  await page.close();
+  await page.context().close();
 });
 
 test("without WebCodecs the film is recorded, and lasts as long", async () => {
@@ -131,9 +131,9 @@ test("without WebCodecs the film is recorded, and lasts as long", async () => {
   const { times } = probe(await film(page, { width: 320, height: 200, frames: 30 }));
   const length = times[times.length - 1] - times[0];
   // A recorder takes the time of frames from a clock, and may miss one at the end.
-  assert.ok(length > 0.8 && length < 1.5, `${length} s in ${times.length} frames`);
+  assert.ok(length > 0.85 && length < 1.25, `${length} s in ${times.length} frames`);
   assert.deepEqual(heard, []);
-  await page.close();
+  await page.context().close();
 });
 
 test("a browser that cannot make films says so", async () => {
@@ -146,7 +146,7 @@ test("a browser that cannot make films says so", async () => {
     }
   });
   assert.match(said, /^This browser cannot make films/);
-  await page.close();
+  await page.context().close();
 });
 
 test("an encoder that fails is an error when the next frame comes, or the film ends", async () => {
@@ -177,7 +177,7 @@ test("an encoder that fails is an error when the next frame comes, or the film e
   });
   assert.match(said[0], /^ended\.mp4: The film cannot be made: .*on fire/);
   assert.match(said[1], /^The film cannot be made: .*on fire/);
-  await page.close();
+  await page.context().close();
 });
 
 test("frames that come faster than they are encoded end the film before memory does", async () => {
@@ -199,5 +199,5 @@ test("frames that come faster than they are encoded end the film before memory d
   assert.match(said, /^The film ends early/);
   assert.ok(frames < 100, `after ${frames} frames`);
   assert.equal(probe(await keepDownload(await download, "early")).times.length, frames);
-  await page.close();
+  await page.context().close();
 });

@@ -14,7 +14,7 @@ import { validateBytes } from "gltf-validator";
 import { AnimationMixer, LoopOnce, Vector3 } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 
-import { complaints, keepPicture, launch } from "./browser.js";
+import { complaints, keepPicture, launch, newPage } from "./browser.js";
 import { carom } from "./native.js";
 
 /** @type {string} */
@@ -153,7 +153,7 @@ test("a browser with three.js draws tutorial4, and the picture moves", async () 
   });
   const browser = await launch("webgl2");
   try {
-    const page = await browser.newPage({ viewport: { width: 640, height: 400 } });
+    const page = await newPage(browser, { viewport: { width: 640, height: 400 } });
     const heard = complaints(page);
     await page.setContent('<body style="margin:0"></body>');
     await page.addScriptTag({ content: script.outputFiles[0].text });

@@ -4,8 +4,9 @@ import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { deflateSync } from "node:zlib";
 
+import { PATIENCE, newPage } from "./browser.js";
 import { carom, stateHash } from "./native.js";
-import { COARSE, Desk, PATIENCE, Viewer } from "./viewer.js";
+import { COARSE, Desk, Viewer } from "./viewer.js";
 
 /** @type {Desk} */
 let desk;
@@ -230,8 +231,7 @@ test("a run of a link that takes for ever can be left for another", async () => 
 });
 
 test("the page that serves Carom says how many spheres a link may have", async () => {
-  const context = await desk.browser.newContext({ deviceScaleFactor: COARSE });
-  const page = await context.newPage();
+  const page = await newPage(desk.browser, { deviceScaleFactor: COARSE });
   const meta = '<meta name="carom-max-spheres" content="100" />';
   await page.route(desk.server.url, async (route) => {
     const response = await route.fetch();

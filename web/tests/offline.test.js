@@ -3,10 +3,10 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 
-import { STRANGE_NAME, complaints } from "./browser.js";
+import { PATIENCE, STRANGE_NAME, complaints, newPage } from "./browser.js";
 import { passOn } from "./passing_on.js";
 import { StandIn } from "./stood_in.js";
-import { Desk, PATIENCE } from "./viewer.js";
+import { Desk } from "./viewer.js";
 
 /** @type {StandIn} */
 let standIn;
@@ -54,9 +54,8 @@ test("a scene runs without a network once the page has been there", async (conte
 });
 
 test("a new version is shown at the next load, and the old one forgotten", async (context) => {
-  const browsing = await standIn.browser.newContext();
-  context.after(() => browsing.close());
-  const page = await browsing.newPage();
+  const page = await newPage(standIn.browser);
+  context.after(() => page.context().close());
   const heard = complaints(page);
   await page.goto(standIn.site.url);
   await isShown(page);
@@ -79,7 +78,7 @@ test("a new version is shown at the next load, and the old one forgotten", async
   await until(async () => (await cacheNames(page)).length === 1);
   assert.notDeepEqual(await cacheNames(page), names);
 
-  await browsing.setOffline(true);
+  await page.context().setOffline(true);
   await page.reload();
   await isShown(page);
   assert.equal(await moduleName(page), renewed);
@@ -87,9 +86,8 @@ test("a new version is shown at the next load, and the old one forgotten", async
 });
 
 test("a network that answers nothing for seconds does not hold up what is kept", async (context) => {
-  const browsing = await standIn.browser.newContext();
-  context.after(() => browsing.close());
-  const page = await browsing.newPage();
+  const page = await newPage(standIn.browser);
+  context.after(() => page.context().close());
   let isStuck = false;
   const server = await passOn(standIn.site.url, () => isStuck);
   context.after(server.close);
@@ -105,9 +103,8 @@ test("a network that answers nothing for seconds does not hold up what is kept",
 });
 
 test("what another page of the same site keeps stays", async (context) => {
-  const browsing = await standIn.browser.newContext();
-  context.after(() => browsing.close());
-  const page = await browsing.newPage();
+  const page = await newPage(standIn.browser);
+  context.after(() => page.context().close());
   await page.goto(`${standIn.site.url}none`);
   await page.evaluate(() => caches.open(`carom ${location.origin}/elsewhere/ 1`));
   await page.goto(standIn.site.url);
@@ -119,9 +116,8 @@ test("what another page of the same site keeps stays", async (context) => {
 });
 
 test("where a browser keeps no pages, the page does without", async (context) => {
-  const browsing = await standIn.browser.newContext();
-  context.after(() => browsing.close());
-  const page = await browsing.newPage();
+  const page = await newPage(standIn.browser);
+  context.after(() => page.context().close());
   const heard = complaints(page);
   // This address is neither https nor recognised as this machine.
   await page.goto(standIn.site.url.replace("127.0.0.1", STRANGE_NAME));

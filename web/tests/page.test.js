@@ -3,7 +3,8 @@
 import assert from "node:assert/strict";
 import { after, before, describe, test } from "node:test";
 
-import { complaints, keepDownload, keepPicture, launch } from "./browser.js";
+import { complaints, keepDownload, keepPicture, launch, newPage } from "./browser.js";
+import { passOn } from "./passing_on.js";
 import { StandIn } from "./stood_in.js";
 
 /** @type {StandIn} */
@@ -24,13 +25,12 @@ after(() => standIn?.clear());
  */
 async function open(fragment, prepare, options) {
   const viewport = { width: 900, height: 600 };
-  const context = await standIn.browser.newContext({ viewport, ...options });
-  const page = await context.newPage();
+  const page = await newPage(standIn.browser, { viewport, ...options });
   const heard = complaints(page);
   await prepare?.(page);
   await page.goto(`${standIn.site.url}${fragment}`);
   await page.waitForSelector("#loading.done, #loading.trouble", { state: "attached" });
-  return { page, heard, close: () => context.close() };
+  return { page, heard, close: () => page.context().close() };
 }
 
 /** @param {import("playwright-core").Page} page */
@@ -39,34 +39,35 @@ const message = (page) => page.textContent("#message");
 const isModule = (/** @type {URL} */ url) => url.pathname.endsWith(".wasm");
 
 describe("the page", () => {
-  test("shows how much has arrived, then makes way", async () => {
-    const context = await standIn.browser.newContext();
-    const page = await context.newPage();
-    const heard = complaints(page);
-    const client = await context.newCDPSession(page);
-    await client.send("Network.enable");
-    const limit = (/** @type {number} */ throughput) =>
-      client.send("Network.emulateNetworkConditions", {
-        offline: false,
-        latency: 0,
-        downloadThroughput: throughput,
-        uploadThroughput: throughput,
-      });
-    // The bar stands between the two values for seven seconds, which is enough on a busy machine.
-    await limit(4e5);
-    await page.goto(standIn.site.url, { waitUntil: "commit" });
-    await page.waitForFunction(() => {
-      const bar = document.querySelector("progress");
-      return bar !== null && bar.value > 0.2 && bar.value < 0.9;
+  test("shows how much has arrived, then makes way", async (context) => {
+    // The second half of the module arrives when the test has seen the first.
+    const wasm = await standIn.site.module();
+    const half = wasm.length / 2;
+    /** @type {() => void} */
+    let sendRest = () => assert.fail("the module is not requested");
+    const server = await passOn(standIn.site.url, (request, response) => {
+      if (!request.url?.endsWith(".wasm")) return false;
+      response.writeHead(200, { "Content-Length": wasm.length });
+      response.write(wasm.subarray(0, half));
+      sendRest = () => void response.end(wasm.subarray(half));
+      return true;
     });
-    assert.match((await message(page)) ?? "", /^Loading [0-3]\.\d of 4\.0 MB$/);
+    context.after(server.close);
+    const page = await newPage(standIn.browser);
+    const heard = complaints(page);
+    // Half a module does not stall a clock that stands.
+    await page.clock.install({ time: 0 });
+    await page.clock.pauseAt(1000);
+    await page.goto(server.url, { waitUntil: "commit" });
+    await page.waitForFunction(() => document.querySelector("progress")?.value === 0.5);
+    assert.equal(await message(page), "Loading 2.0 of 4.0 MB");
     await keepPicture(page, "page-loading");
-    // Without a limit.
-    await limit(-1);
+    await page.clock.resume();
+    sendRest();
     await page.waitForSelector("#loading.done", { state: "attached" });
     assert.equal(await page.evaluate(() => document.activeElement?.id), "carom");
     assert.deepEqual(heard, []);
-    await context.close();
+    await page.context().close();
   });
 
   test("requests nothing from other servers", async () => {
@@ -132,7 +133,7 @@ describe("the page", () => {
 
   test("says that there is nothing to draw with, before it fetches the module", async () => {
     const blind = await launch("none");
-    const page = await blind.newPage({ viewport: { width: 390, height: 844 } });
+    const page = await newPage(blind, { viewport: { width: 390, height: 844 } });
     await page.goto(standIn.site.url);
     await page.waitForSelector("#loading.trouble");
     assert.match((await message(page)) ?? "", /WebGPU or WebGL 2/);

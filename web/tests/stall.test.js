@@ -1,11 +1,9 @@
 // A module whose download stops: the page says so, and fetches it again at a click.
 
 import assert from "node:assert/strict";
-import { readFile, readdir } from "node:fs/promises";
-import { join } from "node:path";
 import { after, before, test } from "node:test";
 
-import { complaints, keepPicture } from "./browser.js";
+import { complaints, keepPicture, newPage } from "./browser.js";
 import { passOn } from "./passing_on.js";
 import { StandIn } from "./stood_in.js";
 
@@ -24,9 +22,7 @@ after(() => standIn?.clear());
  * @param {number} part of the module; 0 for no answer
  */
 async function serveStalling(part) {
-  const { dist } = standIn.site;
-  const names = await readdir(dist);
-  const wasm = await readFile(join(dist, names.find((name) => name.endsWith(".wasm")) ?? ""));
+  const wasm = await standIn.site.module();
   let isMended = false;
   const server = await passOn(standIn.site.url, (request, response) => {
     const isHeld = Boolean(request.url?.endsWith(".wasm")) && !isMended;
@@ -46,10 +42,12 @@ for (const [part, what] of /** @type {const} */ ([
   test(`the page says that its module ${what}, and fetches it again at a click`, async (context) => {
     const site = await serveStalling(part);
     context.after(site.close);
-    const page = await standIn.browser.newPage();
+    const page = await newPage(standIn.browser);
     const heard = complaints(page);
-    // A simulated clock, so that the test need not wait.
-    await page.clock.install();
+    // A simulated clock that stands, so that the test neither waits nor depends on how long the
+    // page takes.
+    await page.clock.install({ time: 0 });
+    await page.clock.pauseAt(1000);
     // The scripts have run by then; the module delays the browser's load event.
     await page.goto(site.url, { waitUntil: "domcontentloaded" });
     await page.waitForFunction(
@@ -64,8 +62,9 @@ for (const [part, what] of /** @type {const} */ ([
     await keepPicture(page, `page-stalled-${part}`);
     assert.equal(heard.length, 1, `${heard}`);
     site.mend();
+    await page.clock.resume();
     await page.click("#again");
     await page.waitForSelector("#loading.done", { state: "attached" });
-    await page.close();
+    await page.context().close();
   });
 }

@@ -1,7 +1,7 @@
 // The page with a stand-in for the real module.
 
 import { randomFillSync } from "node:crypto";
-import { copyFile, mkdtemp, rm, writeFile } from "node:fs/promises";
+import { copyFile, mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -54,7 +54,8 @@ async function serveStandIn() {
     await server.close();
     await rm(folder, { recursive: true });
   };
-  return { url: server.url, dist, renew, close };
+  const module = () => readFile(join(folder, "carom_web_bg.wasm"));
+  return { url: server.url, module, renew, close };
 }
 
 /**

@@ -4,7 +4,8 @@ import assert from "node:assert/strict";
 import { fileURLToPath } from "node:url";
 
 import { serve } from "../serve.js";
-import { complaints, keepPicture, launch } from "./browser.js";
+import { PATIENCE, complaints, keepPicture, launch, newPage } from "./browser.js";
+import { difference, read } from "./pixels.js";
 
 /** The page built by `cargo xtask web`. */
 const DIST = process.env.CAROM_DIST ?? fileURLToPath(new URL("../dist/", import.meta.url));
@@ -14,9 +15,6 @@ const DIST = process.env.CAROM_DIST ?? fileURLToPath(new URL("../dist/", import.
  * tests are as fine as on a screen.
  */
 export const COARSE = process.env.CAROM_FINE ? 1 : 0.5;
-
-/** Longest time for an action on the slowest machine [ms], which draws in software. */
-export const PATIENCE = 60_000;
 
 /**
  * @typedef {object} Widget in CSS pixels
@@ -65,13 +63,8 @@ export class Desk {
     this.shared = null;
     await Promise.all(this.browser.contexts().map((context) => context.close()));
     const viewport = { width: 1280, height: 800 };
-    const context = await this.browser.newContext({
-      viewport,
-      deviceScaleFactor: COARSE,
-      ...options,
-    });
-    const page = await context.newPage();
-    page.setDefaultTimeout(PATIENCE);
+    const coarse = { viewport, deviceScaleFactor: COARSE };
+    const page = await newPage(this.browser, { ...coarse, ...options });
     const viewer = new Viewer(page);
     await page.goto(`${this.server.url}${fragment}`);
     await page.waitForSelector("#loading.done, #loading.trouble", { state: "attached" });
@@ -165,7 +158,6 @@ export class Viewer {
     if (fragment === "") {
       // Another scene removes messages and an open chooser.
       await this.goOn("#scene=simtest1");
-      await this.redraw();
       return this.openChooser();
     }
     // Directly, because the same address would change nothing.
@@ -173,6 +165,8 @@ export class Viewer {
       history.replaceState(null, "", fragment);
       /** @type {any} */ (globalThis).carom.openFragment(fragment.slice(1));
     }, fragment);
+    // Until it has been drawn, the controls are those of the scene before.
+    await this.redraw();
   }
 
   /** Opens the chooser by its key. */
@@ -359,5 +353,25 @@ export class Viewer {
   /** Keeps a picture of the page as a user sees it. */
   async keepPicture(/** @type {string} */ name) {
     return keepPicture(this.page, name);
+  }
+
+  /**
+   * Keeps a picture of the page once it differs from an earlier one.
+   *
+   * @param {string} name
+   * @param {import("./pixels.js").Picture} before
+   * @param {Parameters<typeof difference>[2]} rectangle
+   * @param {number} least part of the rectangle's pixels that must differ
+   */
+  async keepChanged(name, before, rectangle, least) {
+    const end = performance.now() + PATIENCE;
+    for (;;) {
+      const picture = read(await this.keepPicture(name));
+      const part = difference(before, picture, rectangle);
+      if (part > least) {
+        return picture;
+      }
+      assert.ok(performance.now() < end, `${part} of the pixels of ${name} differ`);
+    }
   }
 }

@@ -331,7 +331,7 @@ pub struct Verify {
     pub json: bool,
 }
 
-/// Run a scene under several rules.
+/// Run a scene under several rules, or with changed values.
 #[derive(Debug, clap::Args)]
 pub struct Compare {
     /// The scene.
@@ -340,6 +340,10 @@ pub struct Compare {
     /// The rules; the others are compared with the first.
     #[arg(long, value_delimiter = ',', value_parser = RULES, default_values = RULES)]
     pub rules: Vec<String>,
+    /// Compare the scene with itself after this change, written as for --set, instead of rules; may
+    /// be given several times, for a run each.
+    #[arg(long, value_name = "PATH=VALUE", conflicts_with = "rules")]
+    pub with: Vec<String>,
     /// Length of the run and of its frames.
     #[command(flatten)]
     pub length: Length,

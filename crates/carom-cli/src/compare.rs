@@ -1,7 +1,8 @@
-//! The command `compare`: runs the same scene under several rules.
+//! The command `compare`: runs the same scene under several rules, or with changed values.
 
 use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write};
+use std::iter;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -11,30 +12,31 @@ use carom_scene::unfinished::create_folders_of;
 use serde::Serialize;
 
 use crate::args::Compare;
-use crate::failure::{Failure, unwritable};
+use crate::failure::{Failure, unwritable, unwritable_table};
 use crate::machine::Machine;
 use crate::standard_input::is_standard;
 use crate::table::{Side, Table};
 
-/// Runs a scene under several rules and prints the distance of their results.
+/// Runs a scene under several rules, or with changed values, and prints the distance of the results.
 pub fn compare(library: &Library, args: &Compare) -> Result<(), Failure> {
-    if args.rules.len() < 2 {
-        return Err(Failure::Usage("two rules are needed to compare".to_owned()));
-    }
     let mut runs = Vec::new();
     let (mut name, mut h, mut frames) = (String::new(), 0.0, 0);
-    for rule in &args.rules {
-        let overrides = [format!("simulation.rule={rule}")];
-        let overrides = overrides.into_iter().chain(args.length.overrides());
-        let scene = args.choice.find(library, overrides)?;
-        h = scene.simulation.frame_time;
-        frames = args.length.frames(scene.simulation.duration, h)?;
-        runs.push(Run::new(rule, scene.world()?));
-        name = scene.name;
+    for Variant { label, change } in variants(args)? {
+        let scene = args.choice.find(library, change.into_iter().chain(args.length.overrides()))?;
+        let frame_time = scene.simulation.frame_time;
+        if runs.is_empty() {
+            h = frame_time;
+            frames = args.length.frames(scene.simulation.duration, h)?;
+            name.clone_from(&scene.name);
+        } else if frame_time != h {
+            let text = format!("--with {label}: all runs are compared after frames of {h} s");
+            return Err(Failure::Usage(text));
+        }
+        runs.push(Run::new(label, scene.world()?));
     }
     let out = args.out.as_deref();
     args.replacing.check(out.filter(|path| !is_standard(path)))?;
-    let mut rows = out.map(|path| Rows::create(path, &args.rules)).transpose()?;
+    let mut rows = out.map(|path| Rows::create(path, &runs)).transpose()?;
     for _ in 0..frames {
         for run in &mut runs {
             run.step(h)?;
@@ -47,19 +49,48 @@ pub fn compare(library: &Library, args: &Compare) -> Result<(), Failure> {
         }
     }
     rows.map_or(Ok(()), Rows::finish)?;
+    let what = if args.with.is_empty() { "rule" } else { "change" };
     let comparison = Comparison::new(name, h, frames, &runs);
     // If rows go to the standard output, the result goes elsewhere.
     if out.is_some_and(is_standard) {
-        comparison.print(&mut io::stderr(), args.json)?;
+        comparison.print(&mut io::stderr(), what, args.json)?;
     } else {
-        comparison.print(&mut io::stdout(), args.json)?;
+        comparison.print(&mut io::stdout(), what, args.json)?;
     }
     Ok(())
 }
 
-/// A scene under one rule.
+/// A run to make.
+struct Variant {
+    /// Name of the run: its rule or its change.
+    label: String,
+    /// What differs from the scene, as `path=value`.
+    change: Option<String>,
+}
+
+/// Label of the scene without a change.
+const UNCHANGED: &str = "none";
+
+/// Returns the runs to make, the reference first.
+fn variants(args: &Compare) -> Result<Vec<Variant>, Failure> {
+    if !args.with.is_empty() {
+        let changed = |it: &String| Variant { label: it.clone(), change: Some(it.clone()) };
+        let reference = Variant { label: UNCHANGED.to_owned(), change: None };
+        return Ok(iter::once(reference).chain(args.with.iter().map(changed)).collect());
+    }
+    if args.rules.len() < 2 {
+        return Err(Failure::Usage("two rules are needed to compare".to_owned()));
+    }
+    let under = |rule: &String| {
+        let change = Some(format!("simulation.rule={rule}"));
+        Variant { label: rule.clone(), change }
+    };
+    Ok(args.rules.iter().map(under).collect())
+}
+
+/// A scene in motion.
 struct Run {
-    rule: String,
+    label: String,
     world: World,
     impacts: u64,
     stepping: Duration,
@@ -78,9 +109,9 @@ struct Distance {
 }
 
 impl Run {
-    fn new(rule: &str, world: World) -> Self {
+    fn new(label: String, world: World) -> Self {
         Self {
-            rule: rule.to_owned(),
+            label,
             world,
             impacts: 0,
             stepping: Duration::ZERO,
@@ -94,7 +125,7 @@ impl Run {
         let report = self
             .world
             .step(h)
-            .map_err(|error| Failure::Fault(format!("rule {}: {error}", self.rule)))?;
+            .map_err(|error| Failure::Fault(format!("{}: {error}", self.label)))?;
         self.stepping += began.elapsed();
         self.impacts += report.impacts.len() as u64;
         Ok(())
@@ -126,41 +157,39 @@ impl Distance {
 /// A table with a row for each frame.
 struct Rows<'a> {
     path: &'a Path,
-    out: BufWriter<Box<dyn Write>>,
+    table: csv::Writer<Box<dyn Write>>,
 }
 
 impl<'a> Rows<'a> {
-    fn create(path: &'a Path, rules: &[String]) -> Result<Self, Failure> {
+    fn create(path: &'a Path, runs: &[Run]) -> Result<Self, Failure> {
         let out: Box<dyn Write> = if is_standard(path) {
             Box::new(io::stdout())
         } else {
             let file = create_folders_of(path).and_then(|()| File::create(path));
             Box::new(file.map_err(|error| unwritable(path, &error))?)
         };
-        let mut rows = Self { path, out: BufWriter::new(out) };
-        let mut header = "t".to_owned();
-        for rule in rules {
-            header += &format!(",{rule}_rms,{rule}_max,{rule}_energy,{rule}_impacts");
-        }
-        rows.write_line(&header)?;
+        let mut rows = Self { path, table: csv::Writer::from_writer(out) };
+        let quantities = ["rms", "max", "energy", "impacts"];
+        let names = |run: &Run| quantities.map(|quantity| format!("{}_{quantity}", run.label));
+        rows.write_cells(iter::once("t".to_owned()).chain(runs.iter().flat_map(names)))?;
         Ok(rows)
     }
 
     fn write(&mut self, runs: &[Run]) -> Result<(), Failure> {
         let time = runs.first().map_or(0.0, |run| run.world.time());
-        let mut line = format!("{time:.16e}");
-        for Run { world, now: Distance { rms, max }, impacts, .. } in runs {
-            line += &format!(",{rms:.16e},{max:.16e},{:.16e},{impacts}", world.total_energy());
-        }
-        self.write_line(&line)
+        let cells = |Run { world, now: Distance { rms, max }, impacts, .. }: &Run| {
+            let numbers = [*rms, *max, world.total_energy()].map(|it| format!("{it:.16e}"));
+            numbers.into_iter().chain([impacts.to_string()])
+        };
+        self.write_cells(iter::once(format!("{time:.16e}")).chain(runs.iter().flat_map(cells)))
     }
 
-    fn write_line(&mut self, line: &str) -> Result<(), Failure> {
-        writeln!(self.out, "{line}").map_err(|error| unwritable(self.path, &error))
+    fn write_cells(&mut self, cells: impl Iterator<Item = String>) -> Result<(), Failure> {
+        self.table.write_record(cells).map_err(|error| unwritable_table(self.path, error))
     }
 
     fn finish(mut self) -> Result<(), Failure> {
-        self.out.flush().map_err(|error| unwritable(self.path, &error))
+        self.table.flush().map_err(|error| unwritable(self.path, &error))
     }
 }
 
@@ -171,15 +200,16 @@ struct Comparison {
     scene: String,
     frame_time: f64,
     frames: u64,
-    /// Rule with which the others are compared.
+    /// Run with which the others are compared.
     reference: String,
-    rules: Vec<Row>,
+    runs: Vec<Row>,
 }
 
-/// Result of a rule.
+/// Result of a run.
 #[derive(Debug, Serialize)]
 struct Row {
-    rule: String,
+    /// Its rule or its change.
+    run: String,
     spheres: usize,
     impacts: u64,
     energy: f64,
@@ -197,7 +227,7 @@ impl Comparison {
     fn new(scene: String, frame_time: f64, frames: u64, runs: &[Run]) -> Self {
         let reference = runs.first().map_or(0.0, |run| run.world.total_energy());
         let row = |run: &Run| Row {
-            rule: run.rule.clone(),
+            run: run.label.clone(),
             spheres: run.world.spheres().len(),
             impacts: run.impacts,
             energy: run.world.total_energy(),
@@ -212,12 +242,13 @@ impl Comparison {
             scene,
             frame_time,
             frames,
-            reference: runs.first().map(|run| run.rule.clone()).unwrap_or_default(),
-            rules: runs.iter().map(row).collect(),
+            reference: runs.first().map(|run| run.label.clone()).unwrap_or_default(),
+            runs: runs.iter().map(row).collect(),
         }
     }
 
-    fn print(&self, mut out: &mut dyn Write, json: bool) -> io::Result<()> {
+    /// Prints the result; `what` says what the runs differ in.
+    fn print(&self, mut out: &mut dyn Write, what: &str, json: bool) -> io::Result<()> {
         if json {
             serde_json::to_writer_pretty(&mut out, self)?;
             return writeln!(out);
@@ -227,11 +258,11 @@ impl Comparison {
         writeln!(
             out,
             "{scene}, {seconds:.3} s in {frames} frames of {frame_time:.6} s; distances of \
-             spheres alive in both worlds, and energy errors, from {reference}"
+             spheres alive in both worlds, and energy errors, from {what} {reference}"
         )?;
         let right = Side::Right;
         let mut table = Table::new(&[
-            ("rule", Side::Left),
+            (what, Side::Left),
             ("spheres", right),
             ("impacts", right),
             ("energy, J", right),
@@ -242,9 +273,9 @@ impl Comparison {
             ("physics", right),
             ("state hash", Side::Left),
         ]);
-        for row in &self.rules {
+        for row in &self.runs {
             table.push(vec![
-                row.rule.clone(),
+                row.run.clone(),
                 row.spheres.to_string(),
                 row.impacts.to_string(),
                 format!("{:.6}", row.energy),

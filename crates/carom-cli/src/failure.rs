@@ -53,6 +53,15 @@ pub fn unwritable(path: &Path, error: &io::Error) -> Failure {
     Failure::Fault(format!("cannot write {}: {error}", path.display()))
 }
 
+/// Converts an error of writing a table.
+pub fn unwritable_table(path: &Path, error: csv::Error) -> Failure {
+    // Its conversion to an `io::Error` hides the kind of the error.
+    match error.into_kind() {
+        csv::ErrorKind::Io(error) => unwritable(path, &error),
+        kind => Failure::Fault(format!("cannot write {}: {kind:?}", path.display())),
+    }
+}
+
 /// Prints an error; in colour if the terminal supports it and `NO_COLOR` or a similar variable does
 /// not forbid it.
 fn refuse(message: &str) {

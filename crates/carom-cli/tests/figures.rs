@@ -86,7 +86,7 @@ fn compare_measures_distances_from_the_first_rule() {
     let file = file.to_str().unwrap();
     let arguments = ["compare", "simtest2", "--rules", "exact,discrete,bisect", "--seconds", "3"];
     let figures = json(&[&arguments[..], &["--out", file]].concat(), 0);
-    let rules = figures["rules"].as_array().unwrap();
+    let rules = figures["runs"].as_array().unwrap();
     assert_eq!((rules.len(), &figures["reference"]), (3, &"exact".into()));
     assert_eq!(rules[0]["largest_distance"]["max"], 0.0);
     assert_eq!(rules[0]["energy_error"], 0.0);
@@ -105,7 +105,32 @@ fn compare_measures_distances_from_the_first_rule() {
 }
 
 #[test]
+fn compare_measures_what_a_change_of_the_scene_does() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("rows.csv");
+    let file = file.to_str().unwrap();
+    let changes = ["--with", "spheres.0.velocity=[0,0,1]", "--with", "spheres.0.position.2=1e-9"];
+    let scene = ["compare", "butterfly", "--seconds", "0.1", "--out", file];
+    let figures = json(&[&scene[..], &changes].concat(), 0);
+    let runs = figures["runs"].as_array().unwrap();
+    assert_eq!((runs.len(), &figures["reference"]), (3, &"none".into()));
+    let distance = |run: usize| runs[run]["largest_distance"]["max"].as_f64().unwrap();
+    assert_eq!(distance(0), 0.0);
+    // Before the rack, cue balls at -4 m/s and at 1 m/s part by 5 m/s; the other one starts 0.7 m away.
+    assert!((distance(1) - 0.5).abs() < 1e-12, "{}", distance(1));
+    assert!((distance(2) - 0.7).abs() < 1e-8, "{}", distance(2));
+    let mut reader = csv::Reader::from_path(file).unwrap();
+    let names = reader.headers().unwrap();
+    assert_eq!(&names[5], "spheres.0.velocity=[0,0,1]_rms", "a name with commas is one cell");
+}
+
+#[test]
 fn compare_refuses_what_it_cannot_do() {
+    let frames = ["compare", "butterfly", "--with", "simulation.frame_time=0.01"];
+    assert!(bad(&frames, 2).contains("frames of"));
+    assert!(bad(&["compare", "butterfly", "--with", "magic=1"], 2).contains("magic"));
+    let both = ["compare", "butterfly", "--rules", "exact,bisect", "--with", "spheres.0.radius=1"];
+    bad(&both, 2);
     assert!(bad(&["compare", "simtest1", "--rules", "exact"], 2).contains("two rules"));
     bad(&["compare", "simtest1", "--rules", "exact,magic"], 2);
     let nowhere = ["compare", "simtest1", "--out", "/dev/null/at/all.csv"];

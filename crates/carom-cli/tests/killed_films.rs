@@ -133,8 +133,10 @@ fn a_film_that_is_still_made_is_not_recovered_and_what_is_there_is_not_replaced(
     let folder = tempfile::tempdir().unwrap();
     let file = path(&folder, "film.mp4");
     let mut child = begin(&file, "1e6");
+    let left = unfinished(&file);
     let began = Instant::now();
-    while !unfinished(&file).exists() && began.elapsed() < PATIENCE {
+    // The program creates the file before it locks it, and locks it before it writes.
+    while std::fs::metadata(&left).map_or(0, |it| it.len()) == 0 && began.elapsed() < PATIENCE {
         std::thread::sleep(Duration::from_millis(5));
     }
     assert!(bad_line(&["recover", &file], 2).contains("a program is still writing it"));

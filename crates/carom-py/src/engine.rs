@@ -3,6 +3,7 @@
 // Python shows these comments as docstrings: units in plain brackets, errors in Google's style.
 #![allow(rustdoc::broken_intra_doc_links, rustdoc::invalid_rust_codeblocks)]
 
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard};
 
 use carom::{ContactAccount, World, ZoneAccount};
@@ -32,7 +33,25 @@ use crate::written;
 /// Several threads may use it; their calls wait for each other.
 #[pyclass(frozen, subclass, module = "carom._carom")]
 #[derive(Debug)]
-pub struct Engine(Mutex<Inner>);
+pub struct Engine {
+    inner: Mutex<Inner>,
+    /// Start time of the frame that is being taken.
+    clock: Arc<Clock>,
+}
+
+/// A time \[s\] that can be read while the world is locked, as `f64::to_bits`.
+#[derive(Debug, Default)]
+struct Clock(AtomicU64);
+
+impl Clock {
+    fn set(&self, time: f64) {
+        self.0.store(time.to_bits(), Ordering::Relaxed);
+    }
+
+    fn read(&self) -> f64 {
+        f64::from_bits(self.0.load(Ordering::Relaxed))
+    }
+}
 
 /// The data behind the lock.
 #[derive(Debug)]
@@ -46,9 +65,15 @@ pub struct Inner {
     pub arrays: Arrays,
     /// Start time of the last frame \[s\].
     pub frame_start: f64,
+    clock: Arc<Clock>,
 }
 
 impl Inner {
+    pub fn new(world: World, described: Arc<Scene>, palette: Arc<Palette>) -> Self {
+        let (arrays, clock) = (Arrays::default(), Arc::default());
+        Self { world, described, palette, arrays, frame_start: 0.0, clock }
+    }
+
     /// Returns the description for changes, which must match those of the world.
     pub fn described_mut(&mut self) -> &mut Scene {
         Arc::make_mut(&mut self.described)
@@ -89,6 +114,7 @@ impl Inner {
     /// Takes one frame.
     pub fn take_frame(&mut self, dt: f64, watch: &Watch) -> Result<(), carom::Error> {
         let start = self.world.time();
+        self.clock.set(start);
         let world = &mut self.world;
         threads::among_all(world.spheres().len(), watch, || world.step(dt).map(|_| ()))?;
         self.frame_start = start;
@@ -136,10 +162,10 @@ impl Engine {
     fn lock_as_it_is(&self, py: Python<'_>) -> PyResult<MutexGuard<'_, Inner>> {
         if stop::is_in_handler() {
             let at_work = |_| PyRuntimeError::new_err("this world is in the middle of a step");
-            return self.0.try_lock().map_err(at_work);
+            return self.inner.try_lock().map_err(at_work);
         }
         let broken = |_| PyRuntimeError::new_err("the engine of this world has failed before");
-        self.0.lock_py_attached(py).map_err(broken)
+        self.inner.lock_py_attached(py).map_err(broken)
     }
 
     /// Returns the words that `push` writes of the world.
@@ -190,8 +216,9 @@ impl Engine {
         scene.colliders = scene.all_colliders().into_owned();
         scene.generators.clear();
         scene.springs.clear();
-        let (described, arrays) = (Arc::new(scene), Arrays::default());
-        Ok(Self(Mutex::new(Inner { world, described, palette, arrays, frame_start: 0.0 })))
+        let inner = Inner::new(world, Arc::new(scene), palette);
+        let clock = Arc::clone(&inner.clock);
+        Ok(Self { inner: Mutex::new(inner), clock })
     }
 
     /// Advances the world by `frames` frames of `dt` [s], or of the scene's own frame time.
@@ -230,9 +257,14 @@ impl Engine {
         Ok(taken?)
     }
 
-    /// Time since the start [s].
+    /// Time since the start [s]. A signal handler that runs in the middle of a frame reads the time
+    /// when this frame began.
     #[getter]
     fn time(&self, py: Python<'_>) -> PyResult<f64> {
+        if stop::is_in_handler() {
+            let free = self.inner.try_lock();
+            return Ok(free.map_or_else(|_| self.clock.read(), |inner| inner.world.time()));
+        }
         Ok(self.lock_as_it_is(py)?.world.time())
     }
 

@@ -11,6 +11,7 @@ macro_rules! embed {
 embed!(
     "billiards.toml",
     "nine-ball.toml",
+    "butterfly.toml",
     "pinball.toml",
     "pour.toml",
     "cradle.toml",

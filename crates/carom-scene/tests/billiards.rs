@@ -1,5 +1,6 @@
-//! Strikes and pockets of scene files, and the scene `nine-ball`.
+//! Strikes and pockets of scene files, and the scenes `nine-ball` and `butterfly`.
 
+use carom::{DVec3, Tangents, Variation, World};
 use carom_scene::{Library, Scene};
 
 const TEXT: &str = "name = 'shot'
@@ -82,4 +83,43 @@ fn nine_balls_stay_on_the_table_until_they_fall_into_pockets() {
     // Rounding of the energy of the cue ball.
     let off = world.total_energy() - before - account;
     assert!(off.abs() < 1e-12 * before, "{off} of {before}");
+}
+
+/// How far each ball of the right table of `butterfly` is from its place on the left table.
+fn apart(world: &World) -> Vec<DVec3> {
+    let (left, right) = world.spheres().positions().split_at(16);
+    left.iter()
+        .zip(right)
+        .map(|(left, right)| *right - *left - DVec3::new(1.36, 0.0, 0.0))
+        .collect()
+}
+
+#[test]
+fn two_breaks_part_as_the_derivative_says_until_nothing_is_alike() {
+    let (scene, _) = Library::new().find("butterfly", &[]).unwrap();
+    let mut world = scene.world().unwrap();
+    let before = world.total_energy();
+    let aside = Variation::default().with_position(world.spheres().ids()[16], DVec3::X);
+    let mut tangents = Tangents::new(&world, vec![aside]).unwrap();
+    let largest = |all: &[DVec3]| all.iter().map(|it| it.length()).fold(0.0, f64::max);
+    let mut compared = 0;
+    for _ in 0..300 {
+        let apart = apart(&world);
+        let off: Vec<DVec3> = apart
+            .iter()
+            .zip(&tangents.spheres(0)[16..])
+            .map(|(apart, tangent)| *apart - 1e-9 * tangent.position)
+            .collect();
+        let distance = largest(&apart);
+        if distance < 1e-6 {
+            // A nanometre beside 0.7 m has seven digits. An impact turns by the distance over the radius.
+            let bound = 1e-6 + 3.0 * distance / 0.028575;
+            assert!(largest(&off) < bound * distance, "{} of {distance}", largest(&off));
+            compared += 1;
+        }
+        tangents.step(&mut world, scene.simulation.frame_time).unwrap();
+    }
+    assert!(compared > 100, "{compared}");
+    assert!(largest(&apart(&world)) > 0.1);
+    assert!((world.total_energy() - before).abs() < 1e-14 * before);
 }

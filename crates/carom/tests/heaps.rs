@@ -199,8 +199,8 @@ fn a_stop_request_ends_a_long_frame_soon_and_leaves_the_world_as_it_was() {
         let error = world.step(60.0).unwrap_err();
         let took = stopper.join().unwrap().elapsed();
         assert!(matches!(error, Error::Stopped { time: 0.0 }), "{error}");
-        // Far more than the milliseconds it is to take, for machines that are busy.
-        assert!(took < Duration::from_secs(2), "{rule:?}: {took:?}");
+        // Milliseconds, or many seconds on a busy machine; the frame takes minutes.
+        assert!(took < PATIENCE / 3, "{rule:?}: {took:?}");
         assert_eq!(world.state_hash(), before, "{rule:?}");
         world.set_stop_request(None);
         world.set_settings(Settings::default()).unwrap();

@@ -66,7 +66,7 @@ class Viewer(Widget):
     _ready = traitlets.Bool(False).tag(sync=True)
     # What the browser shows, and the scene file of it when it last stood still or was edited. Each
     # has the number of the last command that it follows: what was on its way when Python set
-    # something else does not undo that.
+    # something else does not undo that. For scenes only the commands count that may change one.
     _shown = traitlets.Dict().tag(sync=True)
     _scene_shown = traitlets.Dict().tag(sync=True)
 
@@ -83,6 +83,7 @@ class Viewer(Widget):
         # In the order in which they were made, until there is an interface that takes them.
         self._waiting: list[dict[str, Any]] = []
         self._last_command = 0
+        self._last_scene_command = 0
         self._is_reporting = False
         # None while the scene is the one that was given.
         self._scene_text: str | None = None
@@ -192,6 +193,8 @@ class Viewer(Widget):
 
     def _tell(self, kind: str, content: Any) -> None:
         self._last_command += 1
+        if kind != "set" or "time" in content:
+            self._last_scene_command = self._last_command
         message = {"kind": kind, "content": content, "number": self._last_command}
         if self._ready:
             self.send(message)
@@ -221,7 +224,7 @@ class Viewer(Widget):
 
     @traitlets.observe("_scene_shown")
     def _follow_scene(self, change: dict[str, Any]) -> None:
-        if change["new"].get("number") == self._last_command:
+        if change["new"].get("number", -1) >= self._last_scene_command:
             self._scene_text = change["new"]["text"]
 
     def _hear(self, _: Any, message: dict[str, Any], buffers: list[bytes]) -> None:

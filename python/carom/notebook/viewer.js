@@ -215,7 +215,10 @@ class Viewer {
    */
   follow({ kind, content, number }) {
     if (number === undefined) return;
-    const { page } = this;
+    const { page, told } = this;
+    // Python ignores scenes that are on their way when it sends this: the scene is sent again.
+    if (kind !== "set") told.version = -1;
+    else if (content.time !== undefined) told.at = -1;
     try {
       if (kind === "edit") page.edit(content);
       if (kind === "open") page.openFragment(content);
@@ -238,7 +241,8 @@ class Viewer {
     if (playing === true) page.play();
     if (playing === false) page.pause();
     if (picked !== undefined) page.pick(picked ?? undefined);
-    if (time !== undefined && time !== page.status()?.watching?.time) page.seek(time);
+    // Even to the time of now: another seek may be under way.
+    if (time !== undefined) page.seek(time);
   }
 
   /** Tells Python what the interface shows now. */

@@ -29,6 +29,8 @@ export class Recorded {
   #recorder;
   /** @type {Blob[]} */
   #pieces = [];
+  /** How much longer the frames so far were recorded than due [ms]. */
+  #excess = 0;
 
   /** @param {Format} format */
   constructor(format) {
@@ -55,14 +57,20 @@ export class Recorded {
     const { rowBytes, height, framesPerSecond } = this.#format;
     const rows = new Uint8ClampedArray(pixels.buffer, 0, rowBytes * height);
     this.#context.putImageData(new ImageData(rows, rowBytes / 4), 0, 0);
+    const due = 1000 / framesPerSecond;
+    const began = performance.now();
     if (this.#recorder.state === "inactive") {
       this.#recorder.start();
     } else {
       this.#recorder.resume();
     }
     this.#track.requestFrame();
-    await new Promise((resolve) => setTimeout(resolve, 1000 / framesPerSecond));
+    // Timers of a busy browser are late, so the next frames are recorded for a shorter time. Half of
+    // it is enough to record a frame.
+    const time = Math.max(0.5 * due, due - this.#excess);
+    await new Promise((resolve) => setTimeout(resolve, time));
     this.#recorder.pause();
+    this.#excess += performance.now() - began - due;
   }
 
   async finish() {

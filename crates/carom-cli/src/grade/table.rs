@@ -5,7 +5,7 @@ use std::path::Path;
 use carom_grade::Verdict;
 
 use super::row::Row;
-use crate::failure::{Failure, unwritable};
+use crate::failure::{Failure, unwritable, unwritable_table};
 
 /// Columns of the file.
 const COLUMNS: [&str; 16] = [
@@ -29,7 +29,7 @@ const COLUMNS: [&str; 16] = [
 
 /// Writes the file.
 pub fn write(path: &Path, rows: &[Row]) -> Result<(), Failure> {
-    let failed = |error: csv::Error| unwritable(path, &error.into());
+    let failed = |error| unwritable_table(path, error);
     let mut table = csv::Writer::from_path(path).map_err(failed)?;
     table.write_record(COLUMNS).map_err(failed)?;
     for row in rows {

@@ -10,7 +10,6 @@ use rayon::prelude::*;
 use super::next_poses::NextPoses;
 use super::observed::{Columns, Row};
 use super::stroke::Stroke;
-use crate::arrays::Arrays;
 use crate::editing;
 use crate::engine::Inner;
 use crate::failure::Failure;
@@ -371,13 +370,8 @@ impl Members {
 
 impl Member {
     fn new(start: Arc<Snapshot>) -> Self {
-        let mut now = Inner {
-            world: World::default(),
-            described: Arc::clone(&start.described),
-            palette: Arc::clone(&start.palette),
-            arrays: Arrays::default(),
-            frame_start: start.time,
-        };
+        let (described, palette) = (Arc::clone(&start.described), Arc::clone(&start.palette));
+        let mut now = Inner::new(World::default(), described, palette);
         now.restore(&start);
         Self { now, start, impacts: 0 }
     }
