@@ -141,7 +141,8 @@ impl Files {
     }
 
     fn add_words(&mut self, path: &Path, place: &str) -> Outcome {
-        let is_source = ["crates/", "python/", "web/"].iter().any(|it| place.starts_with(it));
+        let is_source =
+            ["bevy/", "crates/", "python/", "web/"].iter().any(|it| place.starts_with(it));
         if !is_source || !ends_with_one_of(place, &SOURCES) {
             return Ok(());
         }

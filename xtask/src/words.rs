@@ -28,8 +28,17 @@ const PHRASES: [&str; 12] = [
 ];
 
 /// Folders and documents that are checked.
-const PLACES: [&str; 8] =
-    ["crates", "xtask", "python", "docs", "web", "README.md", "ARCHITECTURE.md", "CHANGELOG.md"];
+const PLACES: [&str; 9] = [
+    "bevy",
+    "crates",
+    "xtask",
+    "python",
+    "docs",
+    "web",
+    "README.md",
+    "ARCHITECTURE.md",
+    "CHANGELOG.md",
+];
 const ENDINGS: [&str; 7] = ["rs", "py", "pyi", "md", "ts", "mjs", "js"];
 /// Folders of foreign or generated files.
 const FOREIGN: [&str; 5] = ["node_modules", "target", "dist", "module", "test-results"];

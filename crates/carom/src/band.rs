@@ -15,6 +15,8 @@ pub(crate) struct Band {
     /// Unit vector.
     pub axis: DVec3,
     pub profile: Profile,
+    /// Whether spheres pass it from behind: nothing else of its collider is there.
+    pub is_open: bool,
 }
 
 /// Half of a section along the axis: x is the distance from the axis \[m\], y the height along it \[m\].
@@ -194,7 +196,7 @@ impl Band {
         let radius = 2.0 * half + slack;
         let profile = Profile::line(DVec2::new(radius, -half), DVec2::new(radius, half));
         let center = self.center + (point - self.center).dot(self.axis) * self.axis;
-        Some(Self { center, profile, ..*self })
+        Some(Self { center, profile, is_open: false, ..*self })
     }
 
     /// Where a point \[m\] is that goes along from another place of the band to this one, by the shortest turn.

@@ -257,13 +257,9 @@ impl Collider {
         }
     }
 
-    /// Whether spheres pass it from behind.
-    pub(crate) fn is_open_from_behind(&self) -> bool {
-        match &self.shape {
-            Shape::Rectangle { .. } | Shape::Disc { .. } => true,
-            Shape::Mesh(mesh) => mesh.is_one_sided() && !mesh.is_closed(),
-            _ => false,
-        }
+    /// Whether it is a mesh that spheres pass from behind.
+    pub(crate) fn is_open_mesh(&self) -> bool {
+        matches!(&self.shape, Shape::Mesh(mesh) if mesh.is_one_sided() && !mesh.is_closed())
     }
 
     /// Returns the collider with this shape.

@@ -17,6 +17,8 @@ pub(crate) struct Rectangle {
     pub half_x: f64,
     /// Half the length along `axis_z` \[m\].
     pub half_z: f64,
+    /// Whether spheres pass it from behind: nothing else of its collider is there.
+    pub is_open: bool,
 }
 
 impl Rectangle {

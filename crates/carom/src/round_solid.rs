@@ -93,7 +93,7 @@ impl RoundSolid {
     pub fn bands(&self) -> impl Iterator<Item = Band> {
         let Self { center, axis, outline } = *self;
         let profiles = outline.profiles().into_iter().flatten();
-        profiles.map(move |profile| Band { center, axis, profile })
+        profiles.map(move |profile| Band { center, axis, profile, is_open: false })
     }
 
     /// The walls of a hollow shape with this inside, each facing outward and then inward.

@@ -200,6 +200,25 @@ pub(crate) enum Form {
 pub(crate) const PARALLEL: f64 = 8.0 * f64::EPSILON;
 
 impl Form {
+    /// Whether spheres pass it from behind.
+    pub fn is_open(&self) -> bool {
+        match self {
+            Self::Rectangle(rectangle) => rectangle.is_open,
+            Self::Band(band) => band.is_open,
+            _ => false,
+        }
+    }
+
+    /// Returns the same form, met by all that overlap it from the front.
+    pub fn closed(self) -> Self {
+        let is_open = false;
+        match self {
+            Self::Rectangle(rectangle) => Self::Rectangle(Rectangle { is_open, ..rectangle }),
+            Self::Band(band) => Self::Band(Band { is_open, ..band }),
+            other => other,
+        }
+    }
+
     /// Whether the turning of a motion leaves it as it is.
     fn is_turned_in_place_by(&self, motion: &SurfaceMotion) -> bool {
         match self {
@@ -336,12 +355,14 @@ pub(crate) fn place(id: ColliderId, collider: &Collider, time: f64, surfaces: &m
             course: course.clone(),
         });
     };
+    let is_open = !trigger;
     match *shape {
         Shape::Sphere { radius } => add(Form::Sphere { center, radius }, Role::Deflects),
         Shape::HalfSpace => add(Form::HalfSpace { point: center, normal: y }, Role::Deflects),
         Shape::Rectangle { size_x, size_z } => {
             let (half_x, half_z) = (0.5 * size_x, 0.5 * size_z);
-            let rectangle = Rectangle { center, axis_x: x, axis_z: z, normal: y, half_x, half_z };
+            let (axis_x, axis_z, normal) = (x, z, y);
+            let rectangle = Rectangle { center, axis_x, axis_z, normal, half_x, half_z, is_open };
             add(Form::Rectangle(rectangle), Role::Deflects);
         }
         Shape::Box { size } => {
@@ -366,7 +387,7 @@ pub(crate) fn place(id: ColliderId, collider: &Collider, time: f64, surfaces: &m
         }
         Shape::Disc { radius } => {
             let profile = Profile::line(DVec2::ZERO, DVec2::new(radius, 0.0));
-            add(Form::Band(Band { center, axis: y, profile }), Role::Deflects);
+            add(Form::Band(Band { center, axis: y, profile, is_open }), Role::Deflects);
         }
         Shape::Mesh(ref mesh) => {
             let placement = Placement { rotation, from: DVec3::ZERO, to: center };
@@ -457,6 +478,7 @@ impl SolidBox {
                 normal,
                 half_x: self.half[first],
                 half_z: self.half[second],
+                is_open: false,
             }
         })
     }

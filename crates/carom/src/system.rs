@@ -8,6 +8,7 @@ use crate::bodies::{Motion, Properties};
 use crate::colliders::Colliders;
 use crate::detect::contact::Bodies;
 use crate::detect::moving_surfaces::{MovingSurfaces, PlacedTree};
+use crate::detect::passage::FrameStart;
 use crate::detect::surface_tree::SurfaceTree;
 use crate::forces::{self, Force, Interactions, SphereState, SphereStates, Spring};
 use crate::friction::Friction;
@@ -41,6 +42,8 @@ pub(crate) struct System<'a> {
     /// Of the surfaces that report contact and deflect nothing.
     pub trigger_tree: &'a SurfaceTree,
     pub spheres: &'a Properties,
+    /// Under rules that find at the end of a frame what spheres meet.
+    pub frame_start: Option<FrameStart<'a>>,
 }
 
 impl<'a> System<'a> {
@@ -66,6 +69,7 @@ impl<'a> System<'a> {
             moved_for: None,
             trigger_tree,
             spheres,
+            frame_start: None,
         }
     }
 
@@ -95,11 +99,13 @@ impl<'a> System<'a> {
         groups.is_empty() || groups[first as usize].collides(groups[second as usize])
     }
 
-    /// Whether a sphere and a surface collide, by their groups.
+    /// Whether a sphere and a surface collide, by their groups, and the sphere does not pass it from behind in the
+    /// frame.
     #[inline]
     pub fn meets_surface(&self, sphere: u32, surface: u32) -> bool {
-        let of_surface = self.surfaces[surface as usize].groups;
-        self.spheres.groups(sphere as usize).collides(of_surface)
+        let (surface, index) = (&self.surfaces[surface as usize], sphere as usize);
+        let passes = |start: FrameStart| start.passes(index, self.spheres.radius[index], surface);
+        self.spheres.groups(index).collides(surface.groups) && !self.frame_start.is_some_and(passes)
     }
 
     /// The pair of materials that two bodies are of, if it has coefficients of its own.

@@ -118,7 +118,7 @@ fn a_later_collider_sees_what_an_earlier_one_made_of_the_sphere() {
     // Put up by the first, the sphere reaches a second that it did not touch before.
     let mut world = world_around(Collider::new(PLATE, Pose::at(vec(0.0, 0.0, 0.0))));
     let ceiling = Pose::at(vec(0.0, 0.95, 0.0)).rotated(DQuat::from_xyzw(1.0, 0.0, 0.0, 0.0));
-    world.add_collider(Collider::new(PLATE, ceiling)).unwrap();
+    world.add_collider(Collider::new(Shape::HalfSpace, ceiling)).unwrap();
     let (_, ball) = throw(&mut world, vec(0.0, 0.7, 0.0), vec(0.0, -4.0, 0.0));
     assert_eq!(world.report().impacts.len(), 2);
     assert_close(ball.velocity.y, -4.0, 1e-15);

@@ -61,6 +61,19 @@ pub(super) struct Barrier {
 }
 
 impl Obstacle {
+    /// The distance \[m\] of a centre from the core at a contact.
+    pub fn radius(&self) -> f64 {
+        match *self {
+            Self::Point { radius }
+            | Self::HalfSpace { radius, .. }
+            | Self::Rectangle { radius, .. }
+            | Self::Band { radius, .. }
+            | Self::Segment { radius, .. }
+            | Self::Plane { radius, .. }
+            | Self::Triangle { radius, .. } => radius,
+        }
+    }
+
     /// The same for a radius that is larger \[m\].
     pub fn widened(self, by: f64) -> Self {
         let mut wide = self;
@@ -74,6 +87,15 @@ impl Obstacle {
             | Self::Triangle { radius, .. } => *radius += by,
         }
         wide
+    }
+
+    /// Whether centres pass it from behind.
+    pub fn is_open(&self) -> bool {
+        match self {
+            Self::Rectangle { rectangle, .. } => rectangle.is_open,
+            Self::Band { band, .. } => band.is_open,
+            _ => false,
+        }
     }
 
     /// Distance of a centre with a velocity.

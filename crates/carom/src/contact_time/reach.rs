@@ -109,7 +109,7 @@ impl Reach {
     /// A rectangle meets only centres in front of its plane.
     #[inline]
     fn misses_rectangle(&self, position: DVec3, rectangle: &Rectangle) -> bool {
-        let Rectangle { center, axis_x, axis_z, normal, half_x, half_z } = *rectangle;
+        let Rectangle { center, axis_x, axis_z, normal, half_x, half_z, .. } = *rectangle;
         let offset = position - center;
         let margin = MARGIN * (offset.abs().element_sum() + half_x + half_z + self.radius);
         let height = offset.dot(normal);
@@ -176,6 +176,7 @@ mod tests {
                 normal: z.cross(x),
                 half_x: numbers.x.abs(),
                 half_z: numbers.y.abs(),
+                is_open: true,
             };
             let (center, normal) = (vector(1.0), rectangle.normal);
             let forms = [

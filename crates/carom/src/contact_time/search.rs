@@ -7,6 +7,7 @@ use super::bisection::{Probe, bisect};
 use super::obstacle::{Barrier, LocalDistance, Obstacle};
 use super::path::{Path, State};
 use super::roundoff::{ACCELERATION_ROUNDOFF, Gap, Magnitudes, Phase, Zero};
+use crate::detect::passage;
 
 /// Steps close to the obstacle that aim exactly at it. Transversal contacts take a handful,
 /// passes at the distance of a rounding error some fifty.
@@ -55,6 +56,9 @@ const MAX_HALVINGS: u32 = 128;
 /// land in an overlap, the contact is found by halving. Only then can a contact go unnoticed
 /// that is deeper than rounding, and no deeper than `CLOSE L`.
 ///
+/// An obstacle that is open from behind is not met by a centre that overlaps it from there, or does so at time 0,
+/// until they are apart. The distance grows by the way of the centre at most, which bounds that time from below.
+///
 /// - `size` of the numbers that the path and the obstacle are given by
 pub(super) fn first_contact(
     path: &impl Path,
@@ -66,8 +70,10 @@ pub(super) fn first_contact(
     let (mut before, mut t) = (0.0, 0.0);
     let mut window = path.window();
     let (mut close_steps, mut was_overlap) = (0, false);
+    let mut passes = obstacle.is_open() && state_at(t).is_within(obstacle);
     for _ in 0..MAX_STEPS {
-        let now = state_at(t);
+        let now = state_at(t).passing(obstacle, passes);
+        passes = now.passes;
         if !now.is_finite() {
             return None;
         }
@@ -166,6 +172,8 @@ struct SearchState {
     gap: Gap,
     zero: Zero,
     phase: Phase,
+    /// Whether the centre came from behind, and is there or still overlaps the obstacle.
+    passes: bool,
     /// Sizes of the numbers involved up to now.
     size: Magnitudes,
     /// Speed at which the radius grows \[m/s\].
@@ -193,7 +201,20 @@ impl SearchState {
             Zero::flat(&size)
         };
         let phase = if local.is_behind { Phase::Apart } else { gap.phase(&zero) };
-        Self { state, local, gap, zero, phase, size, growth_speed }
+        Self { state, local, gap, zero, phase, passes: false, size, growth_speed }
+    }
+
+    /// Whether a centre overlaps an open obstacle as only one from behind does.
+    fn is_within(&self, obstacle: &Obstacle) -> bool {
+        passage::is_deep(self.gap.distance, obstacle.radius())
+    }
+
+    /// The state of a centre that passed an obstacle from behind before, or did not.
+    fn passing(self, obstacle: &Obstacle, passed: bool) -> Self {
+        let still = self.local.is_behind || (passed && self.is_overlap());
+        let passes = obstacle.is_open() && still;
+        let phase = if passes { Phase::Apart } else { self.phase };
+        Self { passes, phase, ..self }
     }
 
     fn is_close(&self) -> bool {
@@ -225,6 +246,9 @@ impl SearchState {
     /// A step \[s\] before which no contact begins within the window; it may be longer than that,
     /// and infinite.
     fn safe_step(&self, path: &impl Path, aim: f64, t: f64, window: f64) -> f64 {
+        if self.passes && !self.local.is_behind {
+            return self.time_within(path, aim, t, window);
+        }
         let falls = self.falls_by_curvature(path, t, window);
         let bound = |normal: DVec3| self.pull(path, normal, t, window) + falls;
         let slide = self.shortest_way_time(path, aim, t, window);
@@ -285,6 +309,15 @@ impl SearchState {
         let distance = self.gap.distance.max(0.0) + aim;
         let speed = speed + self.growth_speed;
         if speed > 0.0 { distance / speed } else { f64::INFINITY }
+    }
+
+    /// A step \[s\] within which the centre does not go as far as to end an overlap.
+    fn time_within(&self, path: &impl Path, aim: f64, t: f64, window: f64) -> f64 {
+        let way = aim - self.gap.distance;
+        let pull = path.max_acceleration_anywhere(t, t + window).max(0.0);
+        let speed = self.state.velocity.norm();
+        // The way is v τ + a τ²/2 at most.
+        2.0 * way / (speed + (speed * speed + 2.0 * pull * way).sqrt())
     }
 
     /// A step \[s\] within which the sphere cannot reach the half-space that contains every place of contact.

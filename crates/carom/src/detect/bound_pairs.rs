@@ -20,7 +20,7 @@ pub(crate) fn bound_pairs(now: &Instant, potential: PairPotential) -> Vec<[u32; 
         }
     };
     if now.system.settings.boundary.is_periodic() {
-        image_overlaps::visit(&now, 0.0, |bodies, _| keep(bodies));
+        image_overlaps::visit(&now, 0.0, |_, _| false, |bodies, _| keep(bodies));
     } else {
         let mut found: Vec<Contact> = Vec::new();
         contacts::of_overlapping_pairs(&now, 0.0, &mut Search::default(), &mut found);

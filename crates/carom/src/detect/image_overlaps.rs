@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::broad_phase::BroadPhase;
 use super::contact::Bodies;
 use super::instant::Instant;
-use super::sphere_surface;
+use super::{Separation, sphere_surface};
 use crate::bounds::Bounds;
 use crate::settings::nearest_image;
 use crate::shear::Shear;
@@ -21,8 +21,13 @@ struct Image {
 }
 
 /// Visits overlaps of more than `tolerance` \[m\] in a periodic box, with their depths; the same bodies perhaps
-/// several times.
-pub(crate) fn visit(instant: &Instant, tolerance: f64, mut visit: impl FnMut(Bodies, f64)) {
+/// several times. Spheres for which `passes` holds pass a surface from behind.
+pub(crate) fn visit(
+    instant: &Instant,
+    tolerance: f64,
+    passes: impl Fn(Bodies, &Separation) -> bool,
+    mut visit: impl FnMut(Bodies, f64),
+) {
     let faces = Faces::of(instant);
     let radii = &instant.system.spheres.radius;
     let largest = radii.iter().copied().fold(0.0, f64::max);
@@ -46,14 +51,14 @@ pub(crate) fn visit(instant: &Instant, tolerance: f64, mut visit: impl FnMut(Bod
             }
         });
     }
-    of_surfaces(instant, &faces, tolerance, visit);
+    of_surfaces((instant, &faces), tolerance, passes, visit);
 }
 
 /// Visits surfaces at rest that images of spheres overlap.
 fn of_surfaces(
-    instant: &Instant,
-    faces: &Faces,
+    (instant, faces): (&Instant, &Faces),
     tolerance: f64,
+    passes: impl Fn(Bodies, &Separation) -> bool,
     mut visit: impl FnMut(Bodies, f64),
 ) {
     let has_images =
@@ -73,11 +78,13 @@ fn of_surfaces(
             for &index in &near {
                 let surface = &instant.system.surfaces[index as usize];
                 let separation = sphere_surface(&surface.form, *center, radius);
-                let depth = separation.map_or(0.0, |separation| -separation.distance);
+                let bodies = Bodies::Surface { sphere, surface: index };
+                let overlap = separation.filter(|it| !passes(bodies, it));
+                let depth = overlap.map_or(0.0, |it| -it.distance);
                 let meets =
                     surface.role != Role::Reports && instant.system.meets_surface(sphere, index);
                 if has_images(surface) && meets && depth > tolerance {
-                    visit(Bodies::Surface { sphere, surface: index }, depth);
+                    visit(bodies, depth);
                 }
             }
         }

@@ -3,12 +3,12 @@
 use glam::DVec3;
 
 use super::contact::{Bodies, Contact};
+use super::passage::is_passing;
 use super::surface_tree::SurfaceTree;
-use super::{classify, sphere_sphere, sphere_surface};
+use super::{Separation, classify, sphere_sphere, sphere_surface};
 use crate::bodies::Motion;
 use crate::bounds::Bounds;
 use crate::collider::Collider;
-use crate::colliders::Colliders;
 use crate::integrate;
 use crate::surface::Role;
 use crate::system::System;
@@ -54,15 +54,22 @@ impl Instant<'_> {
         Some(Contact { bodies: Bodies::Surface { sphere, surface }, separation, state })
     }
 
-    /// Whether the sphere of an overlap leaves a collider that is open from behind: it passes from there.
-    pub fn passes_from_behind(&self, contact: &Contact, colliders: &Colliders) -> bool {
-        let Bodies::Surface { sphere, surface } = contact.bodies else { return false };
-        let surface = &self.system.surfaces[surface as usize];
-        let collider = colliders.list().get(surface.collider.0);
-        let velocity = self.motion.velocity[sphere as usize];
-        let relative = velocity - surface.motion.velocity_at(contact.separation.point);
-        collider.is_some_and(Collider::is_open_from_behind)
-            && relative.dot(contact.separation.normal) > 0.0
+    /// Whether the sphere of an overlap came from behind, through a surface that is open from there, if from the front
+    /// none sinks in.
+    pub fn came_from_behind(&self, bodies: Bodies, separation: &Separation) -> bool {
+        let Bodies::Surface { sphere, surface } = bodies else { return false };
+        let form = &self.system.surfaces[surface as usize].form;
+        is_passing(form, separation, self.system.spheres.radius[sphere as usize])
+    }
+
+    /// Whether the sphere of an overlap leaves a mesh that is open from behind.
+    pub fn leaves_open_mesh(&self, bodies: Bodies, separation: &Separation) -> bool {
+        let Bodies::Surface { sphere, surface } = bodies else { return false };
+        let (surface, sphere) = (&self.system.surfaces[surface as usize], sphere as usize);
+        let collider = self.system.colliders.list().get(surface.collider.0);
+        let velocity = self.motion.velocity[sphere];
+        let relative = velocity - surface.motion.velocity_at(separation.point);
+        collider.is_some_and(Collider::is_open_mesh) && relative.dot(separation.normal) > 0.0
     }
 
     /// The contact of two bodies, if they are on the sides that collide.

@@ -10,6 +10,7 @@ pub(crate) mod contacts;
 pub(crate) mod image_overlaps;
 pub(crate) mod instant;
 pub(crate) mod moving_surfaces;
+pub(crate) mod passage;
 mod separation;
 mod sphere_band;
 mod sphere_box;

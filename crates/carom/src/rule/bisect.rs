@@ -9,6 +9,7 @@ use crate::detect::ContactState;
 use crate::detect::contact::{Bodies, Contact};
 use crate::detect::contacts::{self, Moved, Search};
 use crate::detect::instant::Instant;
+use crate::detect::passage::FrameStart;
 use crate::force_work::ForceWork;
 use crate::integrate;
 use crate::interval::Interval;
@@ -79,7 +80,9 @@ pub(crate) fn step(
 ) -> bool {
     let work = Work::new(stop_request);
     let Scratch { contacts, islands, buffers } = scratch;
-    let frame = Frame { system: *system, parameters, interval, start: motion };
+    let frame_start = Some(FrameStart { centers: &motion.position });
+    let from_start = System { frame_start, ..*system };
+    let frame = Frame { system: from_start, parameters, interval, start: motion };
     let everyone = 0..system.spheres.id.len() as u32;
     islands.reset(everyone.len());
     buffers.reset(motion);

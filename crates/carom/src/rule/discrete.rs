@@ -1,9 +1,12 @@
 //! The rule `discrete`: move, then answer what overlaps at the end of the frame.
 
+use glam::DVec3;
+
 use crate::bodies::Motion;
 use crate::detect::contact::{Bodies, Contact};
 use crate::detect::contacts::{self, Search};
 use crate::detect::instant::{Instant, reach};
+use crate::detect::passage::FrameStart;
 use crate::detect::{ContactState, sphere_surface};
 use crate::integrate;
 use crate::interval::Interval;
@@ -22,6 +25,8 @@ const ROOM: f64 = 1.0 / 16.0;
 pub(crate) struct Scratch {
     integrate: integrate::Scratch,
     near: Vec<u32>,
+    /// Centres at the start of the frame \[m\].
+    start: Vec<DVec3>,
     search: Search,
     contacts: Vec<Contact>,
 }
@@ -37,11 +42,14 @@ pub(crate) fn step(
 ) {
     let everyone = 0..system.spheres.id.len() as u32;
     let Discrete { integrator, .. } = parameters;
+    scratch.start.clone_from(&motion.position);
     let work = integrate::work(integrator, system, motion, everyone.clone(), frame);
     report.energy_account.add_force_work(work);
     integrate::advance(integrator, system, motion, everyone.clone(), frame, &mut scratch.integrate);
+    let frame_start = Some(FrameStart { centers: &scratch.start });
+    let from_start = System { frame_start, ..*system };
     for sphere in everyone {
-        meet_surfaces(system, motion, sphere, frame, &mut scratch.near, report);
+        meet_surfaces(&from_start, motion, sphere, frame, &mut scratch.near, report);
     }
     meet_each_other(system, motion, frame, scratch, report);
 }

@@ -3,13 +3,14 @@
 use glam::DVec3;
 
 use super::World;
-use crate::detect::contact::Contact;
+use super::passages::Passages;
+use crate::detect::Separation;
+use crate::detect::contact::{Bodies, Contact};
 use crate::detect::contacts::{self, Search};
 use crate::detect::image_overlaps;
 use crate::detect::instant::Instant;
 use crate::invariants;
 use crate::report::{BodyPair, Overlap};
-use crate::settings::Rule;
 use crate::shear::Shear;
 
 impl World {
@@ -80,18 +81,19 @@ impl World {
 
     /// Spheres that overlap each other (where spheres collide) or a solid collider by more than
     /// `tolerance` \[m\], in order of their bodies, each two bodies once; in a periodic box across its
-    /// faces, too. Under `exact` and `contact`, which let no sphere sink in, one that leaves a collider that is open
-    /// from behind passes from there and does not overlap it.
+    /// faces, too. Under `exact` and `contact`, which let no sphere sink in, one that passes a collider from behind
+    /// does not overlap it.
     pub fn overlaps(&self, tolerance: f64) -> Vec<Overlap> {
         let mut overlaps = Vec::new();
         let now = self.state.now();
-        let keeps_out = matches!(self.state.settings.rule, Rule::Exact(_) | Rule::Contact(_));
+        let passages = Passages::of(&self.state);
         contacts::of_overlaps(&now, tolerance, &mut Search::default(), |contact| {
-            if !(keeps_out && now.passes_from_behind(contact, &self.state.colliders)) {
+            if !passages.has(contact.bodies, &contact.separation) {
                 overlaps.push(Overlap::of(contact, &now.system));
             }
         });
-        self.add_overlaps_of_images(&now, tolerance, &mut overlaps);
+        let passes = |bodies, separation: &Separation| passages.has(bodies, separation);
+        self.add_overlaps_of_images(&now, tolerance, passes, &mut overlaps);
         in_order(&mut overlaps);
         overlaps
     }
@@ -111,16 +113,22 @@ impl World {
         contacts::of_overlapping_surfaces(&now, 0.0, &mut search, |contact| {
             overlaps.push(of(contact));
         });
-        self.add_overlaps_of_images(&now, 0.0, &mut overlaps);
+        self.add_overlaps_of_images(&now, 0.0, |_, _| false, &mut overlaps);
         in_order(&mut overlaps);
         overlaps.into_iter().find(is_sought)
     }
 
     /// Adds the overlaps across the faces of a periodic box.
-    fn add_overlaps_of_images(&self, now: &Instant, tolerance: f64, overlaps: &mut Vec<Overlap>) {
+    fn add_overlaps_of_images(
+        &self,
+        now: &Instant,
+        tolerance: f64,
+        passes: impl Fn(Bodies, &Separation) -> bool,
+        overlaps: &mut Vec<Overlap>,
+    ) {
         let period = now.system.settings.boundary.period();
         if period.is_finite_mask().any() {
-            image_overlaps::visit(now, tolerance, |bodies, depth| {
+            image_overlaps::visit(now, tolerance, passes, |bodies, depth| {
                 overlaps.push(Overlap { between: BodyPair::of(bodies, &now.system), depth });
             });
         }

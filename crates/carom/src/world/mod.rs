@@ -7,6 +7,7 @@ mod measures;
 mod memory;
 #[cfg(test)]
 mod moving_oracle;
+mod passages;
 mod poses;
 mod queries;
 pub(crate) mod snapshot;

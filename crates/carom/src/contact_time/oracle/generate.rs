@@ -169,7 +169,8 @@ fn form(numbers: &mut Numbers, scales: &Scales, kind: Kind, place: DVec3) -> (Fo
         }
         Kind::Rectangle => {
             let (half_x, half_z) = (length * numbers.decade(-1.0, 0.0), length);
-            let rectangle = Rectangle { center: place, axis_x, axis_z, normal, half_x, half_z };
+            let (center, is_open) = (place, true);
+            let rectangle = Rectangle { center, axis_x, axis_z, normal, half_x, half_z, is_open };
             // On the face, an edge or a corner.
             let mut feature = |half: f64| match numbers.bits() % 4 {
                 0 => (half, numbers.between(0.0, 1.0)),
@@ -237,7 +238,7 @@ fn band(numbers: &mut Numbers, length: f64, place: DVec3, axis: DVec3) -> (Form,
     };
     let foot = inner + thickness * normal;
     let world = |vector: DVec2| vector.x * radial + vector.y * axis;
-    let band = Band { center: place, axis, profile };
+    let band = Band { center: place, axis, profile, is_open: false };
     (Form::Band(band), Planted { point: place + world(foot), normal: world(normal) })
 }
 

@@ -103,7 +103,15 @@ impl Plane {
         let center = self.origin + middle.x * axis_x + middle.y * axis_z;
         let (half_x, half_z) = (half.x, half.y);
         Facet {
-            frame: Rectangle { center, axis_x, axis_z, normal: self.normal, half_x, half_z },
+            frame: Rectangle {
+                center,
+                axis_x,
+                axis_z,
+                normal: self.normal,
+                half_x,
+                half_z,
+                is_open: false,
+            },
             outline: Outline::new(
                 borders.map(side).collect(),
                 triangles.map(|corners| corners.map(place)).collect(),

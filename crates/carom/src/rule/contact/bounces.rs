@@ -267,7 +267,7 @@ impl FinalFlight {
         let stops = slabs.surfaces_of(self.slot).filter_map(|contact| {
             let place = places.at_start(contact.surface);
             let may_be_met = contact.impulses.normal == 0.0 || place.1.turns_form(&place.0);
-            may_be_met.then(|| self.meets(slots, place))?
+            (may_be_met && !contact.passes).then(|| self.meets(slots, place))?
         });
         Stop::first(stops)
     }
@@ -295,8 +295,13 @@ impl FinalFlight {
     fn meets(&self, slots: &Slots, place: &Place) -> Option<Stop> {
         let radius = slots.position[self.slot].number();
         let (form, motion) = place.1.carry(&place.0, self.start);
-        let time =
-            contact_time::sphere_surface(&self.flight, radius, &form, &motion, self.duration);
+        let time = contact_time::sphere_surface(
+            &self.flight,
+            radius,
+            &form.closed(),
+            &motion,
+            self.duration,
+        );
         Some(self.stop(time?, radius, place))
     }
 

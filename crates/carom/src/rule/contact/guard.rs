@@ -107,7 +107,14 @@ impl Guard<'_> {
                     let start = own.map_or(run.reference[slot].vector(), |it| it.start);
                     let start = self.start_of(slab.start + slot, start);
                     let way = (start, self.turn_of(slab.start + slot));
-                    let end = self.held(run, slot, way, &self.surfaces_of(slab.start + slot));
+                    let mut surfaces = self.surfaces_of(slab.start + slot);
+                    let own = slab.surfaces[first..].iter();
+                    for passed in
+                        own.take_while(|it| it.slot as usize == slot).filter(|it| it.passes)
+                    {
+                        surfaces.retain(|&it| it != passed.surface);
+                    }
+                    let end = self.held(run, slot, way, &surfaces);
                     go_to(run, slot, end);
                 }
             }
@@ -130,12 +137,13 @@ impl Guard<'_> {
             let forms =
                 [&self.places.at_start(contact.surface).0, &self.places.at_end(contact.surface).0];
             let way = Way { forms, centers: [start, end] };
-            way.pushed(LEAST_IN_FRONT * radius, BESIDE * radius).is_some()
+            !contact.passes && way.pushed(LEAST_IN_FRONT * radius, BESIDE * radius).is_some()
         };
         if turn.is_none() && !contacts.iter().any(passes) {
             return None;
         }
-        let surfaces: Vec<u32> = contacts.iter().map(|contact| contact.surface).collect();
+        let blocking = contacts.iter().filter(|contact| !contact.passes);
+        let surfaces: Vec<u32> = blocking.map(|contact| contact.surface).collect();
         self.held(run, slot, (start, turn), &surfaces)
     }
 
@@ -300,7 +308,7 @@ fn pushed_by_band(band: &Band, [start, end]: [DVec3; 2], least: f64, beside: f64
     }
     let flight =
         Flight { position: start, velocity: way, acceleration: DVec3::ZERO, drag_rate: 0.0 };
-    let form = Form::Band(*band);
+    let form = Form::Band(Band { is_open: false, ..*band });
     let part = contact_time::sphere_surface(&flight, least, &form, &SurfaceMotion::REST, 1.0)?;
     let there = start + part * way;
     let reached = band.seen_from(there);

@@ -42,7 +42,7 @@ pub(crate) struct Timeline {
     /// What groups spent in a tick.
     pub(super) budget: Budget,
     /// The spheres in zones.
-    pub(super) zone: Zone,
+    pub(crate) zone: Zone,
     /// The frame on the world's clock \[s\]: surfaces are where the system says at its start, and their rotation is
     /// known up to its end.
     pub(super) frame: [f64; 2],

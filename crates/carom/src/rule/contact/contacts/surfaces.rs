@@ -19,10 +19,6 @@ use crate::rule::contact::slots::slab_totals::SlabTotals;
 use crate::rule::contact::sub_step::{GROWTH, RELAXATION, SLOP, SubStep};
 use crate::surface::{Form, SurfaceMotion};
 
-/// Overlap as a part of the radius beyond which a sphere that leaves a face without an impulse came from behind it.
-/// Contacts that rest or bounce overlap less.
-const PASSING: f64 = 0.02;
-
 /// A centre counts as in front of a plane, or behind it, beyond this part of the radius.
 const LEAST_IN_FRONT: f64 = 0.5;
 
@@ -39,6 +35,8 @@ pub(crate) struct SurfaceContact {
     pub start: DVec3,
     /// Whether the path of the sphere in the sub-step is too short to pass an edge of the surface.
     is_slow: bool,
+    /// Whether the sphere came from behind an open surface, and is there or still overlaps it: nothing acts.
+    pub passes: bool,
     /// Velocity of the surface where they touch \[m/s\].
     pub velocity: DVec3,
     /// Velocity of the material relative to the surface, along it \[m/s\]; zero without friction.
@@ -76,6 +74,7 @@ impl SurfaceContact {
             normal: DVec3::Y,
             start: DVec3::ZERO,
             is_slow: false,
+            passes: false,
             velocity: DVec3::ZERO,
             belt: DVec3::ZERO,
             angular_velocity: DVec3::ZERO,
@@ -214,6 +213,12 @@ impl SurfaceContact {
         self.swing = if turns { motion.swing(center, before) } else { DVec3::ZERO };
         (self.approach, self.bias, self.kicked) = (0.0, FREE, 0.0);
         let separation = sphere_surface(form, center, radius);
+        let overlaps = separation.is_some_and(|it| it.distance < 0.0);
+        let still_passes = self.passes && overlaps && self.impulses.normal == 0.0;
+        self.passes = form.is_open() && (separation.is_none() || still_passes);
+        if still_passes {
+            return;
+        }
         if let Some(Separation { distance, normal, point }) = separation {
             (self.normal, self.velocity) = if turns {
                 turning_plane(motion, (normal, point), (center, radius + distance), sub_step.h)
@@ -459,12 +464,7 @@ pub(crate) fn correct(run: &mut Run, contacts: &[SurfaceContact], places: &Place
         let (form, _) = places.at_end(contact.surface);
         let separation = sphere_surface(form, center, radius);
         let overlap = separation.map_or(0.0, |it| -it.distance - SLOP * radius).max(0.0);
-        let leaves = |normal| (run.velocity[slot].vector() - contact.velocity).dot(normal) > 0.0;
-        let passes = overlap > PASSING * radius
-            && places.is_open_from_behind(contact.surface)
-            && contact.impulses.normal == 0.0
-            && separation.is_some_and(|it| leaves(it.normal));
-        if overlap > 0.0 && !passes {
+        if overlap > 0.0 && !contact.passes {
             let out = separation.map_or(DVec3::ZERO, |it| RELAXATION * overlap * it.normal);
             work += move_by(run, slot, out);
             largest = largest.max(overlap / radius);

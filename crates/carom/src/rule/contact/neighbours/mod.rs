@@ -27,6 +27,10 @@ use crate::rule::periodic::image_shift;
 use crate::surface::{Form, Role};
 use crate::system::System;
 
+/// Overlap of a sphere that is not pressed to a surface, as a part of its radius, beyond which it came from behind
+/// before the solver knew it.
+const WITHIN: f64 = 0.1;
+
 /// Two images are equally near whose squared distances differ by less than this part.
 const ROUNDING: f64 = 1e-9;
 
@@ -323,6 +327,14 @@ impl Known<'_> {
         }
     }
 
+    /// Whether a sphere that does not press on an open surface overlaps it as only one from behind does.
+    fn is_within(&self, slot: usize, surface: u32) -> bool {
+        let (form, _) = self.places.at_start(surface);
+        let place = self.slots.position[slot];
+        let separation = sphere_surface(form, place.vector(), place.number());
+        form.is_open() && separation.is_some_and(|it| it.distance < -WITHIN * place.number())
+    }
+
     fn contact(&self, slot: usize, relative: u32, surface: u32) -> SurfaceContact {
         let sphere = self.slots.index[slot];
         let own = self.places.surface_of(surface);
@@ -331,6 +343,8 @@ impl Known<'_> {
         let mut contact = SurfaceContact::new(relative, surface, material);
         contact.kick = self.system.surfaces[own as usize].kick;
         contact.impulses = self.warm_start.of_surface(self.before[slot], surface);
+        contact.passes = self.warm_start.passes(self.before[slot], surface)
+            || (!contact.impulses.is_some() && self.is_within(slot, surface));
         contact
     }
 }

@@ -55,9 +55,6 @@ pub(crate) struct Places {
     own: usize,
     /// The numbers of moving surfaces that deflect spheres.
     moving: Vec<u32>,
-    /// The numbers of rectangles and discs, ascending, which spheres pass from behind.
-    #[cfg_attr(feature = "serde", serde(skip))]
-    open: Vec<u32>,
     /// Those of them that are known, by number.
     #[cfg_attr(feature = "serde", serde(skip))]
     known: Vec<MovingPlace>,
@@ -83,11 +80,6 @@ pub(crate) struct Places {
 }
 
 impl Places {
-    /// Whether spheres pass the surface with this number from behind.
-    pub fn is_open_from_behind(&self, number: u32) -> bool {
-        self.open.binary_search(&number).is_ok()
-    }
-
     /// Whether it holds as many surfaces, none of which moves: as long as no collider changes, these.
     pub fn are_of(&self, surfaces: &[Surface]) -> bool {
         self.moving.is_empty() && self.starts.len() == surfaces.len() + self.images.len()
@@ -113,7 +105,6 @@ impl Places {
         starts.extend(surfaces.iter().map(|surface| surface.after(0.0)));
         place_images(surfaces, &self.images, starts);
         self.own = surfaces.len();
-        self.open = open_from_behind(surfaces);
         let moves =
             |(_, it): &(u32, &Surface)| it.role == Role::Deflects && !it.motion.is_at_rest();
         self.moving.clear();
@@ -327,19 +318,6 @@ pub(crate) fn offsets(period: DVec3) -> impl Iterator<Item = [i8; 3]> {
         y.clone().flat_map(move |y| z.clone().map(move |z| [x, y, z]))
     });
     all.filter(|&offset| offset != [0; 3])
-}
-
-/// Returns the numbers of the one-sided surfaces that have no other behind them: those of rectangles and discs.
-fn open_from_behind(surfaces: &[Surface]) -> Vec<u32> {
-    let mut number = 0;
-    let mut open = Vec::new();
-    for of_collider in surfaces.chunk_by(|first, second| first.collider == second.collider) {
-        if let [Surface { form: Form::Rectangle(_) | Form::Band(_), .. }] = of_collider {
-            open.push(number);
-        }
-        number += of_collider.len() as u32;
-    }
-    open
 }
 
 fn place_images(surfaces: &[Surface], images: &[(ImageKey, DVec3)], places: &mut Vec<Place>) {

@@ -3,10 +3,12 @@
 use glam::DVec3;
 
 use crate::detect::{Separation, sphere_sphere, sphere_surface};
+use crate::id::SphereId;
 use crate::persistent_contact::PersistentContact;
 use crate::report::BodyPair;
 use crate::rule::contact::contacts::batch::{self, Impulses};
 use crate::rule::contact::contacts::dormant::{Dormant, Partner};
+use crate::rule::contact::slabs::Slab;
 use crate::rule::contact::solver::Solver;
 use crate::system::System;
 
@@ -133,4 +135,19 @@ fn forces(impulses: Impulses, sliding: f64, h: f64) -> PersistentContact {
         is_sliding: tangential.length() >= SLIDES * sliding * impulses.normal,
         ..PersistentContact::NONE
     }
+}
+
+/// The spheres on their way through surfaces that are open from behind, with these surfaces.
+pub(crate) fn passages(solver: &Solver) -> Vec<(SphereId, u32)> {
+    if solver.is_changed {
+        return Vec::new();
+    }
+    let of_slab = |slab: &Slab| {
+        let passing = slab.surfaces.iter().filter(|contact| contact.passes);
+        let start = slab.start;
+        let passages = passing.map(move |it| (start + it.slot as usize, it.surface));
+        passages.collect::<Vec<_>>()
+    };
+    let all = solver.slabs.iter().flat_map(of_slab);
+    all.map(|(slot, surface)| (solver.slots.id[slot], solver.places.image(surface).0)).collect()
 }

@@ -98,7 +98,7 @@ fn each(slabs: &Slabs, mut visit: impl FnMut(usize, Origin)) {
             let origin = Origin::Pair { slab: number, batch: batch as u32, lane: lane as u32 };
             slots.iter().for_each(|&slot| visit(slab.start + slot as usize, origin));
         }
-        for (contact, it) in (0u32..).zip(&slab.surfaces) {
+        for (contact, it) in (0u32..).zip(&slab.surfaces).filter(|it| !it.1.passes) {
             let origin = Origin::Surface { slab: number, contact };
             visit(slab.start + it.slot as usize, origin);
         }

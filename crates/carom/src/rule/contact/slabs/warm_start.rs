@@ -23,14 +23,17 @@ pub(crate) struct WarmStart {
     starts: Vec<u32>,
     /// Partners and numbers of contacts.
     sorted: Vec<[u32; 2]>,
+    /// Spheres on their way through surfaces that are open from behind, and these surfaces, ascending.
+    passages: Vec<[u32; 2]>,
 }
 
 impl WarmStart {
-    /// Collects the impulses of contacts that press. `now` maps the slot of a sphere when the slabs were made to
-    /// its present slot, [`GONE`] if the sphere left the world: its contacts are lost.
+    /// Collects the impulses of contacts that press, and the passages. `now` maps the slot of a sphere when the slabs
+    /// were made to its present slot, [`GONE`] if the sphere left the world: its contacts are lost.
     pub fn collect(&mut self, slabs: &Slabs, spheres: usize, now: impl Fn(usize) -> u32) {
         self.bodies.clear();
         self.impulses.clear();
+        self.passages.clear();
         for slab in slabs.iter() {
             self.add_slab(slab, &now);
         }
@@ -61,7 +64,8 @@ impl WarmStart {
 
     /// Sorts contacts by sphere.
     fn sort(&mut self, spheres: usize) {
-        let Self { bodies, starts, sorted, .. } = self;
+        let Self { bodies, starts, sorted, passages, .. } = self;
+        passages.sort_unstable();
         starts.clear();
         starts.resize(spheres + 2, 0);
         for &[sphere, _] in &*bodies {
@@ -90,6 +94,11 @@ impl WarmStart {
         self.find(sphere, surface | SURFACE)
     }
 
+    /// Whether the sphere that was in a slot passes a surface from behind.
+    pub fn passes(&self, sphere: u32, surface: u32) -> bool {
+        self.passages.binary_search(&[sphere, surface]).is_ok()
+    }
+
     fn find(&self, sphere: u32, partner: u32) -> Impulses {
         let place = |sphere: usize| self.starts.get(sphere).copied().unwrap_or(0) as usize;
         let contacts = &self.sorted[place(sphere as usize)..place(sphere as usize + 1)];
@@ -113,6 +122,9 @@ impl WarmStart {
         for contact in &slab.surfaces {
             let slot = now(slab.start + contact.slot as usize);
             let impulses = contact.kept();
+            if contact.passes && slot != GONE {
+                self.passages.push([slot, contact.surface]);
+            }
             if impulses.is_some() && slot != GONE {
                 self.add(slot, contact.surface | SURFACE, impulses);
             }

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::member::Member;
+use crate::detect::passage::is_passing;
 use crate::detect::sphere_surface;
 use crate::id::ColliderId;
 use crate::norm::Norm;
@@ -64,7 +65,7 @@ pub(crate) fn has_at(
 }
 
 /// Whether a sphere touches a surface, or its image at the offset `shift` \[m\], at `time` \[s\], however deep it
-/// overlaps.
+/// overlaps; a sphere that passes from behind touches nothing there.
 pub(crate) fn touches_surface(
     context: &StepContext,
     member: &Member,
@@ -100,6 +101,9 @@ pub(super) fn touching_distance(
         return None;
     }
     let separation = sphere_surface(&form, center - shift, radius)?;
+    if is_passing(&form, &separation, radius) {
+        return None;
+    }
     let speed = (velocity - motion.velocity_at(separation.point)).norm();
     let coordinates = center.norm() + separation.point.norm() + radius;
     let is_near = separation.distance <= touching_gap(coordinates, speed, time) + missed;

@@ -97,6 +97,11 @@ impl Zone {
         self.len() == 0
     }
 
+    /// What steps them.
+    pub fn solver(&self) -> &Solver {
+        &self.solver
+    }
+
     /// How many of them sleep.
     pub fn asleep(&self) -> u32 {
         if self.is_empty() { 0 } else { self.solver.asleep() }
