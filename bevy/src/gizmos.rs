@@ -4,7 +4,7 @@ use bevy_app::prelude::*;
 use bevy_color::Color;
 use bevy_ecs::prelude::*;
 use bevy_gizmos::config::{GizmoConfigGroup, GizmoConfigStore};
-use bevy_gizmos::gizmos::Gizmos;
+use bevy_gizmos::gizmos::{GizmoBuffer, Gizmos};
 use bevy_gizmos::prelude::{AppGizmoBuilder, GizmoPrimitive3d};
 use bevy_math::primitives::{
     Capsule3d, ConicalFrustum, Cuboid, Cylinder, Plane3d, Sphere, Torus, Triangle3d,
@@ -17,7 +17,7 @@ use carom::Shape;
 
 use crate::components::{Ball, Collider};
 
-/// Draws the outlines of balls and colliders by Bevy's gizmos.
+/// Draws the outlines of balls and colliders by Bevy's gizmos; needs its `GizmoPlugin`, which is in `DefaultPlugins`.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct CaromGizmosPlugin;
 
@@ -49,10 +49,10 @@ impl Plugin for CaromGizmosPlugin {
     }
 }
 
-type Lines<'w, 's> = Gizmos<'w, 's, CaromGizmos>;
+type Lines = GizmoBuffer<CaromGizmos, ()>;
 
 fn draw(
-    mut lines: Lines,
+    mut lines: Gizmos<CaromGizmos>,
     store: Res<GizmoConfigStore>,
     balls: Query<(&Ball, &GlobalTransform)>,
     colliders: Query<(&Collider, &GlobalTransform), Without<Ball>>,
@@ -113,5 +113,66 @@ fn outline(lines: &mut Lines, shape: &Shape, place: Isometry3d, color: Color) {
             }
         }
         _ => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use bevy_app::{App, TaskPoolPlugin};
+    use bevy_asset::AssetPlugin;
+    use bevy_gizmos::GizmoPlugin;
+    use bevy_math::Isometry3d;
+    use bevy_time::TimePlugin;
+    use bevy_transform::TransformPlugin;
+    use carom::{DVec3, Ends, Mesh, Shape, Sides};
+
+    use super::{CaromGizmos, CaromGizmosPlugin, Lines, outline};
+    use crate::{Ball, CaromPlugin, Collider};
+
+    fn shapes() -> Vec<Shape> {
+        let corners = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
+        let size = DVec3::ONE;
+        let (radius, height, length) = (0.5, 1.0, 1.0);
+        let (bottom_radius, top_radius) = (0.5, 0.25);
+        vec![
+            Shape::Sphere { radius },
+            Shape::Rectangle { size_x: 1.0, size_z: 2.0 },
+            Shape::HalfSpace,
+            Shape::Box { size },
+            Shape::Container { size, open: Sides::NONE },
+            Shape::Cylinder { radius, height },
+            Shape::Cone { bottom_radius, top_radius, height },
+            Shape::Capsule { radius, length },
+            Shape::Disc { radius },
+            Shape::Torus { ring_radius: 1.0, tube_radius: 0.25 },
+            Shape::Pipe { radius, length, closed: Ends::NONE },
+            Shape::Bowl { radius, opening: 1.0 },
+            Shape::Funnel { bottom_radius, top_radius, height },
+            Shape::Mesh(Mesh::new(corners, vec![[0, 1, 2]]).expect("a triangle")),
+        ]
+    }
+
+    #[test]
+    fn every_shape_has_an_outline() {
+        for shape in shapes() {
+            let mut lines = Lines::default();
+            let color = CaromGizmos::default().colliders;
+            outline(&mut lines, &shape, Isometry3d::IDENTITY, color);
+            let drawn = lines.buffer();
+            let corners = drawn.list_positions.len() + drawn.strip_positions.len();
+            assert!(corners > 0, "{shape:?}");
+        }
+    }
+
+    #[test]
+    fn the_plugin_draws_without_a_renderer() {
+        let mut app = App::new();
+        app.add_plugins((TaskPoolPlugin::default(), AssetPlugin::default(), GizmoPlugin));
+        let physics = CaromPlugin::default();
+        app.add_plugins((TimePlugin, TransformPlugin, physics, CaromGizmosPlugin));
+        app.world_mut().spawn(Ball::new(1.0));
+        app.world_mut().spawn(Collider::half_space());
+        app.update();
+        app.update();
     }
 }

@@ -73,7 +73,7 @@ impl Plugin for CaromPlugin {
             .add_message::<Impact>()
             .add_message::<SensorEvent>()
             .add_message::<PhysicsError>();
-        let world = World::new(self.settings.clone()).unwrap_or_else(|error| {
+        let world = World::new(self.settings).unwrap_or_else(|error| {
             app.world_mut().write_message(logged(None, error));
             World::default()
         });

@@ -36,7 +36,7 @@ struct SavedBody {
 #[derive(Debug, Clone)]
 enum Parts {
     Ball(Ball, LinearVelocity, AngularVelocity, Option<ExternalForce>),
-    Collider(Box<Collider>, Option<Kinematic>),
+    Collider(Collider, Option<Kinematic>),
 }
 
 impl PhysicsSnapshot {
@@ -93,7 +93,7 @@ impl SavedBody {
                 Parts::Ball(*found.get()?, *found.get()?, *found.get()?, found.get().copied())
             }
             Body::Collider(_) => {
-                Parts::Collider(Box::new(found.get::<Collider>()?.clone()), found.get().copied())
+                Parts::Collider(found.get::<Collider>()?.clone(), found.get().copied())
             }
         };
         let transform = interpolation.map_or(transform, |it| it.physical(transform));
@@ -121,7 +121,7 @@ impl SavedBody {
                 set(&mut entity, *force);
             }
             Parts::Collider(collider, kinematic) => {
-                entity.insert(Collider::clone(collider));
+                entity.insert(collider.clone());
                 set(&mut entity, *kinematic);
             }
         }

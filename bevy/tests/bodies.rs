@@ -183,6 +183,21 @@ fn a_collider_with_a_velocity_moves_its_transform() {
 }
 
 #[test]
+fn a_changed_collider_keeps_its_place_in_its_motion() {
+    let mut app = app();
+    let steady = carom::MotionPart::Steady { velocity: carom::DVec3::X };
+    let wall = Collider::cuboid(1.0, 1.0, 1.0).with(|it| it.with_motion([steady]));
+    let place = Transform::from_xyz(0.0, 2.0, 0.0);
+    let wall = app.world_mut().spawn((wall, place)).id();
+    steps(&mut app, 32);
+    app.world_mut().get_mut::<Collider>(wall).unwrap().0.restitution = 0.25;
+    steps(&mut app, 32);
+    assert_eq!(get::<Transform>(&app, wall).translation, Vec3::new(1.0, 2.0, 0.0));
+    let physics = app.world().resource::<CaromWorld>();
+    assert_eq!(physics.colliders().next().map(|(_, it)| it.restitution), Some(0.25));
+}
+
+#[test]
 fn children_are_placed_by_their_parents() {
     let mut app = app();
     let parent = Transform::from_xyz(1.0, 0.0, 0.0).with_scale(Vec3::splat(2.0));
