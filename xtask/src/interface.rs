@@ -135,7 +135,9 @@ fn derived(home: &Module, item: &Item, name: &str) -> Option<String> {
         Item::Enum(it) => &it.attrs,
         _ => return None,
     };
-    let derived = attributes.iter().filter(|it| it.path().is_ident("derive"));
+    let derives =
+        |it: &&syn::Attribute| ["derive", "educe"].iter().any(|by| it.path().is_ident(by));
+    let derived = attributes.iter().filter(derives);
     let texts: Vec<String> = derived.map(|it| home.text_of(&it.meta)).collect();
     (!texts.is_empty()).then(|| format!("{name}: {}", texts.join(" ")))
 }

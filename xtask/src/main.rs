@@ -14,6 +14,7 @@ mod documents;
 mod files;
 mod imports;
 mod interface;
+mod interfaces;
 mod js_package;
 mod long_tests;
 mod markdown;

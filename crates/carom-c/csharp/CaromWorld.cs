@@ -265,6 +265,35 @@ namespace Carom
         public double Speed;
     }
 
+    /// <summary>What happens to two spheres at the edge of the well between them.</summary>
+    public enum CaromWellEventKind : ulong { Capture, Dissociation, Bounce }
+
+    /// <summary>Two spheres that enter the well between them, leave it or turn back at its edge.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct CaromWellEvent
+    {
+        public double Time;
+        public ulong First, Second;
+        public CaromWellEventKind Kind;
+        public Double3 Normal;
+        public double Distance, Impulse;
+    }
+
+    /// <summary>A sphere inside a trigger at the end of the last step.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct CaromTrigger
+    {
+        public ulong Collider, Sphere;
+        public Double3 Normal, Point;
+    }
+
+    /// <summary>Changes of the energy in the last step [J].</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct CaromEnergyAccount
+    {
+        public double Contacts, Colliders, Kicks, Growth, Shear, Thermostat, Forces, Applied, Correction, Emission;
+    }
+
     /// <summary>A piece of a predicted path: a flight from an event to the next.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public struct CaromPathLeg
@@ -473,6 +502,20 @@ namespace Carom
             Check(Native.carom_world_set_keyframes(Id, collider, keyframes, count, ref pivot, repeats ? 1u : 0u));
         }
 
+        /// <summary>Sets the motion of a collider from the field motion of a scene file:
+        /// "{ turn = { rate = 2.0 } }"; "[]" removes it.</summary>
+        public void SetMotion(ulong collider, string toml)
+        {
+            Check(Native.carom_world_set_motion(Id, collider, Native.Text(toml)));
+        }
+
+        /// <summary>Moves a collider steadily to a pose that it reaches in a time [s], before each step of that
+        /// time; it strikes spheres on the way.</summary>
+        public void SetNextPose(ulong collider, Double3 position, Double4 rotation, double dt)
+        {
+            Check(Native.carom_world_set_next_pose(Id, collider, ref position, ref rotation, dt));
+        }
+
         /// <summary>Removes a collider.</summary>
         public void RemoveCollider(ulong id) { Check(Native.carom_world_remove_collider(Id, id)); }
 
@@ -599,6 +642,52 @@ namespace Carom
             return events;
         }
 
+        /// <summary>Returns the events of pairs of spheres at the edges of wells in the last step.</summary>
+        public CaromWellEvent[] WellEvents()
+        {
+            UIntPtr count;
+            Check(Native.carom_world_well_events(Id, null, UIntPtr.Zero, UIntPtr.Zero, out count));
+            var events = new CaromWellEvent[(int)count];
+            Check(Native.carom_world_well_events(Id, events, UIntPtr.Zero, count, out count));
+            return events;
+        }
+
+        /// <summary>Returns the spheres inside triggers at the end of the last step.</summary>
+        public CaromTrigger[] Triggers()
+        {
+            UIntPtr count;
+            Check(Native.carom_world_triggers(Id, null, UIntPtr.Zero, UIntPtr.Zero, out count));
+            var triggers = new CaromTrigger[(int)count];
+            Check(Native.carom_world_triggers(Id, triggers, UIntPtr.Zero, count, out count));
+            return triggers;
+        }
+
+        /// <summary>Changes of the energy in the last step.</summary>
+        public CaromEnergyAccount EnergyAccount
+        {
+            get { CaromEnergyAccount it; Check(Native.carom_world_energy_account(Id, out it)); return it; }
+        }
+
+        /// <summary>Sets the groups that a sphere is in and those that it collides with, one bit for each.</summary>
+        public void SetGroups(ulong sphere, uint groups, uint collidesWith)
+        {
+            Check(Native.carom_world_set_groups(Id, sphere, groups, collidesWith));
+        }
+
+        /// <summary>Returns the number of a sphere for programs.</summary>
+        public ulong UserData(ulong sphere)
+        {
+            ulong it;
+            Check(Native.carom_world_user_data(Id, sphere, out it));
+            return it;
+        }
+
+        /// <summary>Sets the number of a sphere for programs.</summary>
+        public void SetUserData(ulong sphere, ulong userData)
+        {
+            Check(Native.carom_world_set_user_data(Id, sphere, userData));
+        }
+
         /// <summary>Returns what each ray meets first; many in one call are fast.</summary>
         public CaromHit[] CastRays(CaromRay[] rays, CaromQueryFilter filter)
         {
@@ -670,6 +759,14 @@ namespace Carom
             SnapshotId id;
             Check(Native.carom_world_snapshot(Id, out id));
             return new CaromSnapshot(id);
+        }
+
+        /// <summary>Takes a snapshot into the memory of an earlier one, which is overwritten.</summary>
+        public void SnapshotInto(CaromSnapshot snapshot)
+        {
+            var status = Native.carom_world_snapshot_into(Id, snapshot.Id);
+            GC.KeepAlive(snapshot);
+            Check(status);
         }
 
         /// <summary>Restores a snapshot, bit for bit.</summary>
@@ -1193,6 +1290,11 @@ namespace Carom
             WorldId world, ulong collider, [In] CaromKeyframe[] keyframes, UIntPtr count, ref Double3 pivot,
             uint repeats);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_set_motion(WorldId world, ulong collider, byte[] motion);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_set_next_pose(
+            WorldId world, ulong collider, ref Double3 position, ref Double4 rotation, double dt);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern CaromStatus carom_world_remove_collider(WorldId world, ulong id);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         static extern CaromStatus carom_world_add_force(WorldId world, ref ForceStructure force, out ulong id);
@@ -1244,6 +1346,22 @@ namespace Carom
         internal static extern CaromStatus carom_world_sensor_events(
             WorldId world, [Out] CaromSensorEvent[] events, UIntPtr stride, UIntPtr capacity, out UIntPtr count);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_well_events(
+            WorldId world, [Out] CaromWellEvent[] events, UIntPtr stride, UIntPtr capacity, out UIntPtr count);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_triggers(
+            WorldId world, [Out] CaromTrigger[] triggers, UIntPtr stride, UIntPtr capacity, out UIntPtr count);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_energy_account(
+            WorldId world, out CaromEnergyAccount account);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_set_groups(
+            WorldId world, ulong sphere, uint groups, uint collidesWith);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_user_data(WorldId world, ulong sphere, out ulong userData);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_set_user_data(WorldId world, ulong sphere, ulong userData);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern CaromStatus carom_world_apply_impulse(
             WorldId world, ulong sphere, ref Double3 impulse);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
@@ -1267,6 +1385,8 @@ namespace Carom
             PathId path, [Out] CaromPathLeg[] legs, UIntPtr stride, UIntPtr capacity, out UIntPtr count);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern CaromStatus carom_world_snapshot(WorldId world, out SnapshotId snapshot);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_snapshot_into(WorldId world, SnapshotId snapshot);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern CaromStatus carom_world_restore(WorldId world, SnapshotId snapshot);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]

@@ -186,6 +186,47 @@ static class Worlds
         }
     }
 
+    static void Games()
+    {
+        using (var world = CaromWorld.FromToml(
+            "[simulation]\npair_potential = { square-well = { depth = 1.0, range_ratio = 1.5 } }"))
+        {
+            var ball = CaromSphere.Default;
+            var first = world.AddSphere(ball);
+            ball.Position.X = 4.0 * ball.Radius;
+            ball.Velocity.X = -ball.Radius;
+            var second = world.AddSphere(ball);
+            world.SetGroups(first, 2, 3);
+            world.SetUserData(second, 7);
+            Expect(world.UserData(first) == 0 && world.UserData(second) == 7, "a number stays with its sphere");
+            var gate = CaromCollider.Default;
+            gate.Trigger = 1;
+            gate.Position.Y = -9.0;
+            var id = world.AddCollider(gate);
+            world.SetMotion(id, "{ oscillate = { amplitude = 1.0, frequency = 0.125 } }");
+            using (var snapshot = world.Snapshot())
+            {
+                world.Step(1.25);
+                var events = world.WellEvents();
+                Expect(events.Length == 1 && events[0].Time == 1.0 && events[0].Kind == CaromWellEventKind.Capture,
+                    "the balls enter their well after one radius");
+                Expect(events[0].First == first && events[0].Second == second, "the smaller id comes first");
+                Expect(world.EnergyAccount.Contacts == 0.0 && world.Triggers().Length == 0, "nothing else happens");
+                world.SnapshotInto(snapshot);
+                var hash = world.StateHash;
+                world.Step(0.75);
+                Expect(Math.Abs(world.Collider(id).Position.Y + 8.0) < 1e-12, "it is up after a quarter of a period");
+                world.Restore(snapshot);
+                Expect(world.StateHash == hash, "the later snapshot is in the memory of the earlier");
+            }
+            world.SetMotion(id, "[]");
+            world.SetNextPose(id, new Double3(0.0, 0.5, 0.0), new Double4(0.0, 0.0, 0.0, 1.0), 0.25);
+            world.Step(0.25);
+            Expect(Math.Abs(world.Collider(id).Position.Y - 0.5) < 1e-12, "it is where it was to be");
+            Expect(world.Triggers().Length == 2, "both balls are below the surface now");
+        }
+    }
+
     static void Scenes(string[] hashes)
     {
         foreach (var pair in hashes)
@@ -241,6 +282,7 @@ static class Worlds
             Springs();
             Queries();
         Motions();
+        Games();
             Scenes(arguments);
 #if UNITY_5_3_OR_NEWER
             Unity();

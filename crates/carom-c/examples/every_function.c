@@ -274,6 +274,17 @@ static void colliders_and_reports(void) {
     FAILS(CAROM_STATUS_INVALID, carom_world_set_keyframes(world, id, keyframes, 1, pivot, 0));
     FAILS(CAROM_STATUS_NULL, carom_world_set_keyframes(world, id, NULL, 2, pivot, 0));
     OK(carom_world_set_keyframes(world, id, NULL, 0, pivot, 0));
+    OK(carom_world_set_motion(world, id, "[{ steady = { velocity = [0, 1, 0] } }, { turn = { rate = 2.0 } }]"));
+    FAILS(CAROM_STATUS_SCENE, carom_world_set_motion(world, id, "{ turns = { rate = 2.0 } }"));
+    FAILS(CAROM_STATUS_UNKNOWN, carom_world_set_motion(world, 999, "[]"));
+    FAILS(CAROM_STATUS_NULL, carom_world_set_motion(world, id, NULL));
+    OK(carom_world_set_motion(world, id, "[]"));
+    const double level[4] = {0.0, 0.0, 0.0, 1.0};
+    OK(carom_world_set_next_pose(world, id, pivot, level, 0.5));
+    FAILS(CAROM_STATUS_INVALID, carom_world_set_next_pose(world, id, nowhere, level, 0.5));
+    FAILS(CAROM_STATUS_INVALID, carom_world_set_next_pose(world, id, pivot, level, 0.0));
+    FAILS(CAROM_STATUS_NULL, carom_world_set_next_pose(world, id, pivot, NULL, 0.5));
+    FAILS(CAROM_STATUS_UNKNOWN, carom_world_set_next_pose(world, 999, pivot, level, 0.5));
     floor.shape = 17;
     FAILS(CAROM_STATUS_ARGUMENT, carom_world_set_collider(world, id, &floor));
     floor.shape = CAROM_SHAPE_CONTAINER;
@@ -422,6 +433,11 @@ static void snapshots(void) {
     OK(carom_world_restore(world, snapshot));
     OK(carom_world_state_hash(world, &again));
     EXPECT(again == then);
+    OK(carom_world_snapshot_into(other, snapshot));
+    OK(carom_world_restore(world, snapshot));
+    OK(carom_world_state_hash(world, &again));
+    EXPECT(again == later);
+    FAILS(CAROM_STATUS_NULL, carom_world_snapshot_into(world, none));
     FAILS(CAROM_STATUS_NULL, carom_world_restore(world, none));
     // The handle of a world is no handle of a snapshot.
     none.id = world.id;

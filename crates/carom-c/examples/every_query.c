@@ -80,6 +80,10 @@ int main(void) {
     EXPECT(count == 2 && events[0].collider == gate && events[0].enters && !events[1].enters);
     EXPECT(fabs(events[0].time - 1.495e-3) < 1e-15 && events[0].speed == 1000.0);
 
+    CaromWellEvent of_wells;
+    OK(carom_world_well_events(world, &of_wells, 0, 1, &count));
+    EXPECT(count == 0);
+
     // A bumper adds 3 m/s to a ball of 1 kg that comes with 1 m/s.
     double work;
     OK(carom_world_kick_work(world, &work));

@@ -531,6 +531,22 @@ typedef struct {
     double speed;
 } CaromSensorEvent;
 
+/// Two spheres at the edge of the well between them, which a pair potential of a scene makes.
+typedef struct {
+    /// Time since the start of the step [s].
+    double time;
+    /// Ids of the spheres, ascending.
+    uint64_t spheres[2];
+    /// 0 if they enter the well, 1 if they leave it, 2 if they turn back.
+    uint64_t kind;
+    /// Unit vector from the first centre to the second.
+    double normal[3];
+    /// Distance of the centres [m].
+    double distance;
+    /// Impulse that drives the spheres apart [N s]; negative if it draws them together.
+    double impulse;
+} CaromWellEvent;
+
 /// Sums over all spheres.
 typedef struct {
     /// Kinetic energy, with rotation [J].
@@ -833,6 +849,16 @@ CaromStatus carom_world_remove_collider(CaromWorld world, uint64_t id);
 /// collider had without a motion. A `count` of 0 removes any motion, and the collider is at rest.
 CaromStatus carom_world_set_keyframes(CaromWorld world, uint64_t collider, const CaromKeyframe *keyframes, size_t count, const double *pivot, uint32_t repeats);
 
+/// Sets the motion of a collider from the field `motion` of a scene file (TOML), such as
+/// "{ turn = { rate = 2.0 } }", or several in brackets; "[]" removes any motion, and the collider is at
+/// rest. The pose at rest is the one that the collider had without a motion.
+CaromStatus carom_world_set_motion(CaromWorld world, uint64_t collider, const char *motion);
+
+/// Moves a collider to a pose that it reaches `dt` [s] from now, at a steady velocity that strikes
+/// spheres on the way: the position is three numbers [m], the rotation a quaternion x, y, z, w. Call it
+/// before each step of `dt`; after that time the collider moves on.
+CaromStatus carom_world_set_next_pose(CaromWorld world, uint64_t collider, const double *position, const double *rotation, double dt);
+
 /// Adds a force that is a function of the program. Writes its id to `id`, which may be null.
 CaromStatus carom_world_add_force(CaromWorld world, const CaromForce *force, uint64_t *id);
 
@@ -894,6 +920,10 @@ CaromStatus carom_world_triggers(CaromWorld world, CaromTrigger *triggers, size_
 /// carom_world_ids(): all of them, however small the trigger and however fast the sphere.
 CaromStatus carom_world_sensor_events(CaromWorld world, CaromSensorEvent *events, size_t stride, size_t capacity, size_t *count);
 
+/// Reads which spheres entered wells, left them or turned back at their edge in the last step, in order
+/// of time, in the way of carom_world_ids().
+CaromStatus carom_world_well_events(CaromWorld world, CaromWellEvent *events, size_t stride, size_t capacity, size_t *count);
+
 /// Reads the total energies and momenta of all spheres.
 CaromStatus carom_world_totals(CaromWorld world, CaromTotals *totals);
 
@@ -948,6 +978,10 @@ CaromStatus carom_path_legs(CaromPath path, CaromPathLeg *legs, size_t stride, s
 
 /// Takes a snapshot of everything that the future of a world depends on.
 CaromStatus carom_world_snapshot(CaromWorld world, CaromSnapshot *snapshot);
+
+/// Takes a snapshot into the memory of an earlier one, which is overwritten and keeps its handle: for a
+/// game that goes back, and takes one in each frame.
+CaromStatus carom_world_snapshot_into(CaromWorld world, CaromSnapshot snapshot);
 
 /// Restores a snapshot of this or another world, bit for bit. The report of the last step is
 /// removed.

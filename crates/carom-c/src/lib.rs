@@ -17,10 +17,10 @@
 )]
 
 mod collider;
+mod collider_motion;
 mod described;
 mod force;
 mod handle;
-mod keyframes;
 mod listing;
 mod measures;
 mod motion;
@@ -39,8 +39,8 @@ mod version;
 mod world;
 
 pub use collider::*;
+pub use collider_motion::*;
 pub use force::*;
-pub use keyframes::*;
 pub use listing::*;
 pub use measures::*;
 pub use motion::*;

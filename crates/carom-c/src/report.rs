@@ -1,6 +1,9 @@
 //! Events of the last step, and persistent contacts.
 
-use carom::{BodyPair, Impact, Overlap, PersistentContact, SensorEvent, TriggerContact};
+use carom::{
+    BodyPair, Impact, Overlap, PersistentContact, SensorEvent, SphereId, TriggerContact, WellEvent,
+    WellEventKind,
+};
 
 use crate::pointer::{Out, Room, Strided};
 use crate::status::{CaromStatus, call};
@@ -152,6 +155,39 @@ fn sensor_event(event: &SensorEvent) -> CaromSensorEvent {
         point: event.point.to_array(),
         normal: event.normal.to_array(),
         speed: event.speed,
+    }
+}
+
+/// Two spheres at the edge of the well between them, which a pair potential of a scene makes.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct CaromWellEvent {
+    /// Time since the start of the step [s].
+    pub time: f64,
+    /// Ids of the spheres, ascending.
+    pub spheres: [u64; 2],
+    /// 0 if they enter the well, 1 if they leave it, 2 if they turn back.
+    pub kind: u64,
+    /// Unit vector from the first centre to the second.
+    pub normal: [f64; 3],
+    /// Distance of the centres [m].
+    pub distance: f64,
+    /// Impulse that drives the spheres apart [N s]; negative if it draws them together.
+    pub impulse: f64,
+}
+
+fn well_event(event: &WellEvent) -> CaromWellEvent {
+    CaromWellEvent {
+        time: event.time,
+        spheres: event.between.map(SphereId::number),
+        kind: match event.kind {
+            WellEventKind::Capture => 0,
+            WellEventKind::Dissociation => 1,
+            _ => 2,
+        },
+        normal: event.normal.to_array(),
+        distance: event.distance,
+        impulse: event.impulse,
     }
 }
 
@@ -360,5 +396,23 @@ pub unsafe extern "C" fn carom_world_sensor_events(
         // SAFETY: the caller's array and pointer are null or valid, as the header demands.
         let room = unsafe { Room::new(events, array, count, "events") }?;
         world.with(|inner| room.fill(inner.world.report().sensor_events.iter().map(sensor_event)))
+    })
+}
+
+/// Reads which spheres entered wells, left them or turned back at their edge in the last step, in order
+/// of time, in the way of carom_world_ids().
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carom_world_well_events(
+    world: CaromWorld,
+    events: *mut CaromWellEvent,
+    stride: usize,
+    capacity: usize,
+    count: *mut usize,
+) -> CaromStatus {
+    call(|| {
+        let array = Strided { stride, count: capacity };
+        // SAFETY: the caller's array and pointer are null or valid, as the header demands.
+        let room = unsafe { Room::new(events, array, count, "events") }?;
+        world.with(|inner| room.fill(inner.world.report().well_events.iter().map(well_event)))
     })
 }

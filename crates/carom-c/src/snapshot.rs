@@ -1,12 +1,14 @@
 //! Snapshots of worlds, in this process or as bytes.
 
+use std::sync::{PoisonError, RwLock};
+
 use carom::Snapshot;
 use carom_scene::Checkpoint;
 
 use crate::described::Described;
 use crate::handle::Registry;
 use crate::pointer::{Out, Room, Rows, Strided};
-use crate::status::{CaromStatus, call};
+use crate::status::{CaromStatus, Failure, call};
 use crate::world::CaromWorld;
 
 /// A handle of a snapshot, the state of a world at one time. It is never reused; zero is no
@@ -19,12 +21,26 @@ pub struct CaromSnapshot {
 }
 
 /// All snapshots of this process.
-static SNAPSHOTS: Registry<Held> = Registry::new("snapshot");
+static SNAPSHOTS: Registry<RwLock<Held>> = Registry::new("snapshot");
 
 /// Everything that the future of a world depends on, and its description.
 struct Held {
     snapshot: Snapshot,
     described: Described,
+}
+
+impl CaromSnapshot {
+    /// Stores a snapshot. Returns its handle.
+    fn hold(held: Held) -> Self {
+        Self { id: SNAPSHOTS.add(RwLock::new(held)) }
+    }
+
+    /// Runs `work` on the snapshot.
+    fn with<T>(self, work: impl FnOnce(&Held) -> Result<T, Failure>) -> Result<T, Failure> {
+        let held = SNAPSHOTS.get(self.id)?;
+        let held = held.read().unwrap_or_else(PoisonError::into_inner);
+        work(&held)
+    }
 }
 
 /// Takes a snapshot of everything that the future of a world depends on.
@@ -43,8 +59,28 @@ pub unsafe extern "C" fn carom_world_snapshot(
             let (snapshot, described) = (inner.world.snapshot(), inner.described.clone());
             Ok(Held { snapshot, described })
         })?;
-        place.set(CaromSnapshot { id: SNAPSHOTS.add(held) });
+        place.set(CaromSnapshot::hold(held));
         Ok(())
+    })
+}
+
+/// Takes a snapshot into the memory of an earlier one, which is overwritten and keeps its handle: for a
+/// game that goes back, and takes one in each frame.
+#[unsafe(no_mangle)]
+pub extern "C" fn carom_world_snapshot_into(
+    world: CaromWorld,
+    snapshot: CaromSnapshot,
+) -> CaromStatus {
+    call(|| {
+        let held = SNAPSHOTS.get(snapshot.id)?;
+        world.with(|inner| {
+            let mut held = held.write().unwrap_or_else(PoisonError::into_inner);
+            let time = inner.world.time();
+            inner.described.palette_mut().follow(time);
+            inner.world.snapshot_into(&mut held.snapshot);
+            held.described.clone_from(&inner.described);
+            Ok(())
+        })
     })
 }
 
@@ -53,11 +89,12 @@ pub unsafe extern "C" fn carom_world_snapshot(
 #[unsafe(no_mangle)]
 pub extern "C" fn carom_world_restore(world: CaromWorld, snapshot: CaromSnapshot) -> CaromStatus {
     call(|| {
-        let held = SNAPSHOTS.get(snapshot.id)?;
         world.with(|inner| {
-            inner.world.restore(&held.snapshot);
-            inner.described = held.described.clone();
-            Ok(())
+            snapshot.with(|held| {
+                inner.world.restore(&held.snapshot);
+                inner.described = held.described.clone();
+                Ok(())
+            })
         })
     })
 }
@@ -77,7 +114,7 @@ pub unsafe extern "C" fn carom_snapshot_time(
     call(|| {
         // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
         let mut time = unsafe { Out::new(time, "time") }?;
-        time.set(SNAPSHOTS.get(snapshot.id)?.snapshot.time());
+        time.set(snapshot.with(|held| Ok(held.snapshot.time()))?);
         Ok(())
     })
 }
@@ -96,9 +133,9 @@ pub unsafe extern "C" fn carom_snapshot_to_bytes(
         let array = Strided { stride: 0, count: capacity };
         // SAFETY: the caller's array and pointer are null or valid, as the header demands.
         let room = unsafe { Room::new(bytes, array, size, "bytes") }?;
-        let held = SNAPSHOTS.get(snapshot.id)?;
-        let Held { snapshot, described } = &*held;
-        let written = Checkpoint::bytes_of(snapshot, described.scene(), described.palette())?;
+        let written = snapshot.with(|Held { snapshot, described }| {
+            Ok(Checkpoint::bytes_of(snapshot, described.scene(), described.palette())?)
+        })?;
         room.fill(written.into_iter())
     })
 }
@@ -119,7 +156,7 @@ pub unsafe extern "C" fn carom_snapshot_from_bytes(
         let bytes: Vec<u8> = unsafe { Rows::new(bytes, array, 1, "bytes") }?.values().collect();
         let Checkpoint { snapshot, scene, palette } = Checkpoint::from_bytes(&bytes)?;
         let described = Described::new(scene, palette);
-        place.set(CaromSnapshot { id: SNAPSHOTS.add(Held { snapshot, described }) });
+        place.set(CaromSnapshot::hold(Held { snapshot, described }));
         Ok(())
     })
 }

@@ -1,7 +1,7 @@
 //! Written values are read back, through every quantity and every structure; a snapshot of a world
 //! after every kind of change describes its contents.
 
-use std::ffi::c_void;
+use std::ffi::{CStr, c_void};
 use std::ptr::{null, null_mut};
 
 use carom::{Collider, World};
@@ -301,6 +301,58 @@ fn a_collider_moves_through_its_keyframes_and_a_snapshot_describes_them() {
     assert_eq!(height(world), 3.0);
     ok(set(&[], 0));
     assert_eq!(height(world), 2.0);
+    ok(carom_world_free(world));
+}
+
+/// Returns the box in a world, one metre above the origin, that a test moves.
+fn lift(world: CaromWorld) -> u64 {
+    let (mut id, mut lift) = (0, carom_collider());
+    (lift.shape, lift.position) = (CaromShape::Box as i32, [0.0, 1.0, 0.0]);
+    // SAFETY: both are there.
+    ok(unsafe { carom_world_add_collider(world, &raw const lift, &raw mut id) });
+    id
+}
+
+/// Returns a collider in its present pose.
+fn now(world: CaromWorld, id: u64) -> CaromCollider {
+    let mut collider = carom_collider();
+    // SAFETY: a place for a collider.
+    ok(unsafe { carom_world_collider(world, id, &raw mut collider) });
+    collider
+}
+
+#[test]
+fn every_motion_of_scene_files_moves_a_collider() {
+    let world = empty();
+    let id = lift(world);
+    // SAFETY: the text ends in a zero.
+    let set = |text: &CStr| unsafe { carom_world_set_motion(world, id, text.as_ptr()) };
+    // A quarter of a period after the middle.
+    ok(set(c"{ oscillate = { amplitude = 0.5, frequency = 0.25 } }"));
+    ok(carom_world_step(world, 1.0));
+    assert!((now(world, id).position[1] - 1.5).abs() < 1e-15);
+    ok(set(c"[{ turn = { rate = 0.5 } }, { steady = { velocity = [3.0, 0.0, 0.0] } }]"));
+    let moved = now(world, id);
+    assert_eq!(moved.position[0], 3.0);
+    // A rotation by half a radian: y of its quaternion is sin(1/4).
+    assert!((moved.rotation[1] - 0.247_403_959_254_522_94).abs() < 1e-15);
+    assert_eq!(set(c"{ turn = { rate = \"fast\" } }"), CaromStatus::Scene);
+    assert_eq!(now(world, id).position[0], 3.0);
+    ok(set(c"[]"));
+    assert_eq!(now(world, id).position, [0.0, 1.0, 0.0]);
+    ok(carom_world_free(world));
+}
+
+#[test]
+fn a_collider_is_in_its_next_pose_after_the_time_to_it() {
+    let world = empty();
+    let id = lift(world);
+    let (position, level) = ([0.25, 2.0, 0.0], [0.0, 0.0, 0.0, 1.0]);
+    // SAFETY: three and four numbers are there.
+    ok(unsafe { carom_world_set_next_pose(world, id, position.as_ptr(), level.as_ptr(), 0.25) });
+    assert_eq!(now(world, id).velocity, [1.0, 4.0, 0.0]);
+    ok(carom_world_step(world, 0.25));
+    assert_eq!(now(world, id).position, position);
     ok(carom_world_free(world));
 }
 

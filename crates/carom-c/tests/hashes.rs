@@ -105,3 +105,51 @@ fn bytes_of_c_are_snapshots_of_rust() {
     ok(carom_snapshot_free(snapshot));
     ok(carom_world_free(world));
 }
+
+#[test]
+fn a_snapshot_into_the_memory_of_another_continues_to_the_bit() {
+    let [first, second] = ["pour", "cradle"].map(from_scene);
+    let mut snapshot = CaromSnapshot::default();
+    // SAFETY: a place for a snapshot.
+    ok(unsafe { carom_world_snapshot(second, &raw mut snapshot) });
+    ok(carom_world_step(first, 0.25));
+    ok(carom_world_snapshot_into(first, snapshot));
+    let taken = hash(first);
+    ok(carom_world_step(first, 0.25));
+    ok(carom_world_restore(second, snapshot));
+    assert_eq!(hash(second), taken);
+    ok(carom_world_step(second, 0.25));
+    assert_eq!(hash(second), hash(first));
+    ok(carom_snapshot_free(snapshot));
+    assert_eq!(carom_world_snapshot_into(first, snapshot), CaromStatus::Handle);
+    for world in [first, second] {
+        ok(carom_world_free(world));
+    }
+}
+
+#[test]
+fn wells_report_the_events_of_the_engine() {
+    let text = c"
+        [simulation]
+        pair_potential = { square-well = { depth = 1.0, range_ratio = 1.5 } }
+        [[spheres]]
+        radius = 0.5
+        mass = 1.0
+        [[spheres]]
+        position = [2.0, 0.0, 0.0]
+        velocity = [-1.0, 0.0, 0.0]
+        radius = 0.5
+        mass = 1.0";
+    let mut world = CaromWorld::default();
+    // SAFETY: a text, no overrides, and a place for a world.
+    ok(unsafe { carom_world_from_toml(text.as_ptr(), ptr::null(), 0, &raw mut world) });
+    ok(carom_world_step(world, 0.625));
+    let (mut event, mut count) = (CaromWellEvent::default(), 0);
+    // SAFETY: room for one event, and a place for the number.
+    ok(unsafe { carom_world_well_events(world, &raw mut event, 0, 1, &raw mut count) });
+    // The centres are 1.5 m apart after half a second.
+    assert_eq!((count, event.kind, event.spheres), (1, 0, [0, 1]));
+    assert_eq!((event.time, event.distance, event.normal), (0.5, 1.5, [1.0, 0.0, 0.0]));
+    assert!(event.impulse < 0.0);
+    ok(carom_world_free(world));
+}

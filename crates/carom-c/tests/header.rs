@@ -19,7 +19,7 @@ const SOURCES: [&str; 18] = [
     "quantity",
     "motion",
     "collider",
-    "keyframes",
+    "collider_motion",
     "force",
     "spring",
     "listing",

@@ -28,3 +28,8 @@ pub use targets::TARGETS;
 #[cfg(doctest)]
 #[doc = include_str!("../../../README.md")]
 struct Readme;
+
+/// The programs of the guide for games.
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/games.md")]
+struct Games;

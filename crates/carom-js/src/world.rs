@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use carom::SphereId;
+use carom::{SphereId, WellEventKind};
 use carom_scene::{Library, Override, Palette, Scene, SceneError};
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -118,6 +118,13 @@ impl World {
     /// Returns a snapshot of everything that the future depends on.
     pub fn snapshot(&self) -> Snapshot {
         Snapshot { world: self.world.snapshot(), description: self.description.clone() }
+    }
+
+    /// Takes a snapshot into the memory of an earlier one, which is overwritten.
+    #[wasm_bindgen(js_name = snapshotInto)]
+    pub fn snapshot_into(&self, snapshot: &mut Snapshot) {
+        self.world.snapshot_into(&mut snapshot.world);
+        snapshot.description.clone_from(&self.description);
     }
 
     /// Restores a snapshot, bit for bit. The impacts of the last step are removed.
@@ -253,6 +260,25 @@ impl World {
             table.extend(event.point.to_array());
             table.extend(event.normal.to_array());
             table.push(event.speed);
+        }
+        table
+    }
+
+    /// Returns the events of pairs of spheres at the edges of wells in rows: time, spheres, 0 for a
+    /// capture, 1 for a dissociation or 2 for a bounce, normal, distance, impulse.
+    #[wasm_bindgen(getter, js_name = wellEvents)]
+    pub fn well_events(&self) -> Vec<f64> {
+        let mut table = Vec::new();
+        for event in &self.world.report().well_events {
+            table.push(event.time);
+            table.extend(event.between.map(|id| id.number() as f64));
+            table.push(match event.kind {
+                WellEventKind::Capture => 0.0,
+                WellEventKind::Dissociation => 1.0,
+                _ => 2.0,
+            });
+            table.extend(event.normal.to_array());
+            table.extend([event.distance, event.impulse]);
         }
         table
     }

@@ -1,5 +1,6 @@
 //! Storage of spheres: an array for each quantity.
 
+use educe::Educe;
 use glam::{DQuat, DVec3};
 
 use crate::friction::Friction;
@@ -10,7 +11,8 @@ use crate::rotation;
 use crate::sphere::{Mass, SOLID_BALL, Sphere};
 
 /// The state of spheres, which a step changes.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Educe, Default, PartialEq)]
+#[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Motion {
     /// Centres \[m\].
@@ -22,7 +24,8 @@ pub(crate) struct Motion {
 }
 
 /// Orientations and angular velocities. Both arrays are empty while no sphere was ever rotated.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Educe, Default, PartialEq)]
+#[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Spin {
     /// From the coordinate system of each sphere to the world's, of length 1.
@@ -105,7 +108,8 @@ impl Spin {
 }
 
 /// Properties of spheres, which a step reads.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Educe, Default, PartialEq)]
+#[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Properties {
     /// Ascending.
@@ -203,7 +207,8 @@ impl Properties {
 }
 
 /// All spheres of a world, one array per quantity, in ascending order of id.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Educe, Default, PartialEq)]
+#[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Spheres {
     pub(crate) properties: Properties,

@@ -1,5 +1,7 @@
 //! Pairs of materials whose coefficients no combine rule gives.
 
+use educe::Educe;
+
 use crate::error::InvalidValue;
 use crate::friction::{ContactFriction, Friction};
 use crate::restitution::{BodyRestitution, ContactRestitution, RestitutionLaw};
@@ -86,7 +88,8 @@ impl MaterialPair {
 }
 
 /// All pairs of a world, in a table by both materials.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Educe, Default, PartialEq)]
+#[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct MaterialPairs {
     list: Vec<MaterialPair>,

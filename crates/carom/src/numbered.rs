@@ -1,7 +1,10 @@
 //! Numbers of colliders, forces, springs and emitters.
 
+use educe::Educe;
+
 /// Items that keep their numbers, in the order in which they were added.
-#[derive(Debug, Clone)]
+#[derive(Debug, Educe)]
+#[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Numbered<T> {
     /// Ascending by number.

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use educe::Educe;
 use glam::DVec3;
 
 use crate::bodies::{Motion, Spheres};
@@ -25,7 +26,8 @@ use crate::system::System;
 use crate::validate;
 
 /// Everything a world's future depends on.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Educe, Default)]
+#[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct State {
     pub settings: Settings,

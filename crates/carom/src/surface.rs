@@ -337,7 +337,7 @@ pub(crate) fn place(id: ColliderId, collider: &Collider, time: f64, surfaces: &m
         None => SurfaceMotion::of(collider),
     };
     let (center, rotation) = (pose.position, pose.rotation.normalize());
-    let axes @ [x, y, z] = [rotation * DVec3::X, rotation * DVec3::Y, rotation * DVec3::Z];
+    let axes @ [_, y, _] = [rotation * DVec3::X, rotation * DVec3::Y, rotation * DVec3::Z];
     let mut add = |form, role| {
         let role = if trigger { Role::Reports } else { role };
         let collider = id;
@@ -360,10 +360,8 @@ pub(crate) fn place(id: ColliderId, collider: &Collider, time: f64, surfaces: &m
         Shape::Sphere { radius } => add(Form::Sphere { center, radius }, Role::Deflects),
         Shape::HalfSpace => add(Form::HalfSpace { point: center, normal: y }, Role::Deflects),
         Shape::Rectangle { size_x, size_z } => {
-            let (half_x, half_z) = (0.5 * size_x, 0.5 * size_z);
-            let (axis_x, axis_z, normal) = (x, z, y);
-            let rectangle = Rectangle { center, axis_x, axis_z, normal, half_x, half_z, is_open };
-            add(Form::Rectangle(rectangle), Role::Deflects);
+            let plate = plate(center, axes, [size_x, size_z], is_open);
+            add(Form::Rectangle(plate), Role::Deflects);
         }
         Shape::Box { size } => {
             let solid = SolidBox { center, axes, half: 0.5 * size };
@@ -404,6 +402,17 @@ pub(crate) fn place(id: ColliderId, collider: &Collider, time: f64, surfaces: &m
         | Shape::Bowl { .. }
         | Shape::Funnel { .. } => place_round(shape, (center, y), trigger, add),
     }
+}
+
+/// A rectangle about `center` \[m\] with these full lengths along the first and the last of its axes \[m\].
+fn plate(
+    center: DVec3,
+    [axis_x, normal, axis_z]: [DVec3; 3],
+    size: [f64; 2],
+    is_open: bool,
+) -> Rectangle {
+    let [half_x, half_z] = size.map(|length| 0.5 * length);
+    Rectangle { center, axis_x, axis_z, normal, half_x, half_z, is_open }
 }
 
 /// Places a solid of revolution, its volume first, or the walls of a hollow one.

@@ -31,6 +31,7 @@ import type {
   PersistentContact,
   SensorEvent,
   StageCounts,
+  WellEvent,
   ZoneAccount,
 } from "./reports.js";
 
@@ -136,6 +137,11 @@ export class World {
   /** Returns a snapshot of everything that the future depends on. */
   snapshot(): Snapshot;
   /**
+   * Takes a snapshot into the memory of an earlier one, which is overwritten: for a game that goes
+   * back, and takes one in each frame.
+   */
+  snapshotInto(snapshot: Snapshot): void;
+  /**
    * Restores a snapshot of this or another world, bit for bit. The impacts of the last frame are
    * removed.
    */
@@ -206,6 +212,8 @@ export class World {
   readonly triggers: { collider: number; sphere: number }[];
   /** Entries of spheres into triggers, and exits, of the last frame in order of time. */
   readonly sensorEvents: SensorEvent[];
+  /** What pairs of spheres did at the edges of their wells in the last frame, in order of time. */
+  readonly wellEvents: WellEvent[];
   /** The work of the last frame. */
   readonly work: StageCounts;
   /** Changes of the energy in the last frame. */

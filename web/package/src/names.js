@@ -11,6 +11,7 @@ const HYPHENATED = new Map([
   ["quadraticDrag", "quadratic-drag"],
   ["powerLaw", "power-law"],
   ["whiteNoise", "white-noise"],
+  ["squareWell", "square-well"],
 ]);
 const UNHYPHENATED = new Map([...HYPHENATED].map(([camel, kebab]) => [kebab, camel]));
 
@@ -29,7 +30,7 @@ export function camel(name) {
 /** Returns a text with every `word_with_underscores` in the spelling of JavaScript. */
 export function camelWords(text) {
   return text.replace(
-    /\b[a-z]+(?:_[a-z0-9]+)+\b|\b(?:close-packing|staggered-rows|dense-fluid|viscous-drag|point-attractor|mutual-gravity|quadratic-drag|power-law)\b/g,
+    /\b[a-z]+(?:_[a-z0-9]+)+\b|\b(?:close-packing|staggered-rows|dense-fluid|viscous-drag|point-attractor|mutual-gravity|quadratic-drag|power-law|white-noise|square-well)\b/g,
     camel,
   );
 }

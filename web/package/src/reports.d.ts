@@ -38,6 +38,22 @@ export interface SensorEvent {
   speed: number;
 }
 
+/** Two spheres at the edge of the well between them (`simulation.pairPotential`). */
+export interface WellEvent {
+  /** Time since the start of the frame [s]. */
+  time: number;
+  /** Ids of the spheres, ascending. */
+  spheres: [number, number];
+  /** They enter the well, leave it, or turn back at its edge. */
+  kind: "capture" | "dissociation" | "bounce";
+  /** Unit vector from the first centre to the second. */
+  normal: [number, number, number];
+  /** Distance of the centres [m]. */
+  distance: number;
+  /** Impulse that drives the spheres apart [N s]; < 0 where it draws them together. */
+  impulse: number;
+}
+
 /** Two bodies in persistent contact, and the force between them. */
 export interface PersistentContact {
   /** Ids of two spheres, bodies 1 and 2, or of a collider, body 1, and a sphere, body 2. */

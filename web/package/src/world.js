@@ -12,6 +12,7 @@ import { filterOf, hits, nearBodies, vector, vectors } from "./queries.js";
 import { sensorEvents } from "./sensor_events.js";
 import { override, tables } from "./toml.js";
 import { Views } from "./views.js";
+import { wellEvents } from "./well_events.js";
 
 /** A name contains no equals sign, and the text of a scene always does. */
 const isToml = (text) => text.includes("=");
@@ -75,6 +76,10 @@ export class World {
 
   snapshot() {
     return this.#world.snapshot();
+  }
+
+  snapshotInto(snapshot) {
+    this.#world.snapshotInto(snapshot);
   }
 
   restore(snapshot) {
@@ -201,6 +206,10 @@ export class World {
 
   get sensorEvents() {
     return sensorEvents(this.#world.sensorEvents);
+  }
+
+  get wellEvents() {
+    return wellEvents(this.#world.wellEvents);
   }
 
   get work() {

@@ -39,6 +39,32 @@ test("a snapshot brings back what was added, changed and removed since", () => {
   assert.equal(world.toToml(), text);
 });
 
+test("a snapshot into the memory of another brings back the later state", () => {
+  const world = step(World.fromScene("tutorial4"), 5);
+  const before = world.snapshot();
+  step(world, 20);
+  world.snapshotInto(before);
+  const [hash, colors] = [world.stateHash(), [...world.colors]];
+  step(world, 20);
+  world.restore(before);
+  assert.equal(world.stateHash(), hash);
+  assert.deepEqual([...world.colors], colors);
+});
+
+test("a pair that flies into its well reports a capture at the time and place of the edge", () => {
+  const potential = { squareWell: { depth: 1, rangeRatio: 1.5 } };
+  const world = new World({ pairPotential: potential });
+  world.addSphere({ radius: 0.5, mass: 1 });
+  world.addSphere({ radius: 0.5, mass: 1, position: [2, 0, 0], velocity: [-1, 0, 0] });
+  world.step(0.625);
+  const [event, ...others] = world.wellEvents;
+  assert.deepEqual(others, []);
+  assert.ok(event.impulse < 0);
+  const { impulse: _, ...rest } = event;
+  const edge = { time: 0.5, distance: 1.5, normal: [1, 0, 0] };
+  assert.deepEqual(rest, { ...edge, kind: "capture", spheres: [0, 1] });
+});
+
 test("a snapshot can be restored into another world", () => {
   const world = step(World.fromScene("tutorial4"), 30);
   const other = new World();

@@ -7,7 +7,7 @@ use super::programs::{self, Program};
 use crate::commands::{self, Programs};
 use crate::shell::{CI, Outcome, cargo, cargo_with, ci_folder, finish, program};
 use crate::{
-    architecture, c_interface, circles, dependencies, documents, interface, js_package,
+    architecture, c_interface, circles, dependencies, documents, interface, interfaces, js_package,
     parts as python_parts, python, release, scene_reference, setup, sizes, stages, wasm, web,
     web_tools, words,
 };
@@ -110,6 +110,7 @@ pub fn lint() -> Outcome {
     scene_reference::check()?;
     documents::check()?;
     interface::check()?;
+    interfaces::check()?;
     release::check()
 }
 

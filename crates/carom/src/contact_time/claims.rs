@@ -34,6 +34,7 @@ fn square(half: f64) -> Form {
         normal: DVec3::Y,
         half_x: half,
         half_z: half,
+        is_open: false,
     })
 }
 
@@ -220,6 +221,26 @@ mod surfaces {
     }
 
     #[test]
+    fn open_rectangle_is_not_met_before_a_ball_from_behind_has_left_it() {
+        let Form::Rectangle(closed) = square(1.0) else { panic!("a rectangle") };
+        let open = Form::Rectangle(Rectangle { is_open: true, ..closed });
+        // Thrown up to half a radius over the plane, it falls back; to two radii, it meets the face as it falls.
+        let thrown = |height: f64| {
+            let speed = (2.0 * G * (2.0 + height)).sqrt();
+            flight([0.0, -2.0, 0.0], [0.0, speed, 0.0], GRAVITY)
+        };
+        assert_eq!(meets(&thrown(0.25), 0.5, &open, FOREVER), None);
+        let falls = (2.0_f64 * 3.0 / G).sqrt() + (2.0_f64 * 0.5 / G).sqrt();
+        assert_time(meets(&thrown(1.0), 0.5, &open, FOREVER), falls);
+        // Beside an edge, as over the face.
+        let beside = flight([1.4, -1.0, 0.0], [-0.1, 1.0, 0.0], DVec3::ZERO);
+        assert_eq!(meets(&beside, 0.5, &open, FOREVER), None);
+        // One that begins within it came from behind.
+        let within = flight([0.0, 0.3, 0.0], [0.0, -1.0, 0.0], DVec3::ZERO);
+        assert_eq!(meets(&within, 0.5, &open, FOREVER), None);
+    }
+
+    #[test]
     fn edge_and_corner_are_met_at_the_radius() {
         let falling = |x: f64, z: f64| flight([x, 2.0, z], [0.0, -1.0, 0.0], DVec3::ZERO);
         assert_time(meets(&falling(1.3, 0.0), 0.5, &square(1.0), FOREVER), 1.6);
@@ -263,6 +284,7 @@ mod surfaces {
             normal: DVec3::Z,
             half_x: 1.0,
             half_z: 1.0,
+            is_open: false,
         });
         let motion = SurfaceMotion { angular_velocity: DVec3::Y * -0.5, ..SurfaceMotion::REST };
         let ball = flight([0.0, 0.0, 1.0], [0.0; 3], DVec3::ZERO);

@@ -169,7 +169,7 @@ fn form(numbers: &mut Numbers, scales: &Scales, kind: Kind, place: DVec3) -> (Fo
         }
         Kind::Rectangle => {
             let (half_x, half_z) = (length * numbers.decade(-1.0, 0.0), length);
-            let (center, is_open) = (place, true);
+            let (center, is_open) = (place, false);
             let rectangle = Rectangle { center, axis_x, axis_z, normal, half_x, half_z, is_open };
             // On the face, an edge or a corner.
             let mut feature = |half: f64| match numbers.bits() % 4 {

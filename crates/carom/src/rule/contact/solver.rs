@@ -1,5 +1,6 @@
 //! The state of the rule between frames.
 
+use educe::Educe;
 use glam::DVec3;
 
 use super::contacts::batch::ContactKinds;
@@ -16,7 +17,8 @@ use super::slots::drift::Drift;
 
 /// Spheres in their order of memory, their neighbours, and the impulses of their contacts: part of a
 /// snapshot, but not of the state hash.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Educe, Default)]
+#[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Solver {
     pub(super) slots: Slots,
@@ -95,11 +97,20 @@ pub(super) struct Turn {
     pub place: DVec3,
 }
 
-/// Working memory of the rule, kept from step to step only to spare its allocation.
-#[derive(Debug, Clone, Default)]
+/// Working memory of the rule, kept from step to step only to spare its allocation. A copy begins without any.
+#[derive(Debug, Default)]
 pub(crate) struct Scratch {
     pub(super) search: Search,
     pub(super) warm_start: WarmStart,
+}
+
+impl Clone for Scratch {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+
+    /// Keeps the memory of `self`.
+    fn clone_from(&mut self, _: &Self) {}
 }
 
 impl Solver {

@@ -1,5 +1,6 @@
 //! The timeline: the flights of all spheres and their next events.
 
+use educe::Educe;
 use glam::DVec3;
 
 use super::contacts::Member;
@@ -22,9 +23,9 @@ const MANY: usize = 20_000;
 
 /// The state of the rule between frames.
 ///
-/// Only the flights are state. Neighbours and schedule follow from them: they decide how fast the next
-/// event is found, never what it is.
-#[derive(Debug, Clone, Default)]
+/// Only the flights are state. Neighbours and schedule follow from them: they decide speed, never the next event.
+#[derive(Debug, Educe, Default)]
+#[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Timeline {
     pub(super) parameters: Exact,
@@ -53,8 +54,7 @@ pub(crate) struct Timeline {
     pub(super) spring_rate: f64,
     /// Until when the present forces are held, on the world's clock \[s\].
     pub(super) held_until: f64,
-    /// Held forces of nonconservative interactions \[N\], by index; empty where there are none. Only programs define
-    /// such interactions, so no written snapshot has them.
+    /// Held forces of nonconservative interactions \[N\], by index, or empty. Only programs define these: none is written.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) working_forces: Vec<DVec3>,
     /// Latest end of all curves, as forces applied over a frame need it, on the world's clock \[s\].

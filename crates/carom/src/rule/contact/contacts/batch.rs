@@ -1,6 +1,7 @@
 //! Batches of pairs, no sphere in two pairs of a batch: no pair reads what another one of its batch changes. So a
 //! batch is solved in lanes, with the bits of one pair after the other.
 
+use educe::Educe;
 use glam::DVec3;
 
 use super::materials::ContactMaterial;
@@ -145,7 +146,8 @@ pub(crate) struct Pair {
 }
 
 /// The pairs of a run of slots, in batches.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Educe, Default)]
+#[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Batches {
     pub pairs: Vec<PairBatch>,

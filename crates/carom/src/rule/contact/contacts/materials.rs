@@ -3,6 +3,8 @@
 
 use std::collections::BTreeMap;
 
+use educe::Educe;
+
 use crate::bodies::Properties;
 use crate::detect::contact::Bodies;
 use crate::friction::{ContactFriction, Friction};
@@ -29,7 +31,8 @@ impl ContactMaterial {
 }
 
 /// The material of each sphere, and the coefficients of each pair of materials.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Educe, Default)]
+#[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Materials {
     /// By index; empty where there are too many.

@@ -7,6 +7,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use educe::Educe;
 use glam::DVec3;
 
 use self::top_speed::TopSpeed;
@@ -43,7 +44,8 @@ struct MovingPlace {
 
 /// The places of all surfaces, by their number, and those of their images, by numbers that follow. Of surfaces that
 /// move, only those near spheres have their present places.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Educe, Default)]
+#[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Places {
     /// When surfaces changed last; a snapshot shares them.

@@ -1,7 +1,10 @@
 //! State of accelerated sweeps.
 
+use educe::Educe;
+
 /// The descent of a slab \[N s\], of pairs and then of surfaces; empty without one.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Educe, Default)]
+#[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Descent {
     /// The normal impulses before the sweeps.

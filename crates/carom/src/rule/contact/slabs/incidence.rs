@@ -1,5 +1,7 @@
 //! The contacts of each sphere.
 
+use educe::Educe;
+
 use crate::rule::contact::contacts::batch::{Impulses, set};
 use crate::rule::contact::slabs::{Slab, Slabs};
 
@@ -49,7 +51,8 @@ impl Origin {
 }
 
 /// The contacts of each sphere, by slot, as the last search for neighbours left them.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Educe, Default)]
+#[educe(Clone)]
 pub struct Incidence {
     /// Start of each slot's contacts in `origins`; empty until they are needed.
     starts: Vec<u32>,

@@ -1,5 +1,6 @@
 //! Results of cascades in a sub-step.
 
+use educe::Educe;
 use glam::DVec3;
 
 use super::incidence::Origin;
@@ -29,7 +30,8 @@ pub(crate) struct Landed {
 }
 
 /// The results of the cascades of a sub-step.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Educe, Default)]
+#[educe(Clone)]
 pub(crate) struct Landings {
     /// The spheres of cascades, by slot.
     pub spheres: Vec<Landed>,

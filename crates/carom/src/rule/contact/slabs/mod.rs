@@ -11,6 +11,8 @@ pub(crate) mod landings;
 pub(crate) mod search;
 pub(crate) mod warm_start;
 
+use educe::Educe;
+
 use self::descent::Descent;
 use crate::parallel;
 use crate::rule::contact::contacts::batch::Batches;
@@ -25,7 +27,8 @@ const SPHERES: usize = 500;
 const MOST: usize = 200;
 
 /// The contacts of a run of slots.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Educe, Default)]
+#[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Slab {
     pub start: usize,
@@ -73,7 +76,8 @@ pub(crate) fn count(spheres: usize) -> usize {
 }
 
 /// All slabs, and the contacts that fit into none.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Educe, Default)]
+#[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Slabs {
     pub list: Vec<Slab>,

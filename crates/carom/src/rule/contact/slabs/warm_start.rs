@@ -1,5 +1,7 @@
 //! Impulses from which contacts start after a search for neighbours.
 
+use educe::Educe;
+
 use super::{Slab, Slabs};
 use crate::rule::contact::contacts::batch::Impulses;
 use crate::rule::contact::contacts::dormant::{Dormant, Partner};
@@ -9,7 +11,8 @@ use crate::rule::contact::slots::GONE;
 const SURFACE: u32 = 1 << 31;
 
 /// Impulses of contacts, by the slots that their spheres had before the search.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Educe, Default)]
+#[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct WarmStart {
     /// Sphere and partner of each contact, in no order.

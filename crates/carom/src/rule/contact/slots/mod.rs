@@ -5,6 +5,7 @@ pub(crate) mod order;
 pub(crate) mod row;
 pub(crate) mod slab_totals;
 
+use educe::Educe;
 use glam::DVec3;
 
 use self::row::Row;
@@ -16,7 +17,8 @@ use crate::settings::nearest_image;
 use crate::system::System;
 
 /// Spheres by slot: neighbours in space are neighbours in memory.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Educe, Default)]
+#[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Slots {
     /// Id of the sphere in each slot.

@@ -11,6 +11,8 @@
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
+use educe::Educe;
+
 /// Entries that a bucket holds on average: few enough to sort in the fastest cache, many enough
 /// that buckets cost nothing.
 const ENTRIES_PER_BUCKET: usize = 32;
@@ -51,7 +53,8 @@ impl PartialOrd for Entry {
 }
 
 /// Events in the order of time.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Educe, Default)]
+#[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct EventQueue {
     /// Events of the buckets before `next_bucket`, the first one last.

@@ -1,5 +1,6 @@
 //! The schedule: the predictions of all spheres, in a queue by time.
 
+use educe::Educe;
 use prefetch_index::prefetch_index;
 
 use super::prediction::{NextEvents, Prediction, UpcomingEvent};
@@ -7,7 +8,8 @@ use super::queue::{Entry, EventQueue};
 
 /// The next event of each sphere, and the order of these events. It follows from the flights: the queue decides how
 /// fast the next event is found, never what it is.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Educe, Default)]
+#[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Schedule {
     /// By slot.

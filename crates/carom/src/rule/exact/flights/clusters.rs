@@ -1,5 +1,6 @@
 //! Clusters: spheres that stay in contact with each other and with surfaces.
 
+use educe::Educe;
 use glam::DVec3;
 
 use super::contact_work::ContactWork;
@@ -17,7 +18,8 @@ pub(crate) struct RingSide {
 
 /// Spheres held together by persistent contacts. Their forces hold until `renewal` or until an event
 /// of one of the spheres.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Educe, Default)]
+#[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Cluster {
     /// Slots in the order of the spheres' indices. The first member has the event at which the forces are computed
@@ -84,7 +86,8 @@ impl Cluster {
 }
 
 /// All clusters, by number; numbers are used again.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Educe, Default)]
+#[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Clusters {
     clusters: Vec<Cluster>,

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use educe::Educe;
 use glam::DVec3;
 
 use crate::connected::Connected;
@@ -27,7 +28,8 @@ const NONE: u32 = u32::MAX;
 
 /// Spheres connected by springs, directly or through others, or all spheres where forces act between all; a single
 /// sphere if nothing connects it.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Educe, Default)]
+#[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Component {
     /// By index, ascending.
@@ -84,7 +86,8 @@ impl PlacedSpring {
 }
 
 /// The components of all spheres that fly on curves, by their forces or along persistent contacts.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Educe, Default)]
+#[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Components {
     /// By index of the sphere, the number of its component.

@@ -1,5 +1,6 @@
 //! One step of an integrator as the flight of a sphere.
 
+use educe::Educe;
 use glam::DVec3;
 
 use crate::integrate::gauss_radau::Pace;
@@ -9,7 +10,8 @@ use crate::polynomial_flight::PolynomialAcceleration;
 const LONGEST_GUESS: f64 = 64.0;
 
 /// One step of the flight of a sphere.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Educe, Default)]
+#[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Curve(pub(super) Option<Box<CurveStep>>);
 

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use educe::Educe;
 use glam::DVec3;
 
 use super::body::Body;
@@ -25,7 +26,8 @@ use crate::surface::{Form, Role};
 use crate::system::System;
 
 /// The flights of all spheres, and the clusters that persistent contacts make of them.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Educe, Default)]
+#[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Flights {
     /// By slot: in the order of places, so that neighbours share memory.

@@ -1,12 +1,15 @@
 //! Wells of the potential between spheres: which pairs are inside.
 
+use educe::Educe;
+
 use crate::detect::bound_pairs;
 use crate::detect::instant::Instant;
 use crate::settings::PairPotential;
 
 /// The wells around all spheres, and the pairs that are bound: inside the well of each other. That belongs to the pair
 /// and changes in events alone, so that rounding of a distance at the edge never changes an energy.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Educe, PartialEq)]
+#[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Wells {
     /// Depth \[J\].

@@ -3,6 +3,8 @@
 
 use std::iter;
 
+use educe::Educe;
+
 use super::cells::Cells;
 use super::grid::Block;
 use super::neighbour::Neighbour;
@@ -24,7 +26,8 @@ pub(super) fn are_in_same_box(four: &[Neighbour; LANES]) -> bool {
 }
 
 /// Memory in which the neighbours of a sphere are gathered.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Educe, Default)]
+#[educe(Clone)]
 pub(crate) struct NeighbourBuffer {
     /// The neighbours. Entries behind them are unused; each holds the slot of a sphere.
     pub(super) buffer: Vec<Neighbour>,

@@ -1,11 +1,14 @@
 //! Cell lists: the spheres in each cell of a grid.
 
+use educe::Educe;
+
 use super::grid::Block;
 use super::neighbour::Neighbour;
 use super::paged_lists::PagedLists;
 
 /// Spheres by cell, relative to the box about the origin.
-#[derive(Debug, Clone)]
+#[derive(Debug, Educe)]
+#[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) enum Cells {
     /// Pages of three spheres, for cells that rarely have more.

@@ -3,6 +3,7 @@
 use std::hint::select_unpredictable;
 use std::ops::{Range, RangeInclusive};
 
+use educe::Educe;
 use glam::DVec3;
 
 use crate::bounds::Bounds;
@@ -19,7 +20,8 @@ const MAX_CELLS: f64 = 65_000.0;
 
 /// Cells of equal size. The outermost ones of an open axis reach to infinity; a periodic axis closes
 /// on itself: beyond its ends are ghosts, which are copies of the cells at the other end.
-#[derive(Debug, Clone)]
+#[derive(Debug, Educe)]
+#[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Grid {
     /// Corner of cell (0, 0, 0) \[m\].

@@ -2,6 +2,7 @@
 
 mod crossing;
 
+use educe::Educe;
 use fearless_simd::Simd;
 use glam::DVec3;
 use prefetch_index::prefetch_index;
@@ -24,7 +25,8 @@ use crate::rule::exact::flights::{Body, Flights, Species};
 use crate::rule::periodic;
 
 /// The regions of all spheres, and which spheres and surfaces are near them.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Educe, Default)]
+#[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Neighbours {
     /// From the largest spheres to the smallest.

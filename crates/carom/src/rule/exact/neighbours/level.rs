@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use educe::Educe;
 use glam::DVec3;
 
 use super::cells::Cells;
@@ -11,7 +12,8 @@ use super::region::OVERHANG;
 use super::surfaces::NearSurfaces;
 
 /// The spheres of one size class, by cell.
-#[derive(Debug, Clone)]
+#[derive(Debug, Educe)]
+#[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Level {
     pub grid: Grid,

@@ -3,6 +3,7 @@
 
 use std::mem::take;
 
+use educe::Educe;
 use fearless_simd::{Simd, SimdMask, dispatch};
 use glam::DVec3;
 
@@ -16,7 +17,8 @@ use crate::lanes::Lanes;
 use crate::real::Vector;
 
 /// Lists by slot, and the memory that brings them up to date.
-#[derive(Debug, Clone)]
+#[derive(Debug, Educe)]
+#[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct NeighbourLists {
     pub lists: buffer::NeighbourLists,

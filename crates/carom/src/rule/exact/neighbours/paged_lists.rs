@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use educe::Educe;
 use prefetch_index::prefetch_index;
 
 /// A part of a list.
@@ -42,7 +43,8 @@ impl Link {
 }
 
 /// Lists by number, unordered, in pages of `SIZE` entries (at most 15).
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Educe, Default)]
+#[educe(Clone)]
 pub(super) struct PagedLists<T, const SIZE: usize> {
     /// The first page of each list, by its number, and behind them the others.
     pages: Vec<Page<T, SIZE>>,

@@ -1,5 +1,6 @@
 //! How much work each sphere took in a frame.
 
+use educe::Educe;
 use prefetch_index::prefetch_index;
 
 use crate::report::StageCounts;
@@ -15,7 +16,8 @@ fn flights_between(before: u32, now: u32) -> u32 {
 }
 
 /// Work in the frame, by slot, in flights.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Educe, Default)]
+#[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct FrameWork {
     /// Generation of each sphere's flight at the start of the frame.

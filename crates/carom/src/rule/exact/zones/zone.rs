@@ -1,6 +1,7 @@
 //! Stepped zones: spheres that are moved by the sub-steps of the rule `contact`, from tick to tick of the
 //! world's clock.
 
+use educe::Educe;
 use glam::DVec3;
 
 use crate::bodies::{Motion, Properties, Spin};
@@ -32,7 +33,8 @@ const SHORT: f64 = 0.03;
 const MOST_TICK_HALVINGS: u32 = 6;
 
 /// The spheres of all zones of a world. Between ticks they fly straight.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Educe, Default)]
+#[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Zone {
     /// Their places in the arrays of the world, ascending.

@@ -1,10 +1,13 @@
-//! Motions of colliders through poses at given times.
+//! Motions of colliders.
 
-use carom::{Collider, ColliderId, DQuat, DVec3, Keyframe, Keyframes, Motion, MotionPart};
+use std::ffi::c_char;
+
+use carom::{Collider, ColliderId, DQuat, DVec3, Keyframe, Keyframes, Motion, MotionPart, Pose};
+use carom_scene::part;
 
 use crate::collider::replace;
 use crate::motion::vector;
-use crate::pointer::{Plain, Rows, Strided};
+use crate::pointer::{Plain, Rows, Strided, text};
 use crate::status::{CaromStatus, Failure, call};
 use crate::world::CaromWorld;
 
@@ -64,6 +67,59 @@ pub unsafe extern "C" fn carom_world_set_keyframes(
             let own = ColliderId::from_number(collider);
             let rest = at_rest(inner.world.collider(own)?);
             replace(inner, own, rest.with_motion(Motion::new(part)))
+        })
+    })
+}
+
+/// Sets the motion of a collider from the field `motion` of a scene file (TOML), such as
+/// "{ turn = { rate = 2.0 } }", or several in brackets; "[]" removes any motion, and the collider is at
+/// rest. The pose at rest is the one that the collider had without a motion.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carom_world_set_motion(
+    world: CaromWorld,
+    collider: u64,
+    motion: *const c_char,
+) -> CaromStatus {
+    call(|| {
+        // SAFETY: the caller's text is null or ends in a zero, as the header demands.
+        let motion = unsafe { text(motion, "motion") }?;
+        let part =
+            part::read(&format!("[[colliders]]\nshape = \"half-space\"\nmotion = {motion}"))?;
+        let described = part.world()?;
+        part::only(&part.colliders)?;
+        let moving = described.colliders().map(|(_, collider)| collider.motion.parts().to_vec());
+        // A motion that was in a world knows the pose of its collider there; its parts do not.
+        let motion = Motion::new(moving.flatten());
+        world.with(|inner| {
+            let own = ColliderId::from_number(collider);
+            let rest = at_rest(inner.world.collider(own)?);
+            replace(inner, own, rest.with_motion(motion))
+        })
+    })
+}
+
+/// Moves a collider to a pose that it reaches `dt` [s] from now, at a steady velocity that strikes
+/// spheres on the way: the position is three numbers [m], the rotation a quaternion x, y, z, w. Call it
+/// before each step of `dt`; after that time the collider moves on.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carom_world_set_next_pose(
+    world: CaromWorld,
+    collider: u64,
+    position: *const f64,
+    rotation: *const f64,
+    dt: f64,
+) -> CaromStatus {
+    call(|| {
+        // SAFETY: the caller's array is null or has this layout, as the header demands.
+        let position = unsafe { vector(position, "position") }?;
+        let array = Strided { stride: 0, count: 1 };
+        // SAFETY: the caller's array is null or has this layout, as the header demands.
+        let rotation = unsafe { Rows::new(rotation, array, 4, "rotation") }?.row::<4>(0);
+        let pose = Pose::at(position).rotated(DQuat::from_array(rotation));
+        world.with(|inner| {
+            let own = ColliderId::from_number(collider);
+            let moving = inner.world.moving_to(own, pose, dt)?;
+            replace(inner, own, moving)
         })
     })
 }
