@@ -6,7 +6,7 @@
 use std::sync::{Arc, Mutex, MutexGuard};
 
 use carom::{ContactAccount, ZoneAccount};
-use carom_scene::{Palette, Scene, part};
+use carom_scene::{Palette, part};
 use numpy::PyArray1;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
