@@ -6,8 +6,9 @@ use carom_scene::{Paint, Scene};
 use pyo3::prelude::*;
 
 use crate::arguments;
-use crate::engine::{Engine, Inner};
+use crate::engine::Engine;
 use crate::failure::Failure;
+use crate::inner::Inner;
 use crate::points;
 
 #[pymethods]

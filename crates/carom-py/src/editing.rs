@@ -15,8 +15,9 @@ use pyo3::prelude::*;
 use crate::arguments;
 use crate::arrays;
 
-use crate::engine::{Engine, Inner};
+use crate::engine::Engine;
 use crate::failure::Failure;
+use crate::inner::Inner;
 use crate::part::{self, only};
 use crate::points;
 

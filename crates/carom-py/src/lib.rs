@@ -31,6 +31,7 @@ mod film;
 mod graphics_failure;
 mod imports;
 mod in_use;
+mod inner;
 mod maze;
 mod motion;
 mod neighbours;

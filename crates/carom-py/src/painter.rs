@@ -14,8 +14,9 @@ use pyo3::prelude::*;
 use pyo3::sync::MutexExt;
 use pyo3::types::PyBytes;
 
-use crate::engine::{Engine, Inner};
+use crate::engine::Engine;
 use crate::graphics_failure::raised;
+use crate::inner::Inner;
 use crate::picture_settings::{PictureSettings, View};
 
 /// The renderer behind `carom.Renderer`: a graphics device that stays open, and a camera.

@@ -7,8 +7,9 @@ use carom::{DVec3, Groups, Queries, QueryFilter, SphereId};
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
-use crate::engine::{Engine, Inner};
+use crate::engine::Engine;
 use crate::failure::Failure;
+use crate::inner::Inner;
 use crate::stop::Watch;
 use crate::tables::Table;
 

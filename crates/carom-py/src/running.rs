@@ -12,8 +12,9 @@ use pyo3::prelude::*;
 
 use crate::arguments;
 use crate::arrays::{self, shaped};
-use crate::engine::{Engine, Inner};
+use crate::engine::Engine;
 use crate::failure::Failure;
+use crate::inner::Inner;
 use crate::quantity::Quantity;
 use crate::recording::{Numbers, Recording, Selection};
 use crate::snapshot::Snapshot;
