@@ -69,13 +69,19 @@ fn holds(collider: &Collider, local: DVec3) -> Option<bool> {
     }
 }
 
-/// Ids of the balls whose centre is in a closed container, ascending; `None` for another collider.
+/// Ids of the balls whose centre is in a closed container that they collide with, ascending; `None` for another
+/// collider.
 fn inside(collider: &Collider, world: &World) -> Option<Vec<SphereId>> {
     holds(collider, DVec3::ZERO)?;
     let to_local = collider.pose.rotation.normalize().inverse();
-    let is_inside =
-        |center: DVec3| holds(collider, to_local * (center - collider.pose.position)) == Some(true);
+    let boundary = world.settings().boundary;
+    let is_inside = |center: DVec3| {
+        let offset = boundary.nearest_image(center - collider.pose.position);
+        holds(collider, to_local * offset) == Some(true)
+    };
     let spheres = world.spheres();
-    let all = spheres.ids().iter().zip(spheres.positions());
-    Some(all.filter(|(_, center)| is_inside(**center)).map(|(id, _)| *id).collect())
+    let bodies = spheres.positions().iter().zip(spheres.groups());
+    let is_held =
+        bodies.map(|(&center, &groups)| groups.collides(collider.groups) && is_inside(center));
+    Some(spheres.ids().iter().zip(is_held).filter(|(_, held)| *held).map(|(id, _)| *id).collect())
 }

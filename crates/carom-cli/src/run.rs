@@ -8,9 +8,7 @@ use std::time::Duration;
 
 use carom::{StopRequest, World};
 use carom_gltf::{Animation, ExportError};
-use carom_scene::recording::{
-    ImpactTable, LedgerTable, ParticleFormat, RecordingError, Trajectory, WellTable,
-};
+use carom_scene::recording::{ImpactTable, LedgerTable, RecordingError, Trajectory, WellTable};
 use carom_scene::scene::Rule;
 use carom_scene::{Budget, ChangedFile, Library, Source};
 use carom_session::Replay;
@@ -270,8 +268,7 @@ impl Outputs {
                 return Err(Failure::Usage(format!("{other} and {name} are the same file")));
             }
             let ending = file.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-            let is_other = ["npz", "pvd", "vtp", "glb"].contains(&ending.as_str())
-                || ParticleFormat::of(file).is_some();
+            let is_other = !ending.is_empty() && ending != "csv";
             if *name != "--out" && is_other {
                 let text = format!("{name} {}: it is a table, .csv", file.display());
                 return Err(Failure::Usage(text));

@@ -65,6 +65,28 @@ fn a_ball_that_leaves_a_closed_container_is_named_with_its_time() {
     }
 }
 
+/// Balls in a container at a face of the periodic box, and some that do not collide with it.
+const NOT_KEPT_IN: &str = r#"
+name = "crates"
+simulation = { boundary = { periodic = { size = [4, 4, 4] } } }
+spheres = [
+  { position = [1.8, 0, 0], velocity = [2, 0, 0], radius = 0.1 },
+  { position = [1.8, 0.5, 0], velocity = [2, 0, 0], radius = 0.1, groups = 2, collides_with = 2 },
+]
+colliders = [{ shape = { container = { size = [1, 2, 2] } }, position = [1.9, 0, 0] }]
+"#;
+
+#[test]
+fn balls_leave_no_container_through_a_periodic_face_nor_one_that_they_do_not_collide_with() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = path(&folder, "crates.toml");
+    std::fs::write(&scene, NOT_KEPT_IN).unwrap();
+    for rule in ["exact", "contact"] {
+        let run = good(&["run", &scene, "--seconds", "2", "--strict", "--rule", rule]);
+        assert!(!run.contains("not kept"), "{rule}: {run}");
+    }
+}
+
 /// Balls that fall onto each other in a box of their width.
 const STACK: &str = r#"
 name = "stack"

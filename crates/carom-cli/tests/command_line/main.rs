@@ -155,6 +155,7 @@ fn bad_usage_ends_with_code_2_and_says_what_was_meant() {
         &["run", "simtest1", "--out", "same.csv", "--impacts", "same.csv"],
         &["run", "simtest1", "--out", "same.csv", "--impacts", "./same.csv"],
         &["run", "simtest1", "--impacts", "impacts.npz"],
+        &["run", "simtest1", "--impacts", "impacts.parquet"],
         &["run", "simtest1", "--seconds", "1", "--frames", "2"],
         &["run", "simtest1", "--every", "0"],
         &["run", "simtest1", "--frames", "3", "--every", "4", "--out", "same.csv"],
