@@ -27,8 +27,6 @@ use crate::rule::periodic;
 
 /// Units of work that it takes to find what touches a sphere, and to predict what it meets next.
 const UNITS_PER_MEMBER: u64 = 500;
-/// Units of work that a new curve of one of many spheres takes, with the searches along it.
-const UNITS_PER_CURVE: u64 = 1000;
 /// Sides of a ring that join the impacts of one sphere, at most.
 const MOST_SIDES: u32 = 16;
 /// A touch closes of itself if it closes faster than this part of the fastest one: far more than rounding.
@@ -93,8 +91,7 @@ pub(super) fn answer(
     account_for_closings(timeline, context, &group, &before);
     // Impacts without persistent contacts may be many: their number is that of flights.
     let lasting = if supports.is_empty() { 0 } else { group.members.len() as u64 };
-    let on_curves = work_on_curves(&group);
-    timeline.budget.charge(&indices_of(&group), spent + on_curves, UNITS_PER_MEMBER * lasting);
+    timeline.budget.charge(&indices_of(&group), spent, UNITS_PER_MEMBER * lasting);
     let held: Vec<Bodies> =
         supports.iter().flat_map(|support| &support.contacts).copied().collect();
     begin_flights(timeline, &group, &struck, supports);
@@ -191,12 +188,6 @@ fn allow_work(timeline: &mut Timeline, context: &StepContext, group: &Group) -> 
     };
     context.work.allow(allowed);
     allowed
-}
-
-/// Units of work of the curves that a group begins. Two spheres alone restart no others, however often they meet.
-fn work_on_curves(group: &Group) -> u64 {
-    let curves = group.members.iter().filter(|member| member.species.is_curved).count() as u64;
-    if curves > 2 { UNITS_PER_CURVE * curves } else { 0 }
 }
 
 /// The spheres of a group, by index.
