@@ -11,7 +11,6 @@ macro_rules! embed {
 embed!(
     "billiards.toml",
     "nine-ball.toml",
-    "butterfly.toml",
     "pinball.toml",
     "pour.toml",
     "cradle.toml",
@@ -33,6 +32,7 @@ embed!(
     "vibrated-plate.toml",
     "gates.toml",
     "fermi.toml",
+    "butterfly.toml",
     "draw-shot.toml",
     "masse.toml",
     "maze.toml",
