@@ -1,6 +1,8 @@
 //! Detects balls that leave closed containers, which is impossible without passing a wall.
 
-use carom::{Collider, ColliderId, DVec3, Ends, Shape, Sides, SphereId, World};
+use std::iter;
+
+use carom::{Collider, ColliderId, DVec3, Ends, Groups, Shape, Sides, SphereId, World};
 
 /// Tracks which balls are inside each closed container.
 #[derive(Debug, Default)]
@@ -80,8 +82,10 @@ fn inside(collider: &Collider, world: &World) -> Option<Vec<SphereId>> {
         holds(collider, to_local * offset) == Some(true)
     };
     let spheres = world.spheres();
-    let bodies = spheres.positions().iter().zip(spheres.groups());
-    let is_held =
-        bodies.map(|(&center, &groups)| groups.collides(collider.groups) && is_inside(center));
-    Some(spheres.ids().iter().zip(is_held).filter(|(_, held)| *held).map(|(id, _)| *id).collect())
+    // Without entries, all are in the default groups.
+    let groups = spheres.groups().iter().copied().chain(iter::repeat(Groups::DEFAULT));
+    let bodies = spheres.ids().iter().zip(spheres.positions()).zip(groups);
+    let held = bodies
+        .filter(|((_, center), groups)| groups.collides(collider.groups) && is_inside(**center));
+    Some(held.map(|((id, _), _)| *id).collect())
 }

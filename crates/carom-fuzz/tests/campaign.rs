@@ -68,7 +68,7 @@ fn submissions_with_mistakes_are_read_or_refused() {
 
 #[test]
 fn options_of_no_sense_are_refused() {
-    holds("options", 100);
+    holds("options", 300);
 }
 
 #[test]

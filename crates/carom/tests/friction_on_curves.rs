@@ -142,7 +142,7 @@ fn a_chain_whose_balls_touch_loses_what_its_contacts_take() {
     let patient = Exact::default().with_zone_budget(10_000_000);
     for unit in [1.0, 1e-6] {
         let mut world = Chain { balls: 24, unit, spacing: 0.04, restitution: 0.5 }.over_cylinder();
-        world.set_settings(world.settings().clone().with_rule(patient)).unwrap();
+        world.set_settings(world.settings().with_rule(patient)).unwrap();
         let start = world.total_energy();
         let (account, left) = account_of_run(&mut world, 12, unit / 60.0);
         assert!(account.contacts < -0.01 * start, "{unit}: {account:?}");
