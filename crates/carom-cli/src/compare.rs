@@ -69,7 +69,7 @@ struct Variant {
 }
 
 /// Label of the scene without a change.
-const UNCHANGED: &str = "none";
+const UNCHANGED: &str = "the scene";
 
 /// Returns the runs to make, the reference first.
 fn variants(args: &Compare) -> Result<Vec<Variant>, Failure> {
@@ -258,7 +258,7 @@ impl Comparison {
         writeln!(
             out,
             "{scene}, {seconds:.3} s in {frames} frames of {frame_time:.6} s; distances of \
-             spheres alive in both worlds, and energy errors, from {what} {reference}"
+             spheres alive in both worlds, and energy errors, from {reference}"
         )?;
         let right = Side::Right;
         let mut table = Table::new(&[

@@ -113,7 +113,7 @@ fn compare_measures_what_a_change_of_the_scene_does() {
     let scene = ["compare", "butterfly", "--seconds", "0.1", "--out", file];
     let figures = json(&[&scene[..], &changes].concat(), 0);
     let runs = figures["runs"].as_array().unwrap();
-    assert_eq!((runs.len(), &figures["reference"]), (3, &"none".into()));
+    assert_eq!((runs.len(), &figures["reference"]), (3, &"the scene".into()));
     let distance = |run: usize| runs[run]["largest_distance"]["max"].as_f64().unwrap();
     assert_eq!(distance(0), 0.0);
     // Before the rack, cue balls at -4 m/s and at 1 m/s part by 5 m/s; the other one starts 0.7 m away.
