@@ -625,41 +625,25 @@ namespace Carom
         /// <summary>Returns the impacts of the last step in order of time.</summary>
         public CaromImpact[] Impacts()
         {
-            UIntPtr count;
-            Check(Native.carom_world_impacts(Id, null, UIntPtr.Zero, UIntPtr.Zero, out count));
-            var impacts = new CaromImpact[(int)count];
-            Check(Native.carom_world_impacts(Id, impacts, UIntPtr.Zero, count, out count));
-            return impacts;
+            return Native.All<WorldId, CaromImpact>(Native.carom_world_impacts, Id);
         }
 
         /// <summary>Returns each entry of a sphere into a trigger, and each exit, in the last step.</summary>
         public CaromSensorEvent[] SensorEvents()
         {
-            UIntPtr count;
-            Check(Native.carom_world_sensor_events(Id, null, UIntPtr.Zero, UIntPtr.Zero, out count));
-            var events = new CaromSensorEvent[(int)count];
-            Check(Native.carom_world_sensor_events(Id, events, UIntPtr.Zero, count, out count));
-            return events;
+            return Native.All<WorldId, CaromSensorEvent>(Native.carom_world_sensor_events, Id);
         }
 
         /// <summary>Returns the events of pairs of spheres at the edges of wells in the last step.</summary>
         public CaromWellEvent[] WellEvents()
         {
-            UIntPtr count;
-            Check(Native.carom_world_well_events(Id, null, UIntPtr.Zero, UIntPtr.Zero, out count));
-            var events = new CaromWellEvent[(int)count];
-            Check(Native.carom_world_well_events(Id, events, UIntPtr.Zero, count, out count));
-            return events;
+            return Native.All<WorldId, CaromWellEvent>(Native.carom_world_well_events, Id);
         }
 
         /// <summary>Returns the spheres inside triggers at the end of the last step.</summary>
         public CaromTrigger[] Triggers()
         {
-            UIntPtr count;
-            Check(Native.carom_world_triggers(Id, null, UIntPtr.Zero, UIntPtr.Zero, out count));
-            var triggers = new CaromTrigger[(int)count];
-            Check(Native.carom_world_triggers(Id, triggers, UIntPtr.Zero, count, out count));
-            return triggers;
+            return Native.All<WorldId, CaromTrigger>(Native.carom_world_triggers, Id);
         }
 
         /// <summary>Changes of the energy in the last step.</summary>
@@ -746,11 +730,7 @@ namespace Carom
         /// <summary>Returns the persistent contacts with their forces.</summary>
         public CaromContact[] Contacts()
         {
-            UIntPtr count;
-            Check(Native.carom_world_contacts(Id, null, UIntPtr.Zero, UIntPtr.Zero, out count));
-            var contacts = new CaromContact[(int)count];
-            Check(Native.carom_world_contacts(Id, contacts, UIntPtr.Zero, count, out count));
-            return contacts;
+            return Native.All<WorldId, CaromContact>(Native.carom_world_contacts, Id);
         }
 
         /// <summary>Returns a snapshot of everything that the future depends on.</summary>
@@ -850,21 +830,13 @@ namespace Carom
         /// <summary>Returns the impacts on the way; their times are from the prediction on.</summary>
         public CaromImpact[] Impacts()
         {
-            UIntPtr count;
-            Check(Native.carom_path_impacts(handle.Id, null, UIntPtr.Zero, UIntPtr.Zero, out count));
-            var impacts = new CaromImpact[(int)count];
-            Check(Native.carom_path_impacts(handle.Id, impacts, UIntPtr.Zero, count, out count));
-            return impacts;
+            return Native.All<PathId, CaromImpact>(Native.carom_path_impacts, handle.Id);
         }
 
         /// <summary>Returns the flights of the path, one after the other.</summary>
         public CaromPathLeg[] Legs()
         {
-            UIntPtr count;
-            Check(Native.carom_path_legs(handle.Id, null, UIntPtr.Zero, UIntPtr.Zero, out count));
-            var legs = new CaromPathLeg[(int)count];
-            Check(Native.carom_path_legs(handle.Id, legs, UIntPtr.Zero, count, out count));
-            return legs;
+            return Native.All<PathId, CaromPathLeg>(Native.carom_path_legs, handle.Id);
         }
 
         public void Dispose() { handle.Dispose(); }
@@ -1106,6 +1078,20 @@ namespace Carom
             int width = Width(quantity);
             if (numbers % width != 0) throw new ArgumentException("there are " + width + " numbers for each sphere");
             return (UIntPtr)(numbers / width);
+        }
+
+        /// <summary>Reads items of a world or a path into an array.</summary>
+        internal delegate CaromStatus Reader<TOwner, TItem>(
+            TOwner owner, TItem[] items, UIntPtr stride, UIntPtr capacity, out UIntPtr count);
+
+        /// <summary>Returns all items that a function reads: it is first asked how many there are.</summary>
+        internal static TItem[] All<TOwner, TItem>(Reader<TOwner, TItem> read, TOwner owner)
+        {
+            UIntPtr count;
+            Check(read(owner, null, UIntPtr.Zero, UIntPtr.Zero, out count));
+            var items = new TItem[(int)count];
+            Check(read(owner, items, UIntPtr.Zero, count, out count));
+            return items;
         }
 
         internal static void RequireWidth(CaromQuantity quantity, int width)

@@ -62,8 +62,18 @@ pub(super) struct Barrier {
 
 impl Obstacle {
     /// The distance \[m\] of a centre from the core at a contact.
-    pub fn radius(&self) -> f64 {
-        match *self {
+    pub fn radius(mut self) -> f64 {
+        *self.radius_mut()
+    }
+
+    /// The same for a radius that is larger \[m\].
+    pub fn widened(mut self, by: f64) -> Self {
+        *self.radius_mut() += by;
+        self
+    }
+
+    fn radius_mut(&mut self) -> &mut f64 {
+        match self {
             Self::Point { radius }
             | Self::HalfSpace { radius, .. }
             | Self::Rectangle { radius, .. }
@@ -72,21 +82,6 @@ impl Obstacle {
             | Self::Plane { radius, .. }
             | Self::Triangle { radius, .. } => radius,
         }
-    }
-
-    /// The same for a radius that is larger \[m\].
-    pub fn widened(self, by: f64) -> Self {
-        let mut wide = self;
-        match &mut wide {
-            Self::Point { radius }
-            | Self::HalfSpace { radius, .. }
-            | Self::Rectangle { radius, .. }
-            | Self::Band { radius, .. }
-            | Self::Segment { radius, .. }
-            | Self::Plane { radius, .. }
-            | Self::Triangle { radius, .. } => *radius += by,
-        }
-        wide
     }
 
     /// Whether centres pass it from behind.

@@ -308,7 +308,7 @@ fn pushed_by_band(band: &Band, [start, end]: [DVec3; 2], least: f64, beside: f64
     }
     let flight =
         Flight { position: start, velocity: way, acceleration: DVec3::ZERO, drag_rate: 0.0 };
-    let form = Form::Band(Band { is_open: false, ..*band });
+    let form = Form::Band(*band).closed();
     let part = contact_time::sphere_surface(&flight, least, &form, &SurfaceMotion::REST, 1.0)?;
     let there = start + part * way;
     let reached = band.seen_from(there);
