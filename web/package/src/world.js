@@ -7,7 +7,7 @@ import { attempt, attemptPart } from "./errors.js";
 import { ENGINE } from "./handle.js";
 import { IMPACT_COLUMNS, impacts } from "./impacts.js";
 import { parse } from "./names.js";
-import { vector, vectors } from "./numbers.js";
+import { rotation, vector, vectors } from "./numbers.js";
 import { PredictedPath } from "./path.js";
 import { filterOf, hits, nearBodies } from "./queries.js";
 import { sensorEvents } from "./sensor_events.js";
@@ -290,6 +290,15 @@ export class World extends Spheres {
     const { id: _, ...now } = this.colliders.find((collider) => collider.id === id) ?? {};
     const text = tables({ colliders: [{ ...now, ...changes }] });
     attemptPart(() => this[ENGINE].setCollider(id, text));
+  }
+
+  setNextPose(id, pose, dt = this.frameTime) {
+    const [unknown] = Object.keys(pose).filter((name) => name !== "position" && name !== "rotation");
+    if (unknown !== undefined) throw new TypeError(`a pose has no "${unknown}"`);
+    const world = this[ENGINE];
+    const place = pose.position && vector("position", pose.position);
+    const turn = pose.rotation && rotation("rotation", pose.rotation);
+    attempt(() => world.setNextPose(id, place, turn, dt));
   }
 
   setForce(id, force) {
