@@ -85,7 +85,7 @@ fn a_flipper_throws_a_ball_that_rolls_on_it_past_the_bumpers() {
 fn a_game_ends_with_its_third_ball_and_the_plunger_begins_the_next() {
     let mut table = Table::new().unwrap();
     let mut lost = Vec::new();
-    // Nobody touches the flippers.
+    // Without flippers.
     for frame in 0..20_000 {
         let before = table.balls();
         let plunger = frame % 90 < 60 && before > 0;
