@@ -78,6 +78,14 @@ export interface PersistentContact {
   isSliding: boolean;
 }
 
+/** Two bodies that overlap. */
+export interface Overlap {
+  /** Ids of two spheres, or of a collider and a sphere. */
+  between: { spheres: [number, number] } | { collider: number; sphere: number };
+  /** Depth of the overlap of their surfaces [m], > 0. */
+  depth: number;
+}
+
 /** The work of a frame by stage: counts that depend only on the world, not on the machine. */
 export interface StageCounts {
   /** Number of predictions of a sphere's next events, under `exact`. */

@@ -8,9 +8,11 @@ import { ENGINE } from "./handle.js";
 import { IMPACT_COLUMNS, impacts } from "./impacts.js";
 import { parse } from "./names.js";
 import { rotation, vector, vectors } from "./numbers.js";
+import { overlaps } from "./overlaps.js";
 import { PredictedPath } from "./path.js";
 import { filterOf, hits, nearBodies } from "./queries.js";
 import { sensorEvents } from "./sensor_events.js";
+import { Snapshot } from "./snapshot.js";
 import { Spheres } from "./spheres.js";
 import { override, tables } from "./toml.js";
 import { Views } from "./views.js";
@@ -64,16 +66,20 @@ export class World extends Spheres {
     return this[ENGINE].frameTime;
   }
 
+  get longestStableFrame() {
+    return this[ENGINE].longestStableFrame;
+  }
+
   snapshot() {
-    return this[ENGINE].snapshot();
+    return new Snapshot(this[ENGINE].snapshot());
   }
 
   snapshotInto(snapshot) {
-    this[ENGINE].snapshotInto(snapshot);
+    this[ENGINE].snapshotInto(snapshot[ENGINE]);
   }
 
   restore(snapshot) {
-    this[ENGINE].restore(snapshot);
+    this[ENGINE].restore(snapshot[ENGINE]);
   }
 
   stateHash() {
@@ -151,6 +157,10 @@ export class World extends Spheres {
     return { spheres, sphereSeconds, ticks, joined, left };
   }
 
+  get unfinishedIslands() {
+    return this[ENGINE].unfinishedIslands;
+  }
+
   get wasStepped() {
     return this[ENGINE].wasStepped;
   }
@@ -159,6 +169,11 @@ export class World extends Spheres {
 
   get contacts() {
     return contacts(this[ENGINE].contacts);
+  }
+
+  overlaps(tolerance = 0) {
+    const world = this[ENGINE];
+    return overlaps(attempt(() => world.overlaps(tolerance)));
   }
 
   get hasSpin() {
@@ -249,6 +264,14 @@ export class World extends Spheres {
     return parse(this[ENGINE].forces());
   }
 
+  get materialPairs() {
+    return parse(this[ENGINE].scene()).materialPairs ?? [];
+  }
+
+  get emitters() {
+    return parse(this[ENGINE].emitters());
+  }
+
   get springs() {
     return parse(this[ENGINE].springs()).map((spring) => ({ ...SPRING, ...spring }));
   }
@@ -286,6 +309,11 @@ export class World extends Spheres {
     return attemptPart(() => world.addSpring(tables({ springs: [spring] })));
   }
 
+  addEmitter(emitter) {
+    const world = this[ENGINE];
+    return attemptPart(() => world.addEmitter(tables({ emitters: [emitter] })));
+  }
+
   setCollider(id, changes) {
     const { id: _, ...now } = this.colliders.find((collider) => collider.id === id) ?? {};
     const text = tables({ colliders: [{ ...now, ...changes }] });
@@ -317,6 +345,17 @@ export class World extends Spheres {
     attemptPart(() => this[ENGINE].setSpring(id, text));
   }
 
+  setEmitter(id, changes) {
+    const { id: _, ...now } = this.emitters.find((emitter) => emitter.id === id) ?? {};
+    const text = tables({ emitters: [{ ...now, ...changes }] });
+    attemptPart(() => this[ENGINE].setEmitter(id, text));
+  }
+
+  setMaterialPairs(materialPairs) {
+    const text = tables({ materialPairs });
+    attemptPart(() => this[ENGINE].setMaterialPairs(text));
+  }
+
   setSimulation(changes) {
     const now = this.simulation;
     const exact = { ...now.exact, ...changes.exact };
@@ -337,6 +376,10 @@ export class World extends Spheres {
 
   removeSpring(id) {
     attempt(() => this[ENGINE].removeSpring(id));
+  }
+
+  removeEmitter(id) {
+    attempt(() => this[ENGINE].removeEmitter(id));
   }
 }
 
