@@ -319,6 +319,16 @@ namespace Carom
         public double SphereSeconds;
     }
 
+    /// <summary>Impacts at one instant among bodies that touch, with their common momentum [kg m/s] and energy [J]. First
+    /// is the index of its first impact in <see cref="CaromWorld.Impacts"/>.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct CaromImpactGroup
+    {
+        public ulong First, Count;
+        public Double3 MomentumBefore, MomentumAfter;
+        public double EnergyBefore, EnergyAfter, EnergyDemanded, ColliderWork, KickWork;
+    }
+
     /// <summary>Counts and energies [J] of the last step.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public struct CaromReport
@@ -831,6 +841,12 @@ namespace Carom
 
         /// <summary>Whether spheres are rotated or rotate, or may start to by friction.</summary>
         public bool HasSpin { get { uint it; Check(Native.carom_world_has_spin(Id, out it)); return it != 0; } }
+
+        /// <summary>Returns the groups of impacts at one time of the last step.</summary>
+        public CaromImpactGroup[] ImpactGroups()
+        {
+            return Native.All<WorldId, CaromImpactGroup>(Native.carom_world_impact_groups, Id);
+        }
 
         /// <summary>Counts and energies of the last step.</summary>
         public CaromReport Report
@@ -1436,6 +1452,9 @@ namespace Carom
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern CaromStatus carom_world_impacts(
             WorldId world, [Out] CaromImpact[] impacts, UIntPtr stride, UIntPtr capacity, out UIntPtr count);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_impact_groups(
+            WorldId world, [Out] CaromImpactGroup[] groups, UIntPtr stride, UIntPtr capacity, out UIntPtr count);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern CaromStatus carom_world_contacts(
             WorldId world, [Out] CaromContact[] contacts, UIntPtr stride, UIntPtr capacity, out UIntPtr count);

@@ -261,6 +261,8 @@ static class Worlds
             world.Step(0.5);
             Expect(world.Sphere(0).Velocity.Y == 1.0, "a pair of materials has its own restitution");
             Expect(world.Report.Impacts == 1 && world.Report.ContactWork < 0.0, "the impact takes energy");
+            var group = world.ImpactGroups()[0];
+            Expect(group.Count == 1 && group.EnergyAfter == group.EnergyBefore / 16.0, "a sixteenth of it stays");
             Expect(world.Work.Events >= 1 && world.ZoneAccount.Spheres == 0, "and is one event");
             Expect(world.ContactAccount.Residual == 0.0, "nothing lies");
             Expect(Refused(() => world.SetMaterialPairs("material_pairs = 1")).Status == CaromStatus.Scene, "not pairs");

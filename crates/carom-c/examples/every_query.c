@@ -47,6 +47,16 @@ static void texts(void) {
     OK(carom_world_step(world, 0.5));
     OK(carom_world_sphere(world, 0, &ball));
     EXPECT(ball.velocity[1] == 1.0);
+    CaromImpactGroup group;
+    size_t count;
+    OK(carom_world_impact_groups(world, &group, 0, 1, &count));
+    EXPECT(count == 1 && group.first == 0 && group.count == 1);
+    // The floor takes all but a sixteenth of the energy, as the restitution demands.
+    EXPECT(group.energy_after == group.energy_before / 16.0);
+    EXPECT(group.energy_demanded == group.energy_after - group.energy_before);
+    EXPECT(group.momentum_before[1] == -4.0 * ball.mass && group.momentum_after[1] == group.momentum_before[1]);
+    FAILS(CAROM_STATUS_LENGTH, carom_world_impact_groups(world, &group, 0, 0, &count));
+    FAILS(CAROM_STATUS_NULL, carom_world_impact_groups(world, &group, 0, 1, NULL));
     FAILS(CAROM_STATUS_SCENE, carom_world_set_material_pairs(world, "material_pairs = [{ materials = [\"ivory\", \"cork\"] }]"));
     EXPECT(strstr(carom_last_error(), "material_pairs[0].materials") != NULL);
     FAILS(CAROM_STATUS_NULL, carom_world_set_material_pairs(world, NULL));

@@ -563,6 +563,28 @@ typedef struct {
     double emission;
 } CaromEnergyAccount;
 
+/// Impacts at one instant among bodies that touch each other, with their common momentum and energy.
+typedef struct {
+    /// Index of its first impact in the list of carom_world_impacts().
+    uint64_t first;
+    /// Number of its impacts.
+    uint64_t count;
+    /// Momentum of its spheres before [kg m/s].
+    double momentum_before[3];
+    /// Momentum after, less what colliders gave [kg m/s]: as before, up to rounding.
+    double momentum_after[3];
+    /// Kinetic energy of its spheres before [J].
+    double energy_before;
+    /// Kinetic energy after, less the work of moving colliders, of kicks and of growth [J].
+    double energy_after;
+    /// Change of the kinetic energy that the coefficients of restitution demand [J], <= 0.
+    double energy_demanded;
+    /// Work of moving colliders [J].
+    double collider_work;
+    /// Work of the kicks of colliders, and of spheres that grow [J].
+    double kick_work;
+} CaromImpactGroup;
+
 /// The work of the last step by stage: counts that depend only on the world, not on the machine.
 typedef struct {
     /// Under the rule `exact`: predictions of a sphere's next events.
@@ -1009,6 +1031,10 @@ CaromStatus carom_world_well_events(CaromWorld world, CaromWellEvent *events, si
 
 /// Reads the changes of the energy in the last step; all are 0 after carom_world_restore().
 CaromStatus carom_world_energy_account(CaromWorld world, CaromEnergyAccount *account);
+
+/// Reads the groups of impacts of the last step in order of time, in the way of carom_world_ids(); none
+/// under the rules `discrete` and `bisect`.
+CaromStatus carom_world_impact_groups(CaromWorld world, CaromImpactGroup *groups, size_t stride, size_t capacity, size_t *count);
 
 /// Reads the work of the last step; all counts are 0 after carom_world_restore().
 CaromStatus carom_world_work(CaromWorld world, CaromStageCounts *work);

@@ -1,7 +1,9 @@
-//! Accounts of the last step: its work, changes of energy, contacts, stepped zones.
+//! Accounts of the last step: its work, changes of energy, impacts at one time, contacts, stepped zones.
 
-use crate::pointer::Out;
-use crate::status::CaromStatus;
+use carom::ImpactGroup;
+
+use crate::pointer::{Out, Room, Strided};
+use crate::status::{CaromStatus, call};
 use crate::world::CaromWorld;
 
 /// Changes of the energy in the last step: the total energy changes by their sum, and by the error of
@@ -52,6 +54,62 @@ pub unsafe extern "C" fn carom_world_energy_account(
             correction: account.correction,
             emission: account.emission,
         }
+    })
+}
+
+/// Impacts at one instant among bodies that touch each other, with their common momentum and energy.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct CaromImpactGroup {
+    /// Index of its first impact in the list of carom_world_impacts().
+    pub first: u64,
+    /// Number of its impacts.
+    pub count: u64,
+    /// Momentum of its spheres before [kg m/s].
+    pub momentum_before: [f64; 3],
+    /// Momentum after, less what colliders gave [kg m/s]: as before, up to rounding.
+    pub momentum_after: [f64; 3],
+    /// Kinetic energy of its spheres before [J].
+    pub energy_before: f64,
+    /// Kinetic energy after, less the work of moving colliders, of kicks and of growth [J].
+    pub energy_after: f64,
+    /// Change of the kinetic energy that the coefficients of restitution demand [J], <= 0.
+    pub energy_demanded: f64,
+    /// Work of moving colliders [J].
+    pub collider_work: f64,
+    /// Work of the kicks of colliders, and of spheres that grow [J].
+    pub kick_work: f64,
+}
+
+fn impact_group(group: &ImpactGroup) -> CaromImpactGroup {
+    CaromImpactGroup {
+        first: group.first as u64,
+        count: group.count as u64,
+        momentum_before: group.momentum_before.to_array(),
+        momentum_after: group.momentum_after.to_array(),
+        energy_before: group.energy_before,
+        energy_after: group.energy_after,
+        energy_demanded: group.energy_demanded,
+        collider_work: group.collider_work,
+        kick_work: group.kick_work,
+    }
+}
+
+/// Reads the groups of impacts of the last step in order of time, in the way of carom_world_ids(); none
+/// under the rules `discrete` and `bisect`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carom_world_impact_groups(
+    world: CaromWorld,
+    groups: *mut CaromImpactGroup,
+    stride: usize,
+    capacity: usize,
+    count: *mut usize,
+) -> CaromStatus {
+    call(|| {
+        let array = Strided { stride, count: capacity };
+        // SAFETY: the caller's array and pointer are null or valid, as the header demands.
+        let room = unsafe { Room::new(groups, array, count, "groups") }?;
+        world.with(|inner| room.fill(inner.world.report().groups.iter().map(impact_group)))
     })
 }
 

@@ -59,8 +59,9 @@ fn structures_of_version_3_lie_as_they_did() {
         size_of::<CaromContactAccount>(),
         size_of::<CaromZoneAccount>(),
         size_of::<CaromStrike>(),
+        size_of::<CaromImpactGroup>(),
     ];
-    assert_eq!(accounts, [80, 72, 40, 40, 48]);
+    assert_eq!(accounts, [80, 72, 40, 40, 48, 104]);
     let spring = [offset_of!(CaromSpring, to_point), offset_of!(CaromSpring, rest_length)];
     assert_eq!(spring, [16, 48]);
 }
