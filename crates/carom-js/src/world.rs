@@ -211,6 +211,21 @@ impl World {
         self.world.was_stepped()
     }
 
+    /// Returns the groups of impacts at one time in rows: index of the first impact, number of impacts, momentum before
+    /// and after \[kg m/s\], energy before, after and demanded by restitution, work of colliders and of kicks \[J\].
+    #[wasm_bindgen(getter, js_name = impactGroups)]
+    pub fn impact_groups(&self) -> Vec<f64> {
+        let mut table = Vec::new();
+        for group in &self.world.report().groups {
+            table.extend([group.first as f64, group.count as f64]);
+            table.extend(group.momentum_before.to_array());
+            table.extend(group.momentum_after.to_array());
+            table.extend([group.energy_before, group.energy_after, group.energy_demanded]);
+            table.extend([group.collider_work, group.kick_work]);
+        }
+        table
+    }
+
     /// Returns the number of groups in which two bodies met as often as a frame allows, under the rule `bisect`.
     #[wasm_bindgen(getter, js_name = unfinishedIslands)]
     pub fn unfinished_islands(&self) -> u32 {

@@ -31,6 +31,7 @@ import type {
   ContactAccount,
   EnergyAccount,
   Impact,
+  ImpactGroup,
   Overlap,
   PersistentContact,
   SensorEvent,
@@ -216,7 +217,7 @@ export class World {
   readonly spinningFrictions: Float64Array;
   /** Coefficients of tangential restitution in [0, 1], as `frictions`. */
   readonly tangentialRestitutions: Float64Array;
-  /** Forces applied to single spheres [N]: x, y, z, x, y, z, ...; they act until they are set again. */
+  /** Forces applied to single spheres [N]: x, y, z, x, ...; each acts until it is set again. */
   readonly appliedForces: Float64Array;
   /**
    * Applies a force [N] to each sphere, besides those that act on all: x, y, z, x, y, z, ... in the
@@ -237,6 +238,8 @@ export class World {
   readonly impactCount: number;
   /** The impacts as one array, `IMPACT_COLUMNS.count` numbers for each; a view like those above. */
   readonly impactTable: Float64Array;
+  /** Groups of impacts at one time in the last frame; none under `discrete` and `bisect`. */
+  readonly impactGroups: ImpactGroup[];
   /** Ids of the spheres that emitters added in the last frame. */
   readonly emitted: number[];
   /** Ids of the spheres that emitters removed to make space. */

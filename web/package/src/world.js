@@ -5,9 +5,10 @@ import * as engine from "./engine.js";
 import { contacts } from "./contacts.js";
 import { attempt, attemptPart } from "./errors.js";
 import { ENGINE } from "./handle.js";
+import { impactGroups } from "./impact_groups.js";
 import { IMPACT_COLUMNS, impacts } from "./impacts.js";
 import { parse } from "./names.js";
-import { rotation, vector, vectors } from "./numbers.js";
+import { quaternion, vector, vectors } from "./numbers.js";
 import { overlaps } from "./overlaps.js";
 import { PredictedPath } from "./path.js";
 import { filterOf, hits, nearBodies } from "./queries.js";
@@ -102,6 +103,10 @@ export class World extends Spheres {
     const place = world.impacts;
     const length = IMPACT_COLUMNS.count * world.impactCount;
     return this.#views.at("impacts", Float64Array, place, length);
+  }
+
+  get impactGroups() {
+    return impactGroups(this[ENGINE].impactGroups);
   }
 
   get emitted() {
@@ -321,11 +326,12 @@ export class World extends Spheres {
   }
 
   setNextPose(id, pose, dt = this.frameTime) {
-    const [unknown] = Object.keys(pose).filter((name) => name !== "position" && name !== "rotation");
+    const { position, rotation, ...others } = pose;
+    const [unknown] = Object.keys(others);
     if (unknown !== undefined) throw new TypeError(`a pose has no "${unknown}"`);
     const world = this[ENGINE];
-    const place = pose.position && vector("position", pose.position);
-    const turn = pose.rotation && rotation("rotation", pose.rotation);
+    const place = position && vector("position", position);
+    const turn = rotation && quaternion("rotation", rotation);
     attempt(() => world.setNextPose(id, place, turn, dt));
   }
 

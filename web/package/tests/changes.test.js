@@ -13,7 +13,7 @@ test("a strike above the centre gives the speed and the spin of a free cue", () 
   const ball = world.addSphere({ radius: 1, mass: 1 });
   assert.equal(world.hasSpin, false);
   world.strike(ball, { speed: 3, cueMass: 1, azimuthDegrees: 90, offset: [0, 0.5] });
-  // 2 v / (1 + m / M + 5/2 b²) along -z, and 5/2 b / r of it about -x; rounding of some operations.
+  // 2 v / (1 + m / M + 5/2 b²) along -z, and 5/2 b / r of it about -x, up to rounding.
   const speed = (2 * 3) / (2 + 2.5 * 0.25);
   near(world.velocities[2], -speed, 1e-14);
   near(world.angularVelocities[0], -1.25 * speed, 1e-14);
@@ -89,6 +89,12 @@ test("a pair of materials has its own restitution", () => {
   assert.deepEqual(World.fromScene(world.toToml()).materialPairs, pairs);
   world.step(0.5);
   assert.deepEqual([...world.velocities], [0, 1, 0]);
+  const [group, ...others] = world.impactGroups;
+  assert.deepEqual([group.first, group.count, others], [0, 1, []]);
+  // A sixteenth of the energy stays, as the restitution demands.
+  assert.equal(group.energyAfter, group.energyBefore / 16);
+  assert.equal(group.energyDemanded, group.energyAfter - group.energyBefore);
+  assert.deepEqual([group.momentumBefore[1], group.momentumAfter[1]], [-4, -4]);
   const unknown = () => world.setMaterialPairs([{ materials: ["ivory", "cork"] }]);
   assert.throws(unknown, { name: "SceneError", field: "materialPairs[0].materials" });
   assert.deepEqual(world.materialPairs, pairs);
