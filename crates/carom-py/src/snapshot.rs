@@ -33,8 +33,8 @@ impl From<State> for Snapshot {
 }
 
 impl Snapshot {
-    /// Returns the state for reading. Nobody holds it while waiting for Python's lock, so that threads with that lock
-    /// may wait for it.
+    /// Returns the state for reading. A thread that waits for Python's lock must not hold the guard: threads with
+    /// that lock wait for the state.
     pub fn state(&self) -> RwLockReadGuard<'_, State> {
         self.0.read().unwrap_or_else(PoisonError::into_inner)
     }
