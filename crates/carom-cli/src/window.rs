@@ -80,7 +80,7 @@ fn desktop(folder: Option<PathBuf>, page: String) -> Desktop {
 
 fn setup(library: Library, start: Option<Start>, desktop: Desktop, quality: Quality) -> Setup {
     let host = Box::new(desktop);
-    Setup { library, start, host, quality, threaded: true, link_budget: Budget::LINK }
+    Setup { library, start, host, quality, inline_budget: None, link_budget: Budget::LINK }
 }
 
 fn open(setup: Setup) -> Result<(), Failure> {

@@ -38,7 +38,7 @@ fn frame(criterion: &mut Criterion) {
                 start: Some(Start::Scene(scene, Source::Registered)),
                 host: Box::new(Desktop::default()),
                 quality: Quality::DRAFT,
-                threaded: true,
+                inline_budget: None,
                 link_budget: Budget::LINK,
             };
             let builder = Harness::builder().with_size([1360.0, 800.0]).wgpu();

@@ -16,6 +16,7 @@ mod widgets;
 
 use std::cell::{OnceCell, RefCell};
 use std::rc::Rc;
+use std::time::Duration;
 
 use carom_render::Quality;
 use carom_render::wgpu::Backend;
@@ -33,6 +34,9 @@ use crate::services::Services;
 use crate::status::Status;
 use crate::version::Version;
 use crate::widgets::Widgets;
+
+/// Longest time for the physics in a frame: a page has one thread.
+const FRAME_BUDGET: Duration = Duration::from_millis(20);
 
 /// The interface in the canvas of a web page.
 #[wasm_bindgen]
@@ -164,7 +168,7 @@ fn started_on(
         start,
         host: Box::new(PageHost::new(services, context.clone())),
         quality: Quality::default(),
-        threaded: false,
+        inline_budget: Some(FRAME_BUDGET),
         link_budget: Budget { spheres, ..Budget::LINK },
     };
     let mut app = App::new(host, setup)?;

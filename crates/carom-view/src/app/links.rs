@@ -17,7 +17,7 @@ impl App {
         if is_beginning && self.play_scene(&scene, || link.clone()) {
             return;
         }
-        match Watching::replay(link, scene, self.threaded, &self.context) {
+        match Watching::replay(link, scene, self.inline_budget, &self.context) {
             Ok(mut watching) => {
                 watching.set_layout(self.saved.layout);
                 self.show(Screen::Watching(Box::new(watching)));

@@ -8,6 +8,7 @@ mod opening;
 mod saving;
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use carom_maze::Maze;
 use carom_pinball::Table;
@@ -45,8 +46,8 @@ pub struct Setup {
     pub host: Box<dyn Host>,
     /// Quality of the pictures on the screen.
     pub quality: Quality,
-    /// Whether the physics runs on its own thread.
-    pub threaded: bool,
+    /// Longest time for the physics in a frame, on the thread of the interface; `None` gives it a thread of its own.
+    pub inline_budget: Option<Duration>,
     /// Limits on the work that a link may cause.
     pub link_budget: Budget,
 }
@@ -70,7 +71,7 @@ pub struct App {
     library: Library,
     host: Box<dyn Host>,
     inbox: Inbox,
-    threaded: bool,
+    inline_budget: Option<Duration>,
     link_budget: Budget,
     studio: Studio,
     screen: Screen,
@@ -118,7 +119,7 @@ impl App {
             library: setup.library,
             host: setup.host,
             inbox: Inbox::new(host.egui_ctx.clone()),
-            threaded: setup.threaded,
+            inline_budget: setup.inline_budget,
             link_budget: setup.link_budget,
             studio: Studio::new(state, setup.quality),
             screen: Screen::Empty,

@@ -40,7 +40,7 @@ impl App {
 
     /// Watches a scene; shows an error if that is impossible.
     pub fn watch(&mut self, scene: Scene, source: Source) {
-        match Watching::new(scene, source, self.threaded, &self.context) {
+        match Watching::new(scene, source, self.inline_budget, &self.context) {
             Ok(mut watching) => {
                 self.host.watch(&watching.source);
                 // A web page cannot reopen files.

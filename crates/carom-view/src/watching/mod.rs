@@ -17,6 +17,7 @@ mod verdict;
 mod viewpoint;
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use carom::{DVec3, SphereId};
 use carom_render::{Camera, Drawing, GpuError};
@@ -49,6 +50,8 @@ use viewpoint::Viewpoint;
 /// The screen of a watched scene.
 pub struct Watching {
     driver: Driver,
+    /// Longest time for the physics in a frame, on this thread; `None` if it has a thread of its own.
+    inline_budget: Option<Duration>,
     /// Origin of the scene.
     pub source: Source,
     /// A link to the beginning of the scene, and the scene that it was made from.
@@ -113,9 +116,6 @@ pub struct Manner {
 const INSPECTOR: Beside = Beside { title: "Inspector", is_right: true, widths: [300.0; 3] };
 const PLOTS: Beside = Beside { title: "Plots", is_right: false, widths: [200.0, 330.0, 700.0] };
 
-/// Longest time for physics in a frame if both share a thread \[s\].
-const INLINE_BUDGET: f64 = 0.02;
-
 impl Watching {
     /// Starts to watch a scene.
     ///
@@ -124,11 +124,11 @@ impl Watching {
     pub fn new(
         scene: Scene,
         source: Source,
-        threaded: bool,
+        inline_budget: Option<Duration>,
         context: &egui::Context,
     ) -> Result<Self, SessionError> {
         let link = Link::to_scene(&scene);
-        Self::at(Session::new(scene)?, link, source, threaded, context)
+        Self::at(Session::new(scene)?, link, source, inline_budget, context)
     }
 
     /// Starts to watch the run of a link, and seeks to its time.
@@ -138,7 +138,7 @@ impl Watching {
     pub fn replay(
         link: &Link,
         scene: Scene,
-        threaded: bool,
+        inline_budget: Option<Duration>,
         context: &egui::Context,
     ) -> Result<Self, SessionError> {
         let session = Session::replay(scene, link)?;
@@ -146,7 +146,7 @@ impl Watching {
             LinkSource::BuiltIn(_) => Source::BuiltIn,
             LinkSource::File { .. } => Source::Registered,
         };
-        let mut watching = Self::at(session, link.clone(), source, threaded, context)?;
+        let mut watching = Self::at(session, link.clone(), source, inline_budget, context)?;
         if let LinkSource::File { name, text } = link.source() {
             watching.written = WrittenScene::new(name, text, link.overrides().to_vec()).ok();
             watching.shows_text = watching.written.is_some();
@@ -167,14 +167,15 @@ impl Watching {
         session: Session,
         link: Link,
         source: Source,
-        threaded: bool,
+        inline_budget: Option<Duration>,
         context: &egui::Context,
     ) -> Result<Self, SessionError> {
-        let driver = driver(session.into(), threaded, context)?;
+        let driver = driver(session.into(), inline_budget, context)?;
         let throw = Throw::like_those_of(driver.view());
         Ok(Self {
             link: (driver.view().scene.clone(), link),
             driver,
+            inline_budget,
             source,
             written: None,
             shows_text: false,
@@ -243,7 +244,7 @@ impl Watching {
         let wall_seconds = ui.input(|input| f64::from(input.unstable_dt));
         self.clock = ui.input(|input| input.time);
         let began = Instant::now();
-        let time_is_up = || began.elapsed().as_secs_f64() > INLINE_BUDGET;
+        let time_is_up = || self.inline_budget.is_some_and(|budget| began.elapsed() > budget);
         if self.driver.update(wall_seconds, time_is_up) {
             self.news += 1;
             self.pick_thrown();
@@ -473,14 +474,14 @@ impl Watching {
 
 fn driver(
     watched: Watched,
-    threaded: bool,
+    inline_budget: Option<Duration>,
     context: &egui::Context,
 ) -> Result<Driver, SessionError> {
     #[cfg(not(target_arch = "wasm32"))]
-    if threaded {
+    if inline_budget.is_none() {
         let context = context.clone();
         return Driver::threaded(watched, Box::new(move || context.request_repaint()));
     }
-    let _ = (threaded, context);
+    let _ = (inline_budget, context);
     Ok(Driver::inline(watched))
 }

@@ -1,5 +1,7 @@
 //! A window without a screen, for tests.
 
+use std::time::Duration;
+
 use carom_render::Quality;
 use carom_scene::{Budget, Library, Source};
 use carom_session::Command;
@@ -33,7 +35,8 @@ pub fn setup_for_pictures() -> Setup {
         start: None,
         host: Box::new(Desktop::default()),
         quality: Quality::GOOD,
-        threaded: false,
+        // However slow the machine is, a frame does all that is due.
+        inline_budget: Some(Duration::MAX),
         link_budget: Budget::LINK,
     }
 }

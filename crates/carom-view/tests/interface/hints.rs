@@ -1,5 +1,7 @@
 //! Hints over the picture: how to begin, the progress of a seek, where the balls are.
 
+use std::time::Duration;
+
 use carom_scene::Source;
 use carom_scene::scene::{Scene, Sphere};
 use carom_session::Command;
@@ -7,7 +9,9 @@ use carom_view::{Setup, Start};
 use egui::Key;
 use egui_kittest::kittest::Queryable;
 
-use crate::desk::{Desk, choosing, desk, go_to, press, scene, setup, watching, watching_at};
+use crate::desk::{
+    Desk, choosing, desk, go_to, press, scene, setup, watching, watching_at, watching_on,
+};
 
 const LEFT: &str = "All balls have left the picture.";
 
@@ -31,10 +35,17 @@ fn an_embedded_window_has_a_large_button_at_the_start_and_a_large_window_none_ov
     assert!(watching("simtest1").query_by_label("Play the scene").is_none());
 }
 
+/// A scene on the way to a time that it does not reach: a frame has no more time than for one piece of work.
+fn on_a_long_way() -> Desk {
+    let setup = Setup { inline_budget: Some(Duration::ZERO), ..setup() };
+    let mut desk = watching_on(setup, "tutorial4");
+    desk.state_mut().command(Command::Seek(1e5));
+    desk
+}
+
 #[test]
 fn escape_ends_the_way_to_another_time_where_it_has_come_to() {
-    let mut desk = watching("tutorial4");
-    desk.state_mut().command(Command::Seek(1e5));
+    let mut desk = on_a_long_way();
     desk.run_steps(2);
     assert!(scene(&desk).view().seeking.is_some());
     press(&mut desk, Key::Escape);
@@ -46,8 +57,7 @@ fn escape_ends_the_way_to_another_time_where_it_has_come_to() {
 
 #[test]
 fn the_way_says_how_far_it_is_and_stops_on_a_click() {
-    let mut desk = watching("tutorial4");
-    desk.state_mut().command(Command::Seek(1e5));
+    let mut desk = on_a_long_way();
     for _ in 0..1000 {
         desk.run_steps(1);
         if desk.query_by_label("Stop here").is_some() {
