@@ -4,7 +4,6 @@ use educe::Educe;
 use glam::DVec3;
 
 use super::contacts::Member;
-use super::contacts::contact_scale::RESOLVED_PATH;
 use super::events::{Event, NextEvents, PackedTarget, Prediction, Schedule, UpcomingEvent};
 use super::flights::{Component, Flights, JointStep, Species, StepLimits, Support, SupportChange};
 use super::neighbours::clearance::{Clearance, Obstacle};
@@ -480,16 +479,6 @@ impl Timeline {
         self.events += 1;
         self.cell_crossings += u64::from(matches!(next.1, UpcomingEvent::CellCrossing(_)));
         Some(next)
-    }
-
-    /// Whether the flight of a sphere that ends at `time` \[s\] is so short that the events at both its ends
-    /// do not count as separate.
-    #[inline]
-    pub(super) fn is_unresolved(&self, slot: u32, time: f64) -> bool {
-        let body = &self.flights.bodies[slot as usize];
-        let way_squared = (time - body.time) * (time - body.time) * body.velocity.length_squared();
-        let resolved = RESOLVED_PATH * self.flights.species_of(slot).radius;
-        way_squared < resolved * resolved
     }
 
     /// Number of flights that a sphere began in this frame, plus the work of its groups.
