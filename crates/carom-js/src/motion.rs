@@ -1,6 +1,7 @@
-//! Changes of the motion of single spheres.
+//! Changes of the motion of single spheres and colliders.
 
-use carom::DVec3;
+use carom::{DQuat, DVec3, Pose};
+use carom_scene::part::{self, only};
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::failure::Failure;
@@ -36,6 +37,31 @@ impl World {
         Ok(self.world.apply_impulse_at(sphere, impulse, point)?)
     }
 
+    /// Strikes a sphere with the cue that the only sphere of `text` is struck with.
+    ///
+    /// # Errors
+    /// [`Failure`] if the sphere is not in the world or the description is invalid.
+    pub fn strike(&mut self, id: f64, text: &str) -> Result<(), Failure> {
+        let (sphere, index) = find::sphere(&self.world, id)?;
+        let part = part::read(text)?;
+        // Making a world checks the numbers, with the fields in errors.
+        part.world()?;
+        let strike = only(&part.spheres)?.strike.as_ref();
+        let strike = strike.ok_or_else(|| Failure::new("strike: there is none"))?;
+        let radius = self.world.spheres().radii()[index];
+        Ok(self.world.strike(sphere, strike.on_radius(radius)).map(drop)?)
+    }
+
+    /// Applies a force \[N\] to each sphere, three numbers each in the order of the arrays; none removes these forces.
+    ///
+    /// # Errors
+    /// [`Failure`] as [`carom::World::set_applied_forces`].
+    #[wasm_bindgen(js_name = setAppliedForces)]
+    pub fn set_applied_forces(&mut self, forces: &[f64]) -> Result<(), Failure> {
+        let forces: Vec<DVec3> = forces.chunks_exact(3).map(DVec3::from_slice).collect();
+        Ok(self.world.set_applied_forces(&forces)?)
+    }
+
     /// Sets the velocity of a sphere \[m/s\].
     ///
     /// # Errors
@@ -54,5 +80,27 @@ impl World {
     pub fn set_angular_velocity(&mut self, id: f64, velocity: &[f64]) -> Result<(), Failure> {
         let (sphere, _) = find::sphere(&self.world, id)?;
         Ok(self.world.set_angular_velocity(sphere, DVec3::from_slice(velocity))?)
+    }
+
+    /// Sets the velocities of a collider so that it reaches a pose after `dt` \[s\]: a position \[m\] and a rotation
+    /// x, y, z, w; what is missing stays.
+    ///
+    /// # Errors
+    /// [`Failure`] as [`carom::World::set_next_pose`].
+    #[wasm_bindgen(js_name = setNextPose)]
+    pub fn set_next_pose(
+        &mut self,
+        id: f64,
+        position: Option<Vec<f64>>,
+        rotation: Option<Vec<f64>>,
+        dt: f64,
+    ) -> Result<(), Failure> {
+        let (collider, _) = find::collider(&self.world, id)?;
+        let now = self.world.collider(collider)?.pose;
+        let pose = Pose {
+            position: position.map_or(now.position, |it| DVec3::from_slice(&it)),
+            rotation: rotation.map_or(now.rotation, |it| DQuat::from_slice(&it)),
+        };
+        Ok(self.world.set_next_pose(collider, pose, dt)?)
     }
 }

@@ -18,6 +18,7 @@ use crate::arrays;
 use crate::engine::Engine;
 use crate::failure::Failure;
 use crate::inner::Inner;
+use crate::next_poses::{GivenPoses, NextPoses};
 use crate::part::{self, only};
 use crate::points;
 
@@ -206,6 +207,24 @@ impl Engine {
         })
     }
 
+    /// Sets the velocities of a collider so that a step of `dt` [s], or of the scene's own frame time, takes it to a
+    /// pose.
+    #[pyo3(name = "_set_next_pose")]
+    fn set_next_pose(
+        &self,
+        py: Python<'_>,
+        pose: GivenPoses<'_>,
+        dt: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<()> {
+        let pose = NextPoses::read(&pose, &[])?;
+        let dt = arguments::optional_number("dt", dt)?;
+        self.change(py, |inner| {
+            let dt = dt.unwrap_or(inner.described.simulation.frame_time);
+            let collider = pose.collider(&inner.world, 0, dt)?;
+            Ok(inner.world.set_collider(pose.id(), collider)?)
+        })
+    }
+
     /// Removes a collider.
     ///
     /// Raises:
@@ -249,6 +268,18 @@ impl Engine {
             let time = inner.world.time();
             inner.palette_mut().remove_emitter(place, time);
             inner.described_mut().emitters.remove(place);
+            Ok(())
+        })
+    }
+
+    /// Sets the pairs of materials, which are those of the world's scene, from `text`.
+    #[pyo3(name = "_set_material_pairs")]
+    fn set_material_pairs_of(&self, py: Python<'_>, text: &str) -> PyResult<()> {
+        let described = Arc::clone(&self.lock(py)?.described);
+        let (described, pairs) = part::material_pairs(text, &described)?;
+        self.change(py, |inner| {
+            inner.world.set_material_pairs(pairs)?;
+            inner.described_mut().material_pairs = described;
             Ok(())
         })
     }

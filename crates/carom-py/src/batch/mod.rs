@@ -8,7 +8,6 @@ mod arrays;
 mod colliders;
 mod measures;
 mod members;
-mod next_poses;
 mod observed;
 mod selection;
 mod stroke;
@@ -23,6 +22,7 @@ use pyo3::sync::MutexExt;
 
 use crate::arguments;
 use crate::failure::Failure;
+use crate::next_poses::{GivenPoses, NextPoses};
 use crate::properties::sphere_properties;
 use crate::quantity::Quantity;
 use crate::snapshot::Snapshot;
@@ -31,7 +31,6 @@ use crate::tables::Table;
 use crate::threads;
 use arrays::BatchArrays;
 use members::{Members, Progress};
-use next_poses::{GivenPoses, NextPoses};
 use observed::{Columns, Out};
 use selection::Given;
 
@@ -147,7 +146,7 @@ impl BatchEngine {
         threads: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let pool = threads::pool(threads::wanted(threads)?, count)?;
-        let starts = snapshots.iter().map(|snapshot| (**snapshot).clone()).collect();
+        let starts = snapshots.iter().map(|snapshot| snapshot.state().clone()).collect();
         let members = Members::new(starts, count, pool)?;
         Ok(Self(Mutex::new(Inner { members, arrays: BatchArrays::default() })))
     }
@@ -168,7 +167,7 @@ impl BatchEngine {
         let dt = arguments::optional_number("dt", dt)?;
         let frames = arguments::count("frames", frames)?;
         let worlds = self.selected(py, &worlds)?;
-        let poses = poses.map(|poses| NextPoses::read(&poses, worlds.len())).transpose()?;
+        let poses = poses.map(|poses| NextPoses::read(&poses, &[worlds.len()])).transpose()?;
         let mut guard = self.lock(py)?;
         let Inner { members, arrays } = &mut *guard;
         let columns =
@@ -210,26 +209,28 @@ impl BatchEngine {
     #[pyo3(name = "_snapshot")]
     fn snapshot(&self, py: Python<'_>, world: usize) -> PyResult<Snapshot> {
         let snapshot = self.lock(py)?.members.snapshot(world);
-        snapshot.ok_or_else(|| PyIndexError::new_err("world: out of range"))
+        let snapshot = snapshot.ok_or_else(|| PyIndexError::new_err("world: out of range"))?;
+        Ok(snapshot.into())
     }
 
     /// Sets both the state and the start state of a world.
     #[pyo3(name = "_restore")]
     fn restore(&self, py: Python<'_>, world: usize, snapshot: &Snapshot) -> PyResult<()> {
-        self.change(py, |members| members.restore(world, snapshot))
+        self.change(py, |members| members.restore(world, &snapshot.state()))
     }
 
     /// Returns the start states without repetition, and for each world the index of its start
     /// state.
     #[pyo3(name = "_starts")]
     fn starts(&self, py: Python<'_>) -> PyResult<(Vec<Snapshot>, Vec<usize>)> {
-        Ok(self.lock(py)?.members.starts())
+        let (starts, numbers) = self.lock(py)?.members.starts();
+        Ok((starts.into_iter().map(Snapshot::from).collect(), numbers))
     }
 
     /// Sets the state of a world, but keeps its start state.
     #[pyo3(name = "_go_on_from")]
     fn go_on_from(&self, py: Python<'_>, world: usize, snapshot: &Snapshot) -> PyResult<()> {
-        self.change(py, |members| members.go_on_from(world, snapshot))
+        self.change(py, |members| members.go_on_from(world, &snapshot.state()))
     }
 
     /// Returns the number of worlds.
