@@ -35,7 +35,7 @@ pub(crate) enum Profile {
     },
     /// An arc of half a circle at most, or a whole one.
     Arc {
-        /// On the axis, unless the circle is a whole one.
+        /// Centre of the arc, on the axis unless the circle is a whole one.
         center: DVec2,
         /// Radius \[m\].
         radius: f64,
@@ -67,7 +67,7 @@ struct ProfilePoint {
 /// Distance of a band from a point, with its derivatives.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct View {
-    /// From the surface \[m\]; of the face it is negative behind it.
+    /// Distance from the surface \[m\]; negative behind the face.
     pub distance: f64,
     /// Unit vector in which that grows fastest.
     pub normal: DVec3,
@@ -284,7 +284,7 @@ impl Profile {
         if face.room >= 0.0 { face } else { self.foot_on_rim(point, &face) }
     }
 
-    /// As if the nearest place were on the face.
+    /// Returns the foot of a point as if the nearest place were on the face.
     fn foot_on_face(&self, point: DVec2) -> ProfilePoint {
         match *self {
             Self::Line { from, direction, length, thickness } => {
@@ -328,7 +328,7 @@ impl Profile {
         }
     }
 
-    /// As if the nearest place were on the nearer end.
+    /// Returns the foot of a point as if the nearest place were on the nearer end.
     fn foot_on_rim(&self, point: DVec2, face: &ProfilePoint) -> ProfilePoint {
         let [first, second] = self.ends().map(|end| point - end);
         let [near, far] = [first.dot(first), second.dot(second)];
@@ -349,7 +349,7 @@ impl Profile {
         }
     }
 
-    /// Both ends \[m\].
+    /// Returns both ends of the profile \[m\].
     pub fn ends(&self) -> [DVec2; 2] {
         match *self {
             Self::Line { from, direction, length, .. } => [from, from + length * direction],

@@ -143,7 +143,7 @@ pub(crate) struct EmitterState {
     pub start: f64,
     /// Number of spheres emitted or left out so far.
     pub emitted: u64,
-    /// Its spheres that may still be alive, oldest first; empty without `max_spheres`.
+    /// Spheres of the emitter that may still be alive, oldest first; empty without `max_spheres`.
     pub ring: VecDeque<SphereId>,
 }
 
@@ -203,7 +203,7 @@ pub(crate) struct Emission {
     pub emitted: Vec<SphereId>,
     /// When each was due \[s\].
     pub due: Vec<f64>,
-    /// In the order of leaving.
+    /// Spheres that left, in the order of leaving.
     pub retired: Vec<SphereId>,
     /// Ids of spheres that were left out, ascending.
     pub left_out: Vec<SphereId>,

@@ -1,9 +1,9 @@
 /// A stretch of time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Interval {
-    /// Its beginning, on the world's clock \[s\].
+    /// Beginning of the interval, on the world's clock \[s\].
     pub time: f64,
-    /// Its length \[s\].
+    /// Length of the interval \[s\].
     pub h: f64,
 }
 

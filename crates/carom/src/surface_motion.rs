@@ -24,7 +24,7 @@ pub(crate) struct SurfaceMotion {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Drive {
-    /// Of the origin \[m/s²\].
+    /// Acceleration of the origin \[m/s²\].
     pub acceleration: DVec3,
     /// Angular acceleration \[rad/s²\].
     pub angular_acceleration: DVec3,
@@ -37,7 +37,7 @@ pub(crate) struct Drive {
 }
 
 impl SurfaceMotion {
-    /// Of a surface at rest.
+    /// Motion of a surface at rest.
     pub const REST: Self = Self {
         origin: DVec3::ZERO,
         velocity: DVec3::ZERO,

@@ -20,7 +20,7 @@ const CLOSED: f64 = 1e-12;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Keyframe {
-    /// On the world's clock \[s\].
+    /// Time on the world's clock \[s\].
     pub time: f64,
     /// Displacement from the position at rest \[m\].
     pub position: DVec3,
@@ -92,9 +92,9 @@ pub(super) struct Piece {
 
 /// Where a motion by keyframes is at a time.
 pub(super) enum Place<'a> {
-    /// At the first or the last keyframe, for good.
+    /// The motion rests at the first or the last keyframe, for good.
     Rests(&'a Keyframe),
-    /// On a piece, at a part of it.
+    /// The motion is on a piece, at a part of it.
     Moves(&'a Piece, f64),
 }
 

@@ -22,11 +22,11 @@ const MOST_STEPS: u32 = 4096;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Feature<'a> {
     pub form: &'a Form,
-    /// From where paths count \[m\].
+    /// Place from which paths count \[m\].
     pub origin: DVec3,
     /// Radius \[m\].
     pub radius: f64,
-    /// Of the numbers that paths and feature are given by.
+    /// Magnitudes of the numbers that define paths and feature.
     pub size: Magnitudes,
 }
 

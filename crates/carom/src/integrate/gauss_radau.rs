@@ -89,7 +89,7 @@ pub(crate) struct Start<'a> {
     pub velocities: &'a [DVec3],
     /// Parts of both below their rounding.
     pub carried: &'a [[DVec3; 2]],
-    /// On the world's clock \[s\].
+    /// Start of the step, on the world's clock \[s\].
     pub time: f64,
     /// When the step has to end at the latest \[s\].
     pub until: f64,
@@ -104,7 +104,7 @@ pub(crate) struct Start<'a> {
 pub(crate) struct Step {
     /// When it ends, on the world's clock \[s\].
     pub end: f64,
-    /// Of each sphere.
+    /// Acceleration of each sphere.
     pub accelerations: Vec<PolynomialAcceleration>,
     pub pace: Pace,
     /// Whether its error is small; else no shorter step was allowed.
@@ -127,7 +127,7 @@ pub(crate) struct Values {
 }
 
 impl Values {
-    /// Of so many spheres.
+    /// Creates zero values for `count` spheres.
     pub fn of(count: usize) -> Self {
         Self { accelerations: vec![DVec3::ZERO; count], sizes: vec![0.0; count] }
     }
@@ -183,7 +183,8 @@ impl Values {
     }
 }
 
-/// By which factor a step with this error may be longer: the error grows with the seventh power of its length.
+/// Returns the factor by which a step with this error may be longer: the error grows with the
+/// seventh power of its length.
 fn growth(error: f64) -> f64 {
     if error == 0.0 {
         return MOST_GROWTH;
@@ -199,7 +200,7 @@ struct Attempt<'a> {
     first: &'a Values,
     /// \[s\]
     length: f64,
-    /// Of each sphere: the acceleration as a sum of products of nodes \[m/s²\].
+    /// Acceleration of each sphere as a sum of products of nodes \[m/s²\].
     newton: Vec<[DVec3; TERMS]>,
     /// The same as a sum of powers \[m/s²\].
     powers: Vec<[DVec3; TERMS]>,
@@ -229,7 +230,7 @@ impl<'a> Attempt<'a> {
         Self { start, first, length, newton, powers, sizes: first.sizes.clone() }
     }
 
-    /// Finds the accelerations at the nodes by iteration; tells whether it converges.
+    /// Finds the accelerations at the nodes by iteration; returns whether it converges.
     fn iterate(&mut self, field: &mut impl Field) -> bool {
         let count = self.powers.len();
         let (mut positions, mut velocities) = (vec![DVec3::ZERO; count], vec![DVec3::ZERO; count]);
@@ -274,7 +275,8 @@ impl<'a> Attempt<'a> {
         }
     }
 
-    /// Takes in the accelerations at a node; tells by what part that changes the term of this node, if it is the last.
+    /// Adds the accelerations at a node; returns by what part that changes the term of this node,
+    /// if it is the last.
     fn take_in(&mut self, node: usize, values: &Values) -> f64 {
         let is_last = node == TERMS - 1;
         let mut most = 0.0f64;

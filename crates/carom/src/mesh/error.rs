@@ -12,7 +12,7 @@ pub enum MeshError {
     VertexNotFinite {
         /// Index of the vertex.
         vertex: usize,
-        /// Its coordinates.
+        /// Coordinates of the vertex.
         position: DVec3,
     },
     /// A triangle names a vertex that does not exist.

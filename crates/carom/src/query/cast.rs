@@ -31,7 +31,7 @@ pub(super) struct Sweep {
     way: DVec3,
     /// One over the way along each axis \[1/m\].
     inverse: DVec3,
-    /// By how much bounds are widened \[m\].
+    /// Distance by which bounds are widened \[m\].
     margin: f64,
 }
 

@@ -23,7 +23,7 @@ const MAX_LAYERS: usize = 8;
 
 /// The answer to one layer of restitution.
 struct Layer {
-    /// Its thickness. Those of all layers add up to 1.
+    /// Thickness of the layer. Those of all layers add up to 1.
     weight: f64,
     answer: Answer,
 }

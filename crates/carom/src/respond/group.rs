@@ -79,7 +79,7 @@ impl<'a> Group<'a> {
         self.links[contact].rate(velocities)
     }
 
-    /// Whether a contact closes faster than rounding can tell.
+    /// Returns whether a contact closes faster than rounding can explain.
     pub fn is_closing(&self, contact: usize, velocities: &[DVec3]) -> bool {
         let link = &self.links[contact];
         let bodies = link.first.into_iter().chain([link.second]);
@@ -140,7 +140,7 @@ impl Motion {
 }
 
 impl Answer {
-    /// That nothing happens.
+    /// Returns the answer in which nothing changes.
     pub fn unchanged(group: &Group, velocities: &[DVec3]) -> Self {
         let impulses = vec![0.0; group.links.len()];
         let motion = Motion { velocities: velocities.to_vec(), impulses };

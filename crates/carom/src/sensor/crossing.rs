@@ -30,7 +30,7 @@ const MOST_PASSES: u32 = 16;
 pub(super) struct Target {
     pub collider: ColliderId,
     pub surface: u32,
-    /// From the surface to its image \[m\].
+    /// Shift from the surface to its image \[m\].
     shift: DVec3,
 }
 

@@ -47,7 +47,7 @@ pub struct BlockContact {
     /// Slip at which friction ends \[m/s\].
     slip: DVec3,
     friction: f64,
-    /// On body 2, along the axes \[N s\].
+    /// Impulses on body 2, along the axes \[N s\].
     impulses: [f64; 3],
 }
 
@@ -61,7 +61,7 @@ enum State {
 }
 
 impl BlockContact {
-    /// A contact of two bodies, without impulses.
+    /// Creates the contact of two bodies, with zero impulses.
     pub fn new(spheres: [Option<usize>; 2], normal: DVec3) -> Self {
         let across = normal.any_orthonormal_vector();
         Self {

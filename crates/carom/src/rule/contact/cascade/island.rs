@@ -24,7 +24,7 @@ pub struct Island {
 
 /// Gathers the islands of a sub-step.
 pub struct Gathering {
-    /// By slot.
+    /// What the search found of each sphere, by slot.
     seen: Vec<Seen>,
 }
 
@@ -34,7 +34,7 @@ enum Seen {
     Never,
     /// The sphere is in an island.
     Taken,
-    /// Its island is too large.
+    /// The island of the sphere is too large.
     TooLarge,
 }
 

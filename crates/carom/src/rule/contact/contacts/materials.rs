@@ -35,9 +35,9 @@ impl ContactMaterial {
 #[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Materials {
-    /// By index; empty where there are too many.
+    /// Material of each sphere, by index; empty where there are too many.
     material_of: Vec<u8>,
-    /// By the material of the first, then of the second.
+    /// Coefficients of pairs, by the material of the first, then of the second.
     table: Vec<ContactMaterial>,
     count: usize,
 }

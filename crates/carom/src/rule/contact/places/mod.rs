@@ -55,7 +55,7 @@ pub(crate) struct Places {
     own: usize,
     /// The numbers of moving surfaces that deflect spheres.
     moving: Vec<u32>,
-    /// Those of them that are known, by number.
+    /// Surfaces of them that are known, by number.
     #[cfg_attr(feature = "serde", serde(skip))]
     known: Vec<MovingPlace>,
     /// When the places at the start of the sub-step are computed, in the frame \[s\]: as at the end of the sub-step
@@ -73,7 +73,7 @@ pub(crate) struct Places {
     turning_rate: f64,
     /// The images that spheres may touch.
     images: Vec<(ImageKey, DVec3)>,
-    /// Their numbers.
+    /// Number of each image.
     number_of: BTreeMap<ImageKey, u32>,
     /// Largest distance from the box of known images \[m\].
     image_reach: f64,

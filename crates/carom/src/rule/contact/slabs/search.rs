@@ -60,7 +60,7 @@ pub(crate) struct Search {
     grid: Grid,
     /// Where each cell begins among the slots.
     starts: Vec<u32>,
-    /// By slot, how far each sphere may go \[m\].
+    /// Margin of each sphere \[m\], by slot.
     margins: Vec<f64>,
     /// The former slot of each sphere, in the new order.
     from: Vec<u32>,

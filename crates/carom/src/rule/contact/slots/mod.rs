@@ -40,7 +40,7 @@ pub(crate) struct Slots {
     pub turn: Vec<Row>,
     /// Centre at the last search for neighbours \[m\], and how far the sphere may go from there \[m\].
     pub reference: Vec<Row>,
-    /// Which spheres sleep.
+    /// Whether each sphere sleeps.
     pub sleeps: Vec<bool>,
     /// How long each sphere has been calm, in units of sqrt(r / a).
     pub calm: Vec<f64>,

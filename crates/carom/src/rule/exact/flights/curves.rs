@@ -43,13 +43,14 @@ impl StepLimits {
 /// Steps of the spheres of a component whose forces are not held.
 #[derive(Default)]
 pub(crate) struct JointStep {
-    /// Of each sphere, by slot.
+    /// Curve of each sphere, by slot.
     pub curves: Vec<(u32, Curve)>,
     /// How often the forces on a sphere were evaluated.
     pub evaluations: u64,
     /// Angular accelerations of the spheres on which friction has a torque, by slot \[rad/s²\].
     pub turning: Vec<(u32, PolynomialAcceleration)>,
-    /// By cluster, when one of its persistent contacts opens, on the world's clock \[s\]; infinite if none does.
+    /// Time at which a persistent contact of each cluster opens, on the world's clock \[s\];
+    /// infinite if none does.
     pub releases: Vec<f64>,
     /// Whether its error is small.
     pub is_accurate: bool,

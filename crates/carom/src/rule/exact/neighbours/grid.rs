@@ -28,13 +28,14 @@ pub(super) struct Grid {
     origin: DVec3,
     /// Edges of a cell \[m\].
     width: DVec3,
-    /// Their inverses \[1/m\].
+    /// Inverse widths of the cells \[1/m\].
     per_metre: DVec3,
     counts: [u16; 3],
     periodic: [bool; 3],
-    /// From the number of a cell, ghosts counted, to that of the next one along each axis.
+    /// Difference between the numbers of a cell and of the next one along each axis, ghosts
+    /// counted.
     strides: [usize; 3],
-    /// By axis and coordinate: a cell and those next to it.
+    /// A cell and those next to it, by axis and coordinate.
     runs: [Vec<[Run; 3]>; 3],
 }
 

@@ -37,12 +37,12 @@ const MOST_TICK_HALVINGS: u32 = 6;
 #[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Zone {
-    /// Their places in the arrays of the world, ascending.
+    /// Places of the spheres in the arrays of the world, ascending.
     pub index: Vec<u32>,
     properties: Properties,
     /// The states of the spheres at the next tick.
     motion: Motion,
-    /// Their velocities at the last tick \[m/s\].
+    /// Velocities of the spheres at the last tick \[m/s\].
     velocity_before: Vec<DVec3>,
     /// Ticks since each sphere last had a pressing contact.
     free_ticks: Vec<u32>,
@@ -73,7 +73,7 @@ struct Waiting {
     sphere: SphereId,
     /// When it joined, on the world's clock \[s\].
     since: f64,
-    /// Its velocity then and at the tick \[m/s\].
+    /// Velocity of the sphere then and at the tick \[m/s\].
     velocities: [DVec3; 2],
 }
 
