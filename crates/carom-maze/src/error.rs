@@ -95,7 +95,7 @@ pub enum GameError {
         value: f64,
     },
     /// The progress does not belong to a game in this maze.
-    #[error("this is no game in this maze: {problem}")]
+    #[error("the progress does not fit this maze: {problem}")]
     Progress {
         /// The contradiction.
         problem: &'static str,

@@ -154,7 +154,7 @@ impl State {
         springs.retain(|spring| spring.spheres().all(|id| spheres.index_of(id).is_some()));
     }
 
-    /// Refuses forces that make no sense in what is around the spheres.
+    /// Refuses forces that are invalid in the boundary of the world.
     pub fn check_boundary(settings: &Settings, force: &dyn Force) -> Result<(), InvalidValue> {
         let suits = force.interaction().is_none_or(|it| it.suits_periodic_box());
         let requirement =

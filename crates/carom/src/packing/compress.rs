@@ -101,7 +101,7 @@ pub struct Compressed {
 /// Velocities are scaled back to the initial kinetic energy whenever it has doubled. Growth is zero at the end.
 ///
 /// # Errors
-/// Those of [`World::step`]; [`Error::Invalid`] for numbers that make no sense, for spheres that are at rest or denser
+/// Those of [`World::step`]; [`Error::Invalid`] for invalid numbers, for spheres that are at rest or denser
 /// than they are to become, or where the volume is not known.
 pub fn compress(world: &mut World, compression: &Compression) -> Result<Compressed, Error> {
     let about_settings = |invalid: InvalidValue| invalid.about(Subject::Settings);

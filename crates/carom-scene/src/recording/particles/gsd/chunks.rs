@@ -99,7 +99,7 @@ impl Chunks {
                 && usize::from(entry.name) < self.names.len()
                 && entry.flags == 0;
             if !is_right {
-                return Err(format!("entry {number} of its index makes no sense").into());
+                return Err(format!("entry {number} of its index is invalid").into());
             }
             self.index.insert((entry.frame, entry.name), entry);
         }
