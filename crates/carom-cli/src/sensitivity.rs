@@ -74,7 +74,12 @@ fn directions_of(world: &World, name: &str) -> Result<Vec<(String, Variation)>, 
             let subject = member(world, name, kind, parts.next())?;
             (subject, parts.next().unwrap_or_default())
         }
-        _ => return Err(unknown(name, "it names neither a sphere, nor a collider, nor the acceleration")),
+        _ => {
+            return Err(unknown(
+                name,
+                "it names neither a sphere, nor a collider, nor the acceleration",
+            ));
+        }
     };
     let component = parts.next();
     if parts.next().is_some() {

@@ -16,7 +16,9 @@ pub enum MeshError {
         position: DVec3,
     },
     /// A triangle names a vertex that does not exist.
-    #[error("triangle {triangle} of the mesh names vertex {vertex}, but there are only {count}, counted from 0")]
+    #[error(
+        "triangle {triangle} of the mesh names vertex {vertex}, but there are only {count}, counted from 0"
+    )]
     UnknownVertex {
         /// Index of the triangle.
         triangle: usize,
