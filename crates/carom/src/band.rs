@@ -199,7 +199,8 @@ impl Band {
         Some(Self { center, profile, is_open: false, ..*self })
     }
 
-    /// Where a point \[m\] is that goes along from another place of the band to this one, by the shortest turn.
+    /// Returns where a point \[m\] is that moves with the band from another place of it to this
+    /// one, by the shortest turn.
     pub fn carried_from(&self, before: &Self, point: DVec3) -> DVec3 {
         let offset = point - before.center;
         let turn = before.axis.cross(self.axis);
@@ -358,8 +359,8 @@ impl Profile {
     }
 }
 
-/// How far a point at an offset from the centre of an arc may go with the arc nearest \[m\]; negative where an end
-/// is.
+/// Returns how far a point at an offset from the centre of an arc is within the sector in which the
+/// arc is nearest \[m\]; negative where an end is nearer.
 fn room_on_arc(ends: [DVec2; 2], offset: DVec2) -> f64 {
     if ends[0] == ends[1] {
         return f64::INFINITY;

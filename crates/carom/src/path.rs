@@ -78,7 +78,7 @@ impl PredictedPath {
         Some(self.state_at(time)?.1)
     }
 
-    /// When the path ends, on the world's clock \[s\].
+    /// Returns the time at which the path ends, on the world's clock \[s\].
     pub fn end_time(&self) -> f64 {
         self.legs.last().map_or(f64::NEG_INFINITY, |leg| leg.end)
     }

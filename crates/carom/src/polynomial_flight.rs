@@ -114,7 +114,7 @@ impl PolynomialAcceleration {
         self.length * self.length * way
     }
 
-    /// The same from a time \[s\] within its length on.
+    /// Returns the rest of the flight from a time \[s\] within its length on.
     pub fn from(&self, time: f64) -> Self {
         let length = self.length - time;
         let rest = shifted(self.coefficients, time / self.length);

@@ -228,7 +228,7 @@ impl Form {
         }
     }
 
-    /// The same form carried along.
+    /// Returns the form moved by a placement.
     pub fn placed(&self, placement: &Placement) -> Self {
         let place = |point: DVec3| placement.point(point);
         let turn = |direction: DVec3| placement.direction(direction);
@@ -252,7 +252,7 @@ impl Form {
         }
     }
 
-    /// The same form elsewhere by this way \[m\].
+    /// Returns the form shifted by a way \[m\].
     pub fn shifted(&self, way: DVec3) -> Self {
         let placement = Placement { rotation: DQuat::IDENTITY, from: DVec3::ZERO, to: way };
         match *self {

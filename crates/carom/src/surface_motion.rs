@@ -85,7 +85,7 @@ impl SurfaceMotion {
         Pose::at(DVec3::ZERO).moved(DVec3::ZERO, self.angular_velocity, h).rotation * direction
     }
 
-    /// Where a point \[m\] that moves along is after `h` \[s\].
+    /// Returns where a point \[m\] that moves with the surface is after `h` \[s\].
     pub fn carried(&self, point: DVec3, h: f64) -> DVec3 {
         if !self.turns() {
             return point + h * self.velocity;
@@ -93,7 +93,7 @@ impl SurfaceMotion {
         self.origin + h * self.velocity + self.turned(point - self.origin, h)
     }
 
-    /// Where a point \[m\] was that has moved along for `h` \[s\].
+    /// Returns where a point \[m\] was that has moved with the surface for `h` \[s\].
     pub fn carried_back(&self, point: DVec3, h: f64) -> DVec3 {
         if !self.turns() {
             return point - h * self.velocity;

@@ -64,12 +64,12 @@ impl Band {
         self.section(point, side, |profile, place| profile.foot(place))
     }
 
-    /// The same for a point that is over the face of the section, though a rim may be nearest.
+    /// Returns the view of a point over the face of the section, though a rim may be nearer.
     pub fn side_face_seen_from(&self, point: DVec3, side: DVec3) -> View {
         self.section(point, side, Profile::foot_on_face)
     }
 
-    /// The same for a point that is over a rim of the section, though the face may be nearest.
+    /// Returns the view of a point over a rim of the section, though the face may be nearer.
     pub fn side_rim_seen_from(&self, point: DVec3, side: DVec3) -> View {
         let on_rim = |profile: &Profile, place| {
             let face = profile.foot_on_face(place);

@@ -34,7 +34,7 @@ impl Keyframe {
         Self { time, position, rotation: DQuat::IDENTITY }
     }
 
-    /// The same with a rotation.
+    /// Returns the keyframe with a rotation.
     pub fn rotated(self, rotation: DQuat) -> Self {
         Self { rotation, ..self }
     }
@@ -117,12 +117,13 @@ impl Keyframes {
         Given { keyframes, pivot: DVec3::ZERO, repeats: false }.into()
     }
 
-    /// The same motion, repeated before and after. The last keyframe has to have the pose of the first.
+    /// Returns the motion repeated before and after. The last keyframe must have the pose of the
+    /// first.
     pub fn repeating(self) -> Self {
         Given { repeats: true, ..self.given }.into()
     }
 
-    /// The same motion with rotations about a point, relative to the position at rest \[m\].
+    /// Returns the motion with rotations about a point, relative to the position at rest \[m\].
     pub fn about(self, pivot: DVec3) -> Self {
         Self { given: Given { pivot, ..self.given }, ..self }
     }

@@ -81,7 +81,8 @@ impl Feature<'_> {
         }
     }
 
-    /// How far a centre \[m\] is at least from where the feature is the nearest.
+    /// Returns a lower bound of the distance of a centre \[m\] from where the feature is the
+    /// nearest.
     fn beside(&self, center: DVec3) -> f64 {
         match self.form {
             Form::Facet(facet) => facet.distance_beside(center),

@@ -66,7 +66,7 @@ impl Obstacle {
         *self.radius_mut()
     }
 
-    /// The same for a radius that is larger \[m\].
+    /// Returns the distance for a radius that is larger by an amount \[m\].
     pub fn widened(mut self, by: f64) -> Self {
         *self.radius_mut() += by;
         self

@@ -70,7 +70,7 @@ impl Track {
         }
     }
 
-    /// Where its flight began \[m\], and the same track from the origin.
+    /// Returns where the flight began \[m\], and the track moved to the origin.
     fn at_origin(&self) -> (DVec3, Self) {
         let mut track = self.clone();
         let position = match &mut track {

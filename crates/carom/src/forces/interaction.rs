@@ -90,7 +90,7 @@ pub struct SphereStates<'a> {
 }
 
 impl SphereStates<'_> {
-    /// How many there are.
+    /// Returns the number of spheres.
     pub fn len(&self) -> usize {
         self.ids.len()
     }

@@ -258,7 +258,7 @@ impl<'a> Attempt<'a> {
         change_before <= DIVERGED
     }
 
-    /// Where the spheres are at a part of the step, and how they move there.
+    /// Computes the positions and velocities of the spheres at a part of the step.
     fn states_at(&self, s: f64, gains: &Gains, [positions, velocities]: [&mut [DVec3]; 2]) {
         let t = s * self.length;
         for (sphere, powers) in self.powers.iter().enumerate() {

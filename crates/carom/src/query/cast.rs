@@ -41,7 +41,7 @@ impl Sweep {
         Self { start, radius, way, inverse: way.recip(), margin: radius + SLACK * size }
     }
 
-    /// The same sweep relative to a place \[m\].
+    /// Returns the sweep relative to a place \[m\].
     pub fn seen_from(self, place: DVec3) -> Self {
         Self { start: self.start - place, ..self }
     }

@@ -338,7 +338,7 @@ impl Solver {
         }
     }
 
-    /// What impulses along the direction do to bodies and rates.
+    /// Computes how impulses along the direction change bodies and rates.
     fn apply(&mut self, problem: &Problem) {
         self.push_along_direction(problem);
         for (i, link) in problem.links.iter().enumerate() {

@@ -152,7 +152,7 @@ fn reflect_once(
     outcome
 }
 
-/// One reflection of a group in which not all contacts are elastic.
+/// Reflects a group once in which not all contacts are elastic.
 fn restitute_once(
     group: &Group,
     closing: &[bool],

@@ -153,7 +153,7 @@ pub(super) fn speed_scale(velocities: impl Iterator<Item = DVec3>) -> f64 {
     velocities.map(|velocity| velocity.abs().max_element()).fold(1.0, f64::max)
 }
 
-/// What can be distinguished from zero where speeds are of this scale.
+/// Returns the speeds that cannot be distinguished from zero at this scale of speeds.
 pub(super) fn tolerance(speed: f64) -> Tolerance {
     Tolerance { scale: speed, fine: FINE * speed, coarse: COARSE * speed }
 }

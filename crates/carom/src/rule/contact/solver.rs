@@ -120,7 +120,7 @@ impl Solver {
         self.is_changed = true;
     }
 
-    /// How many spheres sleep.
+    /// Returns the number of spheres that sleep.
     pub fn asleep(&self) -> u32 {
         self.slots.asleep() as u32
     }

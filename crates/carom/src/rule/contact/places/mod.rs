@@ -231,7 +231,7 @@ impl Places {
         self.image(number).0
     }
 
-    /// How many there are, with images.
+    /// Returns the number of surfaces, images included.
     pub fn len(&self) -> usize {
         self.own + self.images.len()
     }
@@ -269,7 +269,7 @@ impl Places {
         }
     }
 
-    /// How fast the fastest of them turns \[rad/s\].
+    /// Returns the fastest turning rate of the surfaces \[rad/s\].
     pub fn turning_rate(&self) -> f64 {
         self.turning_rate
     }
@@ -327,7 +327,7 @@ fn place_images(surfaces: &[Surface], images: &[(ImageKey, DVec3)], places: &mut
     }));
 }
 
-/// How fast a surface changes by turning, or how fast its motion does \[rad/s\].
+/// Returns how fast a surface changes by turning, or how fast its motion does \[rad/s\].
 pub(crate) fn turning_rate(form: &Form, motion: &SurfaceMotion) -> f64 {
     if let Some(drive) = motion.drive {
         return drive.rate;

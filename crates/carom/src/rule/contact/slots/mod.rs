@@ -73,7 +73,7 @@ impl Slots {
         self.id.len()
     }
 
-    /// How many spheres sleep.
+    /// Returns the number of spheres that sleep.
     pub fn asleep(&self) -> usize {
         self.sleeps.iter().filter(|sleeps| **sleeps).count()
     }

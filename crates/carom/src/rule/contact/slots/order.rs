@@ -63,7 +63,7 @@ impl Grid {
         self.width
     }
 
-    /// How many cells there are.
+    /// Returns the number of cells.
     pub fn len(&self) -> usize {
         self.cells.iter().product()
     }
