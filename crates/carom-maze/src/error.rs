@@ -27,7 +27,7 @@ pub enum MazeError {
     OneBall {
         /// Name of the scene.
         scene: String,
-        /// Spheres in it; generators and emitters count too.
+        /// Number of spheres in the scene; generators and emitters count too.
         count: usize,
     },
     /// The maze has no end wall.

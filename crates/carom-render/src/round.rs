@@ -22,7 +22,7 @@ pub(crate) struct Facet {
 }
 
 impl Facet {
-    /// Returns whether a point is in front of it.
+    /// Returns whether a point is in front of the surface.
     pub fn faces(&self, point: DVec3) -> bool {
         (self.pose.rotation * DVec3::Y).dot(point - self.pose.position) > 0.0
     }

@@ -218,7 +218,7 @@ impl Band {
         self.center.norm() + self.profile.size()
     }
 
-    /// Distance from its centre of all of it \[m\], or more than that.
+    /// Returns a bound of the distance of the band's points from its centre \[m\].
     pub fn reach(&self) -> f64 {
         self.profile.size()
     }

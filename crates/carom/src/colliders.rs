@@ -104,7 +104,7 @@ impl Colliders {
         removed
     }
 
-    /// Whether any of them moves.
+    /// Returns whether any collider moves.
     pub fn any_moving(&self) -> bool {
         self.list.iter().any(|(_, collider)| collider.moves())
     }

@@ -8,7 +8,7 @@ pub(crate) struct Interval {
 }
 
 impl Interval {
-    /// The rest after a part \[s\] of it.
+    /// Returns the rest of the interval after a part \[s\] of it.
     pub fn after(self, elapsed: f64) -> Self {
         Self { time: self.time + elapsed, h: self.h - elapsed }
     }

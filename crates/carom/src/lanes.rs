@@ -71,7 +71,7 @@ impl<S: Simd> Lanes<S> {
         Self(self.0.rotate_elements_left::<BY>())
     }
 
-    /// The largest of them, none of which is NaN, and at least 0.
+    /// Returns the largest lane, at least 0; no lane is NaN.
     #[inline(always)]
     pub fn largest(self) -> f64 {
         self.to_array().into_iter().fold(0.0, Real::max)

@@ -94,7 +94,7 @@ impl PolynomialAcceleration {
         (place + (t * velocity + t * t * way), velocity + t * change)
     }
 
-    /// Bounds of it along each axis over all its time \[m/s²\].
+    /// Returns the bounds of the acceleration along each axis over the whole flight \[m/s²\].
     pub fn bounds(&self) -> [DVec3; 2] {
         let [first, rest @ ..] = &self.coefficients;
         let spread: DVec3 = rest.iter().map(|c| c.abs()).sum();

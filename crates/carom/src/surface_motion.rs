@@ -52,7 +52,7 @@ impl SurfaceMotion {
         is_slow && self.drive.is_none()
     }
 
-    /// Velocity \[m/s\] of the surface at a point of it.
+    /// Returns the velocity \[m/s\] of the surface at one of its points.
     pub fn velocity_at(&self, point: DVec3) -> DVec3 {
         self.velocity + self.angular_velocity.cross(point - self.origin)
     }
@@ -62,7 +62,7 @@ impl SurfaceMotion {
         self.belt - self.belt.dot(normal) * normal
     }
 
-    /// Whether directions change with it.
+    /// Returns whether the motion turns directions.
     pub fn turns(&self) -> bool {
         self.angular_velocity != DVec3::ZERO || self.drive.is_some_and(|it| it.turns)
     }

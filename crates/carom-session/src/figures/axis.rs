@@ -5,7 +5,7 @@
 pub struct Marks {
     /// The numbers, ascending.
     pub values: Vec<f64>,
-    /// Distance between two of them.
+    /// Distance between two marks.
     pub step: f64,
 }
 

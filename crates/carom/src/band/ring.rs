@@ -46,7 +46,7 @@ impl View {
 }
 
 impl Band {
-    /// Whether a point \[m\] is on the axis, and a ring is nearest to it.
+    /// Returns whether a point \[m\] is on the axis, and a whole ring is nearest to it.
     pub fn has_ring_about(&self, point: DVec3) -> bool {
         let [place, _] = self.place_of(point);
         let is_on_axis = place.x <= self.profile.axis_reach();

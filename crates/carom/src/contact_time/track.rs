@@ -81,7 +81,7 @@ impl Track {
         (start, track)
     }
 
-    /// Moves all of it \[m\].
+    /// Returns the track moved by a way \[m\].
     pub fn shifted(mut self, by: DVec3) -> Self {
         match &mut self {
             Self::Flight(flight) => flight.position += by,

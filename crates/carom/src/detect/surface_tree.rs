@@ -94,7 +94,7 @@ impl SurfaceTree {
         tree
     }
 
-    /// A tree that finds all of these surfaces everywhere.
+    /// Returns a tree that finds all surfaces everywhere.
     #[cfg(test)]
     pub fn everywhere(numbers: impl IntoIterator<Item = u32>) -> Self {
         Self { unbounded: numbers.into_iter().collect(), ..Self::default() }

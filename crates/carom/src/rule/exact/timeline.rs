@@ -97,7 +97,7 @@ impl Timeline {
         !(is_free && self.flights.are_curved())
     }
 
-    /// Returns when neighbours end to be valid, as radii grow or images slide, on the world's clock \[s\].
+    /// Returns when neighbours stop being valid, as radii grow or images slide, on the world's clock \[s\].
     pub(super) fn room_until(&self) -> f64 {
         self.neighbours_until
     }

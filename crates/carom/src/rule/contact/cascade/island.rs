@@ -90,7 +90,7 @@ impl Gathering {
 #[derive(Debug, Default)]
 struct Growing {
     island: Island,
-    /// The largest speed in it \[m/s\].
+    /// Largest speed in the island \[m/s\].
     speed: f64,
     is_whole: bool,
 }

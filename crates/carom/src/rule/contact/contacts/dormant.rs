@@ -40,7 +40,7 @@ impl Dormant {
         }
     }
 
-    /// Whether one of the spheres that slept in it is awake.
+    /// Returns whether one of the spheres that slept in the contact is awake.
     pub fn wakes(&self, sleeps: &[bool]) -> bool {
         let has_woken = |slot: u32| !sleeps[slot as usize];
         match self.partner {

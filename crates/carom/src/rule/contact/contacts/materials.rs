@@ -24,7 +24,7 @@ pub(crate) struct ContactMaterial {
 }
 
 impl ContactMaterial {
-    /// The coefficients of these bodies.
+    /// Returns the coefficients of a contact of two bodies.
     pub fn of(bodies: Bodies, system: &System) -> Self {
         Self { restitution: restitution_of(bodies, system), friction: friction_of(bodies, system) }
     }

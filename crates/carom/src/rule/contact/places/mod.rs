@@ -34,7 +34,8 @@ type ImageKey = (u32, [i8; 3]);
 #[derive(Debug, Clone)]
 struct MovingPlace {
     number: u32,
-    /// At the start; within the sub-step it moves as this says, between its places at both ends.
+    /// Place at the start; within the sub-step the surface moves as this says, between its places
+    /// at both ends.
     start: Place,
     end: Place,
     /// Bounds for the frame of the speed of its origin \[m/s\] and of its angular velocity \[rad/s\], if it does not
@@ -51,11 +52,11 @@ pub(crate) struct Places {
     /// When surfaces changed last; a snapshot shares them.
     #[cfg_attr(feature = "serde", serde(skip))]
     starts: Arc<Vec<Place>>,
-    /// How many of them are not images.
+    /// Number of surfaces that are not images.
     own: usize,
     /// The numbers of moving surfaces that deflect spheres.
     moving: Vec<u32>,
-    /// Surfaces of them that are known, by number.
+    /// Places of the surfaces that are known, by number.
     #[cfg_attr(feature = "serde", serde(skip))]
     known: Vec<MovingPlace>,
     /// When the places at the start of the sub-step are computed, in the frame \[s\]: as at the end of the sub-step
@@ -236,7 +237,7 @@ impl Places {
         self.own + self.images.len()
     }
 
-    /// Whether some of them move.
+    /// Returns whether some surfaces move.
     pub fn are_moving(&self) -> bool {
         !self.moving.is_empty()
     }

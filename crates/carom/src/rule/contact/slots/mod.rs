@@ -58,7 +58,7 @@ pub(crate) struct Slots {
     /// sub-step; empty without such forces.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub working: Vec<Row>,
-    /// The part of that acceleration by forces applied to single spheres \[m/s²\].
+    /// Part of the acceleration by forces applied to single spheres \[m/s²\].
     #[cfg_attr(feature = "serde", serde(skip))]
     pub applied: Vec<DVec3>,
     /// Edges of the periodic box \[m\], infinite along open axes.
@@ -349,7 +349,7 @@ pub(crate) struct Run<'a> {
 }
 
 impl Slots {
-    /// All of them.
+    /// Returns the run of all slots.
     pub fn all(&mut self) -> Run<'_> {
         Run {
             position: &mut self.position,

@@ -21,7 +21,7 @@ pub(crate) struct Grid {
     width: f64,
     /// The axes, from the slowest to the fastest.
     axes: [usize; 3],
-    /// Cells along each of these.
+    /// Number of cells along each of the axes.
     pub cells: [usize; 3],
 }
 

@@ -22,7 +22,7 @@ const STEADY_RADII: f64 = 16.0;
 /// Bounds for the steps of curves.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct StepLimits {
-    /// When all of them have to end at the latest, on the world's clock \[s\].
+    /// Time at which all steps have to end at the latest, on the world's clock \[s\].
     pub until: f64,
     /// Longest step where nothing is known of a force \[s\].
     pub tick: f64,

@@ -69,7 +69,7 @@ struct Touched<'a> {
     /// Shift from the centre of the sphere to its image beside the surface \[m\].
     shift: DVec3,
     form: &'a Form,
-    /// Whether the sphere is on a ring of it.
+    /// Whether the sphere is on a ring of the surface.
     is_on_ring: bool,
 }
 

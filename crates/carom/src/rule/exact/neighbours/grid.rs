@@ -166,12 +166,12 @@ impl Grid {
         Self { strides: [1, row, row * column], runs: [0, 1, 2].map(runs), ..self }
     }
 
-    /// How many cells there are.
+    /// Returns the number of cells.
     pub fn len(&self) -> usize {
         self.counts.iter().map(|&count| usize::from(count)).product()
     }
 
-    /// How many there are with ghosts.
+    /// Returns the number of cells with ghosts.
     pub fn len_with_ghosts(&self) -> usize {
         self.counts_with_ghosts().into_iter().product()
     }

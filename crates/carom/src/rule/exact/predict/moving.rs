@@ -160,7 +160,7 @@ pub(crate) fn meet(
     }
 }
 
-/// When a sphere meets a surface that moves, between two times of the frame \[s\].
+/// Returns when a sphere meets a surface that moves, between two times of the frame \[s\].
 fn meeting(
     timeline: &Timeline,
     system: &System,

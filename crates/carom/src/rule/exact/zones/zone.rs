@@ -56,7 +56,7 @@ pub(crate) struct Zone {
     ticks: [f64; 2],
     /// Changes of energy in the sub-step from the last tick to the next one.
     account: EnergyAccount,
-    /// Part of them that is reported, 0 to 1.
+    /// Part of the account that is reported, 0 to 1.
     reported: f64,
     /// Number of halvings of a tick that small spheres need.
     halvings: u32,
@@ -88,7 +88,7 @@ pub(crate) struct Stepped {
 }
 
 impl Zone {
-    /// How many spheres there are.
+    /// Returns the number of spheres.
     pub fn len(&self) -> usize {
         self.index.len() + self.waiting.len()
     }
@@ -97,12 +97,12 @@ impl Zone {
         self.len() == 0
     }
 
-    /// What steps them.
+    /// Returns the solver that steps the spheres.
     pub fn solver(&self) -> &Solver {
         &self.solver
     }
 
-    /// How many of them sleep.
+    /// Returns the number of spheres that sleep.
     pub fn asleep(&self) -> u32 {
         if self.is_empty() { 0 } else { self.solver.asleep() }
     }
