@@ -17,7 +17,7 @@ use crate::target::{Answer, Target};
 
 pub const TARGET: Target = Target {
     name: "options",
-    about: "command lines with options of no sense, each a run of `carom`",
+    about: "command lines with meaningless options, each a run of `carom`",
     campaign: 2_000,
     cases: || lines().boxed(),
     check,
