@@ -7,7 +7,7 @@ use crate::rows;
 const G: f64 = 10.0;
 /// Height of its ball above the floor at the start \[m\].
 const HEIGHT: f64 = 1.25;
-/// Its restitution.
+/// Restitution of the scene.
 const RESTITUTION: f64 = 0.8;
 
 /// A ball that falls onto a floor, and one far away.

@@ -17,8 +17,8 @@ pub(crate) const NODES: [f64; TERMS] = [
 /// Powers of s in `s (s - h_1) ... (s - h_(n-1))`, by n.
 pub(super) const NEWTON: [[f64; TERMS]; TERMS] = newton_basis();
 
-/// By node: the way, divided by the square of the time, and the velocity, divided by the time, that a unit of each term
-/// of the acceleration adds.
+/// Gains by node: the way, divided by the square of the time, and the velocity, divided by the
+/// time, that a unit of each term of the acceleration adds.
 pub(super) const GAINS: [Gains; TERMS] = gains_at_nodes();
 /// [`GAINS`] at the end of a step.
 pub(super) const GAINS_AT_END: Gains = gains_at(1.0);

@@ -28,7 +28,7 @@ pub(super) struct Chunks {
     /// Length of the file \[byte\].
     length: u64,
     names: BTreeMap<String, u16>,
-    /// By frame and number of the name.
+    /// Entries by frame and number of the name.
     index: BTreeMap<(u64, u16), Entry>,
 }
 

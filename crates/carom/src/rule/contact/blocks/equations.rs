@@ -56,7 +56,8 @@ pub struct BlockContact {
 enum State {
     Open,
     Sticks,
-    /// Its tangential impulse has this direction, along the second and third axis.
+    /// The contact slides with a tangential impulse in this direction, along the second and third
+    /// axis.
     Slides([f64; 2]),
 }
 

@@ -8,7 +8,8 @@ use crate::system::System;
 /// Numbers of moving surfaces near each sphere.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct NearMoving {
-    /// Those of a slot are `numbers[starts[slot] .. starts[slot + 1]]`, ascending; empty where nothing moves.
+    /// Places in `numbers`: those of a slot are `numbers[starts[slot] .. starts[slot + 1]]`,
+    /// ascending; empty where nothing moves.
     starts: Vec<u32>,
     numbers: Vec<u32>,
 }

@@ -281,8 +281,9 @@ impl Slots {
         between.get(self.index[slot] as usize).map_or(own, |&it| own + it)
     }
 
-    /// By how much the mean velocity of a free sphere in the sub-step differs from its last one \[m/s\], where forces are
-    /// not linear; others change too little in a sub-step for that to matter.
+    /// Returns by how much the mean velocity of a free sphere in the sub-step differs from its last
+    /// one \[m/s\], where forces are not linear; others change too little in a sub-step for that to
+    /// matter.
     pub fn speed_beside_last(&self, slot: usize) -> f64 {
         if self.linear.is_empty() {
             return 0.0;

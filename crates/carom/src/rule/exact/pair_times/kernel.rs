@@ -371,7 +371,7 @@ impl<S: Simd> FirstTwo<S> {
         }
     }
 
-    /// Of all lanes.
+    /// Returns the two earliest times of all lanes, each with its number.
     #[inline(always)]
     fn of_all_lanes(self) -> [(f64, f64); 2] {
         let halves = self.joined(self.rotated::<2>());
