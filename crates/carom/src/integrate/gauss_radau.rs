@@ -4,10 +4,10 @@
 //! acceleration is a polynomial through its values at eight nodes of a step. The step is a good one where its
 //! highest term is small.
 
-use std::ops::{Add, Div, Mul, Sub};
-
 use glam::DVec3;
 
+use super::implicit;
+use super::interpolate::{Value, through};
 use super::radau_tables::{GAINS, GAINS_AT_END, Gains, NEWTON, RECIPROCALS};
 use crate::norm::Norm;
 use crate::polynomial_flight::{PolynomialAcceleration, TERMS};
@@ -154,7 +154,12 @@ pub(crate) fn step(
         let length = end - start.time;
         let mut attempt = Attempt::new(start, &first, length, before);
         let has_converged = attempt.iterate(field);
-        let error = if has_converged { attempt.error(field) } else { f64::INFINITY };
+        let mut error = if has_converged { attempt.error(field) } else { f64::INFINITY };
+        if error == f64::INFINITY
+            && let Some(other) = implicit::attempt(start, &first, length, field)
+        {
+            (attempt.powers, error) = (other.powers, other.error);
+        }
         let is_good = error <= ACCEPTED * TOLERANCE;
         if is_good || is_shortest || !first.is_finite() {
             if error == f64::INFINITY {
@@ -361,20 +366,8 @@ impl<'a> Attempt<'a> {
 }
 
 /// The polynomial with these values at the nodes, as a sum of powers of the part of the step.
-pub(crate) fn through_nodes<T>(values: [T; TERMS]) -> [T; TERMS]
-where
-    T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T> + Div<f64, Output = T>,
-{
-    let mut newton = values;
-    for node in 1..TERMS {
-        for before in 0..node {
-            newton[node] = (newton[node] - newton[before]) / (NODES[node] - NODES[before]);
-        }
-    }
-    std::array::from_fn(|power| {
-        let terms = (power + 1..TERMS).map(|n| newton[n] * NEWTON[n][power]);
-        terms.fold(newton[power] * NEWTON[power][power], |sum, term| sum + term)
-    })
+pub(crate) fn through_nodes<T: Value>(values: [T; TERMS]) -> [T; TERMS] {
+    through(&NODES, &NEWTON, values)
 }
 
 /// A sum of powers as one of products of nodes: repeated division by `s - h_n`, with the remainders.
