@@ -7,7 +7,7 @@
 
 use glam::DVec3;
 
-use super::gauss_radau::{Field, Start, Values};
+use super::field::{Field, Start, Values};
 use super::interpolate::through;
 use super::linear_system::Factorized;
 use super::radau_tables::{END_GAINS, END_NEWTON, END_NODES, END_VELOCITIES, END_WAYS, Gains};

@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::friction_state::FrictionState;
 use crate::contact_matrix::ContactMatrix;
-use crate::integrate::gauss_radau::Values;
+use crate::integrate::field::Values;
 use crate::norm::Norm;
 use crate::rule::exact::features::{Feature, NormalCurvature};
 
