@@ -25,7 +25,7 @@ use crate::view::{SphereArrays, View, replace};
 ///
 /// Time passes in frames. Every frame reached so far can be restored bit for bit, because all
 /// changes are repeated at their frames. A new edit cuts off the frames after it.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Session {
     /// The scene as opened.
     scene: Arc<Scene>,
@@ -236,7 +236,7 @@ impl Session {
         self.fill_readings(view);
     }
 
-    /// Everything except spheres, as edited.
+    /// Returns everything but the spheres, as edited.
     pub fn setup(&self) -> &Arc<Setup> {
         &self.setup
     }

@@ -24,9 +24,9 @@ pub struct Island {
 
 /// Gathers the islands of a sub-step.
 pub struct Gathering {
-    /// By slot.
+    /// What the search found of each sphere, by slot.
     seen: Vec<Seen>,
-    /// Those that others became a part of are `None`.
+    /// Islands by number; `None` for those that became a part of another.
     islands: Vec<Option<Island>>,
 }
 
@@ -36,7 +36,7 @@ enum Seen {
     Never,
     /// The sphere is in the island with this number.
     In(usize),
-    /// Its island is too large.
+    /// The island of the sphere is too large.
     TooLarge,
 }
 
@@ -46,8 +46,8 @@ impl Gathering {
         Self { seen: vec![Seen::Never; spheres], islands: Vec::new() }
     }
 
-    /// Gathers the island about the sphere in a slot, unless it is in one or is too large. Islands that it reaches
-    /// become a part of it, unless it is too large with them.
+    /// Gathers the island about the sphere in a slot, unless the sphere is in one already or the island is too large.
+    /// Islands that this one reaches become a part of it, unless they make it too large.
     pub fn gather(&mut self, solver: &Solver, seed: usize, sub_step: &SubStep) {
         if self.seen[seed] != Seen::Never {
             return;
@@ -132,9 +132,9 @@ impl Gathering {
 #[derive(Debug, Default)]
 struct Growing {
     island: Island,
-    /// The largest speed in it \[m/s\].
+    /// Largest speed in the island \[m/s\].
     speed: f64,
-    /// The number of another island that it reaches.
+    /// Number of another island that this one reaches.
     reaches: Option<usize>,
     is_whole: bool,
 }
