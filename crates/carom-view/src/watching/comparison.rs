@@ -7,7 +7,7 @@ use carom_session::Command;
 use super::Watching;
 use crate::action::Action;
 
-/// How far a ball is nudged, in its radii: so little that nobody sees it before impacts make it grow.
+/// How far a ball is nudged, in its radii: too little to see before impacts enlarge it.
 const NUDGE: f64 = 1e-9;
 
 impl Watching {

@@ -6,6 +6,7 @@
 
 use glam::DVec3;
 
+use super::field::{Field, Start, Values};
 use super::implicit;
 use super::interpolate::{Value, through};
 use super::radau_tables::{GAINS, GAINS_AT_END, Gains, NEWTON, RECIPROCALS};
@@ -80,57 +81,16 @@ impl Pace {
     }
 }
 
-/// Spheres at the beginning of a step.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Start<'a> {
-    /// \[m\]
-    pub positions: &'a [DVec3],
-    /// \[m/s\]
-    pub velocities: &'a [DVec3],
-    /// Parts of both below their rounding.
-    pub carried: &'a [[DVec3; 2]],
-    /// On the world's clock \[s\].
-    pub time: f64,
-    /// When the step has to end at the latest \[s\].
-    pub until: f64,
-    /// Where forces are steady, steps are at most this long \[s\].
-    pub steady: f64,
-    /// Where forces are rough, steps are at most this long \[s\].
-    pub rough: f64,
-}
-
 /// A step of some spheres.
 #[derive(Debug, Clone)]
 pub(crate) struct Step {
     /// When it ends, on the world's clock \[s\].
     pub end: f64,
-    /// Of each sphere.
+    /// Acceleration of each sphere.
     pub accelerations: Vec<PolynomialAcceleration>,
     pub pace: Pace,
     /// Whether its error is small; else no shorter step was allowed.
     pub is_accurate: bool,
-}
-
-/// Accelerations of some spheres \[m/s²\], and the sum of the sizes of their terms, at a time \[s\] with these
-/// positions \[m\] and velocities \[m/s\].
-pub(crate) trait Field {
-    fn evaluate(&mut self, time: f64, positions: &[DVec3], velocities: &[DVec3], at: &mut Values);
-}
-
-/// What a [`Field`] finds.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Values {
-    /// \[m/s²\]
-    pub accelerations: Vec<DVec3>,
-    /// Sums of the sizes of what each is the sum of \[m/s²\].
-    pub sizes: Vec<f64>,
-}
-
-impl Values {
-    /// Of so many spheres.
-    pub fn of(count: usize) -> Self {
-        Self { accelerations: vec![DVec3::ZERO; count], sizes: vec![0.0; count] }
-    }
 }
 
 /// Takes one step. What went before, if it is known, gives the first guess.
@@ -182,13 +142,8 @@ pub(crate) fn step(
     }
 }
 
-impl Values {
-    fn is_finite(&self) -> bool {
-        self.accelerations.iter().all(|it| it.is_finite())
-    }
-}
-
-/// By which factor a step with this error may be longer: the error grows with the seventh power of its length.
+/// Returns the factor by which a step with this error may be longer: the error grows with the
+/// seventh power of its length.
 fn growth(error: f64) -> f64 {
     if error == 0.0 {
         return MOST_GROWTH;
@@ -204,7 +159,7 @@ struct Attempt<'a> {
     first: &'a Values,
     /// \[s\]
     length: f64,
-    /// Of each sphere: the acceleration as a sum of products of nodes \[m/s²\].
+    /// Acceleration of each sphere as a sum of products of nodes \[m/s²\].
     newton: Vec<[DVec3; TERMS]>,
     /// The same as a sum of powers \[m/s²\].
     powers: Vec<[DVec3; TERMS]>,
@@ -234,7 +189,7 @@ impl<'a> Attempt<'a> {
         Self { start, first, length, newton, powers, sizes: first.sizes.clone() }
     }
 
-    /// Finds the accelerations at the nodes by iteration; tells whether it converges.
+    /// Finds the accelerations at the nodes by iteration; returns whether it converges.
     fn iterate(&mut self, field: &mut impl Field) -> bool {
         let count = self.powers.len();
         let (mut positions, mut velocities) = (vec![DVec3::ZERO; count], vec![DVec3::ZERO; count]);
@@ -262,7 +217,7 @@ impl<'a> Attempt<'a> {
         change_before <= DIVERGED
     }
 
-    /// Where the spheres are at a part of the step, and how they move there.
+    /// Computes the positions and velocities of the spheres at a part of the step.
     fn states_at(&self, s: f64, gains: &Gains, [positions, velocities]: [&mut [DVec3]; 2]) {
         let t = s * self.length;
         for (sphere, powers) in self.powers.iter().enumerate() {
@@ -279,7 +234,8 @@ impl<'a> Attempt<'a> {
         }
     }
 
-    /// Takes in the accelerations at a node; tells by what part that changes the term of this node, if it is the last.
+    /// Adds the accelerations at a node; returns by what part that changes the term of this node,
+    /// if it is the last.
     fn take_in(&mut self, node: usize, values: &Values) -> f64 {
         let is_last = node == TERMS - 1;
         let mut most = 0.0f64;

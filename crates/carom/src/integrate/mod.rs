@@ -7,6 +7,7 @@
 mod acceleration;
 pub(crate) mod crossing;
 mod explicit_euler;
+pub(crate) mod field;
 pub(crate) mod gauss_legendre;
 pub(crate) mod gauss_radau;
 mod implicit;

@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::friction_state::FrictionState;
 use crate::contact_matrix::ContactMatrix;
-use crate::integrate::gauss_radau::Values;
+use crate::integrate::field::Values;
 use crate::norm::Norm;
 use crate::rule::exact::features::{Feature, NormalCurvature};
 
@@ -17,7 +17,7 @@ pub(crate) const MOST_CONTACTS: usize = 64;
 pub(crate) struct CurveContact {
     pub first: CurveBody,
     pub second: usize,
-    /// From the centre of body 2 to its image beside body 1 \[m\].
+    /// Shift from the centre of body 2 to its image beside body 1 \[m\].
     pub shift: DVec3,
     /// Coulomb's coefficient.
     pub friction: f64,
@@ -70,7 +70,7 @@ struct ForceDirection {
 }
 
 impl CurveContact {
-    /// Its place, if body 1 is a sphere.
+    /// Returns the place of body 1 if it is a sphere.
     pub fn first_place(&self) -> Option<usize> {
         match self.first {
             CurveBody::Sphere(place) => Some(place),
@@ -130,7 +130,7 @@ impl CurveContact {
         }
     }
 
-    /// Of these values by place, that of body 2 less that of body 1.
+    /// Returns the value of body 2 less that of body 1, of values by place.
     fn difference(&self, of: &[DVec3]) -> DVec3 {
         of[self.second] - self.first_place().map_or(DVec3::ZERO, |first| of[first])
     }

@@ -15,7 +15,8 @@ use super::tie::{Tie, TieEnd, TiePath};
 use crate::detect::contact::Bodies;
 use crate::forces::SpringEnd;
 use crate::integrate::crossing::first_positive;
-use crate::integrate::gauss_radau::{self, Field, NODES, Start, Step, Values};
+use crate::integrate::field::{Field, Start, Values};
+use crate::integrate::gauss_radau::{self, NODES, Step};
 use crate::norm::Norm;
 use crate::polynomial_flight::{ORDERS, PolynomialAcceleration, PolynomialFlight, TERMS};
 use crate::respond::friction_of;
@@ -30,8 +31,8 @@ const SOONEST: f64 = 1e-6;
 pub(super) struct HeldOver {
     /// Accelerations without contacts, by place; empty without contacts.
     pub free: Vec<PolynomialAcceleration>,
-    /// By cluster, time from the start \[s\] at which a contact opens, or a sphere comes to another part of a
-    /// surface; infinite where none does.
+    /// Time from the start \[s\] at which a contact of each cluster opens, or a sphere reaches
+    /// another part of a surface; infinite where none does.
     pub releases: Vec<f64>,
     /// Time from the start \[s\] at which friction changes how it acts in a contact; infinite if it does not.
     pub change: f64,
@@ -66,10 +67,10 @@ struct Touched<'a> {
     cluster: usize,
     /// Place of the sphere.
     sphere: usize,
-    /// From its centre to the image beside the surface \[m\].
+    /// Shift from the centre of the sphere to its image beside the surface \[m\].
     shift: DVec3,
     form: &'a Form,
-    /// Whether the sphere is on a ring of it.
+    /// Whether the sphere is on a ring of the surface.
     is_on_ring: bool,
 }
 

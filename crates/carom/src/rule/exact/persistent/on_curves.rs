@@ -1,11 +1,12 @@
-//! Which persistent contacts follow the curves of their spheres, so that their forces need not be held.
+//! Decides which persistent contacts follow the curves of their spheres, so that their forces need
+//! not be held.
 
 use glam::DVec3;
 
 use super::accelerations::{Accelerations, IDLE, free_acceleration};
 use crate::detect::contact::Bodies;
 use crate::friction::ContactFriction;
-use crate::integrate::gauss_radau::Values;
+use crate::integrate::field::Values;
 use crate::norm::Norm;
 use crate::respond::friction_of;
 use crate::rule::exact::contacts::{Group, Member, Touch};

@@ -39,7 +39,7 @@ impl ShortFlight {
 pub(crate) struct Budget {
     /// The number of the tick.
     tick: f64,
-    /// By index of the sphere.
+    /// Units spent, by index of the sphere.
     spent_by_sphere: BTreeMap<u32, u64>,
     /// Units of short flights, by index of the sphere.
     short_flights: BTreeMap<u32, u64>,
