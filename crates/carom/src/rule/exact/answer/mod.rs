@@ -62,7 +62,9 @@ fn answer_and_check(
     check_steps(timeline, context, event.time);
     if let Some(flight) = short_flight {
         for slot in involved.into_iter().flatten() {
-            short_flights::count(timeline, context, (slot, flight), event.time);
+            if short_flights::count(timeline, context, (slot, flight), event.time) {
+                make_zone_about(timeline, context, slot, event.time);
+            }
         }
     }
     // A sphere that joined a zone moves otherwise than its companions expected.

@@ -2,7 +2,6 @@
 
 use glam::DVec3;
 
-use super::make_zone_about;
 use crate::detect::sphere_surface;
 use crate::norm::Norm;
 use crate::rule::exact::contacts::contact_scale::RESOLVED_PATH;
@@ -101,16 +100,15 @@ impl Approach {
     }
 }
 
-/// Counts a short flight of a sphere that ended at `time` \[s\]. A sphere with too many of them joins a zone.
+/// Counts a short flight of a sphere that ended at `time` \[s\]. Returns whether there have been too many, so that the
+/// sphere is to join a zone.
 pub(super) fn count(
     timeline: &mut Timeline,
-    context: &mut StepContext,
+    context: &StepContext,
     (slot, flight): (u32, ShortFlight),
     time: f64,
-) {
+) -> bool {
     let index = timeline.flights.index_of[slot as usize];
     let is_spent = timeline.budget.is_spent_by_flight(context.parameters, (index, flight), time);
-    if is_spent && !timeline.flights.is_stepped(slot) {
-        make_zone_about(timeline, context, slot, time);
-    }
+    is_spent && !timeline.flights.is_stepped(slot)
 }
