@@ -39,6 +39,7 @@ mod collider_motion;
 mod colliders;
 mod connected;
 mod contact_matrix;
+mod contact_tangents;
 pub mod contact_time;
 pub mod detect;
 mod emitter;
