@@ -79,6 +79,7 @@ mod seams;
 mod sensor;
 mod settings;
 mod shear;
+mod solid_box;
 mod sphere;
 mod state;
 mod step;

@@ -5,7 +5,7 @@ use std::cell::Cell;
 use glam::{DQuat, DVec2, DVec3};
 
 use crate::band::{Band, Profile};
-use crate::collider::{Collider, Shape, Sides};
+use crate::collider::{Collider, Shape};
 use crate::collider_motion::{Carriage, Course};
 use crate::friction::Friction;
 use crate::groups::Groups;
@@ -17,6 +17,7 @@ pub(crate) use crate::rectangle::Rectangle;
 use crate::restitution::BodyRestitution;
 use crate::rotation;
 use crate::round_solid::{Outline, RoundSolid};
+pub(crate) use crate::solid_box::SolidBox;
 pub(crate) use crate::surface_motion::SurfaceMotion;
 
 /// One surface of a collider in world coordinates, with what a contact needs to know of it.
@@ -206,18 +207,29 @@ impl Form {
         match self {
             Self::Rectangle(rectangle) => rectangle.is_open,
             Self::Band(band) => band.is_open,
+            Self::Facet(facet) => facet.frame.is_open,
+            Self::Edge(edge) => edge.is_open,
+            Self::Corner(corner) => corner.is_open,
             _ => false,
         }
     }
 
+    /// Whether it is a face, an edge or a corner of a mesh, which counts for the spheres nearest to it.
+    pub fn is_feature(&self) -> bool {
+        matches!(self, Self::Facet(_) | Self::Edge(_) | Self::Corner(_))
+    }
+
     /// Returns the same form, met by all that overlap it from the front.
-    pub fn closed(self) -> Self {
-        let is_open = false;
-        match self {
-            Self::Rectangle(rectangle) => Self::Rectangle(Rectangle { is_open, ..rectangle }),
-            Self::Band(band) => Self::Band(Band { is_open, ..band }),
-            other => other,
+    pub fn closed(mut self) -> Self {
+        match &mut self {
+            Self::Rectangle(rectangle) => rectangle.is_open = false,
+            Self::Band(band) => band.is_open = false,
+            Self::Facet(facet) => facet.frame.is_open = false,
+            Self::Edge(edge) => edge.is_open = false,
+            Self::Corner(corner) => corner.is_open = false,
+            _ => {}
         }
+        self
     }
 
     /// Whether the turning of a motion leaves it as it is.
@@ -313,17 +325,6 @@ impl Form {
     }
 }
 
-/// A solid box in the world.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(crate) struct SolidBox {
-    pub center: DVec3,
-    /// Directions of its edges, orthonormal.
-    pub axes: [DVec3; 3],
-    /// Half the lengths along the axes \[m\].
-    pub half: DVec3,
-}
-
 /// Appends the surfaces of a collider at `time` \[s\]. Those of a solid box are its volume and then its faces, in
 /// the order -x, +x, -y, +y, -z, +z; those of a container its walls in the same order, each facing
 /// outward and then inward. A box or a container that only reports is its volume. A solid of revolution has its volume,
@@ -393,7 +394,9 @@ pub(crate) fn place(id: ColliderId, collider: &Collider, time: f64, surfaces: &m
             if let Some(solid) = ClosedMesh::of(mesh) {
                 add(Form::Closed(placement.closed_mesh(&solid)), Role::Encloses);
             }
-            place_mesh(mesh.features(), &placement, |form| add(form, Role::Deflects));
+            place_mesh(mesh.features(), &placement, |form| {
+                add(if trigger { form.closed() } else { form }, Role::Deflects);
+            });
         }
         Shape::Cylinder { .. }
         | Shape::Cone { .. }
@@ -449,47 +452,4 @@ pub(crate) fn place_mesh(features: &Features, placement: &Placement, mut add: im
     }
     features.edges.iter().for_each(|edge| add(Form::Edge(placement.edge(edge))));
     features.corners.iter().for_each(|corner| add(Form::Corner(placement.corner(corner))));
-}
-
-impl SolidBox {
-    /// The smallest one about a closed mesh along the axes of its frame.
-    pub fn about(mesh: &ClosedMesh) -> Self {
-        let (center, axes, half) = mesh.box_about();
-        Self { center, axes, half }
-    }
-
-    /// Size of the coordinates that it is given by \[m\].
-    fn coordinates(&self) -> f64 {
-        self.center.norm() + self.half.element_sum()
-    }
-
-    /// Height of its highest point above a plane, which is given by a point \[m\] and its normal.
-    fn height_above(&self, [point, normal]: [DVec3; 2]) -> f64 {
-        let rises = self.axes.map(|axis| axis.dot(normal).abs());
-        (self.center - point).dot(normal) + self.half.dot(DVec3::from_array(rises))
-    }
-
-    /// The faces that are not open, outward.
-    fn walls(&self, open: Sides) -> impl Iterator<Item = Rectangle> {
-        let faces = self.faces().into_iter().zip(open.to_array());
-        faces.filter_map(|(face, is_open)| (!is_open).then_some(face))
-    }
-
-    /// The six faces, outward.
-    pub fn faces(&self) -> [Rectangle; 6] {
-        std::array::from_fn(|number| {
-            let axis = number / 2;
-            let (first, second) = [(1, 2), (0, 2), (0, 1)][axis];
-            let normal = if number % 2 == 0 { -self.axes[axis] } else { self.axes[axis] };
-            Rectangle {
-                center: self.center + self.half[axis] * normal,
-                axis_x: self.axes[first],
-                axis_z: self.axes[second],
-                normal,
-                half_x: self.half[first],
-                half_z: self.half[second],
-                is_open: false,
-            }
-        })
-    }
 }

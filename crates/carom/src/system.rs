@@ -104,7 +104,7 @@ impl<'a> System<'a> {
     #[inline]
     pub fn meets_surface(&self, sphere: u32, surface: u32) -> bool {
         let (surface, index) = (&self.surfaces[surface as usize], sphere as usize);
-        let passes = |start: FrameStart| start.passes(index, self.spheres.radius[index], surface);
+        let passes = |start: FrameStart| start.passes(self, index, surface);
         self.spheres.groups(index).collides(surface.groups) && !self.frame_start.is_some_and(passes)
     }
 

@@ -54,6 +54,8 @@ impl Placement {
             axis: self.direction(it.axis),
             half: it.half,
             outward: it.outward.map(|direction| self.direction(direction)),
+            is_border: it.is_border,
+            is_open: it.is_open,
         }
     }
 
@@ -62,6 +64,7 @@ impl Placement {
             point: self.point(it.point),
             rotation: self.rotation * it.rotation,
             rays: it.rays.clone(),
+            is_open: it.is_open,
         }
     }
 }

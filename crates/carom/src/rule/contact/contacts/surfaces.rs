@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::batch::Impulses;
 use super::coulomb::{limited, slip};
 use super::materials::ContactMaterial;
+use super::passages;
 use super::swept::{FAR, FREE};
 use crate::contact_time;
 use crate::detect::{Separation, sphere_surface};
@@ -151,6 +152,7 @@ pub(crate) fn prepare(
     sub_step: &SubStep,
 ) {
     for own in contacts.chunk_by_mut(|first, second| first.slot == second.slot) {
+        passages::find(run, own, places);
         for contact in &mut *own {
             contact.aim(run, places, sub_step);
         }
@@ -213,10 +215,7 @@ impl SurfaceContact {
         self.swing = if turns { motion.swing(center, before) } else { DVec3::ZERO };
         (self.approach, self.bias, self.kicked) = (0.0, FREE, 0.0);
         let separation = sphere_surface(form, center, radius);
-        let overlaps = separation.is_some_and(|it| it.distance < 0.0);
-        let still_passes = self.passes && overlaps && self.impulses.normal == 0.0;
-        self.passes = form.is_open() && (separation.is_none() || still_passes);
-        if still_passes {
+        if self.passes && separation.is_some() {
             return;
         }
         if let Some(Separation { distance, normal, point }) = separation {

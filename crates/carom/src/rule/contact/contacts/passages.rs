@@ -1,0 +1,48 @@
+//! Which open surfaces spheres pass in a sub-step.
+
+use super::surfaces::SurfaceContact;
+use crate::detect::{passage, sphere_surface};
+use crate::rule::contact::places::Places;
+use crate::rule::contact::slots::Run;
+use crate::surface::Form;
+
+/// Overlap, as a part of the radius, from which on a sphere that passes one part of an open mesh passes another one:
+/// more than pressing leaves.
+const JOINED: f64 = 1e-2;
+
+/// Notes which surfaces the sphere of these contacts passes: the open ones that it is behind, and those that it passed
+/// before and still overlaps. While it passes a part of an open mesh it passes the parts around, except those on which
+/// it presses or which it hardly overlaps.
+pub(super) fn find(run: &Run, own: &mut [SurfaceContact], places: &Places) {
+    let mut passes_mesh = false;
+    for contact in &mut *own {
+        let (form, _) = places.at_start(contact.surface);
+        contact.passes = form.is_open() && passes_by_itself(run, contact, form);
+        passes_mesh |= contact.passes && form.is_feature();
+    }
+    if !passes_mesh {
+        return;
+    }
+    for contact in own {
+        let (form, _) = places.at_start(contact.surface);
+        let is_part = form.is_open() && form.is_feature();
+        contact.passes |= is_part && may_pass(run, contact, form);
+    }
+}
+
+/// Whether a sphere passes an open surface, whatever is around.
+fn passes_by_itself(run: &Run, contact: &SurfaceContact, form: &Form) -> bool {
+    let row = run.position[contact.slot as usize];
+    let (center, radius) = (row.vector(), row.number());
+    let overlaps = || sphere_surface(form, center, radius).is_some_and(|it| it.distance < 0.0);
+    let still_passes = contact.passes && contact.impulses.normal == 0.0 && overlaps();
+    still_passes || passage::is_behind(form, center, radius)
+}
+
+/// Whether a sphere does not press on a part of a mesh, and is elsewhere or overlaps it deeply.
+fn may_pass(run: &Run, contact: &SurfaceContact, form: &Form) -> bool {
+    let row = run.position[contact.slot as usize];
+    let separation = sphere_surface(form, row.vector(), row.number());
+    let is_deep = separation.is_none_or(|it| it.distance < -JOINED * row.number());
+    is_deep && contact.impulses.normal == 0.0
+}
