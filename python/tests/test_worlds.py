@@ -172,3 +172,38 @@ def test_sums_are_those_of_the_arrays() -> None:
     assert world.kinetic_energy == pytest.approx(kinetic, rel=1e-12)
     assert world.total_energy == world.kinetic_energy + world.potential_energy
     assert world.angular_momentum.shape == (3,)
+
+
+def test_a_paddle_on_its_way_to_a_pose_strikes_a_ball_to_twice_its_speed() -> None:
+    world = carom.World()
+    paddle = world.add_collider(carom.Collider(carom.Box((1, 1, 1))))
+    ball = world.add_sphere(carom.Sphere(position=(1.5, 0, 0), radius=0.5))
+    world.set_next_pose(paddle, position=(2, 0, 0), dt=1.0)
+    world.step(dt=1.0)
+    assert world.impacts["time"].tolist() == [0.25]
+    assert world.sphere(ball).velocity == (4, 0, 0)
+    assert world.colliders[paddle].position == (2, 0, 0)
+    # What is not given stays, and the frame time is the scene's own.
+    world.set_next_pose(paddle, rotation=(0, 1, 0, 1))
+    moving = world.colliders[paddle]
+    assert moving.velocity == (0, 0, 0)
+    # A quarter turn; rounding of the angle and the quotient.
+    assert moving.angular_velocity[1] == pytest.approx(np.pi / 2 / world.frame_time, rel=1e-15)
+
+
+def test_a_next_pose_that_makes_no_sense_is_refused_and_nothing_moves() -> None:
+    world = carom.World()
+    lift = world.add_collider(carom.Collider(carom.Box((1, 1, 1))))
+    with pytest.raises(carom.CaromError, match="position"):
+        world.set_next_pose(lift, position=(0, np.nan, 0))
+    with pytest.raises(carom.CaromError, match="position: must be of shape"):
+        world.set_next_pose(lift, position=(0, 1))
+    with pytest.raises(carom.CaromError, match="dt"):
+        world.set_next_pose(lift, position=(0, 1, 0), dt=0.0)
+    with pytest.raises(carom.UnknownError):
+        world.set_next_pose(lift + 1, position=(0, 1, 0))
+    assert world.colliders[lift].velocity == (0, 0, 0)
+    turning = carom.Collider(carom.Box((1, 1, 1)), motion=carom.Turn(rate=1.0))
+    world.set_collider(lift, turning)
+    with pytest.raises(carom.CaromError, match="motion"):
+        world.set_next_pose(lift, position=(0, 1, 0))

@@ -1,6 +1,6 @@
-//! Changes of the motion of single spheres.
+//! Changes of the motion of single spheres and colliders.
 
-use carom::DVec3;
+use carom::{DQuat, DVec3, Pose};
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::failure::Failure;
@@ -54,5 +54,27 @@ impl World {
     pub fn set_angular_velocity(&mut self, id: f64, velocity: &[f64]) -> Result<(), Failure> {
         let (sphere, _) = find::sphere(&self.world, id)?;
         Ok(self.world.set_angular_velocity(sphere, DVec3::from_slice(velocity))?)
+    }
+
+    /// Sets the velocities of a collider so that it reaches a pose after `dt` \[s\]: a position \[m\] and a rotation
+    /// x, y, z, w; what is missing stays.
+    ///
+    /// # Errors
+    /// [`Failure`] as [`carom::World::set_next_pose`].
+    #[wasm_bindgen(js_name = setNextPose)]
+    pub fn set_next_pose(
+        &mut self,
+        id: f64,
+        position: Option<Vec<f64>>,
+        rotation: Option<Vec<f64>>,
+        dt: f64,
+    ) -> Result<(), Failure> {
+        let (collider, _) = find::collider(&self.world, id)?;
+        let now = self.world.collider(collider)?.pose;
+        let pose = Pose {
+            position: position.map_or(now.position, |it| DVec3::from_slice(&it)),
+            rotation: rotation.map_or(now.rotation, |it| DQuat::from_slice(&it)),
+        };
+        Ok(self.world.set_next_pose(collider, pose, dt)?)
     }
 }

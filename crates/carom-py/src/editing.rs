@@ -18,6 +18,7 @@ use crate::arrays;
 use crate::engine::Engine;
 use crate::failure::Failure;
 use crate::inner::Inner;
+use crate::next_poses::{GivenPoses, NextPoses};
 use crate::part::{self, only};
 use crate::points;
 
@@ -203,6 +204,24 @@ impl Engine {
             inner.described_mut().colliders[place].clone_from(only(&part.colliders)?);
             inner.color_colliders();
             Ok(())
+        })
+    }
+
+    /// Sets the velocities of a collider so that a step of `dt` [s], or of the scene's own frame time, takes it to a
+    /// pose.
+    #[pyo3(name = "_set_next_pose")]
+    fn set_next_pose(
+        &self,
+        py: Python<'_>,
+        pose: GivenPoses<'_>,
+        dt: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<()> {
+        let pose = NextPoses::read(&pose, &[])?;
+        let dt = arguments::optional_number("dt", dt)?;
+        self.change(py, |inner| {
+            let dt = dt.unwrap_or(inner.described.simulation.frame_time);
+            let collider = pose.collider(&inner.world, 0, dt)?;
+            Ok(inner.world.set_collider(pose.id(), collider)?)
         })
     }
 

@@ -36,6 +36,7 @@ mod maze;
 mod motion;
 mod neighbours;
 mod next_event;
+mod next_poses;
 mod packing;
 #[cfg(feature = "pictures")]
 mod painter;

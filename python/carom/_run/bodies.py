@@ -320,6 +320,38 @@ class Bodies(Engine):
         parts.expect("collider", collider, parts.Collider)
         self._set_collider(id, f"colliders = [{toml_value(collider, 'collider')}]")
 
+    def set_next_pose(
+        self,
+        id: int,
+        *,
+        position: ArrayLike | None = None,
+        rotation: ArrayLike | None = None,
+        dt: float | None = None,
+    ) -> None:
+        """Sets the velocities of a collider so that the next step takes it to a pose.
+
+        It turns the shorter way, and spheres feel how it moves. It moves on until it gets other
+        velocities.
+
+        Args:
+            id: Of the collider.
+            position: Of its centre [m], (3,); where it is, unless given.
+            rotation: Quaternion x, y, z, w, (4,); as it is, unless given.
+            dt: Length of that step [s]; the scene's own frame time unless given.
+
+        Raises:
+            UnknownError: If the world has no such collider.
+            CaromError: For a value that makes no sense, or if a motion moves the collider.
+
+        >>> import carom
+        >>> world = carom.World()
+        >>> paddle = world.add_collider(carom.Collider(carom.Box(size=(1, 1, 1))))
+        >>> world.set_next_pose(paddle, position=(1, 0, 0), dt=0.5)
+        >>> world.colliders[paddle].velocity
+        (2.0, 0.0, 0.0)
+        """
+        self._set_next_pose((id, position, rotation), dt)
+
     @property
     def emitters(self) -> dict[int, parts.Emitter]:
         """The emitters by their ids. A copy."""

@@ -13,6 +13,7 @@ import type {
   ColliderDescription,
   Force,
   Generator,
+  Quaternion,
   Scene,
   Simulation,
   SimulationChanges,
@@ -64,6 +65,14 @@ export const IMPACT_COLUMNS: Readonly<{
 /** The state of a world at one time. Garbage collection or `free` releases its memory. */
 export interface Snapshot {
   free(): void;
+}
+
+/** Where a collider is to be; what is missing stays as it is. */
+export interface Pose {
+  /** Position of its centre [m]. */
+  position?: Vector;
+  /** Rotation x, y, z, w. */
+  rotation?: Quaternion;
 }
 
 /** A call that the engine refused. The world is unchanged. */
@@ -355,11 +364,19 @@ export class World {
   setAngularVelocity(id: number, angularVelocity: Vector): void;
   /**
    * Changes the given properties of a collider. A new position applies at once, without pushing
-   * spheres; a ball whose centre is then in a box falls through it. To move a collider, set
-   * `velocity` [m/s] and `angularVelocity` [rad/s], with which the next steps move it.
+   * spheres; a ball whose centre is then in a box falls through it. To move a collider, use
+   * `setNextPose`, or set `velocity` [m/s] and `angularVelocity` [rad/s], with which the next steps
+   * move it.
    * @throws {CaromError}
    */
   setCollider(id: number, changes: Partial<ColliderDescription>): void;
+  /**
+   * Sets the velocities of a collider so that it reaches a pose after `dt` [s] (default: the frame
+   * time of the scene), by the shorter rotation. A step of this length takes it there, and spheres
+   * feel its velocity. It moves on until it gets another velocity.
+   * @throws {CaromError} if there is no such collider, a number is invalid, or a motion moves it
+   */
+  setNextPose(id: number, pose: Pose, dt?: number): void;
   /** Replaces a force. @throws {CaromError} */
   setForce(id: number, force: Force): void;
   /** Changes the given properties of a spring: its ends, or how it pulls. @throws {CaromError} */

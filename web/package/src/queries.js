@@ -34,22 +34,6 @@ function groups32(name, value) {
   throw new TypeError(`${name} must be a whole number in [0, 2^32), not ${value}`);
 }
 
-/** Returns the numbers of a vector. */
-export function vector(name, values) {
-  return vectors(name, values, 1);
-}
-
-/** Returns the numbers of vectors, `count` of them if it is given. */
-export function vectors(name, values, count) {
-  if (typeof values?.[Symbol.iterator] !== "function" || typeof values === "string") {
-    throw new TypeError(`${name} must be numbers`);
-  }
-  const numbers = Float64Array.from(values);
-  const wanted = 3 * (count ?? Math.ceil(numbers.length / 3));
-  if (numbers.length === wanted) return numbers;
-  throw new TypeError(`${name} must be ${wanted} numbers, not ${numbers.length}`);
-}
-
 /** Returns the hits of a table; `undefined` for a row where nothing is met. */
 export function hits(table) {
   return rowsOf(table, COLUMNS).map((row) => found(row, "fraction"));

@@ -3,13 +3,15 @@
 
 import * as engine from "./engine.js";
 import { contacts } from "./contacts.js";
-import { attempt, attemptPart, CaromError } from "./errors.js";
+import { attempt, attemptPart } from "./errors.js";
+import { ENGINE } from "./handle.js";
 import { IMPACT_COLUMNS, impacts } from "./impacts.js";
-import { writeMatrices } from "./matrices.js";
 import { parse } from "./names.js";
+import { rotation, vector, vectors } from "./numbers.js";
 import { PredictedPath } from "./path.js";
-import { filterOf, hits, nearBodies, vector, vectors } from "./queries.js";
+import { filterOf, hits, nearBodies } from "./queries.js";
 import { sensorEvents } from "./sensor_events.js";
+import { Spheres } from "./spheres.js";
 import { override, tables } from "./toml.js";
 import { Views } from "./views.js";
 import { wellEvents } from "./well_events.js";
@@ -19,17 +21,15 @@ const isToml = (text) => text.includes("=");
 
 const EMPTY_SCENE = 'name = "world"';
 
-export class World {
-  /** The world of the engine; empty after `free`. */
-  #engine;
+export class World extends Spheres {
   #views = new Views();
 
   constructor(simulation = {}) {
     if (simulation instanceof engine.World) {
-      this.#engine = simulation;
+      super(simulation, "world");
       return;
     }
-    this.#engine = engine.World.fromToml(EMPTY_SCENE, []);
+    super(engine.World.fromToml(EMPTY_SCENE, []), "world");
     this.setSimulation(simulation);
   }
 
@@ -39,131 +39,45 @@ export class World {
     return new World(attempt(() => make(nameOrToml, changes)));
   }
 
-  free() {
-    this.#engine?.free();
-    this.#engine = undefined;
-  }
-
-  get #world() {
-    if (this.#engine === undefined) throw new CaromError("this world has been freed");
-    return this.#engine;
-  }
-
   // Time.
 
   step(dt = this.frameTime) {
-    const world = this.#world;
+    const world = this[ENGINE];
     attempt(() => world.step(dt));
   }
 
   nextEventTime(within) {
-    const world = this.#world;
+    const world = this[ENGINE];
     return attempt(() => world.nextEventTime(within));
   }
 
   stepToNextEvent(within) {
-    const world = this.#world;
+    const world = this[ENGINE];
     attempt(() => world.stepToNextEvent(within));
   }
 
   get time() {
-    return this.#world.time;
+    return this[ENGINE].time;
   }
 
   get frameTime() {
-    return this.#world.frameTime;
+    return this[ENGINE].frameTime;
   }
 
   snapshot() {
-    return this.#world.snapshot();
+    return this[ENGINE].snapshot();
   }
 
   snapshotInto(snapshot) {
-    this.#world.snapshotInto(snapshot);
+    this[ENGINE].snapshotInto(snapshot);
   }
 
   restore(snapshot) {
-    this.#world.restore(snapshot);
+    this[ENGINE].restore(snapshot);
   }
 
   stateHash() {
-    return this.#world.stateHash();
-  }
-
-  // Arrays of spheres.
-
-  get count() {
-    return this.#world.count;
-  }
-
-  get positions() {
-    return this.#view("positions", Float64Array, 3);
-  }
-
-  get velocities() {
-    return this.#view("velocities", Float64Array, 3);
-  }
-
-  get radii() {
-    return this.#view("radii", Float64Array, 1);
-  }
-
-  get masses() {
-    return this.#view("masses", Float64Array, 1);
-  }
-
-  get ids() {
-    return this.#view("ids", Float64Array, 1);
-  }
-
-  get colors() {
-    return this.#view("colors", Float32Array, 3);
-  }
-
-  get orientations() {
-    return this.#viewOr("orientations", NOT_TURNED);
-  }
-
-  get angularVelocities() {
-    return this.#viewOr("angularVelocities", AT_REST);
-  }
-
-  get inertiaFactors() {
-    return this.#viewOr("inertiaFactors", SOLID_BALL);
-  }
-
-  get frictions() {
-    return this.#viewOr("frictions", SILENT);
-  }
-
-  get rollingFrictions() {
-    return this.#viewOr("rollingFrictions", SILENT);
-  }
-
-  get spinningFrictions() {
-    return this.#viewOr("spinningFrictions", SILENT);
-  }
-
-  get tangentialRestitutions() {
-    return this.#viewOr("tangentialRestitutions", SILENT);
-  }
-
-  #view(name, Type, width) {
-    const world = this.#world;
-    return this.#views.at(name, Type, world[name], width * world.count);
-  }
-
-  /** Returns an array that the engine stores only if a sphere differs from the default. */
-  #viewOr(name, usual) {
-    const world = this.#world;
-    const isUsual = world[name] === undefined;
-    return isUsual
-      ? this.#views.repeated(name, usual, world.count)
-      : this.#view(name, Float64Array, usual.length);
-  }
-
-  writeMatrices(matrices) {
-    writeMatrices(this, matrices);
+    return this[ENGINE].stateHash();
   }
 
   // Report of the last frame.
@@ -173,11 +87,11 @@ export class World {
   }
 
   get impactCount() {
-    return this.#world.impactCount;
+    return this[ENGINE].impactCount;
   }
 
   get impactTable() {
-    const world = this.#world;
+    const world = this[ENGINE];
     // First the address: the call makes the table, and the memory may grow.
     const place = world.impacts;
     const length = IMPACT_COLUMNS.count * world.impactCount;
@@ -185,19 +99,19 @@ export class World {
   }
 
   get emitted() {
-    return Array.from(this.#world.emitted);
+    return Array.from(this[ENGINE].emitted);
   }
 
   get retired() {
-    return Array.from(this.#world.retired);
+    return Array.from(this[ENGINE].retired);
   }
 
   get leftOut() {
-    return Array.from(this.#world.leftOut);
+    return Array.from(this[ENGINE].leftOut);
   }
 
   get triggers() {
-    const pairs = this.#world.triggers;
+    const pairs = this[ENGINE].triggers;
     return Array.from({ length: pairs.length / 2 }, (_, i) => ({
       collider: pairs[2 * i],
       sphere: pairs[2 * i + 1],
@@ -205,50 +119,50 @@ export class World {
   }
 
   get sensorEvents() {
-    return sensorEvents(this.#world.sensorEvents);
+    return sensorEvents(this[ENGINE].sensorEvents);
   }
 
   get wellEvents() {
-    return wellEvents(this.#world.wellEvents);
+    return wellEvents(this[ENGINE].wellEvents);
   }
 
   get work() {
-    const [predictions, pairTests, events, cellCrossings, ...others] = this.#world.work;
+    const [predictions, pairTests, events, cellCrossings, ...others] = this[ENGINE].work;
     const [groups, solverIterations, searches, sweeps, contacts] = others;
     const ofEvents = { predictions, pairTests, events, cellCrossings, groups, solverIterations };
     return { ...ofEvents, searches, sweeps, contacts };
   }
 
   get energyAccount() {
-    const [contacts, colliders, kicks, growth, ...others] = this.#world.energyAccount;
+    const [contacts, colliders, kicks, growth, ...others] = this[ENGINE].energyAccount;
     const [shear, thermostat, forces, applied, correction, emission] = others;
     const ofBodies = { contacts, colliders, kicks, growth, shear, thermostat };
     return { ...ofBodies, forces, applied, correction, emission };
   }
 
   get contactAccount() {
-    const [limitedSubSteps, residual, largestOverlap, ...counts] = this.#world.contactAccount;
+    const [limitedSubSteps, residual, largestOverlap, ...counts] = this[ENGINE].contactAccount;
     const [asleep, squeezed] = counts;
     return { limitedSubSteps, residual, largestOverlap, asleep, squeezed };
   }
 
   get zoneAccount() {
-    const [spheres, sphereSeconds, ticks, joined, left] = this.#world.zoneAccount;
+    const [spheres, sphereSeconds, ticks, joined, left] = this[ENGINE].zoneAccount;
     return { spheres, sphereSeconds, ticks, joined, left };
   }
 
   get wasStepped() {
-    return this.#world.wasStepped;
+    return this[ENGINE].wasStepped;
   }
 
   // Present state.
 
   get contacts() {
-    return contacts(this.#world.contacts);
+    return contacts(this[ENGINE].contacts);
   }
 
   get hasSpin() {
-    return this.#world.hasSpin;
+    return this[ENGINE].hasSpin;
   }
 
   // Queries.
@@ -259,7 +173,7 @@ export class World {
   }
 
   castRays(origins, ways, filter) {
-    const world = this.#world;
+    const world = this[ENGINE];
     const starts = vectors("origins", origins);
     const leads = vectors("ways", ways, starts.length / 3);
     const finds = filterOf(filter);
@@ -267,41 +181,41 @@ export class World {
   }
 
   castSphere(center, radius, way, filter) {
-    const world = this.#world;
+    const world = this[ENGINE];
     const [start, lead] = [vector("center", center), vector("way", way)];
     const finds = filterOf(filter);
     return hits(attempt(() => world.castSphere(start, radius, lead, finds)))[0];
   }
 
   nearest(point, within = Infinity, filter = {}) {
-    const world = this.#world;
+    const world = this[ENGINE];
     const [place, finds] = [vector("point", point), filterOf(filter)];
     return nearBodies(attempt(() => world.nearest(place, within, finds)))[0];
   }
 
   overlapping(center, radius, filter) {
-    const world = this.#world;
+    const world = this[ENGINE];
     const [place, finds] = [vector("center", center), filterOf(filter)];
     return nearBodies(attempt(() => world.overlapping(place, radius, finds)));
   }
 
   predict(id, horizon, mostImpacts = 10_000) {
-    const world = this.#world;
+    const world = this[ENGINE];
     return new PredictedPath(attempt(() => world.predict(id, horizon, mostImpacts)));
   }
 
   // Sums over all spheres.
 
   kineticEnergy() {
-    return this.#world.kineticEnergy();
+    return this[ENGINE].kineticEnergy();
   }
 
   rotationalEnergy() {
-    return this.#world.rotationalEnergy();
+    return this[ENGINE].rotationalEnergy();
   }
 
   potentialEnergy() {
-    return this.#world.potentialEnergy();
+    return this[ENGINE].potentialEnergy();
   }
 
   totalEnergy() {
@@ -309,43 +223,38 @@ export class World {
   }
 
   momentum() {
-    return Array.from(this.#world.momentum());
+    return Array.from(this[ENGINE].momentum());
   }
 
   angularMomentum() {
-    return Array.from(this.#world.angularMomentum());
+    return Array.from(this[ENGINE].angularMomentum());
   }
 
   // Contents of the world.
 
   get scene() {
-    const { simulation, forces, colliders, ...scene } = parse(this.#world.scene());
+    const { simulation, forces, colliders, ...scene } = parse(this[ENGINE].scene());
     return scene;
   }
 
   get simulation() {
-    return parse(this.#world.scene()).simulation;
+    return parse(this[ENGINE].scene()).simulation;
   }
 
   get colliders() {
-    return parse(this.#world.colliders()).map((collider) => ({ ...COLLIDER, ...collider }));
+    return parse(this[ENGINE].colliders()).map((collider) => ({ ...COLLIDER, ...collider }));
   }
 
   get forces() {
-    return parse(this.#world.forces());
+    return parse(this[ENGINE].forces());
   }
 
   get springs() {
-    return parse(this.#world.springs()).map((spring) => ({ ...SPRING, ...spring }));
-  }
-
-  sphere(id) {
-    const world = this.#world;
-    return parse(attempt(() => world.sphere(id)));
+    return parse(this[ENGINE].springs()).map((spring) => ({ ...SPRING, ...spring }));
   }
 
   toToml() {
-    return this.#world.toToml();
+    return this[ENGINE].toToml();
   }
 
   // Add, change, remove.
@@ -356,7 +265,7 @@ export class World {
       const known = "spheres, generators, colliders and forces";
       throw new TypeError(`to a running world ${known} can be added, not "${unknown}"`);
     }
-    const [world, text] = [this.#world, tables({ spheres, generators, colliders, forces })];
+    const [world, text] = [this[ENGINE], tables({ spheres, generators, colliders, forces })];
     return parse(attemptPart(() => world.add(text)));
   }
 
@@ -373,49 +282,28 @@ export class World {
   }
 
   addSpring(spring) {
-    const world = this.#world;
+    const world = this[ENGINE];
     return attemptPart(() => world.addSpring(tables({ springs: [spring] })));
-  }
-
-  setSphere(id, changes) {
-    // A size or mass of another kind replaces the present one.
-    const { radius, mass, ...rest } = this.sphere(id);
-    const size = changes.diameter === undefined ? { radius } : {};
-    const weight = changes.density === undefined ? { mass } : {};
-    const text = tables({ spheres: [{ ...rest, ...size, ...weight, ...changes }] });
-    attemptPart(() => this.#world.setSphere(id, text));
-  }
-
-  applyImpulse(id, impulse) {
-    const [world, given] = [this.#world, vector("impulse", impulse)];
-    attempt(() => world.applyImpulse(id, given));
-  }
-
-  applyImpulseAt(id, impulse, point) {
-    const world = this.#world;
-    const [given, place] = [vector("impulse", impulse), vector("point", point)];
-    attempt(() => world.applyImpulseAt(id, given, place));
-  }
-
-  setVelocity(id, velocity) {
-    const [world, given] = [this.#world, vector("velocity", velocity)];
-    attempt(() => world.setVelocity(id, given));
-  }
-
-  setAngularVelocity(id, angularVelocity) {
-    const [world, given] = [this.#world, vector("angularVelocity", angularVelocity)];
-    attempt(() => world.setAngularVelocity(id, given));
   }
 
   setCollider(id, changes) {
     const { id: _, ...now } = this.colliders.find((collider) => collider.id === id) ?? {};
     const text = tables({ colliders: [{ ...now, ...changes }] });
-    attemptPart(() => this.#world.setCollider(id, text));
+    attemptPart(() => this[ENGINE].setCollider(id, text));
+  }
+
+  setNextPose(id, pose, dt = this.frameTime) {
+    const [unknown] = Object.keys(pose).filter((name) => name !== "position" && name !== "rotation");
+    if (unknown !== undefined) throw new TypeError(`a pose has no "${unknown}"`);
+    const world = this[ENGINE];
+    const place = pose.position && vector("position", pose.position);
+    const turn = pose.rotation && rotation("rotation", pose.rotation);
+    attempt(() => world.setNextPose(id, place, turn, dt));
   }
 
   setForce(id, force) {
     const text = tables({ forces: [force] });
-    attemptPart(() => this.#world.setForce(id, text));
+    attemptPart(() => this[ENGINE].setForce(id, text));
   }
 
   setSpring(id, changes) {
@@ -426,7 +314,7 @@ export class World {
     const pair = isToPoint ? {} : { spheres };
     const ends = changes.spheres === undefined ? { sphere, anchor, ...pair } : {};
     const text = tables({ springs: [{ ...numbers, ...ends, ...changes }] });
-    attemptPart(() => this.#world.setSpring(id, text));
+    attemptPart(() => this[ENGINE].setSpring(id, text));
   }
 
   setSimulation(changes) {
@@ -436,35 +324,21 @@ export class World {
     const discrete = { ...now.discrete, ...changes.discrete };
     const contact = { ...now.contact, ...changes.contact };
     const text = tables({ simulation: { ...now, ...changes, exact, bisect, discrete, contact } });
-    attemptPart(() => this.#world.setSimulation(text));
-  }
-
-  removeSphere(id) {
-    attempt(() => this.#world.removeSphere(id));
+    attemptPart(() => this[ENGINE].setSimulation(text));
   }
 
   removeCollider(id) {
-    attempt(() => this.#world.removeCollider(id));
+    attempt(() => this[ENGINE].removeCollider(id));
   }
 
   removeForce(id) {
-    attempt(() => this.#world.removeForce(id));
+    attempt(() => this[ENGINE].removeForce(id));
   }
 
   removeSpring(id) {
-    attempt(() => this.#world.removeSpring(id));
+    attempt(() => this[ENGINE].removeSpring(id));
   }
 }
-
-// `using world = ...`, if the language supports it.
-if (Symbol.dispose) World.prototype[Symbol.dispose] = World.prototype.free;
-
-// Defaults of a sphere.
-const NOT_TURNED = [0, 0, 0, 1];
-const AT_REST = [0, 0, 0];
-const SOLID_BALL = [2 / 5];
-/** A sphere without its own friction. */
-const SILENT = [NaN];
 
 /** Defaults of a collider, which scene files leave out. */
 const COLLIDER = {

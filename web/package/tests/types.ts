@@ -44,6 +44,9 @@ own.removeSpring(spring);
 const lengths: number[] = own.springs.map(({ restLength }) => restLength);
 own.setSphere(ball, { velocity: [0, 1, 0] });
 own.setCollider(0, { restitution: 0.5 });
+own.setNextPose(0, { position: [0, 1, 0] });
+// @ts-expect-error: a misspelled field
+own.setNextPose(0, { place: [0, 1, 0] }, 0.1);
 const changes: SimulationChanges = { exact: { impactLaw: "simultaneous", maxImpacts: 100 } };
 own.setSimulation(changes);
 

@@ -9,13 +9,13 @@ use pyo3::prelude::*;
 
 use super::BatchEngine;
 use super::colliders::{self, ColliderColumn, ColliderQuantity};
-use super::next_poses::{GivenPoses, NextPoses};
 use super::selection::Given;
 use super::stroke::Stroke;
 use crate::arguments;
 use crate::arrays::shaped;
 use crate::editing::collider_of;
 use crate::failure::Failure;
+use crate::next_poses::{GivenPoses, NextPoses};
 use crate::part::{self, only};
 
 /// Positions and rotations of a collider in all worlds.
@@ -62,7 +62,7 @@ impl BatchEngine {
         dt: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
         let worlds = self.selected(py, &worlds)?;
-        let poses = NextPoses::read(&poses, worlds.len())?;
+        let poses = NextPoses::read(&poses, &[worlds.len()])?;
         let dt = arguments::optional_number("dt", dt)?;
         self.change(py, |members| {
             let dt = dt.unwrap_or_else(|| members.frame_time());

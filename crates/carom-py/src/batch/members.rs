@@ -7,12 +7,12 @@ use carom::{Collider, ColliderId, DVec3, SphereId, StepReport, StopRequest, Worl
 use carom_scene::scene::Motion;
 use rayon::prelude::*;
 
-use super::next_poses::NextPoses;
 use super::observed::{Columns, Row};
 use super::stroke::Stroke;
 use crate::editing;
 use crate::failure::Failure;
 use crate::inner::Inner;
+use crate::next_poses::NextPoses;
 use crate::quantity::Quantity;
 use crate::setting;
 use crate::snapshot::Snapshot;

@@ -8,7 +8,6 @@ mod arrays;
 mod colliders;
 mod measures;
 mod members;
-mod next_poses;
 mod observed;
 mod selection;
 mod stroke;
@@ -23,6 +22,7 @@ use pyo3::sync::MutexExt;
 
 use crate::arguments;
 use crate::failure::Failure;
+use crate::next_poses::{GivenPoses, NextPoses};
 use crate::properties::sphere_properties;
 use crate::quantity::Quantity;
 use crate::snapshot::Snapshot;
@@ -31,7 +31,6 @@ use crate::tables::Table;
 use crate::threads;
 use arrays::BatchArrays;
 use members::{Members, Progress};
-use next_poses::{GivenPoses, NextPoses};
 use observed::{Columns, Out};
 use selection::Given;
 
@@ -168,7 +167,7 @@ impl BatchEngine {
         let dt = arguments::optional_number("dt", dt)?;
         let frames = arguments::count("frames", frames)?;
         let worlds = self.selected(py, &worlds)?;
-        let poses = poses.map(|poses| NextPoses::read(&poses, worlds.len())).transpose()?;
+        let poses = poses.map(|poses| NextPoses::read(&poses, &[worlds.len()])).transpose()?;
         let mut guard = self.lock(py)?;
         let Inner { members, arrays } = &mut *guard;
         let columns =

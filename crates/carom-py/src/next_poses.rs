@@ -1,4 +1,4 @@
-//! Poses to which a step takes a collider in many worlds.
+//! Poses to which a step takes a collider.
 
 use carom::{Collider, ColliderId, DQuat, DVec3, Pose, World};
 use pyo3::prelude::*;
@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 use crate::arguments;
 use crate::failure::Failure;
 
-/// Poses of a collider at the end of a step, with a row for each world.
+/// Poses of a collider at the end of a step, with a row for each world, or of a single world.
 #[derive(Debug)]
 pub struct NextPoses {
     id: ColliderId,
@@ -21,14 +21,17 @@ pub type GivenPoses<'py> =
     (Bound<'py, PyAny>, Option<Bound<'py, PyAny>>, Option<Bound<'py, PyAny>>);
 
 impl NextPoses {
-    /// Reads poses for `count` worlds.
+    /// Reads poses for worlds of this shape: of one axis for a batch, of none for a single world.
     ///
     /// # Errors
     /// As [`arguments::id`] and [`arguments::array`].
-    pub fn read((id, positions, rotations): &GivenPoses<'_>, count: usize) -> PyResult<Self> {
+    pub fn read((id, positions, rotations): &GivenPoses<'_>, worlds: &[usize]) -> PyResult<Self> {
         let id = ColliderId::from_number(arguments::id("collider", id)?);
         let rows = |name, values: &Option<Bound<'_, PyAny>>, width| {
-            values.as_ref().map(|it| arguments::array(name, it, &[count, width])).transpose()
+            values
+                .as_ref()
+                .map(|it| arguments::array(name, it, &[worlds, &[width]].concat()))
+                .transpose()
         };
         let positions = rows("position", positions, 3)?;
         Ok(Self { id, positions, rotations: rows("rotation", rotations, 4)? })
