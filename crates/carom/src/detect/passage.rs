@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
+use super::surface_tree::SurfaceTree;
 use super::{Separation, sphere_surface};
 use crate::bounds::Bounds;
 use crate::surface::{Form, Surface};
-use crate::system::System;
 
 /// Overlap with the front of an open surface, as a part of the radius, beyond which a sphere came from behind: from
 /// the front none sinks in as deep.
@@ -53,17 +53,26 @@ impl FrameStart<'_> {
     /// Whether a sphere passes an open surface in the frame: it began the frame behind it, or within a surface at rest,
     /// which it came into from behind. One that moves may also have overlapped it by moving. A sphere passes a mesh as a
     /// whole.
-    pub fn passes(&self, system: &System, sphere: usize, surface: &Surface) -> bool {
+    ///
+    /// - `radius` \[m\] of the sphere
+    /// - `surfaces` of the world, with their tree
+    pub fn passes(
+        &self,
+        sphere: usize,
+        radius: f64,
+        surface: &Surface,
+        (surfaces, tree): (&[Surface], &SurfaceTree),
+    ) -> bool {
         if !surface.form.is_open() {
             return false;
         }
-        let (center, radius) = (self.centers[sphere], system.spheres.radius[sphere]);
+        let center = self.centers[sphere];
         if !surface.form.is_feature() {
             return began_within(surface, center, radius);
         }
         let mut near = Vec::new();
-        system.tree.near(&Bounds::around(center, DVec3::splat(radius)), &mut near);
-        let parts = near.iter().map(|&it| &system.surfaces[it as usize]);
+        tree.near(&Bounds::around(center, DVec3::splat(radius)), &mut near);
+        let parts = near.iter().map(|&it| &surfaces[it as usize]);
         let mut parts = parts.filter(|it| it.collider == surface.collider && it.form.is_open());
         parts.any(|it| began_within(it, center, radius))
     }

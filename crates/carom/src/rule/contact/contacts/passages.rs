@@ -10,10 +10,17 @@ use crate::surface::Form;
 /// more than pressing leaves.
 const JOINED: f64 = 1e-2;
 
-/// Notes which surfaces the sphere of these contacts passes: the open ones that it is behind, and those that it passed
-/// before and still overlaps. While it passes a part of an open mesh it passes the parts around, except those on which
-/// it presses or which it hardly overlaps.
-pub(super) fn find(run: &Run, own: &mut [SurfaceContact], places: &Places) {
+/// Notes which surfaces the spheres of a run pass: the open ones that they are behind, and those that they passed
+/// before and still overlap. While a sphere passes a part of an open mesh it passes the parts around, except those on
+/// which it presses or which it hardly overlaps.
+pub(crate) fn find(run: &Run, contacts: &mut [SurfaceContact], places: &Places) {
+    for own in contacts.chunk_by_mut(|first, second| first.slot == second.slot) {
+        find_of_sphere(run, own, places);
+    }
+}
+
+/// Notes which surfaces the sphere of these contacts passes.
+fn find_of_sphere(run: &Run, own: &mut [SurfaceContact], places: &Places) {
     let mut passes_mesh = false;
     for contact in &mut *own {
         let (form, _) = places.at_start(contact.surface);

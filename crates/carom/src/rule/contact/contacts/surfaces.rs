@@ -5,7 +5,6 @@ use glam::DVec3;
 use super::batch::Impulses;
 use super::coulomb::{limited, slip};
 use super::materials::ContactMaterial;
-use super::passages;
 use super::swept::{FAR, FREE};
 use crate::contact_time;
 use crate::detect::{Separation, sphere_surface};
@@ -152,7 +151,6 @@ pub(crate) fn prepare(
     sub_step: &SubStep,
 ) {
     for own in contacts.chunk_by_mut(|first, second| first.slot == second.slot) {
-        passages::find(run, own, places);
         for contact in &mut *own {
             contact.aim(run, places, sub_step);
         }
