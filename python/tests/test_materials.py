@@ -97,3 +97,22 @@ def test_wrong_values_are_refused_by_their_names() -> None:
         carom.Scene(name="x", materials=[carom.Material()])  # type: ignore[arg-type]
     with pytest.raises(TypeError, match=r"Scene\.materials\['felt'\]: must be a carom\.Material"):
         carom.Scene(name="x", materials={"felt": 0.3})  # type: ignore[dict-item]
+
+
+def test_pairs_of_a_running_world_are_read_and_changed() -> None:
+    world = dropped().world()
+    assert world.material_pairs == (carom.MaterialPair(("steel", "felt"), restitution=0.25),)
+    pair = carom.MaterialPair(("felt", "steel"), restitution=0.5, friction=0.25)
+    world.material_pairs = [pair]
+    assert world.material_pairs == (pair,)
+    assert world.to_scene().material_pairs == (pair,)
+    # 5 m in 1 s; a rounding of the time of impact.
+    world.step(dt=1.5)
+    assert world.impacts["separation_speed"][0] == pytest.approx(5.0, rel=1e-14)
+    with pytest.raises(carom.SceneError, match=r"material_pairs\[0\]\.materials"):
+        world.material_pairs = [carom.MaterialPair(("felt", "cork"))]
+    with pytest.raises(TypeError, match=r"material_pairs\[0\]"):
+        world.material_pairs = ["felt"]  # type: ignore[list-item]
+    assert world.material_pairs == (pair,)
+    world.material_pairs = ()
+    assert world.material_pairs == ()

@@ -68,6 +68,38 @@ def test_a_snapshot_brings_everything_back() -> None:
     assert world.state_hash == later
 
 
+def test_a_snapshot_into_the_memory_of_another_brings_back_the_later_state() -> None:
+    world = carom.load("simtest1").world()
+    world.step(frames=30)
+    snapshot = world.snapshot()
+    world.add_force(carom.ViscousDrag(0.5))
+    world.step(frames=30)
+    world.snapshot_into(snapshot)
+    hash_then, forces = world.state_hash, world.forces
+    assert snapshot.time == world.time
+    assert carom.Snapshot.from_bytes(snapshot.to_bytes()).to_bytes() == world.snapshot().to_bytes()
+    world.step(frames=30)
+    later = world.state_hash
+    other = carom.World()
+    for it in (world, other):
+        it.restore(snapshot)
+        assert (it.state_hash, it.forces) == (hash_then, forces)
+        it.step(frames=30)
+        assert it.state_hash == later
+
+
+def test_a_world_says_whether_it_turns_and_how_long_its_frames_may_be() -> None:
+    world = carom.World(carom.Scene(name="spring", simulation=carom.Simulation(rule="discrete")))
+    assert world.longest_stable_frame == np.inf
+    ball = world.add_sphere(carom.Sphere(radius=0.5, mass=4))
+    world.add_spring(carom.Spring(sphere=ball, anchor=(0, 1, 0), stiffness=16))
+    # Two over the frequency of the spring.
+    assert world.longest_stable_frame == 1.0
+    assert (world.has_spin, world.unfinished_islands) == (False, 0)
+    world.set_angular_velocity(ball, (0, 1, 0))
+    assert world.has_spin
+
+
 def test_a_step_of_many_frames_is_as_many_steps() -> None:
     one, many = carom.load("simtest3").world(), carom.load("simtest3").world()
     for _ in range(100):

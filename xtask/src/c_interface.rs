@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::process::Command;
 
 use crate::checks::programs;
+use crate::files::said;
 use crate::shell::{
     CI, Outcome, cargo, cargo_with, ci_folder, finish, host, root, succeeds, target_folder,
 };
@@ -154,33 +155,53 @@ impl Programs {
         cargo_with(&test, &[(&format!("CARGO_TARGET_{target}_RUNNER"), VALGRIND)])
     }
 
-    /// Compiles and runs the program in C#, with and without the part for Unity.
+    /// Compiles and runs the programs in C#: worlds with and without the part for Unity, and the
+    /// pinball of the examples.
     fn run_csharp(&self) -> Outcome {
         if !cfg!(target_os = "linux") && !succeeds("mcs", &["--version"]) {
-            eprintln!("xtask: there is no mono, so the program in C# is not run");
+            eprintln!("xtask: there is no mono, so the programs in C# are not run");
             return Ok(());
         }
         let pinned = native_hashes::pinned()?;
         let is_short = |scene: &str| scene.starts_with("simtest") || scene.starts_with("tutorial");
         let own = pinned.iter().filter(|(scene, _)| is_short(scene));
         let hashes: Vec<String> = own.map(|(scene, hash)| format!("{scene}={hash}")).collect();
-        let (class, examples) =
-            (self.sources.join("csharp/CaromWorld.cs"), self.sources.join("examples"));
-        let unity = ["-define:UNITY_5_3_OR_NEWER"];
-        for (name, options) in [("Worlds.exe", &[][..]), ("Unity.exe", &unity[..])] {
-            let program = self.folder.join(name);
-            let mut compiler = Command::new("mcs");
-            compiler.args(["-warnaserror", "-warn:4"]).args(options);
-            compiler.arg(format!("-out:{}", program.display())).arg(&class);
-            compiler.args(["Worlds.cs", "UnityEngine.cs"].map(|file| examples.join(file)));
-            finish("mcs", &mut compiler)?;
-            let mut mono = Command::new("mono");
-            mono.arg(&program).args(&hashes).env(LIBRARY_PATH, &self.libraries);
-            finish("mono", &mut mono)?;
+        let examples = self.sources.join("examples");
+        let worlds = ["Worlds.cs", "UnityEngine.cs"].map(|file| examples.join(file));
+        self.compile_csharp("Worlds.exe", &[], &worlds)?;
+        self.compile_csharp("Unity.exe", &[UNITY], &worlds)?;
+        for name in ["Worlds.exe", "Unity.exe"] {
+            self.run_mono(name, &hashes)?;
         }
-        Ok(())
+        let game = root().join("examples/pinball-unity/Assets/Scripts");
+        let game = ["Table.cs", "PinballGame.cs"].map(|file| game.join(file));
+        let test = ["Pinball.cs", "UnityEngine.cs"].map(|file| examples.join(file));
+        self.compile_csharp("Pinball.exe", &[UNITY], &[game, test].concat())?;
+        let table = root().join("examples/pinball");
+        let reached = table.join("ten_seconds.txt");
+        let reached = fs::read_to_string(&reached).map_err(|error| said(&reached, &error))?;
+        let arguments = [table.to_string_lossy().into_owned(), reached.trim().to_owned()];
+        self.run_mono("Pinball.exe", &arguments)
+    }
+
+    /// Compiles a program of these sources and the class of worlds.
+    fn compile_csharp(&self, program: &str, options: &[&str], sources: &[PathBuf]) -> Outcome {
+        let mut compiler = Command::new("mcs");
+        compiler.args(["-warnaserror", "-warn:4"]).args(options);
+        compiler.arg(format!("-out:{}", self.folder.join(program).display()));
+        compiler.arg(self.sources.join("csharp/CaromWorld.cs")).args(sources);
+        finish("mcs", &mut compiler)
+    }
+
+    fn run_mono(&self, program: &str, arguments: &[String]) -> Outcome {
+        let mut mono = Command::new("mono");
+        mono.arg(self.folder.join(program)).args(arguments).env(LIBRARY_PATH, &self.libraries);
+        finish("mono", &mut mono)
     }
 }
+
+/// Compiler option for the parts that need Unity.
+const UNITY: &str = "-define:UNITY_5_3_OR_NEWER";
 
 /// Environment variable with the folders of shared libraries.
 const LIBRARY_PATH: &str =

@@ -29,7 +29,20 @@ pub fn check() -> Outcome {
         let new = language.required.difference(&listed);
         faults.extend(new.map(|name| format!("{}: `{name}` is not in the table", language.name)));
     }
+    faults.extend(unexplained(&table));
     if faults.is_empty() { Ok(()) } else { Err(format!("{TABLE}:\n{}", faults.join("\n"))) }
+}
+
+/// Reports rows with an empty cell that have no reason in the list at the end of a page, and reasons without such a row.
+fn unexplained(page: &str) -> Vec<String> {
+    let rows = page.lines().filter_map(|line| line.strip_prefix("| ")?.strip_suffix(" |"));
+    let cells = rows.map(|row| row.split(" | ").collect::<Vec<_>>());
+    let empty = cells.filter(|cells| cells.contains(&NONE)).map(|cells| cells[0]);
+    let reasons = page.lines().filter_map(|line| line.strip_prefix("- **")?.split("**").next());
+    let (empty, reasons): (BTreeSet<&str>, BTreeSet<&str>) = (empty.collect(), reasons.collect());
+    let missing = empty.difference(&reasons).map(|row| format!("`{row}` has no reason"));
+    let needless = reasons.difference(&empty).map(|row| format!("`{row}` needs no reason"));
+    missing.chain(needless).collect()
 }
 
 /// Returns the names in a column of all tables of a page.
@@ -127,18 +140,21 @@ fn csharp(source: &str) -> BTreeSet<String> {
     members
 }
 
-/// Returns the members of the class `World` in declarations of TypeScript.
+/// Returns the members of the classes for worlds and snapshots in declarations of TypeScript.
 fn javascript(declarations: &str) -> BTreeSet<String> {
-    let class = declarations.split("export class World {").nth(1).unwrap_or_default();
-    let body = class.split("\n}").next().unwrap_or_default();
-    let members = body.lines().filter_map(|line| line.strip_prefix("  "));
-    let members = members.filter(|line| line.starts_with(|first: char| first.is_ascii_lowercase()));
-    let named = members.map(|line| {
-        identifier(
-            ["readonly ", "static "].iter().fold(line, |line, word| line.trim_start_matches(word)),
-        )
-    });
-    let mut names: BTreeSet<String> = named.map(str::to_owned).collect();
+    let mut names = BTreeSet::new();
+    for class in ["World", "Snapshot"] {
+        let rest = declarations.split(&format!("export class {class} {{")).nth(1);
+        let body = rest.and_then(|rest| rest.split("\n}").next()).unwrap_or_default();
+        let members = body.lines().filter_map(|line| line.strip_prefix("  "));
+        let members =
+            members.filter(|line| line.starts_with(|first: char| first.is_ascii_lowercase()));
+        let plain = |line| {
+            let words = ["private ", "readonly ", "static "];
+            identifier(words.iter().fold(line, |line: &str, word| line.trim_start_matches(word)))
+        };
+        names.extend(members.map(plain).map(str::to_owned));
+    }
     if names.remove("constructor") {
         names.insert("World".to_owned());
     }
@@ -167,7 +183,7 @@ fn identifier(text: &str) -> &str {
 
 #[cfg(test)]
 mod tests {
-    use super::{calls, csharp, javascript, listed, members_of_python, rust};
+    use super::{calls, csharp, javascript, listed, members_of_python, rust, unexplained};
 
     fn names<'a>(found: impl IntoIterator<Item = &'a String>) -> Vec<&'a str> {
         found.into_iter().map(String::as_str).collect()
@@ -178,6 +194,12 @@ mod tests {
         let table = "| a | `x`, `y` | - |\n| b | - | `z` |\n";
         assert_eq!(names(&listed(table, 1)), ["x", "y"]);
         assert_eq!(names(&listed(table, 2)), ["z"]);
+    }
+
+    #[test]
+    fn rows_with_empty_cells_have_reasons() {
+        let page = "| a | `x` | - |\n| b | `y` | `z` |\n\n- **b**: so\n";
+        assert_eq!(unexplained(page), ["`a` has no reason", "`b` needs no reason"]);
     }
 
     #[test]
@@ -197,8 +219,10 @@ mod tests {
                       \x20       public Double3 Origin;\n";
         assert_eq!(names(&csharp(source)), ["Step", "Time"]);
         let declarations = "export class World {\n  constructor();\n  readonly time: number;\n\
-                            \x20 static fromScene(name: string): World;\n  /** step */\n}\n  other();\n";
-        assert_eq!(names(&javascript(declarations)), ["World", "fromScene", "time"]);
+                            \x20 static fromScene(name: string): World;\n  /** step */\n}\n  other();\n\
+                            export class Snapshot {\n  private constructor();\n  toBytes(): Uint8Array;\n}\n";
+        let members = ["World", "fromScene", "time", "toBytes"];
+        assert_eq!(names(&javascript(declarations)), members);
         let classes = "class Engine:\n    def step(self) -> None: ...\n    def _own(self): ...\n\
                        class Other:\n    def else_(self): ...\n";
         assert_eq!(names(&members_of_python(classes, "Engine")), ["step"]);

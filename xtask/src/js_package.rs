@@ -4,11 +4,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::files::{copy, emptied, said};
+use crate::files::{copy, emptied, made, said};
 use crate::shell::{Outcome, cargo, finish, root, target_folder};
 use crate::wasm::{self, Purpose};
 use crate::wasm_toolchain::TARGET;
-use crate::web_tools::{folder, npm_packages, wasm_bindgen};
+use crate::web_tools::{folder, node, npm_packages, wasm_bindgen};
 use crate::{native_hashes, notices, setup};
 
 /// Files of the repository that are copied into the package: source and destination.
@@ -34,7 +34,21 @@ pub fn build(purpose: Purpose) -> Outcome<PathBuf> {
     pack(&package)
 }
 
-/// Builds the package, and tests the content of the archive in Node.js.
+/// The pinball of the examples, which is tested with the package: source and destination.
+const GAME: [(&str, &str); 9] = [
+    ("examples/pinball/table.toml", "pinball/table.toml"),
+    ("examples/pinball/ten_seconds.txt", "pinball/ten_seconds.txt"),
+    ("examples/pinball-web/index.html", "pinball-web/index.html"),
+    ("examples/pinball-web/style.css", "pinball-web/style.css"),
+    ("examples/pinball-web/main.js", "pinball-web/main.js"),
+    ("examples/pinball-web/picture.js", "pinball-web/picture.js"),
+    ("examples/pinball-web/sound.js", "pinball-web/sound.js"),
+    ("examples/pinball-web/table.js", "pinball-web/table.js"),
+    ("web/node_modules/three/build", "pinball-web/node_modules/three/build"),
+];
+
+/// Builds the package, tests the content of the archive in Node.js, and plays the pinball of the
+/// examples in a browser.
 pub fn test() -> Outcome {
     let archive = build(Purpose::Test)?;
     npm_packages()?;
@@ -44,11 +58,24 @@ pub fn test() -> Outcome {
     finish("npm", Command::new("npm").arg("install").args(quiet).arg(&archive).current_dir(&user))?;
     copy(&folder().join("package/tests"), &user.join("tests"))?;
     write(&user.join("tests/native_hashes.json"), &native_hashes::json()?)?;
+    copy_game(&user)?;
     let compiler = folder().join("node_modules/typescript/bin/tsc");
     let project = ["--project", "tests"];
     finish("tsc", Command::new("node").arg(compiler).args(project).current_dir(&user))?;
     let files = test_files(&user)?;
-    finish("node", Command::new("node").arg("--test").args(files).current_dir(&user))
+    finish("node", Command::new("node").arg("--test").args(files).current_dir(&user))?;
+    setup::browser()?;
+    node(&["tests/pinball_page.js", &user.to_string_lossy()], &[])
+}
+
+/// Copies the pinball of the examples, with the packages that its page imports.
+fn copy_game(user: &Path) -> Outcome {
+    made(user.join("pinball"))?;
+    made(user.join("pinball-web/node_modules/three"))?;
+    for (from, to) in GAME {
+        copy(&root().join(from), &user.join(to))?;
+    }
+    copy(&user.join("node_modules/carom"), &user.join("pinball-web/node_modules/carom"))
 }
 
 /// Compares frame times of the package in Node.js with those of the native engine.

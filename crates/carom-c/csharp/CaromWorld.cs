@@ -294,6 +294,68 @@ namespace Carom
         public double Contacts, Colliders, Kicks, Growth, Shear, Thermostat, Forces, Applied, Correction, Emission;
     }
 
+    /// <summary>The work of the last step by stage: counts that depend only on the world.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct CaromStageCounts
+    {
+        public ulong Predictions, PairTests, Events, CellCrossings, Groups, SolverIterations, Searches, Sweeps, Contacts;
+    }
+
+    /// <summary>Quality of the solution of the last step under the rule contact, and in stepped zones of exact.
+    /// Residual is relative to the largest impulse, LargestOverlap to the sum of radii.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct CaromContactAccount
+    {
+        public ulong LimitedSubSteps, Asleep, Squeezed;
+        public double Residual, LargestOverlap;
+    }
+
+    /// <summary>Spheres that the rule exact stepped in the last step instead of moving them from impact to impact, and
+    /// their total time there [s].</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct CaromZoneAccount
+    {
+        public ulong Spheres, Ticks, Joined, Left;
+        public double SphereSeconds;
+    }
+
+    /// <summary>Impacts at one instant among bodies that touch, with their common momentum [kg m/s] and energy [J]. First
+    /// is the index of its first impact in <see cref="CaromWorld.Impacts"/>.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct CaromImpactGroup
+    {
+        public ulong First, Count;
+        public Double3 MomentumBefore, MomentumAfter;
+        public double EnergyBefore, EnergyAfter, EnergyDemanded, ColliderWork, KickWork;
+    }
+
+    /// <summary>Counts and energies [J] of the last step.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct CaromReport
+    {
+        public ulong Impacts, ZoneSpheres, WasStepped, UnfinishedIslands, Asleep, Squeezed;
+        public double ContactWork, ColliderWork, CorrectionWork, EmissionEnergy, Residual, LargestOverlap;
+    }
+
+    /// <summary>Two bodies that overlap, and the depth of the overlap [m].</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct CaromOverlap
+    {
+        public CaromBodyPair Bodies;
+        public double Depth;
+    }
+
+    /// <summary>A blow of a cue on a sphere: speed [m/s], azimuth from +x towards -z and angle down [degrees], offset
+    /// from the centre in parts of the radius, mass [kg]. <see cref="Default"/> has default values.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct CaromStrike
+    {
+        public double Speed, AzimuthDegrees, ElevationDegrees, OffsetRight, OffsetUp, CueMass;
+
+        /// <summary>A level strike at the middle along +x, with speed 0 by a cue of 0.567 kg.</summary>
+        public static CaromStrike Default { get { return Native.carom_strike(); } }
+    }
+
     /// <summary>A piece of a predicted path: a flight from an event to the next.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public struct CaromPathLeg
@@ -409,14 +471,33 @@ namespace Carom
         /// <summary>Advances the world to its next impact, at most by this many seconds.</summary>
         public void StepToNextEvent(double within) { Check(Native.carom_world_step_to_next_event(Id, within)); }
 
+        /// <summary>Returns the time of the next impact [s]; infinity if none comes within this many seconds.</summary>
+        public double NextEventTime(double within)
+        {
+            double time;
+            Check(Native.carom_world_next_event_time(Id, within, out time));
+            return time;
+        }
+
         /// <summary>Stops the step in another thread and refuses further ones, or allows steps again.</summary>
         public bool Stop { set { Check(Native.carom_world_set_stop(Id, value ? 1 : 0)); } }
 
-        /// <summary>Time since the start [s].</summary>
-        public double Time { get { double it; Check(Native.carom_world_time(Id, out it)); return it; } }
+        /// <summary>Time since the start [s]. It can be set, for forces that depend on it, in a world without
+        /// emitters.</summary>
+        public double Time
+        {
+            get { double it; Check(Native.carom_world_time(Id, out it)); return it; }
+            set { Check(Native.carom_world_set_time(Id, value)); }
+        }
 
         /// <summary>Frame time [s].</summary>
         public double FrameTime { get { double it; Check(Native.carom_world_frame_time(Id, out it)); return it; } }
+
+        /// <summary>The longest frame [s] in which motion on springs is certainly stable; else infinity.</summary>
+        public double LongestStableFrame
+        {
+            get { double it; Check(Native.carom_world_longest_stable_frame(Id, out it)); return it; }
+        }
 
         /// <summary>State hash, equal for equal states everywhere.</summary>
         public ulong StateHash { get { ulong it; Check(Native.carom_world_state_hash(Id, out it)); return it; } }
@@ -578,6 +659,21 @@ namespace Carom
             return added;
         }
 
+        /// <summary>Sets the pairs of materials from the tables of a scene file:
+        /// "material_pairs = [{ materials = ['ivory', 'slate'], restitution = 0.9 }]". The materials are those of the
+        /// scene; an empty text removes all pairs.</summary>
+        public void SetMaterialPairs(string toml)
+        {
+            Check(Native.carom_world_set_material_pairs(Id, Native.Text(toml)));
+        }
+
+        /// <summary>Replaces an emitter by that of a text: "emitters = [{ sphere = { radius = 0.1 }, period = 0.5 }]".
+        /// With another period it starts again now.</summary>
+        public void SetEmitter(ulong id, string toml) { Check(Native.carom_world_set_emitter(Id, id, Native.Text(toml))); }
+
+        /// <summary>Removes an emitter; its spheres stay.</summary>
+        public void RemoveEmitter(ulong id) { Check(Native.carom_world_remove_emitter(Id, id)); }
+
         /// <summary>Sets the simulation settings from the table [simulation] of a text (TOML).</summary>
         public void SetSimulation(string toml)
         {
@@ -715,6 +811,12 @@ namespace Carom
             return new CaromPath(path);
         }
 
+        /// <summary>Strikes a sphere with a cue: its velocity and angular velocity change at once.</summary>
+        public void Strike(ulong sphere, CaromStrike strike)
+        {
+            Check(Native.carom_world_strike(Id, sphere, ref strike));
+        }
+
         /// <summary>Applies an impulse [N s] to a sphere at its centre.</summary>
         public void ApplyImpulse(ulong sphere, Double3 impulse)
         {
@@ -725,6 +827,49 @@ namespace Carom
         public void ApplyImpulseAt(ulong sphere, Double3 impulse, Double3 point)
         {
             Check(Native.carom_world_apply_impulse_at(Id, sphere, ref impulse, ref point));
+        }
+
+        /// <summary>Returns the bodies that overlap by more than a depth [m].</summary>
+        public CaromOverlap[] Overlaps(double tolerance)
+        {
+            UIntPtr count;
+            Check(Native.carom_world_overlaps(Id, tolerance, null, UIntPtr.Zero, UIntPtr.Zero, out count));
+            var overlaps = new CaromOverlap[(int)count];
+            Check(Native.carom_world_overlaps(Id, tolerance, overlaps, UIntPtr.Zero, count, out count));
+            return overlaps;
+        }
+
+        /// <summary>Whether spheres are rotated or rotate, or may start to by friction.</summary>
+        public bool HasSpin { get { uint it; Check(Native.carom_world_has_spin(Id, out it)); return it != 0; } }
+
+        /// <summary>Returns the groups of impacts at one time of the last step.</summary>
+        public CaromImpactGroup[] ImpactGroups()
+        {
+            return Native.All<WorldId, CaromImpactGroup>(Native.carom_world_impact_groups, Id);
+        }
+
+        /// <summary>Counts and energies of the last step.</summary>
+        public CaromReport Report
+        {
+            get { CaromReport it; Check(Native.carom_world_report(Id, out it)); return it; }
+        }
+
+        /// <summary>The work of the last step by stage.</summary>
+        public CaromStageCounts Work
+        {
+            get { CaromStageCounts it; Check(Native.carom_world_work(Id, out it)); return it; }
+        }
+
+        /// <summary>Quality of the solution of the last step.</summary>
+        public CaromContactAccount ContactAccount
+        {
+            get { CaromContactAccount it; Check(Native.carom_world_contact_account(Id, out it)); return it; }
+        }
+
+        /// <summary>Spheres that were stepped in the last step.</summary>
+        public CaromZoneAccount ZoneAccount
+        {
+            get { CaromZoneAccount it; Check(Native.carom_world_zone_account(Id, out it)); return it; }
         }
 
         /// <summary>Returns the persistent contacts with their forces.</summary>
@@ -1308,8 +1453,42 @@ namespace Carom
         internal static extern CaromStatus carom_world_impacts(
             WorldId world, [Out] CaromImpact[] impacts, UIntPtr stride, UIntPtr capacity, out UIntPtr count);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_impact_groups(
+            WorldId world, [Out] CaromImpactGroup[] groups, UIntPtr stride, UIntPtr capacity, out UIntPtr count);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern CaromStatus carom_world_contacts(
             WorldId world, [Out] CaromContact[] contacts, UIntPtr stride, UIntPtr capacity, out UIntPtr count);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_next_event_time(WorldId world, double within, out double time);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_set_time(WorldId world, double time);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_longest_stable_frame(WorldId world, out double longest);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStrike carom_strike();
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_strike(WorldId world, ulong sphere, ref CaromStrike strike);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_set_material_pairs(WorldId world, byte[] toml);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_set_emitter(WorldId world, ulong id, byte[] toml);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_remove_emitter(WorldId world, ulong id);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_overlaps(
+            WorldId world, double tolerance, [Out] CaromOverlap[] overlaps, UIntPtr stride, UIntPtr capacity,
+            out UIntPtr count);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_has_spin(WorldId world, out uint hasSpin);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_report(WorldId world, out CaromReport report);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_work(WorldId world, out CaromStageCounts work);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_contact_account(
+            WorldId world, out CaromContactAccount account);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_zone_account(WorldId world, out CaromZoneAccount account);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern CaromStatus carom_world_totals(WorldId world, out CaromTotals totals);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]

@@ -227,6 +227,64 @@ static class Worlds
         }
     }
 
+    static void Cues()
+    {
+        using (var world = new CaromWorld())
+        {
+            var id = world.AddSphere(CaromSphere.Default);
+            Expect(!world.HasSpin, "a ball at rest does not turn");
+            var strike = CaromStrike.Default;
+            Expect(strike.Speed == 0.0 && strike.CueMass == 0.567, "a strike has defaults");
+            strike.Speed = 3.0;
+            strike.CueMass = 1.0;
+            strike.OffsetUp = 0.5;
+            world.Strike(id, strike);
+            var ball = world.Sphere(id);
+            // 2 v / (1 + m / M + 5/2 b^2), and 5/2 b / r of it about -z.
+            var speed = 2.0 * 3.0 / (2.0 + 2.5 * 0.25);
+            Expect(Math.Abs(ball.Velocity.X - speed) < 1e-14, "a cue gives its speed to a ball of its mass");
+            Expect(Math.Abs(ball.AngularVelocity.Z + 1.25 * speed) < 1e-14 && world.HasSpin, "a blow above gives spin");
+            strike.OffsetUp = 1.0;
+            Expect(Refused(() => world.Strike(id, strike)).Status == CaromStatus.Invalid, "a cue cannot miss");
+        }
+    }
+
+    static void Accounts()
+    {
+        var scene = "name = 'cup'\nmaterials = { ivory = {}, slate = {} }\n"
+            + "colliders = [{ shape = 'half-space', material = 'slate' }]\n"
+            + "spheres = [{ radius = 1, position = [0, 2, 0], velocity = [0, -4, 0], material = 'ivory' }]";
+        using (var world = CaromWorld.FromToml(scene))
+        {
+            world.SetMaterialPairs("material_pairs = [{ materials = ['ivory', 'slate'], restitution = 0.25 }]");
+            Expect(world.NextEventTime(1.0) == 0.25, "it falls 1 m at 4 m/s");
+            world.Step(0.5);
+            Expect(world.Sphere(0).Velocity.Y == 1.0, "a pair of materials has its own restitution");
+            Expect(world.Report.Impacts == 1 && world.Report.ContactWork < 0.0, "the impact takes energy");
+            var group = world.ImpactGroups()[0];
+            Expect(group.Count == 1 && group.EnergyAfter == group.EnergyBefore / 16.0, "a sixteenth of it stays");
+            Expect(world.Work.Events >= 1 && world.ZoneAccount.Spheres == 0, "and is one event");
+            Expect(world.ContactAccount.Residual == 0.0, "nothing lies");
+            Expect(Refused(() => world.SetMaterialPairs("material_pairs = 1")).Status == CaromStatus.Scene, "not pairs");
+            var sunk = world.Sphere(0);
+            sunk.Position.Y = 0.75;
+            world.SetSphere(0, sunk);
+            var overlaps = world.Overlaps(0.0);
+            Expect(overlaps.Length == 1 && overlaps[0].Depth == 0.25, "it is a quarter of a metre deep");
+            Expect(overlaps[0].Bodies.Body1IsCollider == 1 && world.Overlaps(0.5).Length == 0, "in the floor");
+            Expect(double.IsInfinity(world.LongestStableFrame), "there are no springs");
+            world.Time = 7.0;
+            Expect(world.Time == 7.0, "time is set");
+            var source = "emitters = [{ position = [0, 50, 0], period = 0.5, sphere = { radius = 0.1 } }]";
+            var emitter = world.AddToml(source).FirstEmitter;
+            world.SetEmitter(emitter, source.Replace("0.1", "0.2"));
+            world.Step(0.1);
+            Expect(world.Sphere(1).Radius == 0.2, "an emitter is changed");
+            world.RemoveEmitter(emitter);
+            Expect(Refused(() => world.SetEmitter(emitter, source)).Status == CaromStatus.Unknown, "and removed");
+        }
+    }
+
     static void Scenes(string[] hashes)
     {
         foreach (var pair in hashes)
@@ -281,8 +339,10 @@ static class Worlds
             Functions();
             Springs();
             Queries();
-        Motions();
-        Games();
+            Motions();
+            Games();
+            Cues();
+            Accounts();
             Scenes(arguments);
 #if UNITY_5_3_OR_NEWER
             Unity();

@@ -1,5 +1,5 @@
-// Calls every query of carom.h, predicted paths and changes of single spheres, correctly and with a mistake: two balls
-// in a row, the first of which flies through a sheet of 1 cm.
+// Calls every query of carom.h, predicted paths, changes of single spheres, accounts and texts that change a world,
+// correctly and with a mistake.
 
 #include "expect.h"
 
@@ -7,7 +7,112 @@
 #include <math.h>
 #include <string.h>
 
+static void strikes(void) {
+    CaromWorld world;
+    uint64_t id;
+    uint32_t has_spin;
+    OK(carom_world_new(&world));
+    CaromSphere ball = carom_sphere();
+    OK(carom_world_add_sphere(world, &ball, &id));
+    OK(carom_world_has_spin(world, &has_spin));
+    EXPECT(has_spin == 0);
+    CaromStrike strike = carom_strike();
+    EXPECT(strike.speed == 0.0 && strike.cue_mass == 0.567);
+    strike.speed = 3.0, strike.cue_mass = ball.mass, strike.azimuth_degrees = 90.0, strike.offset[1] = 0.5;
+    OK(carom_world_strike(world, id, &strike));
+    OK(carom_world_sphere(world, id, &ball));
+    // 2 v / (1 + m / M + 5/2 b^2) along -z, and 5/2 b / r of it about -x.
+    const double speed = 2.0 * 3.0 / (2.0 + 2.5 * 0.25);
+    EXPECT(fabs(ball.velocity[2] + speed) < 1e-14 && fabs(ball.angular_velocity[0] + 1.25 * speed) < 1e-14);
+    OK(carom_world_has_spin(world, &has_spin));
+    EXPECT(has_spin == 1);
+    strike.offset[1] = 1.0;
+    FAILS(CAROM_STATUS_INVALID, carom_world_strike(world, id, &strike));
+    FAILS(CAROM_STATUS_NULL, carom_world_strike(world, id, NULL));
+    FAILS(CAROM_STATUS_UNKNOWN, carom_world_strike(world, id + 1, &strike));
+    FAILS(CAROM_STATUS_NULL, carom_world_has_spin(world, NULL));
+    OK(carom_world_free(world));
+}
+
+static void texts(void) {
+    CaromWorld world;
+    CaromAdded added;
+    CaromSphere ball;
+    const char *scene = "name = \"cup\"\n[materials]\nivory = {}\nslate = {}\n"
+                        "[[colliders]]\nshape = \"half-space\"\nmaterial = \"slate\"\n"
+                        "[[spheres]]\nradius = 1\nposition = [0, 2, 0]\nvelocity = [0, -4, 0]\nmaterial = \"ivory\"\n";
+    OK(carom_world_from_toml(scene, NULL, 0, &world));
+    const char *pair = "material_pairs = [{ materials = [\"ivory\", \"slate\"], restitution = 0.25 }]";
+    OK(carom_world_set_material_pairs(world, pair));
+    OK(carom_world_step(world, 0.5));
+    OK(carom_world_sphere(world, 0, &ball));
+    EXPECT(ball.velocity[1] == 1.0);
+    CaromImpactGroup group;
+    size_t count;
+    OK(carom_world_impact_groups(world, &group, 0, 1, &count));
+    EXPECT(count == 1 && group.first == 0 && group.count == 1);
+    // The floor takes all but a sixteenth of the energy, as the restitution demands.
+    EXPECT(group.energy_after == group.energy_before / 16.0);
+    EXPECT(group.energy_demanded == group.energy_after - group.energy_before);
+    EXPECT(group.momentum_before[1] == -4.0 * ball.mass && group.momentum_after[1] == group.momentum_before[1]);
+    FAILS(CAROM_STATUS_LENGTH, carom_world_impact_groups(world, &group, 0, 0, &count));
+    FAILS(CAROM_STATUS_NULL, carom_world_impact_groups(world, &group, 0, 1, NULL));
+    FAILS(CAROM_STATUS_SCENE, carom_world_set_material_pairs(world, "material_pairs = [{ materials = [\"ivory\", \"cork\"] }]"));
+    EXPECT(strstr(carom_last_error(), "material_pairs[0].materials") != NULL);
+    FAILS(CAROM_STATUS_NULL, carom_world_set_material_pairs(world, NULL));
+    const char *source = "emitters = [{ position = [0, 50, 0], period = 0.5, sphere = { radius = 0.1 } }]";
+    const char *faster = "emitters = [{ position = [0, 50, 0], period = 0.25, sphere = { radius = 0.2 } }]";
+    OK(carom_world_add_toml(world, source, &added));
+    OK(carom_world_set_emitter(world, added.first_emitter, faster));
+    OK(carom_world_step(world, 0.1));
+    OK(carom_world_sphere(world, 1, &ball));
+    EXPECT(ball.radius == 0.2);
+    FAILS(CAROM_STATUS_SCENE, carom_world_set_emitter(world, added.first_emitter, "emitters = []"));
+    FAILS(CAROM_STATUS_UNKNOWN, carom_world_set_emitter(world, 99, faster));
+    FAILS(CAROM_STATUS_NULL, carom_world_set_emitter(world, added.first_emitter, NULL));
+    OK(carom_world_free(world));
+}
+
+static void accounts(void) {
+    CaromWorld world;
+    CaromStageCounts work;
+    CaromContactAccount contacts;
+    CaromZoneAccount zones;
+    CaromReport report;
+    double longest;
+    const char *rule = "simulation.rule=contact";
+    OK(carom_world_from_scene("tutorial4", &rule, 1, &world));
+    OK(carom_world_advance(world, 60, NULL));
+    OK(carom_world_work(world, &work));
+    OK(carom_world_contact_account(world, &contacts));
+    OK(carom_world_zone_account(world, &zones));
+    OK(carom_world_report(world, &report));
+    EXPECT(work.searches > 0 && work.sweeps > 0 && work.predictions == 0);
+    EXPECT(contacts.residual == report.residual && contacts.asleep == report.asleep);
+    EXPECT(contacts.largest_overlap == report.largest_overlap && contacts.squeezed == report.squeezed);
+    EXPECT(zones.spheres == 0 && zones.sphere_seconds == 0.0);
+    OK(carom_world_longest_stable_frame(world, &longest));
+    EXPECT(isinf(longest));
+    OK(carom_world_set_simulation(world, "simulation = { rule = \"discrete\" }"));
+    CaromSpring spring = carom_spring();
+    spring.stiffness = 4.0;
+    OK(carom_world_add_spring(world, &spring, NULL));
+    CaromSphere ball;
+    OK(carom_world_sphere(world, 0, &ball));
+    OK(carom_world_longest_stable_frame(world, &longest));
+    // Two over the frequency of the spring; rounding of a root and a quotient.
+    EXPECT(fabs(longest - 2.0 / sqrt(4.0 / ball.mass)) < 1e-15 * longest);
+    FAILS(CAROM_STATUS_NULL, carom_world_work(world, NULL));
+    FAILS(CAROM_STATUS_NULL, carom_world_contact_account(world, NULL));
+    FAILS(CAROM_STATUS_NULL, carom_world_zone_account(world, NULL));
+    FAILS(CAROM_STATUS_NULL, carom_world_longest_stable_frame(world, NULL));
+    OK(carom_world_free(world));
+}
+
 int main(void) {
+    strikes();
+    texts();
+    accounts();
     CaromWorld world;
     uint64_t near, far, gate, data;
     OK(carom_world_new(&world));

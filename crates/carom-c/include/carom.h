@@ -282,6 +282,22 @@ typedef struct {
     double inertia_factor;
 } CaromSphere;
 
+/// A blow of a cue on a sphere, at one instant and one point, without loss of energy.
+/// carom_strike() returns one with default values.
+typedef struct {
+    /// Speed of the cue [m/s], >= 0.
+    double speed;
+    /// Direction of the cue from above, from +x towards -z, counterclockwise [degrees].
+    double azimuth_degrees;
+    /// Angle by which the cue points down, in [0, 90] [degrees].
+    double elevation_degrees;
+    /// Offset of the cue from the centre to the right and up, as seen along it, in parts of the
+    /// radius; its size is below 1.
+    double offset[2];
+    /// Mass of the cue [kg], > 0.
+    double cue_mass;
+} CaromStrike;
+
 /// A collider: a shape that spheres do not move, at rest or in motion. carom_collider() returns one
 /// with default values.
 typedef struct {
@@ -427,31 +443,6 @@ typedef struct {
     double largest_overlap;
 } CaromReport;
 
-/// Changes of the energy in the last step: the total energy changes by their sum, and by the error of
-/// the integration.
-typedef struct {
-    /// Work of contacts [J]: the energy change by restitution and friction.
-    double contacts;
-    /// Work of moving colliders [J].
-    double colliders;
-    /// Work of the kicks of colliders [J].
-    double kicks;
-    /// Work of growing spheres [J].
-    double growth;
-    /// Work of the steady shear of a periodic box [J].
-    double shear;
-    /// Energy that a thermostat added [J]; < 0 where it took some.
-    double thermostat;
-    /// Work of forces without a potential [J]: drag, wind, vortices, dampers, forces of the program.
-    double forces;
-    /// Work of the forces applied to single spheres [J].
-    double applied;
-    /// Work of the correction of overlaps [J].
-    double correction;
-    /// Energy of emitted spheres minus that of removed ones [J].
-    double emission;
-} CaromEnergyAccount;
-
 /// Two bodies: two spheres, or a collider and a sphere.
 typedef struct {
     /// Id of body 1: a collider, or the sphere with the smaller id.
@@ -546,6 +537,103 @@ typedef struct {
     /// Impulse that drives the spheres apart [N s]; negative if it draws them together.
     double impulse;
 } CaromWellEvent;
+
+/// Changes of the energy in the last step: the total energy changes by their sum, and by the error of
+/// the integration.
+typedef struct {
+    /// Work of contacts [J]: the energy change by restitution and friction.
+    double contacts;
+    /// Work of moving colliders [J].
+    double colliders;
+    /// Work of the kicks of colliders [J].
+    double kicks;
+    /// Work of growing spheres [J].
+    double growth;
+    /// Work of the steady shear of a periodic box [J].
+    double shear;
+    /// Energy that a thermostat added [J]; < 0 where it took some.
+    double thermostat;
+    /// Work of forces without a potential [J]: drag, wind, vortices, dampers, forces of the program.
+    double forces;
+    /// Work of the forces applied to single spheres [J].
+    double applied;
+    /// Work of the correction of overlaps [J].
+    double correction;
+    /// Energy of emitted spheres minus that of removed ones [J].
+    double emission;
+} CaromEnergyAccount;
+
+/// Impacts at one instant among bodies that touch each other, with their common momentum and energy.
+typedef struct {
+    /// Index of its first impact in the list of carom_world_impacts().
+    uint64_t first;
+    /// Number of its impacts.
+    uint64_t count;
+    /// Momentum of its spheres before [kg m/s].
+    double momentum_before[3];
+    /// Momentum after, less what colliders gave [kg m/s]: as before, up to rounding.
+    double momentum_after[3];
+    /// Kinetic energy of its spheres before [J].
+    double energy_before;
+    /// Kinetic energy after, less the work of moving colliders, of kicks and of growth [J].
+    double energy_after;
+    /// Change of the kinetic energy that the coefficients of restitution demand [J], <= 0.
+    double energy_demanded;
+    /// Work of moving colliders [J].
+    double collider_work;
+    /// Work of the kicks of colliders, and of spheres that grow [J].
+    double kick_work;
+} CaromImpactGroup;
+
+/// The work of the last step by stage: counts that depend only on the world, not on the machine.
+typedef struct {
+    /// Under the rule `exact`: predictions of a sphere's next events.
+    uint64_t predictions;
+    /// Pairs of spheres tested for an impact, or under other rules for a contact.
+    uint64_t pair_tests;
+    /// Under the rule `exact`: events taken from the queue, with outdated ones.
+    uint64_t events;
+    /// Under the rule `exact`: cell crossings among these events.
+    uint64_t cell_crossings;
+    /// Under the rule `exact`: groups of touching bodies resolved as a whole.
+    uint64_t groups;
+    /// Iterations of the solvers of these groups, counted once per contact.
+    uint64_t solver_iterations;
+    /// Under the rule `contact`: neighbour searches.
+    uint64_t searches;
+    /// Under the rule `contact`: sweeps over all contacts.
+    uint64_t sweeps;
+    /// Under the rule `contact`: contacts per sweep at the end of the step.
+    uint64_t contacts;
+} CaromStageCounts;
+
+/// Quality of the solution of the last step under the rule `contact`, and in stepped zones of `exact`.
+typedef struct {
+    /// Sub-steps in which impulses were reduced so that they add no energy.
+    uint64_t limited_sub_steps;
+    /// Sleeping spheres at the end of the step.
+    uint64_t asleep;
+    /// How often a sphere was pressed into a surface by half its radius, summed over sub-steps.
+    uint64_t squeezed;
+    /// Largest change of an impulse in the last sweep, relative to the largest impulse.
+    double residual;
+    /// Largest overlap before its correction, relative to the sum of radii.
+    double largest_overlap;
+} CaromContactAccount;
+
+/// Spheres that the rule `exact` stepped in the last step instead of moving them from impact to impact.
+typedef struct {
+    /// Spheres in a zone at the end of the step.
+    uint64_t spheres;
+    /// Ticks at which a zone was stepped.
+    uint64_t ticks;
+    /// Spheres that joined a zone.
+    uint64_t joined;
+    /// Spheres that left a zone.
+    uint64_t left;
+    /// Total time of all spheres in zones [s].
+    double sphere_seconds;
+} CaromZoneAccount;
 
 /// Sums over all spheres.
 typedef struct {
@@ -729,6 +817,11 @@ CaromStatus carom_world_add_toml(CaromWorld world, const char *toml, CaromAdded 
 /// "[simulation]\nrule = \"contact\"". Missing settings get their defaults.
 CaromStatus carom_world_set_simulation(CaromWorld world, const char *toml);
 
+/// Sets the pairs of materials from the tables of a scene file (TOML):
+/// "material_pairs = [{ materials = [\"ivory\", \"slate\"], restitution = 0.9 }]". The materials are
+/// those of the scene; an empty text removes all pairs.
+CaromStatus carom_world_set_material_pairs(CaromWorld world, const char *toml);
+
 /// Advances a world by `dt` [s], > 0. If the step is refused, the state before it is kept.
 CaromStatus carom_world_step(CaromWorld world, double dt);
 
@@ -753,6 +846,10 @@ CaromStatus carom_world_set_time(CaromWorld world, double time);
 
 /// Reads the frame time [s] of the scene; the default is 1/60 s.
 CaromStatus carom_world_frame_time(CaromWorld world, double *frame_time);
+
+/// Reads the longest frame [s] in which motion on springs is certainly stable; infinity without
+/// springs, and under the rule `exact`. The other rules refuse longer frames.
+CaromStatus carom_world_longest_stable_frame(CaromWorld world, double *longest);
 
 /// Reads the state hash of a world, equal for equal states on every platform and in every language.
 /// `carom run` prints it in hexadecimal digits.
@@ -822,6 +919,13 @@ CaromStatus carom_world_user_data(CaromWorld world, uint64_t sphere, uint64_t *u
 /// Sets the number of a sphere for programs; it is no part of the physics.
 CaromStatus carom_world_set_user_data(CaromWorld world, uint64_t sphere, uint64_t user_data);
 
+/// Returns a level strike at the middle along +x with the speed 0 by a cue of 0.567 kg.
+CaromStrike carom_strike(void);
+
+/// Strikes a sphere with a cue: changes its velocity and its angular velocity at once. A part that
+/// presses it onto a table is answered by the table in the next step.
+CaromStatus carom_world_strike(CaromWorld world, uint64_t sphere, const CaromStrike *strike);
+
 /// Returns a solid half-space below y = 0, at rest, with restitution 1 and without its own
 /// friction. Its `radius` and `size` are 1 m.
 CaromCollider carom_collider(void);
@@ -888,22 +992,23 @@ CaromStatus carom_world_set_spring(CaromWorld world, uint64_t id, const CaromSpr
 /// Removes a spring; its spheres stay.
 CaromStatus carom_world_remove_spring(CaromWorld world, uint64_t id);
 
+/// Replaces an emitter, which keeps its id, by the one of a text in the format of scene files (TOML):
+/// "emitters = [{ sphere = { radius = 0.1 }, period = 0.5 }]". With another period it starts again now.
+CaromStatus carom_world_set_emitter(CaromWorld world, uint64_t id, const char *toml);
+
+/// Removes an emitter; its spheres stay.
+CaromStatus carom_world_remove_emitter(CaromWorld world, uint64_t id);
+
 /// Reads a list of ids (CaromList), with `stride` bytes from one to the next (0: no gaps), and
 /// writes their number to `count`. If `ids` is null, only the number is written. More than
 /// `capacity` ids are an error.
 CaromStatus carom_world_ids(CaromWorld world, int32_t list, uint64_t *ids, size_t stride, size_t capacity, size_t *count);
-
-/// Removes an emitter; its spheres stay.
-CaromStatus carom_world_remove_emitter(CaromWorld world, uint64_t id);
 
 /// Reads counts and energies of the last step; all are 0 after carom_world_restore().
 CaromStatus carom_world_report(CaromWorld world, CaromReport *report);
 
 /// Reads the work of the kicks of colliders in the last step [J]; 0 after carom_world_restore().
 CaromStatus carom_world_kick_work(CaromWorld world, double *work);
-
-/// Reads the changes of the energy in the last step; all are 0 after carom_world_restore().
-CaromStatus carom_world_energy_account(CaromWorld world, CaromEnergyAccount *account);
 
 /// Reads the impacts of the last step in order of time, in the way of carom_world_ids().
 CaromStatus carom_world_impacts(CaromWorld world, CaromImpact *impacts, size_t stride, size_t capacity, size_t *count);
@@ -924,8 +1029,28 @@ CaromStatus carom_world_sensor_events(CaromWorld world, CaromSensorEvent *events
 /// of time, in the way of carom_world_ids().
 CaromStatus carom_world_well_events(CaromWorld world, CaromWellEvent *events, size_t stride, size_t capacity, size_t *count);
 
+/// Reads the changes of the energy in the last step; all are 0 after carom_world_restore().
+CaromStatus carom_world_energy_account(CaromWorld world, CaromEnergyAccount *account);
+
+/// Reads the groups of impacts of the last step in order of time, in the way of carom_world_ids(); none
+/// under the rules `discrete` and `bisect`.
+CaromStatus carom_world_impact_groups(CaromWorld world, CaromImpactGroup *groups, size_t stride, size_t capacity, size_t *count);
+
+/// Reads the work of the last step; all counts are 0 after carom_world_restore().
+CaromStatus carom_world_work(CaromWorld world, CaromStageCounts *work);
+
+/// Reads the account of contacts of the last step; all is 0 after carom_world_restore().
+CaromStatus carom_world_contact_account(CaromWorld world, CaromContactAccount *account);
+
+/// Reads the account of zones of the last step; all is 0 after carom_world_restore().
+CaromStatus carom_world_zone_account(CaromWorld world, CaromZoneAccount *account);
+
 /// Reads the total energies and momenta of all spheres.
 CaromStatus carom_world_totals(CaromWorld world, CaromTotals *totals);
+
+/// Reads whether spheres are rotated or rotate, or may start to by friction: 1, else 0. Otherwise a
+/// program need not draw their orientations.
+CaromStatus carom_world_has_spin(CaromWorld world, uint32_t *has_spin);
 
 /// Reads which spheres overlap each other (if spheres collide) or a solid collider by more than
 /// `tolerance` [m], in the way of carom_world_ids().

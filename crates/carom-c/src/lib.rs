@@ -16,9 +16,11 @@
     reason = "the header says at its top, once for all functions, what pointers must be"
 )]
 
+mod accounts;
 mod collider;
 mod collider_motion;
 mod described;
+mod emitter;
 mod force;
 mod handle;
 mod listing;
@@ -35,11 +37,14 @@ mod sphere;
 mod spring;
 mod status;
 mod step;
+mod strike;
 mod version;
 mod world;
 
+pub use accounts::*;
 pub use collider::*;
 pub use collider_motion::*;
+pub use emitter::*;
 pub use force::*;
 pub use listing::*;
 pub use measures::*;
@@ -54,5 +59,6 @@ pub use sphere::*;
 pub use spring::*;
 pub use status::*;
 pub use step::*;
+pub use strike::*;
 pub use version::*;
 pub use world::*;

@@ -1,6 +1,6 @@
 //! Lists of ids: spheres, colliders, forces, emitters and springs.
 
-use carom::{EmitterId, SphereId};
+use carom::SphereId;
 
 use crate::pointer::{Room, Strided};
 use crate::status::{CaromStatus, Failure, call};
@@ -75,21 +75,5 @@ fn of_list(inner: &Inner, list: i32) -> Result<Vec<u64>, Failure> {
             let problem = format!("there is no list {list}");
             return Err(Failure::new(CaromStatus::Argument, problem));
         }
-    })
-}
-
-/// Removes an emitter; its spheres stay.
-#[unsafe(no_mangle)]
-pub extern "C" fn carom_world_remove_emitter(world: CaromWorld, id: u64) -> CaromStatus {
-    call(|| {
-        world.with(|inner| {
-            let place = inner.world.emitters().position(|(own, _)| own.number() == id);
-            let place = place.ok_or_else(|| Failure::unknown("emitter", id))?;
-            inner.world.remove_emitter(EmitterId::from_number(id))?;
-            let time = inner.world.time();
-            inner.described.palette_mut().remove_emitter(place, time);
-            inner.described.scene_mut().emitters.remove(place);
-            Ok(())
-        })
     })
 }

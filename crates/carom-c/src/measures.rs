@@ -37,6 +37,17 @@ pub unsafe extern "C" fn carom_world_totals(
     })
 }
 
+/// Reads whether spheres are rotated or rotate, or may start to by friction: 1, else 0. Otherwise a
+/// program need not draw their orientations.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carom_world_has_spin(
+    world: CaromWorld,
+    has_spin: *mut u32,
+) -> CaromStatus {
+    // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
+    world.measure(unsafe { Out::new(has_spin, "has_spin") }, |inner| inner.world.has_spin().into())
+}
+
 /// Reads which spheres overlap each other (if spheres collide) or a solid collider by more than
 /// `tolerance` [m], in the way of carom_world_ids().
 #[unsafe(no_mangle)]

@@ -277,57 +277,6 @@ pub unsafe extern "C" fn carom_world_kick_work(world: CaromWorld, work: *mut f64
     world.measure(place, |inner| inner.world.report().energy_account.kicks)
 }
 
-/// Changes of the energy in the last step: the total energy changes by their sum, and by the error of
-/// the integration.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct CaromEnergyAccount {
-    /// Work of contacts [J]: the energy change by restitution and friction.
-    pub contacts: f64,
-    /// Work of moving colliders [J].
-    pub colliders: f64,
-    /// Work of the kicks of colliders [J].
-    pub kicks: f64,
-    /// Work of growing spheres [J].
-    pub growth: f64,
-    /// Work of the steady shear of a periodic box [J].
-    pub shear: f64,
-    /// Energy that a thermostat added [J]; < 0 where it took some.
-    pub thermostat: f64,
-    /// Work of forces without a potential [J]: drag, wind, vortices, dampers, forces of the program.
-    pub forces: f64,
-    /// Work of the forces applied to single spheres [J].
-    pub applied: f64,
-    /// Work of the correction of overlaps [J].
-    pub correction: f64,
-    /// Energy of emitted spheres minus that of removed ones [J].
-    pub emission: f64,
-}
-
-/// Reads the changes of the energy in the last step; all are 0 after carom_world_restore().
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn carom_world_energy_account(
-    world: CaromWorld,
-    account: *mut CaromEnergyAccount,
-) -> CaromStatus {
-    // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
-    world.measure(unsafe { Out::new(account, "account") }, |inner| {
-        let account = inner.world.report().energy_account;
-        CaromEnergyAccount {
-            contacts: account.contacts,
-            colliders: account.colliders,
-            kicks: account.kicks,
-            growth: account.growth,
-            shear: account.shear,
-            thermostat: account.thermostat,
-            forces: account.forces,
-            applied: account.applied,
-            correction: account.correction,
-            emission: account.emission,
-        }
-    })
-}
-
 /// Reads the impacts of the last step in order of time, in the way of carom_world_ids().
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_impacts(

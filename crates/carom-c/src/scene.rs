@@ -191,3 +191,23 @@ pub unsafe extern "C" fn carom_world_set_simulation(
         })
     })
 }
+
+/// Sets the pairs of materials from the tables of a scene file (TOML):
+/// "material_pairs = [{ materials = [\"ivory\", \"slate\"], restitution = 0.9 }]". The materials are
+/// those of the scene; an empty text removes all pairs.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carom_world_set_material_pairs(
+    world: CaromWorld,
+    toml: *const c_char,
+) -> CaromStatus {
+    call(|| {
+        // SAFETY: the caller's text is null or ends in a zero, as the header demands.
+        let toml = unsafe { text(toml, "toml") }?;
+        world.with(|inner| {
+            let (described, pairs) = part::material_pairs(toml, inner.described.scene())?;
+            inner.world.set_material_pairs(pairs)?;
+            inner.described.scene_mut().material_pairs = described;
+            Ok(())
+        })
+    })
+}

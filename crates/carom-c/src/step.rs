@@ -83,6 +83,18 @@ pub unsafe extern "C" fn carom_world_frame_time(
     world.measure(place, |inner| inner.described.scene().simulation.frame_time)
 }
 
+/// Reads the longest frame [s] in which motion on springs is certainly stable; infinity without
+/// springs, and under the rule `exact`. The other rules refuse longer frames.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carom_world_longest_stable_frame(
+    world: CaromWorld,
+    longest: *mut f64,
+) -> CaromStatus {
+    // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
+    let place = unsafe { Out::new(longest, "longest") };
+    world.measure(place, |inner| inner.world.longest_stable_frame())
+}
+
 /// Reads the state hash of a world, equal for equal states on every platform and in every language.
 /// `carom run` prints it in hexadecimal digits.
 #[unsafe(no_mangle)]

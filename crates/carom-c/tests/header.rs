@@ -9,7 +9,7 @@ use std::path::Path;
 use cbindgen::{Builder, Config};
 
 /// The sources in the order of their declarations in the header.
-const SOURCES: [&str; 18] = [
+const SOURCES: [&str; 21] = [
     "version",
     "status",
     "world",
@@ -18,12 +18,15 @@ const SOURCES: [&str; 18] = [
     "sphere",
     "quantity",
     "motion",
+    "strike",
     "collider",
     "collider_motion",
     "force",
     "spring",
+    "emitter",
     "listing",
     "report",
+    "accounts",
     "measures",
     "query",
     "path",

@@ -53,7 +53,15 @@ fn structures_of_version_3_lie_as_they_did() {
     ];
     assert_eq!(of_queries, [32, 48, 56, 72, 72, 88, 8, 104]);
     assert_eq!([size_of::<CaromSpring>(), size_of::<CaromKeyframe>()], [72, 64]);
-    assert_eq!(size_of::<CaromEnergyAccount>(), 80);
+    let accounts = [
+        size_of::<CaromEnergyAccount>(),
+        size_of::<CaromStageCounts>(),
+        size_of::<CaromContactAccount>(),
+        size_of::<CaromZoneAccount>(),
+        size_of::<CaromStrike>(),
+        size_of::<CaromImpactGroup>(),
+    ];
+    assert_eq!(accounts, [80, 72, 40, 40, 48, 104]);
     let spring = [offset_of!(CaromSpring, to_point), offset_of!(CaromSpring, rest_length)];
     assert_eq!(spring, [16, 48]);
 }

@@ -38,6 +38,12 @@ impl World {
         place(self.world.spheres().masses())
     }
 
+    /// Returns the address of the coefficients of restitution, `f64`.
+    #[wasm_bindgen(getter)]
+    pub fn restitutions(&self) -> usize {
+        place(self.world.spheres().restitutions())
+    }
+
     /// Returns the address of the ids, `f64`, ascending.
     #[wasm_bindgen(getter)]
     pub fn ids(&self) -> usize {
@@ -74,6 +80,12 @@ impl World {
     #[wasm_bindgen(getter, js_name = inertiaFactors)]
     pub fn inertia_factors(&self) -> Option<usize> {
         place_of_any(self.world.spheres().inertia_factors())
+    }
+
+    /// Returns the address of the forces applied to single spheres \[N\], three `f64` each; none if there are none.
+    #[wasm_bindgen(getter, js_name = appliedForces)]
+    pub fn applied_forces(&self) -> Option<usize> {
+        place_of_any(self.world.spheres().applied_forces())
     }
 
     /// Returns the address of the coefficients of friction, `f64`; none if no sphere has its own

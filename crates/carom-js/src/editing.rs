@@ -100,6 +100,7 @@ impl World {
         self.world.set_sphere(id, world.spheres().get(0))?;
         self.description.members.follow_frictions(self.world.spheres(), index);
         if let Some(sphere) = part.spheres.first() {
+            self.description.palette.paint(id.number(), sphere.into());
             self.description.members.paint(index, sphere.into());
         }
         Ok(())
@@ -181,6 +182,18 @@ impl World {
         let part = part::read_simulation(text)?;
         self.world.set_settings(part.settings())?;
         self.described_mut().simulation = part.simulation;
+        Ok(())
+    }
+
+    /// Sets the pairs of materials, which are those of the scene, from `text`.
+    ///
+    /// # Errors
+    /// [`Failure`] if the pairs are invalid, or of materials that the scene does not have.
+    #[wasm_bindgen(js_name = setMaterialPairs)]
+    pub fn set_material_pairs(&mut self, text: &str) -> Result<(), Failure> {
+        let (described, pairs) = part::material_pairs(text, self.described())?;
+        self.world.set_material_pairs(pairs)?;
+        self.described_mut().material_pairs = described;
         Ok(())
     }
 }

@@ -1,6 +1,6 @@
 //! Converts numbers from JavaScript into ids of a world.
 
-use carom::{ColliderId, ForceId, SphereId, SpringId, World};
+use carom::{ColliderId, EmitterId, ForceId, SphereId, SpringId, World};
 
 use crate::failure::Failure;
 
@@ -21,6 +21,12 @@ pub fn collider(world: &World, number: f64) -> Result<(ColliderId, usize), Failu
 pub fn force(world: &World, number: f64) -> Result<(ForceId, usize), Failure> {
     let mut ids = world.forces().map(|(id, _)| id).zip(0..);
     ids.find(|(id, _)| id.number() as f64 == number).ok_or_else(|| unknown("force", number))
+}
+
+/// Returns the id of an emitter and its position in the order.
+pub fn emitter(world: &World, number: f64) -> Result<(EmitterId, usize), Failure> {
+    let mut ids = world.emitters().map(|(id, _)| id).zip(0..);
+    ids.find(|(id, _)| id.number() as f64 == number).ok_or_else(|| unknown("emitter", number))
 }
 
 /// Returns the id of a spring.

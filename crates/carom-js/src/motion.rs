@@ -1,6 +1,7 @@
 //! Changes of the motion of single spheres and colliders.
 
 use carom::{DQuat, DVec3, Pose};
+use carom_scene::part::{self, only};
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::failure::Failure;
@@ -34,6 +35,31 @@ impl World {
         let (sphere, _) = find::sphere(&self.world, id)?;
         let (impulse, point) = (DVec3::from_slice(impulse), DVec3::from_slice(point));
         Ok(self.world.apply_impulse_at(sphere, impulse, point)?)
+    }
+
+    /// Strikes a sphere with the cue that the only sphere of `text` is struck with.
+    ///
+    /// # Errors
+    /// [`Failure`] if the sphere is not in the world or the description is invalid.
+    pub fn strike(&mut self, id: f64, text: &str) -> Result<(), Failure> {
+        let (sphere, index) = find::sphere(&self.world, id)?;
+        let part = part::read(text)?;
+        // Making a world checks the numbers, with the fields in errors.
+        part.world()?;
+        let strike = only(&part.spheres)?.strike.as_ref();
+        let strike = strike.ok_or_else(|| Failure::new("strike: there is none"))?;
+        let radius = self.world.spheres().radii()[index];
+        Ok(self.world.strike(sphere, strike.on_radius(radius)).map(drop)?)
+    }
+
+    /// Applies a force \[N\] to each sphere, three numbers each in the order of the arrays; none removes these forces.
+    ///
+    /// # Errors
+    /// [`Failure`] as [`carom::World::set_applied_forces`].
+    #[wasm_bindgen(js_name = setAppliedForces)]
+    pub fn set_applied_forces(&mut self, forces: &[f64]) -> Result<(), Failure> {
+        let forces: Vec<DVec3> = forces.chunks_exact(3).map(DVec3::from_slice).collect();
+        Ok(self.world.set_applied_forces(&forces)?)
     }
 
     /// Sets the velocity of a sphere \[m/s\].

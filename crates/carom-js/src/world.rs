@@ -211,16 +211,31 @@ impl World {
         self.world.was_stepped()
     }
 
+    /// Returns the groups of impacts at one time in rows: index of the first impact, number of impacts, momentum before
+    /// and after \[kg m/s\], energy before, after and demanded by restitution, work of colliders and of kicks \[J\].
+    #[wasm_bindgen(getter, js_name = impactGroups)]
+    pub fn impact_groups(&self) -> Vec<f64> {
+        let mut table = Vec::new();
+        for group in &self.world.report().groups {
+            table.extend([group.first as f64, group.count as f64]);
+            table.extend(group.momentum_before.to_array());
+            table.extend(group.momentum_after.to_array());
+            table.extend([group.energy_before, group.energy_after, group.energy_demanded]);
+            table.extend([group.collider_work, group.kick_work]);
+        }
+        table
+    }
+
+    /// Returns the number of groups in which two bodies met as often as a frame allows, under the rule `bisect`.
+    #[wasm_bindgen(getter, js_name = unfinishedIslands)]
+    pub fn unfinished_islands(&self) -> u32 {
+        self.world.report().unfinished_islands
+    }
+
     /// Returns the table of the present persistent contacts, one row each.
     #[wasm_bindgen(getter)]
     pub fn contacts(&self) -> Vec<f64> {
         contact_table::of(&self.world.contacts())
-    }
-
-    /// Returns whether spheres are rotated or rotate, or may start to by friction.
-    #[wasm_bindgen(getter, js_name = hasSpin)]
-    pub fn has_spin(&self) -> bool {
-        self.world.has_spin()
     }
 
     /// Returns the ids of the spheres that emitters added.
@@ -286,37 +301,4 @@ impl World {
 
 fn numbers(ids: &[SphereId]) -> Vec<f64> {
     ids.iter().map(|id| id.number() as f64).collect()
-}
-
-/// Sums over all spheres.
-#[wasm_bindgen]
-impl World {
-    /// Returns the kinetic energy, with rotation \[J\].
-    #[wasm_bindgen(js_name = kineticEnergy)]
-    pub fn kinetic_energy(&self) -> f64 {
-        self.world.kinetic_energy()
-    }
-
-    /// Returns the kinetic energy of rotation \[J\].
-    #[wasm_bindgen(js_name = rotationalEnergy)]
-    pub fn rotational_energy(&self) -> f64 {
-        self.world.rotational_energy()
-    }
-
-    /// Returns the potential energy in all forces that have one \[J\].
-    #[wasm_bindgen(js_name = potentialEnergy)]
-    pub fn potential_energy(&self) -> f64 {
-        self.world.potential_energy()
-    }
-
-    /// Returns the momentum \[kg m/s\].
-    pub fn momentum(&self) -> Vec<f64> {
-        self.world.momentum().to_array().to_vec()
-    }
-
-    /// Returns the angular momentum about the origin, with spin \[kg m²/s\].
-    #[wasm_bindgen(js_name = angularMomentum)]
-    pub fn angular_momentum(&self) -> Vec<f64> {
-        self.world.angular_momentum().to_array().to_vec()
-    }
 }

@@ -19,6 +19,12 @@ impl Engine {
         json(&self.lock(py)?.described.simulation)
     }
 
+    /// Returns the pairs of materials.
+    #[pyo3(name = "_material_pairs_json")]
+    fn material_pairs_json(&self, py: Python<'_>) -> PyResult<String> {
+        json(&self.lock(py)?.described.material_pairs)
+    }
+
     /// Returns the forces with their ids.
     #[pyo3(name = "_forces_json")]
     fn forces_json(&self, py: Python<'_>) -> PyResult<String> {

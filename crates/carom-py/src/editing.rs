@@ -272,6 +272,18 @@ impl Engine {
         })
     }
 
+    /// Sets the pairs of materials, which are those of the world's scene, from `text`.
+    #[pyo3(name = "_set_material_pairs")]
+    fn set_material_pairs_of(&self, py: Python<'_>, text: &str) -> PyResult<()> {
+        let described = Arc::clone(&self.lock(py)?.described);
+        let (described, pairs) = part::material_pairs(text, &described)?;
+        self.change(py, |inner| {
+            inner.world.set_material_pairs(pairs)?;
+            inner.described_mut().material_pairs = described;
+            Ok(())
+        })
+    }
+
     /// Sets the simulation settings from `text`.
     #[pyo3(name = "_set_simulation")]
     fn set_simulation_of(&self, py: Python<'_>, text: &str) -> PyResult<()> {

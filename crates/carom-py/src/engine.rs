@@ -188,14 +188,22 @@ impl Engine {
 
     /// Returns a snapshot of everything that the future depends on.
     fn snapshot(&self, py: Python<'_>) -> PyResult<Snapshot> {
-        Ok(self.lock(py)?.snapshot())
+        Ok(self.lock(py)?.snapshot().into())
+    }
+
+    /// Takes a snapshot into the memory of an earlier one, which is overwritten: for a game that goes back, and takes
+    /// one in each frame.
+    fn snapshot_into(&self, py: Python<'_>, snapshot: &Snapshot) -> PyResult<()> {
+        let inner = &*self.lock(py)?;
+        snapshot.overwrite(|state| inner.snapshot_into(state));
+        Ok(())
     }
 
     /// Restores a snapshot, bit for bit. The report of the last frame is removed.
     fn restore(&self, py: Python<'_>, snapshot: &Snapshot) -> PyResult<()> {
         // Values that a script wrote before are dropped, valid or not.
         let inner = &mut *self.lock_as_it_is(py)?;
-        inner.restore(snapshot);
+        inner.restore(&snapshot.state());
         inner.arrays.write_all(py, inner.world.spheres());
         Ok(())
     }
@@ -401,6 +409,26 @@ impl Engine {
         let ZoneAccount { spheres, sphere_seconds, ticks, joined, left, .. } =
             self.lock(py)?.world.report().zone_account;
         Ok((spheres, sphere_seconds, ticks, joined, left))
+    }
+
+    /// Groups in which two bodies met as often as a frame allows, under the rule ``bisect``.
+    #[getter]
+    fn unfinished_islands(&self, py: Python<'_>) -> PyResult<u32> {
+        Ok(self.lock(py)?.world.report().unfinished_islands)
+    }
+
+    /// Whether spheres are rotated or rotate, or may start to by friction.
+    #[getter]
+    fn has_spin(&self, py: Python<'_>) -> PyResult<bool> {
+        Ok(self.lock(py)?.world.has_spin())
+    }
+
+    /// The longest frame [s] in which motion on springs is certainly stable.
+    ///
+    /// Infinite without springs, and under the rule ``exact``. The other rules refuse longer frames.
+    #[getter]
+    fn longest_stable_frame(&self, py: Python<'_>) -> PyResult<f64> {
+        Ok(self.lock(py)?.world.longest_stable_frame())
     }
 
     /// Whether any sphere was ever in a zone.

@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 
 use crate::arrays::Arrays;
 use crate::failure::Failure;
-use crate::snapshot::Snapshot;
+use crate::snapshot::State;
 use crate::stop::Watch;
 use crate::threads;
 use crate::written;
@@ -54,13 +54,21 @@ impl Inner {
     }
 
     /// Returns the state.
-    pub fn snapshot(&self) -> Snapshot {
+    pub fn snapshot(&self) -> State {
         let (described, palette) = (Arc::clone(&self.described), Arc::clone(&self.palette));
-        Snapshot { world: self.world.snapshot(), described, palette, time: self.world.time() }
+        State { world: self.world.snapshot(), described, palette, time: self.world.time() }
+    }
+
+    /// Writes the state into the memory of an earlier one.
+    pub fn snapshot_into(&self, state: &mut State) {
+        self.world.snapshot_into(&mut state.world);
+        state.described = Arc::clone(&self.described);
+        state.palette = Arc::clone(&self.palette);
+        state.time = self.world.time();
     }
 
     /// Restores a state. The report of the last frame is removed.
-    pub fn restore(&mut self, snapshot: &Snapshot) {
+    pub fn restore(&mut self, snapshot: &State) {
         self.world.restore(&snapshot.world);
         self.described = Arc::clone(&snapshot.described);
         self.palette = Arc::clone(&snapshot.palette);

@@ -1,5 +1,6 @@
 //! Parts of a scene described in code.
 
+use carom_scene::scene::MaterialPair;
 use carom_scene::{Scene, part};
 
 use crate::failure::Failure;
@@ -18,6 +19,17 @@ pub fn read(text: &str) -> Result<Scene, Failure> {
 /// [`Failure`] for anything that a scene file would be refused for.
 pub fn read_for(text: &str, scene: &Scene) -> Result<Scene, Failure> {
     Ok(part::read_for(text, scene)?)
+}
+
+/// Reads pairs of materials for the world of a scene: see [`part::material_pairs`].
+///
+/// # Errors
+/// [`Failure`] for anything that a scene file would be refused for.
+pub fn material_pairs(
+    text: &str,
+    scene: &Scene,
+) -> Result<(Vec<MaterialPair>, Vec<carom::MaterialPair>), Failure> {
+    Ok(part::material_pairs(text, scene)?)
 }
 
 /// Reads simulation settings from TOML.

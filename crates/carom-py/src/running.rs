@@ -17,7 +17,7 @@ use crate::failure::Failure;
 use crate::inner::Inner;
 use crate::quantity::Quantity;
 use crate::recording::{Numbers, Recording, Selection};
-use crate::snapshot::Snapshot;
+use crate::snapshot::State;
 use crate::stop::PATIENCE;
 
 /// Times, ids, radii, masses, impacts and events of sensors as words, the changing quantities with
@@ -150,7 +150,7 @@ impl Engine {
         py: Python<'_>,
         frames: Range<u64>,
         rhythm: Rhythm,
-        before: &Snapshot,
+        before: &State,
         recording: &mut Recording,
     ) -> Result<u64, Refused> {
         let mut guard = self.lock(py).map_err(Refused::Failed)?;

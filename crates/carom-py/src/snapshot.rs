@@ -3,7 +3,7 @@
 // Python shows these comments as docstrings, with units in plain brackets.
 #![allow(rustdoc::broken_intra_doc_links)]
 
-use std::sync::Arc;
+use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard};
 
 use carom_scene::{Checkpoint, CheckpointError, Palette, Scene};
 use pyo3::prelude::*;
@@ -11,15 +11,38 @@ use pyo3::types::PyBytes;
 
 use crate::failure::Failure;
 
+/// The state of a world at one time: everything that the future depends on, and its description.
+#[derive(Debug, Clone)]
+pub struct State {
+    pub world: carom::Snapshot,
+    pub described: Arc<Scene>,
+    pub palette: Arc<Palette>,
+    /// Time \[s\].
+    pub time: f64,
+}
+
 /// The state of a world at one time, returned by `World.snapshot` and restored by `World.restore`.
 #[pyclass(frozen, module = "carom")]
-#[derive(Debug, Clone)]
-pub struct Snapshot {
-    pub(crate) world: carom::Snapshot,
-    pub(crate) described: Arc<Scene>,
-    pub(crate) palette: Arc<Palette>,
-    /// Time \[s\].
-    pub(crate) time: f64,
+#[derive(Debug)]
+pub struct Snapshot(RwLock<State>);
+
+impl From<State> for Snapshot {
+    fn from(state: State) -> Self {
+        Self(RwLock::new(state))
+    }
+}
+
+impl Snapshot {
+    /// Returns the state for reading. A thread that waits for Python's lock must not hold the guard: threads with
+    /// that lock wait for the state.
+    pub fn state(&self) -> RwLockReadGuard<'_, State> {
+        self.0.read().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Overwrites the state; `write` must not wait for Python's lock.
+    pub fn overwrite(&self, write: impl FnOnce(&mut State)) {
+        write(&mut self.0.write().unwrap_or_else(PoisonError::into_inner));
+    }
 }
 
 #[pymethods]
@@ -27,7 +50,7 @@ impl Snapshot {
     /// Time of the snapshot [s].
     #[getter]
     fn time(&self) -> f64 {
-        self.time
+        self.state().time
     }
 
     /// Returns the snapshot as bytes for `from_bytes`, the same ones on every platform.
@@ -35,8 +58,10 @@ impl Snapshot {
     /// Only the same version of Carom can read them. Pickles of snapshots, worlds and batches
     /// contain them.
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let written =
-            py.detach(|| Checkpoint::bytes_of(&self.world, &self.described, &self.palette));
+        let written = py.detach(|| {
+            let state = self.state();
+            Checkpoint::bytes_of(&state.world, &state.described, &state.palette)
+        });
         let written = written.map_err(|error| refused("snapshot", error))?;
         PyBytes::new_with(py, written.len(), |bytes| {
             bytes.copy_from_slice(&written);
@@ -59,7 +84,7 @@ impl Snapshot {
             read.map_err(|error| refused("data", error))?;
         let time = snapshot.time();
         let (described, palette) = (Arc::new(scene), Arc::new(palette));
-        Ok(Self { world: snapshot, described, palette, time })
+        Ok(State { world: snapshot, described, palette, time }.into())
     }
 
     fn __reduce__<'py>(
@@ -70,7 +95,7 @@ impl Snapshot {
     }
 
     fn __repr__(&self) -> String {
-        format!("<carom.Snapshot at {} s>", self.time)
+        format!("<carom.Snapshot at {} s>", self.time())
     }
 }
 

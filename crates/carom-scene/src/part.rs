@@ -9,7 +9,7 @@ use crate::deserialize::deserialize;
 use crate::error::{Fault, Problem, SceneError};
 use crate::legible::legible;
 use crate::overrides::Override;
-use crate::scene::{Scene, Spring};
+use crate::scene::{MaterialPair, Scene, Spring};
 use crate::{materials, parameters, springs};
 
 /// An error in a part described in code, which has no lines and no file name.
@@ -53,18 +53,39 @@ pub fn read(text: &str) -> Result<Scene, PartError> {
 /// [`PartError`] for any error that a scene file could have, and for materials of the text itself: a world has those of
 /// its scene.
 pub fn read_for(text: &str, scene: &Scene) -> Result<Scene, PartError> {
+    let part = read_of_materials(text, scene)?;
+    if part.material_pairs.is_empty() { Ok(part) } else { Err(materials_stay()) }
+}
+
+/// Reads pairs of materials for a running world, whose materials are those of its `scene`. Returns their descriptions
+/// and the pairs for [`World::set_material_pairs`].
+///
+/// # Errors
+/// [`PartError`] for any error that a scene file could have, and for materials of the text itself.
+pub fn material_pairs(
+    text: &str,
+    scene: &Scene,
+) -> Result<(Vec<MaterialPair>, Vec<carom::MaterialPair>), PartError> {
+    let part = read_of_materials(text, scene)?;
+    let pairs = part.world()?.material_pairs().to_vec();
+    Ok((part.material_pairs, pairs))
+}
+
+/// Reads parts together with the materials of `scene`.
+fn read_of_materials(text: &str, scene: &Scene) -> Result<Scene, PartError> {
     let part = if scene.materials.is_empty() {
         read(text)?
     } else {
         read(&format!("{text}\n{}", materials::written(scene)))?
     };
-    if part.materials != scene.materials || !part.material_pairs.is_empty() {
-        return Err(PartError {
-            message: "materials: a running world has those of its scene".to_owned(),
-            field: "materials".to_owned(),
-        });
+    if part.materials == scene.materials { Ok(part) } else { Err(materials_stay()) }
+}
+
+fn materials_stay() -> PartError {
+    PartError {
+        message: "materials: a running world has those of its scene".to_owned(),
+        field: "materials".to_owned(),
     }
-    Ok(part)
 }
 
 /// Reads the simulation settings from TOML.
@@ -193,6 +214,23 @@ mod tests {
             let error = spring_of(&format!("springs = [{{ {spring} }}]"), &world).unwrap_err();
             assert!(error.to_string().starts_with(message), "{error}");
         }
+    }
+
+    #[test]
+    fn pairs_of_a_running_world_name_the_materials_of_its_scene() {
+        let scene = "name = 'a'\n[materials]\nivory = {}\nslate = {}";
+        let scene = Scene::from_toml(scene, "a").unwrap();
+        let text = |names: &str| {
+            format!("material_pairs = [{{ materials = {names}, restitution = 0.5 }}]")
+        };
+        let (described, pairs) = material_pairs(&text("['slate', 'ivory']"), &scene).unwrap();
+        assert_eq!(described[0].materials, ["slate", "ivory"]);
+        assert_eq!(pairs, [carom::MaterialPair::new(2, 1).with_restitution(0.5)]);
+        assert_eq!(material_pairs("", &scene).unwrap().1, []);
+        let error = material_pairs(&text("['slate', 'cork']"), &scene).unwrap_err();
+        assert_eq!(error.field, "material_pairs[0].materials");
+        let own = format!("{}\nmaterials = {{ cork = {{}} }}", text("['cork', 'cork']"));
+        assert!(material_pairs(&own, &scene).is_err());
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Commands to a driver.
 
-use carom::SphereId;
+use carom::{DVec3, SphereId};
 use carom_scene::scene::{Scene, Simulation};
 
 use crate::aim::Aim;
@@ -61,6 +61,9 @@ pub enum Command {
     /// under the first only. The time remains, and all changes are repeated except those of the
     /// simulation.
     Compare(Option<Box<[Simulation; 2]>>),
+    /// Shows a copy of the present run beside it, with this sphere moved by this vector \[m\]; of two runs,
+    /// moves the sphere of the second.
+    Nudge(SphereId, DVec3),
 }
 
 impl Command {
@@ -71,7 +74,8 @@ impl Command {
             Self::Open(_) | Self::Replay(..) => true,
             Self::Play | Self::Pause | Self::Step | Self::StepBack | Self::Speed(_) => false,
             Self::Edit(_) | Self::EditFurther(_) | Self::Pick(_) => false,
-            Self::Undo | Self::Redo | Self::RestartWithValues | Self::Compare(_) => false,
+            Self::Undo | Self::Redo | Self::RestartWithValues => false,
+            Self::Compare(_) | Self::Nudge(..) => false,
             Self::ShowStateHash(_) | Self::ShowContacts(_) | Self::Aim(_) => false,
         }
     }

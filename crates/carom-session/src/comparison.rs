@@ -1,19 +1,19 @@
-//! Comparison of one scene under two rules.
+//! Comparison of two runs of one scene: under two rules, or of one and a nudged copy.
 
-use carom::{SphereId, StopRequest};
+use carom::{DVec3, SphereId, StopRequest};
 use carom_scene::SceneError;
 use carom_scene::scene::{Rule, Scene, Simulation};
 
 use crate::distance::Distance;
-use crate::edit::Edit;
+use crate::edit::{Edit, SphereChange};
 use crate::error::SessionError;
 use crate::history::DEFAULT_MEMORY;
 use crate::series::Series;
 use crate::session::Session;
 use crate::view::{View, replace};
 
-/// Two sessions of one scene under two rules. Every change is made in both, and both are at the
-/// same frame.
+/// Two sessions of one scene, under two rules or one. Every change is made in both, and both are at
+/// the same frame.
 #[derive(Debug)]
 pub struct Comparison {
     first: Session,
@@ -47,6 +47,21 @@ impl Comparison {
     ) -> Result<Self, SessionError> {
         let second = Simulation { frame_time: first.frame_time, ..second.clone() };
         Ok(Self::of(session.under(first)?, session.under(&second)?))
+    }
+
+    /// Puts a copy beside a session, in which a sphere is moved by `displacement` \[m\] at the
+    /// present frame.
+    ///
+    /// # Errors
+    /// The same as those of [`Self::nudge`].
+    pub(crate) fn beside_nudged(
+        session: &Session,
+        sphere: SphereId,
+        displacement: DVec3,
+    ) -> Result<Self, SessionError> {
+        let mut comparison = Self::of(session.clone(), session.clone());
+        comparison.nudge(sphere, displacement)?;
+        Ok(comparison)
     }
 
     fn of(first: Session, second: Session) -> Self {
@@ -162,6 +177,30 @@ impl Comparison {
     /// The same as those of [`Self::edit`].
     pub fn edit_further(&mut self, edit: &Edit) -> Result<(), SessionError> {
         self.edit_both(edit, Session::edit_further)
+    }
+
+    /// Moves a sphere of the second session by `displacement` \[m\]. The first gets the same edit
+    /// without a displacement, so that nothing else differs.
+    ///
+    /// # Errors
+    /// The same as those of [`Session::edit`]; then neither changes.
+    pub(crate) fn nudge(
+        &mut self,
+        sphere: SphereId,
+        displacement: DVec3,
+    ) -> Result<(), SessionError> {
+        let moved_by = |session: &Session, displacement: DVec3| {
+            let position = session.world().sphere(sphere)?.position + displacement;
+            let change = SphereChange { position: Some(position), ..SphereChange::default() };
+            Ok::<_, SessionError>(Edit::Sphere(sphere, Box::new(change)))
+        };
+        let first = moved_by(&self.first, DVec3::ZERO)?;
+        let second = moved_by(&self.second, displacement)?;
+        self.second.check(&second)?;
+        self.first.edit(first)?;
+        self.second.edit(second)?;
+        self.measure_anew();
+        Ok(())
     }
 
     fn edit_both(

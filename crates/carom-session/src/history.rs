@@ -97,7 +97,7 @@ fn estimated_bytes(world: &World, frame: u64) -> usize {
 /// changes are stored, because they are small. Moments are stored within a limit of memory: densely
 /// near the present, and more sparsely farther away, so that the cost of going back is proportional
 /// to the distance.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct History {
     /// Stored moments, ascending by frame; the first is frame 0.
     moments: Vec<Moment>,

@@ -156,6 +156,12 @@ impl Player {
             Command::Replay(scene, link) => {
                 self.open(Session::replay(*scene, &link).map(Watched::from));
             }
+            Command::Nudge(sphere, displacement) => {
+                self.last_edit = None;
+                let nudged = self.watched.nudge(sphere, displacement);
+                self.error = nudged.err().map(Arc::new);
+                self.pace.show_whole_frame();
+            }
             Command::Compare(simulations) => {
                 self.open(self.watched.compared(simulations.as_deref()));
             }

@@ -17,7 +17,7 @@ pub(crate) struct Revision {
 }
 
 /// Changes before each manual edit, and after each edit that was undone.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Revisions {
     /// States before edits; the most recent one is the last.
     before: Vec<Revision>,

@@ -1,6 +1,6 @@
 //! The session or comparison of a driver.
 
-use carom::{SphereId, StateHash, StopRequest};
+use carom::{DVec3, SphereId, StateHash, StopRequest};
 use carom_scene::scene::Simulation;
 
 use crate::comparison::Comparison;
@@ -14,7 +14,7 @@ use crate::view::View;
 pub enum Watched {
     /// One session.
     One(Box<Session>),
-    /// One scene under two rules.
+    /// Two runs of one scene.
     Two(Box<Comparison>),
 }
 
@@ -134,6 +134,25 @@ impl Watched {
         match self {
             Self::One(session) => session.edit_further(edit),
             Self::Two(comparison) => comparison.edit_further(&edit),
+        }
+    }
+
+    /// Moves a sphere of the second of two runs by `displacement` \[m\]; a single run gets a copy
+    /// beside it first.
+    ///
+    /// # Errors
+    /// Those of [`Session::edit`].
+    pub(crate) fn nudge(
+        &mut self,
+        sphere: SphereId,
+        displacement: DVec3,
+    ) -> Result<(), SessionError> {
+        match self {
+            Self::One(session) => {
+                *self = Comparison::beside_nudged(session, sphere, displacement)?.into();
+                Ok(())
+            }
+            Self::Two(comparison) => comparison.nudge(sphere, displacement),
         }
     }
 

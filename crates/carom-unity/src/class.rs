@@ -18,6 +18,7 @@ pub(crate) const LIGHT: u32 = 108;
 pub(crate) const MONO_BEHAVIOUR: u32 = 114;
 pub(crate) const PHYSIC_MATERIAL: u32 = 134;
 pub(crate) const SPHERE_COLLIDER: u32 = 135;
+pub(crate) const CAPSULE_COLLIDER: u32 = 136;
 /// Transform of an element of the user interface.
 const RECT_TRANSFORM: u32 = 224;
 pub(crate) const PREFAB_INSTANCE: u32 = 1001;

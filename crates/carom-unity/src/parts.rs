@@ -45,7 +45,10 @@ impl<'a> Parts<'a> {
                     Err(reason) => omit(report, &node.path, "script", reason),
                 },
                 class::RIGIDBODY => parts.rigid_body = Some(document),
-                class::SPHERE_COLLIDER | class::BOX_COLLIDER | class::MESH_COLLIDER => {
+                class::SPHERE_COLLIDER
+                | class::BOX_COLLIDER
+                | class::CAPSULE_COLLIDER
+                | class::MESH_COLLIDER => {
                     parts.colliders.push(document);
                 }
                 class::MESH_FILTER => parts.mesh = Some(document),

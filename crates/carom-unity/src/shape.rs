@@ -113,7 +113,33 @@ pub(crate) fn of_collider(
                 shortened((fields.vector_at("m_Size", DVec3::ONE)? * scale).abs().to_array());
             Ok(Placed { shape: Shape::Box { size }, position, rotation, inexact })
         }
+        class::CAPSULE_COLLIDER => Ok(capsule(fields, pose)?),
         _ => Mesh::of(fields.get("m_Mesh")).map(|mesh| mesh.placed(pose)),
+    })
+}
+
+/// Shape of a capsule along x, y or z, by its direction. As in Unity, the larger scale across it counts for the radius,
+/// and a height below the diameter makes a sphere.
+fn capsule(fields: &Value, pose: &Pose) -> Result<Placed, ImportError> {
+    let half = 0.5_f64.sqrt();
+    let scale = pose.scale();
+    let (along, across, turn) = match fields.number_at("m_Direction", 1.0)? {
+        0.0 => (scale.x, scale.y.max(scale.z), DQuat::from_xyzw(0.0, 0.0, -half, half)),
+        2.0 => (scale.z, scale.x.max(scale.y), DQuat::from_xyzw(half, 0.0, 0.0, half)),
+        _ => (scale.y, scale.x.max(scale.z), DQuat::IDENTITY),
+    };
+    let radius = across * fields.number_at("m_Radius", 0.5)?;
+    let length = along * fields.number_at("m_Height", 1.0)? - 2.0 * radius;
+    let shape = if length > 0.0 {
+        Shape::Capsule { radius: short(radius), length: short(length) }
+    } else {
+        Shape::Sphere { radius: short(radius) }
+    };
+    Ok(Placed {
+        shape,
+        position: pose.point(fields.vector_at("m_Center", DVec3::ZERO)?),
+        rotation: pose.rotation * turn,
+        inexact: sheared(pose),
     })
 }
 

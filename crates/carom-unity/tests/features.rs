@@ -115,6 +115,32 @@ fn colliders_have_their_scaled_forms_and_centres() {
 }
 
 #[test]
+fn a_capsule_lies_along_its_direction() {
+    const SCENE: &str = "Assets/Scenes/Bodies.unity";
+    for (direction, along) in [(0, [1.0, 0.0, 0.0]), (1, [0.0, 1.0, 0.0]), (2, [0.0, 0.0, 1.0])] {
+        let copy = Copy::new();
+        copy.change(SCENE, "--- !u!135 &42\nSphereCollider:", "--- !u!136 &42\nCapsuleCollider:");
+        let fields = format!("m_Radius: 0.25\n  m_Height: 2\n  m_Direction: {direction}");
+        copy.change(SCENE, "m_Radius: 0.25", &fields);
+        let scene = copy.import("Bodies").unwrap().scene;
+        let goal = collider(&scene, "Goal");
+        assert_eq!(goal.shape, Shape::Capsule { radius: 0.25, length: 1.5 });
+        let axis = carom::DQuat::from_array(goal.rotation).normalize() * carom::DVec3::Y;
+        assert_near(axis.abs().to_array(), along);
+    }
+}
+
+#[test]
+fn a_capsule_that_is_lower_than_wide_is_a_sphere() {
+    const SCENE: &str = "Assets/Scenes/Bodies.unity";
+    let copy = Copy::new();
+    copy.change(SCENE, "--- !u!135 &42\nSphereCollider:", "--- !u!136 &42\nCapsuleCollider:");
+    copy.change(SCENE, "m_Radius: 0.25", "m_Radius: 0.25\n  m_Height: 0.4");
+    let scene = copy.import("Bodies").unwrap().scene;
+    assert_eq!(collider(&scene, "Goal").shape, Shape::Sphere { radius: 0.25 });
+}
+
+#[test]
 fn a_quad_faces_what_comes_to_it_along_unity_s_z() {
     let scene = imported("Bodies").scene;
     let screen = collider(&scene, "Screen");

@@ -33,6 +33,7 @@ pub enum Action {
     Contacts,
     Forces,
     Compare,
+    Nudge,
     Theme,
     Help,
     Close,
@@ -169,6 +170,7 @@ shortcuts! {
         Contacts: [key(Key::K)], "show or hide contacts";
         Forces: [key(Key::C)], "show or hide contact forces";
         Compare: [key(Key::X)], "the same scene under two rules, side by side";
+        Nudge: [key(Key::N)], "a copy beside it, the picked ball moved by a billionth of its radius";
     }
     Share {
         Screenshot: [key(Key::Space)], "save a picture with the time on it";

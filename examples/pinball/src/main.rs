@@ -1,28 +1,25 @@
-//! Pinball in a window of `minifb`: left and right raise the flippers, Backspace goes back, Escape ends.
-//! `cargo run` in this folder.
+//! Pinball in a window of `minifb`: the arrows raise the flippers, Space held and let go launches the ball, Backspace goes
+//! back, Escape ends. `cargo run` in this folder.
 
+mod draw;
 mod table;
 
 use std::time::Instant;
 
-use carom::{DVec3, Pose, Shape};
 use minifb::{Key, Window, WindowOptions};
 
-use table::{FRAME, SIZE, Sound, Table};
+use draw::{HEIGHT, Picture, WIDTH};
+use table::{FRAME, Keys, Role, Sound, Table};
 
-/// Pixels for a metre.
-const SCALE: f64 = 800.0;
-const WIDTH: usize = (SIZE[0] * SCALE) as usize;
-const HEIGHT: usize = (SIZE[1] * SCALE) as usize;
 /// Most frames that a picture waits for: after a pause the game goes on where it was.
-const MOST_FRAMES: u32 = 10;
+const MOST_FRAMES: u32 = 12;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut window = Window::new("Pinball", WIDTH, HEIGHT, WindowOptions::default())?;
     window.set_target_fps(60);
     let mut table = Table::new()?;
-    let mut pixels = vec![0; WIDTH * HEIGHT];
-    let mut before = table.ball().0;
+    let mut picture = Picture::new(&table);
+    let mut before = table.ball();
     // Time that has passed and is not yet stepped [s].
     let (mut clock, mut owed) = (Instant::now(), 0.0);
     while window.is_open() && !window.is_key_down(Key::Escape) {
@@ -34,57 +31,46 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             }
             owed -= FRAME;
             if window.is_key_down(Key::Backspace) {
-                table.go_back(2);
+                table.go_back(3);
             }
-            before = table.ball().0;
-            for sound in table.step([Key::Left, Key::Right].map(|key| window.is_key_down(key)))? {
+            before = table.ball();
+            for sound in table.step(keys(&window))? {
                 play(&sound);
+                picture.flash(sound.collider);
             }
         }
         owed = owed.min(FRAME);
-        let (now, radius) = table.ball();
+        let now = table.ball();
         // A new ball does not fly in from the drain.
         let part = if now.distance(before) < 0.1 { owed / FRAME } else { 1.0 };
-        draw(&table, &mut pixels, before.lerp(now, part), radius);
-        window.set_title(&format!("Pinball: {} points", table.score));
-        window.update_with_buffer(&pixels, WIDTH, HEIGHT)?;
+        picture.draw(&table, before.lerp(now, part));
+        window.set_title(&title(&table));
+        window.update_with_buffer(&picture.pixels, WIDTH, HEIGHT)?;
     }
     Ok(())
 }
 
-/// A terminal has one sound; a game plays a sample for each kind.
+fn keys(window: &Window) -> Keys {
+    let is_down = |keys: [Key; 2]| keys.into_iter().any(|key| window.is_key_down(key));
+    Keys {
+        left: is_down([Key::Left, Key::A]),
+        right: is_down([Key::Right, Key::D]),
+        plunger: is_down([Key::Space, Key::Down]),
+    }
+}
+
+fn title(table: &Table) -> String {
+    let hint = match table.balls() {
+        0 => ": game over, hold Space for a new game",
+        _ if table.is_ball_waiting() => ": hold Space, and let go",
+        _ => "",
+    };
+    format!("Pinball: {} points{hint}", table.score())
+}
+
+/// A terminal has one sound; a game plays a sample for each role, as loud as the impulse is large.
 fn play(sound: &Sound) {
-    if !matches!(sound, Sound::Wall) {
+    if sound.impulse > 0.1 || Role::of(sound.collider) != Role::Wall {
         print!("\x07");
-    }
-}
-
-/// Draws the table with the ball at a place between two frames.
-fn draw(table: &Table, pixels: &mut [u32], ball: DVec3, radius: f64) {
-    for (number, pixel) in pixels.iter_mut().enumerate() {
-        let [x, y] = [number % WIDTH, number / WIDTH].map(|it| (it as f64 + 0.5) / SCALE);
-        let place = DVec3::new(x - 0.5 * SIZE[0], SIZE[1] - y, 0.0);
-        let mut colliders = table.world.colliders().map(|(_, it)| it);
-        let inside = colliders.find(|it| !it.trigger && is_inside(&it.shape, it.pose, place));
-        *pixel = match inside {
-            _ if place.distance(ball) < radius => 0xF2_F2_F2,
-            Some(collider) if collider.kick > 0.0 => 0xE0_5A_47,
-            Some(_) => 0x4F_8A_C9,
-            None => 0x16_1C_2B,
-        };
-    }
-}
-
-/// Whether a solid of the table covers a place.
-fn is_inside(shape: &Shape, pose: Pose, place: DVec3) -> bool {
-    let local = pose.rotation.inverse() * (place - pose.position);
-    match shape {
-        Shape::Sphere { radius } => local.length() < *radius,
-        Shape::Box { size } => local.abs().cmplt(0.5 * *size).all(),
-        Shape::Capsule { radius, length } => {
-            let end = local.y.clamp(-0.5 * length, 0.5 * length);
-            local.distance(DVec3::new(0.0, end, 0.0)) < *radius
-        }
-        _ => false,
     }
 }

@@ -303,6 +303,25 @@ class Bodies(Engine):
         parts.expect("spring", spring, parts.Spring)
         self._set_spring(id, f"springs = [{toml_value(spring, 'spring')}]")
 
+    # Pairs of materials
+
+    @property
+    def material_pairs(self) -> tuple[parts.MaterialPair, ...]:
+        """Pairs of materials whose contacts have coefficients of their own. Can be assigned to.
+
+        The materials are those of the scene that the world was made from.
+        """
+        pairs: tuple[parts.MaterialPair, ...]
+        pairs = read_part("material_pairs", self._material_pairs_json())
+        return pairs
+
+    @material_pairs.setter
+    def material_pairs(self, pairs: Sequence[parts.MaterialPair]) -> None:
+        pairs = tuple(pairs)
+        for number, pair in enumerate(pairs):
+            parts.expect(f"material_pairs[{number}]", pair, parts.MaterialPair)
+        self._set_material_pairs(f"material_pairs = {toml_value(pairs, 'material_pairs')}")
+
     # Colliders, emitters
 
     @property

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from operator import index as as_index
-from typing import Any, overload
+from typing import Any, TypeAlias, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,6 +13,18 @@ from numpy.typing import ArrayLike, NDArray
 from carom._scene.labels import LABELS, labels_of
 from carom._scene.parts import Finish, Sphere
 from carom.errors import CaromError
+
+_Labels: TypeAlias = Sequence[NDArray[np.uint64] | None]
+
+GivenPoints: TypeAlias = tuple[
+    int, Sequence[ArrayLike | None], ArrayLike | None, Sequence[Finish] | None, _Labels
+]
+"""Spheres for the engine: their number, quantities, colours, finishes and labels."""
+
+TakenPoints: TypeAlias = tuple[
+    Sequence[NDArray[np.float64]], NDArray[np.float64] | None, Sequence[Finish] | None, _Labels
+]
+"""Spheres from the engine: quantities, colours, finishes and labels."""
 
 _WIDTHS = {
     "positions": 3,
@@ -215,7 +227,7 @@ class Points(Sequence[Sphere]):
         values.update({name: int(labels[number]) for name, labels in self._labels.items()})
         return Sphere(**values)
 
-    def _given(self) -> tuple[Any, ...]:
+    def _given(self) -> GivenPoints:
         """What the engine takes."""
         columns = [self._arrays.get(name) for name in _WIDTHS]
         finishes = None if self._finishes is None else list(self._finishes)

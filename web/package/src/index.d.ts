@@ -24,19 +24,25 @@ import type {
   SpringDescription,
   Vector,
 } from "./descriptions.js";
+import type { Emitter, EmitterDescription } from "./emitters.js";
+import type { MaterialPair } from "./materials.js";
 import type { Hit, NearBody, PredictedPath, QueryFilter } from "./queries.js";
 import type {
   ContactAccount,
   EnergyAccount,
   Impact,
+  ImpactGroup,
+  Overlap,
   PersistentContact,
   SensorEvent,
   StageCounts,
   WellEvent,
   ZoneAccount,
 } from "./reports.js";
+import type { Strike } from "./strike.js";
 
 export * from "./descriptions.js";
+export * from "./emitters.js";
 export * from "./materials.js";
 export * from "./thermostats.js";
 export * from "./queries.js";
@@ -63,7 +69,18 @@ export const IMPACT_COLUMNS: Readonly<{
 }>;
 
 /** The state of a world at one time. Garbage collection or `free` releases its memory. */
-export interface Snapshot {
+export class Snapshot {
+  private constructor();
+  /**
+   * Returns the snapshot from bytes of `toBytes`, of Python or of the C interface. A checksum detects
+   * damage, but not malicious bytes: read only bytes that you trust.
+   * @throws {CaromError} if the bytes are no snapshot, from another version of Carom, or damaged
+   */
+  static fromBytes(bytes: Uint8Array | ArrayBuffer): Snapshot;
+  /** Returns the snapshot as bytes, the same ones on every platform, to store or send it. */
+  toBytes(): Uint8Array;
+  /** Time of the snapshot [s]. */
+  readonly time: number;
   free(): void;
 }
 
@@ -143,6 +160,12 @@ export class World {
   /** Frame time of the scene [s]. */
   readonly frameTime: number;
 
+  /**
+   * The longest frame [s] in which motion on springs is certainly stable; infinite without springs,
+   * and under the rule `exact`. The other rules refuse longer frames.
+   */
+  readonly longestStableFrame: number;
+
   /** Returns a snapshot of everything that the future depends on. */
   snapshot(): Snapshot;
   /**
@@ -171,6 +194,8 @@ export class World {
   readonly radii: Float64Array;
   /** Masses [kg]. */
   readonly masses: Float64Array;
+  /** Coefficients of restitution in [0, 1]. */
+  readonly restitutions: Float64Array;
   /** Ids, ascending; an id is never reused. `ids.indexOf(id)` is the index in the arrays. */
   readonly ids: Float64Array;
   /** Colours: red, green, blue, red, ... in [0, 1] (sRGB). */
@@ -192,6 +217,14 @@ export class World {
   readonly spinningFrictions: Float64Array;
   /** Coefficients of tangential restitution in [0, 1], as `frictions`. */
   readonly tangentialRestitutions: Float64Array;
+  /** Forces applied to single spheres [N]: x, y, z, x, ...; each acts until it is set again. */
+  readonly appliedForces: Float64Array;
+  /**
+   * Applies a force [N] to each sphere, besides those that act on all: x, y, z, x, y, z, ... in the
+   * order of the arrays. An empty list removes them; new spheres have none.
+   * @throws {CaromError} for another number of forces than spheres, or one that is not finite
+   */
+  setAppliedForces(forces: Iterable<number>): void;
   /**
    * Writes for each sphere the 4 by 4 matrix that maps the unit sphere to it, with its rotation,
    * column by column: for `THREE.InstancedMesh.instanceMatrix.array`.
@@ -205,6 +238,8 @@ export class World {
   readonly impactCount: number;
   /** The impacts as one array, `IMPACT_COLUMNS.count` numbers for each; a view like those above. */
   readonly impactTable: Float64Array;
+  /** Groups of impacts at one time in the last frame; none under `discrete` and `bisect`. */
+  readonly impactGroups: ImpactGroup[];
   /** Ids of the spheres that emitters added in the last frame. */
   readonly emitted: number[];
   /** Ids of the spheres that emitters removed to make space. */
@@ -231,6 +266,8 @@ export class World {
   readonly contactAccount: ContactAccount;
   /** Spheres that `exact` stepped in the last frame. */
   readonly zoneAccount: ZoneAccount;
+  /** Groups in which two bodies met as often as a frame allows, under the rule `bisect`. */
+  readonly unfinishedIslands: number;
   /** Whether any sphere was ever in a zone. */
   readonly wasStepped: boolean;
 
@@ -240,6 +277,11 @@ export class World {
    * change, or under other rules. Under `exact`, reading them solves for the forces.
    */
   readonly contacts: PersistentContact[];
+  /**
+   * Returns the bodies that overlap by more than `tolerance` [m] (default: 0), in the order of ids.
+   * @throws {CaromError} if the tolerance is negative
+   */
+  overlaps(tolerance?: number): Overlap[];
   /**
    * Whether spheres are rotated or rotate, or may start to: because an emitter emits such spheres,
    * or by friction, which acts under `exact` and `contact`.
@@ -310,6 +352,10 @@ export class World {
   readonly colliders: Collider[];
   /** Forces with their ids. */
   readonly forces: (Force & { id: number })[];
+  /** Pairs of materials whose contacts have coefficients of their own. */
+  readonly materialPairs: MaterialPair[];
+  /** Emitters with their ids, in the order in which they emit. */
+  readonly emitters: Emitter[];
   /** Springs with their ids. */
   readonly springs: Spring[];
   /** Returns one sphere. @throws {CaromError} if it is not in the world */
@@ -344,6 +390,9 @@ export class World {
    */
   addSpring(spring: SpringDescription): number;
 
+  /** Adds an emitter, whose first sphere is due now. Returns its id. @throws {SceneError} */
+  addEmitter(emitter: EmitterDescription): number;
+
   /** Changes the given properties of a sphere. @throws {CaromError} */
   setSphere(id: number, changes: SphereDescription): void;
   /**
@@ -358,6 +407,11 @@ export class World {
    * @throws {CaromError} as `applyImpulse`
    */
   applyImpulseAt(id: number, impulse: Vector, point: Vector): void;
+  /**
+   * Strikes a sphere with a cue: its velocity and its angular velocity change at once.
+   * @throws {CaromError} if the sphere is not in the world, or a number is invalid
+   */
+  strike(id: number, strike: Strike): void;
   /** Sets the velocity of a sphere [m/s]. @throws {CaromError} */
   setVelocity(id: number, velocity: Vector): void;
   /** Sets the angular velocity of a sphere [rad/s]. @throws {CaromError} */
@@ -381,6 +435,16 @@ export class World {
   setForce(id: number, force: Force): void;
   /** Changes the given properties of a spring: its ends, or how it pulls. @throws {CaromError} */
   setSpring(id: number, changes: SpringChanges): void;
+  /**
+   * Changes the given properties of an emitter. With another period it starts again now.
+   * @throws {CaromError}
+   */
+  setEmitter(id: number, changes: Partial<EmitterDescription>): void;
+  /**
+   * Replaces the pairs of materials, which are those of the scene; later steps use them.
+   * @throws {SceneError} for a material that the scene does not have, or an invalid number
+   */
+  setMaterialPairs(pairs: MaterialPair[]): void;
   /** Changes the given simulation settings. @throws {SceneError} */
   setSimulation(changes: SimulationChanges): void;
   /** @throws {CaromError} if it is not in the world */
@@ -391,6 +455,8 @@ export class World {
   removeForce(id: number): void;
   /** @throws {CaromError} if there is no such spring */
   removeSpring(id: number): void;
+  /** Removes an emitter; its spheres stay. @throws {CaromError} if there is no such emitter */
+  removeEmitter(id: number): void;
 
   /** Releases the memory of the world now, without waiting for garbage collection. */
   free(): void;

@@ -11,7 +11,7 @@ export function vectors(name, values, count) {
 }
 
 /** Returns the numbers x, y, z, w of a rotation. */
-export function rotation(name, values) {
+export function quaternion(name, values) {
   return rows(name, values, { width: 4, count: 1 });
 }
 

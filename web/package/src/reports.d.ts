@@ -20,6 +20,28 @@ export interface Impact {
   tangentialImpulse: [number, number, number];
 }
 
+/** Impacts at one instant among bodies that touch each other, with their momentum and energy. */
+export interface ImpactGroup {
+  /** Index of its first impact in `impacts`. */
+  first: number;
+  /** Number of its impacts. */
+  count: number;
+  /** Momentum of its spheres before [kg m/s]. */
+  momentumBefore: [number, number, number];
+  /** Momentum after, less what colliders gave [kg m/s]: as before, up to rounding. */
+  momentumAfter: [number, number, number];
+  /** Kinetic energy of its spheres before [J]. */
+  energyBefore: number;
+  /** Kinetic energy after, less the work of moving colliders, of kicks and of growth [J]. */
+  energyAfter: number;
+  /** Change of the kinetic energy that the coefficients of restitution demand [J], <= 0. */
+  energyDemanded: number;
+  /** Work of moving colliders [J]. */
+  colliderWork: number;
+  /** Work of the kicks of colliders, and of spheres that grow [J]. */
+  kickWork: number;
+}
+
 /** A sphere that enters a trigger or leaves it, however small the trigger and fast the sphere. */
 export interface SensorEvent {
   /** Time since the start of the frame [s]. */
@@ -76,6 +98,14 @@ export interface PersistentContact {
    * friction is at its limit.
    */
   isSliding: boolean;
+}
+
+/** Two bodies that overlap. */
+export interface Overlap {
+  /** Ids of two spheres, or of a collider and a sphere. */
+  between: { spheres: [number, number] } | { collider: number; sphere: number };
+  /** Depth of the overlap of their surfaces [m], > 0. */
+  depth: number;
 }
 
 /** The work of a frame by stage: counts that depend only on the world, not on the machine. */

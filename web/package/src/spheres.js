@@ -4,7 +4,7 @@ import { attempt, attemptPart } from "./errors.js";
 import { ENGINE, Handle } from "./handle.js";
 import { writeMatrices } from "./matrices.js";
 import { parse } from "./names.js";
-import { vector } from "./numbers.js";
+import { vector, vectors } from "./numbers.js";
 import { tables } from "./toml.js";
 import { Views } from "./views.js";
 
@@ -34,6 +34,10 @@ export class Spheres extends Handle {
     return this.#view("masses", Float64Array, 1);
   }
 
+  get restitutions() {
+    return this.#view("restitutions", Float64Array, 1);
+  }
+
   get ids() {
     return this.#view("ids", Float64Array, 1);
   }
@@ -52,6 +56,10 @@ export class Spheres extends Handle {
 
   get inertiaFactors() {
     return this.#viewOr("inertiaFactors", SOLID_BALL);
+  }
+
+  get appliedForces() {
+    return this.#viewOr("appliedForces", NO_FORCE);
   }
 
   get frictions() {
@@ -82,6 +90,12 @@ export class Spheres extends Handle {
     return isUsual
       ? this.#views.repeated(name, usual, world.count)
       : this.#view(name, Float64Array, usual.length);
+  }
+
+  setAppliedForces(forces) {
+    const world = this[ENGINE];
+    const given = vectors("forces", forces);
+    attempt(() => world.setAppliedForces(given));
   }
 
   writeMatrices(matrices) {
@@ -115,6 +129,12 @@ export class Spheres extends Handle {
     attempt(() => world.applyImpulseAt(id, given, place));
   }
 
+  strike(id, strike) {
+    // The sphere only carries the strike.
+    const text = tables({ spheres: [{ radius: 1, strike }] });
+    attemptPart(() => this[ENGINE].strike(id, text));
+  }
+
   setVelocity(id, velocity) {
     const [world, given] = [this[ENGINE], vector("velocity", velocity)];
     attempt(() => world.setVelocity(id, given));
@@ -133,6 +153,7 @@ export class Spheres extends Handle {
 // Defaults of a sphere.
 const NOT_TURNED = [0, 0, 0, 1];
 const AT_REST = [0, 0, 0];
+const NO_FORCE = [0, 0, 0];
 const SOLID_BALL = [2 / 5];
 /** A sphere without its own friction. */
 const SILENT = [NaN];

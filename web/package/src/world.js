@@ -5,12 +5,15 @@ import * as engine from "./engine.js";
 import { contacts } from "./contacts.js";
 import { attempt, attemptPart } from "./errors.js";
 import { ENGINE } from "./handle.js";
+import { impactGroups } from "./impact_groups.js";
 import { IMPACT_COLUMNS, impacts } from "./impacts.js";
 import { parse } from "./names.js";
-import { rotation, vector, vectors } from "./numbers.js";
+import { quaternion, vector, vectors } from "./numbers.js";
+import { overlaps } from "./overlaps.js";
 import { PredictedPath } from "./path.js";
 import { filterOf, hits, nearBodies } from "./queries.js";
 import { sensorEvents } from "./sensor_events.js";
+import { Snapshot } from "./snapshot.js";
 import { Spheres } from "./spheres.js";
 import { override, tables } from "./toml.js";
 import { Views } from "./views.js";
@@ -64,16 +67,20 @@ export class World extends Spheres {
     return this[ENGINE].frameTime;
   }
 
+  get longestStableFrame() {
+    return this[ENGINE].longestStableFrame;
+  }
+
   snapshot() {
-    return this[ENGINE].snapshot();
+    return new Snapshot(this[ENGINE].snapshot());
   }
 
   snapshotInto(snapshot) {
-    this[ENGINE].snapshotInto(snapshot);
+    this[ENGINE].snapshotInto(snapshot[ENGINE]);
   }
 
   restore(snapshot) {
-    this[ENGINE].restore(snapshot);
+    this[ENGINE].restore(snapshot[ENGINE]);
   }
 
   stateHash() {
@@ -96,6 +103,10 @@ export class World extends Spheres {
     const place = world.impacts;
     const length = IMPACT_COLUMNS.count * world.impactCount;
     return this.#views.at("impacts", Float64Array, place, length);
+  }
+
+  get impactGroups() {
+    return impactGroups(this[ENGINE].impactGroups);
   }
 
   get emitted() {
@@ -151,6 +162,10 @@ export class World extends Spheres {
     return { spheres, sphereSeconds, ticks, joined, left };
   }
 
+  get unfinishedIslands() {
+    return this[ENGINE].unfinishedIslands;
+  }
+
   get wasStepped() {
     return this[ENGINE].wasStepped;
   }
@@ -159,6 +174,11 @@ export class World extends Spheres {
 
   get contacts() {
     return contacts(this[ENGINE].contacts);
+  }
+
+  overlaps(tolerance = 0) {
+    const world = this[ENGINE];
+    return overlaps(attempt(() => world.overlaps(tolerance)));
   }
 
   get hasSpin() {
@@ -249,6 +269,14 @@ export class World extends Spheres {
     return parse(this[ENGINE].forces());
   }
 
+  get materialPairs() {
+    return parse(this[ENGINE].scene()).materialPairs ?? [];
+  }
+
+  get emitters() {
+    return parse(this[ENGINE].emitters());
+  }
+
   get springs() {
     return parse(this[ENGINE].springs()).map((spring) => ({ ...SPRING, ...spring }));
   }
@@ -286,6 +314,11 @@ export class World extends Spheres {
     return attemptPart(() => world.addSpring(tables({ springs: [spring] })));
   }
 
+  addEmitter(emitter) {
+    const world = this[ENGINE];
+    return attemptPart(() => world.addEmitter(tables({ emitters: [emitter] })));
+  }
+
   setCollider(id, changes) {
     const { id: _, ...now } = this.colliders.find((collider) => collider.id === id) ?? {};
     const text = tables({ colliders: [{ ...now, ...changes }] });
@@ -293,11 +326,12 @@ export class World extends Spheres {
   }
 
   setNextPose(id, pose, dt = this.frameTime) {
-    const [unknown] = Object.keys(pose).filter((name) => name !== "position" && name !== "rotation");
+    const { position, rotation, ...others } = pose;
+    const [unknown] = Object.keys(others);
     if (unknown !== undefined) throw new TypeError(`a pose has no "${unknown}"`);
     const world = this[ENGINE];
-    const place = pose.position && vector("position", pose.position);
-    const turn = pose.rotation && rotation("rotation", pose.rotation);
+    const place = position && vector("position", position);
+    const turn = rotation && quaternion("rotation", rotation);
     attempt(() => world.setNextPose(id, place, turn, dt));
   }
 
@@ -315,6 +349,17 @@ export class World extends Spheres {
     const ends = changes.spheres === undefined ? { sphere, anchor, ...pair } : {};
     const text = tables({ springs: [{ ...numbers, ...ends, ...changes }] });
     attemptPart(() => this[ENGINE].setSpring(id, text));
+  }
+
+  setEmitter(id, changes) {
+    const { id: _, ...now } = this.emitters.find((emitter) => emitter.id === id) ?? {};
+    const text = tables({ emitters: [{ ...now, ...changes }] });
+    attemptPart(() => this[ENGINE].setEmitter(id, text));
+  }
+
+  setMaterialPairs(materialPairs) {
+    const text = tables({ materialPairs });
+    attemptPart(() => this[ENGINE].setMaterialPairs(text));
   }
 
   setSimulation(changes) {
@@ -337,6 +382,10 @@ export class World extends Spheres {
 
   removeSpring(id) {
     attempt(() => this[ENGINE].removeSpring(id));
+  }
+
+  removeEmitter(id) {
+    attempt(() => this[ENGINE].removeEmitter(id));
   }
 }
 

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { World } from "carom";
+import { CaromError, Snapshot, World } from "carom";
 
 const step = (world, frames) => {
   for (let frame = 0; frame < frames; frame++) world.step();
@@ -70,6 +70,35 @@ test("a snapshot can be restored into another world", () => {
   const other = new World();
   other.restore(world.snapshot());
   assert.equal(step(other, 30).stateHash(), step(world, 30).stateHash());
+});
+
+test("a snapshot goes through bytes with every bit and every colour", () => {
+  for (const name of ["tutorial4", "simtest3", "spring-chain"]) {
+    const world = step(World.fromScene(name), 30);
+    world.setSphere(world.ids[0], { color: [0.25, 0.5, 1] });
+    const bytes = world.snapshot().toBytes();
+    const read = Snapshot.fromBytes(bytes);
+    assert.equal(read.time, world.time);
+    assert.deepEqual(read.toBytes(), bytes);
+    const other = new World();
+    other.restore(read);
+    assert.deepEqual(other.colors, world.colors.slice());
+    assert.equal(other.toToml(), world.toToml());
+    assert.equal(step(other, 30).stateHash(), step(world, 30).stateHash());
+  }
+});
+
+test("bytes that are no snapshot are refused", () => {
+  const bytes = step(World.fromScene("tutorial1"), 3).snapshot().toBytes();
+  const refused = (given, message) =>
+    assert.throws(() => Snapshot.fromBytes(given), { name: "CaromError", message });
+  refused(new Uint8Array(9), /no snapshot of Carom/);
+  refused(bytes.subarray(0, bytes.length - 1), /damaged/);
+  bytes[bytes.length >> 1] ^= 1;
+  refused(bytes, /damaged/);
+  const snapshot = new World().snapshot();
+  snapshot.free();
+  assert.throws(() => new World().restore(snapshot), CaromError);
 });
 
 test("a world written down at its start runs on alike", () => {

@@ -1,7 +1,7 @@
 // The declarations match the package. This file is only type-checked, never run. A line after
 // `@ts-expect-error` must be wrong.
 
-import { CaromError, IMPACT_COLUMNS, SceneError, scenes, World } from "carom";
+import { CaromError, IMPACT_COLUMNS, SceneError, scenes, Snapshot, World } from "carom";
 import type { Collider, Hit, Impact, PredictedPath, Shape, SimulationChanges } from "carom";
 
 const world: World = World.fromScene("tutorial3", { "simulation.rule": "exact", camera: null });
@@ -47,6 +47,17 @@ own.setCollider(0, { restitution: 0.5 });
 own.setNextPose(0, { position: [0, 1, 0] });
 // @ts-expect-error: a misspelled field
 own.setNextPose(0, { place: [0, 1, 0] }, 0.1);
+own.strike(ball, { speed: 2, offset: [0, -0.4] });
+// @ts-expect-error: a strike has a speed
+own.strike(ball, { cueMass: 0.5 });
+own.setAppliedForces(new Float64Array(3 * own.count));
+const source: number = own.addEmitter({ period: 0.5, sphere: { radius: 0.1 } });
+// @ts-expect-error: an emitter has a sphere
+own.addEmitter({ period: 0.5 });
+own.setEmitter(source, { maxSpheres: 3 });
+const emitted: number[] = own.emitters.map(({ sphere }) => sphere.radius);
+own.setMaterialPairs([{ materials: ["ivory", "slate"], restitution: 0.5 }]);
+const depths: number[] = own.overlaps(1e-9).map(({ depth }) => depth);
 const changes: SimulationChanges = { exact: { impactLaw: "simultaneous", maxImpacts: 100 } };
 own.setSimulation(changes);
 
@@ -90,6 +101,10 @@ const largest: number = Math.max(...world.colliders.map(({ shape }: Collider) =>
 const [x, , z]: [number, number, number] = world.momentum();
 const before = world.snapshot();
 world.restore(before);
+const bytes: Uint8Array = before.toBytes();
+world.restore(Snapshot.fromBytes(bytes));
+// @ts-expect-error: a snapshot comes from a world or from bytes
+new Snapshot();
 before.free();
 // @ts-expect-error: a snapshot comes from a world
 world.restore({});
@@ -117,6 +132,8 @@ console.log(
   firstTime,
   largest,
   lengths,
+  emitted,
+  depths,
   x,
   z,
   own.stateHash(),

@@ -32,14 +32,14 @@ pub const PARTS: [Part; 15] = [
     Part {
         name: "physics",
         after: &["builds"],
-        reads: Reads::Some { packages: PHYSICS, paths: &[] },
+        reads: Reads::Some { packages: PHYSICS, paths: &["examples/"] },
         run: physics,
     },
     Part { name: "examples", after: &["builds"], reads: RUST, run: examples },
     Part {
         name: "C",
         after: &["builds"],
-        reads: Reads::Some { packages: &["carom-c"], paths: &[] },
+        reads: Reads::Some { packages: &["carom-c"], paths: &["examples/"] },
         run: c_interface::test_built,
     },
     Part {
@@ -63,7 +63,7 @@ pub const PARTS: [Part; 15] = [
     Part {
         name: "JavaScript",
         after: &["modules"],
-        reads: Reads::Some { packages: &["carom-js"], paths: &["web/"] },
+        reads: Reads::Some { packages: &["carom-js"], paths: &["web/", "examples/"] },
         run: js_package::test,
     },
     Part {
@@ -86,7 +86,7 @@ pub const PARTS: [Part; 15] = [
 /// Any package.
 const RUST: Reads = Reads::Some {
     packages: &["carom", "carom-analysis", "carom-c", "carom-fuzz", "carom-js", "carom-py"],
-    paths: &["crates/", "docs/"],
+    paths: &["crates/", "docs/", "examples/"],
 };
 /// What has a part of its own for its tests.
 const PHYSICS: &[&str] = &["carom", "carom-scene"];

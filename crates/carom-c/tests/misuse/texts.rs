@@ -10,13 +10,14 @@ use crate::{ARGUMENT, Bench, SCENE};
 
 pub fn no_text(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatus]) {
     let (text, mut made) = (c"name = \"\xff\"".as_ptr(), CaromWorld::default());
-    let function = bench.below(4);
+    let function = bench.below(5);
     // SAFETY: texts that end in a zero.
     let status = unsafe {
         match function {
             0 => carom_world_from_toml(text, null(), 0, &raw mut made),
             1 => carom_world_from_scene(text, null(), 0, &raw mut made),
             2 => carom_world_from_scene(c"cradle".as_ptr(), &raw const text, 1, &raw mut made),
+            3 => carom_world_set_material_pairs(bench.world, text),
             _ => carom_world_set_simulation(bench.world, text),
         }
     };

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use carom_session::figures::{Figure, Form, Marks, text_of_mark};
+use carom_session::figures::{Figure, Form, Marks, Scale};
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 
 /// Part of an axis of values that stays free above and below them.
@@ -10,6 +10,8 @@ const ROOM: f64 = 0.05;
 
 /// An axis of a plot.
 pub struct Axis {
+    scale: Scale,
+    /// Places of the ends.
     range: Range<f64>,
     marks: Marks,
     decimal_comma: bool,
@@ -18,22 +20,23 @@ pub struct Axis {
 impl Axis {
     /// Axis of the places at which a figure has values.
     pub fn across(figure: &Figure, decimal_comma: bool) -> Self {
-        Self::new(range(figure, |[x, _]| x, 0.0), decimal_comma)
+        Self::new(Scale::Linear, range(figure, |[x, _]| x, 0.0), decimal_comma)
     }
 
     /// Axis of the values of a figure.
     pub fn up(figure: &Figure, decimal_comma: bool) -> Self {
-        Self::new(range(figure, |[_, y]| y, ROOM), decimal_comma)
+        let scale = figure.scale;
+        Self::new(scale, range(figure, |[_, y]| scale.place(y), ROOM), decimal_comma)
     }
 
-    fn new(range: Range<f64>, decimal_comma: bool) -> Self {
-        let marks = Marks::between(range.start, range.end);
-        Self { range, marks, decimal_comma }
+    fn new(scale: Scale, range: Range<f64>, decimal_comma: bool) -> Self {
+        let marks = scale.marks(range.start, range.end);
+        Self { scale, range, marks, decimal_comma }
     }
 
     /// Returns the place of a value on the axis: 0 at its start, 1 at its end.
     pub fn part(&self, value: f64) -> f64 {
-        (value - self.range.start) / (self.range.end - self.range.start)
+        (self.scale.place(value) - self.range.start) / (self.range.end - self.range.start)
     }
 
     /// Returns the marked values with their texts.
@@ -56,13 +59,13 @@ impl Ranged for Axis {
     }
 
     fn range(&self) -> Range<f64> {
-        self.range.clone()
+        self.scale.value(self.range.start)..self.scale.value(self.range.end)
     }
 }
 
 impl ValueFormatter<f64> for Axis {
     fn format_ext(&self, value: &f64) -> String {
-        let text = text_of_mark(*value, self.marks.step);
+        let text = self.scale.text(*value, self.marks.step);
         if self.decimal_comma { text.replace('.', ",") } else { text }
     }
 }

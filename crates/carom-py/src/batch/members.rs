@@ -15,7 +15,7 @@ use crate::inner::Inner;
 use crate::next_poses::NextPoses;
 use crate::quantity::Quantity;
 use crate::setting;
-use crate::snapshot::Snapshot;
+use crate::snapshot::State;
 use crate::stop::Watch;
 use crate::threads::Pool;
 use crate::written::{self, Written};
@@ -73,7 +73,7 @@ impl Progress {
 #[derive(Debug)]
 struct Member {
     now: Inner,
-    start: Arc<Snapshot>,
+    start: Arc<State>,
     /// Number of impacts in the last step.
     impacts: u64,
 }
@@ -83,11 +83,11 @@ impl Members {
     ///
     /// # Errors
     /// [`Failure`] for no worlds, and if there is not enough memory.
-    pub fn new(starts: Vec<Snapshot>, count: usize, pool: Option<Pool>) -> Result<Self, Failure> {
+    pub fn new(starts: Vec<State>, count: usize, pool: Option<Pool>) -> Result<Self, Failure> {
         if count == 0 || ![1, count].contains(&starts.len()) {
             return Err(Failure::value("n", format_args!("must be at least 1, not {count}")));
         }
-        let mut starts: Vec<Arc<Snapshot>> = starts.into_iter().map(Arc::new).collect();
+        let mut starts: Vec<Arc<State>> = starts.into_iter().map(Arc::new).collect();
         let last = Arc::clone(&starts[starts.len() - 1]);
         let mut members: Vec<Member> = Vec::new();
         let no_room = |_| Failure::memory(format_args!("there is no memory for {count} worlds"));
@@ -176,18 +176,18 @@ impl Members {
     }
 
     /// Returns the state of a world.
-    pub fn snapshot(&self, world: usize) -> Option<Snapshot> {
+    pub fn snapshot(&self, world: usize) -> Option<State> {
         self.members.get(world).map(|member| member.now.snapshot())
     }
 
     /// Returns the start states without repetition, and for each world the index of its start
     /// state.
-    pub fn starts(&self) -> (Vec<Snapshot>, Vec<usize>) {
+    pub fn starts(&self) -> (Vec<State>, Vec<usize>) {
         let mut starts = Vec::new();
         let mut places = BTreeMap::new();
         let place = |member: &Member| {
             *places.entry(Arc::as_ptr(&member.start)).or_insert_with(|| {
-                starts.push(Snapshot::clone(&member.start));
+                starts.push(State::clone(&member.start));
                 starts.len() - 1
             })
         };
@@ -199,7 +199,7 @@ impl Members {
     ///
     /// # Errors
     /// Those of [`Self::restore`].
-    pub fn go_on_from(&mut self, world: usize, snapshot: &Snapshot) -> Result<(), Failure> {
+    pub fn go_on_from(&mut self, world: usize, snapshot: &State) -> Result<(), Failure> {
         let start = self.members.get(world).map(|member| Arc::clone(&member.start));
         self.restore(world, snapshot)?;
         if let Some((member, start)) = self.members.get_mut(world).zip(start) {
@@ -212,7 +212,7 @@ impl Members {
     ///
     /// # Errors
     /// [`Failure`] if there is no such world.
-    pub fn restore(&mut self, world: usize, snapshot: &Snapshot) -> Result<(), Failure> {
+    pub fn restore(&mut self, world: usize, snapshot: &State) -> Result<(), Failure> {
         let member = Member::new(Arc::new(snapshot.clone()));
         let count = self.len();
         let place = self.members.get_mut(world).ok_or_else(|| {
@@ -369,7 +369,7 @@ impl Members {
 }
 
 impl Member {
-    fn new(start: Arc<Snapshot>) -> Self {
+    fn new(start: Arc<State>) -> Self {
         let (described, palette) = (Arc::clone(&start.described), Arc::clone(&start.palette));
         let mut now = Inner::new(World::default(), described, palette);
         now.restore(&start);

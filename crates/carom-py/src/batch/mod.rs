@@ -146,7 +146,7 @@ impl BatchEngine {
         threads: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let pool = threads::pool(threads::wanted(threads)?, count)?;
-        let starts = snapshots.iter().map(|snapshot| (**snapshot).clone()).collect();
+        let starts = snapshots.iter().map(|snapshot| snapshot.state().clone()).collect();
         let members = Members::new(starts, count, pool)?;
         Ok(Self(Mutex::new(Inner { members, arrays: BatchArrays::default() })))
     }
@@ -209,26 +209,28 @@ impl BatchEngine {
     #[pyo3(name = "_snapshot")]
     fn snapshot(&self, py: Python<'_>, world: usize) -> PyResult<Snapshot> {
         let snapshot = self.lock(py)?.members.snapshot(world);
-        snapshot.ok_or_else(|| PyIndexError::new_err("world: out of range"))
+        let snapshot = snapshot.ok_or_else(|| PyIndexError::new_err("world: out of range"))?;
+        Ok(snapshot.into())
     }
 
     /// Sets both the state and the start state of a world.
     #[pyo3(name = "_restore")]
     fn restore(&self, py: Python<'_>, world: usize, snapshot: &Snapshot) -> PyResult<()> {
-        self.change(py, |members| members.restore(world, snapshot))
+        self.change(py, |members| members.restore(world, &snapshot.state()))
     }
 
     /// Returns the start states without repetition, and for each world the index of its start
     /// state.
     #[pyo3(name = "_starts")]
     fn starts(&self, py: Python<'_>) -> PyResult<(Vec<Snapshot>, Vec<usize>)> {
-        Ok(self.lock(py)?.members.starts())
+        let (starts, numbers) = self.lock(py)?.members.starts();
+        Ok((starts.into_iter().map(Snapshot::from).collect(), numbers))
     }
 
     /// Sets the state of a world, but keeps its start state.
     #[pyo3(name = "_go_on_from")]
     fn go_on_from(&self, py: Python<'_>, world: usize, snapshot: &Snapshot) -> PyResult<()> {
-        self.change(py, |members| members.go_on_from(world, snapshot))
+        self.change(py, |members| members.go_on_from(world, &snapshot.state()))
     }
 
     /// Returns the number of worlds.

@@ -1,11 +1,58 @@
-//! Round numbers along an axis.
+//! Scales of axes, and round numbers along them.
 
-/// Round numbers along an axis, at equal steps.
+/// How values are placed along an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Scale {
+    /// At their own distances.
+    #[default]
+    Linear,
+    /// By their decimal logarithms.
+    Logarithmic,
+}
+
+impl Scale {
+    /// Returns the place of a value; not a finite number if the axis has none.
+    pub fn place(self, value: f64) -> f64 {
+        match self {
+            Self::Linear => value,
+            Self::Logarithmic => value.log10(),
+        }
+    }
+
+    /// Returns the value at a place.
+    pub fn value(self, place: f64) -> f64 {
+        match self {
+            Self::Linear => place,
+            Self::Logarithmic => 10f64.powf(place),
+        }
+    }
+
+    /// Returns the marks between two places: round numbers, on a logarithmic axis powers of ten.
+    pub fn marks(self, min: f64, max: f64) -> Marks {
+        match self {
+            Self::Linear => Marks::between(min, max),
+            Self::Logarithmic => {
+                let Marks { values, step } = Marks::of_whole_numbers(min, max);
+                Marks { values: values.into_iter().map(|it| self.value(it)).collect(), step }
+            }
+        }
+    }
+
+    /// Returns the text of a mark, with just enough digits to distinguish it from the others.
+    pub fn text(self, mark: f64, step: f64) -> String {
+        match self {
+            Self::Linear => text_of_mark(mark, step),
+            Self::Logarithmic => format!("1e{:.0}", mark.log10()),
+        }
+    }
+}
+
+/// Round numbers along an axis, at places with equal steps.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Marks {
     /// The numbers, ascending.
     pub values: Vec<f64>,
-    /// Distance between two of them.
+    /// Distance between the places of two of them.
     pub step: f64,
 }
 
@@ -17,6 +64,12 @@ impl Marks {
         let found = round_numbers(min, max, PARTS);
         // An axis around zero may contain only one round number.
         if found.values.len() == 1 { round_numbers(min, max, 2.0 * PARTS) } else { found }
+    }
+
+    /// Returns those of the marks between two numbers that are whole; of a short range, all whole numbers.
+    fn of_whole_numbers(min: f64, max: f64) -> Self {
+        let found = Self::between(min, max);
+        if found.step >= 1.0 { found } else { round_numbers(min, max, max - min) }
     }
 }
 
@@ -37,7 +90,7 @@ fn round_numbers(min: f64, max: f64, parts: f64) -> Marks {
 }
 
 /// Returns the text of a mark, with just enough digits to distinguish it from those a `step` away.
-pub fn text_of_mark(value: f64, step: f64) -> String {
+fn text_of_mark(value: f64, step: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }
@@ -60,6 +113,19 @@ mod tests {
         assert_eq!((text(0.5, 0.5), text(50.0, 50.0)), ("0.5".to_owned(), "50".to_owned()));
         assert_eq!((text(0.02, 0.01), text(0.0, 1e-9)), ("0.02".to_owned(), "0".to_owned()));
         assert_eq!((text(3e-9, 1e-9), text(1.5e7, 5e6)), ("3e-9".to_owned(), "1.5e7".to_owned()));
+    }
+
+    #[test]
+    fn a_logarithmic_axis_is_marked_at_powers_of_ten() {
+        let scale = Scale::Logarithmic;
+        let marks = |low: f64, high: f64| {
+            let marks = scale.marks(scale.place(low), scale.place(high));
+            marks.values.iter().map(|it| scale.text(*it, marks.step)).collect::<Vec<_>>()
+        };
+        assert_eq!(marks(3e-11, 0.7), ["1e-10", "1e-5"]);
+        assert_eq!(marks(0.5, 150.0), ["1e0", "1e1", "1e2"]);
+        assert_eq!(marks(2.0, 3.0), [""; 0]);
+        assert!(!scale.place(0.0).is_finite() && !scale.place(-1.0).is_finite());
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! Figures: curves over one axis, with names and units.
 
+use super::axis::Scale;
+
 /// Colour of a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Hue {
@@ -80,6 +82,8 @@ pub struct Figure {
     pub unit: &'static str,
     /// Name and unit of the horizontal axis.
     pub across: (String, &'static str),
+    /// Scale of the vertical axis.
+    pub scale: Scale,
     /// What is drawn, the last one in front.
     pub curves: Vec<Curve>,
     /// Marked position on the horizontal axis: the present time.
@@ -96,8 +100,8 @@ impl Figure {
         now: f64,
         curves: Vec<Curve>,
     ) -> Self {
-        let across = ("time".to_owned(), "s");
-        Self { title: title.into(), unit, across, curves, mark: Some(now), scale_until: None }
+        let across = ("time", "s");
+        Self { mark: Some(now), ..Self::over(title, unit, across, curves) }
     }
 
     /// Makes a figure of one quantity over another.
@@ -107,8 +111,15 @@ impl Figure {
         across: (impl Into<String>, &'static str),
         curves: Vec<Curve>,
     ) -> Self {
-        let across = (across.0.into(), across.1);
-        Self { title: title.into(), unit, across, curves, mark: None, scale_until: None }
+        Self {
+            title: title.into(),
+            unit,
+            across: (across.0.into(), across.1),
+            scale: Scale::default(),
+            curves,
+            mark: None,
+            scale_until: None,
+        }
     }
 
     /// Title with its unit.
@@ -121,14 +132,16 @@ impl Figure {
         labelled(&self.across.0, self.across.1)
     }
 
-    /// Returns the range of the values that set the scale, with a margin; `None` if all values set
-    /// it.
-    pub fn scale(&self) -> Option<(f64, f64)> {
+    /// Returns the range of the places of the values that set the scale, with a margin; `None` if all
+    /// values set it.
+    pub fn bounds(&self) -> Option<(f64, f64)> {
         let until = self.scale_until?;
         let values = self.curves.iter().flat_map(|it| &it.points).filter(|it| it[0] <= until);
         let (low, high) = values
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), [_, value]| {
-                (low.min(*value), high.max(*value))
+            .map(|[_, value]| self.scale.place(*value))
+            .filter(|place| place.is_finite())
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), place| {
+                (low.min(place), high.max(place))
             });
         let room = 0.05 * (high - low);
         (room > 0.0 && room.is_finite()).then_some((low - room, high + room))
@@ -255,10 +268,10 @@ mod tests {
         let points: Vec<f64> = (0..10).map(f64::from).collect();
         let curve = Curve::line("falling", Hue::Red, &points, |t| (*t, -t * t));
         let mut falling = figure(vec![curve]);
-        assert_eq!(falling.scale(), None);
+        assert_eq!(falling.bounds(), None);
         falling.scale_until = Some(2.0);
-        assert_eq!(falling.scale(), Some((-4.2, 0.2)));
+        assert_eq!(falling.bounds(), Some((-4.2, 0.2)));
         falling.scale_until = Some(0.0);
-        assert_eq!(falling.scale(), None, "one value alone has no scale");
+        assert_eq!(falling.bounds(), None, "one value alone has no scale");
     }
 }

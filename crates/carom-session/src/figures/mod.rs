@@ -7,7 +7,7 @@ mod figure;
 
 use carom::{DVec3, StageCounts};
 
-pub use axis::{Marks, text_of_mark};
+pub use axis::{Marks, Scale};
 pub use distribution::speeds;
 pub use figure::{Curve, Figure, Form, Hue, TableStyle, table};
 
@@ -30,7 +30,9 @@ pub fn energies(view: &View) -> Figure {
         for curve in &mut curves {
             curve.name = format!("{}, {}", curve.name, view.setup.simulation.rule);
         }
-        let name = format!("total, {}", other.setup.simulation.rule);
+        let rule = other.setup.simulation.rule;
+        let side = if rule == view.setup.simulation.rule { ", right" } else { "" };
+        let name = format!("total, {rule}{side}");
         curves
             .push(Curve::line(name, Hue::Grey, &other.readings, |it| (it.time, it.total_energy())));
     }
@@ -157,5 +159,7 @@ pub fn distances(view: &View) -> Figure {
             (it.time, it.root_mean_square)
         }),
     ];
-    Figure::over_time("Distance of the two", "m", view.time, curves)
+    let figure = Figure::over_time("Distance of the two", "m", view.time, curves);
+    // What differs a little grows exponentially where balls meet.
+    Figure { scale: Scale::Logarithmic, ..figure }
 }

@@ -25,7 +25,7 @@ use crate::view::{SphereArrays, View, replace};
 ///
 /// Time passes in frames. Every frame reached so far can be restored bit for bit, because all
 /// changes are repeated at their frames. A new edit cuts off the frames after it.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Session {
     /// The scene as opened.
     scene: Arc<Scene>,

@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
+use carom::{DVec3, StateHash};
 use carom_scene::Scene;
 use carom_scene::scene::{ImpactLaw, Integrator, Rule, Simulation, Zones};
 use carom_session::{Command, Comparison, Driver, Edit, FASTEST, Session, SessionError, View};
@@ -319,6 +320,49 @@ fn a_comparison_begins_at_the_time_of_now_with_what_was_changed() {
     send(&mut driver, [Command::Compare(None)]);
     driver.update(0.0, || false);
     assert_eq!(driver.view().playback.state_hash, alone);
+}
+
+#[test]
+fn a_nudged_copy_differs_by_the_nudge_alone_until_balls_meet() {
+    let scene = built_in("tutorial3").scene().as_ref().clone();
+    let mut driver = Driver::inline(Session::new(scene).unwrap());
+    send(&mut driver, [Command::Step, Command::ShowStateHash(true)]);
+    driver.update(0.0, || false);
+    let ball = driver.view().spheres.ids[0];
+    let nudge = |size| Command::Nudge(ball, size * DVec3::Y);
+    send(&mut driver, [nudge(1e-9)]);
+    driver.update(0.0, || false);
+    let view = driver.view();
+    let other = view.other.as_deref().expect("a copy");
+    assert_eq!((view.frame, other.frame), (1, 1));
+    assert_eq!(other.setup.simulation, view.setup.simulation);
+    let largest = |driver: &Driver| driver.view().distances.last().map(|it| it.largest);
+    // Rounding of a place near 1 m.
+    assert!((largest(&driver).unwrap() - 1e-9).abs() < 1e-15, "{:?}", largest(&driver));
+    // Impacts of round balls enlarge it.
+    send(&mut driver, [Command::Seek(4.0)]);
+    driver.update(0.0, || false);
+    assert!(largest(&driver).unwrap() > 2e-9, "{:?}", largest(&driver));
+    // A second nudge moves the copy only; undoing it makes both as they were.
+    let before = both_hashes(&driver);
+    send(&mut driver, [nudge(1e-3)]);
+    driver.update(0.0, || false);
+    assert_ne!(both_hashes(&driver)[1], before[1]);
+    send(&mut driver, [Command::Undo]);
+    driver.update(0.0, || false);
+    assert_eq!(both_hashes(&driver), before);
+    send(&mut driver, [Command::Compare(None), Command::Edit(Edit::RemoveSphere(ball))]);
+    send(&mut driver, [nudge(1e-3)]);
+    driver.update(0.0, || false);
+    let view = driver.view();
+    assert!(view.other.is_none() && view.playback.error.is_some(), "the ball is gone");
+}
+
+/// State hashes of both runs.
+fn both_hashes(driver: &Driver) -> [Option<StateHash>; 2] {
+    let view = driver.view();
+    let other = view.other.as_deref();
+    [view.playback.state_hash, other.and_then(|it| it.playback.state_hash)]
 }
 
 #[test]

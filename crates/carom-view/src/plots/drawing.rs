@@ -1,6 +1,6 @@
 //! Draws figures.
 
-use carom_session::figures::{Figure, Form, Hue, Marks, text_of_mark};
+use carom_session::figures::{Figure, Form, Hue, Marks, Scale};
 use egui::text::{LayoutJob, TextFormat};
 use egui::{Color32, RichText, TextStyle, Ui};
 use egui_plot::{AxisHints, Bar, BarChart, GridInput, GridMark, Line, Plot, PlotPoints, VLine};
@@ -43,8 +43,11 @@ fn name_curves(figure: &Figure, ui: &mut Ui) {
 }
 
 fn plot(figure: &Figure, ui: &mut Ui, height: f32) {
-    let text = |mark: GridMark, _: &_| text_of_mark(mark.value, mark.step_size);
-    let across = AxisHints::new_x().label_spacing(1.0..=2.0).formatter(text);
+    let scale = figure.scale;
+    let text = |scale: Scale| {
+        move |mark: GridMark, _: &_| scale.text(scale.value(mark.value), mark.step_size)
+    };
+    let across = AxisHints::new_x().label_spacing(1.0..=2.0).formatter(text(Scale::Linear));
     let across = across.label(figure.axis());
     let up = AxisHints::new_y().label_spacing(1.0..=2.0).min_thickness(46.0);
     let mut plot = Plot::new(&figure.title)
@@ -54,9 +57,9 @@ fn plot(figure: &Figure, ui: &mut Ui, height: f32) {
         .allow_zoom(false)
         .allow_boxed_zoom(false)
         .custom_x_axes(vec![across])
-        .x_grid_spacer(marks)
-        .y_grid_spacer(marks)
-        .custom_y_axes(vec![up.formatter(text)]);
+        .x_grid_spacer(|axis| marks(Scale::Linear, axis))
+        .y_grid_spacer(move |axis| marks(scale, axis))
+        .custom_y_axes(vec![up.formatter(text(scale))]);
     if figure.mark.is_some() {
         plot = plot.include_x(0.0);
     }
@@ -72,7 +75,8 @@ fn plot(figure: &Figure, ui: &mut Ui, height: f32) {
                 let bars = curve.points.iter().map(bar).collect();
                 plot.bar_chart(BarChart::new(&curve.name, bars).color(color.gamma_multiply(0.7)));
             } else {
-                let points = PlotPoints::from_iter(curve.points.iter().copied());
+                let places = curve.points.iter().map(|[x, y]| [*x, scale.place(*y)]);
+                let points = PlotPoints::from_iter(places.filter(|[_, y]| y.is_finite()));
                 plot.line(Line::new(&curve.name, points).color(color));
             }
         }
@@ -80,7 +84,7 @@ fn plot(figure: &Figure, ui: &mut Ui, height: f32) {
             let color = color_of(Hue::Grey).gamma_multiply(0.6);
             plot.vline(VLine::new("", mark).color(color).width(1.0));
         }
-        if let Some((low, high)) = figure.scale() {
+        if let Some((low, high)) = figure.bounds() {
             plot.set_plot_bounds_y(low..=high);
         }
     });
@@ -92,9 +96,10 @@ fn color_of(hue: Hue) -> Color32 {
 }
 
 /// Returns the marks of an axis.
-fn marks(axis: GridInput) -> Vec<GridMark> {
-    let Marks { values, step } = Marks::between(axis.bounds.0, axis.bounds.1);
-    values.into_iter().map(|value| GridMark { value, step_size: step }).collect()
+fn marks(scale: Scale, axis: GridInput) -> Vec<GridMark> {
+    let Marks { values, step } = scale.marks(axis.bounds.0, axis.bounds.1);
+    let mark = |value| GridMark { value: scale.place(value), step_size: step };
+    values.into_iter().map(mark).collect()
 }
 
 /// Returns the name of a curve beside a patch of its colour. A name in that colour would be too

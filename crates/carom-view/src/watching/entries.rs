@@ -19,7 +19,7 @@ impl Watching {
         self.open_panels().inspector
     }
 
-    fn open_panels(&self) -> Panels {
+    pub(super) fn open_panels(&self) -> Panels {
         if self.has_sheets { self.sheet } else { self.layout.panels }
     }
 
@@ -45,6 +45,7 @@ impl Watching {
             Entry::switch("Contacts", Action::Contacts, contacts),
             Entry::switch("Contact forces", Action::Forces, forces),
             Entry::switch("Two rules", Action::Compare, self.view().other.is_some()),
+            Entry::once("Nudge a ball", Action::Nudge),
         ]
     }
 }

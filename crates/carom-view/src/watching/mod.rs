@@ -2,6 +2,7 @@
 
 mod aim;
 mod card;
+mod comparison;
 mod cue;
 mod departures;
 mod entries;
@@ -20,7 +21,7 @@ use std::sync::Arc;
 use carom::{DVec3, SphereId};
 use carom_render::{Camera, Drawing, GpuError};
 use carom_scene::Source;
-use carom_scene::scene::{Rule, Scene, Simulation};
+use carom_scene::scene::Scene;
 use carom_session::{Command, Driver, Link, LinkSource, Session, SessionError, View, Watched};
 use egui::{Image, Pos2, Rect, Sense, Ui, Vec2};
 use web_time::Instant;
@@ -289,6 +290,7 @@ impl Watching {
                 self.commands.push(Command::ShowContacts(self.layout.marks.forces));
             }
             Action::Compare => self.compare(),
+            Action::Nudge => self.nudge(),
             _ => {}
         }
     }
@@ -312,17 +314,6 @@ impl Watching {
             impacts: is_one(Action::Impacts, before.impacts),
         };
         *(if self.has_sheets { &mut self.sheet } else { &mut self.layout.panels }) = after;
-    }
-
-    /// Shows the scene under two rules, or under one if there are two.
-    fn compare(&mut self) {
-        let view = self.driver.view();
-        let own = view.setup.simulation.clone();
-        let pair = view.other.is_none().then(|| {
-            let rule = if own.rule == Rule::Exact { Rule::Discrete } else { Rule::Exact };
-            Box::new([own.clone(), Simulation { rule, ..own }])
-        });
-        self.commands.push(Command::Compare(pair));
     }
 
     fn picked_place(&self) -> Option<DVec3> {

@@ -104,6 +104,15 @@ fn the_window_with_plots(theme: Theme) {
 }
 
 #[test]
+fn a_nudge() {
+    let mut desk = watched(SIZE, "billiards");
+    set_theme(&mut desk, Theme::Light);
+    press(&mut desk, Key::N);
+    go_to(&mut desk, 4.0);
+    compare_in(Theme::Light, &mut desk, "nudge");
+}
+
+#[test]
 fn contact_forces_of_a_heap_are_chains() {
     let setup = Setup { start: start("pour"), ..setup_for_pictures() };
     let mut desk = desk_for_picture([800.0, 600.0], COARSE, setup);

@@ -59,6 +59,22 @@ fn each_half_says_how_much_energy_its_rule_keeps() {
 }
 
 #[test]
+fn a_nudge_shows_a_copy_beside_the_run_and_how_the_distance_grows() {
+    let mut desk = watching("tutorial3");
+    go_to(&mut desk, 0.1);
+    press(&mut desk, Key::N);
+    desk.run_steps(4);
+    let both = rules(&desk);
+    assert_eq!(both[1], both[0]);
+    assert_eq!(scene(&desk).view().frame, 6);
+    desk.get_by_label_contains("Distance of the two, m");
+    go_to(&mut desk, 4.0);
+    let distances = &scene(&desk).view().distances;
+    let [first, last] = [distances.first(), distances.last()].map(|it| it.expect("one").largest);
+    assert!(first > 0.0 && last > 2.0 * first, "{first:e} {last:e}");
+}
+
+#[test]
 fn settings_of_one_half_are_chosen_there_and_the_other_half_keeps_its_own() {
     let mut desk = watching("tutorial1");
     // With two exact simulations, both halves show the settings of that rule.

@@ -4,10 +4,11 @@
 //! acceleration is a polynomial through its values at eight nodes of a step. The step is a good one where its
 //! highest term is small.
 
-use std::ops::{Add, Div, Mul, Sub};
-
 use glam::DVec3;
 
+use super::field::{Field, Start, Values};
+use super::implicit;
+use super::interpolate::{Value, through};
 use super::radau_tables::{GAINS, GAINS_AT_END, Gains, NEWTON, RECIPROCALS};
 use crate::norm::Norm;
 use crate::polynomial_flight::{PolynomialAcceleration, TERMS};
@@ -80,25 +81,6 @@ impl Pace {
     }
 }
 
-/// Spheres at the beginning of a step.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Start<'a> {
-    /// \[m\]
-    pub positions: &'a [DVec3],
-    /// \[m/s\]
-    pub velocities: &'a [DVec3],
-    /// Parts of both below their rounding.
-    pub carried: &'a [[DVec3; 2]],
-    /// On the world's clock \[s\].
-    pub time: f64,
-    /// When the step has to end at the latest \[s\].
-    pub until: f64,
-    /// Where forces are steady, steps are at most this long \[s\].
-    pub steady: f64,
-    /// Where forces are rough, steps are at most this long \[s\].
-    pub rough: f64,
-}
-
 /// A step of some spheres.
 #[derive(Debug, Clone)]
 pub(crate) struct Step {
@@ -109,28 +91,6 @@ pub(crate) struct Step {
     pub pace: Pace,
     /// Whether its error is small; else no shorter step was allowed.
     pub is_accurate: bool,
-}
-
-/// Accelerations of some spheres \[m/s²\], and the sum of the sizes of their terms, at a time \[s\] with these
-/// positions \[m\] and velocities \[m/s\].
-pub(crate) trait Field {
-    fn evaluate(&mut self, time: f64, positions: &[DVec3], velocities: &[DVec3], at: &mut Values);
-}
-
-/// What a [`Field`] finds.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Values {
-    /// \[m/s²\]
-    pub accelerations: Vec<DVec3>,
-    /// Sums of the sizes of what each is the sum of \[m/s²\].
-    pub sizes: Vec<f64>,
-}
-
-impl Values {
-    /// Of so many spheres.
-    pub fn of(count: usize) -> Self {
-        Self { accelerations: vec![DVec3::ZERO; count], sizes: vec![0.0; count] }
-    }
 }
 
 /// Takes one step. What went before, if it is known, gives the first guess.
@@ -154,7 +114,12 @@ pub(crate) fn step(
         let length = end - start.time;
         let mut attempt = Attempt::new(start, &first, length, before);
         let has_converged = attempt.iterate(field);
-        let error = if has_converged { attempt.error(field) } else { f64::INFINITY };
+        let mut error = if has_converged { attempt.error(field) } else { f64::INFINITY };
+        if error == f64::INFINITY
+            && let Some(other) = implicit::attempt(start, &first, length, field)
+        {
+            (attempt.powers, error) = (other.powers, other.error);
+        }
         let is_good = error <= ACCEPTED * TOLERANCE;
         if is_good || is_shortest || !first.is_finite() {
             if error == f64::INFINITY {
@@ -174,12 +139,6 @@ pub(crate) fn step(
             return Step { end, accelerations, pace, is_accurate: is_good };
         }
         pace.trial = (length * growth(error).clamp(MOST_SHRINKAGE, SAFETY)).max(shortest);
-    }
-}
-
-impl Values {
-    fn is_finite(&self) -> bool {
-        self.accelerations.iter().all(|it| it.is_finite())
     }
 }
 
@@ -361,20 +320,8 @@ impl<'a> Attempt<'a> {
 }
 
 /// The polynomial with these values at the nodes, as a sum of powers of the part of the step.
-pub(crate) fn through_nodes<T>(values: [T; TERMS]) -> [T; TERMS]
-where
-    T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T> + Div<f64, Output = T>,
-{
-    let mut newton = values;
-    for node in 1..TERMS {
-        for before in 0..node {
-            newton[node] = (newton[node] - newton[before]) / (NODES[node] - NODES[before]);
-        }
-    }
-    std::array::from_fn(|power| {
-        let terms = (power + 1..TERMS).map(|n| newton[n] * NEWTON[n][power]);
-        terms.fold(newton[power] * NEWTON[power][power], |sum, term| sum + term)
-    })
+pub(crate) fn through_nodes<T: Value>(values: [T; TERMS]) -> [T; TERMS] {
+    through(&NODES, &NEWTON, values)
 }
 
 /// A sum of powers as one of products of nodes: repeated division by `s - h_n`, with the remainders.

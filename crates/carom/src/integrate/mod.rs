@@ -7,9 +7,13 @@
 mod acceleration;
 pub(crate) mod crossing;
 mod explicit_euler;
+pub(crate) mod field;
 pub(crate) mod gauss_legendre;
 pub(crate) mod gauss_radau;
+mod implicit;
+mod interpolate;
 mod kinematics;
+mod linear_system;
 mod radau_tables;
 mod runge_kutta_4;
 mod scheme;

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::bodies::Properties;
 use crate::forces::{Interactions, SphereStates};
-use crate::integrate::gauss_radau::Values;
+use crate::integrate::field::Values;
 use crate::norm::Norm;
 use crate::system::System;
 

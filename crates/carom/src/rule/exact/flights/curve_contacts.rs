@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::friction_state::FrictionState;
 use crate::contact_matrix::ContactMatrix;
 use crate::contact_tangents::tangents;
-use crate::integrate::gauss_radau::Values;
+use crate::integrate::field::Values;
 use crate::norm::Norm;
 use crate::rule::exact::features::{Feature, NormalCurvature};
 

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::curve_contacts::{ContactSphere, CurveContact, CurveContacts, Moving};
 use super::friction_state::FrictionState;
-use crate::integrate::gauss_radau::Values;
+use crate::integrate::field::Values;
 use crate::norm::Norm;
 
 /// Part of the speeds in a contact below which a slip counts as none: more than rounding leaves of one that ends.

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::accelerations::{Accelerations, IDLE, free_acceleration};
 use crate::detect::contact::Bodies;
 use crate::friction::ContactFriction;
-use crate::integrate::gauss_radau::Values;
+use crate::integrate::field::Values;
 use crate::norm::Norm;
 use crate::respond::friction_of;
 use crate::rule::exact::contacts::{Group, Member, Touch};

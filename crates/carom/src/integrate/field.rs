@@ -1,0 +1,48 @@
+//! Fields of accelerations, in which spheres move from the state at the beginning of a step.
+
+use glam::DVec3;
+
+/// Spheres at the beginning of a step.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Start<'a> {
+    /// \[m\]
+    pub positions: &'a [DVec3],
+    /// \[m/s\]
+    pub velocities: &'a [DVec3],
+    /// Parts of both below their rounding.
+    pub carried: &'a [[DVec3; 2]],
+    /// On the world's clock \[s\].
+    pub time: f64,
+    /// When the step has to end at the latest \[s\].
+    pub until: f64,
+    /// Where forces are steady, steps are at most this long \[s\].
+    pub steady: f64,
+    /// Where forces are rough, steps are at most this long \[s\].
+    pub rough: f64,
+}
+
+/// Accelerations of some spheres \[m/s²\], and the sum of the sizes of their terms, at a time \[s\] with these
+/// positions \[m\] and velocities \[m/s\].
+pub(crate) trait Field {
+    fn evaluate(&mut self, time: f64, positions: &[DVec3], velocities: &[DVec3], at: &mut Values);
+}
+
+/// What a [`Field`] finds.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Values {
+    /// \[m/s²\]
+    pub accelerations: Vec<DVec3>,
+    /// Sums of the sizes of what each is the sum of \[m/s²\].
+    pub sizes: Vec<f64>,
+}
+
+impl Values {
+    /// Zeros for this many spheres.
+    pub fn of(count: usize) -> Self {
+        Self { accelerations: vec![DVec3::ZERO; count], sizes: vec![0.0; count] }
+    }
+
+    pub fn is_finite(&self) -> bool {
+        self.accelerations.iter().all(|it| it.is_finite())
+    }
+}

@@ -1,0 +1,277 @@
+//! Implicit steps, for forces that damp motion in much less than the length of a step.
+//!
+//! The acceleration is a polynomial through its values at the eight nodes of Gauss-Radau quadrature that include the
+//! end of the step (Radau IIA, order 15). The scheme is stable however fast the damping is, and takes what is damped
+//! to zero. Its equations are solved by Newton's method. Source: Hairer and Wanner, *Solving Ordinary Differential
+//! Equations II* (1996), sections IV.5 and IV.8.
+
+use glam::DVec3;
+
+use super::field::{Field, Start, Values};
+use super::interpolate::through;
+use super::linear_system::Factorized;
+use super::radau_tables::{END_GAINS, END_NEWTON, END_NODES, END_VELOCITIES, END_WAYS, Gains};
+use crate::norm::Norm;
+use crate::polynomial_flight::TERMS;
+
+/// Most spheres whose equations are solved together: the work grows with the cube of their number.
+const MOST_SPHERES: usize = 8;
+/// Damping over a step \[1\] above which an implicit step is of use. Below it the iteration of other steps converges.
+const LEAST_DAMPING: f64 = 1.0;
+/// Largest number of iterations of Newton's method.
+const MAX_ITERATIONS: u32 = 12;
+/// The iteration has converged when accelerations change by less than this part of their scale.
+const CONVERGED: f64 = 1e-16;
+/// An iteration whose changes stay above this part has not converged.
+const DIVERGED: f64 = 1e-10;
+/// Change of a velocity by which derivatives are computed, as a part of it: the root of rounding.
+const SMALL_PART: f64 = 1e-8;
+/// Smallest change of a number by which derivatives are computed, as a part of it.
+const LEAST_PART: f64 = 64.0 * f64::EPSILON;
+/// Largest change of an acceleration for a derivative, as a part of it.
+const MOST_CHANGE: f64 = 0.1;
+/// Ratio of two changes that are tried for a derivative.
+const SMALLER: f64 = 0.01;
+/// An error is negligible if it changes a velocity by less than this part of what a step must resolve.
+const VELOCITY_PART: f64 = 1e-5;
+/// An error is negligible if it changes a position by less than this part of what a step must resolve: together with
+/// the tolerance of a step, rounding of the position.
+const POSITION_PART: f64 = 1e-7;
+
+/// A step that was tried.
+pub(super) struct Implicit {
+    /// Of each sphere: the acceleration as a sum of powers of the part of the step \[m/s²\].
+    pub powers: Vec<[DVec3; TERMS]>,
+    /// The error as a part of what is negligible, as a multiple of the tolerance of a step.
+    pub error: f64,
+}
+
+/// Tries a step of some length \[s\]. Returns `None` where no force damps that fast, and where Newton's method
+/// fails.
+pub(super) fn attempt(
+    start: &Start,
+    first: &Values,
+    length: f64,
+    field: &mut impl Field,
+) -> Option<Implicit> {
+    if start.positions.len() > MOST_SPHERES {
+        return None;
+    }
+    let slopes = Slopes::of(start, first, length, field)?;
+    let equations = Factorized::of(TERMS * slopes.count, slopes.matrix_of_nodes(length))?;
+    let mut attempt = Attempt::new(start, first, length, &slopes);
+    attempt.iterate(&equations, field).then_some(())?;
+    let error = attempt.error(&slopes)?;
+    Some(Implicit { powers: attempt.powers(), error })
+}
+
+/// Derivatives of accelerations at the start of a step, by rows.
+struct Slopes {
+    /// Number of coordinates.
+    count: usize,
+    /// \[1/s\]
+    by_velocity: Vec<f64>,
+    /// \[1/s²\]
+    by_position: Vec<f64>,
+    /// The fastest damping \[1/s\].
+    rate: f64,
+}
+
+/// Which quantity of a state is changed for a derivative.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Quantity {
+    Position = 0,
+    Velocity = 1,
+}
+
+impl Slopes {
+    /// `None` where damping in a step of some length \[s\] is slow.
+    fn of(start: &Start, first: &Values, length: f64, field: &mut impl Field) -> Option<Self> {
+        let count = 3 * start.positions.len();
+        let by_velocity = derivatives(start, first, (length, Quantity::Velocity), field);
+        let damping = (0..count).map(|i| -by_velocity[i * count + i]);
+        let rate = damping.fold(0.0, f64::max);
+        (rate * length > LEAST_DAMPING).then(|| {
+            let by_position = derivatives(start, first, (length, Quantity::Position), field);
+            Self { count, by_velocity, by_position, rate }
+        })
+    }
+
+    /// The matrix of the equations for the accelerations at all nodes, by rows: `1 - h A J_v - h² B J_x`.
+    fn matrix_of_nodes(&self, length: f64) -> Vec<f64> {
+        let (count, h) = (self.count, length);
+        let size = TERMS * count;
+        let mut matrix = vec![0.0; size * size];
+        for (row, values) in matrix.chunks_exact_mut(size).enumerate() {
+            let (node, i) = (row / count, row % count);
+            for (column, value) in values.iter_mut().enumerate() {
+                let (other, j) = (column / count, column % count);
+                let place = i * count + j;
+                *value = -h * END_VELOCITIES[node][other] * self.by_velocity[place]
+                    - h * h * END_WAYS[node][other] * self.by_position[place];
+            }
+            values[row] += 1.0;
+        }
+        matrix
+    }
+
+    /// The matrix `1 - h J_v` by rows: its inverse takes what is damped within a step out of an acceleration.
+    fn damped(&self, length: f64) -> Vec<f64> {
+        let mut matrix: Vec<f64> = self.by_velocity.iter().map(|it| -length * it).collect();
+        (0..self.count).for_each(|i| matrix[i * self.count + i] += 1.0);
+        matrix
+    }
+}
+
+/// Derivatives of all accelerations by a quantity at the start of a step of some length \[s\], by rows.
+fn derivatives(
+    start: &Start,
+    first: &Values,
+    (length, quantity): (f64, Quantity),
+    field: &mut impl Field,
+) -> Vec<f64> {
+    let spheres = start.positions.len();
+    let mut matrix = vec![0.0; 9 * spheres * spheres];
+    let mut states = [start.positions.to_vec(), start.velocities.to_vec()];
+    let mut values = Values::of(spheres);
+    for column in 0..3 * spheres {
+        let (sphere, axis) = (column / 3, column % 3);
+        let before = states[quantity as usize][sphere];
+        let gained = length * first.accelerations[sphere].norm();
+        let speed = start.velocities[sphere].norm().max(gained);
+        let scale = if quantity == Quantity::Velocity { speed } else { length * speed };
+        let least = LEAST_PART * before.norm();
+        let mut change = (SMALL_PART * scale).max(least);
+        loop {
+            states[quantity as usize][sphere][axis] = before[axis] + change;
+            field.evaluate(start.time, &states[0], &states[1], &mut values);
+            let gained = (values.accelerations[sphere] - first.accelerations[sphere]).norm();
+            if gained <= MOST_CHANGE * first.sizes[sphere] || change <= least {
+                break;
+            }
+            change = (SMALLER * change).max(least);
+        }
+        let change = states[quantity as usize][sphere][axis] - before[axis];
+        states[quantity as usize][sphere] = before;
+        // A sphere at rest at the origin has no change to try.
+        for row in (0..3 * spheres).filter(|_| change > 0.0) {
+            let (other, axis) = (row / 3, row % 3);
+            let gained = values.accelerations[other][axis] - first.accelerations[other][axis];
+            matrix[row * 3 * spheres + column] = gained / change;
+        }
+    }
+    matrix
+}
+
+/// A step of some length that is tried.
+struct Attempt<'a> {
+    start: &'a Start<'a>,
+    first: &'a Values,
+    /// \[s\]
+    length: f64,
+    /// Of each sphere: the accelerations at the nodes \[m/s²\].
+    at_nodes: Vec<[DVec3; TERMS]>,
+    /// Of each sphere: what an acceleration is measured by \[m/s²\].
+    scales: Vec<f64>,
+}
+
+impl<'a> Attempt<'a> {
+    fn new(start: &'a Start<'a>, first: &'a Values, length: f64, slopes: &Slopes) -> Self {
+        let count = start.positions.len();
+        let scale = |sphere: usize| {
+            let (speed, place) = (start.velocities[sphere].norm(), start.positions[sphere].norm());
+            let lasting = first.sizes[sphere] / (1.0 + length * slopes.rate);
+            lasting + VELOCITY_PART * speed / length + POSITION_PART * place / length / length
+        };
+        let scales = (0..count).map(scale).collect();
+        Self { start, first, length, at_nodes: vec![[DVec3::ZERO; TERMS]; count], scales }
+    }
+
+    /// Solves the equations of the nodes. Returns whether Newton's method converges.
+    fn iterate(&mut self, equations: &Factorized, field: &mut impl Field) -> bool {
+        let spheres = self.at_nodes.len();
+        let mut values = Values::of(spheres);
+        let mut missing = vec![0.0; 3 * spheres * TERMS];
+        let mut change_before = f64::INFINITY;
+        for _ in 0..MAX_ITERATIONS {
+            let powers = self.powers();
+            for (node, &s) in END_NODES.iter().enumerate() {
+                let [positions, velocities] = self.states_at(s, &END_GAINS[node], &powers);
+                let time = self.start.time + s * self.length;
+                field.evaluate(time, &positions, &velocities, &mut values);
+                for (sphere, acceleration) in values.accelerations.iter().enumerate() {
+                    let place = 3 * (node * spheres + sphere);
+                    let missed = *acceleration - self.at_nodes[sphere][node];
+                    missing[place..place + 3].copy_from_slice(&missed.to_array());
+                }
+            }
+            equations.solve(&mut missing);
+            let change = self.add(&missing);
+            if !change.is_finite() {
+                return false;
+            }
+            if change <= CONVERGED || change >= change_before {
+                return change <= DIVERGED;
+            }
+            change_before = change;
+        }
+        change_before <= DIVERGED
+    }
+
+    /// Adds changes of the accelerations at the nodes. Returns the largest, as a part of its scale.
+    fn add(&mut self, changes: &[f64]) -> f64 {
+        let spheres = self.at_nodes.len();
+        let mut most = 0.0f64;
+        for (place, change) in changes.chunks_exact(3).enumerate() {
+            let (node, sphere) = (place / spheres, place % spheres);
+            let change = DVec3::from_slice(change);
+            self.at_nodes[sphere][node] += change;
+            if !change.is_finite() {
+                return f64::INFINITY;
+            }
+            if change != DVec3::ZERO {
+                most = most.max(change.norm() / self.scales[sphere]);
+            }
+        }
+        most
+    }
+
+    /// Of each sphere: the acceleration as a sum of powers of the part of the step \[m/s²\].
+    fn powers(&self) -> Vec<[DVec3; TERMS]> {
+        self.at_nodes.iter().map(|values| through(&END_NODES, &END_NEWTON, *values)).collect()
+    }
+
+    /// Where the spheres are at a part of the step, and how they move there.
+    fn states_at(&self, s: f64, gains: &Gains, powers: &[[DVec3; TERMS]]) -> [Vec<DVec3>; 2] {
+        let (start, t) = (self.start, s * self.length);
+        let state = |(sphere, powers): (usize, &[DVec3; TERMS])| {
+            let (mut way, mut change) = (DVec3::ZERO, DVec3::ZERO);
+            for (&c, [of_way, of_change]) in powers.iter().zip(gains).rev() {
+                way += c * *of_way;
+                change += c * *of_change;
+            }
+            let (velocity, [left, left_velocity]) =
+                (start.velocities[sphere], start.carried[sphere]);
+            let way = left + t * (velocity + (left_velocity + t * way));
+            (start.positions[sphere] + way, velocity + (left_velocity + t * change))
+        };
+        let (positions, velocities) = powers.iter().enumerate().map(state).unzip();
+        [positions, velocities]
+    }
+
+    /// The error as a part of what it is measured by: the highest term, or how far the polynomial is from the
+    /// acceleration at the start, where no node is, without what is damped within the step.
+    fn error(&self, slopes: &Slopes) -> Option<f64> {
+        let powers = self.powers();
+        let missed = powers.iter().zip(&self.first.accelerations);
+        let mut missed: Vec<f64> =
+            missed.flat_map(|(powers, &first)| (first - powers[0]).to_array()).collect();
+        Factorized::of(slopes.count, slopes.damped(self.length))?.solve(&mut missed);
+        let of_each = powers.iter().zip(missed.chunks_exact(3)).zip(&self.scales);
+        let parts = of_each.map(|((powers, missed), scale)| {
+            let error = powers[TERMS - 1].norm().max(DVec3::from_slice(missed).norm());
+            if error == 0.0 { 0.0 } else { error / scale }
+        });
+        Some(parts.fold(0.0, f64::max)).filter(|error| error.is_finite())
+    }
+}

@@ -1,0 +1,144 @@
+//! The rule `exact` under drag that stops a ball in much less than a frame: against closed forms, at rates up to 1e12
+//! per frame, each of which ends. Proves nothing of several balls that damped springs connect.
+
+// What is expected need not have the same bits everywhere.
+#![allow(clippy::disallowed_methods)]
+
+mod common;
+
+use std::f64::consts::{LN_2, PI};
+
+use carom::{
+    Collider, DVec3, Force, Gravity, Pose, QuadraticDrag, Shape, Sphere, SphereState, Vortex, World,
+};
+use common::{G, account_of_run, assert_close, assert_close_vec, exact, run, vec};
+
+const FRAME: f64 = 1.0 / 64.0;
+const RATES: [f64; 6] = [1.0, 1e2, 1e4, 1e6, 1e9, 1e12];
+
+fn falling_world() -> World {
+    let mut world = exact();
+    world.add_force(Gravity::new(vec(0.0, -G, 0.0))).unwrap();
+    world
+}
+
+/// Quadratic drag under which a ball of 1 kg and 1 m falls with this terminal velocity \[m/s\].
+fn drag_to(terminal: f64) -> QuadraticDrag {
+    QuadraticDrag::new(2.0 * G / (0.44 * PI * terminal * terminal))
+}
+
+/// Drag against the velocity through air that moves, of which the rule does not know that it is linear.
+#[derive(Debug)]
+struct AirDrag {
+    /// \[1/s\]
+    rate: f64,
+    /// \[m/s\]
+    wind: DVec3,
+}
+
+impl Force for AirDrag {
+    fn on(&self, sphere: &SphereState, _time: f64) -> DVec3 {
+        -self.rate * sphere.mass * (sphere.velocity - self.wind)
+    }
+}
+
+#[test]
+fn quadratic_drag_leads_to_the_logarithm_of_the_hyperbolic_cosine() {
+    // At the last rate a ball at rest passes the terminal velocity in the shortest step.
+    for &rate in &RATES[..5] {
+        // Motion about the terminal velocity is damped with 2 g/v.
+        let terminal = 2.0 * G * FRAME / rate;
+        let mut world = falling_world();
+        world.add_force(drag_to(terminal)).unwrap();
+        let ball = world.add_sphere(Sphere::new(DVec3::ZERO, 1.0).with_mass(1.0)).unwrap();
+        for frame in 1..=64 {
+            world.step(FRAME).unwrap();
+            let z = G * f64::from(frame) * FRAME / terminal;
+            let fall = terminal * terminal / G * (z - LN_2 + libm::log1p(libm::exp(-2.0 * z)));
+            let height = world.sphere(ball).unwrap().position.y;
+            // Rounding of some tens of steps.
+            assert_close(-height, fall, 1e-13 * fall);
+        }
+    }
+}
+
+#[test]
+fn drag_of_a_program_leads_to_the_exponential() {
+    for per_frame in RATES {
+        let rate = per_frame / FRAME;
+        let mut world = falling_world();
+        world.add_force(AirDrag { rate, wind: DVec3::ZERO }).unwrap();
+        let start = vec(3.0, 2.0, -1.0);
+        let ball = Sphere::new(DVec3::ZERO, 1.0).with_mass(1.0).with_velocity(start);
+        let ball = world.add_sphere(ball).unwrap();
+        let (_, rest) = account_of_run(&mut world, 64, FRAME);
+        let terminal = vec(0.0, -G / rate, 0.0);
+        let lost = -libm::expm1(-rate) / rate;
+        let way = terminal + (start - terminal) * lost;
+        let state = world.sphere(ball).unwrap();
+        // What steps leave out, as a part of the way in which the drag stops the ball.
+        assert_close_vec(state.position, way, 1e-11 * (start.length() / rate));
+        assert_close_vec(
+            state.velocity,
+            terminal,
+            1e-12 * terminal.length() + 3.8 * libm::exp(-rate),
+        );
+        assert_close(rest, 0.0, 1e-12 * 7.0);
+    }
+}
+
+#[test]
+fn strong_drag_takes_a_ball_along_with_the_wind() {
+    for per_frame in RATES {
+        let rate = per_frame / FRAME;
+        let wind = vec(5.0, 0.0, 2.0);
+        let mut world = exact();
+        world.add_force(AirDrag { rate, wind }).unwrap();
+        let ball = world.add_sphere(Sphere::new(DVec3::ZERO, 1.0).with_mass(1.0)).unwrap();
+        run(&mut world, 1.0, FRAME);
+        let way = wind * (1.0 + libm::expm1(-rate) / rate);
+        // Rounding of 64 frames and some tens of steps.
+        assert_close_vec(world.sphere(ball).unwrap().position, way, 1e-13 * way.length());
+    }
+}
+
+#[test]
+fn strong_drag_takes_a_ball_around_with_a_vortex() {
+    for per_frame in [1e4, 1e6, 1e8] {
+        let rate = per_frame / FRAME;
+        let mut world = exact();
+        world.add_force(Vortex::new(DVec3::ZERO, 9.0, rate).with_core_radius(1.0)).unwrap();
+        let ball = Sphere::new(DVec3::X, 0.1).with_mass(1.0);
+        let ball = world.add_sphere(ball).unwrap();
+        run(&mut world, 1.0, FRAME);
+        let place = world.sphere(ball).unwrap().position;
+        // The air turns with u/r, and a ball slips out of its circle with (u/r)² r/γ.
+        let speed = 9.0 / (4.0 * PI);
+        assert_close(place.length(), 1.0, 2.0 * speed * speed / rate);
+        let angle = libm::atan2(-place.z, place.x);
+        assert_close(angle, speed, 4.0 * speed * (1.0 + speed * speed) / rate);
+    }
+}
+
+#[test]
+fn frames_do_not_change_the_motion_of_a_ball_that_strong_drag_brings_to_rest() {
+    let place_after = |frames: u32| {
+        let mut world = falling_world();
+        world.add_force(drag_to(1e-3)).unwrap();
+        world.add_collider(Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO))).unwrap();
+        let ball = Sphere::new(vec(0.0, 1.0002, 0.0), 1.0).with_mass(1.0);
+        let ball = ball.with_velocity(vec(2.0, 0.0, 0.0)).with_restitution(0.5);
+        let ball = world.add_sphere(ball).unwrap();
+        let (_, rest) = account_of_run(&mut world, frames as usize, 1.0 / f64::from(frames));
+        let energy = 2.0 + G * 1.0002;
+        assert_close(rest, 0.0, 1e-12 * energy);
+        let ball = world.sphere(ball).unwrap();
+        // It fell for 0.2 s, and rests.
+        assert_close(ball.position.y, 1.0, 1e-13);
+        assert_close(ball.velocity.y, 0.0, 0.0);
+        ball.position.x.to_bits()
+    };
+    let of_some = place_after(16);
+    assert_eq!(of_some, place_after(64));
+    assert_eq!(of_some, place_after(256));
+}
