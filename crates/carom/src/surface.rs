@@ -340,8 +340,8 @@ pub(crate) fn place(id: ColliderId, collider: &Collider, time: f64, surfaces: &m
     };
     let (center, rotation) = (pose.position, pose.rotation.normalize());
     let axes @ [_, y, _] = rotation::axes(rotation);
-    let mut add = |form, role| {
-        let role = if trigger { Role::Reports } else { role };
+    let mut add = |form: Form, role| {
+        let (form, role) = if trigger { (form.closed(), Role::Reports) } else { (form, role) };
         let collider = id;
         surfaces.push(Surface {
             form,
@@ -357,12 +357,11 @@ pub(crate) fn place(id: ColliderId, collider: &Collider, time: f64, surfaces: &m
             course: course.clone(),
         });
     };
-    let is_open = !trigger;
     match *shape {
         Shape::Sphere { radius } => add(Form::Sphere { center, radius }, Role::Deflects),
         Shape::HalfSpace => add(Form::HalfSpace { point: center, normal: y }, Role::Deflects),
         Shape::Rectangle { size_x, size_z } => {
-            let plate = plate(center, axes, [size_x, size_z], is_open);
+            let plate = plate(center, axes, [size_x, size_z]);
             add(Form::Rectangle(plate), Role::Deflects);
         }
         Shape::Box { size } => {
@@ -387,16 +386,14 @@ pub(crate) fn place(id: ColliderId, collider: &Collider, time: f64, surfaces: &m
         }
         Shape::Disc { radius } => {
             let profile = Profile::line(DVec2::ZERO, DVec2::new(radius, 0.0));
-            add(Form::Band(Band { center, axis: y, profile, is_open }), Role::Deflects);
+            add(Form::Band(Band { center, axis: y, profile, is_open: true }), Role::Deflects);
         }
         Shape::Mesh(ref mesh) => {
             let placement = Placement { rotation, from: DVec3::ZERO, to: center };
             if let Some(solid) = ClosedMesh::of(mesh) {
                 add(Form::Closed(placement.closed_mesh(&solid)), Role::Encloses);
             }
-            place_mesh(mesh.features(), &placement, |form| {
-                add(if trigger { form.closed() } else { form }, Role::Deflects);
-            });
+            place_mesh(mesh.features(), &placement, |form| add(form, Role::Deflects));
         }
         Shape::Cylinder { .. }
         | Shape::Cone { .. }
@@ -409,14 +406,9 @@ pub(crate) fn place(id: ColliderId, collider: &Collider, time: f64, surfaces: &m
 }
 
 /// A rectangle about `center` \[m\] with these full lengths along the first and the last of its axes \[m\].
-fn plate(
-    center: DVec3,
-    [axis_x, normal, axis_z]: [DVec3; 3],
-    size: [f64; 2],
-    is_open: bool,
-) -> Rectangle {
+fn plate(center: DVec3, [axis_x, normal, axis_z]: [DVec3; 3], size: [f64; 2]) -> Rectangle {
     let [half_x, half_z] = size.map(|length| 0.5 * length);
-    Rectangle { center, axis_x, axis_z, normal, half_x, half_z, is_open }
+    Rectangle { center, axis_x, axis_z, normal, half_x, half_z, is_open: true }
 }
 
 /// Places a solid of revolution, its volume first, or the walls of a hollow one.
