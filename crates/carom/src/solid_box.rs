@@ -25,7 +25,7 @@ impl SolidBox {
         Self { center, axes, half }
     }
 
-    /// Size of the coordinates that it is given by \[m\].
+    /// Returns a bound of the coordinates of the box \[m\].
     pub fn coordinates(&self) -> f64 {
         self.center.norm() + self.half.element_sum()
     }

@@ -38,12 +38,12 @@ pub(crate) struct Surface {
     pub role: Role,
     /// Now.
     pub motion: SurfaceMotion,
-    /// From now on, if it is not steady.
+    /// Motion from now on, if it is not steady.
     pub course: Option<Course>,
 }
 
 impl SurfaceMotion {
-    /// Of the surfaces of a collider, as if that went on steadily.
+    /// Returns the motion of the surfaces of a collider, taken as steady.
     pub fn of(collider: &Collider) -> Self {
         let Collider { pose, velocity, angular_velocity, .. } = *collider;
         let belt = belt_of(collider);
@@ -93,12 +93,12 @@ impl Surface {
         Self { form, motion, course: self.course_after(h), ..self.clone() }
     }
 
-    /// Its motion from `h` \[s\] later on, if it is not steady.
+    /// Returns the motion from `h` \[s\] later on, if it is not steady.
     pub fn course_after(&self, h: f64) -> Option<Course> {
         self.course.as_ref().map(|course| course.after(h))
     }
 
-    /// Its motion between two times from now \[s\], as if that were steady.
+    /// Returns the mean motion between two times from now \[s\], as a steady one.
     pub fn mean_motion(&self, times: [f64; 2]) -> Option<SurfaceMotion> {
         let course = self.course.as_ref()?;
         let (_, SurfaceMotion { belt, .. }) = self.carried(&course.carriage(times[0]));
@@ -192,7 +192,7 @@ pub(crate) enum Form {
     Round(RoundSolid),
     /// What a closed mesh encloses.
     Closed(ClosedMesh),
-    /// Of a mesh, as the next two.
+    /// A face of a mesh; the next two are its edges and corners.
     Facet(Facet),
     Edge(Edge),
     Corner(Corner),
@@ -240,7 +240,7 @@ impl Form {
         }
     }
 
-    /// The same form carried along.
+    /// Returns the form moved by a placement.
     pub fn placed(&self, placement: &Placement) -> Self {
         let place = |point: DVec3| placement.point(point);
         let turn = |direction: DVec3| placement.direction(direction);
@@ -264,7 +264,7 @@ impl Form {
         }
     }
 
-    /// The same form elsewhere by this way \[m\].
+    /// Returns the form shifted by a way \[m\].
     pub fn shifted(&self, way: DVec3) -> Self {
         let placement = Placement { rotation: DQuat::IDENTITY, from: DVec3::ZERO, to: way };
         match *self {

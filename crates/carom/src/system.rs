@@ -39,7 +39,7 @@ pub(crate) struct System<'a> {
     pub moving: &'a MovingSurfaces,
     /// Time \[s\] for which the surfaces have moved on since the step began; `None` at its start.
     pub moved_for: Option<f64>,
-    /// Of the surfaces that report contact and deflect nothing.
+    /// Tree of the surfaces that report contact and deflect nothing.
     pub trigger_tree: &'a SurfaceTree,
     pub spheres: &'a Properties,
     /// Under rules that find at the end of a frame what spheres meet.

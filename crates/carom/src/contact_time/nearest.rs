@@ -26,11 +26,11 @@ const MOST_PASSAGES: usize = 64;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Feature<'a> {
     pub form: &'a Form,
-    /// From where paths count \[m\].
+    /// Place from which paths count \[m\].
     pub origin: DVec3,
     /// Radius \[m\].
     pub radius: f64,
-    /// Of the numbers that paths and feature are given by.
+    /// Magnitudes of the numbers that define paths and feature.
     pub size: Magnitudes,
 }
 
@@ -107,7 +107,8 @@ impl Feature<'_> {
         }
     }
 
-    /// How far a centre \[m\] is at least from where the feature is the nearest.
+    /// Returns a lower bound of the distance of a centre \[m\] from where the feature is the
+    /// nearest.
     fn beside(&self, center: DVec3) -> f64 {
         match self.form {
             Form::Facet(facet) => facet.distance_beside(center),

@@ -122,7 +122,7 @@ fn meet_each_other(
 ) {
     let Scratch { search, contacts, .. } = scratch;
     let end = Instant { system: *system, motion, time: frame.time + frame.h };
-    contacts::of_overlapping_pairs(&end, 0.0, search, contacts);
+    contacts::find_overlapping_pairs(&end, 0.0, search, contacts);
     report.work.pair_tests += search.take_pair_tests();
     report.impacts.extend(respond::sequentially(contacts.iter(), system, motion, frame.h));
 }

@@ -198,7 +198,7 @@ impl Guard<'_> {
         self.places.all_known().filter(deflects).collect()
     }
 
-    /// Where a sphere turned round, by its slot.
+    /// Returns where a sphere was turned back, by its slot.
     fn turn_of(&self, slot: usize) -> Option<Turn> {
         let found = self.bounces.binary_search_by_key(&slot, |it| it.slot as usize);
         found.ok().and_then(|place| self.bounces[place].turn)

@@ -31,12 +31,12 @@ pub(crate) struct Timeline {
     pub(super) parameters: Exact,
     pub(super) flights: Flights,
     pub(super) neighbours: Neighbours,
-    /// Until when the neighbours are valid, on the world's clock \[s\]; finite where radii grow or images slide.
+    /// End of the validity of neighbours on the world's clock \[s\]; finite where radii grow or images slide.
     pub(super) neighbours_until: f64,
     pub(super) schedule: Schedule,
     /// Moving surfaces that deflect spheres.
     pub(super) moving_surfaces: Vec<u32>,
-    /// By slot, where flights restart often near surfaces that do not move; else empty.
+    /// Clearance of each sphere, by slot, where flights restart often near surfaces at rest; else empty.
     pub(super) clearances: Vec<Clearance>,
     pub(super) work: FrameWork,
     /// What groups spent in a tick.
@@ -52,7 +52,7 @@ pub(crate) struct Timeline {
     pub(super) work_tick: f64,
     /// A bound for the rate of motion on springs \[1/s\].
     pub(super) spring_rate: f64,
-    /// Until when the present forces are held, on the world's clock \[s\].
+    /// End of the time for which the present forces are held, on the world's clock \[s\].
     pub(super) held_until: f64,
     /// Held forces of nonconservative interactions \[N\], by index, or empty. Only programs define these: none is written.
     #[cfg_attr(feature = "serde", serde(skip))]
@@ -97,7 +97,7 @@ impl Timeline {
         !(is_free && self.flights.are_curved())
     }
 
-    /// Until when neighbours are known, as radii grow or images slide, on the world's clock \[s\].
+    /// Returns when neighbours stop being valid, as radii grow or images slide, on the world's clock \[s\].
     pub(super) fn room_until(&self) -> f64 {
         self.neighbours_until
     }

@@ -53,7 +53,7 @@ pub(crate) struct SurfaceContact {
     slip: DVec3,
     /// When in the sub-step a bounce happens \[s\].
     pub time: f64,
-    /// That of the last impact, if it depends on the speed.
+    /// Restitution of the last impact, if it depends on the speed.
     pub restitution: f64,
     /// Restitution that depends on the speed.
     pub law: Option<ContactRestitution>,

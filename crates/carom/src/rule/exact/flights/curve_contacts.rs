@@ -18,7 +18,7 @@ pub(crate) const MOST_CONTACTS: usize = 64;
 pub(crate) struct CurveContact {
     pub first: CurveBody,
     pub second: usize,
-    /// From the centre of body 2 to its image beside body 1 \[m\].
+    /// Shift from the centre of body 2 to its image beside body 1 \[m\].
     pub shift: DVec3,
     /// Coulomb's coefficient.
     pub friction: f64,
@@ -71,7 +71,7 @@ struct ForceDirection {
 }
 
 impl CurveContact {
-    /// Its place, if body 1 is a sphere.
+    /// Returns the place of body 1 if it is a sphere.
     pub fn first_place(&self) -> Option<usize> {
         match self.first {
             CurveBody::Sphere(place) => Some(place),
@@ -131,7 +131,7 @@ impl CurveContact {
         }
     }
 
-    /// Of these values by place, that of body 2 less that of body 1.
+    /// Returns the value of body 2 less that of body 1, of values by place.
     fn difference(&self, of: &[DVec3]) -> DVec3 {
         of[self.second] - self.first_place().map_or(DVec3::ZERO, |first| of[first])
     }

@@ -21,7 +21,7 @@ const MOST_HALVINGS: u64 = 16;
 pub(crate) struct Budget {
     /// The number of the tick.
     tick: f64,
-    /// By index of the sphere.
+    /// Units spent, by index of the sphere.
     spent_by_sphere: BTreeMap<u32, u64>,
     /// Number of flights, by index of the sphere, after which the sphere had not moved.
     short_flights: BTreeMap<u32, u64>,
