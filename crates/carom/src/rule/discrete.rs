@@ -98,9 +98,6 @@ fn meet_surfaces(
 /// must overlap, with a flat one touching is enough.
 fn overlap(system: &System, motion: &Motion, sphere: u32, surface: u32) -> Option<Contact> {
     let i = sphere as usize;
-    if !system.meets_surface(sphere, surface) {
-        return None;
-    }
     let form = &system.surfaces[surface as usize].form;
     let separation = sphere_surface(form, motion.position[i], system.spheres.radius[i])?;
     let meets = match form {
@@ -108,7 +105,11 @@ fn overlap(system: &System, motion: &Motion, sphere: u32, surface: u32) -> Optio
         _ => separation.distance <= 0.0,
     };
     let bodies = Bodies::Surface { sphere, surface };
-    meets.then_some(Contact { bodies, separation, state: ContactState::Intersecting })
+    (meets && system.meets_surface(sphere, surface)).then_some(Contact {
+        bodies,
+        separation,
+        state: ContactState::Intersecting,
+    })
 }
 
 /// Answers the pairs that overlap at the end of the frame, in order of their ids.

@@ -10,6 +10,7 @@
 use glam::DVec3;
 
 use crate::contact_matrix::ContactMatrix;
+use crate::contact_tangents::tangents;
 use crate::rule::contact::contacts::coulomb::limited;
 use crate::rule::contact::contacts::swept::FREE;
 
@@ -64,10 +65,10 @@ enum State {
 impl BlockContact {
     /// Creates the contact of two bodies, with zero impulses.
     pub fn new(spheres: [Option<usize>; 2], normal: DVec3) -> Self {
-        let across = normal.any_orthonormal_vector();
+        let [first, second] = tangents(normal);
         Self {
             spheres,
-            axes: [normal, across, normal.cross(across)],
+            axes: [normal, first, second],
             bias: 0.0,
             surface_velocity: DVec3::ZERO,
             slip: DVec3::ZERO,

@@ -5,6 +5,7 @@ use glam::DVec3;
 
 use super::friction_state::FrictionState;
 use crate::contact_matrix::ContactMatrix;
+use crate::contact_tangents::tangents;
 use crate::integrate::field::Values;
 use crate::norm::Norm;
 use crate::rule::exact::features::{Feature, NormalCurvature};
@@ -398,10 +399,4 @@ fn continued(direction: DVec3, slip: DVec3, least: f64) -> DVec3 {
     }
     let sign = if slip.dot(direction) < 0.0 { -1.0 } else { 1.0 };
     slip * (sign / speed)
-}
-
-/// Two unit vectors across a normal and each other.
-fn tangents(normal: DVec3) -> [DVec3; 2] {
-    let first = normal.any_orthonormal_vector();
-    [first, normal.cross(first)]
 }
