@@ -24,11 +24,11 @@ pub struct CaromGizmosPlugin;
 /// Colours of the outlines; line width and other settings are in Bevy's `GizmoConfigStore`.
 #[derive(Reflect, GizmoConfigGroup, Debug, Clone, PartialEq)]
 pub struct CaromGizmos {
-    /// Of balls.
+    /// Colour of balls.
     pub balls: Color,
-    /// Of colliders.
+    /// Colour of colliders.
     pub colliders: Color,
-    /// Of sensors.
+    /// Colour of sensors.
     pub sensors: Color,
 }
 

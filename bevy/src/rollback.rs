@@ -159,7 +159,7 @@ pub enum RollbackError {
     UnknownFrame {
         /// The frame.
         frame: u64,
-        /// Those that are kept.
+        /// Frames that are kept.
         kept: String,
     },
 }

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 
 class CaromError(ValueError):
-    """A value makes no sense where it was given. Nothing was changed.
+    """A value is invalid where it was given. Nothing was changed.
 
     Attributes:
         field: What is to blame, like ``radii``, ``dt`` or ``colliders[1].restitution``.
@@ -18,7 +18,7 @@ class CaromError(ValueError):
 
 
 class SceneError(CaromError):
-    """A scene, or a part of one, makes no sense."""
+    """A scene, or a part of one, is invalid."""
 
 
 class UnknownError(CaromError, LookupError):

@@ -14,7 +14,7 @@ struct Language {
     name: &'static str,
     /// All names that cells of its column may have.
     names: BTreeSet<String>,
-    /// Those that some cell must have.
+    /// Names that some cell must have.
     required: BTreeSet<String>,
 }
 

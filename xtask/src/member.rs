@@ -18,7 +18,7 @@ pub struct Member {
     pub is_published: bool,
     /// The other members that it depends on.
     pub uses: Vec<Use>,
-    /// Its metadata from cargo.
+    /// Metadata of the package from cargo.
     pub described: Value,
 }
 

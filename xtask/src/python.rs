@@ -171,7 +171,7 @@ impl Environment {
         printed("python", self.command().args(arguments).current_dir(&self.folder))
     }
 
-    /// Its Python, without arguments.
+    /// Returns the command of its Python, without arguments.
     pub fn command(&self) -> Command {
         let scripts = if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" };
         Command::new(self.folder.join("environment").join(scripts))

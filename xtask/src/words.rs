@@ -11,6 +11,8 @@ const WORDS: [&str; 5] = ["whoever", "nobody", "reckoned", "vicinity", "outlook"
 const OPENINGS: [&str; 3] = ["Likewise", "As there.", "The same."];
 /// Openings of doc comments that say less than "Returns", "Applies" or "Moves".
 const DOC_OPENINGS: [&str; 3] = ["Gives ", "In which ", "Tells "];
+/// Openings of fragments, which only the code around them explains.
+const FRAGMENTS: [&str; 4] = ["By ", "Its ", "Of ", "Those "];
 /// Phrases without an actor, or with a wrong term.
 const PHRASES: [&str; 12] = [
     "are asked",
@@ -68,8 +70,11 @@ fn check_place(path: &Path, faults: &mut Vec<String>) -> std::io::Result<()> {
         return Ok(());
     }
     let text = fs::read_to_string(path)?;
+    let mut before = "";
     for (number, line) in (1..).zip(text.lines()) {
-        if let Some(fault) = fault_of(line).or_else(|| phrase_of(line)) {
+        let before = std::mem::replace(&mut before, line);
+        let fault = fault_of(line).or_else(|| phrase_of(line));
+        if let Some(fault) = fault.or_else(|| fragment_of(before, line)) {
             let place = path.strip_prefix(root()).unwrap_or(path).display();
             faults.push(format!("{place}:{number}: \"{fault}\" in: {}", line.trim()));
         }
@@ -89,6 +94,13 @@ fn fault_of(line: &str) -> Option<&'static str> {
     let is_doc = ["/// ", "//! "].iter().any(|mark| line.trim_start().starts_with(mark));
     let of_docs = DOC_OPENINGS.iter().filter(|_| is_doc);
     OPENINGS.iter().chain(of_docs).copied().find(|opening| text.starts_with(opening))
+}
+
+/// Returns the opening of a fragment, if a doc comment begins with one in this line.
+fn fragment_of(before: &str, line: &str) -> Option<&'static str> {
+    let is_doc = |line: &str| line.trim_start().starts_with("///");
+    let text = line.trim_start().strip_prefix("/// ")?;
+    FRAGMENTS.into_iter().find(|opening| !is_doc(before) && text.starts_with(opening))
 }
 
 /// Returns the refused phrase of a line, if there is one; capitals do not matter.
@@ -114,7 +126,7 @@ fn is_word(word: &str, found: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{fault_of, phrase_of};
+    use super::{fault_of, fragment_of, phrase_of};
 
     #[test]
     fn refused_words_and_openings_are_found() {
@@ -124,6 +136,14 @@ mod tests {
         assert_eq!(fault_of("/// The same. For all."), Some("The same."));
         assert_eq!(fault_of("    /// Gives the time."), Some("Gives "));
         assert_eq!(fault_of("// Gives the time."), None);
+    }
+
+    #[test]
+    fn fragments_are_found_where_a_doc_comment_begins() {
+        assert_eq!(fragment_of("struct Flights {", "    /// By slot."), Some("By "));
+        assert_eq!(fragment_of("    speed: f64,", "    /// Its radius."), Some("Its "));
+        assert_eq!(fragment_of("/// The radius.", "/// Its unit is the metre."), None);
+        assert_eq!(fragment_of("", "// Of two, the first."), None);
     }
 
     #[test]

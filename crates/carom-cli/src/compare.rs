@@ -208,7 +208,7 @@ struct Comparison {
 /// Result of a run.
 #[derive(Debug, Serialize)]
 struct Row {
-    /// Its rule or its change.
+    /// Rule or change of the run.
     run: String,
     spheres: usize,
     impacts: u64,

@@ -34,8 +34,8 @@ pub struct EnergyBalance {
     /// Change of energy in no other account \[J\]: the error of the integration, and what
     /// `integration_is` names besides.
     integration: f64,
-    /// Its size as a part of the largest energy: of all entries, and of kinetic and potential energy
-    /// at the start and the end.
+    /// Size of the integration error as a part of the largest energy: of all entries, and of
+    /// kinetic and potential energy at the start and the end.
     integration_part: f64,
     /// Origin of the entry before, in words.
     integration_is: &'static str,

@@ -97,7 +97,7 @@ fn ends_in(path: &Path, ending: &str) -> bool {
 fn refuse_map(import: &Import, format: &str) -> Result<(), Failure> {
     match import.map {
         Some(_) => {
-            let message = format!("--map says what scripts of Unity mean; {format} has none");
+            let message = format!("--map is for scripts of Unity; {format} has none");
             Err(Failure::Usage(message))
         }
         None => Ok(()),

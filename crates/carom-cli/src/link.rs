@@ -81,7 +81,7 @@ pub fn page(given: Option<&str>, config: &Config) -> Result<String, Failure> {
     let page = given.map(str::to_owned).or_else(from_environment).or_else(|| config.page.clone());
     let page = page.unwrap_or_else(|| LOCAL_PAGE.to_owned());
     if page.contains('#') {
-        let message = format!("the address of a page must have no #, as {page} has");
+        let message = format!("the address of a page must not contain #, as {page} does");
         return Err(Failure::Usage(message));
     }
     Ok(page)

@@ -102,7 +102,7 @@ pub fn check(library: &Library, files: &[PathBuf], budget: Budget) -> Result<(),
     }
 }
 
-/// What of the meshes of a valid scene may not be as meant.
+/// Returns what the author of a valid scene may not have intended in its meshes.
 fn mesh_remarks_of(scene: &Scene) -> Vec<String> {
     let Ok(world) = scene.world() else { return Vec::new() };
     let of_collider =

@@ -74,7 +74,12 @@ fn directions_of(world: &World, name: &str) -> Result<Vec<(String, Variation)>, 
             let subject = member(world, name, kind, parts.next())?;
             (subject, parts.next().unwrap_or_default())
         }
-        _ => return Err(unknown(name, "it is not of spheres or colliders, nor the acceleration")),
+        _ => {
+            return Err(unknown(
+                name,
+                "it names neither a sphere, nor a collider, nor the acceleration",
+            ));
+        }
     };
     let component = parts.next();
     if parts.next().is_some() {
@@ -96,7 +101,7 @@ fn directions_of(world: &World, name: &str) -> Result<Vec<(String, Variation)>, 
     match (scalar(subject, field), component) {
         (Some(direction), None) => Ok(vec![(name.to_owned(), direction)]),
         (Some(_), Some(_)) => Err(unknown(name, "it has no components")),
-        (None, _) => Err(unknown(name, "derivatives are known by other fields only")),
+        (None, _) => Err(unknown(name, "there are no derivatives by this field")),
     }
 }
 

@@ -132,7 +132,7 @@ fn what_makes_no_sense_is_refused_in_a_line() {
     let sheet = path(&folder, "damaged.xlsx");
     std::fs::write(&sheet, b"\x01\x02\x03").unwrap();
     for (arguments, expected) in [
-        (vec!["grade", &right], "no scene has its name in that of the file"),
+        (vec!["grade", &right], "the file name contains no name of a scene"),
         (
             vec!["grade", &right, "--scene", "tutorial1"],
             "cannot be graded, because the course does not have",

@@ -86,7 +86,7 @@ fn the_page_is_the_one_asked_for() {
     assert_eq!(by_environment(page), format!("{page}#scene=simtest1\n"));
     assert_eq!(by_environment(""), format!("{PAGE}#scene=simtest1\n"));
     let error = bad(&["link", "simtest1", "--page", "http://a/#b"], 2);
-    assert_eq!(error, "carom: the address of a page must have no #, as http://a/#b has\n");
+    assert_eq!(error, "carom: the address of a page must not contain #, as http://a/#b does\n");
 }
 
 /// A session with edits during the run, including the rule and the length of frames.
@@ -162,7 +162,7 @@ fn a_link_is_read_from_the_standard_input() {
 #[test]
 fn what_is_no_link_ends_with_code_2_and_one_line() {
     let cases = [
-        ("http://127.0.0.1:8042/", "the link says nothing"),
+        ("http://127.0.0.1:8042/", "the link is empty"),
         ("#t=1", "the link names no scene"),
         ("#scene=simtest1&seed=3", "the link has a part \"seed\""),
         ("#scene=simtest1&t=-1", "the link says t=-1.0"),
@@ -201,7 +201,7 @@ fn an_edit_that_is_refused_ends_with_code_1() {
     let error = bad(&["run", "--link", &format!("{nothing}{edits}")], 1);
     assert_eq!(
         error,
-        "carom: at frame 30, what was changed there cannot be changed again: there is no sphere 0 \
+        "carom: the edit at frame 30 cannot be repeated: there is no sphere 0 \
          in this world\n"
     );
 }

@@ -61,7 +61,7 @@ pub struct Finding {
 }
 
 impl Campaign {
-    /// Tries the cases of a target; `on_finding` sees what breaks a promise at once.
+    /// Tries the cases of a target; calls `on_finding` at once for each that breaks a promise.
     pub fn run(&self, target: &Target, mut on_finding: impl FnMut(&Finding)) -> Totals {
         let cases = (target.cases)();
         let watch = Watch::new(target.name, self.seed);
@@ -92,7 +92,7 @@ impl Campaign {
     }
 }
 
-/// Draws the same for each number, whichever was drawn before.
+/// Returns a runner that draws the same cases for each number, whatever was drawn before.
 fn runner(seed: u64, number: u64) -> TestRunner {
     let mut bytes = [0; 32];
     bytes[..8].copy_from_slice(&seed.to_le_bytes());
@@ -101,7 +101,7 @@ fn runner(seed: u64, number: u64) -> TestRunner {
     TestRunner::new_with_rng(config, TestRng::from_seed(RngAlgorithm::ChaCha, &bytes))
 }
 
-/// The smallest case found that breaks a promise in the same way.
+/// Returns the smallest case found that breaks a promise in the same way.
 fn smaller(
     target: &Target,
     drawn: &mut impl ValueTree<Value = Vec<u8>>,
@@ -149,13 +149,13 @@ impl fmt::Display for Totals {
 #[derive(Debug)]
 struct Watch {
     case: Arc<AtomicU64>,
-    /// Milliseconds from the beginning to that of the case.
+    /// Milliseconds from the start of the process to that of the case.
     since: Arc<AtomicU64>,
     began: Instant,
 }
 
 impl Watch {
-    /// The number of no case.
+    /// Number that stands for no case.
     const OVER: u64 = u64::MAX;
 
     fn new(target: &'static str, seed: u64) -> Self {

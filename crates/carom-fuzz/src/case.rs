@@ -1,4 +1,4 @@
-//! What targets make of their cases.
+//! What the targets do with their cases.
 
 use std::borrow::Cow;
 use std::time::Duration;
@@ -9,15 +9,15 @@ use carom_scene::BUILT_IN_FILES;
 use crate::fault::Fault;
 use crate::stopwatch::Stopwatch;
 
-/// Processor time of the frames of a case after which they are stopped.
+/// Processor time after which the frames of a case are stopped.
 const FRAME_PATIENCE: Duration = Duration::from_secs(1);
 
-/// The texts of the built-in scenes.
+/// Returns the texts of the built-in scenes.
 pub fn built_in() -> Vec<Vec<u8>> {
     BUILT_IN_FILES.iter().map(|(_, text)| text.as_bytes().to_vec()).collect()
 }
 
-/// A request that stands once [`FRAME_PATIENCE`] is over.
+/// Returns a request that stops steps once [`FRAME_PATIENCE`] is over.
 pub fn soon() -> StopRequest {
     let stopwatch = Stopwatch::start();
     StopRequest::new(move || stopwatch.is_over(FRAME_PATIENCE))
@@ -30,7 +30,7 @@ pub fn check_finite(world: &World) -> Result<(), Fault> {
     if is_finite { Ok(()) } else { Err(Fault::Law("has motion that is no number".to_owned())) }
 }
 
-/// Text for what readers take as text; what is none becomes some.
+/// Converts bytes to text for readers that take text; invalid bytes become replacement characters.
 pub fn text(case: &[u8]) -> Cow<'_, str> {
     String::from_utf8_lossy(case)
 }

@@ -9,9 +9,9 @@ use crate::target::Target;
 /// A case of the corpus.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Known {
-    /// Where it lies.
+    /// Path of its file.
     pub path: PathBuf,
-    /// What it is.
+    /// Content of its file.
     pub case: Vec<u8>,
 }
 

@@ -1,4 +1,4 @@
-//! What must not happen.
+//! Promises that a case can break.
 
 use std::time::Duration;
 
@@ -7,22 +7,22 @@ use thiserror::Error;
 /// How a case breaks a promise.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Fault {
-    /// Code came where it must not.
+    /// Code panicked.
     #[error("panics: {0}")]
     Panic(String),
-    /// It took too long.
+    /// The case took too long.
     #[error("takes {:.1} s", .0.as_secs_f64())]
     Slow(Duration),
-    /// It took too much memory.
+    /// The case took too much memory.
     #[error("takes {} MB", .bytes / 1_000_000)]
     Memory {
-        /// Most of the process so far.
+        /// Largest memory use of the process so far \[bytes\].
         bytes: u64,
     },
-    /// An error says it badly.
+    /// An error message is badly written.
     #[error("has an error {problem}: {error:?}")]
     Error {
-        /// What is wrong with it.
+        /// What is wrong with the message.
         problem: &'static str,
         /// The error.
         error: String,
@@ -33,12 +33,14 @@ pub enum Fault {
 }
 
 impl Fault {
-    /// Whether it depends on what else the machine does: tests leave it to campaigns.
+    /// Returns whether the fault depends on what else the machine does: tests leave it to
+    /// campaigns.
     pub fn is_limit(&self) -> bool {
         matches!(self, Self::Slow(_) | Self::Memory { .. })
     }
 
-    /// What it says before any number: the same for all that break a promise in the same way.
+    /// Returns the text before any number: the same for all cases that break a promise in the same
+    /// way.
     pub fn kind(&self) -> String {
         let said = self.to_string();
         said.split(|it: char| it.is_ascii_digit())

@@ -12,7 +12,7 @@ use clap::Parser;
 /// Tries hostile input on every reader of Carom, and worlds that are hard to step.
 #[derive(Debug, Parser)]
 struct Arguments {
-    /// What to try; everything where it is missing.
+    /// Targets to try; by default all.
     targets: Vec<String>,
     /// Cases of each, instead of those of a whole campaign.
     #[arg(long)]
@@ -23,7 +23,7 @@ struct Arguments {
     /// Hours for all together, with as many cases as there is time for.
     #[arg(long, conflicts_with = "cases")]
     hours: Option<f64>,
-    /// Other seeds draw other cases.
+    /// Seed of the cases.
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// File that holds a case, instead of cases that are drawn.
@@ -45,7 +45,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Runs the campaign; the answer is how many cases break a promise.
+/// Runs the campaign; returns the number of cases that break a promise.
 fn run(arguments: &Arguments) -> Result<usize, Box<dyn Error>> {
     // Findings say what panicked.
     std::panic::set_hook(Box::new(|_| {}));
@@ -87,7 +87,7 @@ fn chosen(names: &[String]) -> Result<Vec<&'static Target>, Box<dyn Error>> {
     if names.is_empty() { Ok(TARGETS.iter().collect()) } else { names.iter().map(find).collect() }
 }
 
-/// Tries a case, and says what came of it. Returns whether it breaks a promise.
+/// Tries a case and prints the result. Returns whether it breaks a promise.
 fn is_broken(target: &Target, case: &[u8]) -> bool {
     let answer = target.try_case(case);
     match &answer {
@@ -97,12 +97,12 @@ fn is_broken(target: &Target, case: &[u8]) -> bool {
     answer.is_err()
 }
 
-/// So many hours, a year at most: what is longer is a slip.
+/// Converts hours to a duration of a year at most; more is probably a typing mistake.
 fn duration(hours: f64) -> Duration {
     Duration::from_secs_f64((3600.0 * hours).clamp(0.0, 31_536_000.0))
 }
 
-/// When a target ends that shares the time with those after it, all of them `targets`.
+/// Returns when a target must end that shares the time with those after it, `targets` in all.
 fn share(end: Instant, targets: usize) -> Instant {
     let now = Instant::now();
     now + end.saturating_duration_since(now) / targets as u32

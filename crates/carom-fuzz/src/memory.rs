@@ -1,4 +1,4 @@
-//! How much memory the process took at most, where the system tells.
+//! Largest memory use of the process, where the system reports it.
 
 use std::fs;
 
@@ -7,7 +7,8 @@ use crate::fault::Fault;
 /// Most memory of the process \[bytes\].
 pub const MOST_BYTES: u64 = 500_000_000;
 
-/// Most memory that the process had in use so far \[bytes\]; `None` where the system does not tell.
+/// Returns the largest memory use of the process so far \[bytes\]; `None` where the system does not
+/// report it.
 pub fn peak() -> Option<u64> {
     let status = fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
@@ -15,7 +16,8 @@ pub fn peak() -> Option<u64> {
     Some(1024 * kilobytes)
 }
 
-/// Checks the peak, and begins a new one if it was too high: the case after is not to blame.
+/// Checks the peak, and begins a new one if it was too high, so that the next case is not blamed
+/// for it.
 pub fn check_peak() -> Result<(), Fault> {
     match peak() {
         Some(bytes) if bytes > MOST_BYTES => {

@@ -1,4 +1,4 @@
-//! Texts with a few things wrong in them.
+//! Texts with a few mistakes.
 
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -72,10 +72,10 @@ const PIECES: [&str; 30] = [
     "{ x = 1 }",
 ];
 
-/// Something wrong with a text. Places are parts of its length.
+/// A mistake in a text. Places are parts of its length.
 #[derive(Debug, Clone)]
 enum Mutation {
-    /// Another bit.
+    /// One bit is changed.
     Flip {
         place: Index,
         bit: u8,
@@ -84,11 +84,11 @@ enum Mutation {
         place: Index,
         piece: &'static str,
     },
-    /// The end is lost.
+    /// The end is cut off.
     Truncate {
         place: Index,
     },
-    /// A number is another.
+    /// A number is replaced.
     Number {
         place: Index,
         number: &'static str,
@@ -103,13 +103,13 @@ enum Mutation {
     SwapLines {
         lines: [Index; 2],
     },
-    /// A line of another text of the corpus.
+    /// A line of another text of the corpus is inserted.
     Splice {
         line: Index,
         text: Index,
         from: Index,
     },
-    /// A long row of characters.
+    /// A long row of characters is inserted.
     Long {
         place: Index,
         character: char,
@@ -197,7 +197,7 @@ fn mutate(bytes: &mut Vec<u8>, mutation: &Mutation, corpus: &[Vec<u8>]) {
     }
 }
 
-/// Changes the lines of a text that has some.
+/// Changes the lines of a text, if it has any.
 fn with_lines(bytes: &mut Vec<u8>, change: impl FnOnce(&mut Vec<Vec<u8>>)) {
     let mut lines: Vec<_> = bytes.split_inclusive(|&it| it == b'\n').map(<[u8]>::to_vec).collect();
     if !lines.is_empty() {
@@ -206,7 +206,7 @@ fn with_lines(bytes: &mut Vec<u8>, change: impl FnOnce(&mut Vec<Vec<u8>>)) {
     }
 }
 
-/// Where the numbers of a text are.
+/// Returns the ranges of the numbers in a text.
 fn numbers(bytes: &[u8]) -> Vec<std::ops::Range<usize>> {
     let mut found = Vec::new();
     let mut at = 0;

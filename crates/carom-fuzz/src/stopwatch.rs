@@ -1,4 +1,4 @@
-//! How long something takes, whatever else the machine does.
+//! Measures processor time, which does not depend on what else the machine does.
 
 use std::fs;
 use std::time::{Duration, Instant};
@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 #[derive(Debug, Clone, Copy)]
 pub struct Stopwatch {
     began: Instant,
-    /// Processor time of the thread at the start; `None` where the system does not tell.
+    /// Processor time of the thread at the start; `None` where the system has no such figure.
     processor: Option<Duration>,
 }
 

@@ -15,24 +15,25 @@ pub const PATIENCE: Duration = Duration::from_secs(5);
 /// A reader, or the engine.
 #[derive(Debug, Clone, Copy)]
 pub struct Target {
-    /// Name, as typed.
+    /// Name of the target, as typed.
     pub name: &'static str,
-    /// What its cases are.
+    /// Description of its cases.
     pub about: &'static str,
-    /// Cases of a whole campaign.
+    /// Number of cases of a whole campaign.
     pub campaign: u64,
-    /// Cases that are drawn. Each is what a file of it holds.
+    /// Strategy that draws cases. Each case is the content of a file.
     pub cases: fn() -> BoxedStrategy<Vec<u8>>,
     /// Checks a case.
     pub check: fn(&[u8]) -> Result<Answer, Fault>,
 }
 
-/// What a reader said to a case. Both are right; a campaign in which one is missing tests little.
+/// What a reader answers to a case. Both are right; a campaign in which one is missing tests
+/// little.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Answer {
-    /// It makes sense.
+    /// The case is valid.
     Accepted,
-    /// It makes none, and the error says so.
+    /// The case is invalid, and the error says so.
     Refused,
 }
 
@@ -51,7 +52,7 @@ impl Target {
     }
 }
 
-/// What a panic said.
+/// Returns the message of a panic.
 fn message(payload: &(dyn std::any::Any + Send)) -> String {
     let text = payload.downcast_ref::<String>().map(String::as_str);
     text.or(payload.downcast_ref::<&str>().copied()).unwrap_or("without a message").to_owned()

@@ -95,7 +95,7 @@ fn nodes_that_hang_on_themselves_are_refused() {
 fn values_that_make_no_sense_are_refused_at_their_node() {
     let mut file = ball();
     file.json["nodes"][0]["rotation"] = json!([0, 0, 0, 0]);
-    let problem = "nodes[0]: has a place, rotation or scale that makes no sense";
+    let problem = "nodes[0]: has an invalid place, rotation or scale";
     assert_eq!(refusal(&file.text()), problem);
     let body = json!({ "motion": { "mass": -1 }, "collider": { "geometry": { "shape": 0 } } });
     let nodes = json!([{ "name": "Ball", "extensions": { "KHR_physics_rigid_bodies": body } }]);

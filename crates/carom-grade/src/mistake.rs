@@ -360,7 +360,7 @@ impl Mistake {
         self.entry().name
     }
 
-    /// What the program does, in a sentence for its author.
+    /// Returns a sentence for the author that says what the program does.
     pub fn sentence(self) -> &'static str {
         self.entry().sentence
     }

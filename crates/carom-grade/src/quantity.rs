@@ -40,7 +40,7 @@ pub enum Quantity {
 pub struct Number {
     /// The quantity.
     pub quantity: Quantity,
-    /// Its value; three coordinates of a velocity.
+    /// Values of the quantity: one, or three coordinates of a velocity.
     pub values: Vec<f64>,
 }
 

@@ -19,7 +19,8 @@ const MUCH_CLOSER: f64 = 1e-3;
 /// Change of a number, as a part of it, below which it only fits the rounding of a run.
 const LEAST_CHANGE: f64 = 2e-3;
 
-/// Times of rows after the departures of its parts up to which a pair must agree.
+/// Number of times after the departures of the single causes up to which a pair of causes must
+/// agree with the run.
 const NEXT: usize = 10;
 
 /// Programs with one cause each.

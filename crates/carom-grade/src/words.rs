@@ -127,7 +127,7 @@ impl Departure {
         }
     }
 
-    /// What the ball does right before.
+    /// Returns what the ball does right before.
     fn right(&self) -> Option<String> {
         match self.contacts_right {
             0 => None,
@@ -166,7 +166,7 @@ impl Explanation {
         if self.nearest { format!("nearest: {}", self.named()) } else { self.named() }
     }
 
-    /// What the named causes are.
+    /// Returns the heading of the named causes.
     fn heading(&self) -> &'static str {
         match (self.nearest, self.cause.mistakes.is_empty()) {
             (true, _) => "nearest",
@@ -182,7 +182,7 @@ impl Explanation {
         (!others.is_empty()).then(|| format!("or {others}: this run cannot tell them apart"))
     }
 
-    /// Where the run departs from the named causes.
+    /// Returns where the run departs from the named causes.
     fn departs(&self) -> Option<String> {
         let then = self.then.as_ref()?;
         let place = match (&then.contact, then.number) {

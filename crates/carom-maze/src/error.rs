@@ -27,7 +27,7 @@ pub enum MazeError {
     OneBall {
         /// Name of the scene.
         scene: String,
-        /// Spheres in it; generators and emitters count too.
+        /// Number of spheres in the scene; generators and emitters count too.
         count: usize,
     },
     /// The maze has no end wall.
@@ -95,7 +95,7 @@ pub enum GameError {
         value: f64,
     },
     /// The progress does not belong to a game in this maze.
-    #[error("this is no game in this maze: {problem}")]
+    #[error("the progress does not fit this maze: {problem}")]
     Progress {
         /// The contradiction.
         problem: &'static str,

@@ -61,7 +61,7 @@ pub fn import_particle_file(
 ) -> Result<Imported, Failure> {
     let format = ParticleFormat::of(&path).ok_or_else(|| {
         let endings = "use .xyz, .extxyz, .lammpstrj, .dump or .gsd";
-        Failure::of_file(format!("cannot tell the format of {}: {endings}", path.display()))
+        Failure::of_file(format!("{} has no known format: {endings}", path.display()))
     })?;
     let options = ParticleOptions { frame, radius, ..ParticleOptions::default() };
     let imported = import_particles(&path, format, &options).map_err(Failure::of_import)?;

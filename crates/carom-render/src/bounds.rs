@@ -6,9 +6,9 @@ use carom_scene::outline::half_lengths;
 /// A box along the axes \[m\].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounds {
-    /// Its lower corner.
+    /// Lower corner of the box.
     pub min: DVec3,
-    /// Its upper corner.
+    /// Upper corner of the box.
     pub max: DVec3,
 }
 

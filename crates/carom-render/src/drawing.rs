@@ -58,7 +58,7 @@ pub struct Ball {
     pub radius: f64,
     /// sRGB.
     pub color: Color,
-    /// From the ball's own frame to the world; visible only with a pattern.
+    /// Rotation from the ball's own frame to the world; visible only with a pattern.
     pub rotation: DQuat,
     /// The pattern painted on the ball.
     pub pattern: Pattern,
@@ -92,7 +92,7 @@ pub struct Panel {
     pub color: Color,
     /// How the surface reflects light.
     pub finish: Finish,
-    /// From 0, invisible, to 1, opaque.
+    /// Opacity from 0, invisible, to 1, opaque.
     pub opacity: f64,
 }
 

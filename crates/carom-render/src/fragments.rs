@@ -144,7 +144,7 @@ pub(crate) struct Fragments<'a> {
 
 /// A frame of H.264.
 pub(crate) struct Frame {
-    /// Its parts, separated by start codes.
+    /// Parts of the frame, separated by start codes.
     pub bits: Vec<u8>,
     pub is_keyframe: bool,
 }

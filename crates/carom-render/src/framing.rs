@@ -184,7 +184,8 @@ impl Swept {
 
 /// Space that balls and moving surfaces sweep in the first seconds.
 struct Sweep {
-    /// Of each ball within each limit. Tethered balls have the last limit in place of every other.
+    /// Swept path of each ball within each limit. Tethered balls have the last limit in place of
+    /// every other.
     balls: BTreeMap<u64, Vec<Swept>>,
     surfaces: Option<Bounds>,
 }

@@ -15,7 +15,7 @@ pub enum GpuError {
     /// The adapter opens no device.
     #[error("the graphics adapter {adapter} cannot be used: {source}")]
     NoDevice {
-        /// Its name.
+        /// Name of the adapter.
         adapter: String,
         /// The cause.
         source: wgpu::RequestDeviceError,

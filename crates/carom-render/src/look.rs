@@ -78,7 +78,7 @@ const SPRING: Color = [0.50, 0.47, 0.41];
 /// Orientation of a ball that rolls without slipping, for display under rules without friction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Roll {
-    /// From the ball's frame to the world.
+    /// Rotation from the ball's frame to the world.
     pub rotation: DQuat,
 }
 

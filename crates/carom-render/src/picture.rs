@@ -25,7 +25,7 @@ pub enum PictureError {
         bytes: usize,
     },
     /// The picture cannot be encoded as PNG.
-    #[error("cannot make the picture a PNG: {0}")]
+    #[error("cannot encode the picture as PNG: {0}")]
     Encode(#[source] png::EncodingError),
     /// The file is not a PNG, or is damaged.
     #[error("cannot read the picture as PNG: {0}")]

@@ -12,13 +12,13 @@ pub enum Preset {
     Scene,
     /// Shows everything, from a little to the right and above.
     Whole,
-    /// From the front, along -z.
+    /// View from the front, along -z.
     Front,
-    /// From straight above.
+    /// View from straight above.
     Top,
 }
 
-/// From a little to the right and above.
+/// Direction of the view from a little to the right and above.
 const OBLIQUE: DVec3 = DVec3::new(0.45, 0.5, 1.0);
 
 impl Preset {

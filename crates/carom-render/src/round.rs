@@ -8,7 +8,7 @@ use glam::DMat3;
 
 use crate::drawing::Panel;
 
-/// How many rectangles go around.
+/// Number of rectangles around the axis.
 const AROUND: usize = 96;
 
 /// A narrow rectangle that lies on a surface of revolution: local x is along the outline, y the normal, z around.
@@ -17,12 +17,12 @@ pub(crate) struct Facet {
     pub pose: Pose,
     /// Half the lengths along local x and z \[m\].
     pub half: [f64; 2],
-    /// Of the surface along local x and z \[1/m\]: positive where it bulges.
+    /// Curvatures of the surface along local x and z \[1/m\]: positive where it bulges.
     pub curvatures: [f64; 2],
 }
 
 impl Facet {
-    /// Returns whether a point is in front of it.
+    /// Returns whether a point is in front of the surface.
     pub fn faces(&self, point: DVec3) -> bool {
         (self.pose.rotation * DVec3::Y).dot(point - self.pose.position) > 0.0
     }

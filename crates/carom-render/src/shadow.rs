@@ -6,7 +6,7 @@ use glam::{Mat4, Vec3, Vec4};
 /// Orthographic view along a light.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LightView {
-    /// From positions relative to the eye to the light's map.
+    /// Transformation from positions relative to the eye to the light's map.
     pub map_from_eye: Mat4,
     /// The direction in which light travels, and two directions across it.
     pub axes: [Vec3; 3],

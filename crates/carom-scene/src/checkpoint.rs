@@ -49,7 +49,7 @@ pub struct Checkpoint {
 #[non_exhaustive]
 pub enum CheckpointError {
     /// A force defined in user code, which cannot be stored.
-    #[error("force {0} is code, which has no bytes")]
+    #[error("force {0} is a function of the program, which a snapshot cannot hold as bytes")]
     ForeignForce(ForceId),
     /// The bytes do not begin as a checkpoint does.
     #[error("these bytes are no snapshot of Carom")]
@@ -66,7 +66,7 @@ pub enum CheckpointError {
     #[error("there is no memory for the snapshot")]
     NoMemory,
     /// Bytes are missing or were changed.
-    #[error("this snapshot is damaged: bytes are missing, or others than were written")]
+    #[error("this snapshot is damaged: some of its bytes are missing or wrong")]
     Damaged,
 }
 

@@ -55,7 +55,7 @@ pub enum SceneError {
     BadOverride {
         /// The override.
         text: String,
-        /// What is wrong with it.
+        /// What is wrong with the override.
         problem: String,
     },
 }

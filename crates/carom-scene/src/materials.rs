@@ -33,7 +33,7 @@ pub(crate) fn fill(scene: &mut Table) -> Result<(), Problem> {
     let read: BTreeMap<String, Material> =
         deserialize(materials.clone()).map_err(|problem| problem.below(&format!("{TABLE}.")))?;
     check_materials(&read)?;
-    each_body(scene, &mut |body, path| {
+    for_each_body(scene, &mut |body, path| {
         let Some(Value::String(name)) = body.get("material") else { return Ok(()) };
         let Some(Value::Table(fields)) = materials.get(name) else {
             let known = read.keys().map(String::as_str);
@@ -61,7 +61,7 @@ pub(crate) fn written(scene: &Scene) -> String {
 /// Removes the fields of bodies that are those of their materials.
 pub(crate) fn strip(scene: &mut Table) {
     let Some(Value::Table(materials)) = scene.get(TABLE).cloned() else { return };
-    let stripped = each_body(scene, &mut |body, _| {
+    let stripped = for_each_body(scene, &mut |body, _| {
         let name = body.get("material").and_then(Value::as_str);
         let material = name.and_then(|name| materials.get(name)?.as_table());
         let Some(material) = material else { return Ok(()) };
@@ -76,7 +76,7 @@ pub(crate) fn strip(scene: &mut Table) {
 }
 
 /// Calls a function with every sphere and collider of a scene, those of generators and emitters included, and its path.
-fn each_body(
+fn for_each_body(
     scene: &mut Table,
     change: &mut impl FnMut(&mut Table, &str) -> Result<(), Problem>,
 ) -> Result<(), Problem> {
@@ -87,11 +87,11 @@ fn each_body(
             let path = format!("{list}[{i}]");
             match list {
                 "spheres" | "colliders" => change(table, &path)?,
-                "emitters" => each_making(table, &path, change)?,
+                "emitters" => for_each_template(table, &path, change)?,
                 _ => {
                     for (kind, generator) in table.iter_mut() {
                         let Some(generator) = generator.as_table_mut() else { continue };
-                        each_making(generator, &format!("{path}.{kind}"), change)?;
+                        for_each_template(generator, &format!("{path}.{kind}"), change)?;
                     }
                 }
             }
@@ -101,7 +101,7 @@ fn each_body(
 }
 
 /// Calls a function with the sphere and the collider of a generator or an emitter.
-fn each_making(
+fn for_each_template(
     table: &mut Table,
     path: &str,
     change: &mut impl FnMut(&mut Table, &str) -> Result<(), Problem>,

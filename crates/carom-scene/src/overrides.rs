@@ -37,7 +37,7 @@ impl std::str::FromStr for Override {
             return Err(bad_override(text, "write it as path=value"));
         }
         if path.len() > DEEPEST {
-            return Err(bad_override(text, "no value of a scene lies so deep"));
+            return Err(bad_override(text, "no value of a scene is nested so deeply"));
         }
         let value = value.trim();
         if value == "none" {

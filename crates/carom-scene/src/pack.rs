@@ -123,7 +123,7 @@ impl Recipe {
 }
 
 impl Packed {
-    /// What stands in the way if the spheres jammed before they were as dense as they were to be.
+    /// Returns why the packing fails if the spheres jammed before they were as dense as requested.
     pub fn shortfall(&self, recipe: &Recipe) -> Option<String> {
         let Compressed { is_reached, packing_fraction, .. } = self.compressed;
         let wanted = recipe.packing_fraction;

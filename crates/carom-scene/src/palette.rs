@@ -16,7 +16,7 @@ const SAME_DENSITY: f64 = 1e-9;
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Paint {
-    /// Its own colour, if it has one.
+    /// Own colour of the body, if it has one.
     pub color: Option<Color>,
     /// How its surface reflects light.
     pub finish: Finish,

@@ -47,6 +47,6 @@ pub(crate) fn check_energy(sphere: &carom::Sphere, field: &str) -> Result<(), Pr
     let energy = sphere.kilograms() * sphere.velocity.length_squared();
     let is_number = sphere.velocity.is_finite() && sphere.kilograms().is_finite();
     check(energy.is_finite() || !is_number, field, || {
-        "is too large: the kinetic energy is no number that a computer holds".into()
+        "is too large: the kinetic energy would be infinite".into()
     })
 }

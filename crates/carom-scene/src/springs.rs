@@ -18,7 +18,7 @@ pub(crate) fn add(world: &mut World, spring: &Spring, path: &str) -> Result<(), 
             let path_of_chain = format!("{path}.chain");
             numbered(world, last, &path_of_chain)?;
             check(first < last, &path_of_chain, || {
-                "must be the first sphere of a chain and a later one".into()
+                "must be the first sphere of the chain and a later one, as its last".into()
             })?;
             let ids: Vec<SphereId> = world.spheres().ids()[first as usize..=last as usize].to_vec();
             ids.windows(2)

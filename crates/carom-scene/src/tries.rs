@@ -13,7 +13,7 @@ const LONGEST: usize = 80;
 /// A number of a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tried {
-    /// Its value.
+    /// Value of the field now.
     pub value: f64,
     /// Whether it is a whole number.
     pub is_whole: bool,

@@ -3,7 +3,7 @@
 use crate::error::nearest;
 
 /// Message for an empty table that must contain one entry.
-pub(crate) const SAYS_NOTHING: &str = "says nothing: it has to say one thing";
+pub(crate) const SAYS_NOTHING: &str = "is empty: it must have exactly one entry";
 
 /// Common words with the name that scene files use.
 const SYNONYMS: [(&str, &str); 34] = [
@@ -44,7 +44,7 @@ const SYNONYMS: [(&str, &str); 34] = [
 ];
 
 /// Message about a table with several entries of which one is possible.
-const SAYS_SEVERAL: &str = "says several things: it has to say one thing";
+const SAYS_SEVERAL: &str = "has several entries: it must have exactly one entry";
 
 /// Hint for authors whose language writes decimals with a comma.
 pub(crate) const DECIMAL_POINT: &str = "decimals have a point, not a comma";
@@ -90,7 +90,7 @@ pub(crate) fn table_expected(path: &str, message: &str) -> Option<(String, Strin
 /// Adds an example to a message about a table that must contain one entry.
 pub(crate) fn with_form(message: String, path: &str) -> String {
     let form = match path.split('[').next() {
-        _ if !message.ends_with("it has to say one thing") => return message,
+        _ if !message.ends_with("it must have exactly one entry") => return message,
         Some("forces") => "gravity = { acceleration = [0.0, -9.81, 0.0] }",
         Some("generators") => "[generators.row] with its fields below",
         Some("colliders") => "shape = { box = { size = [1.0, 1.0, 1.0] } }",

@@ -134,7 +134,7 @@ fn files_that_cannot_be_included_are_refused() {
         assert!(told.contains(expected), "{include}: {told}");
     }
     let text = Scene::from_toml("\ninclude = 'a.toml'", "text").unwrap_err().to_string();
-    assert_eq!(text, "text:2: include: only a file includes others, which lie beside it");
+    assert_eq!(text, "text:2: include: only scenes in files can include files");
     let ladder: Vec<_> = (0..200)
         .map(|i| (format!("{i}.toml"), format!("include = '{}.toml'", i + 1)))
         .chain([("200.toml".to_owned(), String::new())])

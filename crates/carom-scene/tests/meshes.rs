@@ -77,7 +77,7 @@ fn gltf() -> String {
     )
 }
 
-/// Of a multiple of three bytes.
+/// Encodes a multiple of three bytes.
 fn base64(bytes: &[u8]) -> String {
     let letters = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let three = |it: &[u8]| {

@@ -122,7 +122,7 @@ fn two_motions_in_one_table_are_refused_as_several_things() {
     let both = "motion = { steady = { velocity = [1, 0, 0] }, turn = { rate = 1 } }";
     let text = format!("[[colliders]]\nshape = 'half-space'\n{both}");
     let said = Scene::from_toml(&text, "two.toml").unwrap_err().to_string();
-    assert!(said.contains("colliders[0].motion: says several things"), "{said}");
+    assert!(said.contains("colliders[0].motion: has several entries"), "{said}");
 }
 
 #[test]

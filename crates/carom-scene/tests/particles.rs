@@ -182,7 +182,7 @@ fn a_gsd_file_that_is_damaged_is_refused_and_one_cut_short_keeps_its_frames() {
     assert_eq!(refused(&|bytes| bytes[46] = 9), "version 9.0 of GSD is not read");
     assert_eq!(refused(&|bytes| bytes[112] = b'x'), "its schema is \"xoomd\", expected \"hoomd\"");
     assert_eq!(refused(&|bytes| bytes[15] = 1), "its index reaches beyond the end of the file");
-    assert_eq!(refused(&|bytes| bytes[256 + 30] = 99), "entry 0 of its index makes no sense");
+    assert_eq!(refused(&|bytes| bytes[256 + 30] = 99), "entry 0 of its index is invalid");
     // The fourth chunk of a frame holds the positions: whole numbers are none.
     let is_used = |entry: &usize| whole[256 + entry * 32 + 16..][..8] != [0; 8];
     let entries = (0..128).take_while(is_used).count();

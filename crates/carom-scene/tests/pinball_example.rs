@@ -12,7 +12,7 @@ const TEN_SECONDS: &str = include_str!("../../../examples/pinball/ten_seconds.tx
 
 /// Keys of a player who draws the plunger again and again, and hammers on both flippers.
 fn keys(frame: usize) -> Keys {
-    let (left, right) = (frame / 20 % 2 == 0, frame / 27 % 2 == 0);
+    let [left, right] = [20, 27].map(|period: usize| (frame / period).is_multiple_of(2));
     Keys { left, right, plunger: frame % 90 < 60 }
 }
 

@@ -29,7 +29,7 @@ fn one_slip_is_one_fault_that_says_what_to_write() {
         ("[[simulation]]\nrule = 'exact'", "2: simulation: is a table: [simulation]"),
         (
             "[[forces]]",
-            "2: forces[0]: says nothing: it has to say one thing, like \
+            "2: forces[0]: is empty: it must have exactly one entry, like \
              gravity = { acceleration = [0.0, -9.81, 0.0] }",
         ),
         (
@@ -39,7 +39,7 @@ fn one_slip_is_one_fault_that_says_what_to_write() {
         ),
         (
             "[[generators]]\ntype = 'row'\ncount = 5",
-            "2: generators[0]: says several things: it has to say one thing, like \
+            "2: generators[0]: has several entries: it must have exactly one entry, like \
              [generators.row] with its fields below",
         ),
         (

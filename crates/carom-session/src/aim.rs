@@ -16,7 +16,7 @@ const POINTS: u32 = 120;
 pub struct Aim {
     /// The ball.
     pub sphere: SphereId,
-    /// Its velocity after the blow \[m/s\].
+    /// Velocity of the ball after the blow \[m/s\].
     pub velocity: DVec3,
 }
 

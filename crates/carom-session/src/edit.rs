@@ -47,7 +47,7 @@ pub enum Edit {
     Throw {
         /// The new sphere.
         sphere: Box<carom::Sphere>,
-        /// Its colour; `None` for the colour of its density or the scene's default.
+        /// Colour of the sphere; `None` for the colour of its density or the scene's default.
         color: Option<Color>,
     },
     /// Removes a sphere.

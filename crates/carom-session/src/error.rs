@@ -24,7 +24,7 @@ pub enum SessionError {
     #[error(transparent)]
     Scene(#[from] SceneError),
     /// A change of a run that is repeated was refused.
-    #[error("at frame {frame}, what was changed there cannot be changed again: {source}")]
+    #[error("the edit at frame {frame} cannot be repeated: {source}")]
     Repeat {
         /// Frame at which the session is now; the following changes are dropped.
         frame: u64,
@@ -52,13 +52,13 @@ pub enum SessionError {
         seconds: f64,
     },
     /// Too many commands wait; they would take many seconds.
-    #[error("too much waits to be done already; the last command was not taken")]
+    #[error("too many commands are waiting; the last one was not accepted")]
     Busy,
     /// The thread of the driver cannot be started.
-    #[error("cannot start a thread that moves the spheres: {0}")]
+    #[error("cannot start the thread of the simulation: {0}")]
     Thread(#[from] std::io::Error),
     /// The thread of the driver has ended.
-    #[error("nothing moves any more: the thread that moves the spheres has ended")]
+    #[error("the thread of the simulation has ended, so nothing moves any more")]
     Ended,
 }
 

@@ -14,7 +14,7 @@ use crate::page;
 pub struct Studio {
     state: RenderState,
     renderer: Renderer,
-    /// For saved pictures; made at the first use.
+    /// Target for saved pictures; created at the first use.
     offscreen: Option<Offscreen>,
     /// Error of the device since the last [`Studio::failure`].
     failure: Arc<Mutex<Option<String>>>,

@@ -35,7 +35,7 @@ pub(crate) enum Profile {
     },
     /// An arc of half a circle at most, or a whole one.
     Arc {
-        /// On the axis, unless the circle is a whole one.
+        /// Centre of the arc, on the axis unless the circle is a whole one.
         center: DVec2,
         /// Radius \[m\].
         radius: f64,
@@ -67,7 +67,7 @@ struct ProfilePoint {
 /// Distance of a band from a point, with its derivatives.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct View {
-    /// From the surface \[m\]; of the face it is negative behind it.
+    /// Distance from the surface \[m\]; negative behind the face.
     pub distance: f64,
     /// Unit vector in which that grows fastest.
     pub normal: DVec3,
@@ -199,7 +199,8 @@ impl Band {
         Some(Self { center, profile, is_open: false, ..*self })
     }
 
-    /// Where a point \[m\] is that goes along from another place of the band to this one, by the shortest turn.
+    /// Returns where a point \[m\] is that moves with the band from another place of it to this
+    /// one, by the shortest turn.
     pub fn carried_from(&self, before: &Self, point: DVec3) -> DVec3 {
         let offset = point - before.center;
         let turn = before.axis.cross(self.axis);
@@ -217,7 +218,7 @@ impl Band {
         self.center.norm() + self.profile.size()
     }
 
-    /// Distance from its centre of all of it \[m\], or more than that.
+    /// Returns a bound of the distance of the band's points from its centre \[m\].
     pub fn reach(&self) -> f64 {
         self.profile.size()
     }
@@ -284,7 +285,7 @@ impl Profile {
         if face.room >= 0.0 { face } else { self.foot_on_rim(point, &face) }
     }
 
-    /// As if the nearest place were on the face.
+    /// Returns the foot of a point as if the nearest place were on the face.
     fn foot_on_face(&self, point: DVec2) -> ProfilePoint {
         match *self {
             Self::Line { from, direction, length, thickness } => {
@@ -328,7 +329,7 @@ impl Profile {
         }
     }
 
-    /// As if the nearest place were on the nearer end.
+    /// Returns the foot of a point as if the nearest place were on the nearer end.
     fn foot_on_rim(&self, point: DVec2, face: &ProfilePoint) -> ProfilePoint {
         let [first, second] = self.ends().map(|end| point - end);
         let [near, far] = [first.dot(first), second.dot(second)];
@@ -349,7 +350,7 @@ impl Profile {
         }
     }
 
-    /// Both ends \[m\].
+    /// Returns both ends of the profile \[m\].
     pub fn ends(&self) -> [DVec2; 2] {
         match *self {
             Self::Line { from, direction, length, .. } => [from, from + length * direction],
@@ -358,8 +359,8 @@ impl Profile {
     }
 }
 
-/// How far a point at an offset from the centre of an arc may go with the arc nearest \[m\]; negative where an end
-/// is.
+/// Returns how far a point at an offset from the centre of an arc is within the sector in which the
+/// arc is nearest \[m\]; negative where an end is nearer.
 fn room_on_arc(ends: [DVec2; 2], offset: DVec2) -> f64 {
     if ends[0] == ends[1] {
         return f64::INFINITY;

@@ -28,7 +28,7 @@ pub(crate) struct Motion {
 #[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Spin {
-    /// From the coordinate system of each sphere to the world's, of length 1.
+    /// Rotation from the coordinate system of each sphere to the world's, of length 1.
     pub orientation: Vec<DQuat>,
     /// Angular velocities \[rad/s\].
     pub angular_velocity: Vec<DVec3>,

@@ -16,7 +16,7 @@ impl Clock {
         self.0.value()
     }
 
-    /// The same clock, `h` \[s\] later.
+    /// Returns the clock `h` \[s\] later.
     pub fn after(mut self, h: f64) -> Self {
         self.0.add(h);
         self

@@ -161,7 +161,7 @@ impl Sides {
     /// All sides.
     pub const ALL: Self = Self::from_array([true; 6]);
 
-    /// Those towards -x, +x, -y, +y, -z, +z.
+    /// Creates the sides from one flag each, towards -x, +x, -y, +y, -z, +z.
     pub const fn from_array([left, right, bottom, top, back, front]: [bool; 6]) -> Self {
         Self { left, right, bottom, top, back, front }
     }
@@ -200,9 +200,9 @@ pub struct Collider {
     pub shape: Shape,
     /// Place of the local frame in the world.
     pub pose: Pose,
-    /// Of the origin of the local frame \[m/s\]; a step moves the pose on.
+    /// Velocity of the origin of the local frame \[m/s\]; a step moves the pose on.
     pub velocity: DVec3,
-    /// Of the rotation about the origin of the local frame, along its axis \[rad/s\].
+    /// Angular velocity about the origin of the local frame, along the axis of rotation \[rad/s\].
     pub angular_velocity: DVec3,
     /// Velocity of the material along the surface \[m/s\], in the local frame: that of a conveyor belt. The shape stays
     /// where its motion puts it. Friction acts against the velocity of the material, which is that of the surface plus
@@ -398,7 +398,8 @@ impl Collider {
         Ok(())
     }
 
-    /// Its motion from `time` \[s\] on; `None` if it moves by its velocities.
+    /// Returns the motion of the collider from `time` \[s\] on; `None` if it moves by its
+    /// velocities.
     pub(crate) fn course(&self, time: f64) -> Option<Course> {
         (!self.motion.is_empty()).then(|| Course::new(self.motion.clone(), self.pose, time))
     }

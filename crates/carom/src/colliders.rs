@@ -22,7 +22,8 @@ pub(crate) struct Colliders {
     seams: OnceLock<Arc<Seams>>,
     /// Seams before the last changes from outside, and the numbers of the colliders that these changed.
     earlier: Option<(Arc<Seams>, BTreeSet<u64>)>,
-    /// Those that move; found when first read after a change from outside, as seams.
+    /// Surfaces of the colliders that move; found when first read after a change from outside, as
+    /// seams.
     moving: OnceLock<Arc<MovingSurfaces>>,
     /// Made when first read after a change, as the trees.
     surfaces: OnceLock<Vec<Surface>>,
@@ -103,7 +104,7 @@ impl Colliders {
         removed
     }
 
-    /// Whether any of them moves.
+    /// Returns whether any collider moves.
     pub fn any_moving(&self) -> bool {
         self.list.iter().any(|(_, collider)| collider.moves())
     }

@@ -9,7 +9,7 @@ const DEPENDENT: f64 = 1e-8;
 #[derive(Default)]
 pub(crate) struct ContactMatrix {
     count: usize,
-    /// By rows.
+    /// Elements, row by row.
     values: Vec<f64>,
     /// First column of each row with a value, and the column after the last one.
     ranges: Vec<[usize; 2]>,

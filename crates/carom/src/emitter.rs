@@ -143,7 +143,7 @@ pub(crate) struct EmitterState {
     pub start: f64,
     /// Number of spheres emitted or left out so far.
     pub emitted: u64,
-    /// Its spheres that may still be alive, oldest first; empty without `max_spheres`.
+    /// Spheres of the emitter that may still be alive, oldest first; empty without `max_spheres`.
     pub ring: VecDeque<SphereId>,
 }
 
@@ -152,7 +152,7 @@ impl EmitterState {
         Self { emitter, start, emitted: 0, ring: VecDeque::new() }
     }
 
-    /// When its next sphere is due \[s\]; infinite after the last one.
+    /// Returns when the next sphere of the emitter is due \[s\]; infinite after the last one.
     fn due(&self) -> f64 {
         if self.is_done() {
             return f64::INFINITY;
@@ -203,7 +203,7 @@ pub(crate) struct Emission {
     pub emitted: Vec<SphereId>,
     /// When each was due \[s\].
     pub due: Vec<f64>,
-    /// In the order of leaving.
+    /// Spheres that left, in the order of leaving.
     pub retired: Vec<SphereId>,
     /// Ids of spheres that were left out, ascending.
     pub left_out: Vec<SphereId>,
@@ -237,7 +237,7 @@ pub(crate) fn any_due(emitters: &Numbered<EmitterState>, time: f64) -> bool {
     emitters.iter().any(|(_, state)| state.is_due(time))
 }
 
-/// When the next sphere of all emitters is due \[s\]; infinite without any.
+/// Returns when the next sphere of all emitters is due \[s\]; infinite without any.
 pub(crate) fn next_due(emitters: &Numbered<EmitterState>) -> f64 {
     emitters.iter().map(|(_, state)| state.due()).fold(f64::INFINITY, f64::min)
 }

@@ -57,8 +57,8 @@ pub enum Error {
     /// allow none.
     #[error(
         "sphere {sphere}, at {at} s: friction acts on it in contacts that have no closed form, and \
-         nothing may be stepped, by the setting `zones`; the state before the step, at {time} s, was kept. \
-         With `zones = \"automatic\"`, or the rule `contact`, which steps everything, it can be taken"
+         the setting `zones` forbids to step it; the state before the step, at {time} s, was kept. \
+         Use `zones = \"automatic\"`, or the rule `contact`, which steps everything"
     )]
     NeedsZone {
         /// A sphere that it acts on.
@@ -85,7 +85,7 @@ pub enum Error {
     },
     /// A sphere with a pair potential rests on another body, which the rule `exact` does not follow.
     #[error(
-        "sphere {sphere}, at {at} s: it rests on another body, which is not known beside a `pair_potential`; the \
+        "sphere {sphere}, at {at} s: it came to rest on another body, which a `pair_potential` does not allow; the \
          state before the step, at {time} s, was kept"
     )]
     RestsInPotential {

@@ -32,7 +32,7 @@ impl Default for Groups {
 }
 
 impl Groups {
-    /// In the first group, and colliding with all.
+    /// Groups of a body in the first group that collides with all.
     pub const DEFAULT: Self = Self { groups: 1, collides_with: u32::MAX };
 
     /// Whether two bodies in these groups collide.

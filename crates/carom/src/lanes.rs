@@ -53,7 +53,7 @@ impl<S: Simd> Lanes<S> {
         Self(self.0.abs())
     }
 
-    /// By how much the size of each exceeds a bound; none is NaN.
+    /// Returns by how much the size of each lane exceeds a bound; none is NaN.
     #[inline(always)]
     pub fn beyond(self, bound: Self) -> Self {
         Self((self.0.abs() - bound.0).max(0.0))
@@ -71,20 +71,20 @@ impl<S: Simd> Lanes<S> {
         Self(self.0.rotate_elements_left::<BY>())
     }
 
-    /// The largest of them, none of which is NaN, and at least 0.
+    /// Returns the largest lane, at least 0; no lane is NaN.
     #[inline(always)]
     pub fn largest(self) -> f64 {
         self.to_array().into_iter().fold(0.0, Real::max)
     }
 
-    /// Their sum.
+    /// Returns the sum of the lanes.
     #[inline(always)]
     pub fn sum(self) -> f64 {
         let [a, b, c, d] = self.to_array();
         (a + b) + (c + d)
     }
 
-    /// From lane 0 on.
+    /// Returns the lanes as an array, lane 0 first.
     #[inline(always)]
     pub fn to_array(self) -> [f64; LANES] {
         self.0.to_array()
@@ -105,7 +105,7 @@ impl<S: Simd> Lanes<S> {
         self.0.simd_le(other.0)
     }
 
-    /// These where they are chosen, and others elsewhere.
+    /// Returns these lanes where they are chosen, and others elsewhere.
     #[inline(always)]
     pub fn select(self, chosen: mask64x4<S>, others: Self) -> Self {
         Self(chosen.select(self.0, others.0))
@@ -190,7 +190,7 @@ impl<S: Simd> Vector<Lanes<S>> {
         }
     }
 
-    /// These where they are chosen, and others elsewhere.
+    /// Returns these vectors where they are chosen, and others elsewhere.
     #[inline(always)]
     pub fn select(self, chosen: mask64x4<S>, others: Self) -> Self {
         Self {
@@ -209,7 +209,7 @@ impl<S: Simd> Vector<Lanes<S>> {
         Self { x: rounded(self.x), y: rounded(self.y), z: rounded(self.z) }
     }
 
-    /// From lane 0 on.
+    /// Returns the vectors as an array, lane 0 first.
     #[inline(always)]
     pub fn to_array(self) -> [DVec3; LANES] {
         let [x, y, z] = [self.x, self.y, self.z].map(Lanes::to_array);
@@ -230,7 +230,7 @@ impl<S: Simd> Vector<Lanes<S>> {
             .any_true()
     }
 
-    /// By how much each component goes beyond a bound, either way.
+    /// Returns by how much each component goes beyond a bound, either way.
     #[inline(always)]
     pub fn beyond(self, bound: Self) -> Self {
         Self { x: self.x.beyond(bound.x), y: self.y.beyond(bound.y), z: self.z.beyond(bound.z) }

@@ -93,7 +93,8 @@ impl MaterialPair {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct MaterialPairs {
     list: Vec<MaterialPair>,
-    /// By the first material, then the second: one more than the index in the list, 0 for no pair.
+    /// Number of the pair, by the first material, then the second: one more than the index in the
+    /// list, 0 for no pair.
     table: Vec<u16>,
     /// Largest material, plus one.
     side: usize,

@@ -54,7 +54,7 @@ impl<T> Numbered<T> {
         self.items.iter_mut().map(|(_, item)| item)
     }
 
-    /// Items made of these, with the same numbers.
+    /// Returns the items that `make` makes of these, with the same numbers.
     #[cfg(feature = "serde")]
     pub fn try_map<U, E>(&self, make: impl Fn(&T) -> Result<U, E>) -> Result<Numbered<U>, E> {
         let made = |(number, item)| Ok((number, make(item)?));

@@ -41,9 +41,10 @@ impl PathLeg {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum PathEnd {
-    /// At the end of the requested time.
+    /// The path ends with the requested time.
     Horizon,
-    /// At the last requested impact. A leg of zero length has the velocity after it.
+    /// The path ends with the last requested impact. A leg of zero length has the velocity after
+    /// it.
     Impacts,
     /// Where the motion cannot be followed: a step would put the sphere into a stepped zone, or fail.
     NoClosedForm,
@@ -53,7 +54,7 @@ pub enum PathEnd {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct PredictedPath {
-    /// Its pieces, one after the other without gaps.
+    /// Pieces of the path, one after the other without gaps.
     pub legs: Vec<PathLeg>,
     /// Impacts of the sphere on the way. They count their time from now \[s\].
     pub impacts: Vec<Impact>,
@@ -77,7 +78,7 @@ impl PredictedPath {
         Some(self.state_at(time)?.1)
     }
 
-    /// When the path ends, on the world's clock \[s\].
+    /// Returns the time at which the path ends, on the world's clock \[s\].
     pub fn end_time(&self) -> f64 {
         self.legs.last().map_or(f64::NEG_INFINITY, |leg| leg.end)
     }

@@ -94,7 +94,7 @@ impl PolynomialAcceleration {
         (place + (t * velocity + t * t * way), velocity + t * change)
     }
 
-    /// Bounds of it along each axis over all its time \[m/s²\].
+    /// Returns the bounds of the acceleration along each axis over the whole flight \[m/s²\].
     pub fn bounds(&self) -> [DVec3; 2] {
         let [first, rest @ ..] = &self.coefficients;
         let spread: DVec3 = rest.iter().map(|c| c.abs()).sum();
@@ -114,7 +114,7 @@ impl PolynomialAcceleration {
         self.length * self.length * way
     }
 
-    /// The same from a time \[s\] within its length on.
+    /// Returns the rest of the flight from a time \[s\] within its length on.
     pub fn from(&self, time: f64) -> Self {
         let length = self.length - time;
         let rest = shifted(self.coefficients, time / self.length);

@@ -15,9 +15,9 @@ pub(crate) trait Real:
     + Div<Output = Self>
 {
     fn sqrt(self) -> Self;
-    /// The larger one of each two, neither of them NaN.
+    /// Returns the larger number of each two, neither of them NaN.
     fn max(self, other: Self) -> Self;
-    /// At most `bound`; neither is NaN.
+    /// Returns the smaller of the number and `bound`; neither is NaN.
     fn min(self, bound: f64) -> Self;
 }
 

@@ -139,7 +139,7 @@ pub(crate) enum BodyRestitution {
 }
 
 impl BodyRestitution {
-    /// Of a body with this coefficient, which a law replaces.
+    /// Returns the restitution of a body with this coefficient, which a law replaces.
     pub fn of(coefficient: f64, law: Option<RestitutionLaw>) -> Self {
         law.map_or(Self::Constant(coefficient), Self::BySpeed)
     }
@@ -170,7 +170,7 @@ impl BodyRestitution {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) enum ContactRestitution {
     Constant(f64),
-    /// Of two bodies, one of which has a law, at least.
+    /// Restitutions of two bodies, at least one of which has a law.
     BySpeed([BodyRestitution; 2], CombineRule),
 }
 
@@ -207,7 +207,7 @@ impl ContactRestitution {
         }
     }
 
-    /// That of a contact for which it is given.
+    /// Returns the restitution of a contact that has one of its own.
     pub fn given(restitution: BodyRestitution) -> Self {
         Self::of([restitution, BodyRestitution::Constant(1.0)], CombineRule::Product)
     }

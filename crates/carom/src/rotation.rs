@@ -26,7 +26,7 @@ pub(crate) fn axes(rotation: DQuat) -> [DVec3; 3] {
     DVec3::AXES.map(|axis| without_rounding(rotation * axis))
 }
 
-/// A unit vector without the components that are rounding.
+/// A turned unit vector without the components that are rounding.
 fn without_rounding(axis: DVec3) -> DVec3 {
     let is_rounding = axis.abs().cmple(DVec3::splat(ROUNDING));
     if (is_rounding & axis.cmpne(DVec3::ZERO)).any() {
@@ -35,6 +35,21 @@ fn without_rounding(axis: DVec3) -> DVec3 {
     } else {
         axis
     }
+}
+
+/// Turns a unit vector; components that are rounding of the turn are zero.
+pub(crate) fn turned_direction(rotation: DQuat, direction: DVec3) -> DVec3 {
+    if rotation == DQuat::IDENTITY { direction } else { without_rounding(rotation * direction) }
+}
+
+/// Turns a vector of any length; components that are rounding of the turn are zero.
+pub(crate) fn turned_offset(rotation: DQuat, offset: DVec3) -> DVec3 {
+    if rotation == DQuat::IDENTITY {
+        return offset;
+    }
+    let turned = rotation * offset;
+    let least = ROUNDING * turned.abs().max_element();
+    DVec3::select(turned.abs().cmple(DVec3::splat(least)), DVec3::ZERO, turned)
 }
 
 /// Returns the rotation vector of a rotation \[rad\]: its axis times its angle, by the shorter way.

@@ -9,7 +9,7 @@ use crate::collider::{Ends, Shape};
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct RoundSolid {
-    /// On the axis \[m\].
+    /// Centre of the solid, on its axis \[m\].
     pub center: DVec3,
     /// Unit vector.
     pub axis: DVec3,
@@ -34,7 +34,7 @@ pub(crate) enum Outline {
 const MOST_PIECES: usize = 3;
 
 impl Outline {
-    /// Of a shape that is one of revolution, or whose inside is.
+    /// Returns the outline of a shape that is a solid of revolution, or whose inside is one.
     pub fn of(shape: &Shape) -> Option<Self> {
         Some(match *shape {
             Shape::Cylinder { radius, height } | Shape::Pipe { radius, length: height, .. } => {
@@ -51,7 +51,7 @@ impl Outline {
         })
     }
 
-    /// Its side and its discs, outward.
+    /// Returns the profiles of its side and its discs, facing outward.
     fn profiles(&self) -> [Option<Profile>; MOST_PIECES] {
         match *self {
             Self::Frustum { bottom_radius, top_radius, half } => {
@@ -89,7 +89,7 @@ impl Outline {
 }
 
 impl RoundSolid {
-    /// Its side and its discs, outward.
+    /// Returns the bands of its side and its discs, facing outward.
     pub fn bands(&self) -> impl Iterator<Item = Band> {
         let Self { center, axis, outline } = *self;
         let profiles = outline.profiles().into_iter().flatten();

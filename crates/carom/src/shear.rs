@@ -32,7 +32,8 @@ impl Shear {
         DVec3::new(self.rate * place.y, 0.0, 0.0)
     }
 
-    /// How far the box above has slid along x at `time` \[s\]: a number of edges, and a rest of less than one \[m\].
+    /// Returns how far the box above has slid along x at `time` \[s\]: a number of edges, and a
+    /// rest of less than one \[m\].
     pub fn slide(&self, time: f64) -> (f64, f64) {
         let way = self.speed() * time;
         // The remainder is exact, so the same image gets the same place from any count of edges.

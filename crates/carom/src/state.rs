@@ -57,13 +57,13 @@ pub(crate) struct State {
 }
 
 impl State {
-    /// What a step reads, and what it moves.
+    /// Returns what a step reads, and what it moves.
     pub fn split(&mut self) -> (System<'_>, &mut Motion) {
         let (system, motion, _) = self.split_with_solver();
         (system, motion)
     }
 
-    /// What a step reads, what it moves, and what the rule `contact` keeps.
+    /// Returns what a step reads, what it moves, and the solver that the rule `contact` keeps.
     pub fn split_with_solver(&mut self) -> (System<'_>, &mut Motion, &mut Solver) {
         let Self { settings, material_pairs, forces, springs, colliders, spheres, solver, .. } =
             self;
@@ -154,7 +154,7 @@ impl State {
         springs.retain(|spring| spring.spheres().all(|id| spheres.index_of(id).is_some()));
     }
 
-    /// Refuses forces that make no sense in what is around the spheres.
+    /// Refuses forces that are invalid in the boundary of the world.
     pub fn check_boundary(settings: &Settings, force: &dyn Force) -> Result<(), InvalidValue> {
         let suits = force.interaction().is_none_or(|it| it.suits_periodic_box());
         let requirement =

@@ -5,7 +5,7 @@ use std::cell::Cell;
 use glam::{DQuat, DVec2, DVec3};
 
 use crate::band::{Band, Profile};
-use crate::collider::{Collider, Shape, Sides};
+use crate::collider::{Collider, Shape};
 use crate::collider_motion::{Carriage, Course};
 use crate::friction::Friction;
 use crate::groups::Groups;
@@ -17,6 +17,7 @@ pub(crate) use crate::rectangle::Rectangle;
 use crate::restitution::BodyRestitution;
 use crate::rotation;
 use crate::round_solid::{Outline, RoundSolid};
+pub(crate) use crate::solid_box::SolidBox;
 pub(crate) use crate::surface_motion::SurfaceMotion;
 
 /// One surface of a collider in world coordinates, with what a contact needs to know of it.
@@ -37,12 +38,12 @@ pub(crate) struct Surface {
     pub role: Role,
     /// Now.
     pub motion: SurfaceMotion,
-    /// From now on, if it is not steady.
+    /// Motion from now on, if it is not steady.
     pub course: Option<Course>,
 }
 
 impl SurfaceMotion {
-    /// Of the surfaces of a collider, as if that went on steadily.
+    /// Returns the motion of the surfaces of a collider, taken as steady.
     pub fn of(collider: &Collider) -> Self {
         let Collider { pose, velocity, angular_velocity, .. } = *collider;
         let belt = belt_of(collider);
@@ -92,12 +93,12 @@ impl Surface {
         Self { form, motion, course: self.course_after(h), ..self.clone() }
     }
 
-    /// Its motion from `h` \[s\] later on, if it is not steady.
+    /// Returns the motion from `h` \[s\] later on, if it is not steady.
     pub fn course_after(&self, h: f64) -> Option<Course> {
         self.course.as_ref().map(|course| course.after(h))
     }
 
-    /// Its motion between two times from now \[s\], as if that were steady.
+    /// Returns the mean motion between two times from now \[s\], as a steady one.
     pub fn mean_motion(&self, times: [f64; 2]) -> Option<SurfaceMotion> {
         let course = self.course.as_ref()?;
         let (_, SurfaceMotion { belt, .. }) = self.carried(&course.carriage(times[0]));
@@ -191,7 +192,7 @@ pub(crate) enum Form {
     Round(RoundSolid),
     /// What a closed mesh encloses.
     Closed(ClosedMesh),
-    /// Of a mesh, as the next two.
+    /// A face of a mesh; the next two are its edges and corners.
     Facet(Facet),
     Edge(Edge),
     Corner(Corner),
@@ -206,18 +207,29 @@ impl Form {
         match self {
             Self::Rectangle(rectangle) => rectangle.is_open,
             Self::Band(band) => band.is_open,
+            Self::Facet(facet) => facet.frame.is_open,
+            Self::Edge(edge) => edge.is_open,
+            Self::Corner(corner) => corner.is_open,
             _ => false,
         }
     }
 
+    /// Whether it is a face, an edge or a corner of a mesh, which counts for the spheres nearest to it.
+    pub fn is_feature(&self) -> bool {
+        matches!(self, Self::Facet(_) | Self::Edge(_) | Self::Corner(_))
+    }
+
     /// Returns the same form, met by all that overlap it from the front.
-    pub fn closed(self) -> Self {
-        let is_open = false;
-        match self {
-            Self::Rectangle(rectangle) => Self::Rectangle(Rectangle { is_open, ..rectangle }),
-            Self::Band(band) => Self::Band(Band { is_open, ..band }),
-            other => other,
+    pub fn closed(mut self) -> Self {
+        match &mut self {
+            Self::Rectangle(rectangle) => rectangle.is_open = false,
+            Self::Band(band) => band.is_open = false,
+            Self::Facet(facet) => facet.frame.is_open = false,
+            Self::Edge(edge) => edge.is_open = false,
+            Self::Corner(corner) => corner.is_open = false,
+            _ => {}
         }
+        self
     }
 
     /// Whether the turning of a motion leaves it as it is.
@@ -228,7 +240,7 @@ impl Form {
         }
     }
 
-    /// The same form carried along.
+    /// Returns the form moved by a placement.
     pub fn placed(&self, placement: &Placement) -> Self {
         let place = |point: DVec3| placement.point(point);
         let turn = |direction: DVec3| placement.direction(direction);
@@ -252,7 +264,7 @@ impl Form {
         }
     }
 
-    /// The same form elsewhere by this way \[m\].
+    /// Returns the form shifted by a way \[m\].
     pub fn shifted(&self, way: DVec3) -> Self {
         let placement = Placement { rotation: DQuat::IDENTITY, from: DVec3::ZERO, to: way };
         match *self {
@@ -313,17 +325,6 @@ impl Form {
     }
 }
 
-/// A solid box in the world.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(crate) struct SolidBox {
-    pub center: DVec3,
-    /// Directions of its edges, orthonormal.
-    pub axes: [DVec3; 3],
-    /// Half the lengths along the axes \[m\].
-    pub half: DVec3,
-}
-
 /// Appends the surfaces of a collider at `time` \[s\]. Those of a solid box are its volume and then its faces, in
 /// the order -x, +x, -y, +y, -z, +z; those of a container its walls in the same order, each facing
 /// outward and then inward. A box or a container that only reports is its volume. A solid of revolution has its volume,
@@ -339,8 +340,8 @@ pub(crate) fn place(id: ColliderId, collider: &Collider, time: f64, surfaces: &m
     };
     let (center, rotation) = (pose.position, pose.rotation.normalize());
     let axes @ [_, y, _] = rotation::axes(rotation);
-    let mut add = |form, role| {
-        let role = if trigger { Role::Reports } else { role };
+    let mut add = |form: Form, role| {
+        let (form, role) = if trigger { (form.closed(), Role::Reports) } else { (form, role) };
         let collider = id;
         surfaces.push(Surface {
             form,
@@ -356,12 +357,11 @@ pub(crate) fn place(id: ColliderId, collider: &Collider, time: f64, surfaces: &m
             course: course.clone(),
         });
     };
-    let is_open = !trigger;
     match *shape {
         Shape::Sphere { radius } => add(Form::Sphere { center, radius }, Role::Deflects),
         Shape::HalfSpace => add(Form::HalfSpace { point: center, normal: y }, Role::Deflects),
         Shape::Rectangle { size_x, size_z } => {
-            let plate = plate(center, axes, [size_x, size_z], is_open);
+            let plate = plate(center, axes, [size_x, size_z]);
             add(Form::Rectangle(plate), Role::Deflects);
         }
         Shape::Box { size } => {
@@ -386,7 +386,7 @@ pub(crate) fn place(id: ColliderId, collider: &Collider, time: f64, surfaces: &m
         }
         Shape::Disc { radius } => {
             let profile = Profile::line(DVec2::ZERO, DVec2::new(radius, 0.0));
-            add(Form::Band(Band { center, axis: y, profile, is_open }), Role::Deflects);
+            add(Form::Band(Band { center, axis: y, profile, is_open: true }), Role::Deflects);
         }
         Shape::Mesh(ref mesh) => {
             let placement = Placement { rotation, from: DVec3::ZERO, to: center };
@@ -406,14 +406,9 @@ pub(crate) fn place(id: ColliderId, collider: &Collider, time: f64, surfaces: &m
 }
 
 /// A rectangle about `center` \[m\] with these full lengths along the first and the last of its axes \[m\].
-fn plate(
-    center: DVec3,
-    [axis_x, normal, axis_z]: [DVec3; 3],
-    size: [f64; 2],
-    is_open: bool,
-) -> Rectangle {
+fn plate(center: DVec3, [axis_x, normal, axis_z]: [DVec3; 3], size: [f64; 2]) -> Rectangle {
     let [half_x, half_z] = size.map(|length| 0.5 * length);
-    Rectangle { center, axis_x, axis_z, normal, half_x, half_z, is_open }
+    Rectangle { center, axis_x, axis_z, normal, half_x, half_z, is_open: true }
 }
 
 /// Places a solid of revolution, its volume first, or the walls of a hollow one.
@@ -449,47 +444,4 @@ pub(crate) fn place_mesh(features: &Features, placement: &Placement, mut add: im
     }
     features.edges.iter().for_each(|edge| add(Form::Edge(placement.edge(edge))));
     features.corners.iter().for_each(|corner| add(Form::Corner(placement.corner(corner))));
-}
-
-impl SolidBox {
-    /// The smallest one about a closed mesh along the axes of its frame.
-    pub fn about(mesh: &ClosedMesh) -> Self {
-        let (center, axes, half) = mesh.box_about();
-        Self { center, axes, half }
-    }
-
-    /// Size of the coordinates that it is given by \[m\].
-    fn coordinates(&self) -> f64 {
-        self.center.norm() + self.half.element_sum()
-    }
-
-    /// Height of its highest point above a plane, which is given by a point \[m\] and its normal.
-    fn height_above(&self, [point, normal]: [DVec3; 2]) -> f64 {
-        let rises = self.axes.map(|axis| axis.dot(normal).abs());
-        (self.center - point).dot(normal) + self.half.dot(DVec3::from_array(rises))
-    }
-
-    /// The faces that are not open, outward.
-    fn walls(&self, open: Sides) -> impl Iterator<Item = Rectangle> {
-        let faces = self.faces().into_iter().zip(open.to_array());
-        faces.filter_map(|(face, is_open)| (!is_open).then_some(face))
-    }
-
-    /// The six faces, outward.
-    pub fn faces(&self) -> [Rectangle; 6] {
-        std::array::from_fn(|number| {
-            let axis = number / 2;
-            let (first, second) = [(1, 2), (0, 2), (0, 1)][axis];
-            let normal = if number % 2 == 0 { -self.axes[axis] } else { self.axes[axis] };
-            Rectangle {
-                center: self.center + self.half[axis] * normal,
-                axis_x: self.axes[first],
-                axis_z: self.axes[second],
-                normal,
-                half_x: self.half[first],
-                half_z: self.half[second],
-                is_open: false,
-            }
-        })
-    }
 }

@@ -24,7 +24,7 @@ pub(crate) struct SurfaceMotion {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Drive {
-    /// Of the origin \[m/s²\].
+    /// Acceleration of the origin \[m/s²\].
     pub acceleration: DVec3,
     /// Angular acceleration \[rad/s²\].
     pub angular_acceleration: DVec3,
@@ -37,7 +37,7 @@ pub(crate) struct Drive {
 }
 
 impl SurfaceMotion {
-    /// Of a surface at rest.
+    /// Motion of a surface at rest.
     pub const REST: Self = Self {
         origin: DVec3::ZERO,
         velocity: DVec3::ZERO,
@@ -52,7 +52,7 @@ impl SurfaceMotion {
         is_slow && self.drive.is_none()
     }
 
-    /// Velocity \[m/s\] of the surface at a point of it.
+    /// Returns the velocity \[m/s\] of the surface at one of its points.
     pub fn velocity_at(&self, point: DVec3) -> DVec3 {
         self.velocity + self.angular_velocity.cross(point - self.origin)
     }
@@ -62,7 +62,7 @@ impl SurfaceMotion {
         self.belt - self.belt.dot(normal) * normal
     }
 
-    /// Whether directions change with it.
+    /// Returns whether the motion turns directions.
     pub fn turns(&self) -> bool {
         self.angular_velocity != DVec3::ZERO || self.drive.is_some_and(|it| it.turns)
     }
@@ -85,7 +85,7 @@ impl SurfaceMotion {
         Pose::at(DVec3::ZERO).moved(DVec3::ZERO, self.angular_velocity, h).rotation * direction
     }
 
-    /// Where a point \[m\] that moves along is after `h` \[s\].
+    /// Returns where a point \[m\] that moves with the surface is after `h` \[s\].
     pub fn carried(&self, point: DVec3, h: f64) -> DVec3 {
         if !self.turns() {
             return point + h * self.velocity;
@@ -93,7 +93,7 @@ impl SurfaceMotion {
         self.origin + h * self.velocity + self.turned(point - self.origin, h)
     }
 
-    /// Where a point \[m\] was that has moved along for `h` \[s\].
+    /// Returns where a point \[m\] was that has moved with the surface for `h` \[s\].
     pub fn carried_back(&self, point: DVec3, h: f64) -> DVec3 {
         if !self.turns() {
             return point - h * self.velocity;

@@ -39,7 +39,7 @@ pub(crate) struct System<'a> {
     pub moving: &'a MovingSurfaces,
     /// Time \[s\] for which the surfaces have moved on since the step began; `None` at its start.
     pub moved_for: Option<f64>,
-    /// Of the surfaces that report contact and deflect nothing.
+    /// Tree of the surfaces that report contact and deflect nothing.
     pub trigger_tree: &'a SurfaceTree,
     pub spheres: &'a Properties,
     /// Under rules that find at the end of a frame what spheres meet.
@@ -104,7 +104,9 @@ impl<'a> System<'a> {
     #[inline]
     pub fn meets_surface(&self, sphere: u32, surface: u32) -> bool {
         let (surface, index) = (&self.surfaces[surface as usize], sphere as usize);
-        let passes = |start: FrameStart| start.passes(index, self.spheres.radius[index], surface);
+        let radius = self.spheres.radius[index];
+        let all = (self.surfaces, self.tree);
+        let passes = |start: FrameStart| start.passes(index, radius, surface, all);
         self.spheres.groups(index).collides(surface.groups) && !self.frame_start.is_some_and(passes)
     }
 

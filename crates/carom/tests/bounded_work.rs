@@ -114,3 +114,80 @@ fn every_shape_beside_every_other_lets_balls_bounce_and_roll_across_the_seam() {
         }
     }
 }
+
+/// A force that takes energy from what moves.
+type Damping = fn(&mut World);
+
+const DAMPINGS: [Damping; 2] = [
+    |world| {
+        world.add_force(ViscousDrag::new(5.0)).unwrap();
+    },
+    |world| {
+        world.add_force(Wind::new(DVec3::ZERO, 5.0)).unwrap();
+    },
+];
+
+/// A ball of 1 kg and 0.1 m that never loses energy in impacts, above a slope that falls towards +x by an angle
+/// \[rad\], in a fluid.
+fn elastic_ball_in_a_fluid(damping: Damping, angle: f64, friction: f64) -> World {
+    let mut world = world(Exact::default());
+    world.add_force(Gravity::new(vec(0.0, -G, 0.0))).unwrap();
+    damping(&mut world);
+    let slope = Pose::at(DVec3::ZERO).rotated(DQuat::from_rotation_z(-angle));
+    let slope = Collider::new(Shape::HalfSpace, slope).with_restitution(1.0);
+    world.add_collider(slope.with_friction(friction)).unwrap();
+    world.add_sphere(Sphere::new(vec(0.0, 1.0, 0.0), 0.1).with_restitution(1.0)).unwrap();
+    world
+}
+
+/// Between bounces drag takes the part 2/3 γ t of the speed, so the rate of bounces grows as e^(2/3 γ t): up to a
+/// rate r there are r/(2/3 γ).
+#[test]
+fn an_elastic_ball_in_a_fluid_comes_to_rest_after_some_thousand_bounces() {
+    for damping in DAMPINGS {
+        for friction in [0.0, 0.2] {
+            let mut world = elastic_ball_in_a_fluid(damping, 0.0, friction);
+            let work = work_of(&mut world, 600);
+            assert!(work < 100_000, "{friction}: {work}");
+            let (place, velocity) =
+                (world.spheres().positions()[0], world.spheres().velocities()[0]);
+            // Hops that count as none are 10⁻⁶ of the radius high.
+            assert!((place.y - 0.1).abs() < 1e-7 && velocity.length() < 1e-9, "{place} {velocity}");
+        }
+    }
+}
+
+#[test]
+fn an_elastic_ball_that_hops_down_a_slope_in_a_fluid_slides_at_its_terminal_velocity() {
+    let angle: f64 = 0.2;
+    for damping in DAMPINGS {
+        let mut world = elastic_ball_in_a_fluid(damping, angle, 0.0);
+        let work = work_of(&mut world, 600);
+        assert!(work < 100_000, "{work}");
+        // m g sin θ = k v
+        let terminal = G * libm::sin(angle) / 5.0;
+        let velocity = world.spheres().velocities()[0];
+        let along = vec(libm::cos(angle), -libm::sin(angle), 0.0);
+        // What is left of the start after 10 s is e⁻⁵⁰; zones round to 10⁻¹² in a sub-step.
+        assert!((velocity - terminal * along).length() < 1e-9, "{velocity} {terminal}");
+    }
+}
+
+#[test]
+fn elastic_balls_on_each_other_in_a_fluid_come_to_rest_after_some_thousand_bounces() {
+    for damping in DAMPINGS {
+        let mut world = elastic_ball_in_a_fluid(damping, 0.0, 0.0);
+        for height in [2.0, 3.0] {
+            let ball = Sphere::new(vec(0.0, height, 0.0), 0.1).with_restitution(1.0);
+            world.add_sphere(ball).unwrap();
+        }
+        let work = work_of(&mut world, 600);
+        // Each bounce of the column is a group, which takes some iterations of the solver.
+        assert!(work < 1_000_000, "{work}");
+        let heights = world.spheres().positions().iter().map(|place| place.y);
+        for (height, at_rest) in heights.zip([0.1, 0.3, 0.5]) {
+            // Zones leave overlaps of up to a thousandth of the radius.
+            assert!((height - at_rest).abs() < 2e-4, "{height} {at_rest}");
+        }
+    }
+}

@@ -276,3 +276,30 @@ fn elastic_balls_in_a_box_keep_their_energy_when_several_meet_in_a_sub_step() {
         );
     }
 }
+
+#[test]
+fn elastic_balls_in_a_crowded_box_keep_their_energy() {
+    // Islands of balls of different speeds reach into each other.
+    for (across, packing) in [(2, 0.6), (4, 0.6), (6, 0.5)] {
+        let mut world = World::new(Settings::default().with_rule(contact())).unwrap();
+        let (radius, count) = (0.05, f64::from(across));
+        let width = count * radius * (std::f64::consts::PI / packing).sqrt();
+        let size = vec(width, width, 1.0);
+        let walls =
+            Collider::new(Shape::Container { size, open: Sides::NONE }, Pose::at(DVec3::ZERO));
+        world.add_collider(walls.with_restitution(1.0)).unwrap();
+        let mut numbers = Numbers(7);
+        for i in 0..across * across {
+            let place = |i: i32| (f64::from(i) + 0.5) * width / count - 0.5 * width;
+            let velocity = 2.0 * numbers.vector().with_z(0.0);
+            let ball = Sphere::new(vec(place(i % across), place(i / across), 0.0), radius);
+            let ball = ball.with_mass(1.0).with_velocity(velocity).with_restitution(1.0);
+            world.add_sphere(ball).unwrap();
+        }
+        let start = world.total_energy();
+        let (account, [least, _]) = watch(&mut world, 2.0, FRAME);
+        // Each of some thousand impacts is iterated to 1e-12 of the largest impulse.
+        assert!((least - start).abs() < 1e-9 * start, "{across}: {least} of {start}");
+        assert!(account.contacts.abs() < 1e-9 * start, "{across}: {account:?}");
+    }
+}

@@ -140,7 +140,7 @@ fn a_ball_that_slides_off_a_disc_falls_at_its_rim() {
     assert!(off < 1e-11, "{off}");
 }
 
-/// Of 600 balls that slide with friction, wherever rounding puts them at the rim.
+/// Tries 600 balls that slide with friction: all fall, wherever rounding puts them at the rim.
 #[test]
 fn a_ball_slowed_by_friction_falls_at_the_rim_of_a_cap() {
     for number in 0..600 {

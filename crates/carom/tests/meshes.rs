@@ -223,7 +223,12 @@ fn valley() -> Shape {
 
 /// A ball below the left side of a valley, on its way to the right one, both in motion; the valley turns, too. Returns
 /// the velocity of the ball at the end and the times of its impacts \[s\]. In air its path is a polynomial.
-fn into_valley([motion, turning]: [DVec3; 2], has_air: bool, frame: f64) -> (DVec3, Vec<f64>) {
+fn into_valley(
+    radius: f64,
+    [motion, turning]: [DVec3; 2],
+    has_air: bool,
+    frame: f64,
+) -> (DVec3, Vec<f64>) {
     let mut world = world(Exact::default());
     if has_air {
         // So thin that it slows nothing down.
@@ -231,7 +236,7 @@ fn into_valley([motion, turning]: [DVec3; 2], has_air: bool, frame: f64) -> (DVe
     }
     let valley = Collider::new(valley(), Pose::at(DVec3::ZERO)).moving(motion, turning);
     world.add_collider(valley).unwrap();
-    let ball = Sphere::new(vec(-1.0, 0.2, 0.1), 0.5).with_velocity(DVec3::X + motion);
+    let ball = Sphere::new(vec(-1.0, 0.2, 0.1), radius).with_velocity(DVec3::X + motion);
     let ball = world.add_sphere(ball).unwrap();
     let (frames, mut times) = ((1.5 / frame).round() as usize, Vec::new());
     for number in 0..frames {
@@ -242,8 +247,9 @@ fn into_valley([motion, turning]: [DVec3; 2], has_air: bool, frame: f64) -> (DVe
 }
 
 #[test]
-fn a_ball_from_behind_meets_the_other_side_of_a_valley_where_it_comes_over_it() {
-    // It passes the left side from behind at x = -0.2, and is over the right one from there on: that turns it up.
+fn a_ball_from_behind_meets_the_other_side_of_a_valley_unless_it_reaches_into_it_already() {
+    // Its centre passes the left side from behind at x = -0.2, and is over the right one from there on: that turns a
+    // small ball up, while a large one passes both.
     let motion = vec(0.5, 0.25, 0.0);
     // So slowly that it does not matter.
     let turning = vec(0.0, 0.0, 1e-14);
@@ -256,10 +262,13 @@ fn a_ball_from_behind_meets_the_other_side_of_a_valley_where_it_comes_over_it() 
     ] {
         let [motion, _] = motions;
         for frame in [0.25, 0.0625, 1.5] {
-            let (velocity, times) = into_valley(motions, has_air, frame);
+            let (velocity, times) = into_valley(0.5, motions, has_air, frame);
+            assert_eq!(times, [0.0; 0]);
+            assert!((velocity - motion - DVec3::X).length() < 1e-13, "{velocity}");
+            let (velocity, times) = into_valley(0.25, motions, has_air, frame);
             let [time] = times[..] else { panic!("{times:?}") };
             // Some roundings of coordinates up to 6 m, at 1 m/s, and what the turning does.
-            assert!((time - 0.8).abs() < 1e-13, "{time}");
+            assert!((time - 1.2 + 0.25 * 2.0f64.sqrt()).abs() < 1e-13, "{time}");
             assert!((velocity - motion - DVec3::Y).length() < 1e-13, "{velocity}");
         }
     }

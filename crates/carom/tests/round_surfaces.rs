@@ -7,9 +7,9 @@ use carom::{
 };
 
 const G: f64 = 9.81;
-/// Of the hollows \[m\].
+/// Radius of the hollows \[m\].
 const HOLLOW: f64 = 1.0;
-/// Of the balls \[m\].
+/// Radius of the balls \[m\].
 const BALL: f64 = 0.1;
 /// Distance of the centre of a ball in a hollow from its axis \[m\].
 const PATH: f64 = HOLLOW - BALL;

@@ -5,8 +5,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use carom::packing::packing_fraction;
 use carom::{
-    Bisect, Boundary, Collider, Contact, DQuat, DVec3, Discrete, Ends, Error, Exact, Gravity, Pose,
-    Rule, Settings, Shape, Sphere, StressMeter, Thermostat, World,
+    Bisect, Boundary, Collider, Contact, DQuat, DVec3, Discrete, Ends, Error, Exact, Gravity, Mesh,
+    Pose, Rule, Settings, Shape, Sides, Sphere, StressMeter, Thermostat, World,
 };
 
 mod common;
@@ -120,6 +120,85 @@ fn discs_stay_in_the_plane_among_pillars_and_walls_that_are_turned_upright() {
             world.step(1.0 / 60.0).unwrap();
         }
         assert!(world.spheres().positions().iter().all(|it| it.z == 0.0), "{rule:?}");
+    }
+}
+
+/// A valley whose cross-section lies in its xz plane, which a quarter turn about x makes that of the discs.
+fn valley() -> Mesh {
+    let profile = [[-1.0, 0.8], [-0.5, 0.1], [0.1, -0.05], [0.6, 0.2], [1.0, 0.9]];
+    let along = |[x, z]: [f64; 2]| [-1.0, 1.0].map(|y| vec(x, y, -z));
+    let triangles =
+        (0..4).map(|it| 2 * it).flat_map(|it| [[it, it + 1, it + 2], [it + 2, it + 1, it + 3]]);
+    Mesh::new(profile.into_iter().flat_map(along).collect(), triangles.collect()).unwrap()
+}
+
+/// Asserts that discs of several radii that roll and slide on a surface never leave the plane.
+fn assert_stays_in_plane(settings: Settings, surface: Collider, count: usize, size: f64) {
+    let what = format!("{:?}, {surface:?}, {count} discs", settings.rule);
+    let mut world = World::new(settings).unwrap();
+    world.add_force(Gravity::new(-9.81 * size * DVec3::Y)).unwrap();
+    world.add_collider(surface.clone()).unwrap();
+    for number in 0..count {
+        let place = size * vec(0.1 + 0.2 * number as f64, 0.25 * number as f64, 0.0);
+        let radius = size * [0.1, 0.08, 0.04, 0.02][number];
+        let disc = Sphere::new(place, radius).with_restitution(0.3).with_friction(0.3);
+        world.add_sphere(disc).unwrap();
+    }
+    for _ in 0..180 {
+        world.step(1.0 / 60.0).unwrap_or_else(|error| panic!("{what}: {error}"));
+    }
+    let spheres = world.spheres();
+    for number in 0..count {
+        let [place, velocity] = [spheres.positions()[number], spheres.velocities()[number]];
+        let spin = spheres.angular_velocities().get(number).copied().unwrap_or_default();
+        assert_eq!([place.z, velocity.z, spin.x, spin.y], [0.0; 4], "{what}");
+    }
+}
+
+#[test]
+fn discs_with_friction_stay_in_the_plane_on_turned_surfaces() {
+    let upright = DQuat::from_rotation_x(FRAC_PI_2);
+    let tilted = DQuat::from_rotation_z(0.3) * upright;
+    let pipe = Shape::Pipe { radius: 1.0, length: 1.0, closed: Ends::NONE };
+    let torus = Shape::Torus { ring_radius: 0.8, tube_radius: 0.1 };
+    let room = Shape::Container { size: vec(2.0, 1.0, 2.0), open: Sides::NONE };
+    let surfaces = [
+        (Shape::Mesh(valley()), upright),
+        (Shape::Mesh(valley()), tilted),
+        (Shape::Mesh(valley()), upright * DQuat::from_rotation_y(0.3)),
+        (pipe, tilted),
+        (torus, -upright.inverse()),
+        (room, upright * DQuat::from_rotation_y(0.7)),
+        (Shape::Bowl { radius: 1.0, opening: 0.9 }, DQuat::from_rotation_z(0.3)),
+    ];
+    for (shape, turn) in surfaces {
+        let still = Collider::new(shape, Pose::at(DVec3::ZERO).rotated(turn))
+            .with_friction(0.4)
+            .with_restitution(0.3);
+        let turning = still.clone().moving(DVec3::ZERO, 0.2 * DVec3::Z);
+        for rule in [
+            Rule::Exact(Exact::default()),
+            Rule::Contact(Contact::default()),
+            Rule::Discrete(Discrete::default()),
+            Rule::Bisect(Bisect::default()),
+        ] {
+            for (surface, count) in [(&still, 1), (&still, 4), (&turning, 2)] {
+                assert_stays_in_plane(settings().with_rule(rule), surface.clone(), count, 1.0);
+            }
+        }
+    }
+}
+
+#[test]
+fn discs_of_any_size_roll_in_the_plane() {
+    let upright = DQuat::from_rotation_x(FRAC_PI_2);
+    for size in [libm::ldexp(1.0, -20), libm::ldexp(1.0, 20)] {
+        let pipe = Shape::Pipe { radius: size, length: size, closed: Ends::NONE };
+        let surface =
+            Collider::new(pipe, Pose::at(DVec3::ZERO).rotated(upright)).with_friction(0.4);
+        for rule in [Rule::Exact(Exact::default()), Rule::Contact(Contact::default())] {
+            assert_stays_in_plane(settings().with_rule(rule), surface.clone(), 3, size);
+        }
     }
 }
 

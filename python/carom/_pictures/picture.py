@@ -34,7 +34,7 @@ class Renderer:
         quality: How much work goes into a picture.
 
     Raises:
-        CaromError: For a size, camera or quality that makes no sense.
+        CaromError: For a size, camera or quality that is invalid.
         GraphicsError: If nothing can be drawn here.
 
     >>> import carom

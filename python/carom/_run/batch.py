@@ -66,7 +66,7 @@ class Batch(Strict, Actions):
         threads: How many threads step them; one for each processor unless given.
 
     Raises:
-        CaromError: For values that make no sense.
+        CaromError: For invalid values.
 
     >>> import carom
     >>> drops = carom.Batch("tutorial1", 3, changes={"spheres.0.position.1": [5.0, 6.0, 7.0]})
@@ -166,7 +166,7 @@ class Batch(Strict, Actions):
                 each recorded state, not for each frame.
 
         Raises:
-            CaromError: For a value that makes no sense.
+            CaromError: For a value that is invalid.
             StepError: If worlds refuse a frame: see `step`.
         """
         number, rhythm = check_rhythm(frames, every)

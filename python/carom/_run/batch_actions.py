@@ -80,7 +80,7 @@ class Actions(BatchEngine):
 
         Raises:
             UnknownError: If a world has no such collider.
-            CaromError: For a value that makes no sense, or velocities beside a motion.
+            CaromError: For a value that is invalid, or velocities beside a motion.
         """
         given = {
             "position": position,
@@ -120,7 +120,7 @@ class Actions(BatchEngine):
 
         Raises:
             UnknownError: If a world has no such collider.
-            CaromError: For a value that makes no sense, or if a motion moves the collider.
+            CaromError: For a value that is invalid, or if a motion moves the collider.
         """
         self._set_next_pose(self._numbers(worlds), (id, position, rotation), dt)
 
@@ -203,7 +203,7 @@ class Actions(BatchEngine):
 
         Raises:
             UnknownError: If a world has no such collider.
-            CaromError: For a value that makes no sense, or if a motion moves the collider. Worlds
+            CaromError: For a value that is invalid, or if a motion moves the collider. Worlds
                 that refuse it stay as they were, the others have gone on.
             StepError: If worlds refuse the frame: see `carom.Batch.step`.
         """

@@ -40,7 +40,7 @@ class Bodies(Engine):
         """Adds a sphere, which may overlap others, and returns its id.
 
         Raises:
-            SceneError: For a number that makes no sense.
+            SceneError: For a number that is invalid.
         """
         parts.expect("sphere", sphere, parts.Sphere)
         text = f"spheres = [{toml_value(sphere, 'sphere')}]"
@@ -98,7 +98,7 @@ class Bodies(Engine):
             overlap: ``"raise"`` refuses spheres that overlap each other, or what is there.
 
         Raises:
-            CaromError: For shapes that do not fit, and numbers that make no sense, by the number of
+            CaromError: For shapes that do not fit, and invalid numbers, by the number of
                 the sphere; then no sphere is added.
             TypeError: For arrays that are not of numbers.
 
@@ -196,7 +196,7 @@ class Bodies(Engine):
 
         Raises:
             UnknownError: If it is not in the world.
-            SceneError: For a number that makes no sense.
+            SceneError: For a number that is invalid.
         """
         parts.expect("sphere", sphere, parts.Sphere)
         self._set_sphere(id, f"spheres = [{toml_value(sphere, 'sphere')}]")
@@ -206,7 +206,7 @@ class Bodies(Engine):
 
         Raises:
             UnknownError: If the world does not (or no longer) contain it.
-            CaromError: For a number that makes no sense.
+            CaromError: For a number that is invalid.
 
         >>> import carom
         >>> world = carom.World()
@@ -280,7 +280,7 @@ class Bodies(Engine):
 
         Raises:
             UnknownError: If one of its spheres is not in the world (any more).
-            SceneError: For a spring that makes no sense.
+            SceneError: For a spring that is invalid.
 
         >>> import carom
         >>> world = carom.World()
@@ -298,7 +298,7 @@ class Bodies(Engine):
 
         Raises:
             UnknownError: If it, or one of its spheres, is not in the world (any more).
-            SceneError: For a spring that makes no sense.
+            SceneError: For a spring that is invalid.
         """
         parts.expect("spring", spring, parts.Spring)
         self._set_spring(id, f"springs = [{toml_value(spring, 'spring')}]")

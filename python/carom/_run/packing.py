@@ -90,7 +90,7 @@ def pack(
             the fluid is measured, > 0.
 
     Raises:
-        CaromError: For values that make no sense, and for spheres that jam before.
+        CaromError: For invalid values, and for spheres that jam before.
 
     >>> import carom
     >>> fluid = carom.pack(200, 0.4, growth=0.1, equilibrate=10)

@@ -179,7 +179,7 @@ class Trajectory:
             camera: Where to look from: see `carom.Viewpoint`.
 
         Raises:
-            CaromError: If no positions were recorded, or for an argument that makes no sense.
+            CaromError: If no positions were recorded, or for an argument that is invalid.
             GraphicsError: If nothing can be drawn here.
         """
         return above.notebook.show_trajectory(self, scene, size, camera)

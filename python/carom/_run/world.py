@@ -185,7 +185,7 @@ class World(Strict, Queries, Bodies):
             sensor_events: Whether entries into triggers and exits are recorded: 88 bytes for each.
 
         Raises:
-            CaromError: For a number that makes no sense.
+            CaromError: For a number that is invalid.
             MemoryError: If there is not enough for the states, before the first frame.
             StepError: If a number would overflow, or there are too many impacts.
 

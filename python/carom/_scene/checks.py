@@ -82,7 +82,7 @@ class _Kind:
     Attributes:
         words: What a value must be.
         keep: Returns a value as the part keeps it; `_OTHER` for one of another kind. Raises
-            `CaromError` for one of this kind that makes no sense.
+            `CaromError` for one of this kind that is invalid.
         names: The texts among which a value is chosen.
         remedy: What to write instead of a value of another kind, if that is clear.
         problem: What is missing in a value of this kind, if anything is.
@@ -127,7 +127,7 @@ def plain(value: object) -> object:
 
 
 def wrong_value(where: str, words: str, value: object, remedy: str = "") -> CaromError:
-    """The error for a value of the right kind that makes no sense."""
+    """The error for a value of the right kind that is invalid."""
     return CaromError(f"{where}: must be {words}, not {_shown(value)}{remedy}", where)
 
 

@@ -89,7 +89,7 @@ def load(
     Raises:
         UnknownError: If there is none (the message says what is most like it), or if several
             titles have all its words (the message lists them).
-        SceneError: If the scene makes no sense, or not with these changes.
+        SceneError: If the scene is invalid, or not with these changes.
 
     >>> import carom
     >>> carom.load("simtest1").name

@@ -203,7 +203,7 @@ class Scene(parts.Part):
             radius: Radius of every particle [m], for a file without radii.
 
         Raises:
-            CaromError: If the ending is that of no such format, or an argument makes no sense.
+            CaromError: If the ending is that of no such format, or an argument is invalid.
             OSError: If it cannot be read.
             SceneError: With the file and line of what is wrong.
         """
@@ -224,7 +224,7 @@ class Scene(parts.Part):
         """The text of a scene file, every default written out.
 
         Raises:
-            SceneError: If the scene makes no sense.
+            SceneError: If the scene is invalid.
         """
         return canonical_toml(toml_of(self))
 
@@ -263,7 +263,7 @@ class Scene(parts.Part):
         """The world at the start of the scene.
 
         Raises:
-            SceneError: If the scene makes no sense.
+            SceneError: If the scene is invalid.
         """
         return above.run.world_of(self)
 
@@ -337,7 +337,7 @@ class Scene(parts.Part):
             stamp: Whether scene and time stand at the lower left.
 
         Raises:
-            CaromError: For an argument that makes no sense.
+            CaromError: For an argument that is invalid.
             GraphicsError: If nothing can be drawn here.
             OSError: If the file cannot be written.
 
@@ -374,7 +374,7 @@ class Scene(parts.Part):
             stamp: Whether scene and time stand at the lower left.
 
         Raises:
-            CaromError: For an argument that makes no sense, or a step that cannot be taken.
+            CaromError: For an argument that is invalid, or a step that cannot be taken.
             GraphicsError: If nothing can be drawn here.
             OSError: If the file cannot be written.
         """
@@ -402,7 +402,7 @@ class Scene(parts.Part):
             stamp: Whether scene and time stand at the lower left.
 
         Raises:
-            CaromError: For an argument that makes no sense, or a step that cannot be taken.
+            CaromError: For an argument that is invalid, or a step that cannot be taken.
             GraphicsError: If nothing can be drawn here.
         """
         view = View.of(size, camera, quality, stamp)
@@ -418,8 +418,8 @@ class Scene(parts.Part):
             height: Of the viewer [pixels].
 
         Raises:
-            CaromError: For a height that makes no sense, or a scene that is too large.
-            SceneError: If the scene makes no sense.
+            CaromError: For a height that is invalid, or a scene that is too large.
+            SceneError: If the scene is invalid.
         """
         return above.notebook.show(self, height)
 
@@ -429,7 +429,7 @@ class Scene(parts.Part):
         Its ``wait()`` waits until the window is closed.
 
         Raises:
-            SceneError: If the scene makes no sense.
+            SceneError: If the scene is invalid.
             GraphicsError: If this build has no window, or it cannot be opened here.
         """
         return above.pictures.open_window(self)

@@ -97,7 +97,7 @@ def sweep(
         progress: Whether to show a line on stderr (by tqdm); if stderr is a terminal unless given.
 
     Raises:
-        TypeError, CaromError: For arguments that make no sense, a scene among them that cannot even
+        TypeError, CaromError: For invalid arguments, a scene among them that cannot even
             begin the first run; named.
         RunError: If a run fails and ``on_error`` says so, if the cluster is lost, or if a script
             calls this without ``if __name__ == "__main__":``.

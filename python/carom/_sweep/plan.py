@@ -68,7 +68,7 @@ def make_part(part: Any) -> Part | None:
     """Reads which share of a sweep a process has.
 
     Raises:
-        TypeError, CaromError: If it makes no sense.
+        TypeError, CaromError: If it is invalid.
     """
     if part is None:
         return None
@@ -90,7 +90,7 @@ def make_plan(
     """Reads what a sweep goes through.
 
     Raises:
-        TypeError, CaromError: With the name of the argument that makes no sense.
+        TypeError, CaromError: With the name of the argument that is invalid.
     """
     if grid is not None and samples is not None:
         raise TypeError("grid and samples: give one of them")

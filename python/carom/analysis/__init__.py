@@ -10,7 +10,7 @@ True
 Units are those of the arrays, SI for those of Carom. Temperatures are energies kT [J]. Where a
 function takes positions or velocities, it takes a `carom.Trajectory`, too. NaN in an array marks a
 sphere that is not there, as in a `carom.Trajectory`; every function leaves such spheres out.
-What cannot be measured, because nothing is there, is NaN. A value that makes no sense raises a
+What cannot be measured, because nothing is there, is NaN. A value that is invalid raises a
 `carom.CaromError` that names the argument; so does a run without the states or impacts that a
 function needs. The same arrays have the same results to the bit, whatever the number of threads:
 no sum is left to a library of linear algebra, which would divide it among them.

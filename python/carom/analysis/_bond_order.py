@@ -69,7 +69,7 @@ def bond_order(
         The order of each sphere and of all bonds.
 
     Raises:
-        CaromError: For a value that makes no sense, or a sphere with too few neighbours.
+        CaromError: For a value that is invalid, or a sphere with too few neighbours.
 
     >>> from carom import analysis
     >>> cubic = [[x, y, z] for x in range(4) for y in range(4) for z in range(4)]
@@ -110,7 +110,7 @@ def crystal_structure(
         Members of `CrystalStructure`, as numbers, shape (n,).
 
     Raises:
-        CaromError: For a value that makes no sense, or, without a distance, fewer than 15 spheres
+        CaromError: For a value that is invalid, or, without a distance, fewer than 15 spheres
             within half the smallest side of one.
 
     >>> from carom import analysis

@@ -40,7 +40,7 @@ def neighbour_pairs(
         Indices of both spheres of each pair, the smaller first, ascending, shape (m, 2).
 
     Raises:
-        CaromError: For a value that makes no sense.
+        CaromError: For a value that is invalid.
 
     >>> from carom import analysis
     >>> analysis.neighbour_pairs([[0, 0, 0], [9, 0, 0]], (10, 10, 10), distance=2).tolist()
@@ -67,7 +67,7 @@ def clusters(pairs: ArrayLike, count: int) -> Clusters:
         The cluster of each sphere, and the sizes of clusters.
 
     Raises:
-        CaromError: For a value that makes no sense.
+        CaromError: For a value that is invalid.
 
     >>> from carom import analysis
     >>> found = analysis.clusters([[0, 3], [3, 4]], count=5)

@@ -41,7 +41,7 @@ def collision_frequency(
         Collisions of a sphere in a second [1/s], NaN without spheres.
 
     Raises:
-        CaromError: For a value that makes no sense, and for a run without impacts or without two
+        CaromError: For a value that is invalid, and for a run without impacts or without two
             recorded states.
 
     >>> import carom, numpy
@@ -89,7 +89,7 @@ def mean_free_path(velocities: Trajectory | ArrayLike, frequency: float) -> floa
         Mean free path [m], NaN without spheres.
 
     Raises:
-        CaromError: For a value that makes no sense.
+        CaromError: For a value that is invalid.
 
     >>> from carom import analysis
     >>> analysis.mean_free_path([[3, 0, 0], [0, 5, 0]], frequency=2.0)

@@ -38,7 +38,7 @@ def contact_network(
         Indices of both spheres of each pair, the smaller first, ascending, shape (m, 2).
 
     Raises:
-        CaromError: For a value that makes no sense.
+        CaromError: For a value that is invalid.
 
     >>> from carom import analysis
     >>> analysis.contact_network([[0, 0, 0], [1, 0, 0], [3, 0, 0]], 0.5, tolerance=1e-9).tolist()
@@ -73,7 +73,7 @@ def pairs_in_contact(contacts: NDArray[np.void], ids: ArrayLike) -> Indices:
         once, shape (m, 2).
 
     Raises:
-        CaromError: For a value that makes no sense, or a contact of a sphere that has no id there.
+        CaromError: For a value that is invalid, or a contact of a sphere that has no id there.
     """
     numbers = np.asarray(ids).astype(np.int64)
     if numbers.ndim != 1 or (np.diff(numbers) <= 0).any():
@@ -97,7 +97,7 @@ def coordination_numbers(pairs: ArrayLike, count: int) -> Indices:
         Coordination number of each sphere, shape (count,).
 
     Raises:
-        CaromError: For a value that makes no sense.
+        CaromError: For a value that is invalid.
 
     >>> from carom import analysis
     >>> analysis.coordination_numbers([[0, 1], [1, 2]], count=4).tolist()

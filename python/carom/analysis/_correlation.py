@@ -29,7 +29,7 @@ def velocity_autocorrelation(
         is there at both ends of a lag.
 
     Raises:
-        CaromError: For a value that makes no sense.
+        CaromError: For a value that is invalid.
 
     >>> from carom import analysis
     >>> to_and_fro = [[[2, 0, 0]], [[-2, 0, 0]], [[2, 0, 0]]]
@@ -67,7 +67,7 @@ def green_kubo_diffusion(time: ArrayLike, autocorrelation: ArrayLike) -> Floats:
         Integral up to each lag [m²/s], shape (t,).
 
     Raises:
-        CaromError: For a value that makes no sense.
+        CaromError: For a value that is invalid.
 
     >>> from carom import analysis
     >>> analysis.green_kubo_diffusion([0, 1, 2], [3, 1.5, 0]).tolist()

@@ -28,7 +28,7 @@ def unwrap(positions: Trajectory | ArrayLike, box: arguments.Box | None = None) 
         Positions [m], shape (t, n, 3); those of the first frame are unchanged.
 
     Raises:
-        CaromError: For a value that makes no sense.
+        CaromError: For a value that is invalid.
 
     >>> from carom import analysis
     >>> analysis.unwrap([[[4, 0, 0]], [[-4, 0, 0]]], (10, 10, 10))[:, 0, 0].tolist()
@@ -65,7 +65,7 @@ def mean_square_displacement(
         sphere is there at both ends of a lag.
 
     Raises:
-        CaromError: For a value that makes no sense.
+        CaromError: For a value that is invalid.
 
     >>> from carom import analysis
     >>> flight = [[[0, 0, 0]], [[2, 0, 0]], [[4, 0, 0]]]
@@ -123,7 +123,7 @@ def diffusion_coefficient(
         Diffusion coefficient [m²/s].
 
     Raises:
-        CaromError: For a value that makes no sense, or a fit to fewer than two lags.
+        CaromError: For a value that is invalid, or a fit to fewer than two lags.
 
     >>> from carom import analysis
     >>> analysis.diffusion_coefficient([0, 1, 2], [0, 5, 11], begin=1)

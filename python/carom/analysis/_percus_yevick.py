@@ -35,7 +35,7 @@ def percus_yevick_structure_factor(
         S(q), of the shape of ``q``.
 
     Raises:
-        CaromError: For a value that makes no sense.
+        CaromError: For a value that is invalid.
 
     >>> from carom import analysis
     >>> float(analysis.percus_yevick_structure_factor(0.0, 0.3).round(5))
@@ -67,7 +67,7 @@ def percus_yevick_radial_distribution(
         g(r), of the shape of ``r``: 0 within a diameter, 1 beyond 32 diameters.
 
     Raises:
-        CaromError: For a value that makes no sense.
+        CaromError: For a value that is invalid.
 
     >>> from carom import analysis
     >>> analysis.percus_yevick_radial_distribution([0.5, 1.0], 0.3).round(3).tolist()

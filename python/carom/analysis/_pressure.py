@@ -47,7 +47,7 @@ def virial_pressure(run: Trajectory, volume: float) -> VirialPressure:
         Pressure; NaN for a run in which there are no spheres or none moves.
 
     Raises:
-        CaromError: For a value that makes no sense, and for a run without impacts or without two
+        CaromError: For a value that is invalid, and for a run without impacts or without two
             recorded states.
     """
     if not isinstance(run, Trajectory):
@@ -95,7 +95,7 @@ def pressure_from_impacts(
         Pressure.
 
     Raises:
-        CaromError: For a value that makes no sense.
+        CaromError: For a value that is invalid.
 
     >>> import carom, numpy
     >>> from carom import analysis

@@ -66,7 +66,7 @@ def radial_distribution(
         g(r), NaN without spheres.
 
     Raises:
-        CaromError: For a value that makes no sense.
+        CaromError: For a value that is invalid.
 
     >>> from carom import analysis
     >>> pair = analysis.radial_distribution([[0, 0, 0], [9, 0, 0]], (10, 10, 10), r_max=2, bins=2)
@@ -139,7 +139,7 @@ def partial_radial_distribution(
         g_ab(r), NaN where a species has no sphere.
 
     Raises:
-        CaromError: For a value that makes no sense.
+        CaromError: For a value that is invalid.
 
     >>> from carom import analysis
     >>> points = [[0, 0, 0], [1.5, 0, 0], [9, 0, 0]]

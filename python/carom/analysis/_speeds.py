@@ -48,7 +48,7 @@ def temperature(velocities: Trajectory | ArrayLike, masses: ArrayLike) -> Floats
         kT [J], shape (t,); a single frame has one. NaN without spheres.
 
     Raises:
-        CaromError: For a value that makes no sense.
+        CaromError: For a value that is invalid.
 
     >>> from carom import analysis
     >>> analysis.temperature([[3, 0, 0], [0, 3, 0]], masses=2.0).tolist()
@@ -77,7 +77,7 @@ def maxwell_speed_density(speed: ArrayLike, mass: float, temperature: float) -> 
         Density [s/m], of the shape of ``speed``.
 
     Raises:
-        CaromError: For a value that makes no sense.
+        CaromError: For a value that is invalid.
 
     >>> from carom import analysis
     >>> float(analysis.maxwell_speed_density(1.0, mass=1.0, temperature=1.0).round(6))
@@ -103,7 +103,7 @@ def speed_histogram(
         Histogram, all frames together; densities are NaN without spheres.
 
     Raises:
-        CaromError: For a value that makes no sense.
+        CaromError: For a value that is invalid.
     """
     vectors = arguments.frames(velocities, "velocities")
     bins = arguments.bin_count(bins)

@@ -80,7 +80,7 @@ def enskog_collision_frequency(
         Collisions of a sphere in a second [1/s], of the shape of ``packing_fraction``.
 
     Raises:
-        CaromError: For a value that makes no sense.
+        CaromError: For a value that is invalid.
 
     >>> from carom import analysis
     >>> float(analysis.enskog_collision_frequency(0.3).round(3))

@@ -69,7 +69,7 @@ def structure_factor(
         S(q), NaN without spheres.
 
     Raises:
-        CaromError: For a value that makes no sense.
+        CaromError: For a value that is invalid.
 
     >>> import numpy
     >>> from carom import analysis

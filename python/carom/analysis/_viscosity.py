@@ -43,7 +43,7 @@ def stress_series(
         The stress of each frame, as `carom.StressMeter` has it.
 
     Raises:
-        CaromError: For a value that makes no sense.
+        CaromError: For a value that is invalid.
         StepError: If a frame cannot be taken; the frames before are.
     """
     if arguments.whole(frames, "frames") < 0:
@@ -72,7 +72,7 @@ def stress_autocorrelation(stress: ArrayLike, *, lags: int | None = None) -> Flo
         Autocorrelation [Pa²] at lags of 0, 1, 2, ... frames, shape (lags,).
 
     Raises:
-        CaromError: For a value that makes no sense.
+        CaromError: For a value that is invalid.
 
     >>> import numpy
     >>> from carom import analysis
@@ -117,7 +117,7 @@ def green_kubo_viscosity(
         Viscosity up to each lag [Pa s], shape (t,).
 
     Raises:
-        CaromError: For a value that makes no sense.
+        CaromError: For a value that is invalid.
 
     >>> from carom import analysis
     >>> viscosity = analysis.green_kubo_viscosity([0, 1, 2], [2, 1, 0], volume=3, temperature=2)
@@ -150,7 +150,7 @@ def infinite_diffusion(
         D [m²/s], of the shape of ``diffusion``.
 
     Raises:
-        CaromError: For a value that makes no sense.
+        CaromError: For a value that is invalid.
 
     >>> from carom import analysis
     >>> float(analysis.infinite_diffusion(0.203, side=24.1, viscosity=2.0, temperature=1).round(5))

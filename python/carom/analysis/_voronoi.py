@@ -29,7 +29,7 @@ def voronoi_volumes(positions: ArrayLike, box: arguments.Box) -> Floats:
         Volumes [m³], shape (n,); their sum is that of the box within 1e-9 of it.
 
     Raises:
-        CaromError: For a value that makes no sense, an open axis among them, and for spheres that
+        CaromError: For a value that is invalid, an open axis among them, and for spheres that
             have one centre.
         ModuleNotFoundError: Where SciPy is not installed.
 

@@ -204,7 +204,7 @@ def seeds_of(
         drawn: Gives a seed where there is none; ``None`` where all go on as they are.
 
     Raises:
-        CaromError: For a seed that makes no sense.
+        CaromError: For a seed that is invalid.
     """
     if seed is None:
         if drawn is None:

@@ -108,7 +108,7 @@ class BatchVectorEnv(_VectorEnv):
             Observations (num_envs, ...), and infos.
 
         Raises:
-            CaromError: For a seed or a mask that makes no sense.
+            CaromError: For a seed or a mask that is invalid.
         """
         super().reset(seed=seed if isinstance(seed, int) else None)
         for name in options or {}:
@@ -251,7 +251,7 @@ class BatchEnv(_Env):
             The observation, and an empty info.
 
         Raises:
-            CaromError: For an option, or a seed that makes no sense.
+            CaromError: For an option, or a seed that is invalid.
         """
         super().reset(seed=seed)
         if seed is None and not self._is_seeded:

@@ -92,7 +92,7 @@ class BilliardsVectorEnv(BatchVectorEnv):
         given: See `BilliardsArguments`.
 
     Raises:
-        CaromError: For an argument that makes no sense.
+        CaromError: For an argument that is invalid.
         TypeError: For an argument of the wrong kind, or that there is not.
     """
 
@@ -236,7 +236,7 @@ class BilliardsEnv(BatchEnv):
         given: See `BilliardsArguments`.
 
     Raises:
-        CaromError: For an argument that makes no sense.
+        CaromError: For an argument that is invalid.
         TypeError: For an argument of the wrong kind, or that there is not.
     """
 

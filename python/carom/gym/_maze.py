@@ -46,7 +46,7 @@ class MazeEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
         given: See `MazeArguments`.
 
     Raises:
-        CaromError: For an argument that makes no sense.
+        CaromError: For an argument that is invalid.
         SceneError: For a drawing that is no maze.
         TypeError: For an argument of the wrong kind, or that there is not.
     """
@@ -76,7 +76,7 @@ class MazeEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
             The observation and the info.
 
         Raises:
-            CaromError: For a start or a seed that makes no sense.
+            CaromError: For a start or a seed that is invalid.
         """
         super().reset(seed=seed)
         if seed is None and not self._is_seeded:

@@ -45,7 +45,7 @@ class MazeVectorEnv(_Base):
         given: See `MazeArguments`.
 
     Raises:
-        CaromError: For an argument that makes no sense.
+        CaromError: For an argument that is invalid.
         SceneError: For a drawing that is no maze.
         TypeError: For an argument of the wrong kind, or that there is not.
     """
@@ -97,7 +97,7 @@ class MazeVectorEnv(_Base):
             Observations (num_envs, 6 + c), and infos.
 
         Raises:
-            CaromError: For a start, a seed or a mask that makes no sense.
+            CaromError: For a start, a seed or a mask that is invalid.
         """
         super().reset(seed=seed if isinstance(seed, int) else None)
         mask = checked_mask((options or {}).get("reset_mask"), self.num_envs)

@@ -80,7 +80,7 @@ class PlateVectorEnv(BatchVectorEnv):
         given: See `PlateArguments`.
 
     Raises:
-        CaromError: For an argument that makes no sense.
+        CaromError: For an argument that is invalid.
         TypeError: For an argument of the wrong kind, or that there is not.
     """
 
@@ -189,7 +189,7 @@ class PlateEnv(BatchEnv):
         given: See `PlateArguments`.
 
     Raises:
-        CaromError: For an argument that makes no sense.
+        CaromError: For an argument that is invalid.
         TypeError: For an argument of the wrong kind, or that there is not.
     """
 

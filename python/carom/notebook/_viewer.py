@@ -74,8 +74,8 @@ class Viewer(Widget):
         """A viewer of a scene, or of a world as it is now.
 
         Raises:
-            CaromError: For a height that makes no sense, and a scene that is too large.
-            SceneError: If the scene makes no sense.
+            CaromError: For a height that is invalid, and a scene that is too large.
+            SceneError: If the scene is invalid.
             GraphicsError: If this build of carom has no viewer for notebooks.
         """
         self._interface = built_interface()

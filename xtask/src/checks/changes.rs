@@ -19,8 +19,8 @@ pub struct Changes {
 }
 
 impl Changes {
-    /// Those since the last commit that the branch on the server has, or since `base`: committed, not
-    /// committed and new files.
+    /// Returns the changes since the last commit that the branch on the server has, or since
+    /// `base`: committed, not committed and new files.
     pub fn since(base: Option<&str>) -> Outcome<Self> {
         let upstream = output("git", &["merge-base", "HEAD", "origin/HEAD"]);
         let base = match (base, &upstream) {

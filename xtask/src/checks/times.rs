@@ -11,7 +11,8 @@ use crate::shell::{Outcome, target_folder};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Times {
     pub wall: Duration,
-    /// Of the part and of every program that it ran; where the system tells.
+    /// Processor time of the part and of every program that it ran; `None` where the system does
+    /// not report it.
     pub processor: Option<Duration>,
 }
 

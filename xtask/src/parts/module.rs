@@ -30,7 +30,7 @@ const FOREIGN: [(&str, &str); 10] = [
 pub struct Names(BTreeMap<String, String>);
 
 impl Names {
-    /// Those of the layout.
+    /// Reads the modules of the layout.
     pub fn new(layout: &Value) -> Self {
         let mut names: BTreeMap<String, String> = FOREIGN
             .iter()

@@ -7,7 +7,7 @@ use super::language::Language;
 
 /// A source file.
 pub struct Script {
-    /// Its file, seen from the root of the repository.
+    /// File of the script, seen from the root of the repository.
     pub file: PathBuf,
     pub language: Language,
     pub text: String,
@@ -19,7 +19,7 @@ impl Script {
         self.file.iter().any(|name| name == "tests")
     }
 
-    /// Its text without comments; in Python and C# without what stands in strings, too.
+    /// Returns the text without comments; in Python and C# also without the content of strings.
     pub fn code(&self) -> String {
         code::of(&self.text, self.language)
     }

@@ -108,7 +108,7 @@ fn named_in<'a>(names: &'a [String], run: &Path) -> Result<&'a str, Failure> {
     let found = names.iter().find(|name| stem.contains(&name.to_lowercase()));
     found.map(String::as_str).ok_or_else(|| {
         let run = run.display();
-        let problem = "no scene has its name in that of the file; --scene says which";
+        let problem = "the file name contains no name of a scene; --scene names one";
         Failure::Usage(format!("{run}: {problem}"))
     })
 }

@@ -165,7 +165,7 @@ pub fn cradle() -> Claim {
 const CHAIN: usize = 7;
 const STIFFNESS: f64 = 40.0;
 
-/// How far a ball of the chain is from its place at the start \[m\].
+/// Returns how far a ball of the chain is from its place at the start \[m\].
 fn displaced(ball: usize) -> f64 {
     0.2 * libm::sin(7.0 * ball as f64)
 }
@@ -188,7 +188,7 @@ fn chain(rule: Rule) -> Result<World, carom::Error> {
     Ok(world)
 }
 
-/// Where a ball of the chain is at a time \[m\]: the sum of the normal modes.
+/// Returns where a ball of the chain is at a time \[m\]: the sum of the normal modes.
 fn in_normal_modes(ball: usize, time: f64) -> f64 {
     let angle = |i: usize, mode: usize| (i * mode) as f64 * PI / (CHAIN as f64 + 1.0);
     let mode = |mode: usize| {

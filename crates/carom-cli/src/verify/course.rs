@@ -34,7 +34,7 @@ pub fn claims() -> Vec<Claim> {
     claims
 }
 
-/// How far places may differ between frames.
+/// Returns how far places may differ between frames.
 fn tolerance_of(name: &str) -> Tolerance {
     let moves = |scene: Scene| scene.colliders.iter().any(|collider| !collider.motion.is_empty());
     if scene(name, &[]).is_ok_and(moves) {

@@ -16,7 +16,7 @@ const FILLING: Filling = Filling { count: 16_384, packing_fraction: 0.05 };
 const LAW: RestitutionLaw = RestitutionLaw::Viscoelastic { speed: 2.6e6 };
 /// Gas that white noise drives to a temperature of about 1.
 const DRIVEN: Filling = Filling { count: 2_048, packing_fraction: 0.05 };
-/// Its restitution.
+/// Restitution of the driven gas.
 const DRIVEN_E: f64 = 0.9;
 /// Strength of the noise.
 const STRENGTH: f64 = 0.045;

@@ -9,14 +9,14 @@ use crate::gas::{Filling, Speeds, gas};
 
 /// Dense enough for half of the stress to be that of impacts.
 const VISCOUS: Filling = Filling { count: 2_048, packing_fraction: 0.2 };
-/// Shear rate of it, a twentieth of the collision rate.
+/// Shear rate of the fluid, a twentieth of the collision rate.
 const RATE: f64 = 0.2;
 /// Collisions of each sphere before the stress is measured, and meanwhile.
 const COLLISIONS: [f64; 2] = [20.0, 500.0];
 
 /// Dilute, so that impacts move no momentum.
 const DILUTE: Filling = Filling { count: 500, packing_fraction: 0.005 };
-/// Its restitution.
+/// Restitution of the granular gas.
 const E: f64 = 0.9;
 /// Collisions of each sphere before the temperature is measured, and meanwhile.
 const STEADY: [f64; 2] = [200.0, 800.0];

@@ -10,13 +10,13 @@ use carom::{
 use super::claim::{Claim, Expected, Fault, Measured, Outcome, Tolerance};
 use super::setup::{G, world};
 
-/// Of the hollows \[m\].
+/// Radius of the hollows \[m\].
 const HOLLOW: f64 = 1.0;
-/// Of the balls \[m\].
+/// Radius of the balls \[m\].
 const BALL: f64 = 0.1;
 /// Where the centre of a ball runs \[m\].
 const PATH: f64 = HOLLOW - BALL;
-/// Of the swings \[rad\].
+/// Amplitude of the swings \[rad\].
 const AMPLITUDE: f64 = 1.0;
 const STEPS: &str = "rounding of the steps of 15th order";
 

@@ -39,7 +39,7 @@ pub fn claims() -> Vec<Claim> {
 struct Series {
     /// B2 and B3.
     virial: [f64; 2],
-    /// Their derivatives by x = exp(ε/kT) - 1.
+    /// Derivatives of the coefficients by x = exp(ε/kT) - 1.
     by_x: [f64; 2],
     x: f64,
 }

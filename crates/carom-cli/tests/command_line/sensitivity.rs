@@ -7,7 +7,7 @@ use crate::rows;
 const G: f64 = 10.0;
 /// Height of its ball above the floor at the start \[m\].
 const HEIGHT: f64 = 1.25;
-/// Its restitution.
+/// Restitution of the scene.
 const RESTITUTION: f64 = 0.8;
 
 /// A ball that falls onto a floor, and one far away.
@@ -101,7 +101,7 @@ fn a_number_that_derivatives_are_not_known_by_is_named() {
         ("spheres.velocity", "a number comes after spheres"),
         ("spheres.0.velocity.3", "a component is 0, 1 or 2"),
         ("spheres.0.radius.0", "it has no components"),
-        ("colliders.0.mass", "derivatives are known by other fields only"),
+        ("colliders.0.mass", "there are no derivatives by this field"),
         ("forces.0", "it is not of spheres or colliders"),
         ("spheres.0.position.0.0", "it has too many parts"),
     ] {

@@ -1,18 +1,19 @@
-//! A scene moved by a small part of its size: the same world, of which every place rounds otherwise.
+//! A scene moved by a small part of its size: the same world, in which all coordinates round
+//! otherwise.
 
 use carom::DVec3;
 use carom_scene::Scene;
 use carom_scene::scene::{Force, Motion};
 
-/// By which part of the largest coordinate: numbers of many bits, so small that no threshold that grows with coordinates
-/// changes by more.
+/// Ways as parts of the largest coordinate: numbers of many bits, and so small that no threshold
+/// that grows with coordinates changes by more.
 const WAYS: [DVec3; 2] = [
     DVec3::new(0.013_719_2, -0.021_143_7, 0.017_317_3),
     DVec3::new(-0.019_731_7, 0.015_377_1, -0.012_937_9),
 ];
 
-/// The scene, whose farthest point of a sphere is so far from the origin along an axis \[m\], moved along each of the
-/// [`WAYS`], with the ways \[m\].
+/// Returns the scene moved along each of the [`WAYS`], with the ways \[m\]. `extent` is the
+/// farthest point of a sphere from the origin along an axis \[m\].
 pub fn elsewhere(scene: &Scene, extent: f64) -> [(Scene, DVec3); 2] {
     WAYS.map(|way| (moved(scene, extent * way), extent * way))
 }

@@ -26,7 +26,7 @@ use self::run::{FRAMES, checkpoint, law, run, world};
 use self::trace::Trace;
 use crate::fault::Fault;
 
-/// Laws of a world and a pair of it.
+/// Laws about a world and a changed copy of it.
 const LAWS: [Law; 7] = [
     scaling::SMALLER,
     scaling::LARGER,
@@ -37,7 +37,7 @@ const LAWS: [Law; 7] = [
     reversal::LAW,
 ];
 
-/// Takes a world some frames, and checks what must hold of it.
+/// Steps a world some frames, and checks its laws.
 ///
 /// # Errors
 /// The law that does not hold.

@@ -1,23 +1,21 @@
-//! Two worlds that go the same way, as a law has it.
+//! Checks that two worlds run alike, as a law demands.
 //!
-//! Some laws hold to the bit. Where two worlds round otherwise, they come apart, as any two runs of colliding spheres
-//! do: each impact makes what is between them larger by some way over radius. How much an error of the start has grown
-//! is seen of two more runs, of the same world with its spheres 10⁻¹² elsewhere, drawn out and drawn together
-//! ([`perturbed`]). That is thousands of roundings. So the rule is: **at each frame, the pair of a world is no farther
-//! from it than the farther of the perturbed worlds was so far**.
+//! Some laws hold to the bit. Where two worlds round otherwise, they separate, as any two runs of colliding spheres do:
+//! each impact multiplies their distance by some path length over a radius. Two more runs of the same world, with its
+//! spheres 10⁻¹² elsewhere ([`perturbed`]), measure this growth; 10⁻¹² is thousands of roundings. So the first rule is:
+//! **at each frame, the pair of a world is no farther from it than the farther of the perturbed worlds was so far**.
 //!
-//! These do not show what rounding does on the way. The bounces with which a ball comes to rest shift alike when it
-//! starts elsewhere, while the rounding ε L of a gap shifts a bounce by ε L over its speed, which falls from one to the
-//! next. What that does is seen of the same world a little elsewhere, of which every place rounds otherwise
-//! ([`elsewhere`]). Where the rule is broken, two such runs tell how far rounding alone takes a world, each a sample; a
-//! third is sixteen times as far as both of two in fewer than one of 16² cases. So **the pair may also be sixteen times
-//! as far as the farther of these was so far**.
+//! These do not show the rounding on the way. The bounces with which a ball comes to rest shift alike when it starts
+//! elsewhere, while the rounding ε L of a gap shifts a bounce by ε L over its speed, which falls from bounce to bounce.
+//! Two runs of the same world moved a little, so that all its coordinates round otherwise ([`elsewhere`]), are two samples
+//! of this. A third sample is sixteen times as far as both in fewer than one of 16² cases. So the second rule is: **the
+//! pair may be sixteen times as far as the farther of these was so far**.
 //!
-//! Where one of these bounds is more than 10⁻⁶ away, having grown a million times or having taken another order of
-//! events, a world shows nothing more, and the comparison ends.
+//! Where a bound has grown beyond 10⁻⁶, a million times the start, or where events have another order, the worlds show
+//! nothing more, and the comparison ends.
 //!
-//! Distances are those of positions and velocities, as parts of the largest coordinate and the largest speed of both, and
-//! of what contacts took, as a part of the kinetic energy; the largest of all counts.
+//! A distance is the largest of three: of positions as a part of the largest coordinate, of velocities as a part of the
+//! largest speed, and of the energy that contacts took as a part of the kinetic energy.
 
 use carom::DVec3;
 use carom_scene::Scene;
@@ -28,39 +26,39 @@ use super::run::{law, step, world};
 use super::trace::{Body, Frame, Trace};
 use crate::fault::Fault;
 
-/// Distance of a perturbed world from which on nothing is compared.
+/// Distance of a perturbed world at which the comparison ends.
 const MOST: f64 = 1e-6;
 
-/// Allowed distance of a pair by that of the farther of two worlds that round otherwise: a third sample of the same is
-/// farther in fewer than one case of the square of this.
+/// Allowed distance of a pair, divided by that of the farther of two worlds that round otherwise. A third sample exceeds
+/// it in fewer than one case of its square.
 const OF_SAMPLES: f64 = 16.0;
 
-/// Events and sweeps after which nothing is compared: that much work is not done again for every law.
+/// Events and sweeps after which the comparison ends, because every law repeats this work.
 const MOST_WORK: u64 = 10_000;
 
-/// That a world and a pair of it go the same way.
+/// A law: a world and a changed copy, its pair, run alike.
 pub struct Law {
-    /// What the pair is, for findings to say.
+    /// How the pair is changed, as findings name it.
     pub name: &'static str,
-    /// The pair of a scene of which this is the run; `None` where the law says nothing.
+    /// Makes the pair of a scene with this run; `None` where the law does not apply.
     pub pair: fn(&Scene, &Trace) -> Option<Pair>,
 }
 
-/// A scene that goes the way of another one.
+/// A scene that must run as another one.
 pub struct Pair {
     pub scene: Scene,
-    /// Takes its state to that of the other one.
+    /// Converts a frame of the pair to the coordinates of the other scene.
     pub back: Box<dyn Fn(&mut Frame)>,
     pub agreement: Agreement,
-    /// Its frames in a frame of the other one.
+    /// Number of frames of the pair in a frame of the other scene.
     pub frames: usize,
-    /// Whether it goes back, from the end of the other one.
+    /// Whether the pair runs backwards, from the end of the other scene.
     pub is_backwards: bool,
-    /// From which frame on the law says no more: one of either world.
+    /// Whether the law ends at this frame of either world.
     pub ends: fn(&Frame) -> bool,
 }
 
-/// How near a pair is to its world.
+/// How closely a pair must follow its world.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Agreement {
     Bits,
@@ -68,13 +66,14 @@ pub enum Agreement {
 }
 
 impl Pair {
-    /// A pair that begins with its world, of equal frames, of which the law never ends.
+    /// Creates a pair that begins with its world and has equal frames; its law never ends.
     pub fn new(scene: Scene, agreement: Agreement, back: impl Fn(&mut Frame) + 'static) -> Self {
         let back = Box::new(back);
         Self { scene, back, agreement, frames: 1, is_backwards: false, ends: |_| false }
     }
 
-    /// Runs this scene, its own or one perturbed, along another trace, as long as `goes_on` with the distance from that.
+    /// Runs `scene`, that of the pair or a perturbed one, beside the expected trace while `goes_on` returns true for each
+    /// frame.
     fn follow(
         &self,
         scene: &Scene,
@@ -99,7 +98,7 @@ impl Pair {
     }
 }
 
-/// Checks the laws of a scene of which this is the run.
+/// Checks the laws of a scene against its run.
 ///
 /// # Errors
 /// The law that does not hold.
@@ -138,7 +137,7 @@ fn check_bits(pair: &Pair, trace: &Trace) -> Result<(), Fault> {
             return Ok(false);
         }
         // What is not seen in a square has underflowed.
-        let away = way(trace, number, frame);
+        let away = motion_distance(trace, number, frame);
         law(away == 0.0 && frame.time == expected.time, || {
             format!("is {away:e} away, and not the same to the bit, at {} s", expected.time)
         })?;
@@ -164,24 +163,24 @@ fn check_rounding(pair: &Pair, trace: &Trace, grown: &[f64]) -> Result<(), Fault
     })
 }
 
-/// How far worlds that begin as one does are from it, by frame; empty where they were not run.
+/// Distances of perturbed worlds from the world, by frame; empty where they were not run.
 #[derive(Debug, Default)]
 struct Grown {
-    /// The farther of two that begin a little otherwise.
+    /// The larger distance of two that begin a little otherwise.
     of_start: Vec<f64>,
-    /// The farthest of these and of [`OF_SAMPLES`] times two that round otherwise.
+    /// The largest distance of these, and of two that round otherwise times [`OF_SAMPLES`].
     of_all: Vec<f64>,
 }
 
 impl Grown {
-    /// Checks a pair of a world, which is a pair of its own, with this trace.
+    /// Checks a pair against the trace of its world; `own` is the world itself as a pair.
     fn check(&mut self, pair: &Pair, own: &Pair, trace: &Trace) -> Result<(), Fault> {
         if self.of_start.is_empty() {
             let both = [false, true].map(|is_opposite| {
                 let scene = perturbed(&own.scene, is_opposite);
                 growth(own, (&scene, DVec3::ZERO), trace, SIZE)
             });
-            self.of_start = farther(&both, 1.0);
+            self.of_start = larger(&both, 1.0);
         }
         match check_rounding(pair, trace, &self.of_start) {
             Err(Fault::Law(_)) => {}
@@ -191,19 +190,19 @@ impl Grown {
             let extent = trace.frames.iter().map(|frame| frame.extent).fold(0.0, f64::max);
             let both = elsewhere(&own.scene, extent)
                 .map(|(scene, way)| growth(own, (&scene, way), trace, 0.0));
-            self.of_all = farther(&[self.of_start.clone(), farther(&both, OF_SAMPLES)], 1.0);
+            self.of_all = larger(&[self.of_start.clone(), larger(&both, OF_SAMPLES)], 1.0);
         }
         check_rounding(pair, trace, &self.of_all)
     }
 }
 
-/// The larger of two distances, by frame, times a factor.
-fn farther([first, second]: &[Vec<f64>; 2], factor: f64) -> Vec<f64> {
+/// Returns the larger of two distances times a factor, by frame.
+fn larger([first, second]: &[Vec<f64>; 2], factor: f64) -> Vec<f64> {
     first.iter().zip(second).map(|(first, second)| factor * first.max(*second)).collect()
 }
 
-/// By frame, how far the world of a scene that goes as a pair does was so far, and at least; it was moved along a way
-/// \[m\].
+/// Returns the largest distance so far between the run of a scene and the trace, by frame, at least `least`. The scene
+/// was moved along `way` \[m\].
 fn growth(pair: &Pair, (scene, way): (&Scene, DVec3), trace: &Trace, least: f64) -> Vec<f64> {
     let mut grown = vec![f64::INFINITY; trace.frames.len()];
     let mut so_far = least;
@@ -218,37 +217,39 @@ fn growth(pair: &Pair, (scene, way): (&Scene, DVec3), trace: &Trace, least: f64)
     grown
 }
 
-/// How far a frame is from that with this number.
+/// Returns the distance of a frame from the frame `number` of the trace.
 fn distance(trace: &Trace, number: usize, frame: &Frame) -> f64 {
     let lost = (frame.lost - trace.frames[number].lost).abs();
-    part(lost, most(trace, number, frame, |it| it.energy)).max(way(trace, number, frame))
+    ratio(lost, largest_so_far(trace, number, frame, |it| it.energy))
+        .max(motion_distance(trace, number, frame))
 }
 
-/// How far its spheres are from those of that; infinite where there are others.
-fn way(trace: &Trace, number: usize, frame: &Frame) -> f64 {
+/// Returns the distance of the motion of the spheres from that in the frame `number` of the trace; infinite if the
+/// spheres differ.
+fn motion_distance(trace: &Trace, number: usize, frame: &Frame) -> f64 {
     let expected = &trace.frames[number];
     let is_same = |(one, other): (&Body, &Body)| one.id == other.id;
     let pairs = || frame.bodies.iter().zip(&expected.bodies);
     if frame.bodies.len() != expected.bodies.len() || !pairs().all(is_same) {
         return f64::INFINITY;
     }
-    let extent = most(trace, number, frame, |it| it.extent);
-    let speed = most(trace, number, frame, |it| it.speed);
+    let extent = largest_so_far(trace, number, frame, |it| it.extent);
+    let speed = largest_so_far(trace, number, frame, |it| it.speed);
     let of_body = |(one, other): (&Body, &Body)| {
         let way = trace.boundary.nearest_image(one.position - other.position);
         let change = (one.velocity - other.velocity).length();
         let slip = one.radius * (one.spin - other.spin).length();
-        part(way.length(), extent).max(part(change.max(slip), speed))
+        ratio(way.length(), extent).max(ratio(change.max(slip), speed))
     };
     pairs().map(of_body).fold(0.0, f64::max)
 }
 
-/// The most of something of a frame and of a trace up to it.
-fn most(trace: &Trace, number: usize, frame: &Frame, of: fn(&Frame) -> f64) -> f64 {
+/// Returns the largest value of a quantity in a frame and in a trace up to that frame.
+fn largest_so_far(trace: &Trace, number: usize, frame: &Frame, of: fn(&Frame) -> f64) -> f64 {
     trace.frames[..=number].iter().map(of).fold(of(frame), f64::max)
 }
 
-fn part(away: f64, whole: f64) -> f64 {
+fn ratio(away: f64, whole: f64) -> f64 {
     if away == 0.0 { 0.0 } else { away / whole }
 }
 

@@ -1,13 +1,15 @@
-//! A scene with its spheres a little elsewhere: what its run is away from that of the scene tells what rounding may do.
+//! A scene with its spheres moved a little: the distance between its run and that of the scene
+//! shows what rounding may do.
 
 use carom::DVec3;
 use carom_scene::Scene;
 
-/// By which part of coordinates and of the largest speed: thousands of roundings of them.
+/// Size of the changes, as a part of coordinates and of the largest speed: thousands of their
+/// roundings.
 pub const SIZE: f64 = 1e-12;
 
-/// The scene drawn out by [`SIZE`] and with other velocities, or the opposite of that: so each gap that is nothing but
-/// for rounding is open in the one and closed in the other.
+/// Returns the scene stretched by [`SIZE`] and with changed velocities, or the opposite of both, so
+/// that each gap of the size of rounding is open in one of them and closed in the other.
 pub fn perturbed(scene: &Scene, is_opposite: bool) -> Scene {
     let size = if is_opposite { -SIZE } else { SIZE };
     let mut scene = scene.clone();
@@ -25,7 +27,8 @@ pub fn perturbed(scene: &Scene, is_opposite: bool) -> Scene {
     scene
 }
 
-/// A number from -1 to 1, other for each number: the fractional part of its multiple of the golden section.
+/// Returns a number from -1 to 1 that differs for each `number`: the fractional part of its
+/// multiple of the golden section.
 fn spread(number: u32) -> f64 {
     2.0 * (f64::from(number) * 0.618_033_988_749_894_9).fract() - 1.0
 }

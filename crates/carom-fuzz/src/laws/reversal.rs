@@ -1,4 +1,5 @@
-//! An elastic world without friction, run back from its end with all velocities turned round: it comes by where it was.
+//! An elastic world without friction, run back from its end with all velocities reversed, passes
+//! through its former states.
 
 use carom::DVec3;
 use carom_scene::Scene;
@@ -53,7 +54,8 @@ fn is_reversible(scene: &Scene) -> bool {
             .all(|it| matches!(it, Force::Gravity { .. } | Force::Constant { .. }))
 }
 
-/// The end of the run as a scene, with all velocities turned round; `None` where there are other spheres.
+/// Returns the end of the run as a scene, with all velocities reversed; `None` if its spheres are
+/// others.
 fn reversed(scene: &Scene, trace: &Trace) -> Option<Scene> {
     let mut scene = scene.clone();
     scene.simulation.allow_overlap = true;

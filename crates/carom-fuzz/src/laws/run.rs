@@ -9,7 +9,7 @@ use crate::fault::Fault;
 use crate::stopwatch::Stopwatch;
 use crate::target::PATIENCE;
 
-/// Frames that a world is taken.
+/// Number of frames that a world takes.
 pub const FRAMES: usize = 64;
 
 pub fn law(holds: bool, broken: impl FnOnce() -> String) -> Result<(), Fault> {
@@ -29,7 +29,8 @@ pub fn checkpoint(scene: &Scene, world: &World) -> Result<Vec<u8>, Fault> {
     bytes.map_err(|it| Fault::Law(format!("has no bytes: {it}")))
 }
 
-/// Takes a world some frames, and checks what its rule keeps after each; the trace gets those frames.
+/// Steps a world some frames, and checks after each what its rule keeps; adds the frames to the
+/// trace.
 pub fn run(
     scene: &Scene,
     world: &mut World,
@@ -45,7 +46,7 @@ pub fn run(
     Ok(())
 }
 
-/// Takes a world a frame of its scene further.
+/// Steps a world by a frame of its scene.
 pub fn step(scene: &Scene, world: &mut World) -> Result<(), Fault> {
     match world.step(scene.simulation.frame_time) {
         Ok(_) => Ok(()),

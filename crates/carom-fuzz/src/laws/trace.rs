@@ -1,4 +1,4 @@
-//! What was seen of a run.
+//! The run of a world as the laws see it.
 
 use carom::{Boundary, DVec3, World};
 
@@ -15,19 +15,19 @@ pub struct Trace {
 pub struct Frame {
     /// Time \[s\].
     pub time: f64,
-    /// By id, ascending.
+    /// Spheres in ascending order of id.
     pub bodies: Vec<Body>,
     /// Farthest point of a sphere from the origin along an axis \[m\].
     pub extent: f64,
     /// Largest speed of a point of a sphere \[m/s\].
     pub speed: f64,
-    /// What contacts took of the energy in the frame \[J\].
+    /// Energy that contacts took in the frame \[J\].
     pub lost: f64,
     /// Kinetic energy \[J\].
     pub energy: f64,
     /// Events and sweeps of the frame.
     pub work: u64,
-    /// Whether spheres were stepped in it, which loses what holds of events.
+    /// Whether spheres were in zones during the frame, for which laws about events do not hold.
     pub in_zone: bool,
     /// Whether a contact persists.
     pub in_contact: bool,
@@ -45,12 +45,12 @@ pub struct Body {
 }
 
 impl Trace {
-    /// A run that begins with this world.
+    /// Creates the trace of a run that begins with this world.
     pub fn new(world: &World) -> Self {
         Self { boundary: world.settings().boundary, frames: vec![Frame::of(world)] }
     }
 
-    /// How many frames it takes to so much work; all where there is less.
+    /// Returns the number of frames before more than `most` work was done; all if there is less.
     pub fn until_work(&self, most: u64) -> usize {
         let mut work = 0;
         let is_before = |frame: &&Frame| {
@@ -62,7 +62,7 @@ impl Trace {
 }
 
 impl Frame {
-    /// What is seen of a world before its first frame.
+    /// Records a world before its first frame.
     fn of(world: &World) -> Self {
         let spheres = world.spheres();
         let bodies = spheres.ids().iter().enumerate();
@@ -86,7 +86,7 @@ impl Frame {
         }
     }
 
-    /// What is seen of a world after a step.
+    /// Records a world after a step.
     pub fn after_step(world: &World) -> Self {
         let report = world.report();
         Self {
@@ -98,7 +98,7 @@ impl Frame {
         }
     }
 
-    /// Adds what happened in the frame before it.
+    /// Adds the energy, work and contacts of the frame before, so that both count as one.
     pub fn add_before(&mut self, before: &Self) {
         self.lost += before.lost;
         self.work += before.work;

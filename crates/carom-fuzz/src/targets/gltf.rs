@@ -19,7 +19,7 @@ pub const TARGET: Target = Target {
     check,
 };
 
-/// Where the files lie that are changed.
+/// Returns the folder of the files that cases change.
 fn fixtures() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../carom-gltf/tests/fixtures")
 }

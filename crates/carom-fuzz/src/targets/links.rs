@@ -17,11 +17,11 @@ pub const TARGET: Target = Target {
     check,
 };
 
-/// Frames that a run is taken to.
+/// Number of frames that a run takes.
 const FRAMES: usize = 3;
 const MOST_STEPPED: usize = 200;
 
-/// Addresses that lead somewhere.
+/// Returns valid addresses.
 fn addresses() -> Vec<Vec<u8>> {
     let written = [
         "http://127.0.0.1:8042/#scene=simtest1&rule=exact&t=0.5",
@@ -33,7 +33,7 @@ fn addresses() -> Vec<Vec<u8>> {
     written.into_iter().map(|it| it.as_bytes().to_vec()).chain(held).collect()
 }
 
-/// A link that holds a scene file.
+/// Returns a link that holds a scene file.
 fn packed(scene: Vec<u8>) -> Vec<u8> {
     let text = text(&scene).into_owned();
     Link::new(LinkSource::File { name: "sent".to_owned(), text }).to_fragment().into_bytes()

@@ -1,4 +1,4 @@
-//! The command line: options with values of no sense.
+//! The command line: options with meaningless values.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -17,7 +17,7 @@ use crate::target::{Answer, Target};
 
 pub const TARGET: Target = Target {
     name: "options",
-    about: "command lines with options of no sense, each a run of `carom`",
+    about: "command lines with meaningless options, each a run of `carom`",
     campaign: 2_000,
     cases: || lines().boxed(),
     check,
@@ -64,7 +64,7 @@ const VALUES: [&str; 10] = [
     "simtest2",
 ];
 
-/// Command lines, an argument in each line of the text.
+/// Draws command lines: each line of the text is an argument.
 fn lines() -> impl Strategy<Value = Vec<u8>> {
     let own = mutated(VALUES.map(|it| it.as_bytes().to_vec()).to_vec());
     let value = prop_oneof![own, values().prop_map(|it| it.as_bytes().to_vec())];
@@ -78,7 +78,7 @@ fn lines() -> impl Strategy<Value = Vec<u8>> {
     })
 }
 
-/// The program, beside this one or in the folder around it.
+/// Returns the path of the program, beside this one or in the folder above.
 fn program() -> io::Result<PathBuf> {
     let own = std::env::current_exe()?;
     let name = format!("carom{}", std::env::consts::EXE_SUFFIX);

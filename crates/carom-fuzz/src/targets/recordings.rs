@@ -25,7 +25,7 @@ fn scene() -> Option<Scene> {
     Library::new().find("simtest3", &[]).ok().map(|(scene, _)| scene)
 }
 
-/// Tables of its run, a short one and one with balls that come later.
+/// Returns tables of the scene's run: a short one, and one with balls that come later.
 pub fn tables() -> Vec<Vec<u8>> {
     [2, 40].into_iter().filter_map(table).collect()
 }
@@ -58,7 +58,7 @@ fn check(case: &[u8]) -> Result<Answer, Fault> {
     }
 }
 
-/// Plays a table to its end; its times go forwards, and its balls are somewhere.
+/// Plays a table to its end. Times must rise, and places of balls must be finite.
 fn play(path: &Path, scene: &Scene) -> Result<Result<(), ReplayError>, Fault> {
     let mut replay = match Replay::open(path, scene) {
         Ok(replay) => replay,
@@ -73,7 +73,7 @@ fn play(path: &Path, scene: &Scene) -> Result<Result<(), ReplayError>, Fault> {
         };
         let is_there = frame.balls.iter().all(|it| it.position.is_finite() && it.radius > 0.0);
         if !(frame.time > last && frame.time.is_finite() && is_there) {
-            return Err(Fault::Law(format!("plays a frame of no sense at {} s", frame.time)));
+            return Err(Fault::Law(format!("plays an invalid frame at {} s", frame.time)));
         }
         last = frame.time;
     }

@@ -16,11 +16,11 @@ pub const TARGET: Target = Target {
     check,
 };
 
-/// What a case may ask for: enough for every built-in scene.
+/// Largest scene that a case may ask for: enough for every built-in scene.
 const BUDGET: Budget =
     Budget { spheres: 5_000, colliders: 1_000, springs: 5_000, bytes: 1 << 20, opens_files: false };
 
-/// Frames that a world of so few spheres takes.
+/// Number of frames that a world takes.
 const FRAMES: usize = 5;
 const MOST_STEPPED: usize = 200;
 
@@ -38,7 +38,7 @@ fn check(case: &[u8]) -> Result<Answer, Fault> {
     }
 }
 
-/// A refusal is a good error, and names a line of the file.
+/// Checks that a refusal is a readable error that names a line of the file.
 fn check_refusal(error: &SceneError) -> Result<(), Fault> {
     let message = error.to_string();
     check_error(&message)?;
@@ -50,7 +50,8 @@ fn check_refusal(error: &SceneError) -> Result<(), Fault> {
     }
 }
 
-/// A scene that is accepted is the same when it is written and read, makes a world, and is stepped.
+/// Checks that an accepted scene is the same when written and read, makes a world, and can be
+/// stepped.
 pub fn check_accepted(scene: &Scene) -> Result<(), Fault> {
     let written = scene.to_toml();
     match Scene::from_toml(&written, "written.toml") {

@@ -26,7 +26,7 @@ const KIND: &str = "http://schemas.openxmlformats.org/officeDocument/2006/relati
 const MAIN: &str = "http://schemas.openxmlformats.org/spreadsheetml/2006/main";
 const PACKAGE: &str = "http://schemas.openxmlformats.org/package/2006/relationships";
 
-/// The sheet of a short run; its columns after the time have these names.
+/// Returns the sheet of a short run; these are the names of its columns after the time.
 fn sheet(names: [&str; 4]) -> Vec<u8> {
     let name = |it: &str| format!("<c t=\"inlineStr\"><is><t>{it}</t></is></c>");
     let names: String = std::iter::once("t").chain(names).map(name).collect();

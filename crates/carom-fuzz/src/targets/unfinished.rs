@@ -1,4 +1,4 @@
-//! What killed runs left, which is recovered.
+//! Unfinished files of killed runs, which are recovered.
 
 use std::error::Error;
 use std::fs;
@@ -24,7 +24,7 @@ pub const TARGET: Target = Target {
     check,
 };
 
-/// Numbers that no head has.
+/// Numbers that no record head may have.
 const WORDS: [u64; 6] = [0, 1, 4095, 1 << 40, u64::MAX / 8, u64::MAX];
 
 fn files() -> Vec<Vec<u8>> {
@@ -32,7 +32,7 @@ fn files() -> Vec<Vec<u8>> {
     made.into_iter().map(|file| file.expect("a run can be recorded here")).collect()
 }
 
-/// What is left of a run of some frames with an emitter.
+/// Returns the unfinished file of a run of some frames with an emitter.
 fn unfinished(kind: &str) -> Result<Vec<u8>, Box<dyn Error>> {
     let folder = tempfile::tempdir()?;
     let path = folder.path().join("run").with_extension(kind);
@@ -53,7 +53,7 @@ fn unfinished(kind: &str) -> Result<Vec<u8>, Box<dyn Error>> {
     Ok(fs::read(folder.path().join(format!("run.{kind}.0.unfinished")))?)
 }
 
-/// A file as its records.
+/// A file as a list of its records.
 #[derive(Debug, Clone)]
 struct Records {
     magic: Vec<u8>,
@@ -92,7 +92,8 @@ impl Records {
     }
 }
 
-/// The parts of the body of a record: of an animation JSON, arrays and rows, of an NPZ file one.
+/// Returns the parts of the body of a record: JSON, arrays and rows for an animation, one for an
+/// NPZ file.
 fn parts((words, body): &(Words, Vec<u8>), is_animation: bool) -> Vec<Vec<u8>> {
     if !is_animation {
         return vec![body.clone()];
@@ -102,7 +103,8 @@ fn parts((words, body): &(Words, Vec<u8>), is_animation: bool) -> Vec<Vec<u8>> {
     [json, arrays, rows].map(<[u8]>::to_vec).to_vec()
 }
 
-/// Files of which one frame has another part, another head, or is elsewhere, with the checksums of that.
+/// Draws files in which one frame has another part, another head or another place, with valid
+/// checksums.
 fn with_checksums() -> impl Strategy<Value = Vec<u8>> {
     let [npz, animation] =
         &files().iter().filter_map(|it| Records::of(it).ok()).collect::<Vec<_>>()[..]
@@ -112,7 +114,7 @@ fn with_checksums() -> impl Strategy<Value = Vec<u8>> {
     prop_oneof![1 => changed(npz.clone(), false), 3 => changed(animation.clone(), true)]
 }
 
-/// Files like this one, with something wrong in a record.
+/// Draws files like this one with a mistake in a record.
 fn changed(file: Records, is_animation: bool) -> impl Strategy<Value = Vec<u8>> {
     let all: Vec<Vec<Vec<u8>>> = file.list.iter().map(|it| parts(it, is_animation)).collect();
     let of_place = |place: usize| mutated(all.iter().map(|parts| parts[place].clone()).collect());
@@ -171,7 +173,7 @@ fn check(case: &[u8]) -> Result<Answer, Fault> {
     }
 }
 
-/// Whether a .glb file is as long as it says, or an NPZ file has its end.
+/// Returns whether a .glb file is as long as it says, or an NPZ file has its end.
 fn is_whole(path: &Path) -> io::Result<bool> {
     let bytes = fs::read(path)?;
     let word = |at: usize| bytes.get(at..at + 4).and_then(|it| it.try_into().ok());

@@ -19,7 +19,7 @@ pub const TARGET: Target = Target {
     check,
 };
 
-/// The project whose scenes are changed.
+/// Returns the folder of the project whose scenes cases change.
 fn project() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../carom-unity/tests/fixtures/Project")
 }

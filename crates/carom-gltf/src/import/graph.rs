@@ -61,8 +61,7 @@ pub(super) fn nodes(document: &Document) -> Result<Vec<Placed>, Malformed> {
             None => name.clone(),
         };
         let pose = above.map_or(Pose::WORLD, |above| above.pose).child(node);
-        let no_pose =
-            || Malformed::at(place(), "has a place, rotation or scale that makes no sense");
+        let no_pose = || Malformed::at(place(), "has an invalid place, rotation or scale");
         let pose = pose.ok_or_else(no_pose)?;
         let itself = placed.len();
         placed.push(Placed { index, path, name, pose, parent });

@@ -124,7 +124,7 @@ fn all_radii(fluid: &DenseFluid, place: &Place, path: &str) -> Result<Vec<f64>, 
     })?;
     let sizes = (fluid.sphere.radius, fluid.sphere.diameter, fluid.radius_range);
     check(sizes == (None, None, None), &path, || {
-        "must not be given beside a radius, which says it already".into()
+        "must not be given beside a radius, which determines it".into()
     })?;
     let (volume, number) = (place.volume(), count as f64);
     let radius = match place.dimensions {

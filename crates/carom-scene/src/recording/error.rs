@@ -10,7 +10,7 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum RecordingError {
     /// The ending of the file name belongs to no format.
-    #[error("cannot tell the format of {path}: use {known}", known = ENDINGS)]
+    #[error("{path} has no known format: use {known}", known = ENDINGS)]
     UnknownFormat {
         /// Path of the file.
         path: PathBuf,

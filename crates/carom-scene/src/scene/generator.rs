@@ -187,7 +187,7 @@ pub struct StaggeredRows {
 }
 
 impl StaggeredRows {
-    /// How many places there are in all rows.
+    /// Returns the number of places in all rows.
     fn places(&self) -> u64 {
         let sum = |counts: &[u32]| counts.iter().map(|&count| u64::from(count)).sum::<u64>();
         let (rows, length) = (self.rows as usize, self.counts.len().max(1));
@@ -222,12 +222,12 @@ impl Generator {
         }
     }
 
-    /// How many spheres it makes.
+    /// Returns the number of spheres that the generator makes.
     pub fn count(&self) -> u64 {
         self.sphere().map_or(0, |_| self.places())
     }
 
-    /// How many spheres or colliders it makes.
+    /// Returns the number of spheres or colliders that the generator makes.
     pub(crate) fn places(&self) -> u64 {
         match self {
             Self::Row(row) => row.count.into(),
@@ -240,7 +240,7 @@ impl Generator {
         }
     }
 
-    /// What its spheres have in common; `None` if it makes colliders.
+    /// Returns the template of the spheres; `None` if the generator makes colliders.
     pub fn sphere(&self) -> Option<&Sphere> {
         match self {
             Self::ClosePacking { sphere, .. } | Self::Random { sphere, .. } => Some(sphere),
@@ -252,7 +252,7 @@ impl Generator {
         }
     }
 
-    /// What its colliders have in common; `None` if it makes spheres.
+    /// Returns the template of the colliders; `None` if the generator makes spheres.
     pub fn collider(&self) -> Option<&Collider> {
         match self {
             Self::ClosePacking { .. } | Self::Random { .. } | Self::DenseFluid(_) => None,

@@ -108,7 +108,7 @@ impl Mesh {
         Self { file: Some(path.into()), ..Self::listed(Vec::new(), Vec::new()) }
     }
 
-    /// A mesh of these vertices \[m\] and triangles.
+    /// Creates a mesh of listed vertices \[m\] and triangles.
     pub fn listed(vertices: Vec<Vector>, triangles: Vec<[u32; 3]>) -> Self {
         let (scale, made) = (1.0, Made::default());
         Self { file: None, vertices, triangles, scale, one_sided: false, made }

@@ -104,7 +104,7 @@ impl Rule {
         matches!(self, Self::Exact | Self::Contact)
     }
 
-    /// Its name in scene files.
+    /// Returns the name in scene files.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Discrete => "discrete",

@@ -45,7 +45,7 @@ pub struct Spring {
 }
 
 impl Spring {
-    /// The springs of a world, between spheres by their places in it.
+    /// Returns the springs of a world, between spheres by their places in it.
     pub fn all_of(world: &World) -> Vec<Self> {
         let ids = world.spheres().ids();
         world.springs().filter_map(|(_, spring)| Self::of(spring, ids)).collect()

@@ -46,7 +46,7 @@ pub(super) fn with_included(
     };
     for name in names {
         let Some(path) = way.last() else {
-            return refused("only a file includes others, which lie beside it");
+            return refused("only scenes in files can include files");
         };
         let path = path.parent().unwrap_or(Path::new("")).join(name);
         if way.iter().any(|other| is_same(other, &path)) {

@@ -9,7 +9,7 @@ use crate::scene::Piece;
 /// A place on the path of a track, and the directions there.
 #[derive(Clone, Copy)]
 pub struct Station {
-    /// Of the lowest line \[m\].
+    /// Position on the lowest line \[m\].
     pub position: DVec3,
     /// Direction as seen from above \[rad\]: 0 along +x, positive to the left.
     heading: f64,

@@ -3,10 +3,10 @@
 /// How values are placed along an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Scale {
-    /// At their own distances.
+    /// The axis shows the values themselves.
     #[default]
     Linear,
-    /// By their decimal logarithms.
+    /// The axis shows decimal logarithms.
     Logarithmic,
 }
 
@@ -52,7 +52,7 @@ impl Scale {
 pub struct Marks {
     /// The numbers, ascending.
     pub values: Vec<f64>,
-    /// Distance between the places of two of them.
+    /// Distance between the places of two marks.
     pub step: f64,
 }
 

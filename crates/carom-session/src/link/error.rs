@@ -21,7 +21,7 @@ pub fn quoted(text: &str) -> String {
 #[non_exhaustive]
 pub enum LinkError {
     /// The link is empty.
-    #[error("the link says nothing: after # it needs scene=NAME or file=...")]
+    #[error("the link is empty: after # it needs scene=NAME or file=...")]
     Empty,
     /// A part has an unknown name.
     #[error("the link has a part \"{part}\"; links know only {}", PARTS.join(", "))]
@@ -85,7 +85,7 @@ pub enum LinkError {
         source: PackedError,
     },
     /// The edits cannot be read.
-    #[error("edits of the link make no sense: {problem}")]
+    #[error("the edits of the link are invalid: {problem}")]
     Edits {
         /// What is wrong with the edits.
         problem: String,

@@ -20,10 +20,10 @@ pub enum PackedError {
     #[error("is cut short or garbled; was all of the link copied?")]
     Garbled,
     /// The text is too long.
-    #[error("unpacks to more than {} MiB, which is more than is taken", MAX_UNPACKED >> 20)]
+    #[error("unpacks to more than {} MiB, the limit", MAX_UNPACKED >> 20)]
     TooLarge,
     /// The content is not text.
-    #[error("unpacks to something that is no text")]
+    #[error("does not unpack to text")]
     NoText,
 }
 

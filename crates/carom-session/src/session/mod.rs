@@ -236,7 +236,7 @@ impl Session {
         self.fill_readings(view);
     }
 
-    /// Everything except spheres, as edited.
+    /// Returns everything but the spheres, as edited.
     pub fn setup(&self) -> &Arc<Setup> {
         &self.setup
     }

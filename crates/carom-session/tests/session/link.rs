@@ -457,7 +457,7 @@ fn a_change_that_cannot_be_made_again_stops_there_and_says_so() {
     let error = again.advance_seek(u64::MAX).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "at frame 10, what was changed there cannot be changed again: there is no sphere 1 in this world"
+        "the edit at frame 10 cannot be repeated: there is no sphere 1 in this world"
     );
     assert_eq!((again.frame(), again.seeking(), again.changes().len()), (10, None, 0));
     again.step().unwrap();

@@ -32,7 +32,7 @@ const LONGEST: usize = 300;
 #[test]
 fn every_mistake_is_told() {
     let parts = "scene, file, name, set, rule, edits, t, camera, goal";
-    let empty = "the link says nothing: after # it needs scene=NAME or file=...";
+    let empty = "the link is empty: after # it needs scene=NAME or file=...";
     let time =
         |t| format!("the link says t={t}; the time must be a number of seconds, zero or positive");
     let goal = |it| {
@@ -136,7 +136,7 @@ fn packed_parts_that_are_not_whole_are_told() {
     }
     assert_eq!(
         refusal(&format!("file={}", packed(&[0xFF, 0xFE]))),
-        "file of the link unpacks to something that is no text"
+        "file of the link does not unpack to text"
     );
 }
 
@@ -146,7 +146,7 @@ fn what_would_fill_the_memory_is_refused() {
     assert!(most.len() < MAX_UNPACKED / 100);
     Link::parse(&format!("file={most}")).unwrap();
     let error = refusal(&format!("file={}", packed(&vec![b'#'; MAX_UNPACKED + 1])));
-    assert_eq!(error, "file of the link unpacks to more than 8 MiB, which is more than is taken");
+    assert_eq!(error, "file of the link unpacks to more than 8 MiB, the limit");
 }
 
 #[test]
@@ -188,7 +188,7 @@ fn edits_that_make_no_sense_are_told() {
     for (text, expected) in cases {
         let link = format!("scene=simtest1&edits={}", packed(text.as_bytes()));
         let error = refusal(&link);
-        assert!(error.starts_with("edits of the link make no sense: "), "{error}");
+        assert!(error.starts_with("the edits of the link are invalid: "), "{error}");
         assert!(error.contains(expected), "{error}");
     }
 }

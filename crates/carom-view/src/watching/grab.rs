@@ -23,7 +23,7 @@ const PATIENCE: u32 = 600;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Grab {
     ball: SphereId,
-    /// From the point under the pointer to where the ball is held, across the view \[m\].
+    /// Offset from the point under the pointer to where the ball is held, across the view \[m\].
     offset: DVec3,
     /// Where the ball is held \[m\].
     anchor: DVec3,
@@ -43,7 +43,7 @@ enum Hold {
     Moved(bool),
     /// A spring was added after this one, and is not seen yet.
     Awaited(Option<SpringId>),
-    /// By this spring.
+    /// The ball is held by this spring.
     Spring(SpringId),
 }
 

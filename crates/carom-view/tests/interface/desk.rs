@@ -11,7 +11,7 @@ use egui_kittest::Harness;
 
 pub type Desk = Harness<'static, App>;
 
-/// In points.
+/// Size of the window in points.
 pub const SIZE: [f32; 2] = [1000.0, 620.0];
 
 /// The cheapest quality: software drivers spend most of the time of these tests on shadows and

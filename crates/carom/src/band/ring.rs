@@ -46,7 +46,7 @@ impl View {
 }
 
 impl Band {
-    /// Whether a point \[m\] is on the axis, and a ring is nearest to it.
+    /// Returns whether a point \[m\] is on the axis, and a whole ring is nearest to it.
     pub fn has_ring_about(&self, point: DVec3) -> bool {
         let [place, _] = self.place_of(point);
         let is_on_axis = place.x <= self.profile.axis_reach();
@@ -64,12 +64,12 @@ impl Band {
         self.section(point, side, |profile, place| profile.foot(place))
     }
 
-    /// The same for a point that is over the face of the section, though a rim may be nearest.
+    /// Returns the view of a point over the face of the section, though a rim may be nearer.
     pub fn side_face_seen_from(&self, point: DVec3, side: DVec3) -> View {
         self.section(point, side, Profile::foot_on_face)
     }
 
-    /// The same for a point that is over a rim of the section, though the face may be nearest.
+    /// Returns the view of a point over a rim of the section, though the face may be nearer.
     pub fn side_rim_seen_from(&self, point: DVec3, side: DVec3) -> View {
         let on_rim = |profile: &Profile, place| {
             let face = profile.foot_on_face(place);

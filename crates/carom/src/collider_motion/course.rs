@@ -25,7 +25,7 @@ pub(crate) struct Carriage {
     pub to: DVec3,
     /// Rotation since the start; `None` if it never turns.
     pub turn: Option<DQuat>,
-    /// Without a belt.
+    /// Motion of the surface, without that of a belt.
     pub motion: SurfaceMotion,
 }
 

@@ -20,7 +20,7 @@ const CLOSED: f64 = 1e-12;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Keyframe {
-    /// On the world's clock \[s\].
+    /// Time on the world's clock \[s\].
     pub time: f64,
     /// Displacement from the position at rest \[m\].
     pub position: DVec3,
@@ -34,7 +34,7 @@ impl Keyframe {
         Self { time, position, rotation: DQuat::IDENTITY }
     }
 
-    /// The same with a rotation.
+    /// Returns the keyframe with a rotation.
     pub fn rotated(self, rotation: DQuat) -> Self {
         Self { rotation, ..self }
     }
@@ -92,9 +92,9 @@ pub(super) struct Piece {
 
 /// Where a motion by keyframes is at a time.
 pub(super) enum Place<'a> {
-    /// At the first or the last keyframe, for good.
+    /// The motion rests at the first or the last keyframe, for good.
     Rests(&'a Keyframe),
-    /// On a piece, at a part of it.
+    /// The motion is on a piece, at a part of it.
     Moves(&'a Piece, f64),
 }
 
@@ -117,12 +117,13 @@ impl Keyframes {
         Given { keyframes, pivot: DVec3::ZERO, repeats: false }.into()
     }
 
-    /// The same motion, repeated before and after. The last keyframe has to have the pose of the first.
+    /// Returns the motion repeated before and after. The last keyframe must have the pose of the
+    /// first.
     pub fn repeating(self) -> Self {
         Given { repeats: true, ..self.given }.into()
     }
 
-    /// The same motion with rotations about a point, relative to the position at rest \[m\].
+    /// Returns the motion with rotations about a point, relative to the position at rest \[m\].
     pub fn about(self, pivot: DVec3) -> Self {
         Self { given: Given { pivot, ..self.given }, ..self }
     }

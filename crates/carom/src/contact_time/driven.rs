@@ -17,7 +17,7 @@ use crate::norm::Norm;
 /// ```
 #[derive(Debug, Clone)]
 pub(super) struct Driven<'a, P> {
-    /// From where the origin of the body is at time 0.
+    /// Path from the place of the body's origin at time 0.
     path: P,
     course: &'a Course,
     start: Kinematics,
@@ -32,7 +32,7 @@ struct Relative {
     arm: DVec3,
     velocity: DVec3,
     acceleration: DVec3,
-    /// Of the path alone \[m/s²\].
+    /// Acceleration of the path alone \[m/s²\].
     own: DVec3,
     size: Magnitudes,
     body: Kinematics,
@@ -58,13 +58,14 @@ struct Most {
 }
 
 impl Most {
-    /// Of the size of `y''`.
+    /// Returns a bound of the size of `y''`.
     fn felt(&self) -> f64 {
         let MotionBounds { spin, spin_growth, .. } = self.body;
         self.acceleration + 2.0 * spin * self.speed + (spin * spin + spin_growth) * self.arm
     }
 
-    /// Of the size of `y'''`: that of the derivatives of each term, and of ω times `y''`.
+    /// Returns a bound of the size of `y'''`: that of the derivatives of each term, and of ω times
+    /// `y''`.
     fn felt_jerk(&self) -> f64 {
         let MotionBounds { spin, spin_growth, spin_jerk, .. } = self.body;
         self.jerk

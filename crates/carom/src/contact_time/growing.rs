@@ -67,8 +67,8 @@ pub(crate) struct GrowingApproach<N> {
 }
 
 impl<N: Real> GrowingApproach<N> {
-    /// From the offset r \[m\] and the relative velocity v \[m/s\], for spheres whose radii have the sum R \[m\],
-    /// which grows at the speed G \[m/s\].
+    /// Prepares the equation from the offset r \[m\] and the relative velocity v \[m/s\], for
+    /// spheres whose radii have the sum R \[m\], which grows at the speed G \[m/s\].
     #[inline(always)]
     pub fn of(r: Vector<N>, v: Vector<N>, radius_sum: N, growth_speed: N) -> Self {
         let along = v * radius_sum - r * growth_speed;

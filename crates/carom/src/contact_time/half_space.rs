@@ -45,11 +45,11 @@ pub(super) fn sphere_half_space(
 /// Distance of a sphere in flight from a plane: one component of a [`Flight`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Height {
-    /// At time 0 \[m\], as the next two.
+    /// Distance at time 0 \[m\]; the next two are of the same time.
     distance: f64,
     /// Speed \[m/s\].
     speed: f64,
-    /// By everything but drag \[m/s²\].
+    /// Acceleration by everything but drag \[m/s²\].
     acceleration: f64,
     /// γ \[1/s\]
     drag_rate: f64,
@@ -89,7 +89,7 @@ impl Height {
         if bend > 0.0 { self.fall_on_the_way_up(bend) } else { self.fall_on_the_way_down(bend) }
     }
 
-    /// Of a parabola.
+    /// Returns the root of a parabola.
     fn ballistic_fall(&self) -> Option<f64> {
         let Self { distance, speed, acceleration, .. } = *self;
         if distance < 0.0 && speed * speed < 2.0 * acceleration * distance {

@@ -1,8 +1,8 @@
 //! The first contact with a feature of a mesh while nothing of the mesh is nearer.
 //!
-//! A sphere that comes to a mesh from outside meets what is nearest first. One that comes from behind a one-sided
-//! mesh, or begins in an overlap, is already within a radius of a feature when that becomes the nearest: that is
-//! where they meet.
+//! A sphere that comes to a mesh from outside meets what is nearest first. One that begins in an overlap is already
+//! within a radius of a feature when that becomes the nearest: that is where they meet. One that comes from behind an
+//! open mesh passes the feature there, until they are apart.
 
 use glam::DVec3;
 
@@ -10,6 +10,7 @@ use super::obstacle::Obstacle;
 use super::path::{Path, State};
 use super::roundoff::Magnitudes;
 use super::search;
+use crate::detect::passage;
 use crate::mesh::Edge;
 use crate::norm::Norm;
 use crate::surface::Form;
@@ -18,25 +19,50 @@ use crate::surface::Form;
 /// only a path along a border needs more, which comes to lie beyond it by no more than rounding.
 const MOST_STEPS: u32 = 4096;
 
+/// Passages of a feature in one flight, at most: a sphere that turns back in an open mesh passes once or twice.
+const MOST_PASSAGES: usize = 64;
+
 /// A face, an edge or a corner of a mesh, for spheres of this radius.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Feature<'a> {
     pub form: &'a Form,
-    /// From where paths count \[m\].
+    /// Place from which paths count \[m\].
     pub origin: DVec3,
     /// Radius \[m\].
     pub radius: f64,
-    /// Of the numbers that paths and feature are given by.
+    /// Magnitudes of the numbers that define paths and feature.
     pub size: Magnitudes,
 }
 
 impl Feature<'_> {
     /// The time \[s\] up to a horizon of the first contact at which nothing of the mesh is nearer, from the
-    /// `first` of all on, which is a contact with the whole plane, line or point.
+    /// `first` of all on, which is a contact with the whole plane, line or point. A sphere that is then as deep within
+    /// an open mesh as only one from behind passes until they are apart.
+    pub fn first_nearest(&self, path: &impl Path, first: f64, horizon: f64) -> Option<f64> {
+        let mut met = self.nearest_from(path, first, horizon)?;
+        if !(self.form.is_feature() && self.form.is_open()) {
+            return Some(met);
+        }
+        let obstacle = self.obstacle()?;
+        for _ in 0..MOST_PASSAGES {
+            let grown = obstacle.widened(path.growth_speed() * met);
+            let local = grown.local_distance(path.state_at(met).position, DVec3::ZERO);
+            if !passage::is_deep(local.distance, grown.radius()) {
+                return Some(met);
+            }
+            let later = Later { path, from: met };
+            let left = horizon - met;
+            let wait = search::first_contact_after_overlap(&later, &grown, self.size, left)?;
+            met = self.nearest_from(path, met + wait, horizon)?;
+        }
+        None
+    }
+
+    /// The first contact at which nothing of the mesh is nearer, as deep as it may be.
     ///
     /// Between contacts where something else is nearer, the way to the places where nothing is gives a time in
     /// which the sphere cannot be there.
-    pub fn first_nearest(&self, path: &impl Path, first: f64, horizon: f64) -> Option<f64> {
+    fn nearest_from(&self, path: &impl Path, first: f64, horizon: f64) -> Option<f64> {
         let center = |t: f64| self.origin + path.state_at(t).position;
         if is_nearest(self.form, center(first)) {
             return Some(first);
@@ -81,7 +107,8 @@ impl Feature<'_> {
         }
     }
 
-    /// How far a centre \[m\] is at least from where the feature is the nearest.
+    /// Returns a lower bound of the distance of a centre \[m\] from where the feature is the
+    /// nearest.
     fn beside(&self, center: DVec3) -> f64 {
         match self.form {
             Form::Facet(facet) => facet.distance_beside(center),

@@ -29,9 +29,9 @@ pub(super) enum Obstacle {
 /// Distance of an obstacle from one point, with its derivatives.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct LocalDistance {
-    /// From the core \[m\].
+    /// Distance from the core \[m\].
     pub from_core: f64,
-    /// Of the surfaces, `from_core` less the radius \[m\].
+    /// Distance of the surfaces: `from_core` less the radius \[m\].
     pub distance: f64,
     /// Direction in which the distance grows fastest.
     pub normal: DVec3,
@@ -54,7 +54,7 @@ pub(super) struct LocalDistance {
 /// A half-space that the centre must enter before a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Barrier {
-    /// From the half-space \[m\].
+    /// Distance from the half-space \[m\].
     pub distance: f64,
     /// Unit normal out of it.
     pub normal: DVec3,
@@ -66,7 +66,7 @@ impl Obstacle {
         *self.radius_mut()
     }
 
-    /// The same for a radius that is larger \[m\].
+    /// Returns the distance for a radius that is larger by an amount \[m\].
     pub fn widened(mut self, by: f64) -> Self {
         *self.radius_mut() += by;
         self
@@ -138,8 +138,9 @@ impl LocalDistance {
         }
     }
 
-    /// Of a point or an edge, from the nearest place on it; `across` is the velocity without its
-    /// part along the edge. The distance ρ has `ρ'' = (v² - ρ'²)/ρ`.
+    /// Returns the distance from a point or an edge, by the offset from the nearest place on it.
+    /// `across` is the velocity v without its part along the edge. The distance ρ has
+    /// `ρ'' = (v² - ρ'²)/ρ`.
     fn of_offset(offset: DVec3, across: DVec3, radius: f64, normal_at_zero: DVec3) -> Self {
         let from_core = offset.norm();
         let (normal, turning) = if from_core > 0.0 {
@@ -163,7 +164,8 @@ impl LocalDistance {
     }
 }
 
-/// As in `detect/sphere_band.rs`; from behind, the distance is that to the front.
+/// Returns the distance from a band as in `detect/sphere_band.rs`; from behind, it is that to the
+/// front.
 fn band_distance(band: &Band, radius: f64, position: DVec3, velocity: DVec3) -> LocalDistance {
     let view = band.seen_from(position);
     let concavity = Some(band.concavity(&view));
@@ -199,7 +201,8 @@ fn band_distance(band: &Band, radius: f64, position: DVec3, velocity: DVec3) -> 
 }
 
 impl LocalDistance {
-    /// Of what meets only centres in front of its plane, from a height above that.
+    /// Returns the distance from a surface that meets only centres in front of its plane, for a
+    /// centre at a height above that.
     fn one_sided(self, height: f64, normal: DVec3, radius: f64) -> Self {
         let is_behind = height < 0.0;
         let barrier = if is_behind {
@@ -211,7 +214,7 @@ impl LocalDistance {
     }
 }
 
-/// As in `detect/sphere_rectangle.rs`.
+/// Returns the distance from a rectangle as in `detect/sphere_rectangle.rs`.
 fn rectangle_distance(
     rectangle: &Rectangle,
     radius: f64,

@@ -15,7 +15,7 @@ const MARGIN: f64 = 1e-9;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Reach {
     flight: Flight,
-    /// Of the sphere \[m\].
+    /// Radius of the sphere \[m\].
     radius: f64,
     /// \[s\]
     horizon: f64,

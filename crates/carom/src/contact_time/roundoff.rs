@@ -30,7 +30,7 @@ pub(super) struct Magnitudes {
 }
 
 impl Magnitudes {
-    /// Of a flight at its beginning.
+    /// Returns the magnitudes of a flight at its beginning.
     pub fn of(flight: &Flight) -> Self {
         let speed = flight.velocity.norm();
         Self {
@@ -40,7 +40,7 @@ impl Magnitudes {
         }
     }
 
-    /// Of a length \[m\] that does not change.
+    /// Returns the magnitudes of a length \[m\] that does not change.
     pub fn of_length(length: f64) -> Self {
         Self { length, speed: 0.0, acceleration: 0.0 }
     }
@@ -72,7 +72,7 @@ pub(super) struct Gap {
 /// Phase of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Phase {
-    /// Not touching.
+    /// The bodies do not touch.
     Apart,
     /// Touching or overlapping, and closing or about to.
     Contact,

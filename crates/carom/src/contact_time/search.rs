@@ -66,11 +66,32 @@ pub(super) fn first_contact(
     size: Magnitudes,
     horizon: f64,
 ) -> Option<f64> {
+    let start = SearchState::at(path, obstacle, size, 0.0);
+    let passes = obstacle.is_open() && start.is_within(obstacle);
+    search(path, (obstacle, passes), size, horizon)
+}
+
+/// Time \[s\] of the first contact in `[0, horizon]` after the overlap in which the path begins has ended.
+pub(super) fn first_contact_after_overlap(
+    path: &impl Path,
+    obstacle: &Obstacle,
+    size: Magnitudes,
+    horizon: f64,
+) -> Option<f64> {
+    search(path, (obstacle, true), size, horizon)
+}
+
+/// The search, for a centre that passes the obstacle at time 0 or does not.
+fn search(
+    path: &impl Path,
+    (obstacle, mut passes): (&Obstacle, bool),
+    size: Magnitudes,
+    horizon: f64,
+) -> Option<f64> {
     let state_at = |t: f64| SearchState::at(path, obstacle, size, t);
     let (mut before, mut t) = (0.0, 0.0);
     let mut window = path.window();
     let (mut close_steps, mut was_overlap) = (0, false);
-    let mut passes = obstacle.is_open() && state_at(t).is_within(obstacle);
     for _ in 0..MAX_STEPS {
         let now = state_at(t).passing(obstacle, passes);
         passes = now.passes;
@@ -211,8 +232,8 @@ impl SearchState {
 
     /// The state of a centre that passed an obstacle from behind before, or did not.
     fn passing(self, obstacle: &Obstacle, passed: bool) -> Self {
-        let still = self.local.is_behind || (passed && self.is_overlap());
-        let passes = obstacle.is_open() && still;
+        let is_behind = obstacle.is_open() && self.local.is_behind;
+        let passes = is_behind || (passed && self.is_overlap());
         let phase = if passes { Phase::Apart } else { self.phase };
         Self { passes, phase, ..self }
     }

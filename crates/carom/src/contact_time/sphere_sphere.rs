@@ -58,8 +58,8 @@ pub(crate) struct Approach<N> {
 }
 
 impl<N: Real> Approach<N> {
-    /// From the offset r \[m\] and the relative velocity v \[m/s\], for spheres whose radii have the
-    /// sum R \[m\].
+    /// Prepares the equation from the offset r \[m\] and the relative velocity v \[m/s\], for
+    /// spheres whose radii have the sum R \[m\].
     #[inline(always)]
     pub fn of(r: Vector<N>, v: Vector<N>, radius_sum: N) -> Self {
         let discriminant = v.dot(v) * radius_sum * radius_sum - r.cross(v).length_squared();

@@ -21,9 +21,9 @@ use crate::surface::{Form, Rectangle, SurfaceMotion};
 /// The path of a sphere from some time on.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Track {
-    /// In closed form, for ever.
+    /// A flight in closed form, without end.
     Flight(Flight),
-    /// As a polynomial, to its end.
+    /// A polynomial, up to its end.
     Polynomial(Box<PolynomialTrack>),
 }
 
@@ -33,7 +33,7 @@ pub(crate) struct PolynomialTrack {
     flight: PolynomialFlight,
     /// Time since the flight began \[s\], where the time of the track is 0.
     age: f64,
-    /// Of the coefficients of its acceleration \[m/s²\].
+    /// Sizes of the coefficients of the acceleration \[m/s²\].
     norms: [f64; TERMS],
 }
 
@@ -56,8 +56,8 @@ impl PolynomialTrack {
 }
 
 impl Track {
-    /// In a coordinate system whose origin starts at `origin` \[m\] and moves with a constant velocity
-    /// \[m/s\].
+    /// Returns the track in a coordinate system whose origin starts at `origin` \[m\] and moves
+    /// with a constant velocity \[m/s\].
     fn seen_from(&self, origin: DVec3, velocity: DVec3) -> Self {
         match self {
             Self::Flight(flight) => Self::Flight(flight.seen_from(origin, velocity)),
@@ -70,7 +70,7 @@ impl Track {
         }
     }
 
-    /// Where its flight began \[m\], and the same track from the origin.
+    /// Returns where the flight began \[m\], and the track moved to the origin.
     fn at_origin(&self) -> (DVec3, Self) {
         let mut track = self.clone();
         let position = match &mut track {
@@ -81,7 +81,7 @@ impl Track {
         (start, track)
     }
 
-    /// Moves all of it \[m\].
+    /// Returns the track moved by a way \[m\].
     pub fn shifted(mut self, by: DVec3) -> Self {
         match &mut self {
             Self::Flight(flight) => flight.position += by,
@@ -179,7 +179,7 @@ impl Path for Track {
 struct TrackPair {
     /// Offset from the start of the first to that of the second \[m\].
     offset: DVec3,
-    /// Both from the origin.
+    /// Track of the first body, from the origin.
     first: Track,
     second: Track,
 }

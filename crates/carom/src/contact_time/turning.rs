@@ -17,7 +17,7 @@ pub(super) struct Turns {
 }
 
 impl Turns {
-    /// With this angular velocity \[rad/s\], which is not zero.
+    /// Creates the rotation with this angular velocity \[rad/s\], which must not be zero.
     pub fn new(angular_velocity: DVec3) -> Self {
         let rate = angular_velocity.norm();
         Self { angular_velocity, rate, axis: angular_velocity / rate }
@@ -49,7 +49,7 @@ impl Turns {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Turning<P> {
-    /// In a coordinate system that does not turn.
+    /// Path in a coordinate system that does not turn.
     pub flight: P,
     pub turns: Turns,
 }

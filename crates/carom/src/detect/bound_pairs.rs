@@ -23,7 +23,7 @@ pub(crate) fn bound_pairs(now: &Instant, potential: PairPotential) -> Vec<[u32; 
         image_overlaps::visit(&now, 0.0, |_, _| false, |bodies, _| keep(bodies));
     } else {
         let mut found: Vec<Contact> = Vec::new();
-        contacts::of_overlapping_pairs(&now, 0.0, &mut Search::default(), &mut found);
+        contacts::find_overlapping_pairs(&now, 0.0, &mut Search::default(), &mut found);
         found.iter().for_each(|contact| keep(contact.bodies));
     }
     pairs.sort_unstable();

@@ -15,12 +15,12 @@ use crate::system::System;
 /// Up to this many spheres all pairs are tested: sorting would not pay off.
 const FEW: usize = 16;
 
-/// Working memory of the searches below; only the sorted spheres that [`of_everyone`] leaves are kept for
-/// [`of_moved`].
+/// Working memory of the searches below; only the sorted spheres that [`find_all`] leaves are kept for
+/// [`find_of_moved`].
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Search {
-    everyone: BroadPhase,
-    some: BroadPhase,
+    all_spheres: BroadPhase,
+    selection: BroadPhase,
     near: Vec<u32>,
     /// Pairs of spheres that were tested since the count was last taken.
     pair_tests: u64,
@@ -34,7 +34,7 @@ impl Search {
 }
 
 /// Contacts that are not `Separate` among all spheres and solid surfaces, sorted by bodies.
-pub(crate) fn of_everyone(
+pub(crate) fn find_all(
     instant: &Instant,
     tolerance: f64,
     search: &mut Search,
@@ -43,18 +43,18 @@ pub(crate) fn of_everyone(
     contacts.clear();
     let count = instant.system.spheres.id.len() as u32;
     if instant.system.settings.spheres_collide {
-        search.everyone.rebuild((0..count).map(|i| at(instant, i)), tolerance);
-        search.everyone.for_each_pair(|i, j| {
+        search.all_spheres.rebuild((0..count).map(|i| sphere_at(instant, i)), tolerance);
+        search.all_spheres.for_each_pair(|i, j| {
             search.pair_tests += 1;
-            keep_pair(instant, [i, j], tolerance, contacts);
+            add_pair(instant, [i, j], tolerance, contacts);
         });
     }
-    of_surfaces(instant, 0..count, tolerance, &mut search.near, contacts);
+    find_with_surfaces(instant, 0..count, tolerance, &mut search.near, contacts);
     contacts.sort_unstable_by_key(|contact| contact.bodies);
 }
 
 /// Pairs of spheres that overlap by more than `tolerance`, however they move, sorted by bodies.
-pub(crate) fn of_overlapping_pairs(
+pub(crate) fn find_overlapping_pairs(
     instant: &Instant,
     tolerance: f64,
     search: &mut Search,
@@ -72,24 +72,24 @@ pub(crate) fn of_overlapping_pairs(
             contacts.push(contact);
         }
     };
-    let everyone = 0..instant.system.spheres.id.len() as u32;
-    for_each_candidate(instant, everyone, 0.0, &mut search.some, &mut keep);
+    let all = 0..instant.system.spheres.id.len() as u32;
+    for_each_candidate(instant, all, 0.0, &mut search.selection, &mut keep);
     search.pair_tests += pair_tests;
     contacts.sort_unstable_by_key(|contact| contact.bodies);
 }
 
 /// Visits pairs of spheres, then spheres and solid surfaces, that overlap by more than
 /// `tolerance`, however they move.
-pub(crate) fn of_overlaps(
+pub(crate) fn visit_overlaps(
     instant: &Instant,
     tolerance: f64,
     search: &mut Search,
     mut visit: impl FnMut(&Contact),
 ) {
     let mut pairs = Vec::new();
-    of_overlapping_pairs(instant, tolerance, search, &mut pairs);
+    find_overlapping_pairs(instant, tolerance, search, &mut pairs);
     pairs.iter().for_each(&mut visit);
-    of_overlapping_surfaces(instant, tolerance, search, visit);
+    visit_overlapping_surfaces(instant, tolerance, search, visit);
 }
 
 /// Finds two spheres that overlap, however they move, and for which `is_sought` holds, without a list of all.
@@ -101,9 +101,9 @@ pub(crate) fn find_overlapping_pair(
     if !instant.system.settings.spheres_collide {
         return None;
     }
-    let everyone = 0..instant.system.spheres.id.len() as u32;
-    search.some.rebuild(everyone.map(|i| at(instant, i)), 0.0);
-    let found = search.some.try_for_each_pair(|i, j| {
+    let all = 0..instant.system.spheres.id.len() as u32;
+    search.selection.rebuild(all.map(|i| sphere_at(instant, i)), 0.0);
+    let found = search.selection.try_for_each_pair(|i, j| {
         let contact = instant.pair(i, j, 0.0);
         let overlaps = contact.separation.distance < 0.0 && instant.system.spheres_meet(i, j);
         let is_found = overlaps && is_sought(&contact);
@@ -113,7 +113,7 @@ pub(crate) fn find_overlapping_pair(
 }
 
 /// Visits spheres and solid surfaces that overlap by more than `tolerance`, however they move.
-pub(crate) fn of_overlapping_surfaces(
+pub(crate) fn visit_overlapping_surfaces(
     instant: &Instant,
     tolerance: f64,
     search: &mut Search,
@@ -135,7 +135,7 @@ pub(crate) fn of_overlapping_surfaces(
 }
 
 /// Collects the contacts that are not `Separate`, between these spheres, and between them and solid surfaces.
-pub(crate) fn of_some(
+pub(crate) fn find_among(
     instant: &Instant,
     members: &[u32],
     tolerance: f64,
@@ -145,12 +145,12 @@ pub(crate) fn of_some(
     contacts.clear();
     if instant.system.settings.spheres_collide {
         let members = members.iter().copied();
-        for_each_candidate(instant, members, tolerance, &mut search.some, |i, j| {
+        for_each_candidate(instant, members, tolerance, &mut search.selection, |i, j| {
             search.pair_tests += 1;
-            keep_pair(instant, [i, j], tolerance, contacts);
+            add_pair(instant, [i, j], tolerance, contacts);
         });
     }
-    of_surfaces(instant, members.iter().copied(), tolerance, &mut search.near, contacts);
+    find_with_surfaces(instant, members.iter().copied(), tolerance, &mut search.near, contacts);
     contacts.sort_unstable_by_key(|contact| contact.bodies);
 }
 
@@ -164,7 +164,7 @@ fn for_each_candidate(
     mut visit: impl FnMut(u32, u32),
 ) {
     if spheres.len() > FEW {
-        broad_phase.rebuild(spheres.map(|i| at(instant, i)), tolerance);
+        broad_phase.rebuild(spheres.map(|i| sphere_at(instant, i)), tolerance);
         broad_phase.for_each_pair(visit);
         return;
     }
@@ -174,7 +174,7 @@ fn for_each_candidate(
     }
 }
 
-/// Spheres that moved since [`of_everyone`].
+/// Spheres that moved since [`find_all`].
 pub(crate) struct Moved<'a> {
     pub list: &'a [u32],
     pub contains: &'a dyn Fn(u32) -> bool,
@@ -182,24 +182,24 @@ pub(crate) struct Moved<'a> {
 
 /// Contacts that are not `Separate` of moved spheres with all others and with solid surfaces, in no
 /// useful order.
-pub(crate) fn of_moved(
+pub(crate) fn find_of_moved(
     instant: &Instant,
     moved: &Moved,
     tolerance: f64,
     search: &mut Search,
     contacts: &mut Vec<Contact>,
 ) {
-    of_some(instant, moved.list, tolerance, search, contacts);
+    find_among(instant, moved.list, tolerance, search, contacts);
     if instant.system.settings.spheres_collide {
-        let Search { everyone, some, pair_tests, .. } = search;
+        let Search { all_spheres, selection, pair_tests, .. } = search;
         if moved.list.len() <= FEW {
             // More than a few are arranged already, by the search among themselves.
-            some.rebuild(moved.list.iter().map(|&i| at(instant, i)), tolerance);
+            selection.rebuild(moved.list.iter().map(|&i| sphere_at(instant, i)), tolerance);
         }
-        everyone.for_each_pair_with(some, |i, j| {
+        all_spheres.for_each_pair_with(selection, |i, j| {
             if !(moved.contains)(i) {
                 *pair_tests += 1;
-                keep_pair(instant, [i, j], tolerance, contacts);
+                add_pair(instant, [i, j], tolerance, contacts);
             }
         });
     }
@@ -217,7 +217,7 @@ pub(crate) fn meets_surface(system: &System, center: DVec3, radius: f64) -> bool
 }
 
 /// Contacts of all spheres with triggers: at most `tolerance` \[m\] apart, whichever way they move.
-pub(crate) fn of_triggers(
+pub(crate) fn visit_triggers(
     instant: &Instant,
     tolerance: f64,
     search: &mut Search,
@@ -242,7 +242,7 @@ pub(crate) fn of_triggers(
     }
 }
 
-fn of_surfaces(
+fn find_with_surfaces(
     instant: &Instant,
     members: impl Iterator<Item = u32>,
     tolerance: f64,
@@ -266,7 +266,7 @@ fn of_surfaces(
                         *other = contact;
                     }
                     Some(_) => {}
-                    None => keep(contact, contacts),
+                    None => add_unless_separate(contact, contacts),
                 }
             },
         );
@@ -290,17 +290,17 @@ fn are_flush(system: System, contacts: [&Contact; 2]) -> bool {
     are_joined && (one - other).length_squared() <= FLUSH * FLUSH
 }
 
-fn at(instant: &Instant, i: u32) -> (u32, DVec3, f64) {
+fn sphere_at(instant: &Instant, i: u32) -> (u32, DVec3, f64) {
     (i, instant.motion.position[i as usize], instant.system.spheres.radius[i as usize])
 }
 
-fn keep_pair(instant: &Instant, [i, j]: [u32; 2], tolerance: f64, contacts: &mut Vec<Contact>) {
+fn add_pair(instant: &Instant, [i, j]: [u32; 2], tolerance: f64, contacts: &mut Vec<Contact>) {
     if instant.system.spheres_meet(i, j) {
-        keep(instant.pair(i, j, tolerance), contacts);
+        add_unless_separate(instant.pair(i, j, tolerance), contacts);
     }
 }
 
-fn keep(contact: Contact, contacts: &mut Vec<Contact>) {
+fn add_unless_separate(contact: Contact, contacts: &mut Vec<Contact>) {
     if contact.state != ContactState::Separate {
         contacts.push(contact);
     }

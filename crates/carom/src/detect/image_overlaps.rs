@@ -93,7 +93,7 @@ fn of_surfaces(
 
 /// The box that repeats itself, at some time.
 struct Faces {
-    /// Its edges \[m\], infinite along open axes.
+    /// Edges of the box \[m\], infinite along open axes.
     period: DVec3,
     /// How far the box above has slid along x, at most half an edge \[m\].
     slide: f64,

@@ -93,8 +93,8 @@ impl Instant<'_> {
         tree.near(&reach(&self.system, self.motion, i, tolerance), near);
         for &surface in near.iter() {
             if wanted(self.system.surfaces[surface as usize].role)
-                && self.system.meets_surface(sphere, surface)
                 && let Some(contact) = self.surface(sphere, surface, tolerance)
+                && self.system.meets_surface(sphere, surface)
             {
                 visit(contact);
             }

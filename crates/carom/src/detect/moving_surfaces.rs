@@ -21,7 +21,7 @@ const SLACK: f64 = 1e-9;
 /// since its surfaces move as one: a place is looked up in the coordinates of the collider when the tree was made.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct MovingSurfaces {
-    /// In the order of the colliders.
+    /// Trees of the surfaces, in the order of the colliders.
     trees: Vec<MovingTree>,
 }
 

@@ -39,7 +39,7 @@ fn within(point: DVec3, extent: impl Fn(DVec3) -> [f64; 2]) -> (DVec3, DVec3) {
     (point + 0.5 * (least + most), 0.5 * (most - least))
 }
 
-/// Of larger outlines the rectangle about them has to do.
+/// Number of sides above which an outline is bounded by the rectangle about it.
 const MANY_SIDES: usize = 8;
 
 /// Centre and half the size \[m\] of the bounds of a flat face.
@@ -70,8 +70,8 @@ struct Node {
     bounds: Bounds,
     /// The node after this one and all below it.
     next: u32,
-    /// Of a leaf, the place of its first surface and of the one after its last; of an inner node,
-    /// nothing.
+    /// In a leaf, the places of its first surface and of the one after its last; unused in an inner
+    /// node.
     surfaces: [u32; 2],
 }
 
@@ -94,7 +94,7 @@ impl SurfaceTree {
         tree
     }
 
-    /// A tree that finds all of these surfaces everywhere.
+    /// Returns a tree that finds all surfaces everywhere.
     #[cfg(test)]
     pub fn everywhere(numbers: impl IntoIterator<Item = u32>) -> Self {
         Self { unbounded: numbers.into_iter().collect(), ..Self::default() }

@@ -35,7 +35,7 @@ impl Buoyancy {
         Self { gravity, ..self }
     }
 
-    /// How far the lowest point of a sphere is below the surface \[m\]; negative above it.
+    /// Returns how far the lowest point of a sphere is below the surface \[m\]; negative above it.
     fn depth(&self, sphere: &SphereState) -> f64 {
         let height = -sphere.position.dot(self.gravity) / self.gravity.norm();
         self.surface_height - height + sphere.radius

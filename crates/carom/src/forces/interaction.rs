@@ -90,7 +90,7 @@ pub struct SphereStates<'a> {
 }
 
 impl SphereStates<'_> {
-    /// How many there are.
+    /// Returns the number of spheres.
     pub fn len(&self) -> usize {
         self.ids.len()
     }
@@ -111,13 +111,13 @@ impl SphereStates<'_> {
         }
     }
 
-    /// From the centre of the sphere at one index to that of another \[m\]; in a periodic box to its nearest
-    /// image.
+    /// Returns the offset from the centre of the sphere at one index to that of another \[m\]; in a
+    /// periodic box to its nearest image.
     pub fn offset(&self, from: usize, to: usize) -> DVec3 {
         self.offset_between(self.positions[from], self.positions[to])
     }
 
-    /// From one place to another \[m\]; in a periodic box to its nearest image.
+    /// Returns the offset from one place to another \[m\]; in a periodic box to its nearest image.
     pub fn offset_between(&self, from: DVec3, to: DVec3) -> DVec3 {
         if self.period == DVec3::INFINITY {
             to - from

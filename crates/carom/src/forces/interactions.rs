@@ -103,7 +103,7 @@ impl<'a> Interactions<'a> {
         largest(0).sqrt() + largest(1)
     }
 
-    /// Whether one of them depends on velocities.
+    /// Returns whether a force depends on velocities.
     pub fn depend_on_velocity(&self) -> bool {
         self.list().any(|interaction| interaction.depends_on_velocity())
             || self.springs.iter().any(|(_, spring)| spring.damping > 0.0)

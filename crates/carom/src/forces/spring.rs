@@ -173,7 +173,7 @@ struct Ends {
     /// Indices of its spheres.
     first: usize,
     second: Option<usize>,
-    /// From the first end to the second \[m\].
+    /// Offset from the first end to the second \[m\].
     offset: DVec3,
     /// Velocity of the second end relative to the first \[m/s\].
     velocity: DVec3,
@@ -183,7 +183,7 @@ struct Ends {
 struct Stretch {
     /// Length \[m\].
     length: f64,
-    /// From the first end to the second.
+    /// Unit vector from the first end to the second.
     direction: DVec3,
     /// Rate of change of the length \[m/s\].
     lengthening: f64,

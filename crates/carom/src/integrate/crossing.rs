@@ -35,7 +35,8 @@ pub(crate) fn first_positive(
     Some(time)
 }
 
-/// How long `value + slope t + curvature t²/2` stays below 0, from a value that is not above it.
+/// Returns how long `value + slope t + curvature t²/2` stays below 0, from a value that is not
+/// above it.
 fn time_below(value: f64, slope: f64, curvature: f64) -> f64 {
     let root = (slope * slope - 2.0 * curvature * value).max(0.0).sqrt();
     let time = if slope > 0.0 { -2.0 * value / (slope + root) } else { (root - slope) / curvature };

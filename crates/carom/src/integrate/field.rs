@@ -11,7 +11,7 @@ pub(crate) struct Start<'a> {
     pub velocities: &'a [DVec3],
     /// Parts of both below their rounding.
     pub carried: &'a [[DVec3; 2]],
-    /// On the world's clock \[s\].
+    /// Start of the step, on the world's clock \[s\].
     pub time: f64,
     /// When the step has to end at the latest \[s\].
     pub until: f64,

@@ -86,7 +86,7 @@ impl Pace {
 pub(crate) struct Step {
     /// When it ends, on the world's clock \[s\].
     pub end: f64,
-    /// Of each sphere.
+    /// Acceleration of each sphere.
     pub accelerations: Vec<PolynomialAcceleration>,
     pub pace: Pace,
     /// Whether its error is small; else no shorter step was allowed.
@@ -142,7 +142,8 @@ pub(crate) fn step(
     }
 }
 
-/// By which factor a step with this error may be longer: the error grows with the seventh power of its length.
+/// Returns the factor by which a step with this error may be longer: the error grows with the
+/// seventh power of its length.
 fn growth(error: f64) -> f64 {
     if error == 0.0 {
         return MOST_GROWTH;
@@ -158,7 +159,7 @@ struct Attempt<'a> {
     first: &'a Values,
     /// \[s\]
     length: f64,
-    /// Of each sphere: the acceleration as a sum of products of nodes \[m/s²\].
+    /// Acceleration of each sphere as a sum of products of nodes \[m/s²\].
     newton: Vec<[DVec3; TERMS]>,
     /// The same as a sum of powers \[m/s²\].
     powers: Vec<[DVec3; TERMS]>,
@@ -188,7 +189,7 @@ impl<'a> Attempt<'a> {
         Self { start, first, length, newton, powers, sizes: first.sizes.clone() }
     }
 
-    /// Finds the accelerations at the nodes by iteration; tells whether it converges.
+    /// Finds the accelerations at the nodes by iteration; returns whether it converges.
     fn iterate(&mut self, field: &mut impl Field) -> bool {
         let count = self.powers.len();
         let (mut positions, mut velocities) = (vec![DVec3::ZERO; count], vec![DVec3::ZERO; count]);
@@ -216,7 +217,7 @@ impl<'a> Attempt<'a> {
         change_before <= DIVERGED
     }
 
-    /// Where the spheres are at a part of the step, and how they move there.
+    /// Computes the positions and velocities of the spheres at a part of the step.
     fn states_at(&self, s: f64, gains: &Gains, [positions, velocities]: [&mut [DVec3]; 2]) {
         let t = s * self.length;
         for (sphere, powers) in self.powers.iter().enumerate() {
@@ -233,7 +234,8 @@ impl<'a> Attempt<'a> {
         }
     }
 
-    /// Takes in the accelerations at a node; tells by what part that changes the term of this node, if it is the last.
+    /// Adds the accelerations at a node; returns by what part that changes the term of this node,
+    /// if it is the last.
     fn take_in(&mut self, node: usize, values: &Values) -> f64 {
         let is_last = node == TERMS - 1;
         let mut most = 0.0f64;

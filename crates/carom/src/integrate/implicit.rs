@@ -40,7 +40,7 @@ const POSITION_PART: f64 = 1e-7;
 
 /// A step that was tried.
 pub(super) struct Implicit {
-    /// Of each sphere: the acceleration as a sum of powers of the part of the step \[m/s²\].
+    /// Acceleration of each sphere as a sum of powers of the part of the step \[m/s²\].
     pub powers: Vec<[DVec3; TERMS]>,
     /// The error as a part of what is negligible, as a multiple of the tolerance of a step.
     pub error: f64,
@@ -169,9 +169,9 @@ struct Attempt<'a> {
     first: &'a Values,
     /// \[s\]
     length: f64,
-    /// Of each sphere: the accelerations at the nodes \[m/s²\].
+    /// Accelerations of each sphere at the nodes \[m/s²\].
     at_nodes: Vec<[DVec3; TERMS]>,
-    /// Of each sphere: what an acceleration is measured by \[m/s²\].
+    /// Size by which errors of the acceleration of each sphere are measured \[m/s²\].
     scales: Vec<f64>,
 }
 
@@ -236,7 +236,7 @@ impl<'a> Attempt<'a> {
         most
     }
 
-    /// Of each sphere: the acceleration as a sum of powers of the part of the step \[m/s²\].
+    /// Returns the acceleration of each sphere as a sum of powers of the part of the step \[m/s²\].
     fn powers(&self) -> Vec<[DVec3; TERMS]> {
         self.at_nodes.iter().map(|values| through(&END_NODES, &END_NEWTON, *values)).collect()
     }

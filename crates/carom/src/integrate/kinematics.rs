@@ -12,7 +12,7 @@ pub(super) struct Kinematics {
 }
 
 impl Kinematics {
-    /// That of the sphere at an index.
+    /// Returns the motion of the sphere at an index.
     pub fn of(motion: &Motion, index: usize) -> Self {
         Self { position: motion.position[index], velocity: motion.velocity[index] }
     }

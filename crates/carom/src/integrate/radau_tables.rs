@@ -22,8 +22,8 @@ pub(super) const NEWTON: Table = newton_basis(NODES);
 /// [`NEWTON`] of the nodes that include the end.
 pub(super) const END_NEWTON: Table = newton_basis(END_NODES);
 
-/// By node: the way, divided by the square of the time, and the velocity, divided by the time, that a unit of each term
-/// of the acceleration adds.
+/// Gains by node: the way, divided by the square of the time, and the velocity, divided by the
+/// time, that a unit of each term of the acceleration adds.
 pub(super) const GAINS: [Gains; TERMS] = gains_at_nodes(NODES);
 /// [`GAINS`] at the nodes that include the end.
 pub(super) const END_GAINS: [Gains; TERMS] = gains_at_nodes(END_NODES);
@@ -31,8 +31,8 @@ pub(super) const END_GAINS: [Gains; TERMS] = gains_at_nodes(END_NODES);
 pub(super) const GAINS_AT_END: Gains = gains_at(1.0);
 /// `1/(h_n - h_k)` by n and k < n.
 pub(super) const RECIPROCALS: Table = reciprocals();
-/// By node that [`END_NODES`] has, and by node whose acceleration it is: the way, divided by the square of the time of
-/// the step, and the velocity, divided by that time, that a unit of it adds.
+/// Way, divided by the square of the time of the step, that a unit of the acceleration at each node
+/// adds at each of the [`END_NODES`]; `END_VELOCITIES` has the velocity, divided by that time.
 pub(super) const END_WAYS: Table = integrals_of_nodes(0);
 pub(super) const END_VELOCITIES: Table = integrals_of_nodes(1);
 

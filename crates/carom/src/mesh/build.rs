@@ -30,11 +30,20 @@ impl Features {
         let is_two_sided = !(is_one_sided || topology.is_closed);
         let faces = Faces::of(topology);
         let borders = Borders::of(topology, &faces);
-        Self {
+        let mut features = Self {
             facets: facets::facets(&faces, topology, &borders),
             edges: borders.edges(topology, &faces, is_two_sided),
             corners: corners::corners(topology, &faces, &borders, is_two_sided),
             is_two_sided,
-        }
+        };
+        features.open(is_one_sided && !topology.is_closed);
+        features
+    }
+
+    /// Sets whether spheres pass all of them from behind.
+    fn open(&mut self, is_open: bool) {
+        self.facets.iter_mut().for_each(|it| it.frame.is_open = is_open);
+        self.edges.iter_mut().for_each(|it| it.is_open = is_open);
+        self.corners.iter_mut().for_each(|it| it.is_open = is_open);
     }
 }

@@ -19,6 +19,8 @@ pub(crate) struct Corner {
     /// Unit vectors along the edges that end here, in the coordinates of the mesh. The corner is the nearest
     /// feature for points that lie ahead along none of them.
     pub rays: Arc<[DVec3]>,
+    /// Whether spheres pass it from behind.
+    pub is_open: bool,
 }
 
 impl Corner {

@@ -19,6 +19,10 @@ pub(crate) struct Edge {
     /// Unit vectors across the edge, each away from one of its faces. The edge is the nearest feature for points
     /// beyond both. An edge of one face has the same vector twice.
     pub outward: [DVec3; 2],
+    /// Whether it is an edge of one face. The second vector across it is then the normal of that face.
+    pub is_border: bool,
+    /// Whether spheres pass it from behind.
+    pub is_open: bool,
 }
 
 impl Edge {
@@ -37,6 +41,15 @@ impl Edge {
         let offset = point - self.center;
         offset.dot(self.axis).abs() <= self.half + slack
             && self.outward.iter().all(|outward| offset.dot(*outward) >= -slack)
+    }
+
+    /// Returns whether a centre \[m\] beyond a border is behind the plane of its face, by less than a radius \[m\].
+    pub fn is_seen_from_behind(&self, center: DVec3, radius: f64) -> bool {
+        let offset = center - self.center;
+        let [outward, normal] = self.outward.map(|direction| offset.dot(direction));
+        let is_beside =
+            offset.dot(self.axis).abs() <= self.half && (0.0..radius).contains(&outward);
+        self.is_border && is_beside && -radius < normal && normal < 0.0
     }
 
     /// Returns the point of its line that is nearest to a point \[m\].

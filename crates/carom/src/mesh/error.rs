@@ -12,11 +12,13 @@ pub enum MeshError {
     VertexNotFinite {
         /// Index of the vertex.
         vertex: usize,
-        /// Its coordinates.
+        /// Coordinates of the vertex.
         position: DVec3,
     },
     /// A triangle names a vertex that does not exist.
-    #[error("triangle {triangle} of the mesh names vertex {vertex}, and there are {count}, from 0")]
+    #[error(
+        "triangle {triangle} of the mesh names vertex {vertex}, but there are only {count}, counted from 0"
+    )]
     UnknownVertex {
         /// Index of the triangle.
         triangle: usize,
@@ -26,7 +28,7 @@ pub enum MeshError {
         count: usize,
     },
     /// Every triangle has zero area.
-    #[error("the mesh must have a triangle with an area, and has none")]
+    #[error("the mesh must have at least one triangle with an area")]
     NoArea,
     /// Heights do not form a grid.
     #[error(
@@ -39,7 +41,7 @@ pub enum MeshError {
         columns: usize,
     },
     /// Rows of heights differ in length.
-    #[error("row {row} of the heights must have {columns} numbers as the first has, not {found}")]
+    #[error("row {row} of the heights must have {columns} numbers, as the first row, not {found}")]
     UnequalRows {
         /// Index of the row.
         row: usize,

@@ -4,8 +4,9 @@ use glam::{DQuat, DVec3};
 
 use super::{ClosedMesh, Corner, Edge, Facet};
 use crate::rectangle::Rectangle;
+use crate::rotation;
 
-/// A rotation about a point followed by a shift: `x' = to + R (x - from)`.
+/// A rotation about a point followed by a shift: `x' = to + R (x - from)`. Components that are rounding of the turn are zero.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Placement {
     /// Rotation, of unit length.
@@ -18,11 +19,11 @@ pub(crate) struct Placement {
 
 impl Placement {
     pub fn point(&self, point: DVec3) -> DVec3 {
-        self.to + self.rotation * (point - self.from)
+        self.to + rotation::turned_offset(self.rotation, point - self.from)
     }
 
     pub fn direction(&self, direction: DVec3) -> DVec3 {
-        self.rotation * direction
+        rotation::turned_direction(self.rotation, direction)
     }
 
     pub fn rectangle(&self, it: &Rectangle) -> Rectangle {
@@ -53,6 +54,8 @@ impl Placement {
             axis: self.direction(it.axis),
             half: it.half,
             outward: it.outward.map(|direction| self.direction(direction)),
+            is_border: it.is_border,
+            is_open: it.is_open,
         }
     }
 
@@ -61,6 +64,7 @@ impl Placement {
             point: self.point(it.point),
             rotation: self.rotation * it.rotation,
             rays: it.rays.clone(),
+            is_open: it.is_open,
         }
     }
 }

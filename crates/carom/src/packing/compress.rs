@@ -18,12 +18,12 @@ const MOST_HEATED: f64 = 2.0;
 /// When a compression ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Until {
-    /// At this packing fraction, in (0, 1), to rounding.
+    /// Stops at this packing fraction, in (0, 1), to rounding.
     PackingFraction(f64),
-    /// At this reduced pressure, > 1, as measured over a frame.
+    /// Stops at this reduced pressure, > 1, as measured over a frame.
     Pressure(f64),
-    /// At this number of collisions of a sphere in the time in which the thermal speed covers its mean diameter, as
-    /// measured over a frame; > 0.
+    /// Stops at this number of collisions of a sphere in the time in which the thermal speed covers
+    /// its mean diameter, as measured over a frame; > 0.
     CollisionRate(f64),
 }
 
@@ -101,7 +101,7 @@ pub struct Compressed {
 /// Velocities are scaled back to the initial kinetic energy whenever it has doubled. Growth is zero at the end.
 ///
 /// # Errors
-/// Those of [`World::step`]; [`Error::Invalid`] for numbers that make no sense, for spheres that are at rest or denser
+/// Those of [`World::step`]; [`Error::Invalid`] for invalid numbers, for spheres that are at rest or denser
 /// than they are to become, or where the volume is not known.
 pub fn compress(world: &mut World, compression: &Compression) -> Result<Compressed, Error> {
     let about_settings = |invalid: InvalidValue| invalid.about(Subject::Settings);

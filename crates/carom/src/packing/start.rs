@@ -168,7 +168,7 @@ impl Start {
 /// The radii are the requested ones times a common factor, which growth brings to 1.
 ///
 /// # Errors
-/// [`Error::Invalid`] for numbers that make no sense, or if the largest sphere does not go into the box: the edges of a
+/// [`Error::Invalid`] for invalid numbers, or if the largest sphere does not go into the box: the edges of a
 /// periodic one must be four times its radius, those of walls twice.
 pub fn start(start: &Start) -> Result<World, Error> {
     start.validate().map_err(|invalid| invalid.about(Subject::Settings))?;

@@ -31,7 +31,7 @@ pub(super) struct Sweep {
     way: DVec3,
     /// One over the way along each axis \[1/m\].
     inverse: DVec3,
-    /// By how much bounds are widened \[m\].
+    /// Distance by which bounds are widened \[m\].
     margin: f64,
 }
 
@@ -41,7 +41,7 @@ impl Sweep {
         Self { start, radius, way, inverse: way.recip(), margin: radius + SLACK * size }
     }
 
-    /// The same sweep relative to a place \[m\].
+    /// Returns the sweep relative to a place \[m\].
     pub fn seen_from(self, place: DVec3) -> Self {
         Self { start: self.start - place, ..self }
     }

@@ -120,7 +120,7 @@ pub(super) struct Solver {
     terms: Vec<f64>,
     /// Number of contacts of each body, and the largest of their scales.
     crowds: Vec<(f64, f64)>,
-    /// By how much the rates of the last solution miss the conditions, at worst.
+    /// Largest violation of the conditions by the rates of the last solution.
     missed: f64,
     /// Length of a step along the gradient that never overshoots.
     step_length: f64,
@@ -232,7 +232,7 @@ impl Solver {
         if self.violation() <= coarse { Outcome::Solved } else { Outcome::Unfinished }
     }
 
-    /// By how much the rates of the last solution miss the conditions, at worst.
+    /// Returns the largest violation of the conditions by the rates of the last solution.
     pub fn missed(&self) -> f64 {
         self.missed
     }
@@ -292,14 +292,14 @@ impl Solver {
         }
     }
 
-    /// By how much rates miss the conditions, at worst.
+    /// Returns the largest violation of the conditions by rates.
     fn violation(&self) -> f64 {
         let missed = |(x, g): (&f64, &f64)| if *x > 0.0 { g.abs() } else { -g };
         let missed = self.x.iter().zip(&self.gradient).map(missed);
         largest(missed.zip(&self.inverse_scales).map(|(missed, inverse)| missed * inverse))
     }
 
-    /// By how much rates of contacts with impulses differ from zero, at worst.
+    /// Returns the largest rate of a contact with an impulse, which should be zero.
     fn violation_on_face(&self) -> f64 {
         let missed = self.x.iter().zip(&self.gradient).map(|(x, g)| free(*x, *g).abs());
         largest(missed.zip(&self.inverse_scales).map(|(missed, inverse)| missed * inverse))
@@ -338,7 +338,7 @@ impl Solver {
         }
     }
 
-    /// What impulses along the direction do to bodies and rates.
+    /// Computes how impulses along the direction change bodies and rates.
     fn apply(&mut self, problem: &Problem) {
         self.push_along_direction(problem);
         for (i, link) in problem.links.iter().enumerate() {

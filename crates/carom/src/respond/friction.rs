@@ -59,7 +59,8 @@ impl SpinningSphere {
         self.velocity.norm() + self.radius * self.angular_velocity.norm()
     }
 
-    /// How easily an impulse across the normal moves the sphere's surface \[1/kg\].
+    /// Returns the velocity that a unit of impulse across the normal gives the surface of the
+    /// sphere \[1/kg\].
     fn mobility(&self) -> f64 {
         (1.0 + 1.0 / self.inertia_factor) / self.mass
     }

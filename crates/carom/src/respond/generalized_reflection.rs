@@ -23,7 +23,7 @@ const MAX_LAYERS: usize = 8;
 
 /// The answer to one layer of restitution.
 struct Layer {
-    /// Its thickness. Those of all layers add up to 1.
+    /// Thickness of the layer. Those of all layers add up to 1.
     weight: f64,
     answer: Answer,
 }
@@ -152,7 +152,7 @@ fn reflect_once(
     outcome
 }
 
-/// One reflection of a group in which not all contacts are elastic.
+/// Reflects a group once in which not all contacts are elastic.
 fn restitute_once(
     group: &Group,
     closing: &[bool],

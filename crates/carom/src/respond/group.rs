@@ -79,7 +79,7 @@ impl<'a> Group<'a> {
         self.links[contact].rate(velocities)
     }
 
-    /// Whether a contact closes faster than rounding can tell.
+    /// Returns whether a contact closes faster than rounding can explain.
     pub fn is_closing(&self, contact: usize, velocities: &[DVec3]) -> bool {
         let link = &self.links[contact];
         let bodies = link.first.into_iter().chain([link.second]);
@@ -140,7 +140,7 @@ impl Motion {
 }
 
 impl Answer {
-    /// That nothing happens.
+    /// Returns the answer in which nothing changes.
     pub fn unchanged(group: &Group, velocities: &[DVec3]) -> Self {
         let impulses = vec![0.0; group.links.len()];
         let motion = Motion { velocities: velocities.to_vec(), impulses };
@@ -153,7 +153,7 @@ pub(super) fn speed_scale(velocities: impl Iterator<Item = DVec3>) -> f64 {
     velocities.map(|velocity| velocity.abs().max_element()).fold(1.0, f64::max)
 }
 
-/// What can be distinguished from zero where speeds are of this scale.
+/// Returns the speeds that cannot be distinguished from zero at this scale of speeds.
 pub(super) fn tolerance(speed: f64) -> Tolerance {
     Tolerance { scale: speed, fine: FINE * speed, coarse: COARSE * speed }
 }

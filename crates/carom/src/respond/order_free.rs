@@ -24,7 +24,7 @@ const LARGEST_EXPONENT: i32 = 800;
 pub(super) struct Grid {
     /// A power of two, as a rule 1.
     scale: f64,
-    /// Its inverse.
+    /// Inverse of the scale.
     unscale: f64,
     /// Added and subtracted, they round to multiples of the grids.
     coarse: f64,

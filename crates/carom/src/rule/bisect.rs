@@ -89,7 +89,7 @@ pub(crate) fn step(
     let Buffers { end, integrate, .. } = &mut *buffers;
     advance(&frame, (motion, end), everyone, interval, integrate);
     let end = frame.end(&buffers.end);
-    contacts::of_everyone(&end, parameters.tolerance, &mut buffers.search, contacts);
+    contacts::find_all(&end, parameters.tolerance, &mut buffers.search, contacts);
 
     // Where forces act between spheres, none goes through a piece of the frame without the others.
     let is_one = parameters.wind_back == WindBack::All || system.has_interactions();
@@ -141,7 +141,7 @@ fn settle(frame: &Frame, island: &mut Island, buffers: &mut Buffers, work: &Work
         let Buffers { end, current, late_contacts, search, integrate, .. } = buffers;
         advance(frame, (current, end), island.members.iter().copied(), rest, integrate);
         let tolerance = parameters.tolerance;
-        contacts::of_some(&frame.end(end), &island.members, tolerance, search, late_contacts);
+        contacts::find_among(&frame.end(end), &island.members, tolerance, search, late_contacts);
         if !late_contacts.iter().any(is_intersecting) {
             island.work += work_of_forces(frame, current, island.members.iter().copied(), rest);
             island.settled = true;
@@ -182,7 +182,7 @@ fn find_first_contact(frame: &Frame, rest: Interval, buffers: &mut Buffers) -> f
         let piece = Interval { time: rest.time, h: t };
         advance(frame, (current, trial), involved.iter().copied(), piece, integrate);
         let instant = Instant { system, motion: trial, time: rest.time + t };
-        contacts::of_some(&instant, involved, tolerance, search, trial_contacts);
+        contacts::find_among(&instant, involved, tolerance, search, trial_contacts);
         if trial_contacts.iter().any(is_intersecting) {
             late_contacts.clone_from(trial_contacts);
             Probe::After
@@ -214,7 +214,7 @@ fn give_up(frame: &Frame, island: &mut Island, rest: Interval, buffers: &mut Buf
     let rests = |bodies: Bodies| meetings.get(&bodies).is_some_and(|&met| met >= max_impacts);
     advance(frame, (current, end), island.members.iter().copied(), rest, integrate);
     island.work += work_of_forces(frame, current, island.members.iter().copied(), rest);
-    contacts::of_some(&frame.end(end), &island.members, tolerance, search, late_contacts);
+    contacts::find_among(&frame.end(end), &island.members, tolerance, search, late_contacts);
     for late in late_contacts.iter().filter(|c| is_intersecting(c)) {
         // The answers before this one may have moved the sphere.
         let now = frame.end(end).contact(late.bodies, tolerance);
@@ -244,7 +244,7 @@ fn renew_contacts(
     let is_moved = |sphere| islands.contain(sphere);
     let moved = Moved { list: moved, contains: &is_moved };
     let tolerance = frame.parameters.tolerance;
-    contacts::of_moved(&frame.end(end), &moved, tolerance, search, trial_contacts);
+    contacts::find_of_moved(&frame.end(end), &moved, tolerance, search, trial_contacts);
     contacts.retain(|contact| !contact.spheres().any(is_moved));
     contacts.append(trial_contacts);
     contacts.sort_unstable_by_key(|contact| contact.bodies);
@@ -253,7 +253,7 @@ fn renew_contacts(
 fn report_triggers(frame: &Frame, buffers: &mut Buffers, report: &mut StepReport) {
     let Buffers { end, search, .. } = buffers;
     let end = frame.end(end);
-    contacts::of_triggers(&end, frame.parameters.tolerance, search, |contact| {
+    contacts::visit_triggers(&end, frame.parameters.tolerance, search, |contact| {
         report.triggers.extend(TriggerContact::of(&contact, &frame.system));
     });
 }

@@ -98,9 +98,6 @@ fn meet_surfaces(
 /// must overlap, with a flat one touching is enough.
 fn overlap(system: &System, motion: &Motion, sphere: u32, surface: u32) -> Option<Contact> {
     let i = sphere as usize;
-    if !system.meets_surface(sphere, surface) {
-        return None;
-    }
     let form = &system.surfaces[surface as usize].form;
     let separation = sphere_surface(form, motion.position[i], system.spheres.radius[i])?;
     let meets = match form {
@@ -108,7 +105,11 @@ fn overlap(system: &System, motion: &Motion, sphere: u32, surface: u32) -> Optio
         _ => separation.distance <= 0.0,
     };
     let bodies = Bodies::Surface { sphere, surface };
-    meets.then_some(Contact { bodies, separation, state: ContactState::Intersecting })
+    (meets && system.meets_surface(sphere, surface)).then_some(Contact {
+        bodies,
+        separation,
+        state: ContactState::Intersecting,
+    })
 }
 
 /// Answers the pairs that overlap at the end of the frame, in order of their ids.
@@ -121,7 +122,7 @@ fn meet_each_other(
 ) {
     let Scratch { search, contacts, .. } = scratch;
     let end = Instant { system: *system, motion, time: frame.time + frame.h };
-    contacts::of_overlapping_pairs(&end, 0.0, search, contacts);
+    contacts::find_overlapping_pairs(&end, 0.0, search, contacts);
     report.work.pair_tests += search.take_pair_tests();
     report.impacts.extend(respond::sequentially(contacts.iter(), system, motion, frame.h));
 }

@@ -28,7 +28,7 @@ use polyhedron::Polyhedra;
 /// The colliders that have faces flush with those of others.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Seams {
-    /// By the numbers of the colliders.
+    /// Faces joined to others, by the numbers of the colliders.
     joined: BTreeMap<u64, Joined>,
     /// Whether one of them moves steadily, so that the seams depend on its present pose.
     pub are_of_now: bool,

@@ -1,4 +1,4 @@
-//! Which colliders move as one.
+//! Finds the colliders that move as one.
 
 use glam::DVec3;
 

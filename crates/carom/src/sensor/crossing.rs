@@ -30,7 +30,7 @@ const MOST_PASSES: u32 = 16;
 pub(super) struct Target {
     pub collider: ColliderId,
     pub surface: u32,
-    /// From the surface to its image \[m\].
+    /// Shift from the surface to its image \[m\].
     shift: DVec3,
 }
 
@@ -240,7 +240,7 @@ impl Crossing<'_> {
         own + self.targets.iter().map(of_surface).fold(0.0, f64::max)
     }
 
-    /// How a surface moves from `time` \[s\] on, if not steadily.
+    /// Returns the motion of a surface from `time` \[s\] on, if it is not steady.
     fn course(&self, target: &Target, time: f64) -> Option<Course> {
         self.system.surfaces[target.surface as usize].course_after(time - self.step_start)
     }

@@ -17,7 +17,7 @@ const PART_OF_BOX: f64 = 0.5;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct FlightSegment {
     pub sphere: SphereId,
-    /// Of the sphere in the arrays of the world.
+    /// Index of the sphere in the arrays of the world.
     pub index: u32,
     /// Radius \[m\].
     pub radius: f64,

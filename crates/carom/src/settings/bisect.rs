@@ -73,7 +73,7 @@ impl Bisect {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum WindBack {
-    /// Those that take part in a contact of the same group. The others take the frame in one
+    /// Spheres that take part in a contact of the same group. The others take the frame in one
     /// piece, undisturbed by impacts elsewhere, and the work is proportional to the contacts.
     #[default]
     Touched,

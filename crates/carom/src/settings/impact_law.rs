@@ -44,7 +44,7 @@ pub enum ImpactLaw {
 }
 
 impl Display for ImpactLaw {
-    /// As scene files write it.
+    /// Writes the law as scene files do.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Sequential => "sequential",

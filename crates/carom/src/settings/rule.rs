@@ -48,7 +48,7 @@ pub enum Rule {
 }
 
 impl Rule {
-    /// Whether friction acts under it.
+    /// Returns whether friction acts under the rule.
     pub fn has_friction(&self) -> bool {
         matches!(self, Self::Exact(_) | Self::Contact(_))
     }

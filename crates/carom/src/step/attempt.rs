@@ -95,7 +95,7 @@ impl<'a> Attempt<'a> {
     pub fn report_triggers(&mut self) {
         let Self { state, scratch, report, .. } = self;
         let now = state.now();
-        contacts::of_triggers(&now, 0.0, &mut scratch.search, |contact| {
+        contacts::visit_triggers(&now, 0.0, &mut scratch.search, |contact| {
             report.triggers.extend(TriggerContact::of(&contact, &now.system));
         });
     }

@@ -30,7 +30,7 @@ pub(super) fn check(state: &State, h: f64) -> Result<(), Error> {
     state.check_grown(h)
 }
 
-/// What prevents growth.
+/// Returns what prevents growth, if anything.
 fn obstacle(state: &State) -> Option<&'static str> {
     let surfaces = || state.colliders.surfaces().iter();
     let is_mesh = |(_, it): (u64, &Collider)| matches!(it.shape, Shape::Mesh(_));

@@ -27,7 +27,7 @@ pub(super) fn check(state: &State) -> Result<(), Error> {
     .map_err(|invalid| invalid.about(Subject::Settings))
 }
 
-/// What prevents a potential between spheres.
+/// Returns what prevents a potential between spheres, if anything.
 fn obstacle(state: &State) -> Option<&'static str> {
     let now = state.now();
     let spheres = &state.spheres;

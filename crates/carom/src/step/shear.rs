@@ -44,7 +44,7 @@ pub(super) fn check(state: &State, dt: f64) -> Result<(), Error> {
         .map_err(|invalid| invalid.about(Subject::Settings))
 }
 
-/// What prevents shear.
+/// Returns what prevents shear, if anything.
 fn obstacle(state: &State) -> Option<&'static str> {
     let others = [
         (state.emitters.iter().len() > 0, "zero in a world with emitters"),

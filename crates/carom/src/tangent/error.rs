@@ -49,6 +49,6 @@ pub enum DerivativeError {
         to: f64,
     },
     /// Spheres were added or removed since the last step.
-    #[error("spheres were added or removed since the last step: begin derivatives anew")]
+    #[error("spheres were added or removed since the last step: begin the derivatives again")]
     Changed,
 }

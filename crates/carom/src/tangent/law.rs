@@ -25,7 +25,7 @@ pub(super) enum FirstBody {
 /// Coefficients of the contact.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Coefficients {
-    /// At the present speed of approach.
+    /// Restitution at the present speed of approach.
     pub restitution: Dual,
     /// Derivative of the restitution by the speed of approach \[s/m\].
     pub restitution_by_speed: f64,

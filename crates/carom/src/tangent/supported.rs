@@ -54,7 +54,7 @@ pub(super) struct SupportedFlight {
 /// How a sphere moves along a plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Mode {
-    /// Without friction.
+    /// The sphere slides without friction.
     Gliding,
     Sliding,
     Rolling,

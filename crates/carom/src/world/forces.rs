@@ -70,7 +70,7 @@ impl World {
         self.state.springs.iter().map(|(number, spring)| (SpringId(number), spring))
     }
 
-    /// One spring.
+    /// Returns a spring.
     ///
     /// # Errors
     /// [`Error::Unknown`] if there is no such spring (any more).

@@ -87,7 +87,7 @@ impl World {
         let mut overlaps = Vec::new();
         let now = self.state.now();
         let passages = Passages::of(&self.state);
-        contacts::of_overlaps(&now, tolerance, &mut Search::default(), |contact| {
+        contacts::visit_overlaps(&now, tolerance, &mut Search::default(), |contact| {
             if !passages.has(contact.bodies, &contact.separation) {
                 overlaps.push(Overlap::of(contact, &now.system));
             }
@@ -110,7 +110,7 @@ impl World {
             return Some(of(&contact));
         }
         let mut overlaps = Vec::new();
-        contacts::of_overlapping_surfaces(&now, 0.0, &mut search, |contact| {
+        contacts::visit_overlapping_surfaces(&now, 0.0, &mut search, |contact| {
             overlaps.push(of(contact));
         });
         self.add_overlaps_of_images(&now, 0.0, |_, _| false, &mut overlaps);

@@ -214,7 +214,7 @@ impl World {
         &self.state.spheres
     }
 
-    /// One sphere.
+    /// Returns a sphere.
     ///
     /// # Errors
     /// [`Error::Unknown`] if it is not in the world (any more).
@@ -413,7 +413,7 @@ impl World {
         self.state.colliders.list().iter().map(|(number, it)| (ColliderId(number), it))
     }
 
-    /// One collider.
+    /// Returns a collider.
     ///
     /// # Errors
     /// [`Error::Unknown`] if there is no such collider.

@@ -63,7 +63,7 @@ impl World {
         hash::of_state(&self.state)
     }
 
-    /// Everything that later steps depend on, to restore.
+    /// Returns everything that later steps depend on, to restore it later.
     pub fn snapshot(&self) -> Snapshot {
         Snapshot(self.state.clone())
     }

@@ -2,7 +2,7 @@
 
 Right-handed frame, y up, SI units. Vectors are any three numbers, tuples or arrays; quaternions are
 x, y, z, w and of any length but zero. A part checks its fields when it is made: a value of a wrong
-kind is a `TypeError`, another one that makes no sense a `CaromError`. What scene files take instead
+kind is a `TypeError`, another one that is invalid a `CaromError`. What scene files take instead
 of numbers, parts take, too: numbers with units (``"5 cm"``), formulas (``"=2 * 3"``), colours as
 text (``"red"``), and turns (``{"normal": (1, 0, 0)}``); the engine reads these, in a scene or a
 world.

@@ -47,7 +47,7 @@ def expect_one_size(fluid: Any) -> None:
             raise CaromError(problem, where)
     elif fluid.radius_range is not None or has_size(fluid.sphere):
         where = "DenseFluid.packing_fraction"
-        problem = "must not be given beside a radius, which says it already"
+        problem = "must not be given beside a radius, which determines it"
         raise CaromError(f"{where}: {problem}", where)
 
 

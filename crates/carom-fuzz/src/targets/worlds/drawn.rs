@@ -1,4 +1,4 @@
-//! What worlds are drawn from.
+//! Random descriptions of worlds.
 
 use proptest::collection::vec;
 use proptest::option::weighted;
@@ -10,45 +10,45 @@ use super::vector::{HALF, Vector, scaled};
 #[derive(Debug, Clone)]
 pub struct Drawn {
     pub rule: &'static str,
-    /// Lines of the table `simulation` that choose among what rules offer.
+    /// Lines of the table `simulation` that set options of the rules.
     pub choices: Vec<&'static str>,
     pub around: Around,
     pub material: Material,
-    /// Lines of a table `forces` each.
+    /// Lines of the tables `forces`, one for each force.
     pub forces: Vec<String>,
-    /// Whether boxes side by side make a floor, turned as the container is.
+    /// Whether boxes side by side make a floor, turned like the container.
     pub has_floor: bool,
     pub emitter: Option<Emitter>,
     pub obstacles: Vec<Obstacle>,
     pub balls: Vec<Ball>,
-    /// Part of the room that they fill.
+    /// Part of the room that the balls fill.
     pub crowding: f64,
     pub springs: Option<Springs>,
     /// Rate at which radii grow \[1/s\].
     pub growth: Option<f64>,
 }
 
-/// What is around the balls.
+/// The enclosure of the balls.
 #[derive(Debug, Clone)]
 pub struct Around {
     pub kind: &'static str,
-    /// Turn of a container \[°\].
+    /// Rotation of a container \[°\].
     pub turn: Vector,
-    /// Velocity of a container and all that is in it \[m/s\].
+    /// Velocity of a container and its content \[m/s\].
     pub velocity: Option<Vector>,
-    /// Its angular velocity \[rad/s\].
+    /// Angular velocity of a container \[rad/s\].
     pub spin: Option<Vector>,
     /// Sides without a wall.
     pub open: &'static str,
 }
 
-/// What all bodies are made of.
+/// Materials of the bodies.
 #[derive(Debug, Clone)]
 pub struct Material {
     pub restitution: f64,
-    /// A law of restitution in its place, as it stands in scene files.
+    /// Restitution law in place of a coefficient, as written in scene files.
     pub law: Option<&'static str>,
-    /// Whether balls and all else are of two materials with a pair of their own.
+    /// Whether balls and walls have different materials, with coefficients for their pair.
     pub has_pair: bool,
     pub friction: Option<f64>,
     pub rolling: Option<f64>,
@@ -60,16 +60,16 @@ pub struct Material {
 pub struct Emitter {
     /// Period \[s\].
     pub period: f64,
-    /// Spheres in all; that many at a time where it is `ring`.
+    /// Number of spheres in all; with `ring`, at one time.
     pub count: u32,
     pub is_ring: bool,
     pub needs_room: bool,
 }
 
-/// Springs from each ball to the next, and from the first to the middle.
+/// Springs from each ball to the next, and from the first to the middle of the room.
 #[derive(Debug, Clone)]
 pub struct Springs {
-    /// A power of ten.
+    /// Stiffness, as a power of ten.
     pub stiffness: f64,
     pub damping: f64,
     pub only_pulls: bool,
@@ -81,32 +81,33 @@ pub struct Obstacle {
     pub shape: &'static str,
     pub position: Vector,
     pub turn: Vector,
-    /// Its velocity \[m/s\], where it moves.
+    /// Velocity of an obstacle that moves \[m/s\].
     pub velocity: Option<Vector>,
-    /// Its angular velocity \[rad/s\], where it turns.
+    /// Angular velocity of an obstacle that turns \[rad/s\].
     pub spin: Option<Vector>,
-    /// Parts of its motion, if it does not move steadily.
+    /// Parts of the motion, if it is not steady.
     pub parts: Vec<String>,
     pub is_trigger: bool,
-    /// What an impact on it adds to the speed \[m/s\].
+    /// Speed that an impact on the obstacle adds \[m/s\].
     pub kick: Option<f64>,
-    /// Velocity of its material along its surface \[m/s\].
+    /// Velocity of the material along the surface \[m/s\].
     pub belt: Option<[f64; 3]>,
 }
 
 #[derive(Debug, Clone)]
 pub struct Ball {
-    /// Powers of ten.
+    /// Radius, as a power of ten.
     pub radius: f64,
     pub mass: f64,
     pub velocity: Vector,
-    /// Angular velocity \[rad/s\], where it turns at the start.
+    /// Angular velocity at the start \[rad/s\]; `None` for a ball that does not turn.
     pub spin: Option<Vector>,
     pub inertia: f64,
-    /// Where it is, or in which direction it touches the ball before.
+    /// Place of the ball, or the direction in which it touches the ball before.
     pub place: Vector,
     pub touches: bool,
-    /// The groups that it is in, and those that it collides with: the first, in which all else is, among them.
+    /// Groups of the ball, and those that it collides with, among them the first, to which all
+    /// other bodies belong.
     pub groups: Option<[u32; 2]>,
 }
 
@@ -154,7 +155,7 @@ pub fn drawn() -> impl Strategy<Value = Drawn> {
     })
 }
 
-/// Without what a rule refuses, and what has no stable motion under it.
+/// Removes what a rule refuses, and what has no stable motion under it.
 fn sensible(mut drawn: Drawn) -> Drawn {
     let is_slow = drawn.balls.iter().all(|ball| ball.velocity.iter().all(|it| it.abs() < 10.0));
     let is_heavy = drawn.balls.iter().all(|ball| ball.mass >= 0.0);
@@ -188,7 +189,7 @@ fn sensible(mut drawn: Drawn) -> Drawn {
     drawn
 }
 
-/// Smooth balls that nothing acts on, without which no box is sheared.
+/// Reduces a world to smooth balls without forces, which alone may be sheared.
 fn alone_in_shear(drawn: Drawn) -> Drawn {
     let mut drawn = unlinked(drawn);
     drawn.choices.retain(|it| !it.starts_with("pair_potential"));
@@ -198,7 +199,7 @@ fn alone_in_shear(drawn: Drawn) -> Drawn {
     drawn
 }
 
-/// Balls that grow, alone in what stands around them.
+/// Reduces a world to balls that grow within their enclosure.
 fn growing(drawn: Drawn) -> Drawn {
     let mut drawn = elastic(alone_in_shear(drawn));
     drawn.choices.retain(|it| !it.starts_with("thermostat"));
@@ -209,13 +210,13 @@ fn growing(drawn: Drawn) -> Drawn {
     drawn
 }
 
-/// Bodies that lose no energy in impacts.
+/// Makes all impacts elastic.
 fn elastic(mut drawn: Drawn) -> Drawn {
     drawn.material = Material { restitution: 1.0, law: None, has_pair: false, ..drawn.material };
     drawn
 }
 
-/// Smooth balls under gravity at most, as wells need them.
+/// Reduces a world to smooth balls under gravity at most, as wells need.
 fn unlinked(mut drawn: Drawn) -> Drawn {
     drawn.rule = "exact";
     drawn.forces.retain(|it| it.starts_with("gravity"));
@@ -235,7 +236,7 @@ fn unlinked(mut drawn: Drawn) -> Drawn {
     drawn
 }
 
-/// Lines that choose.
+/// Draws lines that set options.
 fn choices() -> impl Strategy<Value = Vec<&'static str>> {
     let lines = [
         "spheres_collide = false",
@@ -299,14 +300,14 @@ fn material() -> impl Strategy<Value = Material> {
         })
 }
 
-/// Laws of restitution, as they stand in scene files.
+/// Restitution laws, as written in scene files.
 const LAWS: [&str; 3] = [
     "power-law = { restitution = 0.9, speed = 0.5 }",
     "viscoelastic = { speed = 1e4 }",
     "cutoff = { restitution = 0.8, speed = 1e-3 }",
 ];
 
-/// Those that have a closed form whatever acts on.
+/// Forces under which flights have a closed form.
 const LINEAR: [&str; 2] = ["gravity", "constant"];
 
 fn forces() -> impl Strategy<Value = Vec<String>> {
@@ -316,7 +317,7 @@ fn forces() -> impl Strategy<Value = Vec<String>> {
         .prop_map(|(gravity, field)| gravity.into_iter().chain(field.map(str::to_owned)).collect())
 }
 
-/// Other forces. None grows without bound.
+/// Other forces, none of which grows without bound.
 const FIELDS: [&str; 10] = [
     "constant = { force = [0.3, -0.2, 0.1] }",
     "viscous-drag = { coefficient = 0.05 }",
@@ -336,7 +337,7 @@ fn emitter() -> impl Strategy<Value = Emitter> {
     )
 }
 
-/// Shapes that are flat, or a sphere.
+/// Flat shapes and spheres.
 const FLAT: [&str; 6] = [
     "{ box = { size = [0.8, 0.5, 0.3] } }",
     "{ sphere = { radius = 0.4 } }",
@@ -397,7 +398,7 @@ fn obstacle() -> impl Strategy<Value = Obstacle> {
     )
 }
 
-/// A part of a motion, as fast as some meters in a second.
+/// Draws a part of a motion, with speeds of some metres per second.
 fn part() -> impl Strategy<Value = String> {
     let axis = vector().prop_filter("has a direction", |it| it.iter().any(|part| part.abs() > 0.1));
     let frequency = (-1.0..1.5f64).prop_map(|it| 10f64.powf(it));

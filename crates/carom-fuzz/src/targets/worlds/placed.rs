@@ -1,16 +1,17 @@
-//! Where balls are: beside each other, and within what is around them.
+//! Places balls beside each other, within their enclosure.
 
 use super::drawn::Ball;
 use super::vector::{HALF, Vector, scaled, sum};
 
-/// A ball where it is.
+/// A ball with its place.
 pub struct Placed<'a> {
     pub position: Vector,
     pub radius: f64,
     pub ball: &'a Ball,
 }
 
-/// Places of the balls in a part of the room, without those that overlap one before or leave the container.
+/// Returns the balls with places in a part of the room, without those that overlap an earlier one
+/// or leave the container.
 pub fn placed(balls: &[Ball], crowding: f64) -> Vec<Placed<'_>> {
     let mut placed: Vec<Placed> = Vec::new();
     for ball in balls {

@@ -1,6 +1,6 @@
 //! Vectors of worlds, and how large these are.
 
-/// Half the width of what is around the spheres \[m\].
+/// Half the width of the enclosure of the spheres \[m\].
 pub const HALF: f64 = 2.0;
 
 pub type Vector = [f64; 3];

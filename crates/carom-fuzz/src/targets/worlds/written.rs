@@ -9,7 +9,7 @@ use super::vector::{HALF, Vector, sum};
 /// Whose halves and thirds are numbers of few bits, so that frames of other lengths meet at the same times \[s\].
 const FRAME_TIME: f64 = 3.0 / 256.0;
 
-/// The scene file of a world.
+/// Returns the scene file of a world.
 pub fn written(drawn: &Drawn) -> String {
     let coefficients = material(&drawn.material);
     let has_pair = drawn.material.has_pair;
@@ -31,7 +31,7 @@ pub fn written(drawn: &Drawn) -> String {
     pieces.concat()
 }
 
-/// Balls of one material and walls of another, which meet as neither says.
+/// Balls of one material and walls of another; their pair has coefficients that neither has.
 const PAIR: &str = "[materials]\nball = {}\nwall = {}\n[[material_pairs]]\n\
                     materials = [\"ball\", \"wall\"]\nrestitution = 0.6\nfriction = 0.2\n";
 
@@ -70,7 +70,7 @@ fn simulation(drawn: &Drawn) -> String {
     text
 }
 
-/// What all moves with, besides its own velocity \[m/s\].
+/// Returns the velocity that all bodies share, besides their own \[m/s\].
 fn velocity_of_all(drawn: &Drawn) -> Vector {
     drawn.around.velocity.unwrap_or_default()
 }
@@ -106,7 +106,7 @@ fn springs(springs: &Springs, balls: usize) -> String {
     to_middle.into_iter().chain(along).map(spring).collect()
 }
 
-/// Motion of a collider, of its own or with all others.
+/// Returns the motion of a collider: its own, or the one that it shares with all others.
 fn motion(drawn: &Drawn, velocity: Option<Vector>, spin: Option<Vector>) -> String {
     let velocity = sum(velocity.unwrap_or_default(), velocity_of_all(drawn));
     let lines = [("velocity", velocity), ("angular_velocity", spin.unwrap_or_default())];
@@ -145,10 +145,10 @@ fn around(drawn: &Drawn, material: &str) -> String {
 
 /// Width of a box of the floor \[m\].
 const TILE: f64 = 0.4;
-/// Height of its top in the container, before that is turned \[m\].
+/// Height of the top of the floor in the container, before that is turned \[m\].
 const FLOOR: f64 = -0.6;
 
-/// Boxes side by side, below the balls that are in the middle of the container, on which some come to lie.
+/// Returns boxes side by side below the middle of the container, on which some balls come to rest.
 fn floor(drawn: &Drawn, material: &str) -> String {
     let turn = drawn.around.turn;
     let motion = motion(drawn, None, None);

@@ -141,10 +141,10 @@ pub(super) struct RawFrame {
     pub header: Header,
     /// Lines of the particles, as they stand in the file.
     pub rows: Vec<String>,
-    /// Number of the first of them in the file.
+    /// Number of the first row of the frame in the file.
     pub first_row: u64,
-    /// Position in the file after the last of them \[bytes\].
+    /// Position in the file after the last row of the frame \[bytes\].
     pub end: u64,
-    /// Whether the last of them ends with a line end.
+    /// Whether the last row of the frame ends with a line end.
     pub has_end: bool,
 }

@@ -80,7 +80,7 @@ pub enum LineProblem {
         expected: u64,
     },
     /// The line is longer than any line of a recording.
-    #[error("longer than {LONGEST_LINE} bytes, as no line of a recording is")]
+    #[error("longer than {LONGEST_LINE} bytes, the limit for a line of a recording")]
     TooLong,
     /// The line is not text.
     #[error("not text in UTF-8")]

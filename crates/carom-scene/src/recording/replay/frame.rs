@@ -29,7 +29,7 @@ pub struct ReplayBall {
     pub radius: f64,
     /// Mass \[kg\].
     pub mass: f64,
-    /// Its own colour, or that of its generator or emitter; [`crate::Palette`] has the default
-    /// colours.
+    /// Colour of the ball itself, or that of its generator or emitter; [`crate::Palette`] has the
+    /// default colours.
     pub color: Option<Color>,
 }

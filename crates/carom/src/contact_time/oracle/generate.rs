@@ -62,9 +62,9 @@ pub enum Air {
 
 /// Scales of one situation.
 struct Scales {
-    /// Of radii and sizes \[m\].
+    /// Scale of radii and sizes \[m\].
     length: f64,
-    /// Of the relative motion \[m/s\].
+    /// Scale of the relative motion \[m/s\].
     speed: f64,
     /// When the planted contact is \[s\].
     time: f64,

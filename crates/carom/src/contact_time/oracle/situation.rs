@@ -12,7 +12,7 @@ use crate::surface::{Form, Rectangle};
 #[derive(Debug, Clone)]
 #[allow(clippy::large_enum_variant, reason = "a trial has one at a time")]
 pub enum Bodies {
-    /// With the sum of the radii.
+    /// Two spheres, with the sum of their radii.
     Spheres {
         first: Flight,
         second: Flight,
@@ -173,7 +173,8 @@ fn from_rectangle<N: Number>(
     Distance { value, is_behind }
 }
 
-/// By the nearest of the points of a profile that may be nearest: of the face, of both ends.
+/// Measures the distance from the nearest of the points of a profile that may be nearest: of the
+/// face and of both ends.
 fn from_band<N: Number>(band: &Band, place: &Vector<N>, origin: DVec3, radius: f64) -> Distance<N> {
     let offset = place.minus(&Vector::of(band.center).minus(&Vector::of(origin)));
     let axis = Vector::of(band.axis);

@@ -26,7 +26,7 @@ struct Node {
     eccentricity: f64,
     center_of_mass: DVec3,
     mass: f64,
-    /// Its points.
+    /// Points in the cube.
     points: Range<u32>,
     /// Number of the first node that is not below it. Its first cube, if it is divided, comes next.
     end: u32,

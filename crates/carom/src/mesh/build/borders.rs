@@ -123,7 +123,9 @@ impl Borders {
             let [first, second] = border.ends.map(|it| topology.vertices[it as usize]);
             let (way, center) = (second - first, 0.5 * (first + second));
             let length = way.norm();
-            Some(Edge { center, axis: way / length, half: 0.5 * length, outward })
+            let half = 0.5 * length;
+            let is_border = border.sides.len() == 1;
+            Some(Edge { center, axis: way / length, half, outward, is_border, is_open: false })
         };
         self.list.iter().filter_map(edge).collect()
     }

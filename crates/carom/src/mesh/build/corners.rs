@@ -47,7 +47,8 @@ pub(super) fn corners(
         }
         // Points behind one-sided faces are never nearest to the corner.
         rays.extend(normal.map(|normal| -normal));
-        Some(Corner { point, rotation: DQuat::IDENTITY, rays: rays.into() })
+        let rotation = DQuat::IDENTITY;
+        Some(Corner { point, rotation, rays: rays.into(), is_open: false })
     };
     around.filter_map(corner).collect()
 }

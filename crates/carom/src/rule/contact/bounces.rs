@@ -23,7 +23,7 @@ pub(super) struct OneBounce {
     slot: usize,
     /// The other sphere, if it is one.
     other: Option<usize>,
-    /// On the sphere \[N s\].
+    /// Impulse on the sphere \[N s\].
     impulse: DVec3,
     /// When in the sub-step \[s\].
     time: f64,
@@ -261,7 +261,7 @@ impl FinalFlight {
         is_far.then(|| self.first_of_free(slots, slabs, places))?
     }
 
-    /// Where the sphere comes to a surface that bears nothing of it, also near where it is.
+    /// Returns where the sphere reaches a surface that bears nothing of it, also near where it is.
     fn first_of_free(&self, slots: &Slots, slabs: &Slabs, places: &Places) -> Option<Stop> {
         // A turning surface may catch up with a sphere that has just bounced off it.
         let stops = slabs.surfaces_of(self.slot).filter_map(|contact| {
@@ -291,7 +291,7 @@ impl FinalFlight {
         Stop::first(stops)
     }
 
-    /// Where the sphere comes to a surface.
+    /// Returns where the sphere reaches a surface.
     fn meets(&self, slots: &Slots, place: &Place) -> Option<Stop> {
         let radius = slots.position[self.slot].number();
         let (form, motion) = place.1.carry(&place.0, self.start);

@@ -83,7 +83,7 @@ pub(super) fn go_on(system: &System, motion: &mut Motion, h: f64, solver: &mut S
     }
 }
 
-/// What occurs in the contacts of this world.
+/// Returns the kinds of coefficients that occur in the contacts of the world.
 fn kinds_of(system: &System) -> ContactKinds {
     let is_some = |coefficient: Option<f64>| coefficient.is_some_and(|it| it > 0.0);
     let rolls = |it: Friction| is_some(it.rolling) || is_some(it.spinning);

@@ -198,7 +198,7 @@ impl Guard<'_> {
         self.places.all_known().filter(deflects).collect()
     }
 
-    /// Where a sphere turned round, by its slot.
+    /// Returns where a sphere was turned back, by its slot.
     fn turn_of(&self, slot: usize) -> Option<Turn> {
         let found = self.bounces.binary_search_by_key(&slot, |it| it.slot as usize);
         found.ok().and_then(|place| self.bounces[place].turn)
@@ -348,7 +348,7 @@ fn comes_through(
 }
 
 /// Whether a point that was in front of a face, where it was before, comes down to a height \[m\] over it, or `beside`
-/// it \[m\].
+/// it \[m\]. One that rises may have come from behind.
 fn comes_through_face(
     [before, after]: [&Facet; 2],
     [start, end]: [DVec3; 2],
@@ -356,6 +356,9 @@ fn comes_through_face(
     beside: f64,
 ) -> bool {
     let (from, to) = (before.height_of(start), after.height_of(end));
+    if to >= height.min(from) {
+        return false;
+    }
     let part = if from > height { (from - height) / (from - to) } else { 0.0 };
     let seen = |facet: &Facet, place: DVec3| place - facet.frame.center;
     let there = seen(before, start) + part * (seen(after, end) - seen(before, start));

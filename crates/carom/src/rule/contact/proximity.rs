@@ -10,8 +10,8 @@ const NEAR: f64 = 0.05;
 /// A sphere is also near another one that it meets within this number of sub-steps.
 const SUB_STEPS: f64 = 16.0;
 
-/// By index, whether something other than forces and single bounces changed the velocity of each sphere in the last
-/// sub-step.
+/// Returns the index of each sphere, and whether something other than forces and single bounces
+/// changed its velocity in the last sub-step.
 pub(crate) fn bearing(solver: &Solver) -> impl Iterator<Item = (u32, bool)> {
     solver.slots.index.iter().copied().zip(solver.slots.bears.iter().copied())
 }

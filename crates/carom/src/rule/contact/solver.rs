@@ -50,7 +50,7 @@ pub(crate) struct Solver {
     pub(crate) held_forces: Vec<DVec3>,
     /// Kinetic energy before the impulses of the sub-step \[J\].
     pub(super) energy_before: f64,
-    /// Of all spheres \[m\].
+    /// Smallest radius of all spheres \[m\].
     pub(super) smallest_radius: f64,
     /// Length of the sub-steps of the last frame \[s\].
     pub(super) h: f64,
@@ -91,9 +91,9 @@ pub(super) struct Bounce {
 #[derive(Debug, Clone, Copy)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Turn {
-    /// In the sub-step \[s\].
+    /// Time in the sub-step \[s\].
     pub time: f64,
-    /// Its centre \[m\].
+    /// Centre of the sphere then \[m\].
     pub place: DVec3,
 }
 
@@ -120,7 +120,7 @@ impl Solver {
         self.is_changed = true;
     }
 
-    /// How many spheres sleep.
+    /// Returns the number of spheres that sleep.
     pub fn asleep(&self) -> u32 {
         self.slots.asleep() as u32
     }

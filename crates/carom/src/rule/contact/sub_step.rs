@@ -61,12 +61,14 @@ impl SubStep {
         }
     }
 
-    /// By how much [`Self::resting_speed`] is higher where a surface accelerates beside the sphere \[m/s²\].
+    /// Returns by how much [`Self::resting_speed`] is higher where a surface accelerates beside the
+    /// sphere \[m/s²\].
     pub fn resting_speed_at(&self, acceleration: DVec3) -> f64 {
         RESTING * self.h * acceleration.length()
     }
 
-    /// By how much [`Self::growth`] is larger beside a surface with this acceleration \[m/s²\].
+    /// Returns by how much [`Self::growth`] is larger beside a surface with this acceleration
+    /// \[m/s²\].
     pub fn growth_at(&self, acceleration: DVec3) -> f64 {
         GROWTH_BY_WEIGHT * self.h * acceleration.length()
     }

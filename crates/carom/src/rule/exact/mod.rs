@@ -63,9 +63,9 @@ use crate::work::Work;
 /// How far spheres are taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Until {
-    /// To the end of a span.
+    /// Runs to the end of a span.
     End,
-    /// To the next impact, with all others at that instant, or to the end.
+    /// Runs to the next impact, with all others at that instant, or to the end.
     NextImpact,
 }
 
@@ -165,7 +165,7 @@ fn renew_forces(
 struct SpanCounts {
     events: u64,
     cell_crossings: u64,
-    /// In units of [`Work`].
+    /// Work done, in units of [`Work`].
     units: u64,
 }
 

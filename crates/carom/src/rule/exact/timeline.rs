@@ -4,7 +4,6 @@ use educe::Educe;
 use glam::DVec3;
 
 use super::contacts::Member;
-use super::contacts::contact_scale::RESOLVED_PATH;
 use super::events::{Event, NextEvents, PackedTarget, Prediction, Schedule, UpcomingEvent};
 use super::flights::{Component, Flights, JointStep, Species, StepLimits, Support, SupportChange};
 use super::neighbours::clearance::{Clearance, Obstacle};
@@ -31,12 +30,12 @@ pub(crate) struct Timeline {
     pub(super) parameters: Exact,
     pub(super) flights: Flights,
     pub(super) neighbours: Neighbours,
-    /// Until when the neighbours are valid, on the world's clock \[s\]; finite where radii grow or images slide.
+    /// End of the validity of neighbours on the world's clock \[s\]; finite where radii grow or images slide.
     pub(super) neighbours_until: f64,
     pub(super) schedule: Schedule,
     /// Moving surfaces that deflect spheres.
     pub(super) moving_surfaces: Vec<u32>,
-    /// By slot, where flights restart often near surfaces that do not move; else empty.
+    /// Clearance of each sphere, by slot, where flights restart often near surfaces at rest; else empty.
     pub(super) clearances: Vec<Clearance>,
     pub(super) work: FrameWork,
     /// What groups spent in a tick.
@@ -52,7 +51,7 @@ pub(crate) struct Timeline {
     pub(super) work_tick: f64,
     /// A bound for the rate of motion on springs \[1/s\].
     pub(super) spring_rate: f64,
-    /// Until when the present forces are held, on the world's clock \[s\].
+    /// End of the time for which the present forces are held, on the world's clock \[s\].
     pub(super) held_until: f64,
     /// Held forces of nonconservative interactions \[N\], by index, or empty. Only programs define these: none is written.
     #[cfg_attr(feature = "serde", serde(skip))]
@@ -97,7 +96,7 @@ impl Timeline {
         !(is_free && self.flights.are_curved())
     }
 
-    /// Until when neighbours are known, as radii grow or images slide, on the world's clock \[s\].
+    /// Returns when neighbours stop being valid, as radii grow or images slide, on the world's clock \[s\].
     pub(super) fn room_until(&self) -> f64 {
         self.neighbours_until
     }
@@ -480,16 +479,6 @@ impl Timeline {
         self.events += 1;
         self.cell_crossings += u64::from(matches!(next.1, UpcomingEvent::CellCrossing(_)));
         Some(next)
-    }
-
-    /// Whether the flight of a sphere that ends at `time` \[s\] is so short that the events at both its ends
-    /// do not count as separate.
-    #[inline]
-    pub(super) fn is_unresolved(&self, slot: u32, time: f64) -> bool {
-        let body = &self.flights.bodies[slot as usize];
-        let way_squared = (time - body.time) * (time - body.time) * body.velocity.length_squared();
-        let resolved = RESOLVED_PATH * self.flights.species_of(slot).radius;
-        way_squared < resolved * resolved
     }
 
     /// Number of flights that a sphere began in this frame, plus the work of its groups.

@@ -28,7 +28,7 @@ pub(super) struct Chunks {
     /// Length of the file \[byte\].
     length: u64,
     names: BTreeMap<String, u16>,
-    /// By frame and number of the name.
+    /// Entries by frame and number of the name.
     index: BTreeMap<(u64, u16), Entry>,
 }
 
@@ -99,7 +99,7 @@ impl Chunks {
                 && usize::from(entry.name) < self.names.len()
                 && entry.flags == 0;
             if !is_right {
-                return Err(format!("entry {number} of its index makes no sense").into());
+                return Err(format!("entry {number} of its index is invalid").into());
             }
             self.index.insert((entry.frame, entry.name), entry);
         }

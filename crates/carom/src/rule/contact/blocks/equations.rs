@@ -10,6 +10,7 @@
 use glam::DVec3;
 
 use crate::contact_matrix::ContactMatrix;
+use crate::contact_tangents::tangents;
 use crate::rule::contact::contacts::coulomb::limited;
 use crate::rule::contact::contacts::swept::FREE;
 
@@ -47,7 +48,7 @@ pub struct BlockContact {
     /// Slip at which friction ends \[m/s\].
     slip: DVec3,
     friction: f64,
-    /// On body 2, along the axes \[N s\].
+    /// Impulses on body 2, along the axes \[N s\].
     impulses: [f64; 3],
 }
 
@@ -56,17 +57,18 @@ pub struct BlockContact {
 enum State {
     Open,
     Sticks,
-    /// Its tangential impulse has this direction, along the second and third axis.
+    /// The contact slides with a tangential impulse in this direction, along the second and third
+    /// axis.
     Slides([f64; 2]),
 }
 
 impl BlockContact {
-    /// A contact of two bodies, without impulses.
+    /// Creates the contact of two bodies, with zero impulses.
     pub fn new(spheres: [Option<usize>; 2], normal: DVec3) -> Self {
-        let across = normal.any_orthonormal_vector();
+        let [first, second] = tangents(normal);
         Self {
             spheres,
-            axes: [normal, across, normal.cross(across)],
+            axes: [normal, first, second],
             bias: 0.0,
             surface_velocity: DVec3::ZERO,
             slip: DVec3::ZERO,
@@ -107,8 +109,8 @@ impl BlockContact {
         self.impulses[1] * self.axes[1] + self.impulses[2] * self.axes[2]
     }
 
-    /// What a unit of an impulse changes: the velocity of body 2 along the first vector, less that of body 1, and the
-    /// spins of both along the second one.
+    /// Returns what a unit of an impulse changes: the velocity of body 2 along the first vector,
+    /// less that of body 1, and the spins of both along the second one.
     fn directions(&self, axis: usize) -> [DVec3; 2] {
         let along = self.axes[axis];
         let turn = if axis == 0 { DVec3::ZERO } else { -self.axes[0].cross(along) };
@@ -120,7 +122,8 @@ impl BlockContact {
         self.spheres.iter().flatten().any(|sphere| other.spheres.contains(&Some(*sphere)))
     }
 
-    /// What a unit of an impulse of another contact adds to the velocity along an axis \[1/kg\].
+    /// Returns what a unit of an impulse of another contact adds to the velocity along an axis
+    /// \[1/kg\].
     fn coupling(&self, axis: usize, other: &Self, of_other: usize, spheres: &[BlockSphere]) -> f64 {
         let [along, turn] = self.directions(axis);
         let [other_along, other_turn] = other.directions(of_other);
@@ -137,7 +140,8 @@ impl BlockContact {
         sum
     }
 
-    /// How far the velocities at the contact are above its bound and the slip at which friction ends \[m/s\].
+    /// Returns how far the velocities at the contact are above its bound and the slip at which
+    /// friction ends \[m/s\].
     fn excess(&self, spheres: &[BlockSphere]) -> [f64; 3] {
         let mut velocity = -self.surface_velocity;
         let mut spin = DVec3::ZERO;
@@ -230,7 +234,7 @@ pub fn solve(contacts: &mut [BlockContact], spheres: &mut [BlockSphere], toleran
     solved.is_some()
 }
 
-/// What each contact does next, and by how much velocities miss that at most \[m/s\].
+/// Returns the next state of each contact, and the largest distance of velocities from it \[m/s\].
 fn next_states(
     contacts: &[BlockContact],
     spheres: &[BlockSphere],
@@ -250,7 +254,7 @@ fn next_states(
     (states, largest)
 }
 
-/// What a unit of each impulse adds to each velocity \[1/kg\], by rows.
+/// Returns what a unit of each impulse adds to each velocity \[1/kg\], row by row.
 fn couplings(contacts: &[BlockContact], spheres: &[BlockSphere]) -> Vec<f64> {
     let mut values = Vec::with_capacity(9 * contacts.len() * contacts.len());
     for contact in contacts {
@@ -265,7 +269,8 @@ fn couplings(contacts: &[BlockContact], spheres: &[BlockSphere]) -> Vec<f64> {
     values
 }
 
-/// How far the velocities at each contact would be above its bounds without the impulses at hand \[m/s\].
+/// Returns how far the velocities at each contact would be above its bounds without the present
+/// impulses \[m/s\].
 fn free_excess(contacts: &[BlockContact], spheres: &[BlockSphere]) -> Vec<f64> {
     let mut free = spheres.to_vec();
     for contact in contacts {

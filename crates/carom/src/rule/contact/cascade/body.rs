@@ -64,7 +64,7 @@ impl Body {
         }
     }
 
-    /// Its velocity after a flight of `h` \[s\] without contacts.
+    /// Returns the velocity after a flight of `h` \[s\] without contacts.
     pub fn accelerated(&self, h: f64) -> DVec3 {
         let force = Row::new(self.acceleration, self.drag_rate);
         slots::accelerated(Row::new(self.start[0], 0.0), force, h)

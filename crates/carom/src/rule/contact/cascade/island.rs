@@ -24,43 +24,80 @@ pub struct Island {
 
 /// Gathers the islands of a sub-step.
 pub struct Gathering {
-    /// By slot.
+    /// What the search found of each sphere, by slot.
     seen: Vec<Seen>,
+    /// Islands by number; `None` for those that became a part of another.
+    islands: Vec<Option<Island>>,
 }
 
 /// The state of a sphere in the search for islands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Seen {
     Never,
-    /// The sphere is in an island.
-    Taken,
-    /// Its island is too large.
+    /// The sphere is in the island with this number.
+    In(usize),
+    /// The island of the sphere is too large.
     TooLarge,
 }
 
 impl Gathering {
     /// Starts a search among this number of spheres.
     pub fn among(spheres: usize) -> Self {
-        Self { seen: vec![Seen::Never; spheres] }
+        Self { seen: vec![Seen::Never; spheres], islands: Vec::new() }
     }
 
-    /// The island about the sphere in a slot; `None` if it has been gathered or is too large.
-    pub fn gather(&mut self, solver: &Solver, seed: usize, sub_step: &SubStep) -> Option<Island> {
+    /// Gathers the island about the sphere in a slot, unless the sphere is in one already or the island is too large.
+    /// Islands that this one reaches become a part of it, unless they make it too large.
+    pub fn gather(&mut self, solver: &Solver, seed: usize, sub_step: &SubStep) {
         if self.seen[seed] != Seen::Never {
-            return None;
+            return;
         }
-        let island = self.grow(solver, seed, sub_step);
-        let seen = if island.is_whole { Seen::Taken } else { Seen::TooLarge };
-        let awake = island.island.bodies.iter().filter(|body| body.inverse_mass > 0.0);
-        awake.for_each(|body| self.seen[body.slot as usize] = seen);
-        island.is_whole.then_some(island.island)
+        let mut joined = Vec::new();
+        loop {
+            let growing = self.grow(solver, (seed, &joined), sub_step);
+            if let Some(number) = growing.reaches {
+                joined.push(number);
+                continue;
+            }
+            let seen = if growing.is_whole {
+                joined.iter().for_each(|&number| self.islands[number] = None);
+                Seen::In(self.islands.len())
+            } else {
+                Seen::TooLarge
+            };
+            for body in growing.island.bodies.iter().filter(|body| body.inverse_mass > 0.0) {
+                let of_body = &mut self.seen[body.slot as usize];
+                if growing.is_whole || *of_body == Seen::Never {
+                    *of_body = seen;
+                }
+            }
+            self.islands.extend(growing.is_whole.then_some(Some(growing.island)));
+            return;
+        }
     }
 
-    /// Follows contacts from a sphere on, until there are no more or they are too many.
-    fn grow(&self, solver: &Solver, seed: usize, sub_step: &SubStep) -> Growing {
+    /// All islands, in the order of their last seeds.
+    pub fn into_islands(self) -> impl Iterator<Item = Island> {
+        self.islands.into_iter().flatten()
+    }
+
+    /// Follows contacts from a sphere and the islands `joined` on, until there are no more, they are too many, or they
+    /// reach another island.
+    fn grow(
+        &self,
+        solver: &Solver,
+        (seed, joined): (usize, &[usize]),
+        sub_step: &SubStep,
+    ) -> Growing {
         let slots = &solver.slots;
         let mut growing = Growing::default();
         growing.add(slots, seed);
+        for island in joined.iter().filter_map(|&number| self.islands[number].as_ref()) {
+            let awake = island.bodies.iter().filter(|body| body.inverse_mass > 0.0);
+            for body in awake {
+                growing.add(slots, body.slot as usize);
+            }
+        }
         let mut next = 0;
         while next < growing.island.bodies.len() {
             let body = growing.island.bodies[next];
@@ -71,13 +108,18 @@ impl Gathering {
             }
             next += 1;
             let Island { bodies, links } = &growing.island;
-            let is_taken = |body: &Body| {
-                body.inverse_mass > 0.0 && self.seen[body.slot as usize] != Seen::Never
-            };
+            let awake = bodies.iter().filter(|body| body.inverse_mass > 0.0);
+            let mut seen = awake.map(|body| self.seen[body.slot as usize]);
             let is_large = bodies.len() > MOST_BODIES || links.len() > MOST_LINKS;
             let is_driven = links.iter().any(|link| link.is_driven);
-            if is_large || is_driven || bodies.iter().any(is_taken) {
-                growing.is_whole = false;
+            if is_large || is_driven || seen.clone().any(|it| it == Seen::TooLarge) {
+                return growing;
+            }
+            growing.reaches = seen.find_map(|it| match it {
+                Seen::In(number) if !joined.contains(&number) => Some(number),
+                _ => None,
+            });
+            if growing.reaches.is_some() {
                 return growing;
             }
         }
@@ -90,8 +132,10 @@ impl Gathering {
 #[derive(Debug, Default)]
 struct Growing {
     island: Island,
-    /// The largest speed in it \[m/s\].
+    /// Largest speed in the island \[m/s\].
     speed: f64,
+    /// Number of another island that this one reaches.
+    reaches: Option<usize>,
     is_whole: bool,
 }
 

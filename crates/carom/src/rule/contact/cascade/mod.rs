@@ -36,8 +36,8 @@ pub(super) fn follow(
     }
     solver.incidence.renew(&solver.slabs, solver.slots.len());
     let mut gathering = Gathering::among(solver.slots.len());
-    for &seed in seeds {
-        let Some(mut island) = gathering.gather(solver, seed, sub_step) else { continue };
+    seeds.iter().for_each(|&seed| gathering.gather(solver, seed, sub_step));
+    for mut island in gathering.into_islands() {
         let course = Course::run(&mut island, solver.places.at_rest(), sub_step);
         report.energy_account.contacts += course.work;
         let impacts = course.impacts.iter().map(|it| it.report(system, solver, sub_step));

@@ -151,7 +151,7 @@ pub(crate) struct Pair {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Batches {
     pub pairs: Vec<PairBatch>,
-    /// As many.
+    /// Approaches of the pairs, one batch for each.
     pub approaches: Vec<ApproachBatch>,
     /// Coefficients of restitution, as many; where they depend on the speed, those of the present impacts.
     pub restitutions: Vec<Quad>,
@@ -159,9 +159,9 @@ pub(crate) struct Batches {
     pub laws: Vec<LawBatch>,
     /// The impacts of the sub-step, in order of their batches.
     pub hits: Vec<Hit>,
-    /// As many as pairs, or none where there is no friction.
+    /// Friction of the pairs, one batch for each, or none where there is no friction.
     pub frictions: Vec<FrictionBatch>,
-    /// As many, or none where there is no rolling friction.
+    /// Rolling friction of the pairs, one batch for each, or none where there is none.
     pub rollings: Vec<RollingBatch>,
     /// Offsets from spheres 2 to their images that spheres 1 touch \[m\]; one per pair, or none where space is not
     /// periodic.

@@ -9,10 +9,10 @@ use crate::rule::contact::slots::GONE;
 #[derive(Debug, Clone, Copy)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Dormant {
-    /// By slot.
+    /// Slot of the sphere.
     pub sphere: u32,
     pub partner: Partner,
-    /// On the sphere.
+    /// Impulses on the sphere.
     pub impulses: Impulses,
     /// Coefficient of friction.
     pub sliding: f64,
@@ -24,7 +24,7 @@ pub(crate) struct Dormant {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) enum Partner {
-    /// A sphere that sleeps, too, by slot.
+    /// Another sleeping sphere, by slot.
     Sphere(u32),
     /// A sphere that is awake, by slot; [`GONE`] once it has left the world.
     Awake(u32),
@@ -40,7 +40,7 @@ impl Dormant {
         }
     }
 
-    /// Whether one of the spheres that slept in it is awake.
+    /// Returns whether one of the spheres that slept in the contact is awake.
     pub fn wakes(&self, sleeps: &[bool]) -> bool {
         let has_woken = |slot: u32| !sleeps[slot as usize];
         match self.partner {

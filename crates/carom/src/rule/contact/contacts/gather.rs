@@ -160,7 +160,7 @@ pub(crate) fn smaller<S: Simd>(first: Lanes<S>, second: Lanes<S>) -> Lanes<S> {
     first.select(first.is_less(second), second)
 }
 
-/// Whether any of them is not zero.
+/// Returns whether any lane is not zero.
 #[inline(always)]
 pub(crate) fn is_any<S: Simd>(simd: S, numbers: Lanes<S>) -> bool {
     !numbers.is_equal(Lanes::all(simd, 0.0)).all_true()

@@ -32,7 +32,7 @@ pub(crate) struct ImageSearch {
 struct Place {
     slot: u32,
     center: DVec3,
-    /// From the sphere \[m\].
+    /// Shift from the sphere to its image \[m\].
     shift: DVec3,
 }
 

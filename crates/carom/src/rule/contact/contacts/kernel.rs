@@ -71,7 +71,7 @@ fn sweep_all<S: Simd, const FRICTION: bool, const ROLLING: bool>(
 struct Solved<S: Simd> {
     /// Changes of the normal impulses \[N s\].
     change: Lanes<S>,
-    /// By how much normal velocities were above their bounds \[m/s\]; negative below.
+    /// Distance of normal velocities from their bounds \[m/s\]; negative below.
     room: Lanes<S>,
 }
 

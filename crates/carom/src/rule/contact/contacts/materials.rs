@@ -24,7 +24,7 @@ pub(crate) struct ContactMaterial {
 }
 
 impl ContactMaterial {
-    /// The coefficients of these bodies.
+    /// Returns the coefficients of a contact of two bodies.
     pub fn of(bodies: Bodies, system: &System) -> Self {
         Self { restitution: restitution_of(bodies, system), friction: friction_of(bodies, system) }
     }
@@ -35,9 +35,9 @@ impl ContactMaterial {
 #[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Materials {
-    /// By index; empty where there are too many.
+    /// Material of each sphere, by index; empty where there are too many.
     material_of: Vec<u8>,
-    /// By the material of the first, then of the second.
+    /// Coefficients of pairs, by the material of the first, then of the second.
     table: Vec<ContactMaterial>,
     count: usize,
 }

@@ -8,5 +8,6 @@ pub(crate) mod gather;
 pub(crate) mod images;
 pub(crate) mod kernel;
 pub(crate) mod materials;
+pub(crate) mod passages;
 pub(crate) mod surfaces;
 pub(crate) mod swept;

@@ -53,7 +53,7 @@ pub(crate) struct SurfaceContact {
     slip: DVec3,
     /// When in the sub-step a bounce happens \[s\].
     pub time: f64,
-    /// That of the last impact, if it depends on the speed.
+    /// Restitution of the last impact, if it depends on the speed.
     pub restitution: f64,
     /// Restitution that depends on the speed.
     pub law: Option<ContactRestitution>,
@@ -213,10 +213,7 @@ impl SurfaceContact {
         self.swing = if turns { motion.swing(center, before) } else { DVec3::ZERO };
         (self.approach, self.bias, self.kicked) = (0.0, FREE, 0.0);
         let separation = sphere_surface(form, center, radius);
-        let overlaps = separation.is_some_and(|it| it.distance < 0.0);
-        let still_passes = self.passes && overlaps && self.impulses.normal == 0.0;
-        self.passes = form.is_open() && (separation.is_none() || still_passes);
-        if still_passes {
+        if self.passes && separation.is_some() {
             return;
         }
         if let Some(Separation { distance, normal, point }) = separation {

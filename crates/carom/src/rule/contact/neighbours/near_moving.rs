@@ -1,4 +1,4 @@
-//! Which surfaces that move each sphere may meet.
+//! Finds the moving surfaces that each sphere may meet.
 
 use crate::rule::contact::places::Places;
 use crate::rule::contact::places::top_speed::TopSpeed;
@@ -8,7 +8,8 @@ use crate::system::System;
 /// Numbers of moving surfaces near each sphere.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct NearMoving {
-    /// Those of a slot are `numbers[starts[slot] .. starts[slot + 1]]`, ascending; empty where nothing moves.
+    /// Places in `numbers`: those of a slot are `numbers[starts[slot] .. starts[slot + 1]]`,
+    /// ascending; empty where nothing moves.
     starts: Vec<u32>,
     numbers: Vec<u32>,
 }
@@ -59,7 +60,7 @@ impl NearMoving {
         slots_of_near.map(approach).collect()
     }
 
-    /// Those near the sphere in a slot.
+    /// Returns the surfaces near the sphere in a slot.
     pub fn of(&self, slot: usize) -> &[u32] {
         match self.starts.get(slot..slot + 2) {
             Some(&[first, last]) => &self.numbers[first as usize..last as usize],

@@ -34,7 +34,8 @@ type ImageKey = (u32, [i8; 3]);
 #[derive(Debug, Clone)]
 struct MovingPlace {
     number: u32,
-    /// At the start; within the sub-step it moves as this says, between its places at both ends.
+    /// Place at the start; within the sub-step the surface moves as this says, between its places
+    /// at both ends.
     start: Place,
     end: Place,
     /// Bounds for the frame of the speed of its origin \[m/s\] and of its angular velocity \[rad/s\], if it does not
@@ -51,11 +52,11 @@ pub(crate) struct Places {
     /// When surfaces changed last; a snapshot shares them.
     #[cfg_attr(feature = "serde", serde(skip))]
     starts: Arc<Vec<Place>>,
-    /// How many of them are not images.
+    /// Number of surfaces that are not images.
     own: usize,
     /// The numbers of moving surfaces that deflect spheres.
     moving: Vec<u32>,
-    /// Those of them that are known, by number.
+    /// Places of the surfaces that are known, by number.
     #[cfg_attr(feature = "serde", serde(skip))]
     known: Vec<MovingPlace>,
     /// When the places at the start of the sub-step are computed, in the frame \[s\]: as at the end of the sub-step
@@ -73,7 +74,7 @@ pub(crate) struct Places {
     turning_rate: f64,
     /// The images that spheres may touch.
     images: Vec<(ImageKey, DVec3)>,
-    /// Their numbers.
+    /// Number of each image.
     number_of: BTreeMap<ImageKey, u32>,
     /// Largest distance from the box of known images \[m\].
     image_reach: f64,
@@ -231,12 +232,12 @@ impl Places {
         self.image(number).0
     }
 
-    /// How many there are, with images.
+    /// Returns the number of surfaces, images included.
     pub fn len(&self) -> usize {
         self.own + self.images.len()
     }
 
-    /// Whether some of them move.
+    /// Returns whether some surfaces move.
     pub fn are_moving(&self) -> bool {
         !self.moving.is_empty()
     }
@@ -269,7 +270,7 @@ impl Places {
         }
     }
 
-    /// How fast the fastest of them turns \[rad/s\].
+    /// Returns the fastest turning rate of the surfaces \[rad/s\].
     pub fn turning_rate(&self) -> f64 {
         self.turning_rate
     }
@@ -327,7 +328,7 @@ fn place_images(surfaces: &[Surface], images: &[(ImageKey, DVec3)], places: &mut
     }));
 }
 
-/// How fast a surface changes by turning, or how fast its motion does \[rad/s\].
+/// Returns how fast a surface changes by turning, or how fast its motion does \[rad/s\].
 pub(crate) fn turning_rate(form: &Form, motion: &SurfaceMotion) -> f64 {
     if let Some(drive) = motion.drive {
         return drive.rate;

@@ -5,7 +5,7 @@ use glam::DVec3;
 /// How fast the surfaces of a collider move at most within the frame.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct TopSpeed {
-    /// Of the origin \[m/s\].
+    /// Speed of the origin \[m/s\].
     pub speed: f64,
     /// \[rad/s\]
     pub spin: f64,

@@ -8,7 +8,7 @@ use crate::rule::contact::slabs::{Slab, Slabs};
 /// The place of a contact in memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Origin {
-    /// In a lane of a batch of a slab.
+    /// A pair in a lane of a batch of a slab.
     Pair { slab: u32, batch: u32, lane: u32 },
     /// Among the surface contacts of a slab.
     Surface { slab: u32, contact: u32 },

@@ -12,7 +12,7 @@ pub(crate) struct Landed {
     pub slot: u32,
     /// Centre at the end of the sub-step \[m\].
     pub position: DVec3,
-    /// Its path in the sub-step \[m\].
+    /// Path of the sphere in the sub-step \[m\].
     pub path: DVec3,
     pub velocity: DVec3,
     /// r w \[m/s\]

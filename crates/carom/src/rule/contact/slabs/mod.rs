@@ -100,7 +100,7 @@ impl Slabs {
         self.list[0].end = slots;
     }
 
-    /// All of them, in the order in which contacts are listed.
+    /// Returns all slabs, in the order in which contacts are listed.
     pub fn iter(&self) -> impl Iterator<Item = &Slab> {
         self.list.iter().chain([&self.far])
     }

@@ -60,7 +60,7 @@ pub(crate) struct Search {
     grid: Grid,
     /// Where each cell begins among the slots.
     starts: Vec<u32>,
-    /// By slot, how far each sphere may go \[m\].
+    /// Margin of each sphere \[m\], by slot.
     margins: Vec<f64>,
     /// The former slot of each sphere, in the new order.
     from: Vec<u32>,
@@ -217,7 +217,8 @@ impl Search {
         }
     }
 
-    /// How far spheres may reach beyond the box until the next search, with radii and margins \[m\].
+    /// Returns how far spheres may reach beyond the box until the next search, with radii and
+    /// margins \[m\].
     pub fn reach(slots: &Slots) -> f64 {
         let reaches = slots.position.iter().zip(&slots.reference);
         reaches.map(|(place, from)| place.number() + from.number()).fold(0.0, f64::max)
@@ -235,7 +236,7 @@ impl Search {
         &self.from
     }
 
-    /// How many pairs were tested since the last call.
+    /// Returns the number of pairs tested since the last call.
     pub fn take_tests(&mut self) -> u64 {
         std::mem::take(&mut self.tests)
     }

@@ -121,8 +121,8 @@ fn note_calm(slots: &mut Slots, sleep_speed: f64, frame: f64, h: f64) -> f64 {
     longest
 }
 
-/// By slot, whether a sphere has not been calm for long enough, overlaps another one, lies on a belt, moves with all
-/// that it touches, or is [`NEAR`] such a sphere.
+/// Returns for each slot whether its sphere has not been calm for long enough, overlaps another
+/// one, lies on a belt, moves with all that it touches, or is [`NEAR`] such a sphere.
 fn near_restless(solver: &Solver) -> Vec<bool> {
     let Slots { sleeps, calm, position, .. } = &solver.slots;
     let is_restless = |(&sleeps, &calm): (&bool, &f64)| !sleeps && calm < PATIENCE;

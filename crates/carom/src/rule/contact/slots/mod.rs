@@ -40,7 +40,7 @@ pub(crate) struct Slots {
     pub turn: Vec<Row>,
     /// Centre at the last search for neighbours \[m\], and how far the sphere may go from there \[m\].
     pub reference: Vec<Row>,
-    /// Which spheres sleep.
+    /// Whether each sphere sleeps.
     pub sleeps: Vec<bool>,
     /// How long each sphere has been calm, in units of sqrt(r / a).
     pub calm: Vec<f64>,
@@ -58,7 +58,7 @@ pub(crate) struct Slots {
     /// sub-step; empty without such forces.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub working: Vec<Row>,
-    /// The part of that acceleration by forces applied to single spheres \[m/s²\].
+    /// Part of the acceleration by forces applied to single spheres \[m/s²\].
     #[cfg_attr(feature = "serde", serde(skip))]
     pub applied: Vec<DVec3>,
     /// Edges of the periodic box \[m\], infinite along open axes.
@@ -73,7 +73,7 @@ impl Slots {
         self.id.len()
     }
 
-    /// How many spheres sleep.
+    /// Returns the number of spheres that sleep.
     pub fn asleep(&self) -> usize {
         self.sleeps.iter().filter(|sleeps| **sleeps).count()
     }
@@ -281,8 +281,9 @@ impl Slots {
         between.get(self.index[slot] as usize).map_or(own, |&it| own + it)
     }
 
-    /// By how much the mean velocity of a free sphere in the sub-step differs from its last one \[m/s\], where forces are
-    /// not linear; others change too little in a sub-step for that to matter.
+    /// Returns by how much the mean velocity of a free sphere in the sub-step differs from its last
+    /// one \[m/s\], where forces are not linear; others change too little in a sub-step for that to
+    /// matter.
     pub fn speed_beside_last(&self, slot: usize) -> f64 {
         if self.linear.is_empty() {
             return 0.0;
@@ -349,7 +350,7 @@ pub(crate) struct Run<'a> {
 }
 
 impl Slots {
-    /// All of them.
+    /// Returns the run of all slots.
     pub fn all(&mut self) -> Run<'_> {
         Run {
             position: &mut self.position,

@@ -17,11 +17,11 @@ pub(crate) struct Grid {
     origin: DVec3,
     /// Cells per metre along each axis \[1/m\]; negative where the numbers of cells fall along it.
     cells_per_metre: DVec3,
-    /// Of a cell \[m\].
+    /// Width of a cell \[m\].
     width: f64,
     /// The axes, from the slowest to the fastest.
     axes: [usize; 3],
-    /// Cells along each of these.
+    /// Number of cells along each of the axes.
     pub cells: [usize; 3],
 }
 
@@ -58,12 +58,12 @@ impl Grid {
         Self { origin, cells_per_metre, width, axes, cells }
     }
 
-    /// Of a cell \[m\].
+    /// Returns the width of a cell \[m\].
     pub fn width(&self) -> f64 {
         self.width
     }
 
-    /// How many cells there are.
+    /// Returns the number of cells.
     pub fn len(&self) -> usize {
         self.cells.iter().product()
     }

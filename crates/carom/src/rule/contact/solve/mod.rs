@@ -5,7 +5,7 @@ mod conjugate;
 use crate::report::StepReport;
 use crate::rule::contact::contacts::aim;
 use crate::rule::contact::contacts::kernel;
-use crate::rule::contact::contacts::surfaces;
+use crate::rule::contact::contacts::{passages, surfaces};
 use crate::rule::contact::slabs::{Direction, Slab, Slabs};
 use crate::rule::contact::slots::slab_totals::SlabTotals;
 use crate::rule::contact::solver::Solver;
@@ -27,6 +27,7 @@ pub(crate) fn prepare(solver: &mut Solver, sub_step: &SubStep) {
     let Solver { slots, slabs, places, .. } = solver;
     slabs.each_contact(slots, Direction::Forwards, |run, slab| {
         aim::prepare(run, &mut slab.batches, sub_step);
+        passages::find(run, &mut slab.surfaces, places);
         surfaces::prepare(run, &mut slab.surfaces, places, sub_step);
     });
 }

@@ -35,6 +35,6 @@ impl Changed {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Unresolved {
     pub bodies: Bodies,
-    /// On the world's clock \[s\].
+    /// Time on the world's clock \[s\].
     pub until: f64,
 }

@@ -1,6 +1,7 @@
 //! Answers to events: what happens to the spheres of an event, and what it may cost.
 
 pub(crate) mod changed;
+mod short_flights;
 pub(crate) mod unfinished;
 
 use self::changed::Changed;
@@ -50,12 +51,8 @@ fn answer_and_check(
     slot: u32,
     event: Event,
 ) -> Result<(), Unfinished> {
-    // Between impacts with a light sphere a heavy one hardly moves, so both must have stayed.
     let involved = [Some(slot), event.target.slot()];
-    let has_moved = |slot: &u32| !timeline.is_unresolved(*slot, event.time);
-    let is_counted = context.has_zones()
-        && event.target != PackedTarget::STEP_END
-        && !involved.iter().flatten().any(has_moved);
+    let short_flight = short_flights::find(timeline, context, slot, &event);
     let changed = answer(timeline, context, slot, event);
     predict::changed(timeline, context, changed, event.time);
     check_room_to_grow(timeline, context, &involved, event.time)?;
@@ -63,9 +60,11 @@ fn answer_and_check(
     restart_companions(timeline, context, event.time)?;
     check_work(timeline, context, slot, event.time)?;
     check_steps(timeline, context, event.time);
-    if is_counted {
+    if let Some(flight) = short_flight {
         for slot in involved.into_iter().flatten() {
-            count_short_flight(timeline, context, slot, event.time);
+            if short_flights::count(timeline, context, (slot, flight), event.time) {
+                make_zone_about(timeline, context, slot, event.time);
+            }
         }
     }
     // A sphere that joined a zone moves otherwise than its companions expected.
@@ -195,15 +194,6 @@ fn check_free_of_rest(
         let sphere = context.id_of(timeline, slot);
         Err(Unfinished::RestsInPotential { sphere, time })
     })
-}
-
-/// Counts a flight that ended before the sphere had moved. A sphere with too many of them joins a zone.
-fn count_short_flight(timeline: &mut Timeline, context: &mut StepContext, slot: u32, time: f64) {
-    let index = timeline.flights.index_of[slot as usize];
-    let is_spent = timeline.budget.is_spent_by_flight(context.parameters, index, time);
-    if is_spent && !timeline.flights.is_stepped(slot) {
-        make_zone_about(timeline, context, slot, time);
-    }
 }
 
 /// Puts a sphere that takes more work in a frame than the parameters allow into a zone, or returns

@@ -75,7 +75,7 @@ struct Gathering<'a> {
     timeline: &'a Timeline,
     context: &'a StepContext<'a>,
     time: f64,
-    /// By index, so in order.
+    /// Members by index, and so in order.
     members: BTreeMap<u32, Member>,
     touches: BTreeMap<Bodies, TouchOrigin>,
     /// Slots of members whose neighbours were not searched yet.

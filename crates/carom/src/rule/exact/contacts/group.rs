@@ -7,11 +7,11 @@ use crate::rule::exact::contacts::contact_scale::ContactScale;
 
 /// Bodies that touch at one instant.
 pub(crate) struct Group {
-    /// On the world's clock \[s\].
+    /// Time on the world's clock \[s\].
     pub time: f64,
     /// Ascending by index.
     pub members: Vec<Member>,
-    /// In the order of their bodies.
+    /// Touches in the order of their bodies.
     pub touches: Vec<Touch>,
     /// Largest speed among the members before the impact \[m/s\].
     pub fastest: f64,

@@ -11,7 +11,7 @@ use crate::system::System;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Member {
     pub slot: u32,
-    /// Of the sphere, in the arrays of the world.
+    /// Index of the sphere in the arrays of the world.
     pub index: u32,
     /// Centre \[m\] and velocity \[m/s\] at the instant.
     pub position: DVec3,

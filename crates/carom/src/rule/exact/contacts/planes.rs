@@ -55,7 +55,7 @@ impl<'a> Plane<'a> {
         form.height_above([foot, self.normal]) <= TOUCHING * coordinates
     }
 
-    /// Its point nearest to the centre \[m\] of a sphere that touches it.
+    /// Returns the point of the plane nearest to the centre \[m\] of a sphere that touches it.
     pub fn foot_of(&self, center: DVec3) -> DVec3 {
         separation(self.form, center, 0.0, true).map_or(center, |it| it.point)
     }

@@ -1,4 +1,4 @@
-//! Which surfaces a sphere touches, within rounding.
+//! Finds the surfaces that a sphere touches, within rounding.
 
 use glam::DVec3;
 

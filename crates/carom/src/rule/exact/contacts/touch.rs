@@ -40,7 +40,7 @@ pub(crate) struct Touch {
     pub turning_in_place: DVec3,
     /// Velocity of the material relative to the surface, along it \[m/s\]; zero without friction.
     pub belt: DVec3,
-    /// Of the surface \[rad/s\].
+    /// Angular velocity of the surface \[rad/s\].
     pub surface_spin: DVec3,
     /// Acceleration \[m/s²\] whose normal part is that of the gap from the turning of the surface, without sliding.
     pub surface_pull: DVec3,
@@ -50,7 +50,7 @@ pub(crate) struct Touch {
     pub drive_rate: f64,
     /// How long `drive` stays continuous \[s\].
     pub drive_smooth_for: f64,
-    /// From the position of body 2 to its image beside body 1 \[m\].
+    /// Shift from the position of body 2 to its image beside body 1 \[m\].
     pub shift: DVec3,
     /// The contact was predicted, so rounding does not decide on it.
     pub is_predicted: bool,
@@ -108,7 +108,7 @@ impl Touch {
         if self.turning_in_place == DVec3::ZERO { self.surface_spin } else { DVec3::ZERO }
     }
 
-    /// Its part along the normal: negative where the bodies close.
+    /// Returns the normal part of the relative velocity: negative where the bodies close.
     pub fn normal_velocity(&self, members: &[Member]) -> f64 {
         self.relative_velocity(members).dot(self.normal)
     }
@@ -258,7 +258,7 @@ impl Touch {
 /// Origin of a touch: how the search found that two bodies touch.
 #[derive(Clone, Copy)]
 pub(super) struct TouchOrigin {
-    /// From the position of body 2 to its image beside body 1 \[m\].
+    /// Shift from the position of body 2 to its image beside body 1 \[m\].
     pub shift: DVec3,
     /// The contact was predicted, so rounding does not decide on it.
     pub is_predicted: bool,

@@ -6,7 +6,7 @@ use crate::rule::exact::neighbours::MAX_SPHERES;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Event {
-    /// On the world's clock \[s\].
+    /// Time on the world's clock \[s\].
     pub time: f64,
     pub target: PackedTarget,
     /// Generation of the other sphere's flight for which this was predicted.
@@ -38,7 +38,7 @@ pub(crate) struct NextEvents {
 }
 
 impl NextEvents {
-    /// None.
+    /// A prediction without events.
     pub const NEVER: Self = Self { first: Event::NEVER, second: Event::NEVER };
 
     /// One event, with no knowledge of what follows if it is void.
@@ -131,7 +131,7 @@ pub(crate) enum UpcomingEvent {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Prediction {
     pub events: NextEvents,
-    /// On the world's clock \[s\].
+    /// Time of the cell crossing on the world's clock \[s\].
     pub cell_crossing: f64,
 }
 

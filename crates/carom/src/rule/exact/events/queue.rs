@@ -29,7 +29,7 @@ const MAX_VOID_RATIO: usize = 2;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Entry {
-    /// On the world's clock \[s\].
+    /// Time on the world's clock \[s\].
     pub time: f64,
     /// The sphere, by its place in the memory of the rule.
     pub slot: u32,
@@ -61,7 +61,8 @@ pub(super) struct EventQueue {
     current: Vec<Entry>,
     /// Entries of the current bucket that were added since it was sorted.
     late: BinaryHeap<Reverse<Entry>>,
-    /// By number. `bucket_of` derives the bucket of an event from its time alone.
+    /// Entries of each bucket, by its number. `bucket_of` derives the bucket of an event from its
+    /// time alone.
     buckets: Vec<Vec<Entry>>,
     /// When the first bucket begins \[s\].
     start: f64,

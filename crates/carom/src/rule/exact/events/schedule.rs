@@ -12,7 +12,7 @@ use super::queue::{Entry, EventQueue};
 #[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Schedule {
-    /// By slot.
+    /// Prediction of each sphere, by slot.
     predictions: Vec<Prediction>,
     queue: EventQueue,
 }

@@ -11,14 +11,14 @@ use crate::surface::Form;
 /// How the normal of a contact turns when the bodies slide along each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum NormalCurvature {
-    /// Not at all: a plane.
+    /// A plane, without curvature.
     Flat,
-    /// About a point, this far from the centre of body 2 \[m\].
+    /// Curvature about a point, this far from the centre of body 2 \[m\].
     RoundFeature(f64),
-    /// About an edge in this direction, this far from the centre of body 2 \[m\].
+    /// Curvature about an edge in this direction, this far from the centre of body 2 \[m\].
     Edge(DVec3, f64),
-    /// By these second derivatives of the gap along two unit vectors across the normal \[1/m\]: negative where the
-    /// surface is hollow.
+    /// Second derivatives of the gap along two unit vectors across the normal \[1/m\]: negative
+    /// where the surface is hollow.
     Principal { directions: [DVec3; 2], curvatures: [f64; 2] },
 }
 

@@ -90,7 +90,7 @@ pub(crate) fn has(form: &Form, state: [DVec3; 2]) -> bool {
 
 /// Whether a surface is a part of a mesh.
 pub(crate) fn is_part(form: &Form) -> bool {
-    matches!(form, Form::Facet(_) | Form::Edge(_) | Form::Corner(_))
+    form.is_feature()
 }
 
 /// Whether the distance of a point from a surface is above `height` \[m\]; for a plane, behind it too.

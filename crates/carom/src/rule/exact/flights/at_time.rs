@@ -33,7 +33,7 @@ struct Run<'a> {
     first: usize,
     /// Edges of the periodic box \[m\]; infinite along an open axis.
     period: DVec3,
-    /// On the world's clock \[s\].
+    /// Time on the world's clock \[s\].
     time: f64,
 }
 

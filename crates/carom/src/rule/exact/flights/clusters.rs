@@ -25,7 +25,7 @@ pub(crate) struct Cluster {
     /// Slots in the order of the spheres' indices. The first member has the event at which the forces are computed
     /// again.
     pub members: Vec<u32>,
-    /// By index, ascending.
+    /// Contacts by their bodies, ascending.
     pub contacts: Vec<Bodies>,
     /// The sides in the contacts with rings.
     pub sides: Vec<RingSide>,
@@ -38,7 +38,7 @@ pub(crate) struct Cluster {
 /// A cluster that is about to be made, with the effect of its contact forces.
 #[derive(Debug, Clone)]
 pub(crate) struct Support {
-    /// In the order of their indices.
+    /// Members in the order of their indices.
     pub members: Vec<Supported>,
     /// Ascending.
     pub contacts: Vec<Bodies>,
@@ -56,11 +56,11 @@ pub(crate) struct Support {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Supported {
     pub slot: u32,
-    /// Of everything but drag \[m/s²\].
+    /// Acceleration by everything but drag \[m/s²\].
     pub acceleration: DVec3,
     /// How it turns, where friction acts: angular velocity \[rad/s\] and angular acceleration \[rad/s²\].
     pub rotation: Option<[DVec3; 2]>,
-    /// Which work its contacts do.
+    /// Work that the contacts of the sphere do.
     pub contact_work: ContactWork,
 }
 

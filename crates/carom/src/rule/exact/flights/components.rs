@@ -32,11 +32,11 @@ const NONE: u32 = u32::MAX;
 #[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Component {
-    /// By index, ascending.
+    /// Members by index, ascending.
     pub members: Vec<u32>,
-    /// In the order in which they entered the world.
+    /// Springs in the order in which they entered the world.
     pub springs: Vec<PlacedSpring>,
-    /// Whether the flight of a member began anew since the last step.
+    /// Whether the flight of a member began again since the last step.
     is_due: bool,
     /// The number of the tick of the last step.
     tick: f64,
@@ -90,10 +90,10 @@ impl PlacedSpring {
 #[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Components {
-    /// By index of the sphere, the number of its component.
+    /// Number of the component of each sphere, by index of the sphere.
     of_spheres: Vec<u32>,
     components: Vec<Component>,
-    /// Numbers of those that are due.
+    /// Numbers of the components that are due.
     due: Vec<u32>,
     /// Allowed evaluations of a component in a tick, or `MOST_FOR_EACH` times its spheres if that is more.
     most_evaluations: u64,
@@ -187,7 +187,7 @@ impl Components {
         }
     }
 
-    /// Whether the flight of a member began anew since the last step.
+    /// Returns whether the flight of a member began again since the last step.
     pub fn is_due(&self, number: u32) -> bool {
         self.get(number).is_due
     }

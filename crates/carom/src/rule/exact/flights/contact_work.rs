@@ -1,10 +1,10 @@
 //! The work of persistent contacts: that of friction, and of colliders that move.
 
-/// Which work the persistent contacts of a sphere do.
+/// Kinds of work that the persistent contacts of a sphere do.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) enum ContactWork {
-    /// None: no friction, and no moving surface.
+    /// No work: no friction, and no moving surface.
     #[default]
     None,
     /// Friction changes the sphere's motion, and its rotation with this moment of inertia \[kg m²\].
@@ -26,7 +26,7 @@ pub(crate) struct WorkDone {
     pub friction: f64,
     /// \[J\]
     pub colliders: f64,
-    /// Until when the work along present flights is counted, on the world's clock \[s\].
+    /// Time until which the work along present flights is counted, on the world's clock \[s\].
     pub until: f64,
 }
 

@@ -5,6 +5,7 @@ use glam::DVec3;
 
 use super::friction_state::FrictionState;
 use crate::contact_matrix::ContactMatrix;
+use crate::contact_tangents::tangents;
 use crate::integrate::field::Values;
 use crate::norm::Norm;
 use crate::rule::exact::features::{Feature, NormalCurvature};
@@ -17,7 +18,7 @@ pub(crate) const MOST_CONTACTS: usize = 64;
 pub(crate) struct CurveContact {
     pub first: CurveBody,
     pub second: usize,
-    /// From the centre of body 2 to its image beside body 1 \[m\].
+    /// Shift from the centre of body 2 to its image beside body 1 \[m\].
     pub shift: DVec3,
     /// Coulomb's coefficient.
     pub friction: f64,
@@ -70,7 +71,7 @@ struct ForceDirection {
 }
 
 impl CurveContact {
-    /// Its place, if body 1 is a sphere.
+    /// Returns the place of body 1 if it is a sphere.
     pub fn first_place(&self) -> Option<usize> {
         match self.first {
             CurveBody::Sphere(place) => Some(place),
@@ -130,7 +131,7 @@ impl CurveContact {
         }
     }
 
-    /// Of these values by place, that of body 2 less that of body 1.
+    /// Returns the value of body 2 less that of body 1, of values by place.
     fn difference(&self, of: &[DVec3]) -> DVec3 {
         of[self.second] - self.first_place().map_or(DVec3::ZERO, |first| of[first])
     }
@@ -398,10 +399,4 @@ fn continued(direction: DVec3, slip: DVec3, least: f64) -> DVec3 {
     }
     let sign = if slip.dot(direction) < 0.0 { -1.0 } else { 1.0 };
     slip * (sign / speed)
-}
-
-/// Two unit vectors across a normal and each other.
-fn tangents(normal: DVec3) -> [DVec3; 2] {
-    let first = normal.any_orthonormal_vector();
-    [first, normal.cross(first)]
 }

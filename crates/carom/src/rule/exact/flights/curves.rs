@@ -23,7 +23,7 @@ const STEADY_RADII: f64 = 16.0;
 /// Bounds for the steps of curves.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct StepLimits {
-    /// When all of them have to end at the latest, on the world's clock \[s\].
+    /// Time at which all steps have to end at the latest, on the world's clock \[s\].
     pub until: f64,
     /// Longest step where nothing is known of a force \[s\].
     pub tick: f64,
@@ -44,13 +44,14 @@ impl StepLimits {
 /// Steps of the spheres of a component whose forces are not held.
 #[derive(Default)]
 pub(crate) struct JointStep {
-    /// Of each sphere, by slot.
+    /// Curve of each sphere, by slot.
     pub curves: Vec<(u32, Curve)>,
     /// How often the forces on a sphere were evaluated.
     pub evaluations: u64,
     /// Angular accelerations of the spheres on which friction has a torque, by slot \[rad/s²\].
     pub turning: Vec<(u32, PolynomialAcceleration)>,
-    /// By cluster, when one of its persistent contacts opens, on the world's clock \[s\]; infinite if none does.
+    /// Time at which a persistent contact of each cluster opens, on the world's clock \[s\];
+    /// infinite if none does.
     pub releases: Vec<f64>,
     /// Whether its error is small.
     pub is_accurate: bool,

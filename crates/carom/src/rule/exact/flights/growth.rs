@@ -20,7 +20,7 @@ const MOST_HEATED: f64 = 256.0;
 pub(crate) struct Growth {
     /// When the radii were those of the species, on the world's clock \[s\].
     pub since: f64,
-    /// Until when the neighbour lists are wide enough, on the world's clock \[s\].
+    /// Time until which the neighbour lists are wide enough, on the world's clock \[s\].
     pub until: f64,
     /// Largest speed that growth may give a sphere \[m/s\].
     pub speed_limit: f64,

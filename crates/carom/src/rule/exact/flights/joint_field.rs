@@ -31,8 +31,8 @@ const SOONEST: f64 = 1e-6;
 pub(super) struct HeldOver {
     /// Accelerations without contacts, by place; empty without contacts.
     pub free: Vec<PolynomialAcceleration>,
-    /// By cluster, time from the start \[s\] at which a contact opens, or a sphere comes to another part of a
-    /// surface; infinite where none does.
+    /// Time from the start \[s\] at which a contact of each cluster opens, or a sphere reaches
+    /// another part of a surface; infinite where none does.
     pub releases: Vec<f64>,
     /// Time from the start \[s\] at which friction changes how it acts in a contact; infinite if it does not.
     pub change: f64,
@@ -67,10 +67,10 @@ struct Touched<'a> {
     cluster: usize,
     /// Place of the sphere.
     sphere: usize,
-    /// From its centre to the image beside the surface \[m\].
+    /// Shift from the centre of the sphere to its image beside the surface \[m\].
     shift: DVec3,
     form: &'a Form,
-    /// Whether the sphere is on a ring of it.
+    /// Whether the sphere is on a ring of the surface.
     is_on_ring: bool,
 }
 

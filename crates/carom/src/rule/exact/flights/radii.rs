@@ -36,7 +36,8 @@ impl Flights {
         self.growth.is_some_and(|growth| speed > growth.speed_limit)
     }
 
-    /// Until when the neighbour lists are wide enough for growing radii, on the world's clock \[s\].
+    /// Returns the time until which the neighbour lists are wide enough for growing radii, on the
+    /// world's clock \[s\].
     #[inline]
     pub fn room_until(&self) -> f64 {
         self.growth.map_or(f64::INFINITY, |growth| growth.until)

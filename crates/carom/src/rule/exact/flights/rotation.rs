@@ -33,7 +33,7 @@ pub(crate) struct Rotation {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 enum AngularAcceleration {
     Constant(DVec3),
-    /// Of a sphere on a curve: a polynomial over a step.
+    /// Angular acceleration of a sphere on a curve: a polynomial over a step.
     Step(Box<PolynomialAcceleration>),
 }
 
@@ -70,7 +70,7 @@ impl AngularAcceleration {
         }
     }
 
-    /// At the start.
+    /// Returns the angular acceleration at the start.
     fn first(&self) -> DVec3 {
         match self {
             Self::Constant(constant) => *constant,

@@ -24,7 +24,7 @@ pub(crate) struct Species {
     /// Mass \[kg\].
     pub mass: f64,
     pub restitution: f64,
-    /// Of everything but drag \[m/s²\]; with the forces of persistent contacts.
+    /// Acceleration by everything but drag \[m/s²\], with the forces of persistent contacts.
     pub acceleration: DVec3,
     /// Drag coefficient divided by mass \[1/s\].
     pub drag_rate: f64,
@@ -65,7 +65,7 @@ impl Species {
 /// The species of all spheres of a world.
 pub(super) struct SpeciesOfSpheres {
     pub species: Vec<Species>,
-    /// By index: the number of the species of each sphere.
+    /// Number of the species of each sphere, by index.
     pub number_of: Vec<u32>,
     /// Whether some forces are held constant for a time. Then each sphere has a species of its own.
     pub hold_forces: bool,

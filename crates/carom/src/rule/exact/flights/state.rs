@@ -30,7 +30,7 @@ use crate::system::System;
 #[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Flights {
-    /// By slot: in the order of places, so that neighbours share memory.
+    /// Bodies by slot: in the order of places, so that neighbours share memory.
     pub bodies: Vec<Body>,
     pub species: Vec<Species>,
     /// Numbers of species without spheres.

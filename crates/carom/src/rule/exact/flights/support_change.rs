@@ -9,7 +9,7 @@ use crate::detect::contact::Bodies;
 pub(crate) struct SupportChange {
     /// Place of the sphere in the arrays of the world.
     pub index: u32,
-    /// On the world's clock \[s\].
+    /// Time on the world's clock \[s\].
     pub time: f64,
     /// Motion after the change; `None` for a free flight.
     pub held: Option<HeldMotion>,
@@ -21,7 +21,7 @@ pub(crate) struct HeldMotion {
     pub position: DVec3,
     pub velocity: DVec3,
     pub angular_velocity: DVec3,
-    /// Of everything but drag \[m/s²\].
+    /// Acceleration by everything but drag \[m/s²\].
     pub acceleration: DVec3,
     pub angular_acceleration: DVec3,
     /// The contact, if it is the only one.

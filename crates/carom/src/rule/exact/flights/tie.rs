@@ -21,7 +21,7 @@ pub(super) struct Tie<'a> {
     /// Place of the sphere at its first end.
     pub first: usize,
     pub second: TieEnd,
-    /// From the second end to its nearest image \[m\].
+    /// Shift from the second end to its nearest image \[m\].
     shift: DVec3,
     phase: Phase,
     resolution: Resolution,
@@ -30,9 +30,9 @@ pub(super) struct Tie<'a> {
 /// Rounding of a thread at its rest length: a smaller stretch or tension counts as none.
 #[derive(Debug, Clone, Copy)]
 struct Resolution {
-    /// Of `l² - l0²` \[m²\].
+    /// Rounding of `l² - l0²` \[m²\].
     length: f64,
-    /// Of the tension times the length \[N m\].
+    /// Rounding of the tension times the length \[N m\].
     tension: f64,
 }
 
@@ -175,7 +175,7 @@ fn tension_by_length(spring: &Spring, offset: DVec3, velocity: DVec3) -> f64 {
 pub(super) enum TiePath {
     Polynomial(PolynomialFlight),
     Flight(Flight),
-    /// At rest \[m\].
+    /// A fixed point \[m\].
     Point(DVec3),
 }
 
@@ -239,7 +239,7 @@ fn relative(ends: [TiePath; 2]) -> [TiePath; 2] {
 struct Apart {
     ends: [TiePath; 2],
     shift: DVec3,
-    /// Of the step \[s\].
+    /// Length of the step \[s\].
     length: f64,
 }
 

@@ -76,7 +76,7 @@ struct Search<'a> {
     timeline: &'a Timeline,
     context: &'a StepContext<'a>,
     group: &'a Group,
-    /// By place among the members.
+    /// Whether each member was struck, by its place among the members.
     is_struck: &'a [bool],
 }
 

@@ -261,7 +261,7 @@ struct Answer {
     kicks: Vec<f64>,
     /// What the impacts did to momentum and energy of the spheres.
     account: ImpactGroup,
-    /// Whether an impact law had no answer, or too much work with it.
+    /// Whether an impact law had no answer, or took too much work.
     cut_short: bool,
 }
 

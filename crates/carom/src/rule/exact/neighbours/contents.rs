@@ -28,7 +28,7 @@ pub(super) const SLACK: f64 = 1.0 + 1e-9;
 #[derive(Clone, Copy)]
 pub(crate) struct Contents<'a> {
     pub flights: &'a Flights,
-    /// On the world's clock \[s\].
+    /// Time on the world's clock \[s\].
     pub time: f64,
     /// Edges of the periodic box about the origin \[m\]; infinite along an open axis.
     pub period: DVec3,
@@ -40,7 +40,7 @@ pub(crate) struct Contents<'a> {
     pub spheres_collide: bool,
     /// Groups of spheres, by index; empty where all spheres collide.
     pub groups: &'a [Groups],
-    /// By slot.
+    /// Index of each sphere, by slot.
     pub index_of: &'a [u32],
 }
 

@@ -28,13 +28,14 @@ pub(super) struct Grid {
     origin: DVec3,
     /// Edges of a cell \[m\].
     width: DVec3,
-    /// Their inverses \[1/m\].
+    /// Inverse widths of the cells \[1/m\].
     per_metre: DVec3,
     counts: [u16; 3],
     periodic: [bool; 3],
-    /// From the number of a cell, ghosts counted, to that of the next one along each axis.
+    /// Difference between the numbers of a cell and of the next one along each axis, ghosts
+    /// counted.
     strides: [usize; 3],
-    /// By axis and coordinate: a cell and those next to it.
+    /// A cell and those next to it, by axis and coordinate.
     runs: [Vec<[Run; 3]>; 3],
 }
 
@@ -165,12 +166,12 @@ impl Grid {
         Self { strides: [1, row, row * column], runs: [0, 1, 2].map(runs), ..self }
     }
 
-    /// How many cells there are.
+    /// Returns the number of cells.
     pub fn len(&self) -> usize {
         self.counts.iter().map(|&count| usize::from(count)).product()
     }
 
-    /// How many there are with ghosts.
+    /// Returns the number of cells with ghosts.
     pub fn len_with_ghosts(&self) -> usize {
         self.counts_with_ghosts().into_iter().product()
     }

@@ -29,11 +29,11 @@ use crate::rule::periodic;
 #[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Neighbours {
-    /// From the largest spheres to the smallest.
+    /// Levels from the largest spheres to the smallest.
     levels: Vec<Level>,
-    /// By slot.
+    /// Region of each sphere, by slot.
     regions: Vec<Region>,
-    /// By slot, where spheres are crowded.
+    /// Neighbour lists, by slot, where spheres are crowded.
     lists: Option<NeighbourLists>,
     periodic_box: PeriodicBox,
     /// Images of the box in steady shear. Regions and cells then lie in the coordinates of the search.
@@ -41,9 +41,9 @@ pub(crate) struct Neighbours {
     images: Images,
     /// Whether spheres collide with each other.
     spheres_collide: bool,
-    /// By slot; empty where all bodies collide.
+    /// Groups of the spheres, by slot; empty where all bodies collide.
     groups: Vec<Groups>,
-    /// By number; empty where all bodies collide.
+    /// Groups of the surfaces, by number; empty where all bodies collide.
     groups_of_surfaces: Vec<Groups>,
 }
 

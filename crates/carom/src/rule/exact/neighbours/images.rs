@@ -16,11 +16,11 @@ pub(crate) enum Images {
     /// No images: all axes are open.
     #[default]
     None,
-    /// By position: the image beside a sphere is nearer than all others.
+    /// Chosen by position: the image beside a sphere is nearer than all others.
     ByPlace,
-    /// By marks in cells and lists, in a narrow box.
+    /// Chosen by marks in cells and lists, in a narrow box.
     ByMark,
-    /// By marks in cells, in a box in steady shear.
+    /// Chosen by marks in cells, in a box in steady shear.
     Sliding,
 }
 

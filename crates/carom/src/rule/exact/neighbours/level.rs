@@ -29,7 +29,7 @@ pub(super) struct Level {
 
 /// The cells of all levels, still empty.
 pub(super) struct Levels {
-    /// From the largest spheres to the smallest.
+    /// Levels from the largest spheres to the smallest.
     pub levels: Vec<Level>,
     /// Whether spheres are crowded, so that each needs a list of its neighbours.
     pub are_crowded: bool,

@@ -97,7 +97,7 @@ impl Neighbour {
         if self.is_in_same_box() { Self::image(self.slot(), [0; 3]) } else { self }
     }
 
-    /// Which image it is.
+    /// Returns the number of the image.
     #[inline(always)]
     pub fn image_number(self) -> usize {
         (self.0 >> SLOT_BITS) as usize

@@ -34,7 +34,7 @@ pub(super) struct NeighbourLists {
 pub(super) struct Crowd<'a> {
     /// The only level.
     pub level: &'a Level,
-    /// By slot.
+    /// Region of each sphere, by slot.
     pub regions: &'a [Region],
     pub periodic_box: &'a PeriodicBox,
 }

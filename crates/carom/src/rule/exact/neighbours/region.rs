@@ -15,7 +15,7 @@ pub(super) const LEAD: f64 = 0.5;
 #[derive(Debug, Clone, Copy)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Region {
-    /// In the box \[m\].
+    /// Centre of the region in the box \[m\].
     pub center: DVec3,
     /// Radius of the sphere, rounded up \[m\].
     pub radius: f32,

@@ -1,4 +1,4 @@
-//! Which surfaces spheres may meet, by the cells of a grid.
+//! Finds the surfaces that spheres may meet, by the cells of a grid.
 
 use glam::DVec3;
 
@@ -15,7 +15,8 @@ const SLACK: f64 = 1.0 + 1e-6;
 #[derive(Debug, Clone, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct NearSurfaces {
-    /// Those of cell `c` are `surfaces[starts[c] .. starts[c + 1]]`; empty if there are none at all.
+    /// Places in `surfaces`: those of cell `c` are `surfaces[starts[c] .. starts[c + 1]]`; empty if
+    /// there are none at all.
     starts: Vec<u32>,
     surfaces: Vec<NearSurface>,
 }
@@ -33,7 +34,7 @@ pub(super) struct NearSurface {
 #[derive(Clone, Copy)]
 struct Centers {
     bounds: Bounds,
-    /// Of the spheres \[m\].
+    /// Radius of the spheres \[m\].
     radius: f64,
 }
 

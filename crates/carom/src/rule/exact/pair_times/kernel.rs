@@ -45,7 +45,7 @@ pub(super) struct PairQuery<'a> {
 /// A meeting with another sphere.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Meeting {
-    /// On the world's clock \[s\]; infinite if there is none.
+    /// Time of the meeting on the world's clock \[s\]; infinite if there is none.
     pub time: f64,
     /// The slot of the other sphere.
     pub other: u32,
@@ -371,7 +371,7 @@ impl<S: Simd> FirstTwo<S> {
         }
     }
 
-    /// Of all lanes.
+    /// Returns the two earliest times of all lanes, each with its number.
     #[inline(always)]
     fn of_all_lanes(self) -> [(f64, f64); 2] {
         let halves = self.joined(self.rotated::<2>());

@@ -6,9 +6,9 @@ use crate::rule::exact::flights::FlightLanes;
 /// The motion of one sphere relative to another from the later start of their flights; one pair, or one per lane.
 #[derive(Clone, Copy)]
 pub(super) struct Relative<N> {
-    /// On the world's clock \[s\].
+    /// Start, on the world's clock \[s\].
     pub start: N,
-    /// From centre to centre \[m\].
+    /// Offset from centre to centre \[m\].
     pub offset: Vector<N>,
     /// Velocity \[m/s\].
     pub velocity: Vector<N>,

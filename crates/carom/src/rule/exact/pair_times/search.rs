@@ -99,7 +99,7 @@ impl PairSearch {
         result.is_near
     }
 
-    /// How many pairs were tested in all searches so far.
+    /// Returns the number of pairs tested in all searches so far.
     pub fn tests(&self) -> u64 {
         self.tests
     }
@@ -201,7 +201,8 @@ impl Neighbourhood {
     }
 }
 
-/// When a sphere meets one that flies differently, on the world's clock \[s\]; infinite if never.
+/// Returns when a sphere meets one that flies differently, on the world's clock \[s\]; infinite if
+/// never.
 fn time_of_meeting(timeline: &Timeline, slot: u32, neighbour: Neighbour) -> f64 {
     let flights = &timeline.flights;
     let slots = [slot, neighbour.slot()];
@@ -239,8 +240,8 @@ fn time_of_meeting(timeline: &Timeline, slot: u32, neighbour: Neighbour) -> f64 
     if is_too_late { f64::INFINITY } else { time }
 }
 
-/// When two spheres meet one of which is on a curve, on the world's clock \[s\], before the end of a step;
-/// infinite if they do not.
+/// Returns when two spheres meet of which one is on a curve, on the world's clock \[s\], before the
+/// end of a step; infinite if they do not.
 fn time_of_contact_on_curves(timeline: &Timeline, slots: [u32; 2], shift: DVec3) -> f64 {
     let flights = &timeline.flights;
     let start = flights.bodies[slots[0] as usize].time.max(flights.bodies[slots[1] as usize].time);

@@ -13,7 +13,7 @@ pub(super) const IDLE: f64 = 1e-12;
 
 /// Accelerations of the members of a group.
 pub(super) struct Accelerations {
-    /// Of everything but drag \[m/s²\].
+    /// Acceleration of each sphere by everything but drag \[m/s²\].
     pub each: Vec<DVec3>,
     /// The largest contribution of a contact force to one of them \[m/s²\].
     pub largest: f64,

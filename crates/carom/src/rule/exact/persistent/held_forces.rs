@@ -17,8 +17,8 @@ use crate::system::System;
 /// angle by which springs turn in it.
 const LATER: f64 = 1.0 / 32.0;
 
-/// Until when forces that are computed `now` \[s\] are held: until the next force tick, or for applied forces the
-/// end of the frame, and no longer than until the next emission.
+/// Returns the time until which forces that are computed `now` \[s\] are held: until the next force
+/// tick, or for applied forces the end of the frame, and no longer than until the next emission.
 fn held_until(timeline: &Timeline, system: &System, now: f64) -> f64 {
     let next_tick = match timeline.flights.forces_vary {
         true => first_tick_after(now, timeline.force_tick),

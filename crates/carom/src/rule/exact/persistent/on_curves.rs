@@ -1,4 +1,5 @@
-//! Which persistent contacts follow the curves of their spheres, so that their forces need not be held.
+//! Decides which persistent contacts follow the curves of their spheres, so that their forces need
+//! not be held.
 
 use glam::DVec3;
 

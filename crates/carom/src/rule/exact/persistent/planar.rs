@@ -23,7 +23,7 @@ pub(crate) struct PlanarSupport {
     pub velocity: DVec3,
     /// \[rad/s\]
     pub angular_velocity: DVec3,
-    /// Of everything but drag \[m/s²\].
+    /// Acceleration by everything but drag \[m/s²\].
     pub acceleration: DVec3,
     /// \[rad/s²\]
     pub angular_acceleration: DVec3,
@@ -35,7 +35,7 @@ pub(crate) struct PlanarSupport {
     pub belt_work: f64,
     /// How long that holds \[s\]; infinite if longer than the given duration.
     pub valid_for: f64,
-    /// Which contacts persist, in the order of the planes; the others part.
+    /// Whether each contact persists, in the order of the planes; the others part.
     pub persists: [bool; MOST_PLANES],
 }
 

@@ -40,7 +40,7 @@ pub(super) struct PushedSphere {
     pub mass: f64,
     /// Moment of inertia divided by m r².
     pub inertia_factor: f64,
-    /// Without contacts \[m/s²\].
+    /// Acceleration without contacts \[m/s²\].
     pub acceleration: DVec3,
     pub friction: ContactFriction,
     /// Direction in which its surface slides along the plane; `None` where it does not.

@@ -43,7 +43,7 @@ pub(super) struct PushingContact {
 /// A contact with its bodies.
 struct Pair<'a> {
     contact: &'a PushingContact,
-    /// None for a plane.
+    /// Side of the first body; `None` for a plane.
     first: Option<Side<'a>>,
     second: Side<'a>,
 }

@@ -18,7 +18,7 @@ use crate::surface::Form;
 /// The motion of a sphere over a piece of path.
 pub(super) struct RollingOver {
     pub member: Member,
-    /// Of everything \[m/s²\].
+    /// Acceleration by everything \[m/s²\].
     pub acceleration: DVec3,
     /// \[rad/s²\]
     pub angular_acceleration: DVec3,
@@ -96,11 +96,11 @@ struct Motion {
 /// The contact of a sphere with a round feature at rest.
 struct CurvedContact<'a> {
     context: &'a StepContext<'a>,
-    /// As it is at the start, of the only member.
+    /// Touch of the only member, as it is at the start.
     touch: Touch,
     friction: ContactFriction,
     inertia_factor: f64,
-    /// On the world's clock \[s\].
+    /// Start, on the world's clock \[s\].
     time: f64,
 }
 

@@ -20,7 +20,7 @@ pub(crate) struct Around {
     pub place: DVec3,
     /// Distance up to which surfaces count \[m\].
     pub reach: f64,
-    /// On the world's clock \[s\].
+    /// Time on the world's clock \[s\].
     pub time: f64,
     /// How long surfaces move on from then \[s\].
     pub length: f64,
@@ -35,12 +35,12 @@ impl Around {
         Self { place, reach: Self::TOUCH * radius, time, length: 0.0 }
     }
 
-    /// With a reach longer by a distance \[m\].
+    /// Returns the search with a reach longer by a distance \[m\].
     pub fn farther(self, distance: f64) -> Self {
         Self { reach: self.reach + distance, ..self }
     }
 
-    /// While surfaces move on for a `length` \[s\].
+    /// Returns the search over a time in which surfaces move on for a `length` \[s\].
     pub fn lasting(self, length: f64) -> Self {
         Self { length, ..self }
     }
@@ -71,7 +71,7 @@ pub(crate) fn near(
 /// The surfaces of a collider that moves.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Mover<'a> {
-    /// At the start of the frame.
+    /// Tree as placed at the start of the frame.
     tree: PlacedTree<'a>,
     /// How far its origin moves within the frame, at most \[m\].
     way: f64,
@@ -160,7 +160,7 @@ pub(crate) fn meet(
     }
 }
 
-/// When a sphere meets a surface that moves, between two times of the frame \[s\].
+/// Returns when a sphere meets a surface that moves, between two times of the frame \[s\].
 fn meeting(
     timeline: &Timeline,
     system: &System,

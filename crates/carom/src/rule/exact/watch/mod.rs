@@ -16,7 +16,7 @@ pub(crate) struct Watch {
     pub sensors: Option<Sensors>,
     /// Work of nonconservative forces; `None` without such forces.
     pub(crate) tally: Option<ForceTally>,
-    /// By index.
+    /// Flights as seen, by index.
     pub(crate) flights: Vec<Seen>,
     /// Slots of spheres that began a flight since.
     pub(crate) begun: Vec<u32>,

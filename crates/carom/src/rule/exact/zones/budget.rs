@@ -4,9 +4,6 @@ use std::collections::BTreeMap;
 
 use crate::settings::Exact;
 
-/// Work that a flight costs which ends before the sphere has moved: the budget divided by this is the number of
-/// such flights a sphere may make.
-const UNITS_OF_A_SHORT_FLIGHT: u64 = 60;
 /// Ticks in which all groups together may spend the budget of one group.
 const TICKS_OF_A_BUDGET: f64 = 4.0;
 /// Budgets of one group by which all groups together may be ahead of that.
@@ -15,15 +12,36 @@ const AHEAD: u64 = 8;
 /// times. Many groups then cost hardly more than a few.
 const MOST_HALVINGS: u64 = 16;
 
+/// A flight after which the sphere does not count as moved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum ShortFlight {
+    /// The sphere stayed where it was.
+    Still,
+    /// Forces brought it back to the body that it left, and some of them take energy: each hop is lower than the one
+    /// before, without end, and what is left of them is no motion to be seen.
+    DampedHop,
+}
+
+impl ShortFlight {
+    /// Units of work that the flight counts as: the budget divided by them is the number of such flights that a sphere
+    /// may make in a tick.
+    fn units(self) -> u64 {
+        match self {
+            Self::Still => 60,
+            Self::DampedHop => 6_000,
+        }
+    }
+}
+
 /// What the groups of a tick have spent, in units of work.
 #[derive(Debug, Clone, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Budget {
     /// The number of the tick.
     tick: f64,
-    /// By index of the sphere.
+    /// Units spent, by index of the sphere.
     spent_by_sphere: BTreeMap<u32, u64>,
-    /// Number of flights, by index of the sphere, after which the sphere had not moved.
+    /// Units of short flights, by index of the sphere.
     short_flights: BTreeMap<u32, u64>,
     of_all: u64,
 }
@@ -44,13 +62,18 @@ impl Budget {
         spheres.iter().for_each(|&index| *self.spent_by_sphere.entry(index).or_default() += spent);
     }
 
-    /// Counts a flight of a sphere, by index, that ends at `time` \[s\] after too short a path. Returns whether
-    /// there have been too many in this tick.
-    pub fn is_spent_by_flight(&mut self, parameters: Exact, sphere: u32, time: f64) -> bool {
+    /// Counts a short flight of a sphere, by index, that ends at `time` \[s\]. Returns whether there have been too
+    /// many in this tick.
+    pub fn is_spent_by_flight(
+        &mut self,
+        parameters: Exact,
+        (sphere, flight): (u32, ShortFlight),
+        time: f64,
+    ) -> bool {
         self.follow(time / parameters.zone_tick, u64::from(parameters.zone_budget));
-        let flights = self.short_flights.entry(sphere).or_default();
-        *flights += 1;
-        *flights > u64::from(parameters.zone_budget) / UNITS_OF_A_SHORT_FLIGHT
+        let units = self.short_flights.entry(sphere).or_default();
+        *units += flight.units();
+        *units > u64::from(parameters.zone_budget)
     }
 
     /// Advances to a time, in ticks.

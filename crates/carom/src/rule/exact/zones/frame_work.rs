@@ -9,8 +9,8 @@ use crate::rule::exact::flights::Body;
 /// Units of work that count as much as one flight of a sphere.
 pub(crate) const UNITS_PER_FLIGHT: u64 = 32;
 
-/// By how much the generation grew without impacts: a flight that an impact began adds one, which counts with the
-/// impact.
+/// Returns by how much the generation grew without impacts: a flight that an impact began adds one,
+/// which counts with the impact.
 fn flights_between(before: u32, now: u32) -> u32 {
     now.wrapping_sub(before) & !1
 }

@@ -18,7 +18,7 @@ use crate::rule::exact::timeline::Timeline;
 /// How a sphere that joins a zone moves until the next tick.
 #[derive(Debug, Clone, Copy)]
 enum Moves {
-    /// With this velocity of others \[m/s\].
+    /// The sphere moves with this velocity of others \[m/s\].
     With(DVec3),
     /// Under its forces, which give it this acceleration without drag in closed form \[m/s²\].
     Under(DVec3),

@@ -37,12 +37,12 @@ const MOST_TICK_HALVINGS: u32 = 6;
 #[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Zone {
-    /// Their places in the arrays of the world, ascending.
+    /// Places of the spheres in the arrays of the world, ascending.
     pub index: Vec<u32>,
     properties: Properties,
     /// The states of the spheres at the next tick.
     motion: Motion,
-    /// Their velocities at the last tick \[m/s\].
+    /// Velocities of the spheres at the last tick \[m/s\].
     velocity_before: Vec<DVec3>,
     /// Ticks since each sphere last had a pressing contact.
     free_ticks: Vec<u32>,
@@ -56,7 +56,7 @@ pub(crate) struct Zone {
     ticks: [f64; 2],
     /// Changes of energy in the sub-step from the last tick to the next one.
     account: EnergyAccount,
-    /// Part of them that is reported, 0 to 1.
+    /// Part of the account that is reported, 0 to 1.
     reported: f64,
     /// Number of halvings of a tick that small spheres need.
     halvings: u32,
@@ -73,7 +73,7 @@ struct Waiting {
     sphere: SphereId,
     /// When it joined, on the world's clock \[s\].
     since: f64,
-    /// Its velocity then and at the tick \[m/s\].
+    /// Velocity of the sphere then and at the tick \[m/s\].
     velocities: [DVec3; 2],
 }
 
@@ -88,7 +88,7 @@ pub(crate) struct Stepped {
 }
 
 impl Zone {
-    /// How many spheres there are.
+    /// Returns the number of spheres.
     pub fn len(&self) -> usize {
         self.index.len() + self.waiting.len()
     }
@@ -97,12 +97,12 @@ impl Zone {
         self.len() == 0
     }
 
-    /// What steps them.
+    /// Returns the solver that steps the spheres.
     pub fn solver(&self) -> &Solver {
         &self.solver
     }
 
-    /// How many of them sleep.
+    /// Returns the number of spheres that sleep.
     pub fn asleep(&self) -> u32 {
         if self.is_empty() { 0 } else { self.solver.asleep() }
     }
