@@ -25,6 +25,18 @@ pub(crate) struct Start<'a> {
 /// positions \[m\] and velocities \[m/s\].
 pub(crate) trait Field {
     fn evaluate(&mut self, time: f64, positions: &[DVec3], velocities: &[DVec3], at: &mut Values);
+
+    /// The same without what contacts add. Friction stops a slip, however small, and no longer acts then; forces damp
+    /// motion at a rate.
+    fn evaluate_forces(
+        &mut self,
+        time: f64,
+        positions: &[DVec3],
+        velocities: &[DVec3],
+        at: &mut Values,
+    ) {
+        self.evaluate(time, positions, velocities, at);
+    }
 }
 
 /// What a [`Field`] finds.

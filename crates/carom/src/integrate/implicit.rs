@@ -88,11 +88,19 @@ impl Slopes {
     /// `None` where damping in a step of some length \[s\] is slow.
     fn of(start: &Start, first: &Values, length: f64, field: &mut impl Field) -> Option<Self> {
         let count = 3 * start.positions.len();
-        let by_velocity = derivatives(start, first, (length, Quantity::Velocity), field);
-        let damping = (0..count).map(|i| -by_velocity[i * count + i]);
-        let rate = damping.fold(0.0, f64::max);
+        let rate = fastest_damping(start, length, field);
         (rate * length > LEAST_DAMPING).then(|| {
-            let by_position = derivatives(start, first, (length, Quantity::Position), field);
+            let [by_position, by_velocity] =
+                [Quantity::Position, Quantity::Velocity].map(|quantity| {
+                    derivatives(
+                        start,
+                        first,
+                        (length, quantity),
+                        |time, positions, velocities, at| {
+                            field.evaluate(time, positions, velocities, at);
+                        },
+                    )
+                });
             Self { count, by_velocity, by_position, rate }
         })
     }
@@ -123,12 +131,25 @@ impl Slopes {
     }
 }
 
-/// Derivatives of all accelerations by a quantity at the start of a step of some length \[s\], by rows.
+/// Returns the largest rate \[1/s\] at which forces damp a velocity at the start of a step of some length \[s\].
+fn fastest_damping(start: &Start, length: f64, field: &mut impl Field) -> f64 {
+    let count = 3 * start.positions.len();
+    let mut first = Values::of(start.positions.len());
+    field.evaluate_forces(start.time, start.positions, start.velocities, &mut first);
+    let forces = |time: f64, positions: &[DVec3], velocities: &[DVec3], at: &mut Values| {
+        field.evaluate_forces(time, positions, velocities, at);
+    };
+    let slopes = derivatives(start, &first, (length, Quantity::Velocity), forces);
+    (0..count).map(|i| -slopes[i * count + i]).fold(0.0, f64::max)
+}
+
+/// Derivatives of all accelerations by a quantity at the start of a step of some length \[s\], by rows. `first` has the
+/// accelerations there.
 fn derivatives(
     start: &Start,
     first: &Values,
     (length, quantity): (f64, Quantity),
-    field: &mut impl Field,
+    mut evaluate: impl FnMut(f64, &[DVec3], &[DVec3], &mut Values),
 ) -> Vec<f64> {
     let spheres = start.positions.len();
     let mut matrix = vec![0.0; 9 * spheres * spheres];
@@ -144,7 +165,7 @@ fn derivatives(
         let mut change = (SMALL_PART * scale).max(least);
         loop {
             states[quantity as usize][sphere][axis] = before[axis] + change;
-            field.evaluate(start.time, &states[0], &states[1], &mut values);
+            evaluate(start.time, &states[0], &states[1], &mut values);
             let gained = (values.accelerations[sphere] - first.accelerations[sphere]).norm();
             if gained <= MOST_CHANGE * first.sizes[sphere] || change <= least {
                 break;

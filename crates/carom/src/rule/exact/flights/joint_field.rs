@@ -203,7 +203,7 @@ impl<'a> JointField<'a> {
     ) {
         if self.has_friction() {
             let mut free = Values::of(positions.len());
-            self.evaluate_free(time, positions, velocities, &mut free);
+            self.evaluate_forces(time, positions, velocities, &mut free);
             let moving = moving([positions, velocities], self.spheres.len());
             for contacts in &mut self.contacts {
                 contacts.choose_states(moving, &self.spheres, &free, length);
@@ -338,7 +338,7 @@ impl JointField<'_> {
             let all = 0..step.accelerations.len();
             let (positions, velocities): (Vec<DVec3>, Vec<DVec3>) = all.map(state).unzip();
             let mut values = Values::of(positions.len());
-            self.evaluate_free(start.time + s * length, &positions, &velocities, &mut values);
+            self.evaluate_forces(start.time + s * length, &positions, &velocities, &mut values);
             free.iter_mut().zip(&values.accelerations).for_each(|(free, &at)| free[node] = at);
             self.add_contacts([&positions, &velocities], &mut values);
             is_jammed |= self.contacts.iter().any(CurveContacts::are_jammed);
@@ -437,9 +437,15 @@ impl JointField<'_> {
             contacts.add(moving, &self.spheres, at);
         }
     }
+}
 
-    /// The accelerations without persistent contacts.
-    fn evaluate_free(
+impl Field for JointField<'_> {
+    fn evaluate(&mut self, time: f64, positions: &[DVec3], velocities: &[DVec3], at: &mut Values) {
+        self.evaluate_forces(time, positions, velocities, at);
+        self.add_contacts([positions, velocities], at);
+    }
+
+    fn evaluate_forces(
         &mut self,
         time: f64,
         positions: &[DVec3],
@@ -473,13 +479,6 @@ impl JointField<'_> {
                 }
             }
         }
-    }
-}
-
-impl Field for JointField<'_> {
-    fn evaluate(&mut self, time: f64, positions: &[DVec3], velocities: &[DVec3], at: &mut Values) {
-        self.evaluate_free(time, positions, velocities, at);
-        self.add_contacts([positions, velocities], at);
     }
 }
 
