@@ -54,7 +54,7 @@ pub(super) fn attempt(
     length: f64,
     field: &mut impl Field,
 ) -> Option<Implicit> {
-    if start.positions.len() > MOST_SPHERES {
+    if start.positions.len() > MOST_SPHERES || !first.is_finite() {
         return None;
     }
     let slopes = Slopes::of(start, first, length, field)?;
@@ -167,7 +167,8 @@ fn derivatives(
             states[quantity as usize][sphere][axis] = before[axis] + change;
             evaluate(start.time, &states[0], &states[1], &mut values);
             let gained = (values.accelerations[sphere] - first.accelerations[sphere]).norm();
-            if gained <= MOST_CHANGE * first.sizes[sphere] || change <= least {
+            let is_small = gained <= MOST_CHANGE * first.sizes[sphere];
+            if is_small || change <= least || !change.is_finite() {
                 break;
             }
             change = (SMALLER * change).max(least);
