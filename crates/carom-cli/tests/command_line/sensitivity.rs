@@ -102,7 +102,7 @@ fn a_number_that_derivatives_are_not_known_by_is_named() {
         ("spheres.0.velocity.3", "a component is 0, 1 or 2"),
         ("spheres.0.radius.0", "it has no components"),
         ("colliders.0.mass", "there are no derivatives by this field"),
-        ("forces.0", "it is not of spheres or colliders"),
+        ("forces.0", "it names neither a sphere, nor a collider"),
         ("spheres.0.position.0.0", "it has too many parts"),
     ] {
         let line = line(number, &table);
