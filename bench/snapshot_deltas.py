@@ -1,8 +1,10 @@
 """Bytes of snapshots, compressed alone and as a delta against an earlier snapshot.
 
-A delta is made by Zstandard with the bytes of the base as its dictionary; whoever has the base reads it back. Needs
-`zstandard` (requirements.txt).
+A delta is made by Zstandard with the bytes of the base as its dictionary; whoever has the base
+reads it back.
 """
+
+from typing import Literal
 
 import numpy as np
 import zstandard
@@ -14,7 +16,7 @@ FRAME = 1 / 60
 LEVEL = 3
 
 
-def fallen(rule: str) -> carom.World:
+def fallen(rule: Literal["contact", "exact"]) -> carom.World:
     """Returns balls in ten layers above a floor, as in the benchmark `snapshots` of the engine."""
     number = np.arange(BALLS)
     x, y, z = number % 10, number // 80, number // 10 % 8
@@ -46,7 +48,8 @@ def main() -> None:
             now = world.snapshot().to_bytes()
             alone = zstandard.ZstdCompressor(level=LEVEL).compress(now)
             sizes = [len(it) / BALLS for it in (now, alone, delta(base, now))]
-            print(f"{rule}, {state}: {sizes[0]:.0f} bytes, {sizes[1]:.0f} compressed, {sizes[2]:.0f} against 8 frames ago")
+            plain, compressed, against = (f"{it:.0f}" for it in sizes)
+            print(f"{rule}, {state}: {plain} bytes, {compressed} compressed, {against} as a delta")
 
 
 if __name__ == "__main__":

@@ -1,5 +1,7 @@
 """Bytes of snapshots as deltas against earlier ones."""
 
+from typing import Literal
+
 import numpy as np
 import pytest
 import zstandard
@@ -9,8 +11,10 @@ import carom
 BALLS = 200
 FRAME = 1 / 60
 
+Rule = Literal["exact", "contact"]
 
-def resting(rule: str) -> carom.World:
+
+def resting(rule: Rule) -> carom.World:
     """Returns a world of balls that lie on a floor, and one that flies."""
     world = carom.World(carom.Scene(name="rest", simulation=carom.Simulation(rule=rule)))
     world.add_force(carom.Gravity(acceleration=[0, -9.81, 0]))
@@ -24,7 +28,7 @@ def resting(rule: str) -> carom.World:
 
 
 @pytest.mark.parametrize("rule", ["exact", "contact"])
-def test_a_delta_has_few_bytes_for_balls_at_rest_and_gives_back_every_bit(rule: str) -> None:
+def test_a_delta_has_few_bytes_for_balls_at_rest_and_gives_back_every_bit(rule: Rule) -> None:
     world = resting(rule)
     base = world.snapshot().to_bytes()
     world.step(frames=8, dt=FRAME)
