@@ -23,8 +23,8 @@ pub enum Error {
     Unknown(Subject),
     /// Forces or speeds grew past what a number can hold.
     #[error(
-        "sphere {sphere}: {quantity} is no longer finite in the step that starts at {time} s; \
-         the state before the step was kept"
+        "sphere {sphere}: {quantity} is no longer finite in the step that starts at {time} s; the state before the \
+         step was kept. Where drag or springs are stiff, shorter frames or the rule `exact` may help"
     )]
     NonFiniteState {
         /// The first sphere it happened to.
