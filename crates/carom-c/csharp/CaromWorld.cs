@@ -711,11 +711,10 @@ namespace Carom
         /// <summary>Returns a list of ids.</summary>
         public ulong[] Ids(CaromList list)
         {
-            UIntPtr count;
-            Check(Native.carom_world_ids(Id, list, null, UIntPtr.Zero, UIntPtr.Zero, out count));
-            var ids = new ulong[(int)count];
-            Check(Native.carom_world_ids(Id, list, ids, UIntPtr.Zero, count, out count));
-            return ids;
+            Native.Reader<WorldId, ulong> read =
+                (WorldId world, ulong[] items, UIntPtr stride, UIntPtr capacity, out UIntPtr count) =>
+                    Native.carom_world_ids(world, list, items, stride, capacity, out count);
+            return Native.All(read, Id);
         }
 
         /// <summary>Returns the impacts of the last step in order of time.</summary>
@@ -832,11 +831,10 @@ namespace Carom
         /// <summary>Returns the bodies that overlap by more than a depth [m].</summary>
         public CaromOverlap[] Overlaps(double tolerance)
         {
-            UIntPtr count;
-            Check(Native.carom_world_overlaps(Id, tolerance, null, UIntPtr.Zero, UIntPtr.Zero, out count));
-            var overlaps = new CaromOverlap[(int)count];
-            Check(Native.carom_world_overlaps(Id, tolerance, overlaps, UIntPtr.Zero, count, out count));
-            return overlaps;
+            Native.Reader<WorldId, CaromOverlap> read =
+                (WorldId world, CaromOverlap[] items, UIntPtr stride, UIntPtr capacity, out UIntPtr count) =>
+                    Native.carom_world_overlaps(world, tolerance, items, stride, capacity, out count);
+            return Native.All(read, Id);
         }
 
         /// <summary>Whether spheres are rotated or rotate, or may start to by friction.</summary>
