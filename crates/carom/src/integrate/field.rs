@@ -2,6 +2,9 @@
 
 use glam::DVec3;
 
+use super::radau_tables::Gains;
+use crate::polynomial_flight::TERMS;
+
 /// Spheres at the beginning of a step.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Start<'a> {
@@ -19,6 +22,28 @@ pub(crate) struct Start<'a> {
     pub steady: f64,
     /// Where forces are rough, steps are at most this long \[s\].
     pub rough: f64,
+}
+
+impl Start<'_> {
+    /// Returns the position and the velocity of a sphere at a part `s` of a step of some length \[s\] under an
+    /// acceleration that is a sum of powers of that part. `gains` are the contributions of the powers there.
+    pub(super) fn state_at(
+        &self,
+        sphere: usize,
+        (s, length): (f64, f64),
+        (powers, gains): (&[DVec3; TERMS], &Gains),
+    ) -> [DVec3; 2] {
+        let t = s * length;
+        let (mut way, mut change) = (DVec3::ZERO, DVec3::ZERO);
+        for (&c, [of_way, of_change]) in powers.iter().zip(gains).rev() {
+            way += c * *of_way;
+            change += c * *of_change;
+        }
+        let velocity = self.velocities[sphere];
+        let [left, left_velocity] = self.carried[sphere];
+        let way = left + t * (velocity + (left_velocity + t * way));
+        [self.positions[sphere] + way, velocity + (left_velocity + t * change)]
+    }
 }
 
 /// Accelerations of some spheres \[m/s²\], and the sum of the sizes of their terms, at a time \[s\] with these

@@ -219,18 +219,9 @@ impl<'a> Attempt<'a> {
 
     /// Computes the positions and velocities of the spheres at a part of the step.
     fn states_at(&self, s: f64, gains: &Gains, [positions, velocities]: [&mut [DVec3]; 2]) {
-        let t = s * self.length;
         for (sphere, powers) in self.powers.iter().enumerate() {
-            let (mut way, mut change) = (DVec3::ZERO, DVec3::ZERO);
-            for (&c, [of_way, of_change]) in powers.iter().zip(gains).rev() {
-                way += c * *of_way;
-                change += c * *of_change;
-            }
-            let velocity = self.start.velocities[sphere];
-            let [left, left_velocity] = self.start.carried[sphere];
-            let way = left + t * (velocity + (left_velocity + t * way));
-            positions[sphere] = self.start.positions[sphere] + way;
-            velocities[sphere] = velocity + (left_velocity + t * change);
+            [positions[sphere], velocities[sphere]] =
+                self.start.state_at(sphere, (s, self.length), (powers, gains));
         }
     }
 

@@ -265,19 +265,10 @@ impl<'a> Attempt<'a> {
 
     /// Where the spheres are at a part of the step, and how they move there.
     fn states_at(&self, s: f64, gains: &Gains, powers: &[[DVec3; TERMS]]) -> [Vec<DVec3>; 2] {
-        let (start, t) = (self.start, s * self.length);
-        let state = |(sphere, powers): (usize, &[DVec3; TERMS])| {
-            let (mut way, mut change) = (DVec3::ZERO, DVec3::ZERO);
-            for (&c, [of_way, of_change]) in powers.iter().zip(gains).rev() {
-                way += c * *of_way;
-                change += c * *of_change;
-            }
-            let (velocity, [left, left_velocity]) =
-                (start.velocities[sphere], start.carried[sphere]);
-            let way = left + t * (velocity + (left_velocity + t * way));
-            (start.positions[sphere] + way, velocity + (left_velocity + t * change))
-        };
-        let (positions, velocities) = powers.iter().enumerate().map(state).unzip();
+        let states = powers.iter().enumerate().map(|(sphere, powers)| {
+            self.start.state_at(sphere, (s, self.length), (powers, gains)).into()
+        });
+        let (positions, velocities) = states.unzip();
         [positions, velocities]
     }
 
