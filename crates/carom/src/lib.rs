@@ -104,9 +104,9 @@ pub use emitter::Emitter;
 pub use error::{Error, InvalidValue, Subject};
 pub use flight::Flight;
 pub use forces::{
-    Buoyancy, ConstantForce, Force, Gravity, Interaction, LinearForce, MutualGravity,
-    PointAttractor, QuadraticDrag, SphereState, SphereStates, Spring, SpringEnd, ViscousDrag,
-    Vortex, Wind,
+    Buoyancy, ConstantForce, Force, ForceDerivatives, Gravity, Interaction, LinearForce,
+    MutualGravity, PointAttractor, QuadraticDrag, SphereState, SphereStates, Spring, SpringEnd,
+    ViscousDrag, Vortex, Wind,
 };
 pub use friction::Friction;
 pub use groups::Groups;
@@ -132,8 +132,8 @@ pub use settings::{
 pub use sphere::{Mass, SOLID_BALL, Sphere, SphereMotion, THIN_SHELL, volume};
 pub use stress::{Stress, StressMeter};
 pub use tangent::{
-    ColliderVariation, DerivativeError, Margin, SphereTangent, SphereVariation, Tangents, Tape,
-    Variation,
+    ColliderVariation, DerivativeError, Margin, SphereTangent, SphereVariation, SpringVariation,
+    Tangents, Tape, Variation,
 };
 pub use well_event::{WellEvent, WellEventKind};
 pub use work::StopRequest;

@@ -12,6 +12,7 @@ use crate::detect::passage::FrameStart;
 use crate::detect::surface_tree::SurfaceTree;
 use crate::forces::{self, Force, Interactions, SphereState, SphereStates, Spring};
 use crate::friction::Friction;
+use crate::id::SpringId;
 use crate::material_pair::{MaterialPair, MaterialPairs};
 use crate::numbered::Numbered;
 use crate::settings::Settings;
@@ -143,6 +144,11 @@ impl<'a> System<'a> {
         self.interactions.into_iter().flat_map(|interactions| interactions.springs())
     }
 
+    /// The springs with their ids, in the order in which they entered the world.
+    pub fn numbered_springs(&self) -> impl Iterator<Item = (SpringId, &'a Spring)> {
+        self.interactions.into_iter().flat_map(|interactions| interactions.numbered_springs())
+    }
+
     /// Whether forces act between all spheres, not on springs only.
     pub fn couples_all(&self) -> bool {
         self.interactions.is_some_and(|interactions| !interactions.are_springs())
@@ -222,7 +228,7 @@ impl<'a> System<'a> {
     }
 
     /// All spheres at `positions` \[m\] with `velocities` \[m/s\].
-    fn states<'b>(&'b self, [positions, velocities]: [&'b [DVec3]; 2]) -> SphereStates<'b> {
+    pub fn states<'b>(&'b self, [positions, velocities]: [&'b [DVec3]; 2]) -> SphereStates<'b> {
         let Properties { id, radius, mass, .. } = self.spheres;
         let period = self.settings.boundary.period();
         SphereStates { ids: id, positions, velocities, radii: radius, masses: mass, period }

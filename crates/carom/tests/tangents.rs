@@ -2,14 +2,14 @@
 
 mod common;
 
+use std::ops::Range;
+
 use carom::{
     Boundary, Collider, DVec3, DerivativeError, Friction, Gravity, MotionPart, Pose, Settings,
     Shape, Sides, Sphere, SphereId, SphereTangent, SphereVariation, Spring, Tangents, Tape,
     Variation, ViscousDrag, World,
 };
-use common::derivatives::{
-    assert_agree_with_differences, assert_backwards_equals_forwards, varied,
-};
+use common::derivatives::{assert_backwards_equals_forwards, off_differences, varied};
 use common::{G, Numbers, vec};
 
 /// Two balls head-on along x, in a world without anything else.
@@ -102,7 +102,9 @@ fn rough_world(number: u64) -> (World, Vec<SphereId>) {
     .with_restitution(0.9)
     .with_friction(friction);
     let turning = if number.is_multiple_of(2) { vec(0.1, 0.3, -0.2) } else { DVec3::ZERO };
-    world.add_collider(walls.moving(vec(0.2, -0.1, 0.3), turning)).unwrap();
+    let belt = if number.is_multiple_of(5) { vec(0.4, -0.3, 0.2) } else { DVec3::ZERO };
+    let walls = walls.moving(vec(0.2, -0.1, 0.3), turning).with_surface_velocity(belt);
+    world.add_collider(walls).unwrap();
     let shapes = [
         Shape::Sphere { radius: 0.4 },
         Shape::Box { size: vec(0.5, 0.6, 0.7) },
@@ -110,7 +112,26 @@ fn rough_world(number: u64) -> (World, Vec<SphereId>) {
     ];
     let pose = Pose::at(vec(0.1, -0.2, 0.05));
     let pillar = Collider::new(shapes[number as usize % 3].clone(), pose).with_restitution(0.8);
-    world.add_collider(pillar.with_friction(0.5)).unwrap();
+    let pillar = pillar.with_friction(0.5);
+    let axis = vec(0.6, 0.0, 0.8);
+    world
+        .add_collider(match number % 4 {
+            0 => pillar.with_motion([MotionPart::Oscillate {
+                axis,
+                amplitude: 0.1,
+                frequency: 1.5,
+                phase: 0.3,
+            }]),
+            1 => pillar.with_motion([MotionPart::Swing {
+                axis,
+                pivot: vec(0.1, 0.2, 0.0),
+                amplitude: 0.7,
+                frequency: 1.0,
+                phase: 0.2,
+            }]),
+            _ => pillar,
+        })
+        .unwrap();
     let mut places: Vec<(DVec3, f64)> = Vec::new();
     while places.len() < 5 {
         let (place, radius) = (1.5 * numbers.vector(), numbers.between(0.1, 0.25));
@@ -154,20 +175,22 @@ fn some_direction(
             change.friction = numbers.between(-1.0, 1.0);
         }
     }
-    for (collider, _) in world.colliders() {
+    for (collider, it) in world.colliders() {
         let change = direction.collider_mut(collider);
         change.position = numbers.vector();
-        change.velocity = numbers.vector();
+        let velocity = numbers.vector();
+        change.velocity = if it.motion.is_empty() { velocity } else { DVec3::ZERO };
         change.restitution = numbers.between(-0.2, 0.2);
         change.friction = numbers.between(-1.0, 1.0);
     }
     direction
 }
 
-#[test]
-fn derivatives_agree_with_differences_of_runs_and_with_the_gradient() {
+/// Compares derivatives of some worlds with differences of runs, up to 1e-9 of them, and with the gradient, to 1e-12. Returns the
+/// number of worlds that it compared with differences, and of impacts.
+fn compare(numbers_of_worlds: Range<u64>) -> (u32, usize) {
     let (mut compared, mut impacts) = (0, 0);
-    for number in 0..100 {
+    for number in numbers_of_worlds {
         let (world, balls) = rough_world(number);
         let mut numbers = Numbers(1000 + number);
         let direction = some_direction(&mut numbers, &world, &balls, !number.is_multiple_of(3));
@@ -181,24 +204,35 @@ fn derivatives_agree_with_differences_of_runs_and_with_the_gradient() {
         impacts += tape.impacts();
         // Backwards as forwards.
         assert_backwards_equals_forwards((&tangents, &tape), &direction, &balls, &mut numbers);
-        // Differences of the fourth order, of runs that stay clear of grazing and of other orders of impacts.
-        let margin = tangents.margin();
-        if margin.directness < 0.05 || margin.interval < 1e-3 {
-            continue;
-        }
         let gravity = world.forces().next().map(|(force, _)| (force, vec(0.3, -2.0, 0.1)));
-        let end = |by| {
+        let [off, spread] = off_differences(&tangents, &balls, |by| {
             let mut other = varied(&world, &direction, by, gravity);
             for _ in 0..8 {
                 other.step(0.1).unwrap();
             }
             other
-        };
-        // Rounding of 1e-16 over the step, and its fourth power times derivatives that impacts make large.
-        assert_agree_with_differences(&tangents, &balls, [2e-5, 1e-8], end);
-        compared += 1;
+        });
+        // Beyond, differences say too little: a graze or another order of impacts is near.
+        if spread < 2e-10 {
+            assert!(off < 1e-9, "{number}: {off:e} {spread:e}");
+            compared += 1;
+        }
     }
-    assert!(compared > 25 && impacts > 200, "{compared} {impacts}");
+    (compared, impacts)
+}
+
+#[test]
+fn derivatives_agree_with_differences_of_runs_and_with_the_gradient() {
+    let (compared, impacts) = compare(0..60);
+    assert!(compared > 30 && impacts > 120, "{compared} {impacts}");
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn derivatives_of_a_thousand_worlds_agree_with_differences() {
+    let (compared, impacts) = compare(0..1000);
+    println!("{compared} worlds, {impacts} impacts");
+    assert!(compared > 500, "{compared} {impacts}");
 }
 
 #[test]
@@ -260,13 +294,7 @@ fn what_has_no_derivative_is_refused_and_stays_refused() {
         "{error}"
     );
 
-    // A wall that oscillates, springs, a ball that is not there, masses under drag.
-    let mut world = World::default();
-    let wall = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO));
-    let (axis, amplitude, frequency, phase) = (DVec3::Y, 0.1, 1.0, 0.0);
-    let shaken = MotionPart::Oscillate { axis, amplitude, frequency, phase };
-    world.add_collider(wall.with_motion([shaken])).unwrap();
-    assert!(matches!(Tape::start(&world).unwrap_err(), DerivativeError::Unsupported(_)));
+    // A ball and a spring that are not there, masses under drag.
     let mut world = World::default();
     let ball = world.add_sphere(Sphere::new(DVec3::ZERO, 0.5)).unwrap();
     let other = world.add_sphere(Sphere::new(vec(3.0, 0.0, 0.0), 0.5)).unwrap();
@@ -282,8 +310,12 @@ fn what_has_no_derivative_is_refused_and_stays_refused() {
     assert_eq!(refused, DerivativeError::UnknownSphere(ball));
     let mut tape = Tape::start(&world).unwrap();
     assert_eq!(tape.step(&mut emptied, 0.1).unwrap_err(), DerivativeError::Changed);
-    world.add_spring(Spring::between(ball, other, 1.0)).unwrap();
-    assert!(matches!(Tape::start(&world).unwrap_err(), DerivativeError::Unsupported(_)));
+    let spring = world.add_spring(Spring::between(ball, other, 1.0)).unwrap();
+    let mut stiffer = Variation::default();
+    stiffer.spring_mut(spring).stiffness = 1.0;
+    world.remove_spring(spring).unwrap();
+    let refused = Tangents::new(&world, vec![stiffer]).unwrap_err();
+    assert_eq!(refused, DerivativeError::UnknownSpring(spring));
 }
 
 #[test]

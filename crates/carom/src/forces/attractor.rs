@@ -1,6 +1,7 @@
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
-use super::{Force, SphereState};
+use super::derivatives::outer;
+use super::{Force, ForceDerivatives, SphereState};
 use crate::error::InvalidValue;
 use crate::validate;
 
@@ -55,6 +56,21 @@ impl Force for PointAttractor {
 
     fn is_conservative(&self) -> bool {
         true
+    }
+
+    fn derivatives(&self, sphere: &SphereState, _time: f64) -> Option<ForceDerivatives> {
+        let square = self.softened_square(sphere.position);
+        if square == 0.0 {
+            return None;
+        }
+        let per_mass = self.gravitational_parameter / (square * square.sqrt());
+        let offset = sphere.position - self.position;
+        let by_position = outer(3.0 / square * offset, offset) - DMat3::IDENTITY;
+        Some(ForceDerivatives {
+            by_position: (sphere.mass * per_mass) * by_position,
+            by_mass: -per_mass * offset,
+            ..ForceDerivatives::ZERO
+        })
     }
 
     fn validate(&self) -> Result<(), InvalidValue> {

@@ -2,7 +2,8 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::{Force, SphereState};
+use super::derivatives::outer;
+use super::{Force, ForceDerivatives, SphereState};
 use crate::error::InvalidValue;
 use crate::norm::Norm;
 use crate::validate;
@@ -60,6 +61,18 @@ impl Force for Buoyancy {
 
     fn is_conservative(&self) -> bool {
         true
+    }
+
+    fn derivatives(&self, sphere: &SphereState, _time: f64) -> Option<ForceDerivatives> {
+        let (r, h) = (sphere.radius, self.depth(sphere).clamp(0.0, 2.0 * sphere.radius));
+        // The area of the cut: the change of the volume with the depth.
+        let cut = PI * h * (2.0 * r - h);
+        let up = self.gravity / self.gravity.norm();
+        Some(ForceDerivatives {
+            by_position: outer(-(self.density * cut) * self.gravity, up),
+            by_radius: -(self.density * (PI * h * h + cut)) * self.gravity,
+            ..ForceDerivatives::ZERO
+        })
     }
 
     fn validate(&self) -> Result<(), InvalidValue> {

@@ -1,6 +1,6 @@
 use glam::DVec3;
 
-use super::{Force, LinearForce, SphereState};
+use super::{Force, ForceDerivatives, LinearForce, SphereState};
 use crate::error::InvalidValue;
 use crate::validate;
 
@@ -35,6 +35,10 @@ impl Force for ConstantForce {
 
     fn is_conservative(&self) -> bool {
         true
+    }
+
+    fn derivatives(&self, _sphere: &SphereState, _time: f64) -> Option<ForceDerivatives> {
+        Some(ForceDerivatives::ZERO)
     }
 
     fn validate(&self) -> Result<(), InvalidValue> {

@@ -2,6 +2,7 @@ use std::fmt::Debug;
 
 use glam::DVec3;
 
+use super::ForceDerivatives;
 use crate::id::SphereId;
 use crate::settings::nearest_image;
 
@@ -57,6 +58,18 @@ pub trait Interaction: Debug + Send + Sync {
     /// Potential energy \[J\] of all spheres together; 0 (the default) where there is none.
     fn potential_energy(&self, _spheres: &SphereStates, _time: f64) -> f64 {
         0.0
+    }
+
+    /// Derivatives of the forces, for derivatives of whole runs: calls `add` with the indices of a sphere and of
+    /// one on whose state its force depends, and with these derivatives. Returns whether they are known; false (the
+    /// default) where they are not.
+    fn add_derivatives(
+        &self,
+        _spheres: &SphereStates,
+        _time: f64,
+        _add: &mut dyn FnMut([usize; 2], &ForceDerivatives),
+    ) -> bool {
+        false
     }
 
     /// Whether the forces depend on velocities (the default). Where the rule `exact` holds forces that do not, it

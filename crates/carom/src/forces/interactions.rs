@@ -3,7 +3,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::{Force, Interaction, SphereStates, Spring};
-use crate::id::SphereId;
+use crate::id::{SphereId, SpringId};
 use crate::numbered::Numbered;
 
 /// The forces of a world that act between spheres.
@@ -63,15 +63,30 @@ impl<'a> Interactions<'a> {
         self.springs.iter().map(|(_, spring)| spring)
     }
 
+    /// The springs with their ids, in the order in which they entered the world.
+    pub fn numbered_springs(&self) -> impl Iterator<Item = (SpringId, &'a Spring)> + use<'a> {
+        self.springs.iter().map(|(number, spring)| (SpringId(number), spring))
+    }
+
     /// Whether there are only springs.
     pub fn are_springs(&self) -> bool {
         self.list().next().is_none()
     }
 
+    /// Adds the forces \[N\] on all spheres without those of springs.
+    pub fn add_forces_without_springs(
+        &self,
+        spheres: &SphereStates,
+        time: f64,
+        forces: &mut [DVec3],
+    ) {
+        self.list().for_each(|interaction| interaction.add_forces(spheres, time, forces));
+    }
+
     /// Adds the forces \[N\] on all spheres: those among the forces in the order in which they entered the
     /// world, then springs in theirs.
     pub fn add_forces(&self, spheres: &SphereStates, time: f64, forces: &mut [DVec3]) {
-        self.list().for_each(|interaction| interaction.add_forces(spheres, time, forces));
+        self.add_forces_without_springs(spheres, time, forces);
         self.springs.iter().for_each(|(_, spring)| spring.add_forces(spheres, forces));
     }
 

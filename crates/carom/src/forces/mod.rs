@@ -3,6 +3,7 @@
 mod attractor;
 mod buoyancy;
 mod constant;
+mod derivatives;
 mod drag;
 mod gravity;
 mod interaction;
@@ -25,6 +26,7 @@ use glam::DVec3;
 pub use attractor::PointAttractor;
 pub use buoyancy::Buoyancy;
 pub use constant::ConstantForce;
+pub use derivatives::ForceDerivatives;
 pub use drag::ViscousDrag;
 pub use gravity::Gravity;
 pub use interaction::{Interaction, SphereStates};
@@ -35,6 +37,7 @@ pub(crate) use nonconservative::{
     total_nonconservative,
 };
 pub use quadratic_drag::QuadraticDrag;
+pub(crate) use spring::PullDerivatives;
 pub use spring::{Spring, SpringEnd};
 pub use vortex::Vortex;
 pub use wind::Wind;
@@ -111,6 +114,12 @@ pub trait Force: Any + Debug + Send + Sync {
     /// [`EnergyAccount::forces`](crate::EnergyAccount::forces), less what its potential accounts for.
     fn is_conservative(&self) -> bool {
         false
+    }
+
+    /// Derivatives of [`Self::on`] by the state of the sphere, for derivatives of whole runs; `None` (the default)
+    /// where they are not known.
+    fn derivatives(&self, _sphere: &SphereState, _time: f64) -> Option<ForceDerivatives> {
+        None
     }
 
     /// The forces between spheres, besides the force on each by itself; `None` (the default) for none.

@@ -1,8 +1,9 @@
 use std::f64::consts::PI;
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
-use super::{Force, SphereState};
+use super::derivatives::outer;
+use super::{Force, ForceDerivatives, SphereState};
 use crate::error::InvalidValue;
 use crate::norm::Norm;
 use crate::validate;
@@ -62,12 +63,38 @@ impl QuadraticDrag {
         let stokes = 6.0 * PI * self.viscosity * radius;
         newton.max(stokes * (1.0 + 0.15 * libm::pow(reynolds, 0.687)))
     }
+
+    /// Returns [`Self::rate`] and its derivatives by the radius and by the speed.
+    fn rate_and_slopes(&self, radius: f64, speed: f64) -> [f64; 3] {
+        let rate = self.rate(radius, speed);
+        let newton = 0.5 * self.density * self.drag_coefficient * PI * radius * radius;
+        if rate == newton * speed || speed == 0.0 {
+            return [rate, 2.0 * rate / radius, newton];
+        }
+        // What the Reynolds number adds grows with its power.
+        let stokes = 6.0 * PI * self.viscosity * radius;
+        let faster = 0.687 * (rate - stokes);
+        [rate, (rate + faster) / radius, faster / speed]
+    }
 }
 
 impl Force for QuadraticDrag {
     fn on(&self, sphere: &SphereState, _time: f64) -> DVec3 {
         let relative = sphere.velocity - self.wind;
         -self.rate(sphere.radius, relative.norm()) * relative
+    }
+
+    fn derivatives(&self, sphere: &SphereState, _time: f64) -> Option<ForceDerivatives> {
+        let relative = sphere.velocity - self.wind;
+        let (radius, speed) = (sphere.radius, relative.norm());
+        let [rate, by_radius, by_speed] = self.rate_and_slopes(radius, speed);
+        let along = if speed > 0.0 { relative / speed } else { DVec3::ZERO };
+        let by_velocity = DMat3::from_diagonal(DVec3::splat(-rate));
+        Some(ForceDerivatives {
+            by_velocity: by_velocity - outer(by_speed * relative, along),
+            by_radius: -by_radius * relative,
+            ..ForceDerivatives::ZERO
+        })
     }
 
     fn validate(&self) -> Result<(), InvalidValue> {

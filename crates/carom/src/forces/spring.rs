@@ -1,6 +1,7 @@
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::SphereStates;
+use super::derivatives::outer;
 use crate::error::InvalidValue;
 use crate::id::SphereId;
 use crate::norm::Norm;
@@ -153,6 +154,33 @@ impl Spring {
         0.5 * self.stiffness * stretch * stretch
     }
 
+    /// Returns the derivatives of [`Self::pull`]; `None` if the ends are in one place. A thread that does not pull
+    /// has none.
+    pub(crate) fn pull_derivatives(
+        &self,
+        offset: DVec3,
+        velocity: DVec3,
+    ) -> Option<PullDerivatives> {
+        let stretch = Stretch::of(offset, velocity);
+        let Stretch { length, direction, lengthening } = stretch;
+        if length == 0.0 {
+            return None;
+        }
+        if self.only_pulls && stretch.tension(self) == 0.0 {
+            return Some(PullDerivatives::ZERO);
+        }
+        let aside = (velocity - lengthening * direction) / length;
+        let along = outer(direction, self.stiffness * direction + self.damping * aside);
+        let turned = DMat3::IDENTITY - outer(direction, direction);
+        Some(PullDerivatives {
+            by_offset: along + (stretch.elastic_tension(self) / length) * turned,
+            by_velocity: outer(direction, self.damping * direction),
+            by_stiffness: (length - self.rest_length) * direction,
+            by_rest_length: -self.stiffness * direction,
+            by_damping: lengthening * direction,
+        })
+    }
+
     /// `None` if one of its spheres is not in the world.
     fn ends(&self, spheres: &SphereStates) -> Option<Ends> {
         let first = spheres.index_of(self.sphere)?;
@@ -166,6 +194,29 @@ impl Spring {
         let offset = spheres.offset_between(spheres.positions[first], position);
         Some(Ends { first, second, offset, velocity: velocity - spheres.velocities[first] })
     }
+}
+
+/// Derivatives of the force of a spring on its first end.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PullDerivatives {
+    /// Derivatives by the offset to the second end \[N/m\] and by its relative velocity \[N s/m\].
+    pub by_offset: DMat3,
+    pub by_velocity: DMat3,
+    /// Derivatives by the stiffness \[m\], the rest length \[N/m\] and the damping \[m/s\].
+    pub by_stiffness: DVec3,
+    pub by_rest_length: DVec3,
+    pub by_damping: DVec3,
+}
+
+impl PullDerivatives {
+    /// Derivatives of no force.
+    const ZERO: Self = Self {
+        by_offset: DMat3::ZERO,
+        by_velocity: DMat3::ZERO,
+        by_stiffness: DVec3::ZERO,
+        by_rest_length: DVec3::ZERO,
+        by_damping: DVec3::ZERO,
+    };
 }
 
 /// The ends of a spring.

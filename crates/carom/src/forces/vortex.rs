@@ -1,8 +1,9 @@
 use std::f64::consts::TAU;
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
-use super::{Force, SphereState};
+use super::derivatives::{cross, outer};
+use super::{Force, ForceDerivatives, SphereState};
 use crate::error::InvalidValue;
 use crate::validate;
 
@@ -57,6 +58,20 @@ impl Vortex {
 impl Force for Vortex {
     fn on(&self, sphere: &SphereState, _time: f64) -> DVec3 {
         self.coefficient * (self.velocity_at(sphere.position) - sphere.velocity)
+    }
+
+    fn derivatives(&self, sphere: &SphereState, _time: f64) -> Option<ForceDerivatives> {
+        let axis = self.axis.normalize();
+        let arm = sphere.position - self.position;
+        let arm = arm - arm.dot(axis) * axis;
+        let square = arm.length_squared() + self.core_radius * self.core_radius;
+        let rate = self.coefficient * self.circulation / (TAU * square);
+        let slower = outer(axis.cross(arm), 2.0 / square * arm);
+        Some(ForceDerivatives {
+            by_position: rate * (cross(axis) - slower),
+            by_velocity: DMat3::from_diagonal(DVec3::splat(-self.coefficient)),
+            ..ForceDerivatives::ZERO
+        })
     }
 
     fn validate(&self) -> Result<(), InvalidValue> {

@@ -1,6 +1,6 @@
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
-use super::{Force, LinearForce, SphereState};
+use super::{Force, ForceDerivatives, LinearForce, SphereState};
 use crate::error::InvalidValue;
 use crate::validate;
 
@@ -29,6 +29,11 @@ impl Force for Wind {
     fn linear(&self, _radius: f64, mass: f64) -> Option<LinearForce> {
         let drag_rate = self.coefficient / mass;
         Some(LinearForce { acceleration: drag_rate * self.velocity, drag_rate })
+    }
+
+    fn derivatives(&self, _sphere: &SphereState, _time: f64) -> Option<ForceDerivatives> {
+        let by_velocity = DMat3::from_diagonal(DVec3::splat(-self.coefficient));
+        Some(ForceDerivatives { by_velocity, ..ForceDerivatives::ZERO })
     }
 
     fn validate(&self) -> Result<(), InvalidValue> {

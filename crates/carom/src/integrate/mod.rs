@@ -23,6 +23,7 @@ mod velocity_verlet;
 mod work;
 
 pub(crate) use acceleration::{acceleration, acceleration_alone};
+pub(crate) use radau_tables::{END_NODES, END_VELOCITIES, END_WAYS};
 pub(crate) use together::Scratch;
 pub(crate) use work::work;
 

@@ -15,7 +15,7 @@ pub(crate) const NODES: [f64; TERMS] = [
 ];
 
 /// Nodes that include the end of a step: [`NODES`] as seen from there.
-pub(super) const END_NODES: [f64; TERMS] = reversed(NODES);
+pub(crate) const END_NODES: [f64; TERMS] = reversed(NODES);
 
 /// Powers of s in `s (s - h_1) ... (s - h_(n-1))`, by n.
 pub(super) const NEWTON: Table = newton_basis(NODES);
@@ -33,10 +33,10 @@ pub(super) const GAINS_AT_END: Gains = gains_at(1.0);
 pub(super) const RECIPROCALS: Table = reciprocals();
 /// Way, divided by the square of the time of the step, that a unit of the acceleration at each node
 /// adds at each of the [`END_NODES`]; `END_VELOCITIES` has the velocity, divided by that time.
-pub(super) const END_WAYS: Table = integrals_of_nodes(0);
-pub(super) const END_VELOCITIES: Table = integrals_of_nodes(1);
+pub(crate) const END_WAYS: Table = integrals_of_nodes(0);
+pub(crate) const END_VELOCITIES: Table = integrals_of_nodes(1);
 
-type Table = [[f64; TERMS]; TERMS];
+pub(crate) type Table = [[f64; TERMS]; TERMS];
 
 /// `s^k/((k + 1)(k + 2))` and `s^k/(k + 1)`, by k.
 pub(super) type Gains = [[f64; 2]; TERMS];

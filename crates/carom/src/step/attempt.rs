@@ -9,7 +9,7 @@ use crate::forces::Spring;
 use crate::numbered::Numbered;
 use crate::report::{StepReport, TriggerContact};
 use crate::rule::contact::{self, Solver};
-use crate::rule::exact::SupportChange;
+use crate::rule::exact::FlightLog;
 use crate::rule::{bisect, discrete};
 use crate::sensor::{Sensors, Tracks};
 use crate::settings::Rule;
@@ -26,7 +26,7 @@ pub(crate) struct Scratch {
     pub search: Search,
     pub tracks: Tracks,
     /// Log of persistent contacts under the rule `exact`; `None` in a step that keeps none.
-    pub support_log: Option<Vec<SupportChange>>,
+    pub flight_log: Option<FlightLog>,
     /// Motion at the start of the step, which a failed step restores.
     pub start: Motion,
 }

@@ -29,14 +29,14 @@ pub(super) fn step(mut attempt: Attempt, parameters: Exact, until: Until) -> Res
             check_closed_form(&system, "next event").map_err(|it| it.about(Subject::Step))?;
         }
         let mut timeline = begin(attempt, parameters, end)?;
-        if attempt.scratch.support_log.is_some() {
-            timeline.begin_support_log(attempt.start);
+        if attempt.scratch.flight_log.is_some() {
+            timeline.begin_log(attempt.start);
         }
         let mut watch = watch_over(attempt);
         let end = advance(attempt, &mut timeline, &mut watch, end, until)?;
         attempt.end_at(end);
-        if let Some(log) = &mut attempt.scratch.support_log {
-            *log = timeline.end_support_log();
+        if let Some(log) = &mut attempt.scratch.flight_log {
+            *log = timeline.end_log();
         }
         account_for_contacts(attempt.report, &mut timeline, end);
         shear::account_for_impacts(attempt);

@@ -3,7 +3,7 @@
 use thiserror::Error as ThisError;
 
 use crate::error::Error;
-use crate::id::{ColliderId, SphereId};
+use crate::id::{ColliderId, SphereId, SpringId};
 
 /// Why derivatives cannot be followed.
 #[derive(Debug, Clone, PartialEq, ThisError)]
@@ -21,6 +21,9 @@ pub enum DerivativeError {
     /// A direction changes a collider that is not in the world.
     #[error("there is no collider {0} in this world")]
     UnknownCollider(ColliderId),
+    /// A direction changes a spring that is not in the world.
+    #[error("there is no spring {0} in this world")]
+    UnknownSpring(SpringId),
     /// Several impacts at one instant among bodies that touch: the motion after them depends on which one a small
     /// change makes first.
     #[error(

@@ -39,8 +39,8 @@ impl Followed {
             return Err(DerivativeError::Changed);
         }
         let before = world.time();
-        let supports = world.step_noting_supports(dt)?;
-        let pieces = start.pieces(world, supports, self.elapsed);
+        let log = world.step_with_log(dt)?;
+        let pieces = start.pieces(world, log, self.elapsed);
         let pieces = pieces.inspect_err(|error| self.lost = Some(error.clone()))?;
         for piece in &pieces {
             if let Piece::Impact(saltation) = piece {

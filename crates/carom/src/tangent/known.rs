@@ -1,34 +1,29 @@
 //! Checks that the derivatives of a world are known.
 
-use glam::DVec3;
-
 use super::error::DerivativeError;
+use super::start::curved;
+use crate::bodies::Motion;
 use crate::detect::instant::Instant;
-use crate::forces;
+use crate::forces::SphereState;
 use crate::settings::Rule;
+use crate::system::System;
 use crate::world::World;
 
 /// Returns an error if the derivatives of something in the world are not known.
 pub(super) fn check(world: &World) -> Result<(), DerivativeError> {
-    let Instant { system, .. } = world.now();
+    let Instant { system, motion, .. } = world.now();
     let refuse = |what| Err(DerivativeError::Unsupported(what));
     if !matches!(system.settings.rule, Rule::Exact(_)) {
         return refuse("a rule other than `exact`");
     }
-    if system.has_interactions() {
-        return refuse("forces between spheres");
+    if system.holds_forces_of_all() {
+        return refuse("forces between so many spheres that they are held for a time");
     }
-    if !forces::are_linear(system.forces) {
-        return refuse("forces that depend on places, or not linearly on velocities");
+    if !are_differentiable(&system, motion) {
+        return refuse("a force without `derivatives`");
     }
     if world.emitters().len() > 0 {
         return refuse("emitters");
-    }
-    if world.colliders().any(|(_, collider)| !collider.motion.is_empty()) {
-        return refuse("colliders that do not move steadily");
-    }
-    if world.colliders().any(|(_, collider)| collider.surface_velocity != DVec3::ZERO) {
-        return refuse("colliders with a surface velocity");
     }
     if system.settings.thermostat.is_some() {
         return refuse("a thermostat");
@@ -43,4 +38,27 @@ pub(super) fn check(world: &World) -> Result<(), DerivativeError> {
         return refuse("spheres that grow");
     }
     Ok(())
+}
+
+/// Returns whether the derivatives of all forces are known, or not needed.
+fn are_differentiable(system: &System, motion: &Motion) -> bool {
+    let curved = curved(system);
+    if !curved.contains(&true) {
+        return true;
+    }
+    let states = [&motion.position[..], &motion.velocity[..]];
+    let known_alone = (0..curved.len()).filter(|&place| curved[place]).all(|place| {
+        let state = SphereState {
+            position: motion.position[place],
+            velocity: motion.velocity[place],
+            radius: system.spheres.radius[place],
+            mass: system.spheres.mass[place],
+        };
+        system.forces.iter().all(|(_, force)| force.derivatives(&state, 0.0).is_some())
+    });
+    let spheres = system.states(states);
+    known_alone
+        && system.interactions.is_none_or(|it| {
+            it.list().all(|interaction| interaction.add_derivatives(&spheres, 0.0, &mut |_, _| {}))
+        })
 }

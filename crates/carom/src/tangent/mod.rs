@@ -3,20 +3,25 @@
 //! Between impacts the motion is known in closed form, and so is its derivative. An impact maps small changes of
 //! the motion before it linearly to small changes after it; the map includes the change of the time of the impact.
 
+mod along_curves;
 mod coefficients;
+mod curved;
 mod dry_motion;
 mod dual;
 mod error;
 mod followed;
 mod known;
 mod law;
+mod linearized;
 mod margin;
 mod replay;
 mod saltation;
+mod saltation_back;
 mod start;
 mod state;
 mod supported;
 mod tape;
+mod tightening;
 mod touched;
 mod variation;
 
@@ -26,7 +31,7 @@ pub use error::DerivativeError;
 pub use margin::Margin;
 pub use state::SphereTangent;
 pub use tape::Tape;
-pub use variation::{ColliderVariation, SphereVariation, Variation};
+pub use variation::{ColliderVariation, SphereVariation, SpringVariation, Variation};
 
 use crate::forces;
 use crate::id::SphereId;
@@ -37,9 +42,9 @@ use replay::Piece;
 /// Derivatives in some directions, advanced together with a world: the change of the motion of each sphere when the
 /// initial state changes in a direction.
 ///
-/// Available for worlds under the rule `exact` whose spheres fly freely, under forces that are linear in the
-/// velocity, or slide, roll and rest on single planes, and meet each other and surfaces one at a time, with or
-/// without friction. Anything without a derivative is an error. The formulas are in `docs/physics/derivatives.md`.
+/// Available for worlds under the rule `exact` whose spheres fly freely, on springs or under forces with
+/// [`Force::derivatives`](crate::Force::derivatives), or slide, roll and rest on single planes, and meet each other and
+/// surfaces one at a time, with or without friction. Anything without a derivative is an error. The formulas are in `docs/physics/derivatives.md`.
 ///
 /// ```
 /// use carom::{Collider, DVec3, Pose, Shape, Sphere, Tangents, Variation, World};
@@ -60,6 +65,8 @@ pub struct Tangents {
     directions: Vec<Variation>,
     /// For each direction, the derivative of each sphere in the order of the world's arrays.
     spheres: Vec<Vec<SphereTangent>>,
+    /// For each direction, the change of the acceleration of each sphere \[m/s²\].
+    accelerations: Vec<Vec<DVec3>>,
     followed: Followed,
 }
 
@@ -78,7 +85,12 @@ impl Tangents {
             followed.ids.iter().map(|&id| direction.sphere(id).motion()).collect()
         };
         let spheres = directions.iter().map(of_direction).collect();
-        Ok(Self { directions, spheres, followed })
+        let accelerations = |direction: &Variation| {
+            let of = |&id| direction.acceleration + direction.sphere(id).acceleration;
+            followed.ids.iter().map(of).collect()
+        };
+        let accelerations = directions.iter().map(accelerations).collect();
+        Ok(Self { directions, spheres, accelerations, followed })
     }
 
     /// Advances the world by `dt` \[s\], and the derivatives with it. A change of the world from outside since the
@@ -90,7 +102,9 @@ impl Tangents {
     /// call gives that error again.
     pub fn step(&mut self, world: &mut World, dt: f64) -> Result<(), DerivativeError> {
         let pieces = self.followed.step(world, dt)?;
-        for (direction, spheres) in self.directions.iter().zip(&mut self.spheres) {
+        let accelerations = self.accelerations.iter().map(Vec::as_slice);
+        let directions = self.directions.iter().zip(accelerations);
+        for (direction, spheres) in directions.zip(&mut self.spheres) {
             pass(&pieces, direction, spheres);
         }
         Ok(())
@@ -171,13 +185,19 @@ impl Tangents {
 }
 
 /// Applies the linear maps of a step to the derivatives in one direction.
-fn pass(pieces: &[Piece], direction: &Variation, spheres: &mut [SphereTangent]) {
+fn pass(
+    pieces: &[Piece],
+    (direction, accelerations): (&Variation, &[DVec3]),
+    spheres: &mut [SphereTangent],
+) {
     for piece in pieces {
         match *piece {
             Piece::Flight { place, time, drag_rate } => {
-                spheres[place].fly(Piece::propagator(time, drag_rate), direction.acceleration);
+                spheres[place].fly(Piece::propagator(time, drag_rate), accelerations[place]);
             }
             Piece::Supported(ref flight) => flight.pass(direction, spheres),
+            Piece::Curved(ref flight) => flight.pass((direction, accelerations), spheres),
+            Piece::Tightening(ref thread) => thread.pass(direction, spheres),
             Piece::Impact(ref saltation) => saltation.pass(direction, spheres),
         }
     }
@@ -187,9 +207,10 @@ fn pass(pieces: &[Piece], direction: &Variation, spheres: &mut [SphereTangent]) 
 /// on.
 fn check(world: &World, followed: &Followed, direction: &Variation) -> Result<(), DerivativeError> {
     let system = world.now().system;
+    let curved = start::curved(&system);
     for (id, change) in direction.spheres() {
         let place = followed.place_of(id)?;
-        if change.radius == 0.0 && change.mass == 0.0 {
+        if curved[place] || change.radius == 0.0 && change.mass == 0.0 {
             continue;
         }
         let (radius, mass) = (system.spheres.radius[place], system.spheres.mass[place]);
@@ -202,5 +223,7 @@ fn check(world: &World, followed: &Followed, direction: &Variation) -> Result<()
         }
     }
     let is_known = |id| world.collider(id).map_err(|_| DerivativeError::UnknownCollider(id));
-    direction.colliders().try_for_each(|(id, _)| is_known(id).map(|_| ()))
+    direction.colliders().try_for_each(|(id, _)| is_known(id).map(|_| ()))?;
+    let is_there = |id| world.spring(id).map_err(|_| DerivativeError::UnknownSpring(id));
+    direction.springs().try_for_each(|(id, _)| is_there(id).map(|_| ()))
 }

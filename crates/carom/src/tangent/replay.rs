@@ -4,11 +4,14 @@ use std::collections::{BTreeMap, VecDeque};
 
 use glam::DVec3;
 
+use super::along_curves::Curves;
 use super::coefficients::{RestitutionRates, restitution_of, sliding_of};
+use super::curved::CurvedFlight;
 use super::error::DerivativeError;
 use super::saltation::{Colliding, First, Saltation};
 use super::start::{Flying, Held, ROUNDING, Start};
 use super::supported::{Ending, Mode, Rates, SupportedFlight};
+use super::tightening::Tightening;
 use super::touched::touched;
 use crate::detect::contact::Bodies;
 use crate::detect::instant::Instant;
@@ -18,7 +21,7 @@ use crate::forces::LinearForce;
 use crate::id::SphereId;
 use crate::report::{BodyPair, Impact};
 use crate::respond;
-use crate::rule::exact::{HeldMotion, NormalCurvature, SupportChange, curvature_of};
+use crate::rule::exact::{FlightLog, HeldMotion, NormalCurvature, SupportChange, curvature_of};
 use crate::rule::periodic;
 use crate::system::System;
 use crate::world::World;
@@ -37,43 +40,47 @@ pub(super) enum Piece {
         drag_rate: f64,
     },
     Supported(Box<SupportedFlight>),
+    Curved(Box<CurvedFlight>),
+    Tightening(Box<Tightening>),
     Impact(Box<Saltation>),
 }
 
 /// Reconstruction of a step from its report.
-struct Replay<'a> {
-    start: Start,
-    system: System<'a>,
+pub(super) struct Replay<'a> {
+    pub start: Start,
+    pub system: System<'a>,
     /// Time from the start of the derivatives to the start of the step \[s\].
     elapsed: f64,
     /// Changes of persistent contact during the step, by index of the sphere.
     changes: BTreeMap<usize, VecDeque<SupportChange>>,
-    pieces: Vec<Piece>,
+    pub curves: Curves,
+    pub pieces: Vec<Piece>,
     /// End of the step on the world's clock \[s\].
     end: f64,
 }
 
 impl Start {
-    /// Returns the linear maps of the step that the world took, in order. `supports` has the changes of persistent
-    /// contact during the step, `elapsed` is the time from the start of the derivatives to the step \[s\].
+    /// Returns the linear maps of the step that the world took, in order. `log` has the persistent contacts and
+    /// the curved flights of the step, `elapsed` is the time from the start of the derivatives to the step \[s\].
     ///
     /// # Errors
     /// The part of the step that has no derivative.
     pub fn pieces(
         self,
         world: &World,
-        supports: Vec<SupportChange>,
+        log: FlightLog,
         elapsed: f64,
     ) -> Result<Vec<Piece>, DerivativeError> {
         let report = world.report();
         let Instant { system, motion, time: end } = world.now();
         self.check(report, &system, end)?;
         let mut changes: BTreeMap<usize, VecDeque<SupportChange>> = BTreeMap::new();
-        for change in supports {
+        for change in log.supports {
             changes.entry(change.index as usize).or_default().push_back(change);
         }
+        let curves = Curves::new(log.curves, [self.time, end]);
         let pieces = Vec::new();
-        let mut replay = Replay { start: self, system, elapsed, changes, pieces, end };
+        let mut replay = Replay { start: self, system, elapsed, changes, curves, pieces, end };
         for group in &report.groups {
             let impact = &report.impacts[group.first];
             if group.count > 1 {
@@ -98,7 +105,7 @@ impl Start {
 
 impl Replay<'_> {
     /// Returns the error for a sphere whose motion has no known derivative.
-    fn lost(&self, place: usize) -> DerivativeError {
+    pub fn lost(&self, place: usize) -> DerivativeError {
         let sphere = self.start.ids[place];
         DerivativeError::PersistentContact { sphere, from: self.start.time, to: self.end }
     }
@@ -148,8 +155,11 @@ impl Replay<'_> {
     /// Returns the plane that holds a sphere; `None` if something else holds it.
     fn held(&self, place: usize, motion: &HeldMotion) -> Option<Held> {
         let Some(Bodies::Surface { surface, .. }) = motion.contact else { return None };
+        if self.start.bodies[place].is_curved {
+            return None;
+        }
         let it = &self.start.colliders.surfaces()[surface as usize];
-        if !it.motion.is_at_rest() {
+        if !it.motion.is_at_rest() || it.motion.belt != DVec3::ZERO {
             return None;
         }
         let separation =
@@ -189,6 +199,9 @@ impl Replay<'_> {
         time: f64,
         next: Option<(HeldMotion, Held)>,
     ) -> Result<(), DerivativeError> {
+        if self.start.bodies[place].is_curved {
+            return self.fly_on_curve(place, time);
+        }
         let Flying { position, velocity, angular_velocity, held, .. } = self.start.bodies[place];
         let over = time - self.start.bodies[place].since;
         let LinearForce { acceleration, drag_rate } = self.rates(place).linear;
@@ -319,8 +332,12 @@ impl Replay<'_> {
                 next.map(|(motion, held)| (held, [motion.velocity, motion.angular_velocity]));
             *rates = Some([self.rates_in(place, before)?, self.rates_in(place, after)?]);
         }
-        let saltation = self.saltation(impact, places, rates).ok_or_else(|| self.lost(second))?;
+        let before = self.accelerations_on_curves(places);
+        let saltation = self.saltation(impact, places, rates);
+        let mut saltation = saltation.ok_or_else(|| self.lost(second))?;
         self.leave(&saltation);
+        saltation.set_curved(&before, &self.accelerations_on_curves(places));
+        before.iter().for_each(|&(place, _)| self.start.bodies[place].acceleration = None);
         self.pieces.push(Piece::Impact(Box::new(saltation)));
         for (place, held) in afterwards {
             self.start.bodies[place].held = None;
@@ -383,6 +400,7 @@ impl Replay<'_> {
             sliding: sliding_of(system, bodies),
             tangential_restitution: respond::friction_of(bodies, system).tangential_restitution,
             kick: impact.kick,
+            companions: Vec::new(),
             time: self.elapsed + impact.time,
         })
     }

@@ -5,9 +5,10 @@ use glam::DVec3;
 use super::coefficients::{Combined, RestitutionRates};
 use super::dual::{Dual, vector};
 use super::law::{Coefficients, FirstBody, StruckSphere, collide};
-use super::state::{NUMBERS, SphereTangent};
+use super::state::SphereTangent;
 use super::supported::Rates;
 use super::variation::Variation;
+use crate::forces::LinearForce;
 use crate::id::{ColliderId, SphereId};
 use crate::real::Vector;
 use crate::rule::exact::NormalCurvature;
@@ -25,6 +26,9 @@ pub(super) struct Saltation {
     pub tangential_restitution: f64,
     /// Speed that the surface adds along the normal \[m/s\].
     pub kick: f64,
+    /// Indices of other spheres whose accelerations depend on the velocities of these, and how much smaller their
+    /// accelerations are after the impact \[m/s²\].
+    pub companions: Vec<(usize, DVec3)>,
     /// Time since the start of the derivatives \[s\].
     pub time: f64,
 }
@@ -61,19 +65,24 @@ pub(super) struct TouchedSurface {
     pub origin: DVec3,
     pub velocity: DVec3,
     pub angular_velocity: DVec3,
+    /// Acceleration of that centre \[m/s²\], and angular acceleration \[rad/s²\].
+    pub acceleration: DVec3,
+    pub angular_acceleration: DVec3,
+    /// Velocity of the material relative to the place of the surface \[m/s\].
+    pub belt: DVec3,
     pub curvature: NormalCurvature,
 }
 
 /// A small change of all inputs of an impact.
 #[derive(Debug, Clone, Copy, Default)]
-struct Change {
-    spheres: [SphereTangent; 2],
-    radii: [f64; 2],
-    masses: [f64; 2],
-    restitution: f64,
-    sliding: f64,
-    surface_position: DVec3,
-    surface_velocity: DVec3,
+pub(super) struct Change {
+    pub spheres: [SphereTangent; 2],
+    pub radii: [f64; 2],
+    pub masses: [f64; 2],
+    pub restitution: f64,
+    pub sliding: f64,
+    pub surface_position: DVec3,
+    pub surface_velocity: DVec3,
 }
 
 /// Two bodies after an impact.
@@ -121,6 +130,19 @@ impl Colliding {
 }
 
 impl TouchedSurface {
+    /// Returns the velocity of the material at the contact of a sphere with a surface of this normal, if the impact comes
+    /// later by this \[s\].
+    fn velocity_of_material(
+        &self,
+        (arm, normal): (Vector<Dual>, Vector<Dual>),
+        (faster, later): (DVec3, f64),
+    ) -> Vector<Dual> {
+        let velocity = vector(self.velocity, faster + later * self.acceleration);
+        let spin = vector(self.angular_velocity, later * self.angular_acceleration);
+        let belt = vector(self.belt, later * self.angular_velocity.cross(self.belt));
+        velocity + spin.cross(arm) + belt - normal * belt.dot(normal)
+    }
+
     /// Returns the velocity of the surface at a point \[m/s\].
     fn velocity_at(&self, point: DVec3) -> DVec3 {
         self.velocity + self.angular_velocity.cross(point - self.origin)
@@ -130,11 +152,11 @@ impl TouchedSurface {
     /// shifted \[m\] and the impact comes later by this \[s\].
     fn normal(
         &self,
-        (normal, point): (DVec3, DVec3),
+        (normal, centre): (DVec3, DVec3),
         moved: DVec3,
         (shift, later): (DVec3, f64),
     ) -> Vector<Dual> {
-        let along = moved - shift - later * self.velocity_at(point);
+        let along = moved - shift - later * self.velocity_at(centre);
         let across = along - along.dot(normal) * normal;
         let turned = later * self.angular_velocity.cross(normal);
         vector(normal, self.curvature.rate(across) + turned)
@@ -183,6 +205,26 @@ impl Saltation {
         [of_first, motion(&second)]
     }
 
+    /// Sets the accelerations of spheres that fly on curves, by index, before the impact and after it \[m/s²\].
+    pub fn set_curved(&mut self, before: &[(usize, DVec3)], after: &[(usize, DVec3)]) {
+        let rates = |acceleration| Rates {
+            linear: LinearForce { acceleration, drag_rate: 0.0 },
+            angular_acceleration: DVec3::ZERO,
+        };
+        for (&(place, before), &(_, after)) in before.iter().zip(after) {
+            let first = match &mut self.first {
+                First::Sphere(first) => Some(first),
+                First::Surface(_) => None,
+            };
+            let mut struck = first.into_iter().chain([&mut self.second]);
+            match struck.find(|it| it.place == place) {
+                Some(sphere) => (sphere.before, sphere.after) = (rates(before), rates(after)),
+                None if before != after => self.companions.push((place, before - after)),
+                None => {}
+            }
+        }
+    }
+
     /// Applies the derivative of the impact to the derivatives of the spheres in one direction.
     pub fn pass(&self, direction: &Variation, spheres: &mut [SphereTangent]) {
         let second = self.second.place;
@@ -191,41 +233,14 @@ impl Saltation {
         if let First::Sphere(first) = &self.first {
             change.spheres[0] = spheres[first.place];
         }
+        let later = self.delay(&change);
+        for &(place, lost) in &self.companions {
+            spheres[place].velocity += later * lost;
+        }
         let [first, last] = self.apply(&change);
         spheres[second] = last;
         if let First::Sphere(sphere) = &self.first {
             spheres[sphere.place] = first;
-        }
-    }
-
-    /// Replaces derivatives with respect to the motion after the impact by derivatives with respect to the motion
-    /// before, and adds those with respect to the other inputs of the impact to a gradient.
-    pub fn pass_back(&self, spheres: &mut [SphereTangent], gradient: &mut Variation) {
-        let second = self.second.place;
-        let mut after = [SphereTangent::default(), spheres[second]];
-        let count = match &self.first {
-            First::Sphere(first) => {
-                after[0] = spheres[first.place];
-                2
-            }
-            First::Surface(_) => 1,
-        };
-        let by = |change: &Change| {
-            let [first, last] = self.apply(change);
-            first.dot(&after[0]) + last.dot(&after[1])
-        };
-        let mut before = [SphereTangent::default(); 2];
-        for (body, tangent) in before.iter_mut().enumerate().skip(2 - count) {
-            for number in 0..NUMBERS {
-                let mut change = Change::default();
-                change.spheres[body] = SphereTangent::unit(number);
-                *tangent.number_mut(number) = by(&change);
-            }
-        }
-        self.add_to_gradient(by, gradient);
-        spheres[second] = before[1];
-        if let First::Sphere(first) = &self.first {
-            spheres[first.place] = before[0];
         }
     }
 
@@ -252,46 +267,8 @@ impl Saltation {
         change
     }
 
-    /// Adds the derivatives with respect to the inputs of [`Self::change_of`] to a gradient.
-    fn add_to_gradient(&self, by: impl Fn(&Change) -> f64, gradient: &mut Variation) {
-        let restitution = by(&Change { restitution: 1.0, ..Change::default() });
-        let sliding = by(&Change { sliding: 1.0, ..Change::default() });
-        let of_body = |body: usize| {
-            let mut units = [0.0; 2];
-            units[body] = 1.0;
-            let radius = by(&Change { radii: units, ..Change::default() });
-            [radius, by(&Change { masses: units, ..Change::default() })]
-        };
-        let mut add_sphere = |id, body: usize| {
-            let [radius, mass] = of_body(body);
-            let sphere = gradient.sphere_mut(id);
-            sphere.radius += radius;
-            sphere.mass += mass;
-            sphere.restitution += self.restitution.combined.by_bodies[body] * restitution;
-            sphere.friction += self.sliding.by_bodies[body] * sliding;
-        };
-        add_sphere(self.second.id, 1);
-        match &self.first {
-            First::Sphere(first) => add_sphere(first.id, 0),
-            First::Surface(surface) => {
-                let along = |change: &dyn Fn(DVec3) -> Change| {
-                    DVec3::from_array(DVec3::AXES.map(|axis| by(&change(axis))))
-                };
-                let by_place =
-                    along(&|axis| Change { surface_position: axis, ..Change::default() });
-                let by_velocity =
-                    along(&|axis| Change { surface_velocity: axis, ..Change::default() });
-                let collider = gradient.collider_mut(surface.collider);
-                collider.position += by_place;
-                collider.velocity += by_velocity + self.time * by_place;
-                collider.restitution += self.restitution.combined.by_bodies[0] * restitution;
-                collider.friction += self.sliding.by_bodies[0] * sliding;
-            }
-        }
-    }
-
     /// Returns the change of the motion after the impact.
-    fn apply(&self, change: &Change) -> [SphereTangent; 2] {
+    pub fn apply(&self, change: &Change) -> [SphereTangent; 2] {
         let Collided { places, first, second, later } = self.collided(change);
         let of_first = match (&self.first, &first) {
             (First::Sphere(before), FirstBody::Sphere(after)) => {
@@ -303,7 +280,7 @@ impl Saltation {
     }
 
     /// Returns the delay of the impact \[s\].
-    fn delay(&self, change: &Change) -> f64 {
+    pub fn delay(&self, change: &Change) -> f64 {
         let [first, second] = change.spheres;
         let opened = match &self.first {
             First::Sphere(_) => {
@@ -328,13 +305,13 @@ impl Saltation {
                 (first_place, FirstBody::Sphere(first), normal)
             }
             First::Surface(surface) => {
-                let point = self.point();
                 let shift = (change.surface_position, later);
-                let normal = surface.normal((self.normal, point), place.change(), shift);
+                let at = (self.normal, self.second.position);
+                let normal = surface.normal(at, place.change(), shift);
                 let origin_moved = change.surface_position + later * surface.velocity;
                 let arm = place - normal * second.radius - vector(surface.origin, origin_moved);
-                let spin = vector(surface.angular_velocity, DVec3::ZERO);
-                let velocity = vector(surface.velocity, change.surface_velocity) + spin.cross(arm);
+                let faster = (change.surface_velocity, later);
+                let velocity = surface.velocity_of_material((arm, normal), faster);
                 (place, FirstBody::Surface(velocity), normal)
             }
         };

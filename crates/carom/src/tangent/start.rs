@@ -9,7 +9,7 @@ use super::known;
 use super::supported::Rates;
 use crate::colliders::Colliders;
 use crate::detect::instant::Instant;
-use crate::forces::{self, LinearForce};
+use crate::forces::{self, LinearForce, Spring};
 use crate::id::{ColliderId, SphereId};
 use crate::report::{BodyPair, Impact, StepReport};
 use crate::system::System;
@@ -37,6 +37,10 @@ pub(super) struct Flying {
     pub linear: LinearForce,
     /// The plane that supports the sphere, if any.
     pub held: Option<Held>,
+    /// Whether forces without a closed form act on the sphere.
+    pub is_curved: bool,
+    /// Acceleration at the end of the last curved flight \[m/s²\]; `None` after an impact.
+    pub acceleration: Option<DVec3>,
     /// Time since the start of the step \[s\].
     pub since: f64,
     /// Largest error of the position \[m\].
@@ -61,12 +65,15 @@ impl Start {
     pub fn of(world: &World) -> Result<Self, DerivativeError> {
         known::check(world)?;
         let Instant { system, motion, time } = world.now();
+        let is_curved = curved(&system);
         let flying = |place: usize| Flying {
             position: motion.position[place],
             velocity: motion.velocity[place],
             angular_velocity: motion.spin.angular_velocity.get(place).copied().unwrap_or_default(),
             linear: linear_on(&system, place),
             held: None,
+            is_curved: is_curved[place],
+            acceleration: None,
             since: 0.0,
             tolerance: ROUNDING * (system.spheres.radius[place] + motion.position[place].length()),
         };
@@ -114,6 +121,22 @@ impl Held {
         let Self { acceleration, angular_acceleration, .. } = *self;
         Rates { linear: LinearForce { acceleration, ..linear }, angular_acceleration }
     }
+}
+
+/// Returns whether forces without a closed form act on each sphere.
+pub(super) fn curved(system: &System) -> Vec<bool> {
+    let spheres = system.spheres;
+    let is_curved = |place: usize| {
+        let (radius, mass) = (spheres.radius[place], spheres.mass[place]);
+        system.couples_all() || !forces::total_linear(system.forces, radius, mass).1
+    };
+    let mut all: Vec<bool> = (0..spheres.id.len()).map(is_curved).collect();
+    for id in system.springs().flat_map(Spring::spheres) {
+        if let Ok(place) = spheres.id.binary_search(&id) {
+            all[place] = true;
+        }
+    }
+    all
 }
 
 /// Returns the linear forces on a sphere.

@@ -231,7 +231,7 @@ impl SupportedFlight {
             sphere: spheres[self.place],
             radius: sphere.radius,
             sliding: self.sliding.change([collider.friction, sphere.friction]),
-            acceleration: direction.acceleration,
+            acceleration: direction.acceleration + sphere.acceleration,
             surface_position: collider.position + self.began * collider.velocity,
             surface_velocity: collider.velocity,
         };
@@ -247,9 +247,11 @@ impl SupportedFlight {
             DVec3::from_array(DVec3::AXES.map(|axis| by(change(axis))))
         };
         let nothing = Change::default();
-        gradient.acceleration += along(&|acceleration| Change { acceleration, ..nothing });
+        let by_acceleration = along(&|acceleration| Change { acceleration, ..nothing });
+        gradient.acceleration += by_acceleration;
         let by_sliding = by(Change { sliding: 1.0, ..nothing });
         let sphere = gradient.sphere_mut(self.id);
+        sphere.acceleration += by_acceleration;
         sphere.radius += by(Change { radius: 1.0, ..nothing });
         sphere.friction += self.sliding.by_bodies[1] * by_sliding;
         let by_place = along(&|surface_position| Change { surface_position, ..nothing });

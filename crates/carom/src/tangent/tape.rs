@@ -1,5 +1,7 @@
 //! A record of a run that is evaluated backwards.
 
+use glam::DVec3;
+
 use super::error::DerivativeError;
 use super::followed::Followed;
 use super::margin::Margin;
@@ -13,7 +15,8 @@ use crate::world::World;
 /// state at once.
 ///
 /// Available for the same worlds as [`Tangents`](crate::Tangents). It holds some 500 bytes for an impact, 24 for a
-/// flight between two, and some 350 for a stretch of sliding, rolling or rest.
+/// flight between two, some 350 for a stretch of sliding, rolling or rest, and some 2,600 for each step of a sphere on a
+/// curve.
 ///
 /// ```
 /// use carom::{Collider, DVec3, Pose, Shape, Sphere, SphereTangent, Tape, World};
@@ -86,6 +89,7 @@ impl Tape {
                 }
                 self.last_flights[flight.place] = Some(self.pieces.len());
             }
+            Piece::Curved(_) | Piece::Tightening(_) => {}
             Piece::Impact(saltation) => {
                 for sphere in saltation.spheres() {
                     self.last_flights[sphere.place] = None;
@@ -110,21 +114,28 @@ impl Tape {
             spheres[self.followed.place_of(id)?] = derivative;
         }
         let mut gradient = Variation::default();
+        let mut accelerations = vec![DVec3::ZERO; spheres.len()];
         for piece in self.pieces.iter().rev() {
             match *piece {
                 Piece::Flight { place, time, drag_rate } => {
                     let over = Piece::propagator(time, drag_rate);
-                    gradient.acceleration += spheres[place].fly_back(over);
+                    accelerations[place] += spheres[place].fly_back(over);
                 }
                 Piece::Supported(ref flight) => flight.pass_back(&mut spheres, &mut gradient),
+                Piece::Curved(ref flight) => {
+                    flight.pass_back(&mut spheres, (&mut gradient, &mut accelerations));
+                }
+                Piece::Tightening(ref thread) => thread.pass_back(&mut spheres, &mut gradient),
                 Piece::Impact(ref saltation) => saltation.pass_back(&mut spheres, &mut gradient),
             }
         }
-        for (&id, by) in self.followed.ids.iter().zip(&spheres) {
+        for ((&id, by), acceleration) in self.followed.ids.iter().zip(&spheres).zip(accelerations) {
+            gradient.acceleration += acceleration;
             let sphere = gradient.sphere_mut(id);
             sphere.position += by.position;
             sphere.velocity += by.velocity;
             sphere.angular_velocity += by.angular_velocity;
+            sphere.acceleration += acceleration;
         }
         Ok(gradient)
     }

@@ -1,5 +1,7 @@
 //! The surface that a sphere meets in an impact.
 
+use glam::DVec3;
+
 use super::saltation::{Colliding, TouchedSurface};
 use crate::colliders::Colliders;
 use crate::detect::sphere_surface;
@@ -32,11 +34,17 @@ pub(super) fn touched(
     let (_, number, form, motion, separation) = nearest?;
     let beside = sphere.velocity - motion.velocity_at(separation.point);
     let curvature = curvature_of(&form, [sphere.position, beside], &separation);
+    let [acceleration, angular_acceleration] = motion
+        .drive
+        .map_or([DVec3::ZERO; 2], |drive| [drive.acceleration, drive.angular_acceleration]);
     let touched = TouchedSurface {
         collider,
         origin: motion.origin,
         velocity: motion.velocity,
         angular_velocity: motion.angular_velocity,
+        acceleration,
+        angular_acceleration,
+        belt: motion.belt,
         curvature,
     };
     Some((number as u32, touched))

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::state::SphereTangent;
-use crate::id::{ColliderId, SphereId};
+use crate::id::{ColliderId, SphereId, SpringId};
 
 /// A change of the initial state of a world: a direction in which derivatives are taken. Also used for a gradient:
 /// the derivatives of one number with respect to the initial state.
@@ -24,6 +24,7 @@ use crate::id::{ColliderId, SphereId};
 pub struct Variation {
     spheres: BTreeMap<SphereId, SphereVariation>,
     colliders: BTreeMap<ColliderId, ColliderVariation>,
+    springs: BTreeMap<SpringId, SpringVariation>,
     /// Change of the acceleration of all spheres, as by gravity \[m/s²\].
     pub acceleration: DVec3,
 }
@@ -46,6 +47,8 @@ pub struct SphereVariation {
     pub restitution: f64,
     /// Change of the coefficient of sliding friction.
     pub friction: f64,
+    /// Change of the acceleration of this sphere alone, as by an applied force \[m/s²\].
+    pub acceleration: DVec3,
 }
 
 /// A change of the initial state of a collider.
@@ -60,6 +63,18 @@ pub struct ColliderVariation {
     pub restitution: f64,
     /// Change of the coefficient of sliding friction.
     pub friction: f64,
+}
+
+/// A change of a spring.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[non_exhaustive]
+pub struct SpringVariation {
+    /// Change of the stiffness \[N/m\].
+    pub stiffness: f64,
+    /// Change of the rest length \[m\].
+    pub rest_length: f64,
+    /// Change of the damping \[kg/s\].
+    pub damping: f64,
 }
 
 impl Variation {
@@ -107,6 +122,16 @@ impl Variation {
         self.colliders.entry(collider).or_default()
     }
 
+    /// Returns the change of a spring; zero if none is set.
+    pub fn spring(&self, spring: SpringId) -> SpringVariation {
+        self.springs.get(&spring).copied().unwrap_or_default()
+    }
+
+    /// Returns a mutable reference to the change of a spring.
+    pub fn spring_mut(&mut self, spring: SpringId) -> &mut SpringVariation {
+        self.springs.entry(spring).or_default()
+    }
+
     /// Returns the spheres with a change, ascending by id.
     pub fn spheres(&self) -> impl Iterator<Item = (SphereId, &SphereVariation)> {
         self.spheres.iter().map(|(&id, variation)| (id, variation))
@@ -117,13 +142,20 @@ impl Variation {
         self.colliders.iter().map(|(&id, variation)| (id, variation))
     }
 
+    /// Returns the springs with a change, ascending by id.
+    pub fn springs(&self) -> impl Iterator<Item = (SpringId, &SpringVariation)> {
+        self.springs.iter().map(|(&id, variation)| (id, variation))
+    }
+
     /// Returns the derivative in a direction, if this is a gradient.
     pub fn dot(&self, direction: &Self) -> f64 {
         let by_spheres = direction.spheres().map(|(id, it)| self.sphere(id).dot(it));
         let of_colliders = direction.colliders().map(|(id, it)| self.collider(id).dot(it));
+        let of_springs = direction.springs().map(|(id, it)| self.spring(id).dot(it));
         self.acceleration.dot(direction.acceleration)
             + by_spheres.sum::<f64>()
             + of_colliders.sum::<f64>()
+            + of_springs.sum::<f64>()
     }
 }
 
@@ -142,6 +174,15 @@ impl SphereVariation {
             + self.mass * other.mass
             + self.restitution * other.restitution
             + self.friction * other.friction
+            + self.acceleration.dot(other.acceleration)
+    }
+}
+
+impl SpringVariation {
+    fn dot(&self, other: &Self) -> f64 {
+        self.stiffness * other.stiffness
+            + self.rest_length * other.rest_length
+            + self.damping * other.damping
     }
 }
 

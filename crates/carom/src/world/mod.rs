@@ -24,7 +24,7 @@ use crate::error::{Error, Subject};
 use crate::id::{ColliderId, EmitterId, SphereId};
 use crate::persistent_contact::PersistentContact;
 use crate::report::StepReport;
-use crate::rule::exact::SupportChange;
+use crate::rule::exact::FlightLog;
 use crate::settings::Settings;
 use crate::sphere::{Sphere, SphereMotion};
 use crate::state::State;
@@ -80,12 +80,11 @@ impl World {
         Ok(report)
     }
 
-    /// Advances the world as [`Self::step`] does. Returns the changes of persistent contacts in the step, in order of
-    /// time.
-    pub(crate) fn step_noting_supports(&mut self, dt: f64) -> Result<Vec<SupportChange>, Error> {
-        self.scratch.support_log = Some(Vec::new());
+    /// Advances the world as [`Self::step`] does. Returns the persistent contacts and the curved flights of the step.
+    pub(crate) fn step_with_log(&mut self, dt: f64) -> Result<FlightLog, Error> {
+        self.scratch.flight_log = Some(FlightLog::default());
         let stepped = self.step(dt).map(drop);
-        let log = self.scratch.support_log.take().unwrap_or_default();
+        let log = self.scratch.flight_log.take().unwrap_or_default();
         stepped.map(|()| log)
     }
 

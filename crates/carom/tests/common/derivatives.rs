@@ -26,8 +26,15 @@ pub fn varied(
         sphere.restitution += by * change.restitution;
         sphere.friction.sliding = sphere.friction.sliding.map(|it| it + by * change.friction);
         let index = world.spheres().index_of(id).unwrap();
-        let sphere = sphere.with_mass(world.spheres().masses()[index] + by * change.mass);
-        varied.set_sphere(id, sphere).unwrap();
+        let mass = world.spheres().masses()[index] + by * change.mass;
+        varied.set_sphere(id, sphere.with_mass(mass)).unwrap();
+    }
+    if direction.spheres().any(|(_, change)| change.acceleration != DVec3::ZERO) {
+        let spheres = varied.spheres();
+        let forces = spheres.ids().iter().zip(spheres.masses());
+        let forces = forces.map(|(&id, mass)| mass * by * direction.sphere(id).acceleration);
+        let forces: Vec<DVec3> = forces.collect();
+        varied.set_applied_forces(&forces).unwrap();
     }
     for (id, change) in direction.colliders() {
         let mut collider = world.collider(id).unwrap();
@@ -36,6 +43,13 @@ pub fn varied(
         collider.restitution += by * change.restitution;
         collider.friction.sliding = collider.friction.sliding.map(|it| it + by * change.friction);
         varied.set_collider(id, collider).unwrap();
+    }
+    for (id, change) in direction.springs() {
+        let mut spring = world.spring(id).unwrap();
+        spring.stiffness += by * change.stiffness;
+        spring.rest_length += by * change.rest_length;
+        spring.damping += by * change.damping;
+        varied.set_spring(id, spring).unwrap();
     }
     varied
 }
@@ -91,4 +105,55 @@ pub fn assert_agree_with_differences(
             assert!(off < part, "{ball:?}: {off:e} {difference} {found}");
         }
     }
+}
+
+/// Factors of the central difference of the eighth order, by the number of steps from the middle.
+const EIGHTH_ORDER: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
+
+/// Returns the differences of the eighth order, in steps of `h`, of the motion of balls at the `end` of runs.
+fn differences(balls: &[SphereId], h: f64, end: impl Fn(f64) -> World) -> Vec<SphereTangent> {
+    let mut sums = vec![SphereTangent::default(); balls.len()];
+    for (steps, factor) in (1..).zip(EIGHTH_ORDER) {
+        let by = f64::from(steps) * h;
+        let [after, before] = [end(by), end(-by)];
+        for (sum, &ball) in sums.iter_mut().zip(balls) {
+            let [after, before] = [&after, &before].map(|world| world.sphere(ball).unwrap());
+            let part = factor / h;
+            sum.position += part * (after.position - before.position);
+            sum.velocity += part * (after.velocity - before.velocity);
+            sum.angular_velocity += part * (after.angular_velocity - before.angular_velocity);
+        }
+    }
+    sums
+}
+
+/// Returns the largest difference of two lists of derivatives, as a part of the largest of them or of 1.
+fn apart(one: &[SphereTangent], other: &[SphereTangent]) -> f64 {
+    let numbers = |it: &SphereTangent| [it.position, it.velocity, it.angular_velocity];
+    let pairs = || one.iter().flat_map(numbers).zip(other.iter().flat_map(numbers));
+    let size = pairs().fold(1.0, |size: f64, (a, b)| size.max(a.length()).max(b.length()));
+    pairs().fold(0.0, |most: f64, (a, b)| most.max((a - b).length())) / size
+}
+
+/// Returns by which part tangents are off differences of the eighth order of the worlds at the `end` of runs, and by
+/// which part these differences are off each other: the best of several steps, chosen without the tangents.
+pub fn off_differences(
+    tangents: &Tangents,
+    balls: &[SphereId],
+    end: impl Fn(f64) -> World,
+) -> [f64; 2] {
+    let steps = [4e-3, 1.6e-3, 6e-4, 2.4e-4, 1e-4, 4e-5];
+    let found: Vec<SphereTangent> =
+        balls.iter().map(|&ball| tangents.sphere(0, ball).unwrap()).collect();
+    let mut before = differences(balls, steps[0], &end);
+    let mut best = [f64::NAN, f64::INFINITY];
+    for h in &steps[1..] {
+        let next = differences(balls, *h, &end);
+        let spread = apart(&before, &next);
+        if spread < best[1] {
+            best = [apart(&found, &next), spread];
+        }
+        before = next;
+    }
+    best
 }

@@ -2,10 +2,11 @@
 
 mod octree;
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use octree::Octree;
 
-use super::{Force, Interaction, LinearForce, SphereState, SphereStates};
+use super::derivatives::outer;
+use super::{Force, ForceDerivatives, Interaction, LinearForce, SphereState, SphereStates};
 use crate::error::InvalidValue;
 use crate::parallel;
 use crate::sum::Sum;
@@ -110,6 +111,10 @@ impl Force for MutualGravity {
         Some(LinearForce { acceleration: DVec3::ZERO, drag_rate: 0.0 })
     }
 
+    fn derivatives(&self, _sphere: &SphereState, _time: f64) -> Option<ForceDerivatives> {
+        Some(ForceDerivatives::ZERO)
+    }
+
     fn interaction(&self) -> Option<&dyn Interaction> {
         Some(self)
     }
@@ -138,6 +143,36 @@ impl Interaction for MutualGravity {
         let potentials: Vec<Potential> = self.sums(spheres);
         let terms = potentials.iter().zip(spheres.masses).map(|(it, mass)| mass * it.0);
         -0.5 * self.constant * terms.collect::<Sum>().value()
+    }
+
+    fn add_derivatives(
+        &self,
+        spheres: &SphereStates,
+        _time: f64,
+        add: &mut dyn FnMut([usize; 2], &ForceDerivatives),
+    ) -> bool {
+        if !self.is_direct(spheres.len()) {
+            return false;
+        }
+        let softening = self.softening * self.softening;
+        for i in 0..spheres.len() {
+            for j in (0..spheres.len()).filter(|&j| j != i) {
+                let offset = spheres.positions[j] - spheres.positions[i];
+                let [own, other] = [i, j].map(|sphere| spheres.masses[sphere]);
+                let field = self.constant / Field::divisor(offset, softening) * offset;
+                let square = offset.length_squared() + softening;
+                let stretch = DMat3::IDENTITY - outer(3.0 / square * offset, offset);
+                let by_other = self.constant * own * other / (square * square.sqrt()) * stretch;
+                let of = |by_position, by_mass| ForceDerivatives {
+                    by_position,
+                    by_mass,
+                    ..ForceDerivatives::ZERO
+                };
+                add([i, i], &of(-by_other, other * field));
+                add([i, j], &of(by_other, own * field));
+            }
+        }
+        true
     }
 
     fn depends_on_velocity(&self) -> bool {

@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::contacts::Member;
 use super::events::{Event, NextEvents, PackedTarget, Prediction, Schedule, UpcomingEvent};
-use super::flights::{Component, Flights, JointStep, Species, StepLimits, Support, SupportChange};
+use super::flights::{Component, FlightLog, Flights, JointStep, Species, StepLimits, Support};
 use super::neighbours::clearance::{Clearance, Obstacle};
 use super::neighbours::{NeighbourBuffer, Neighbours};
 use super::ticks;
@@ -134,14 +134,14 @@ impl Timeline {
         self.flights.take_contact_work(time)
     }
 
-    /// Starts a log of persistent contacts at `now` \[s\].
-    pub fn begin_support_log(&mut self, now: f64) {
-        self.flights.begin_support_log(now);
+    /// Starts a log of persistent contacts and curved flights at `now` \[s\].
+    pub fn begin_log(&mut self, now: f64) {
+        self.flights.begin_log(now);
     }
 
-    /// Ends the log of persistent contacts. Returns its changes in order of time.
-    pub fn end_support_log(&mut self) -> Vec<SupportChange> {
-        self.flights.end_support_log()
+    /// Ends and returns the log.
+    pub fn end_log(&mut self) -> FlightLog {
+        self.flights.end_log()
     }
 
     /// The zone, for a timeline that is made again.
@@ -275,6 +275,7 @@ impl Timeline {
         let held = held.filter(|_| is_spent);
         self.spent = held.map(|&slot| self.flights.index_of[slot as usize]).or(self.spent);
         curves.into_iter().for_each(|(slot, curve)| self.flights.set_curve(slot, curve));
+        self.flights.note_curves(&slots, now);
         for (slot, turning) in turning {
             self.flights.rotate_over_step(slot, turning, now);
         }

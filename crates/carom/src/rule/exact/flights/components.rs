@@ -156,6 +156,11 @@ impl Components {
         }
     }
 
+    /// Number of components.
+    pub fn len(&self) -> u32 {
+        self.components.len() as u32
+    }
+
     pub fn get(&self, number: u32) -> &Component {
         &self.components[number as usize]
     }

@@ -9,6 +9,7 @@ mod contact_work;
 mod curve;
 mod curve_contacts;
 mod curves;
+mod flight_log;
 mod free_field;
 mod friction_choice;
 mod friction_state;
@@ -21,7 +22,6 @@ mod rotation;
 mod species;
 mod state;
 mod support_change;
-mod support_log;
 mod tie;
 mod time_in_wells;
 mod wells;
@@ -35,6 +35,7 @@ pub(super) use curve_contacts::{
     ContactSphere, CurveBody, CurveContact, CurveContacts, MOST_CONTACTS, Moving,
 };
 pub(super) use curves::{JointStep, StepLimits};
+pub(crate) use flight_log::{FlightLog, JointFlight};
 pub(super) use growth::Growth;
 pub(super) use lanes::FlightLanes;
 pub(super) use rotation::{Rotation, write_spin};

@@ -10,10 +10,10 @@ use super::clusters::{Cluster, Clusters, Support, Supported};
 use super::components::Components;
 use super::contact_work::{ContactWork, WorkDone};
 use super::curve::Curve;
+use super::flight_log::FlightLog;
 use super::growth::Growth;
 use super::rotation::Rotation;
 use super::species::{Species, SpeciesOfSpheres};
-use super::support_change::SupportChange;
 use super::wells::Wells;
 use crate::bodies::Motion;
 use crate::contact_time::Reach;
@@ -59,9 +59,9 @@ pub(crate) struct Flights {
     pub forces_vary: bool,
     /// Work of persistent contacts since the last report.
     contact_work: WorkDone,
-    /// Log of persistent contacts, during a step that keeps one.
+    /// Log of persistent contacts and curved flights, during a step that keeps one.
     #[cfg_attr(feature = "serde", serde(skip))]
-    pub(super) support_log: Option<Vec<SupportChange>>,
+    pub(super) log: Option<FlightLog>,
 }
 
 impl Flights {
@@ -114,7 +114,7 @@ impl Flights {
             hold_forces,
             forces_vary,
             contact_work: WorkDone::NONE,
-            support_log: None,
+            log: None,
         }
     }
 

@@ -1,0 +1,240 @@
+//! Derivatives through flights on curves: springs, threads, and forces without a closed form.
+
+mod common;
+
+use std::ops::Range;
+
+use carom::{
+    Buoyancy, Collider, DVec3, DerivativeError, Force, Gravity, MutualGravity, PointAttractor,
+    Pose, QuadraticDrag, Shape, Sides, Sphere, SphereId, SphereState, SphereTangent, Spring,
+    Tangents, Tape, Variation, Vortex, World,
+};
+use common::derivatives::{assert_backwards_equals_forwards, off_differences, varied};
+use common::{Numbers, vec};
+
+/// Adds the forces of one kind to a world with some balls.
+fn add_forces(world: &mut World, balls: &[SphereId], kind: u64, numbers: &mut Numbers) {
+    let damping = if kind.is_multiple_of(2) { 0.0 } else { 0.3 };
+    if kind < 4 {
+        let mut add = |spring: Spring| {
+            let spring = spring.with_stiffness(numbers.between(3.0, 9.0)).with_damping(damping);
+            world.add_spring(spring.with_only_pulls(kind >= 2)).unwrap();
+        };
+        add(Spring::between(balls[0], balls[1], 0.9));
+        add(Spring::between(balls[1], balls[2], 0.5));
+        add(Spring::to_point(balls[3], vec(0.1, 0.3, -0.2), 0.4));
+    }
+    match kind {
+        4 => {
+            let sun = PointAttractor::new(vec(0.2, 0.1, 0.0), 2.0).with_softening(0.3);
+            world.add_force(sun).unwrap();
+        }
+        5 => {
+            let air = QuadraticDrag::new(0.8).with_wind(vec(0.4, 0.1, 0.0));
+            world
+                .add_force(air.with_viscosity(if numbers.next() < 0.5 { 0.0 } else { 0.05 }))
+                .unwrap();
+        }
+        6 => {
+            world.add_force(Vortex::new(vec(0.1, 0.0, 0.2), 3.0, 0.5)).unwrap();
+            world.add_force(Buoyancy::new(20.0, 0.1)).unwrap();
+        }
+        7 => {
+            world.add_force(MutualGravity::new(0.4).with_softening(0.05)).unwrap();
+            world.add_spring(Spring::between(balls[0], balls[3], 0.6)).unwrap();
+        }
+        _ => {}
+    }
+}
+
+/// Some rough balls in a rough box at rest, under forces of a kind.
+fn some_world(number: u64) -> (World, Vec<SphereId>, DVec3) {
+    let mut numbers = Numbers(77 + number);
+    let mut world = World::default();
+    let gravity = vec(0.3, -2.0, 0.1);
+    world.add_force(Gravity::new(gravity)).unwrap();
+    let walls = Shape::Container { size: DVec3::splat(4.0), open: Sides::default() };
+    let walls =
+        Collider::new(walls, Pose::at(DVec3::ZERO)).with_restitution(0.9).with_friction(0.2);
+    world.add_collider(walls).unwrap();
+    let mut balls: Vec<Sphere> = Vec::new();
+    while balls.len() < 4 {
+        let ball = Sphere::new(1.2 * numbers.vector(), numbers.between(0.1, 0.25))
+            .with_velocity(3.0 * numbers.vector())
+            .with_angular_velocity(3.0 * numbers.vector())
+            .with_mass(numbers.between(0.5, 2.0))
+            .with_restitution(0.95)
+            .with_friction(0.3);
+        let is_free =
+            |it: &Sphere| it.position.distance(ball.position) > it.radius + ball.radius + 0.05;
+        if balls.iter().all(is_free) {
+            balls.push(ball);
+        }
+    }
+    let ids: Vec<SphereId> = balls.into_iter().map(|it| world.add_sphere(it).unwrap()).collect();
+    add_forces(&mut world, &ids, number % 8, &mut numbers);
+    (world, ids, gravity)
+}
+
+/// A direction that changes all that may be.
+fn some_direction(world: &World, balls: &[SphereId], numbers: &mut Numbers) -> Variation {
+    let mut direction = Variation::default().with_acceleration(numbers.vector());
+    for &ball in balls {
+        let change = direction.sphere_mut(ball);
+        change.position = numbers.vector();
+        change.velocity = numbers.vector();
+        change.angular_velocity = numbers.vector();
+        change.radius = numbers.between(-0.1, 0.1);
+        change.mass = numbers.between(-0.5, 0.5);
+        change.restitution = numbers.between(-0.2, 0.2);
+        change.friction = numbers.between(-0.5, 0.5);
+        change.acceleration = numbers.vector();
+    }
+    for (collider, _) in world.colliders() {
+        let change = direction.collider_mut(collider);
+        change.position = numbers.vector();
+        change.restitution = numbers.between(-0.2, 0.2);
+        change.friction = numbers.between(-0.5, 0.5);
+    }
+    for (spring, it) in world.springs() {
+        let change = direction.spring_mut(spring);
+        change.stiffness = numbers.between(-1.0, 1.0);
+        change.rest_length = numbers.between(-0.2, 0.2);
+        change.damping = if it.damping > 0.0 { numbers.between(-0.2, 0.2) } else { 0.0 };
+    }
+    direction
+}
+
+/// Compares derivatives of some worlds with differences of runs, up to 1e-9 of them, and with the gradient, to 1e-12. Returns the
+/// number of worlds of each kind that it compared with differences, and of impacts.
+fn compare(numbers_of_worlds: Range<u64>) -> ([u32; 8], usize) {
+    let (mut compared, mut impacts) = ([0; 8], 0);
+    for number in numbers_of_worlds {
+        let (world, balls, gravity) = some_world(number);
+        let mut numbers = Numbers(5000 + number);
+        let direction = some_direction(&world, &balls, &mut numbers);
+        let (mut run, mut recorded) = (world.clone(), world.clone());
+        let mut tangents = Tangents::new(&world, vec![direction.clone()]).unwrap();
+        let mut tape = Tape::start(&world).unwrap();
+        for _ in 0..6 {
+            tangents.step(&mut run, 0.1).unwrap();
+            tape.step(&mut recorded, 0.1).unwrap();
+        }
+        impacts += tape.impacts();
+        assert_backwards_equals_forwards((&tangents, &tape), &direction, &balls, &mut numbers);
+        let force = world.forces().next().map(|(force, _)| (force, gravity));
+        let [off, spread] = off_differences(&tangents, &balls, |by| {
+            let mut other = varied(&world, &direction, by, force);
+            for _ in 0..6 {
+                other.step(0.1).unwrap();
+            }
+            other
+        });
+        // Where a ball dips into a liquid, the second derivative of the force jumps, and differences are less exact.
+        let (clear, part) = if number % 8 == 6 { (1e-8, 1e-7) } else { (2e-10, 1e-9) };
+        // Beyond, differences say too little: a graze or another order of impacts is near.
+        if spread < clear {
+            assert!(off < part, "{number}: {off:e} {spread:e}");
+            compared[number as usize % 8] += 1;
+        }
+    }
+    (compared, impacts)
+}
+
+#[test]
+fn derivatives_along_curves_agree_with_differences_and_with_the_gradient() {
+    let (compared, impacts) = compare(0..48);
+    assert!(compared.iter().all(|&it| it > 0) && impacts > 40, "{compared:?} {impacts}");
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn derivatives_of_a_thousand_worlds_along_curves_agree_with_differences() {
+    let (compared, impacts) = compare(0..1000);
+    println!("{compared:?} worlds, {impacts} impacts");
+    assert!(compared.iter().all(|&it| it > 10), "{compared:?} {impacts}");
+}
+
+#[test]
+fn an_oscillator_has_the_derivatives_of_its_closed_form() {
+    // x = l + A cos ωt with ω² = k/m, on a spring of the length l from the origin.
+    let (stiffness, mass, rest, amplitude, time) = (3.0, 0.7, 1.5, 0.4, 2.3);
+    let mut world = World::default();
+    let ball = Sphere::new(vec(rest + amplitude, 0.0, 0.0), 0.1).with_mass(mass);
+    let ball = world.add_sphere(ball).unwrap();
+    let spring = Spring::to_point(ball, DVec3::ZERO, rest).with_stiffness(stiffness);
+    let spring = world.add_spring(spring).unwrap();
+    let mut tape = Tape::start(&world).unwrap();
+    for _ in 0..10 {
+        tape.step(&mut world, time / 10.0).unwrap();
+    }
+    let along = SphereTangent { position: DVec3::X, ..SphereTangent::default() };
+    let by = tape.gradient(&[(ball, along)]).unwrap();
+    let rate = (stiffness / mass).sqrt();
+    let (sin, cos) = (libm::sin(rate * time), libm::cos(rate * time));
+    let by_rate = -amplitude * time * sin;
+    let expected = [
+        (by.sphere(ball).position.x, cos),
+        (by.sphere(ball).velocity.x, sin / rate),
+        (by.sphere(ball).mass, -by_rate * rate / (2.0 * mass)),
+        (by.spring(spring).stiffness, by_rate * rate / (2.0 * stiffness)),
+        (by.spring(spring).rest_length, 1.0 - cos),
+    ];
+    for (found, expected) in expected {
+        // Rounding of the weights of the quadrature, over some tens of steps.
+        assert!((found - expected).abs() < 2e-12, "{found} {expected}");
+    }
+}
+
+#[test]
+fn a_damped_thread_that_becomes_taut_has_the_derivatives_of_its_closed_form() {
+    // A ball flies with the speed v along x, at the length l the thread of stiffness 0 and damping c begins to brake it:
+    // with τ = m/c and T the time since then, x = l + v τ (1 - exp(-T/τ)), T = t - (l - x0)/v.
+    let (mass, damping, rest, start, speed, end) = (0.8, 0.5, 1.3, 0.4, 2.0, 1.1);
+    let mut world = World::default();
+    let ball = Sphere::new(vec(start, 0.0, 0.0), 0.1).with_velocity(vec(speed, 0.0, 0.0));
+    let ball = world.add_sphere(ball.with_mass(mass)).unwrap();
+    let thread = Spring::to_point(ball, DVec3::ZERO, rest).with_stiffness(0.0);
+    let thread = thread.with_damping(damping).with_only_pulls(true);
+    let thread = world.add_spring(thread).unwrap();
+    let mut tape = Tape::start(&world).unwrap();
+    for _ in 0..7 {
+        tape.step(&mut world, end / 7.0).unwrap();
+    }
+    let along = SphereTangent { position: DVec3::X, ..SphereTangent::default() };
+    let by = tape.gradient(&[(ball, along)]).unwrap();
+    let left = end - (rest - start) / speed;
+    let tau = mass / damping;
+    let slower = libm::exp(-left / tau);
+    let by_tau = speed * (1.0 - slower) - speed * left / tau * slower;
+    let expected = [
+        (by.sphere(ball).position.x, slower),
+        (by.spring(thread).rest_length, 1.0 - slower),
+        (by.sphere(ball).velocity.x, tau * (1.0 - slower) + slower * (rest - start) / speed),
+        (by.spring(thread).damping, -by_tau * tau / damping),
+        (by.sphere(ball).mass, by_tau / damping),
+    ];
+    for (found, expected) in expected {
+        // Rounding of the weights of the quadrature.
+        assert!((found - expected).abs() < 2e-12, "{found} {expected}");
+    }
+}
+
+/// A force of a program, without derivatives.
+#[derive(Debug)]
+struct Pull;
+
+impl Force for Pull {
+    fn on(&self, sphere: &SphereState, _time: f64) -> DVec3 {
+        -sphere.position
+    }
+}
+
+#[test]
+fn a_force_without_derivatives_is_refused() {
+    let mut world = World::default();
+    world.add_sphere(Sphere::new(DVec3::X, 0.1)).unwrap();
+    world.add_force(Pull).unwrap();
+    let refused = Tape::start(&world).unwrap_err();
+    assert_eq!(refused, DerivativeError::Unsupported("a force without `derivatives`"));
+}
