@@ -143,3 +143,32 @@ def test_what_has_no_derivative_is_refused() -> None:
         carom.Tangents(shot(0.5))
     with pytest.raises(carom.CaromError, match="count: must be from 1 to 12"):
         analysis.lyapunov_spectrum(shot(0.5), 1.0, count=13)
+
+
+def test_a_ball_on_a_spring_has_the_derivatives_of_an_oscillator() -> None:
+    # x = l + A cos wt with w = sqrt(k/m); a force F on it adds F/k (1 - cos wt).
+    stiffness, mass, rest, amplitude, seconds = 3.0, 0.7, 1.5, 0.4, 2.0
+    world = carom.World()
+    ball = carom.Sphere(position=(rest + amplitude, 0, 0), radius=0.1, mass=mass)
+    world.add_spring(
+        carom.Spring(
+            sphere=world.add_sphere(ball), to=(0, 0, 0), rest_length=rest, stiffness=stiffness
+        )
+    )
+    tape = carom.Tape(world)
+    tape.step(dt=seconds / 4, frames=4)
+    gradient = tape.gradient(positions=[(1, 0, 0)])
+    rate = math.sqrt(stiffness / mass)
+    phase = rate * seconds
+    by_rate = -amplitude * seconds * math.sin(phase)
+    expected = {
+        "positions": math.cos(phase),
+        "velocities": math.sin(phase) / rate,
+        "accelerations": (1 - math.cos(phase)) / rate**2,
+        "masses": -by_rate * rate / (2 * mass),
+        "spring_stiffnesses": by_rate * rate / (2 * stiffness),
+        "spring_rest_lengths": 1 - math.cos(phase),
+    }
+    for name, value in expected.items():
+        # Rounding of the weights of the quadrature.
+        assert getattr(gradient, name).flat[0] == pytest.approx(value, abs=2e-12)

@@ -7,7 +7,7 @@ use std::sync::Mutex;
 
 use carom::{
     ColliderId, ColliderVariation, DVec3, Margin, SphereId, SphereTangent, SphereVariation,
-    Variation, World,
+    SpringId, SpringVariation, Variation, World,
 };
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -29,6 +29,7 @@ pub struct TapeEngine {
     tape: Mutex<carom::Tape>,
     ids: Vec<SphereId>,
     colliders: Vec<ColliderId>,
+    springs: Vec<SpringId>,
 }
 
 /// Directions beside a run, behind `carom.Tangents`.
@@ -46,8 +47,9 @@ impl TapeEngine {
         let started = carom::Tape::start(world).map_err(Failure::from);
         let ids = world.spheres().ids().to_vec();
         let colliders = world.colliders().map(|(id, _)| id).collect();
+        let springs = world.springs().map(|(id, _)| id).collect();
         drop(guard);
-        Ok(Self { tape: Mutex::new(started?), ids, colliders })
+        Ok(Self { tape: Mutex::new(started?), ids, colliders, springs })
     }
 
     /// Advances the world, and records how.
@@ -76,8 +78,8 @@ impl TapeEngine {
     }
 
     /// Returns the gradient of a number whose derivatives by the motion of each sphere at the end are given, three
-    /// numbers for each: rows of the derivatives by all that the spheres and colliders started with, and by the
-    /// acceleration.
+    /// numbers for each: rows of the derivatives by all that the spheres, colliders and springs started with,
+    /// and by the acceleration.
     fn gradient<'py>(&self, py: Python<'py>, motion: [Numbers<'py>; 3]) -> PyResult<Vec<Row<'py>>> {
         let [positions, velocities, spins] =
             [vectors(&motion[0])?, vectors(&motion[1])?, vectors(&motion[2])?];
@@ -102,6 +104,9 @@ impl TapeEngine {
         let collider_rows = |part: fn(&ColliderVariation) -> Vec<f64>| -> Vec<f64> {
             self.colliders.iter().flat_map(|&id| part(&gradient.collider(id))).collect()
         };
+        let spring_rows = |part: fn(&SpringVariation) -> f64| -> Vec<f64> {
+            self.springs.iter().map(|&id| part(&gradient.spring(id))).collect()
+        };
         vec![
             sphere_rows(|it| it.position.to_array().to_vec()),
             sphere_rows(|it| it.velocity.to_array().to_vec()),
@@ -110,10 +115,14 @@ impl TapeEngine {
             sphere_rows(|it| vec![it.mass]),
             sphere_rows(|it| vec![it.restitution]),
             sphere_rows(|it| vec![it.friction]),
+            sphere_rows(|it| it.acceleration.to_array().to_vec()),
             collider_rows(|it| it.position.to_array().to_vec()),
             collider_rows(|it| it.velocity.to_array().to_vec()),
             collider_rows(|it| vec![it.restitution]),
             collider_rows(|it| vec![it.friction]),
+            spring_rows(|it| it.stiffness),
+            spring_rows(|it| it.rest_length),
+            spring_rows(|it| it.damping),
             gradient.acceleration.to_array().to_vec(),
         ]
     }

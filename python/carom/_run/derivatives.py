@@ -41,7 +41,8 @@ class Margin:
 class Gradient:
     """The derivatives of a number by all that a run started with.
 
-    Rows are spheres in the order of ids, or colliders in the order in which they are in the world.
+    Rows are spheres in the order of ids, or colliders and springs in the order in which they are in
+    the world.
 
     Attributes:
         positions: By the centres of spheres, shape (n, 3).
@@ -51,10 +52,14 @@ class Gradient:
         masses: By their masses, with radii as they are, shape (n,).
         restitutions: By their coefficients of restitution, shape (n,).
         frictions: By their coefficients of sliding friction, shape (n,).
+        accelerations: By a constant acceleration of each, as by an applied force, shape (n, 3).
         collider_positions: By the places of colliders, shape (m, 3).
         collider_velocities: By their velocities, shape (m, 3).
         collider_restitutions: By their coefficients of restitution, shape (m,).
         collider_frictions: By their coefficients of sliding friction, shape (m,).
+        spring_stiffnesses: By the stiffness of springs, shape (s,).
+        spring_rest_lengths: By their rest lengths, shape (s,).
+        spring_dampings: By their damping, shape (s,).
         acceleration: By the acceleration of all spheres, that of gravity, shape (3,).
     """
 
@@ -65,10 +70,14 @@ class Gradient:
     masses: Array
     restitutions: Array
     frictions: Array
+    accelerations: Array
     collider_positions: Array
     collider_velocities: Array
     collider_restitutions: Array
     collider_frictions: Array
+    spring_stiffnesses: Array
+    spring_rest_lengths: Array
+    spring_dampings: Array
     acceleration: Array
 
 
@@ -102,8 +111,8 @@ class Followed(Strict):
 class Tape(Followed):
     """A record of a run, which gives the gradient of a number by all that the run started with.
 
-    Derivatives are known of worlds under the rule ``exact`` whose spheres fly freely, under forces
-    that are linear in the velocity, or slide, roll and rest on single planes, and meet each other
+    Derivatives are known of worlds under the rule ``exact`` whose spheres fly freely or on springs,
+    under the forces of this package, or slide, roll and rest on single planes, and meet each other
     and surfaces one at a time, with or without friction. What has no derivative is an error, never
     a guess: two impacts of one sphere at one instant, or contacts with several bodies.
 
@@ -164,7 +173,8 @@ class Tape(Followed):
             "angular_velocities": angular_velocities,
         }
         rows = [_numbers(name, values, shape) for name, values in given.items()]
-        *spheres, place, velocity, restitution, friction, acceleration = self._engine.gradient(rows)
+        numbers = self._engine.gradient(rows)
+        spheres, colliders, springs = numbers[:8], numbers[8:12], numbers[12:15]
         return Gradient(
             positions=spheres[0].reshape(-1, 3),
             velocities=spheres[1].reshape(-1, 3),
@@ -173,11 +183,15 @@ class Tape(Followed):
             masses=spheres[4],
             restitutions=spheres[5],
             frictions=spheres[6],
-            collider_positions=place.reshape(-1, 3),
-            collider_velocities=velocity.reshape(-1, 3),
-            collider_restitutions=restitution,
-            collider_frictions=friction,
-            acceleration=acceleration,
+            accelerations=spheres[7].reshape(-1, 3),
+            collider_positions=colliders[0].reshape(-1, 3),
+            collider_velocities=colliders[1].reshape(-1, 3),
+            collider_restitutions=colliders[2],
+            collider_frictions=colliders[3],
+            spring_stiffnesses=springs[0],
+            spring_rest_lengths=springs[1],
+            spring_dampings=springs[2],
+            acceleration=numbers[15],
         )
 
 
