@@ -8,6 +8,7 @@ use carom::{
 use super::claim::{Claim, Expected, Fault, Measured, Outcome, Tolerance};
 use super::runs::exact;
 use super::setup::{G, half_space, world, world_with_floor};
+use super::two_balls;
 
 pub fn claims() -> Vec<Claim> {
     let launched = |axis: usize, expected: f64| {
@@ -30,6 +31,12 @@ pub fn claims() -> Vec<Claim> {
         ),
         launched(0, 10.1957),
         launched(1, -4.0907),
+        Claim::new(
+            "push of a ball that takes another one to a goal: least loss, found by descent",
+            Expected::value(1.396_542, "Zhong et al. 2022, arXiv 2207.05060, task 3"),
+            Tolerance::absolute(1e-6, "published digits"),
+            two_balls::least_loss,
+        ),
         Claim::new(
             "shot that slides, rolls and stops: way by speed, spin and friction [part]",
             Expected::no_error("closed form (Coriolis 1835)"),

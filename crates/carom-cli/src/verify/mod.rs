@@ -34,6 +34,7 @@ mod simultaneous;
 mod single_impacts;
 mod surfaces;
 mod tunnelling;
+mod two_balls;
 mod wells;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
