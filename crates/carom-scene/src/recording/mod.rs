@@ -3,6 +3,7 @@
 //! file. If spheres rotate at the first frame, or friction can make them rotate,
 //! trajectories also contain orientations and angular velocities.
 
+mod archive;
 mod csv_table;
 mod each_second;
 mod error;
