@@ -1,5 +1,5 @@
 //! Recordings on disk: trajectories as CSV, NPZ, VTK, extended XYZ, dumps of LAMMPS or GSD, impacts
-//! as CSV. Trajectories in CSV can be played back; a scene can begin with a frame of a particle
+//! as CSV or NPZ. Trajectories in CSV can be played back; a scene can begin with a frame of a particle
 //! file. If spheres rotate at the first frame, or friction can make them rotate,
 //! trajectories also contain orientations and angular velocities.
 
@@ -10,6 +10,7 @@ mod error;
 mod failing_once;
 mod format;
 mod headed_table;
+mod impact_arrays;
 mod impacts;
 mod ledger;
 mod npz;
