@@ -1,6 +1,6 @@
 //! Derivatives of a run by numbers that it starts with, as columns of its table.
 
-use carom::{ColliderId, DVec3, SphereId, SphereTangent, Tangents, Variation, World};
+use carom::{ColliderId, DVec3, SphereId, SphereTangent, SpringId, Tangents, Variation, World};
 
 use crate::failure::Failure;
 
@@ -63,6 +63,7 @@ enum Subject {
     World,
     Sphere(SphereId),
     Collider(ColliderId),
+    Spring(SpringId),
 }
 
 /// Returns the numbers that a name means, each with the direction in which it alone changes.
@@ -70,14 +71,14 @@ fn directions_of(world: &World, name: &str) -> Result<Vec<(String, Variation)>, 
     let mut parts = name.split('.');
     let (subject, field) = match parts.next() {
         Some("acceleration") => (Subject::World, "acceleration"),
-        Some(kind @ ("spheres" | "colliders")) => {
+        Some(kind @ ("spheres" | "colliders" | "springs")) => {
             let subject = member(world, name, kind, parts.next())?;
             (subject, parts.next().unwrap_or_default())
         }
         _ => {
             return Err(unknown(
                 name,
-                "it names neither a sphere, nor a collider, nor the acceleration",
+                "it names neither a sphere, nor a collider, nor a spring, nor the acceleration",
             ));
         }
     };
@@ -105,16 +106,16 @@ fn directions_of(world: &World, name: &str) -> Result<Vec<(String, Variation)>, 
     }
 }
 
-/// Returns a sphere or collider by its number in the scene.
+/// Returns a sphere, collider or spring by its number in the scene.
 fn member(world: &World, name: &str, kind: &str, number: Option<&str>) -> Result<Subject, Failure> {
     let number = number.and_then(|it| it.parse::<usize>().ok());
     let Some(number) = number else {
         return Err(unknown(name, &format!("a number comes after {kind}")));
     };
-    let found = if kind == "spheres" {
-        world.spheres().ids().get(number).map(|&id| Subject::Sphere(id))
-    } else {
-        world.colliders().nth(number).map(|(id, _)| Subject::Collider(id))
+    let found = match kind {
+        "spheres" => world.spheres().ids().get(number).map(|&id| Subject::Sphere(id)),
+        "springs" => world.springs().nth(number).map(|(id, _)| Subject::Spring(id)),
+        _ => world.colliders().nth(number).map(|(id, _)| Subject::Collider(id)),
     };
     found.ok_or_else(|| unknown(name, &format!("there are fewer {kind}")))
 }
@@ -127,6 +128,7 @@ fn vector(subject: Subject, field: &str, axis: usize) -> Option<Variation> {
         (Subject::Sphere(id), "position") => &mut direction.sphere_mut(id).position,
         (Subject::Sphere(id), "velocity") => &mut direction.sphere_mut(id).velocity,
         (Subject::Sphere(id), "angular_velocity") => &mut direction.sphere_mut(id).angular_velocity,
+        (Subject::Sphere(id), "acceleration") => &mut direction.sphere_mut(id).acceleration,
         (Subject::Collider(id), "position") => &mut direction.collider_mut(id).position,
         (Subject::Collider(id), "velocity") => &mut direction.collider_mut(id).velocity,
         _ => return None,
@@ -145,6 +147,9 @@ fn scalar(subject: Subject, field: &str) -> Option<Variation> {
         (Subject::Sphere(id), "friction") => &mut direction.sphere_mut(id).friction,
         (Subject::Collider(id), "restitution") => &mut direction.collider_mut(id).restitution,
         (Subject::Collider(id), "friction") => &mut direction.collider_mut(id).friction,
+        (Subject::Spring(id), "stiffness") => &mut direction.spring_mut(id).stiffness,
+        (Subject::Spring(id), "rest_length") => &mut direction.spring_mut(id).rest_length,
+        (Subject::Spring(id), "damping") => &mut direction.spring_mut(id).damping,
         _ => return None,
     };
     *changed = 1.0;
@@ -153,7 +158,8 @@ fn scalar(subject: Subject, field: &str) -> Option<Variation> {
 
 fn unknown(name: &str, why: &str) -> Failure {
     Failure::Usage(format!(
-        "--sensitivity {name}: {why}; it is acceleration, spheres.N or colliders.N, and then position, velocity, \
-         angular_velocity, radius, mass, restitution or friction"
+        "--sensitivity {name}: {why}; it is acceleration, spheres.N, colliders.N or springs.N, and then position, \
+         velocity, angular_velocity, acceleration, radius, mass, restitution, friction, stiffness, rest_length or \
+         damping"
     ))
 }
