@@ -1,10 +1,9 @@
 //! Checks that the derivatives of a world are known.
 
 use super::error::DerivativeError;
-use super::start::curved;
 use crate::bodies::Motion;
 use crate::detect::instant::Instant;
-use crate::forces::SphereState;
+use crate::forces::{self, SphereState, Spring};
 use crate::settings::Rule;
 use crate::system::System;
 use crate::world::World;
@@ -61,4 +60,20 @@ fn are_differentiable(system: &System, motion: &Motion) -> bool {
         && system.interactions.is_none_or(|it| {
             it.list().all(|interaction| interaction.add_derivatives(&spheres, 0.0, &mut |_, _| {}))
         })
+}
+
+/// Returns whether forces without a closed form act on each sphere.
+pub(super) fn curved(system: &System) -> Vec<bool> {
+    let spheres = system.spheres;
+    let is_curved = |place: usize| {
+        let (radius, mass) = (spheres.radius[place], spheres.mass[place]);
+        system.couples_all() || !forces::total_linear(system.forces, radius, mass).1
+    };
+    let mut all: Vec<bool> = (0..spheres.id.len()).map(is_curved).collect();
+    for id in system.springs().flat_map(Spring::spheres) {
+        if let Ok(place) = spheres.id.binary_search(&id) {
+            all[place] = true;
+        }
+    }
+    all
 }

@@ -5,7 +5,9 @@
 
 mod along_curves;
 mod coefficients;
+mod curve_section;
 mod curved;
+mod curves;
 mod dry_motion;
 mod dual;
 mod error;
@@ -207,7 +209,7 @@ fn pass(
 /// on.
 fn check(world: &World, followed: &Followed, direction: &Variation) -> Result<(), DerivativeError> {
     let system = world.now().system;
-    let curved = start::curved(&system);
+    let curved = known::curved(&system);
     for (id, change) in direction.spheres() {
         let place = followed.place_of(id)?;
         if curved[place] || change.radius == 0.0 && change.mass == 0.0 {

@@ -4,9 +4,9 @@ use std::collections::{BTreeMap, VecDeque};
 
 use glam::DVec3;
 
-use super::along_curves::Curves;
 use super::coefficients::{RestitutionRates, restitution_of, sliding_of};
 use super::curved::CurvedFlight;
+use super::curves::Curves;
 use super::error::DerivativeError;
 use super::saltation::{Colliding, First, Saltation};
 use super::start::{Flying, Held, ROUNDING, Start};

@@ -9,7 +9,7 @@ use super::known;
 use super::supported::Rates;
 use crate::colliders::Colliders;
 use crate::detect::instant::Instant;
-use crate::forces::{self, LinearForce, Spring};
+use crate::forces::{self, LinearForce};
 use crate::id::{ColliderId, SphereId};
 use crate::report::{BodyPair, Impact, StepReport};
 use crate::system::System;
@@ -65,7 +65,7 @@ impl Start {
     pub fn of(world: &World) -> Result<Self, DerivativeError> {
         known::check(world)?;
         let Instant { system, motion, time } = world.now();
-        let is_curved = curved(&system);
+        let is_curved = known::curved(&system);
         let flying = |place: usize| Flying {
             position: motion.position[place],
             velocity: motion.velocity[place],
@@ -121,22 +121,6 @@ impl Held {
         let Self { acceleration, angular_acceleration, .. } = *self;
         Rates { linear: LinearForce { acceleration, ..linear }, angular_acceleration }
     }
-}
-
-/// Returns whether forces without a closed form act on each sphere.
-pub(super) fn curved(system: &System) -> Vec<bool> {
-    let spheres = system.spheres;
-    let is_curved = |place: usize| {
-        let (radius, mass) = (spheres.radius[place], spheres.mass[place]);
-        system.couples_all() || !forces::total_linear(system.forces, radius, mass).1
-    };
-    let mut all: Vec<bool> = (0..spheres.id.len()).map(is_curved).collect();
-    for id in system.springs().flat_map(Spring::spheres) {
-        if let Ok(place) = spheres.id.binary_search(&id) {
-            all[place] = true;
-        }
-    }
-    all
 }
 
 /// Returns the linear forces on a sphere.

@@ -17,6 +17,7 @@ mod growth;
 mod image_beside;
 mod joint_field;
 mod lanes;
+mod logging;
 mod radii;
 mod rotation;
 mod species;
