@@ -152,7 +152,10 @@ def test_a_ball_on_a_spring_has_the_derivatives_of_an_oscillator() -> None:
     ball = carom.Sphere(position=(rest + amplitude, 0, 0), radius=0.1, mass=mass)
     world.add_spring(
         carom.Spring(
-            sphere=world.add_sphere(ball), to=(0, 0, 0), rest_length=rest, stiffness=stiffness
+            sphere=world.add_sphere(ball),
+            anchor=(0, 0, 0),
+            rest_length=rest,
+            stiffness=stiffness,
         )
     )
     tape = carom.Tape(world)
