@@ -18,8 +18,8 @@ const SHORT: f64 = 1.0;
 const LONGEST: f64 = 2.0;
 /// Largest number of parts of a flight for its forces at the start.
 const MOST_PARTS: f64 = 4096.0;
-/// Derivatives of forces are smooth over a step if they are off a polynomial by at most this part: the error of the step
-/// is smaller by some powers of ten.
+/// Derivatives of forces are smooth over a step if they are off a polynomial by at most what adds this to the derivative
+/// of the flight: the error of the step is smaller by some powers of ten.
 const SMOOTH: f64 = 1e-8;
 /// Length of the shortest part of a flight as a part of it: at a corner of a force, what is left of the error.
 const SHORTEST: f64 = 1e-9;
@@ -118,7 +118,7 @@ fn add_part(
     let [by_place, by_speed] = rates(&first, places.len());
     let rate = by_speed + by_place.sqrt();
     let shortest = SHORTEST * (section.ages[1] - section.ages[0]);
-    let is_smooth = off_polynomial(&first, &nodes) <= SMOOTH && rate * length <= LONGEST;
+    let is_smooth = off_polynomial(&first, &nodes, length) <= SMOOTH && rate * length <= LONGEST;
     if is_smooth || length <= shortest {
         let nodes = nodes.map(|it| Linearized { accelerations: Vec::new(), ..it });
         parts.push(CurvedFlight { places: places.to_vec(), time: length, nodes });
@@ -129,29 +129,23 @@ fn add_part(
     add_part(section, companions, (places, start + half, half), parts)
 }
 
-/// Returns by which part of them the derivatives of accelerations at the start of a step are off the polynomials through
-/// those at its nodes.
-fn off_polynomial(first: &Linearized, nodes: &[Linearized; TERMS]) -> f64 {
+/// Returns how far the derivatives of accelerations at the start of a step of some length \[s\] are off the polynomials
+/// through those at its nodes: what that adds to the derivative of the flight, at most.
+fn off_polynomial(first: &Linearized, nodes: &[Linearized; TERMS], length: f64) -> f64 {
     let is_alike = |it: &Linearized| it.couplings.len() == first.couplings.len();
     if !nodes.iter().all(is_alike) {
         return f64::INFINITY;
     }
-    let (mut off, mut size) = ([0.0f64; 2], [0.0f64; 2]);
-    for (number, coupling) in first.couplings.iter().enumerate() {
-        let at_nodes = nodes.iter().zip(WEIGHTS_AT_START);
+    let most = |it: &DMat3| it.to_cols_array().into_iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+    let off = first.couplings.iter().enumerate().map(|(number, coupling)| {
         let (mut by_position, mut by_velocity) = (coupling.by_position, coupling.by_velocity);
-        for (node, weight) in at_nodes {
+        for (node, weight) in nodes.iter().zip(WEIGHTS_AT_START) {
             by_position -= weight * node.couplings[number].by_position;
             by_velocity -= weight * node.couplings[number].by_velocity;
         }
-        let most =
-            |it: &DMat3| it.to_cols_array().into_iter().fold(0.0, |a: f64, b| a.max(b.abs()));
-        off = [off[0].max(most(&by_position)), off[1].max(most(&by_velocity))];
-        let sizes = [most(&coupling.by_position), most(&coupling.by_velocity)];
-        size = [size[0].max(sizes[0]), size[1].max(sizes[1])];
-    }
-    let part = |which: usize| if off[which] == 0.0 { 0.0 } else { off[which] / size[which] };
-    part(0).max(part(1))
+        length * length * most(&by_position) + length * most(&by_velocity)
+    });
+    off.fold(0.0, f64::max)
 }
 
 /// Values at the start of a step of the polynomials that are 1 at one of [`END_NODES`] and 0 at the others.
