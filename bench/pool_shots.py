@@ -1,15 +1,16 @@
 """Ten shots on a table without pockets, event by event beside pooltool.
 
-``python bench/pool_shots.py`` needs pooltool-billiards 0.6; without its viewer, ``panda3d`` of PyPI will
-do (``pip install --no-deps``). Both have the same balls, cloth and table: sliding, rolling and spinning
-friction, balls with restitution 0.95 and friction 0.05, and cushions with restitution 0.85 and friction
-0.2 at the height of the nose, in pooltool as an impulse (``impulse_frictional_inelastic``) or by its
-default (Stronge). After impacts pooltool sets vertical velocities to zero. Here spin about a level axis
-throws balls up, cushions press them down, and the cloth answers with its own friction.
+``python bench/pool_shots.py`` needs pooltool-billiards 0.6; without its viewer, ``panda3d`` of
+PyPI will do (``pip install --no-deps``). Both have the same balls, cloth and table: sliding,
+rolling and spinning friction, balls with restitution 0.95 and friction 0.05, and cushions with
+restitution 0.85 and friction 0.2 at the height of the nose, in pooltool as an impulse
+(``impulse_frictional_inelastic``) or by its default (Stronge). After impacts pooltool sets
+vertical velocities to zero. Here spin about a level axis throws balls up, cushions press them
+down, and the cloth answers with its own friction.
 
-The columns: events alike from the first on, of all of pooltool and of ours; their largest difference of
-time up to the first cushion, and after it [s]; the largest distance of a ball at the end [m]. The last
-lines are processor times of a break.
+The columns: events alike from the first on, of all of pooltool and of ours; their largest
+difference of time up to the first cushion, and after it [s]; the largest distance of a ball at
+the end [m]. The last lines are processor times of a break.
 """
 
 import math
@@ -53,7 +54,7 @@ class Shot:
 
 @dataclass
 class Run:
-    """Events as (time, what), what in the order of their times, and the places of balls at the end."""
+    """Events as (time, what) in the order of time, places of balls at the end, processor time."""
 
     events: list[tuple[float, str]] = field(default_factory=list)
     places: np.ndarray = field(default_factory=lambda: np.empty((0, 2)))
@@ -94,10 +95,15 @@ def table() -> pooltool.Table:
     """Returns a table of pooltool with four whole cushions and no pockets."""
     segments = pooltool.Table.default().cushion_segments
     kind = type(next(iter(segments.linear.values())))
-    ends = [(0, 0, 0, LENGTH), (WIDTH, 0, WIDTH, LENGTH), (0, 0, WIDTH, 0), (0, LENGTH, WIDTH, LENGTH)]
+    ends = [
+        (0.0, 0.0, 0.0, LENGTH),
+        (WIDTH, 0.0, WIDTH, LENGTH),
+        (0.0, 0.0, WIDTH, 0.0),
+        (0.0, LENGTH, WIDTH, LENGTH),
+    ]
     linear = {
         str(i): kind(str(i), np.array([a, b, NOSE]), np.array([c, d, NOSE]))
-        for i, (a, b, c, d) in enumerate(map(lambda it: map(float, it), ends))
+        for i, (a, b, c, d) in enumerate(ends)
     }
     return pooltool.Table(
         cushion_segments=attrs.evolve(segments, linear=linear, circular={}),
@@ -119,8 +125,16 @@ def engine(cushion: str) -> PhysicsEngine:
 def by_pooltool(shot: Shot, cushion: str) -> Run:
     """Returns the run of pooltool."""
     params = pooltool.BallParams(
-        m=MASS, R=R, u_s=SLIDE, u_r=ROLL, u_sp_proportionality=4 / 9,
-        u_b=BALL[1], e_b=BALL[0], e_c=CUSHION[0], f_c=CUSHION[1], g=G,
+        m=MASS,
+        R=R,
+        u_s=SLIDE,
+        u_r=ROLL,
+        u_sp_proportionality=4 / 9,
+        u_b=BALL[1],
+        e_b=BALL[0],
+        e_c=CUSHION[0],
+        f_c=CUSHION[1],
+        g=G,
     )
     balls = {
         str(i): pooltool.Ball.create(str(i), xy=place, **attrs.asdict(params))
@@ -149,16 +163,23 @@ def scene(shot: Shot) -> carom.Scene:
     strike = carom.Strike(shot.speed, shot.azimuth, shot.elevation, (-a, b))
     spheres = [
         carom.Sphere(
-            position=(x, R, -y), radius=R, mass=MASS, restitution=own, friction=BALL[1],
+            position=(x, R, -y),
+            radius=R,
+            mass=MASS,
+            restitution=own,
+            friction=BALL[1],
             strike=strike if i == 0 else None,
         )
         for i, (x, y) in enumerate(shot.balls)
     ]
-    # The geometric mean with the balls' friction is the friction of the contact. A ball with a torque
-    # mu r N against rolling slows down by 5/7 mu g.
+    # The geometric mean with the balls' friction is the friction of the contact. A ball with a
+    # torque mu r N against rolling slows down by 5/7 mu g.
     cloth = carom.Collider(
-        carom.HalfSpace(), restitution=0.0, friction=SLIDE**2 / BALL[1],
-        rolling_friction=1.4 * ROLL, spinning_friction=SPIN,
+        carom.HalfSpace(),
+        restitution=0.0,
+        friction=SLIDE**2 / BALL[1],
+        rolling_friction=1.4 * ROLL,
+        spinning_friction=SPIN,
     )
     # Pooltool's balls meet the vertical plane of the nose, ours the nose itself.
     inset = R - math.sqrt(R**2 - (NOSE - R) ** 2)
@@ -209,7 +230,7 @@ def compare(shot: Shot, cushion: str) -> str:
     theirs = by_pooltool(shot, cushion)
     ours = by_carom(shot, 20.0)
     alike, before, after, at_cushion = 0, 0.0, 0.0, False
-    for (their_time, their_event), (time_, event) in zip(theirs.events, ours.events):
+    for (their_time, their_event), (time_, event) in zip(theirs.events, ours.events, strict=False):
         if their_event != event:
             break
         alike += 1
