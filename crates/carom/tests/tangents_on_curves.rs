@@ -238,3 +238,38 @@ fn a_force_without_derivatives_is_refused() {
     let refused = Tape::start(&world).unwrap_err();
     assert_eq!(refused, DerivativeError::Unsupported("a force without `derivatives`"));
 }
+
+#[test]
+fn derivatives_along_curves_have_the_units_of_the_world() {
+    // Lengths a million times as large or small, with the same masses, stiffness and times: a ball on a spring that
+    // meets a wall, near an attractor.
+    let by_start = |size: f64| {
+        let mut world = World::default();
+        let wall = Collider::new(Shape::Box { size: DVec3::splat(size) }, Pose::at(DVec3::ZERO));
+        world.add_collider(wall).unwrap();
+        let sun = PointAttractor::new(size * vec(0.0, 2.0, 0.0), size * size * size);
+        world.add_force(sun).unwrap();
+        let ball = Sphere::new(size * vec(1.5, 0.1, 0.0), 0.2 * size).with_mass(0.9);
+        let ball = world.add_sphere(ball).unwrap();
+        let spring = Spring::to_point(ball, DVec3::ZERO, 0.3 * size).with_stiffness(2.0);
+        let spring = world.add_spring(spring).unwrap();
+        let mut tape = Tape::start(&world).unwrap();
+        for _ in 0..4 {
+            tape.step(&mut world, 0.4).unwrap();
+        }
+        assert!(tape.impacts() > 0);
+        let along = SphereTangent { position: DVec3::X, ..SphereTangent::default() };
+        let by = tape.gradient(&[(ball, along)]).unwrap();
+        let of_ball = by.sphere(ball);
+        [of_ball.position.x, of_ball.velocity.y, by.spring(spring).stiffness / size]
+    };
+    let usual = by_start(1.0);
+    assert!(usual.iter().all(|it| it.abs() > 1e-3), "{usual:?}");
+    for power in [-20, 20] {
+        let scaled = by_start(libm::ldexp(1.0, power));
+        for (scaled, usual) in scaled.into_iter().zip(usual) {
+            // Rounding that an impact multiplies.
+            assert!((scaled - usual).abs() < 1e-9 * usual.abs().max(1.0), "{scaled} {usual}");
+        }
+    }
+}

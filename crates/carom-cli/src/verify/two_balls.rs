@@ -16,8 +16,8 @@ const SECONDS: f64 = 1.0;
 const COST: f64 = 0.1;
 /// Least part of the predicted decrease of the loss that a step of the descent makes (Armijo 1966).
 const DECREASE: f64 = 1e-4;
-/// Size of the gradient at which the descent ends.
-const FLAT: f64 = 1e-9;
+/// Size of the gradient at which the descent ends: the loss is off by the square of it.
+const FLAT: f64 = 1e-7;
 
 /// Loss and its gradient by the force at the start and by its rate of change.
 struct Loss {
