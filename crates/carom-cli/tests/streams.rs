@@ -51,7 +51,9 @@ fn a_dash_reads_the_scene_from_the_standard_input() {
 #[test]
 fn a_dash_grades_the_run_in_the_standard_input() {
     let folder = tempfile::tempdir().unwrap();
-    let recorded = good(&["run", "simtest1", "--seconds", "2", "--out", "-"]);
+    let file = path(&folder, "run.csv");
+    good(&["run", "simtest1", "--seconds", "2", "--out", &file]);
+    let recorded = std::fs::read_to_string(&file).unwrap();
     let pages = path(&folder, "");
     let graded = fed(&["grade", "-", "--scene", "simtest1", "--report", &pages], &recorded);
     assert!(graded.status.success(), "{}", text(&graded.stderr));
