@@ -5,9 +5,10 @@ use carom_scene::{Fault, SceneError, legible};
 use thiserror::Error;
 
 use super::packed::PackedError;
+use super::run::MAX_MOVES;
 
 /// Names of the parts of a link.
-const PARTS: [&str; 11] = [
+const PARTS: [&str; 12] = [
     "scene",
     "file",
     "name",
@@ -19,6 +20,7 @@ const PARTS: [&str; 11] = [
     "t",
     "camera",
     "goal",
+    "moves",
 ];
 
 /// Quotes the beginning of a text in one line.
@@ -93,6 +95,9 @@ pub enum LinkError {
         /// The result as written, shortened.
         found: String,
     },
+    /// The moves are too long.
+    #[error("the moves of the link are longer than {} KiB, the limit", MAX_MOVES >> 10)]
+    Moves,
     /// A packed part cannot be unpacked.
     #[error("{part} of the link {source}")]
     Packed {
