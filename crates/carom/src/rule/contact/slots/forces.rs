@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::row::Row;
 use super::{Slots, accelerated};
 use crate::forces::{self, SphereState};
+use crate::integrate::damped::{is_damped, velocity_after};
 use crate::rule::periodic;
 use crate::system::System;
 
@@ -28,14 +29,26 @@ impl Slots {
             self.acceleration.push(Row::new(linear.acceleration + own, linear.drag_rate));
         }
         self.linear.clear();
+        self.damped.clear();
         if has_others {
             self.linear.clone_from(&self.acceleration);
         }
         has_others
     }
 
+    /// Whether forces damp the motion of a sphere in less than the sub-step.
+    pub fn is_damped(&self, slot: usize) -> bool {
+        self.damped.get(self.index[slot] as usize).is_some_and(|it| *it)
+    }
+
+    /// Whether forces damp the motion of any sphere in less than the sub-step.
+    pub fn are_any_damped(&self) -> bool {
+        self.damped.contains(&true)
+    }
+
     /// Adds the accelerations of the other forces in the middle of a sub-step of `h` \[s\] that starts at this time on
-    /// the world's clock \[s\].
+    /// the world's clock \[s\]. Where forces damp the motion of a sphere in less than that, its acceleration is that of an
+    /// implicit step.
     pub fn add_other_forces(&mut self, system: &System, time: f64, h: f64) {
         self.find_middle(system, time, h);
         let middle = time + 0.5 * h;
@@ -43,11 +56,31 @@ impl Slots {
             true => self.forces_between(system, middle),
             false => Vec::new(),
         };
+        let may_damp = system.has_nonconservative_forces();
+        self.damped.clear();
+        self.damped.resize(self.len(), false);
         for slot in 0..self.len() {
-            let force = self.other_force(system, &between, slot, middle);
-            let linear = self.linear[slot];
-            let acceleration = linear.vector() + force * self.velocity[slot].number();
-            self.acceleration[slot] = linear.with_vector(acceleration);
+            let (linear, row, state) =
+                (self.linear[slot], self.velocity[slot], self.middle_of(slot));
+            let index = self.index[slot] as usize;
+            let between = between.get(index).copied().unwrap_or(DVec3::ZERO);
+            let without_drag = |velocity: DVec3| {
+                let state = SphereState { velocity, ..state };
+                let own = forces::total_of_others(system.forces, &state, middle);
+                linear.vector() + (own + between) * row.number()
+            };
+            let first = without_drag(state.velocity);
+            self.acceleration[slot] = linear.with_vector(first);
+            if !may_damp || !is_damped(h, (state.velocity, first), without_drag) {
+                continue;
+            }
+            let before = row.vector();
+            let all = |velocity| without_drag(velocity) - linear.number() * velocity;
+            if let Some(after) = velocity_after(h, before, all) {
+                self.acceleration[slot] = Row::new((after - before) / h, 0.0);
+                self.middle[1][index] = 0.5 * (before + after);
+                self.damped[index] = true;
+            }
         }
     }
 

@@ -50,6 +50,10 @@ pub(crate) struct Slots {
     pub acceleration: Vec<Row>,
     /// The acceleration by forces that are linear \[m/s²\]; empty where there are no others.
     linear: Vec<Row>,
+    /// Whether forces damp the motion of each sphere in less than the sub-step, by index: its acceleration is then that
+    /// of an implicit step.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    damped: Vec<bool>,
     /// Centres \[m\] and velocities \[m/s\], by index, in the middle of the sub-step, where forces that are not linear
     /// act.
     #[cfg_attr(feature = "serde", serde(skip))]
