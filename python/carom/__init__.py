@@ -18,6 +18,7 @@ from carom._pictures.picture import Renderer
 from carom._run.batch import Batch
 from carom._run.derivatives import Gradient, Margin, Tangents, Tape
 from carom._run.gradients import RunEnd, value_and_grad
+from carom._run.impact_chunks import impact_chunks
 from carom._run.packing import Packing, pack
 from carom._run.queries import PredictedPath, QueryFilter
 from carom._run.reports import ContactAccount, EnergyAccount, StageCounts, ZoneAccount
@@ -256,6 +257,7 @@ __all__ = [
     "ZoneAccount",
     "__version__",
     "analysis",
+    "impact_chunks",
     "load",
     "pack",
     "scene",

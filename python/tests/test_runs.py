@@ -105,6 +105,24 @@ def test_a_run_records_what_is_asked_for() -> None:
         scene.run(frames=1, dtype=int)
 
 
+@pytest.mark.parametrize("has_function", [False, True])
+def test_chunks_of_impacts_are_those_of_the_run(has_function: bool) -> None:
+    scene = carom.load("gas")
+    one, other = scene.world(), scene.world()
+    if has_function:
+        for world in (one, other):
+            world.add_force(lambda world: -0.1 * world.positions)
+    whole = one.run(frames=30).impacts
+    chunks = list(carom.impact_chunks(other, 30, size=100))
+    assert len(chunks) > 2 and all(len(chunk) >= 100 for chunk in chunks[:-1])
+    assert (np.concatenate(chunks) == whole).all()
+    assert other.state_hash == one.state_hash
+    assert list(carom.impact_chunks(other, 0)) == []
+    for frames, size in [(-1, 1), (1, 0)]:
+        with pytest.raises(carom.CaromError, match="must be"):
+            carom.impact_chunks(other, frames, size=size)
+
+
 def test_a_run_without_impacts_moves_the_same_and_keeps_none(tmp_path: Path) -> None:
     scene = carom.load("gas")
     whole, run = scene.run(frames=20), scene.run(frames=20, impacts=False)

@@ -553,6 +553,29 @@ namespace Carom
             return id;
         }
 
+        /// <summary>Adds a surface of triangles: three indices of vertices [m] each, counter-clockwise as seen from the
+        /// front. If it is one-sided and open, spheres pass it from behind. The shape of the collider is ignored.
+        /// </summary>
+        public ulong AddMesh(CaromCollider collider, Double3[] vertices, uint[] triangles, bool isOneSided)
+        {
+            collider.Shape = CaromShape.Other;
+            ulong id;
+            Check(Native.AddMesh(Id, ref collider, vertices, triangles, isOneSided, out id));
+            return id;
+        }
+
+        /// <summary>Adds ground over a rectangle of Size.X by Size.Z about the origin of the collider: heights [m], in
+        /// rows along x, the first at the lowest z. Spheres pass it from below. The shape of the collider is ignored.
+        /// </summary>
+        public ulong AddHeightField(CaromCollider collider, double[,] heights)
+        {
+            collider.Shape = CaromShape.Other;
+            UIntPtr rows = (UIntPtr)heights.GetLength(0), columns = (UIntPtr)heights.GetLength(1);
+            ulong id;
+            Check(Native.carom_world_add_height_field(Id, ref collider, heights, rows, columns, out id));
+            return id;
+        }
+
         /// <summary>Returns a collider in its present pose.</summary>
         public CaromCollider Collider(ulong id)
         {
@@ -1041,6 +1064,58 @@ namespace Carom
             return AddCollider(box);
         }
 
+        /// <summary>Adds the mesh of a MeshCollider where it is now. As in Unity, balls pass an open one from behind; a
+        /// convex one counts as its mesh.</summary>
+        public ulong AddMesh(UnityEngine.MeshCollider collider, float restitution)
+        {
+            var place = collider.transform;
+            var back = UnityEngine.Quaternion.Inverse(place.rotation);
+            var points = collider.sharedMesh.vertices;
+            var vertices = new Double3[points.Length];
+            for (int i = 0; i < points.Length; i++)
+            {
+                vertices[i] = FromUnity(back * (place.TransformPoint(points[i]) - place.position));
+            }
+            var indices = collider.sharedMesh.triangles;
+            // Fronts are clockwise in Unity; a scale that mirrors the mesh turns them round once more.
+            var scale = place.lossyScale;
+            int second = scale.x * scale.y * scale.z < 0.0f ? 1 : 2;
+            var triangles = new uint[indices.Length];
+            for (int i = 0; i + 2 < indices.Length; i += 3)
+            {
+                triangles[i] = (uint)indices[i];
+                triangles[i + 1] = (uint)indices[i + second];
+                triangles[i + 2] = (uint)indices[i + 3 - second];
+            }
+            var surface = CaromCollider.Default;
+            surface.Position = FromUnity(place.position);
+            surface.Rotation = FromUnity(place.rotation);
+            surface.Restitution = restitution;
+            return AddMesh(surface, vertices, triangles, true);
+        }
+
+        /// <summary>Adds a terrain. The diagonal of a cell begins at its lowest x and highest z.</summary>
+        public ulong AddTerrain(UnityEngine.Terrain terrain, float restitution)
+        {
+            var data = terrain.terrainData;
+            int side = data.heightmapResolution;
+            var parts = data.GetHeights(0, 0, side, side);
+            var heights = new double[side, side];
+            for (int row = 0; row < side; row++)
+            {
+                for (int column = 0; column < side; column++)
+                {
+                    heights[side - 1 - row, column] = (double)parts[row, column] * data.size.y;
+                }
+            }
+            var ground = CaromCollider.Default;
+            ground.Size = new Double3(data.size.x, 1.0, data.size.z);
+            var middle = new UnityEngine.Vector3(0.5f * data.size.x, 0.0f, 0.5f * data.size.z);
+            ground.Position = FromUnity(terrain.transform.position + middle);
+            ground.Restitution = restitution;
+            return AddHeightField(ground, heights);
+        }
+
         /// <summary>Adds a ball of 1 kg at rest. Returns its id.</summary>
         public ulong AddBall(UnityEngine.Vector3 position, float radius)
         {
@@ -1260,6 +1335,44 @@ namespace Carom
             public DestroyFunction Destroy;
         }
 
+        [StructLayout(LayoutKind.Sequential)]
+        struct MeshStructure
+        {
+            public IntPtr Vertices;
+            public UIntPtr VertexCount;
+            public IntPtr Triangles;
+            public UIntPtr TriangleCount;
+            public uint OneSided, Reserved;
+        }
+
+        /// <summary>Adds a surface of triangles.</summary>
+        internal static CaromStatus AddMesh(
+            WorldId world, ref CaromCollider collider, Double3[] vertices, uint[] triangles, bool isOneSided,
+            out ulong id)
+        {
+            if (triangles.Length % 3 != 0) throw new ArgumentException("a triangle has three vertices", "triangles");
+            // The library reads the arrays during the call.
+            GCHandle points = GCHandle.Alloc(vertices, GCHandleType.Pinned);
+            GCHandle indices = GCHandle.Alloc(triangles, GCHandleType.Pinned);
+            try
+            {
+                var mesh = new MeshStructure
+                {
+                    Vertices = points.AddrOfPinnedObject(),
+                    VertexCount = (UIntPtr)vertices.Length,
+                    Triangles = indices.AddrOfPinnedObject(),
+                    TriangleCount = (UIntPtr)(triangles.Length / 3),
+                    OneSided = isOneSided ? 1u : 0u,
+                };
+                return carom_world_add_mesh(world, ref collider, ref mesh, out id);
+            }
+            finally
+            {
+                indices.Free();
+                points.Free();
+            }
+        }
+
         /// <summary>The functions of a force.</summary>
         sealed class Functions
         {
@@ -1406,6 +1519,13 @@ namespace Carom
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern CaromStatus carom_world_add_collider(
             WorldId world, ref CaromCollider collider, out ulong id);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        static extern CaromStatus carom_world_add_mesh(
+            WorldId world, ref CaromCollider collider, ref MeshStructure mesh, out ulong id);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_add_height_field(
+            WorldId world, ref CaromCollider collider, [In] double[,] heights, UIntPtr rows, UIntPtr columns,
+            out ulong id);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern CaromStatus carom_world_collider(WorldId world, ulong id, out CaromCollider collider);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]

@@ -14,6 +14,8 @@ namespace UnityEngine
 
         public static Vector3 operator +(Vector3 a, Vector3 b) { return new Vector3(a.x + b.x, a.y + b.y, a.z + b.z); }
 
+        public static Vector3 operator -(Vector3 a, Vector3 b) { return new Vector3(a.x - b.x, a.y - b.y, a.z - b.z); }
+
         public static Vector3 Lerp(Vector3 a, Vector3 b, float part)
         {
             return new Vector3(a.x + part * (b.x - a.x), a.y + part * (b.y - a.y), a.z + part * (b.z - a.z));
@@ -39,6 +41,8 @@ namespace UnityEngine
             return new Vector3(v.x + q.w * x + q.y * z - q.z * y, v.y + q.w * y + q.z * x - q.x * z,
                 v.z + q.w * z + q.x * y - q.y * x);
         }
+
+        public static Quaternion Inverse(Quaternion q) { return new Quaternion(-q.x, -q.y, -q.z, q.w); }
 
         // Unity normalizes the result.
         public static Quaternion Slerp(Quaternion a, Quaternion b, float part)
@@ -73,8 +77,46 @@ namespace UnityEngine
 
     public sealed class Transform
     {
-        public Vector3 localPosition;
-        public Quaternion localRotation;
+        public Vector3 localPosition, lossyScale = new Vector3(1.0f, 1.0f, 1.0f);
+        public Quaternion localRotation = new Quaternion(0.0f, 0.0f, 0.0f, 1.0f);
+
+        // No transform has a parent here.
+        public Vector3 position { get { return localPosition; } }
+        public Quaternion rotation { get { return localRotation; } }
+
+        public Vector3 TransformPoint(Vector3 point)
+        {
+            point = new Vector3(point.x * lossyScale.x, point.y * lossyScale.y, point.z * lossyScale.z);
+            return localPosition + localRotation * point;
+        }
+    }
+
+    public sealed class Mesh
+    {
+        public Vector3[] vertices;
+        public int[] triangles;
+    }
+
+    public sealed class MeshCollider
+    {
+        public Mesh sharedMesh;
+        public readonly Transform transform = new Transform();
+    }
+
+    public sealed class TerrainData
+    {
+        public Vector3 size;
+        public int heightmapResolution;
+        // Parts of size.y by z and x, as Unity has them.
+        public float[,] Parts;
+
+        public float[,] GetHeights(int x, int y, int width, int height) { return Parts; }
+    }
+
+    public sealed class Terrain
+    {
+        public TerrainData terrainData;
+        public readonly Transform transform = new Transform();
     }
 
     public sealed class Material

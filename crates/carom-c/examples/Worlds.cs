@@ -162,6 +162,34 @@ static class Worlds
         }
     }
 
+    static void Meshes()
+    {
+        using (var world = new CaromWorld())
+        {
+            var vertices = new[]
+            {
+                new Double3(-1.0, 0.0, -1.0), new Double3(-1.0, 0.0, 1.0), new Double3(1.0, 0.0, 1.0),
+                new Double3(1.0, 0.0, -1.0),
+            };
+            var surface = CaromCollider.Default;
+            var sheet = world.AddMesh(surface, vertices, new uint[] { 0, 1, 2, 0, 2, 3 }, true);
+            Expect(world.Collider(sheet).Shape == CaromShape.Other, "a mesh has a shape of its own");
+            surface.Position.Y = -9.0;
+            surface.Size = new Double3(2.0, 1.0, 2.0);
+            world.AddHeightField(surface, new[,] { { 1.0, 2.0, 3.0 }, { 1.0, 2.0, 3.0 } });
+            var down = new Double3(0.0, -16.0, 0.0);
+            var rays = new[]
+            {
+                new CaromRay(new Double3(0.5, 4.0, 0.25), down), new CaromRay(new Double3(0.5, -1.0, 0.25), down),
+            };
+            var hits = world.CastRays(rays, CaromQueryFilter.Default);
+            Expect(hits[0].Body == sheet && hits[0].Point.Y == 0.0, "a ray from above meets the sheet");
+            Expect(hits[1].Point.Y == -6.5, "the ground rises by one in one");
+            var few = new uint[] { 0, 1, 9 };
+            Expect(Refused(() => world.AddMesh(surface, vertices, few, true)).Message.Contains("9"), "no vertex 9");
+        }
+    }
+
     static void Motions()
     {
         using (var world = new CaromWorld())
@@ -329,6 +357,39 @@ static class Worlds
             Console.WriteLine("Unity: it is at z = {0} m", positions[0].z);
         }
     }
+
+    static void UnityMeshes()
+    {
+        using (var world = new CaromWorld())
+        {
+            // The front of a triangle, clockwise in Unity, faces up.
+            var ramp = new MeshCollider { sharedMesh = new Mesh() };
+            ramp.sharedMesh.vertices = new[]
+            {
+                new Vector3(0.0f, 0.0f, 0.0f), new Vector3(0.0f, 0.0f, 1.0f), new Vector3(1.0f, 0.0f, 0.0f),
+            };
+            ramp.sharedMesh.triangles = new[] { 0, 1, 2 };
+            ramp.transform.localPosition = new Vector3(10.0f, 3.0f, 2.0f);
+            ramp.transform.lossyScale = new Vector3(4.0f, 1.0f, 8.0f);
+            var sheet = world.AddMesh(ramp, 1.0f);
+            var data = new TerrainData { size = new Vector3(2.0f, 8.0f, 4.0f), heightmapResolution = 2 };
+            data.Parts = new[,] { { 0.0f, 0.0f }, { 1.0f, 1.0f } };
+            var terrain = new Terrain { terrainData = data };
+            terrain.transform.localPosition = new Vector3(0.0f, 1.0f, -4.0f);
+            var ground = world.AddTerrain(terrain, 1.0f);
+            var down = CaromWorld.FromUnity(new Vector3(0.0f, -32.0f, 0.0f));
+            Func<float, float, float, CaromHit> below = (x, y, z) =>
+                world.CastRays(new[] { new CaromRay(CaromWorld.FromUnity(new Vector3(x, y, z)), down) },
+                    CaromQueryFilter.Default)[0];
+            Expect(below(11.0f, 5.0f, 7.0f).Body == sheet && below(11.0f, 5.0f, 7.0f).Point.Y == 3.0, "it is scaled");
+            Expect(below(13.0f, 5.0f, 7.0f).IsHit == 0, "beside it is nothing");
+            var ball = world.AddBall(new Vector3(10.5f, 2.0f, 3.0f), 0.25f, new Vector3(0.0f, 4.0f, 0.0f));
+            world.Step(1.0);
+            Expect(world.Sphere(ball).Position.Y == 6.0 && world.Impacts().Length == 0, "it is open from behind");
+            var hit = below(0.5f, 20.0f, -1.0f);
+            Expect(hit.Body == ground && Math.Abs(hit.Point.Y - 7.0) < 1e-12, "a terrain rises towards z");
+        }
+    }
 #endif
 
     static int Main(string[] arguments)
@@ -339,6 +400,7 @@ static class Worlds
             Functions();
             Springs();
             Queries();
+            Meshes();
             Motions();
             Games();
             Cues();
@@ -346,6 +408,7 @@ static class Worlds
             Scenes(arguments);
 #if UNITY_5_3_OR_NEWER
             Unity();
+            UnityMeshes();
 #endif
             return 0;
         }

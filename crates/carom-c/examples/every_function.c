@@ -308,6 +308,53 @@ static void colliders_and_reports(void) {
     OK(carom_world_free(world));
 }
 
+static void meshes(void) {
+    CaromWorld world;
+    OK(carom_world_new(&world));
+    CaromCollider surface = carom_collider();
+    surface.shape = CAROM_SHAPE_OTHER;
+    const double vertices[] = {-1.0, 0.0, -1.0, -1.0, 0.0, 1.0, 1.0, 0.0, 1.0, 1.0, 0.0, -1.0};
+    const uint32_t triangles[] = {0, 1, 2, 0, 2, 3};
+    CaromMesh sheet = {vertices, 4, triangles, 2, 1, 0};
+    uint64_t id;
+    OK(carom_world_add_mesh(world, &surface, &sheet, &id));
+    // A ball from behind passes it, one from the front does not.
+    CaromSphere ball = carom_sphere();
+    ball.radius = 0.25;
+    ball.position[1] = -1.0;
+    ball.velocity[1] = 2.0;
+    OK(carom_world_add_sphere(world, &ball, NULL));
+    OK(carom_world_step(world, 2.0));
+    CaromCollider same;
+    OK(carom_world_collider(world, id, &same));
+    EXPECT(same.shape == CAROM_SHAPE_OTHER);
+    ball.velocity[1] = -2.0;
+    ball.position[1] = 2.25;
+    OK(carom_world_set_sphere(world, 0, &ball));
+    OK(carom_world_step(world, 2.0));
+    OK(carom_world_sphere(world, 0, &ball));
+    EXPECT(ball.position[1] == 2.25 && ball.velocity[1] == 2.0);
+    sheet.one_sided = 2;
+    FAILS(CAROM_STATUS_INVALID, carom_world_add_mesh(world, &surface, &sheet, NULL));
+    sheet.one_sided = 0;
+    sheet.vertex_count = 3;
+    FAILS(CAROM_STATUS_INVALID, carom_world_add_mesh(world, &surface, &sheet, NULL));
+    sheet.vertices = NULL;
+    FAILS(CAROM_STATUS_NULL, carom_world_add_mesh(world, &surface, &sheet, NULL));
+    FAILS(CAROM_STATUS_NULL, carom_world_add_mesh(world, &surface, NULL, NULL));
+    const double heights[] = {0.0, 1.0, 0.0, 0.0, 1.0, 0.0};
+    surface.size[0] = surface.size[2] = 4.0;
+    surface.position[1] = -5.0;
+    OK(carom_world_add_height_field(world, &surface, heights, 2, 3, NULL));
+    FAILS(CAROM_STATUS_INVALID, carom_world_add_height_field(world, &surface, heights, 1, 6, NULL));
+    FAILS(CAROM_STATUS_INVALID, carom_world_add_height_field(world, &surface, heights, 0, 0, NULL));
+    FAILS(CAROM_STATUS_LENGTH, carom_world_add_height_field(world, &surface, heights, SIZE_MAX, 2, NULL));
+    FAILS(CAROM_STATUS_NULL, carom_world_add_height_field(world, &surface, NULL, 2, 3, NULL));
+    surface.shape = CAROM_SHAPE_BOX;
+    FAILS(CAROM_STATUS_ARGUMENT, carom_world_add_height_field(world, &surface, heights, 2, 3, NULL));
+    OK(carom_world_free(world));
+}
+
 static void forces(void) {
     CaromWorld world, copy;
     OK(carom_world_new(&world));
@@ -457,6 +504,7 @@ int main(void) {
     spheres();
     arrays();
     colliders_and_reports();
+    meshes();
     forces();
     springs();
     snapshots();

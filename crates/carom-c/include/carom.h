@@ -130,7 +130,7 @@ enum CaromShape
     /// A hollow box of `size`: spheres bounce off its walls on both sides. The walls in
     /// `open_sides` are missing.
     CAROM_SHAPE_CONTAINER = 4,
-    /// A shape that only the text of a scene can describe. carom_world_set_collider() keeps it.
+    /// A shape that arrays or the text of a scene describe. carom_world_set_collider() keeps it.
     CAROM_SHAPE_OTHER = 5,
 };
 #ifndef __cplusplus
@@ -343,6 +343,24 @@ typedef struct {
     /// length but zero.
     double rotation[4];
 } CaromKeyframe;
+
+/// A surface of triangles, in the coordinates of its collider.
+typedef struct {
+    /// Vertices [m]: three numbers each, without gaps in memory.
+    const double *vertices;
+    /// Number of vertices.
+    size_t vertex_count;
+    /// Triangles: the indices of three vertices each, counter-clockwise as seen from the front,
+    /// without gaps in memory.
+    const uint32_t *triangles;
+    /// Number of triangles.
+    size_t triangle_count;
+    /// 1 if spheres pass an open mesh from behind, 0 if both sides deflect them. A closed mesh is
+    /// always met from its front.
+    uint32_t one_sided;
+    /// Must be 0.
+    uint32_t reserved;
+} CaromMesh;
 
 /// The state of a sphere that a force may depend on.
 typedef struct {
@@ -962,6 +980,17 @@ CaromStatus carom_world_set_motion(CaromWorld world, uint64_t collider, const ch
 /// spheres on the way: the position is three numbers [m], the rotation a quaternion x, y, z, w. Call it
 /// before each step of `dt`; after that time the collider moves on.
 CaromStatus carom_world_set_next_pose(CaromWorld world, uint64_t collider, const double *position, const double *rotation, double dt);
+
+/// Adds a collider of triangles. The `shape` of `collider` must be CAROM_SHAPE_OTHER. Writes its id to
+/// `id`, which may be null.
+CaromStatus carom_world_add_mesh(CaromWorld world, const CaromCollider *collider, const CaromMesh *mesh, uint64_t *id);
+
+/// Adds ground over a rectangle of size[0] by size[2] of `collider` in the local xz plane about its
+/// origin; spheres pass it from below. Heights [m] are `rows` of `columns` numbers along x, without
+/// gaps in memory, the first row at the lowest z. Each cell is split from its corner at the lowest x
+/// and z to the opposite corner. The `shape` of `collider` must be CAROM_SHAPE_OTHER. Writes its id
+/// to `id`, which may be null.
+CaromStatus carom_world_add_height_field(CaromWorld world, const CaromCollider *collider, const double *heights, size_t rows, size_t columns, uint64_t *id);
 
 /// Adds a force that is a function of the program. Writes its id to `id`, which may be null.
 CaromStatus carom_world_add_force(CaromWorld world, const CaromForce *force, uint64_t *id);

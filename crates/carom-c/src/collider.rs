@@ -25,7 +25,7 @@ pub enum CaromShape {
     /// A hollow box of `size`: spheres bounce off its walls on both sides. The walls in
     /// `open_sides` are missing.
     Container = 4,
-    /// A shape that only the text of a scene can describe. carom_world_set_collider() keeps it.
+    /// A shape that arrays or the text of a scene describe. carom_world_set_collider() keeps it.
     Other = 5,
 }
 
@@ -140,7 +140,7 @@ fn bits(sides: Sides) -> u32 {
 
 impl CaromCollider {
     /// Converts to the collider of the physics, without checking numbers. `before` supplies the
-    /// shape if only text can describe it.
+    /// shape if arrays or text describe it.
     fn physical(&self, before: Option<Shape>) -> Result<Collider, Failure> {
         let invalid = |problem: &str| Failure::new(CaromStatus::Invalid, problem);
         let size = DVec3::from_array(self.size);
@@ -179,6 +179,15 @@ impl CaromCollider {
         Ok(if self.trigger == 1 { collider.as_trigger() } else { collider })
     }
 
+    /// Converts to a collider of a shape that arrays hold.
+    pub(crate) fn of_shape(&self, shape: Shape) -> Result<Collider, Failure> {
+        if self.shape != CaromShape::Other as i32 {
+            let problem = "`shape` must be CAROM_SHAPE_OTHER, as the arrays are the shape";
+            return Err(Failure::new(CaromStatus::Argument, problem));
+        }
+        self.physical(Some(shape))
+    }
+
     /// Returns the sides of a container without a wall.
     fn open(&self) -> Result<Sides, Failure> {
         let invalid = |problem: &str| Failure::new(CaromStatus::Invalid, problem);
@@ -212,7 +221,7 @@ fn describe(collider: &Collider, described: &mut scene::Collider) {
             let (size, open) = (size.to_array(), open.map(|(side, _)| side).collect());
             described.shape = scene::Shape::Container { size, open };
         }
-        // A shape that only text can describe is in the description already.
+        // A shape that arrays or text describe is in the description already.
         _ => {}
     }
     let pose = collider.motion.rest().unwrap_or(collider.pose);
@@ -256,16 +265,26 @@ pub unsafe extern "C" fn carom_world_add_collider(
     call(|| {
         // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
         let collider = unsafe { read(collider, "collider") }?.physical(None)?;
-        let number = world.with(|inner| {
-            let id = inner.world.add_collider(collider.clone())?;
-            let mut described = scene::Collider::new(scene::Shape::HalfSpace);
-            describe(&collider, &mut described);
-            inner.described.change_colliders(|all| all.push(described));
-            Ok(id.number())
-        })?;
+        let number = add(world, collider, scene::Shape::HalfSpace)?;
         // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
         unsafe { tell(id, number) };
         Ok(())
+    })
+}
+
+/// Adds a collider and its description. `shape` is its shape in scene files where the collider's own does not
+/// determine that. Returns its id.
+pub(crate) fn add(
+    world: CaromWorld,
+    collider: Collider,
+    shape: scene::Shape,
+) -> Result<u64, Failure> {
+    world.with(|inner| {
+        let mut described = scene::Collider::new(shape);
+        describe(&collider, &mut described);
+        let id = inner.world.add_collider(collider)?;
+        inner.described.change_colliders(|all| all.push(described));
+        Ok(id.number())
     })
 }
 

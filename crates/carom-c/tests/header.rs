@@ -9,7 +9,7 @@ use std::path::Path;
 use cbindgen::{Builder, Config};
 
 /// The sources in the order of their declarations in the header.
-const SOURCES: [&str; 21] = [
+const SOURCES: [&str; 22] = [
     "version",
     "status",
     "world",
@@ -21,6 +21,7 @@ const SOURCES: [&str; 21] = [
     "strike",
     "collider",
     "collider_motion",
+    "mesh",
     "force",
     "spring",
     "emitter",

@@ -53,6 +53,7 @@ fn structures_of_version_3_lie_as_they_did() {
     ];
     assert_eq!(of_queries, [32, 48, 56, 72, 72, 88, 8, 104]);
     assert_eq!([size_of::<CaromSpring>(), size_of::<CaromKeyframe>()], [72, 64]);
+    assert_eq!(size_of::<CaromMesh>(), 4 * size_of::<usize>() + 8);
     let accounts = [
         size_of::<CaromEnergyAccount>(),
         size_of::<CaromStageCounts>(),

@@ -271,7 +271,7 @@ pub struct Run {
     /// Write only every N-th frame of the trajectory.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
     pub every: u64,
-    /// Write every impact to a .csv file; `-` as by --out.
+    /// Write every impact to a .csv or an .npz file; `-` as by --out.
     #[arg(long, value_name = "PATH")]
     pub impacts: Option<PathBuf>,
     /// Write every capture, dissociation and bounce at the edge of a square well to a .csv file; `-` as by --out.

@@ -241,6 +241,22 @@ fn with_kept(error: RecordingError, frames: u64) -> Failure {
     }
 }
 
+/// Refuses a file whose ending is that of no table that the option writes. The ending of `--out` selects a format, which
+/// refuses others.
+fn check_ending(option: &str, file: &Path) -> Result<(), Failure> {
+    let known: &[&str] = match option {
+        "--out" => return Ok(()),
+        "--impacts" => &["csv", "npz"],
+        _ => &["csv"],
+    };
+    let ending = file.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    if ending.is_empty() || known.contains(&ending.as_str()) {
+        return Ok(());
+    }
+    let known = known.join(" or .");
+    Err(Failure::Usage(format!("{option} {}: it is a table, .{known}", file.display())))
+}
+
 /// Files of a run.
 struct Outputs {
     trajectory: Option<Trajectory>,
@@ -267,12 +283,7 @@ impl Outputs {
             if let Some((other, _)) = same {
                 return Err(Failure::Usage(format!("{other} and {name} are the same file")));
             }
-            let ending = file.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-            let is_other = !ending.is_empty() && ending != "csv";
-            if *name != "--out" && is_other {
-                let text = format!("{name} {}: it is a table, .csv", file.display());
-                return Err(Failure::Usage(text));
-            }
+            check_ending(name, file)?;
         }
         if named.iter().any(|(name, _)| *name == "--out") && args.every > frames && frames > 0 {
             let text = format!(

@@ -1,10 +1,14 @@
 //! Common parts of imports from other formats: the report of omissions, names, numbers, and the
 //! final check.
 
-use crate::legible::steers;
 use std::fmt;
+use std::path::Path;
+
+use carom::DVec3;
 
 use crate::error::SceneError;
+use crate::legible::steers;
+use crate::mesh_file;
 use crate::scene::Scene;
 
 /// One line of the report of an import: something that was ignored, replaced or not understood.
@@ -49,6 +53,14 @@ pub fn omit(report: &mut Vec<Omission>, object: &str, component: &str, reason: i
     } else if let Some(last) = report.last_mut() {
         last.count += 1;
     }
+}
+
+/// Reads vertices and triangles of the only object of a Wavefront file (.obj), in the file's units and coordinates.
+///
+/// # Errors
+/// What is wrong with the file, in words; several objects, too.
+pub fn wavefront(path: &Path) -> Result<(Vec<DVec3>, Vec<[u32; 3]>), String> {
+    mesh_file::read_one_object(path)
 }
 
 /// Replaces control characters in a name by spaces and cuts it after 200 characters.

@@ -33,19 +33,40 @@ pub(crate) fn read(path: &Path) -> Result<Triangles, String> {
     }
 }
 
-/// All models of a Wavefront file; polygons are cut into triangles.
+/// Reads the only object of a Wavefront file (.obj).
+///
+/// # Errors
+/// What is wrong with the file, in words; several objects, too.
+pub(crate) fn read_one_object(path: &Path) -> Result<Triangles, String> {
+    let models = models_of_obj(&fs::read(path).map_err(|error| error.to_string())?)?;
+    // An object of several materials is several models of one name.
+    if models.windows(2).any(|pair| pair[0].name != pair[1].name) {
+        return Err("it holds several objects".to_owned());
+    }
+    Ok(joined(&models))
+}
+
+/// All models of a Wavefront file.
 fn of_obj(bytes: &[u8]) -> Result<Triangles, String> {
+    Ok(joined(&models_of_obj(bytes)?))
+}
+
+/// The models of a Wavefront file; polygons are cut into triangles.
+fn models_of_obj(bytes: &[u8]) -> Result<Vec<tobj::Model>, String> {
     let options = tobj::LoadOptions { triangulate: true, ..Default::default() };
     // Materials are not read.
     let materials = |_: &Path| Ok(Default::default());
     let loaded = tobj::load_obj_buf(&mut Cursor::new(bytes), &options, materials);
-    let (models, _) = loaded.map_err(|error| error.to_string())?;
+    Ok(loaded.map_err(|error| error.to_string())?.0)
+}
+
+fn joined(models: &[tobj::Model]) -> Triangles {
     let mut all = (Vec::new(), Vec::new());
     for model in models {
         let places = model.mesh.positions.as_chunks::<3>().0;
         append(&mut all, places.iter().map(|&it| DVec3::from_array(it)), &model.mesh.indices);
     }
-    Ok(all)
+    all
 }
 
 /// The triangles of an STL file, in text or binary.

@@ -15,7 +15,7 @@ use crate::parts::Parts;
 use crate::pose::{mirrored, mirrored_rotation};
 use crate::project::Project;
 use crate::script::Script;
-use crate::shape::{Mesh, Placed, of_collider};
+use crate::shape::{Mesh, Placed, of_collider, of_mesh};
 use crate::value::Value;
 use crate::walls::{Face, enclosed};
 
@@ -162,16 +162,17 @@ impl<'a> Building<'a> {
         parts: &Parts<'_>,
     ) -> Result<(), ImportError> {
         let component = format!("script \"{}\"", script.kind.name);
-        let of_mesh = parts.mesh.map(|it| Mesh::of(it.fields.get("m_Mesh")));
+        let of_file = |it: &Document| of_mesh(it.fields.get("m_Mesh"), &node.pose, self.project);
         // In the course, the tag determines the form.
         let of_tag = match node.tag.as_str() {
             "SphereCollider" => Some(Mesh::Sphere),
             "PlaneCollider" => Some(Mesh::Plane),
             _ => None,
         };
-        let placed = match (of_tag, of_mesh, parts.colliders.first()) {
-            (Some(mesh), ..) | (None, Some(Ok(mesh)), _) => Ok(mesh.placed(&node.pose)),
-            (None, _, Some(collider)) => of_collider(collider, &node.pose)?,
+        let placed = match (of_tag, parts.mesh.map(of_file), parts.colliders.first()) {
+            (Some(mesh), ..) => Ok(mesh.placed(&node.pose)),
+            (None, Some(Ok(placed)), _) => Ok(placed),
+            (None, _, Some(collider)) => of_collider(collider, &node.pose, self.project)?,
             (None, Some(Err(reason)), None) => Err(reason),
             (None, None, None) => Err("it has no mesh that tells its form".to_owned()),
         };

@@ -20,6 +20,7 @@ mod graph;
 mod look;
 mod mapping;
 mod material;
+mod model;
 mod modification;
 mod parts;
 mod physics;

@@ -45,7 +45,7 @@ impl Physics {
         }
         let mut body = parts.rigid_body.filter(|_| parts.is_moving_sphere());
         for collider in &parts.colliders {
-            let placed = match of_collider(collider, &node.pose)? {
+            let placed = match of_collider(collider, &node.pose, building.project)? {
                 Ok(placed) => placed,
                 Err(reason) => {
                     omit(&mut building.report, &node.path, &collider.class_name, reason);

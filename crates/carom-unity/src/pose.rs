@@ -53,6 +53,12 @@ impl Pose {
         beside.iter().any(|part| part.abs() > ROUNDOFF * self.scale().max_element())
     }
 
+    /// Whether the scales mirror the object.
+    pub fn is_mirrored(&self) -> bool {
+        let [x, y, z] = self.axes;
+        x.cross(y).dot(z) < 0.0
+    }
+
     fn local_axes(&self) -> [DVec3; 3] {
         self.axes.map(|axis| self.rotation.inverse() * axis)
     }

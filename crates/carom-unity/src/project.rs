@@ -57,6 +57,16 @@ impl Project {
         self.by_guid.get(guid).map(PathBuf::as_path)
     }
 
+    /// Reads a field of the import settings of a file.
+    pub(crate) fn import_setting(file: &Path, field: &str) -> Option<String> {
+        let mut meta = file.as_os_str().to_owned();
+        meta.push(".meta");
+        let text = read_text(Path::new(&meta)).ok()?;
+        let value =
+            |line: &str| line.trim().strip_prefix(field)?.strip_prefix(':').map(str::to_owned);
+        text.lines().find_map(value).map(|it| it.trim().to_owned())
+    }
+
     /// Path of a file in reports, relative to the folder that contains `Assets`.
     pub(crate) fn shown(&self, file: &Path) -> String {
         let root = self.assets.parent().unwrap_or(&self.assets);

@@ -7,7 +7,9 @@ use carom_scene::scene::Shape;
 use crate::class;
 use crate::document::Document;
 use crate::error::ImportError;
+use crate::model;
 use crate::pose::Pose;
+use crate::project::Project;
 use crate::value::Value;
 
 /// A shape with its pose in Unity's coordinates.
@@ -34,17 +36,12 @@ pub(crate) enum Mesh {
 }
 
 impl Mesh {
-    /// Finds the built-in mesh of a reference.
+    /// Finds the built-in mesh of a number.
     ///
     /// # Errors
     /// The reason for the report, if it is no such mesh.
-    pub fn of(reference: Option<&Value>) -> Result<Self, String> {
-        const BUILT_IN: &str = "0000000000000000e000000000000000";
-        let reference = reference.and_then(Value::reference).ok_or("it has no mesh")?;
-        if reference.guid.as_deref() != Some(BUILT_IN) {
-            return Err("its mesh is none of sphere, cube, plane and quad".to_owned());
-        }
-        match reference.id {
+    fn built_in(id: i64) -> Result<Self, String> {
+        match id {
             10202 => Ok(Self::Cube),
             10207 => Ok(Self::Sphere),
             10209 => Ok(Self::Plane),
@@ -88,6 +85,24 @@ impl Mesh {
     }
 }
 
+/// Shape of the mesh of a reference: one that comes with Unity, or a model of the project.
+///
+/// # Errors
+/// The reason for the report.
+pub(crate) fn of_mesh(
+    reference: Option<&Value>,
+    pose: &Pose,
+    project: &Project,
+) -> Result<Placed, String> {
+    const BUILT_IN: &str = "0000000000000000e000000000000000";
+    let reference = reference.and_then(Value::reference).ok_or("it has no mesh")?;
+    match reference.guid.as_deref() {
+        Some(BUILT_IN) => Mesh::built_in(reference.id).map(|mesh| mesh.placed(pose)),
+        Some(guid) => model::placed(guid, pose, project),
+        None => Err("its mesh is in the scene itself, which is not read".to_owned()),
+    }
+}
+
 /// Shape of a collider of Unity's own physics; the inner error is the reason for the report.
 ///
 /// # Errors
@@ -95,6 +110,7 @@ impl Mesh {
 pub(crate) fn of_collider(
     collider: &Document,
     pose: &Pose,
+    project: &Project,
 ) -> Result<Result<Placed, String>, ImportError> {
     let fields = &collider.fields;
     let scale = pose.scale();
@@ -114,7 +130,7 @@ pub(crate) fn of_collider(
             Ok(Placed { shape: Shape::Box { size }, position, rotation, inexact })
         }
         class::CAPSULE_COLLIDER => Ok(capsule(fields, pose)?),
-        _ => Mesh::of(fields.get("m_Mesh")).map(|mesh| mesh.placed(pose)),
+        _ => of_mesh(fields.get("m_Mesh"), pose, project),
     })
 }
 

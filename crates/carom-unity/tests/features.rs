@@ -162,6 +162,66 @@ fn what_unity_s_physics_has_without_a_counterpart_is_listed() {
     );
 }
 
+/// The project with a model for the collider "Pill", which has this scale.
+fn with_model(name: &str, text: &str, scale: &str) -> Copy {
+    const SCENE: &str = "Assets/Scenes/Bodies.unity";
+    let copy = Copy::new();
+    fs::create_dir(copy.path("Assets/Models")).unwrap();
+    fs::write(copy.path(&format!("Assets/Models/{name}")), text).unwrap();
+    let meta = "fileFormatVersion: 2\nguid: 90de1000000000000000000000000001\nModelImporter:\n  meshes:\n    \
+                globalScale: 2\n";
+    fs::write(copy.path(&format!("Assets/Models/{name}.meta")), meta).unwrap();
+    let pill = "m_Mesh: {fileID: 10208, guid: 0000000000000000e000000000000000, type: 0}";
+    copy.change(
+        SCENE,
+        pill,
+        "m_Mesh: {fileID: 43, guid: 90de1000000000000000000000000001, type: 3}",
+    );
+    let place = "m_GameObject: {fileID: 50}\n  m_LocalRotation: {x: 0, y: 0, z: 0, w: 1}\n  m_LocalPosition: \
+                 {x: 0, y: 0, z: 0}\n  m_LocalScale: ";
+    copy.change(SCENE, &format!("{place}{{x: 1, y: 1, z: 1}}"), &format!("{place}{scale}"));
+    copy
+}
+
+#[test]
+fn a_model_of_the_project_is_a_mesh_with_its_scales() {
+    const RAMP: &str = "v 0 0 0\nv 1 0 0\nv 0 2 3\nf 1 2 3\n";
+    // Unity has (-x, y, z) of the file, times 2; here z is mirrored, too.
+    for (scale, factor, order) in [
+        ("{x: 1, y: 3, z: 0.5}", [1.0, 3.0, 0.5], [0, 1, 2]),
+        ("{x: -1, y: 3, z: 0.5}", [-1.0, 3.0, 0.5], [0, 2, 1]),
+    ] {
+        let imported = with_model("Ramp.obj", RAMP, scale).import("Bodies").unwrap();
+        let Shape::Mesh(mesh) = &collider(&imported.scene, "Pill").shape else { panic!() };
+        assert_eq!(mesh.triangles, [order]);
+        assert!(mesh.one_sided);
+        let expected = [[0.0; 3], [-2.0, 0.0, 0.0], [0.0, 4.0, -6.0]];
+        for (vertex, expected) in mesh.vertices.iter().zip(expected) {
+            let [x, y, z] = factor;
+            assert_near(*vertex, [x * expected[0], y * expected[1], z * expected[2]]);
+        }
+        assert!(!reasons(&imported).iter().any(|it| it.starts_with("Pill")));
+    }
+}
+
+#[test]
+fn a_model_that_is_not_read_is_listed() {
+    let reason = |name, text| {
+        let imported = with_model(name, text, "{x: 1, y: 1, z: 1}").import("Bodies").unwrap();
+        reasons(&imported).into_iter().find(|it| it.starts_with("Pill")).unwrap()
+    };
+    let shown = "Pill: MeshCollider: its mesh";
+    assert_eq!(
+        reason("Ramp.fbx", "Kaydara"),
+        format!("{shown} is in \"Assets/Models/Ramp.fbx\"; of models, only .obj files are read")
+    );
+    let two = "o a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no b\nv 0 0 1\nf 1 2 4\n";
+    assert_eq!(
+        reason("Two.obj", two),
+        format!("{shown} \"Assets/Models/Two.obj\" is not read: it holds several objects")
+    );
+}
+
 #[test]
 fn a_script_of_one_s_own_is_read_by_a_mapping_file() {
     let unknown = imported("Own");

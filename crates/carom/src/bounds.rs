@@ -15,6 +15,16 @@ impl Bounds {
         Self { min: center - half, max: center + half }
     }
 
+    /// The middle \[m\].
+    pub fn center(&self) -> DVec3 {
+        0.5 * (self.min + self.max)
+    }
+
+    /// Half of the lengths along the axes \[m\].
+    pub fn half(&self) -> DVec3 {
+        0.5 * (self.max - self.min)
+    }
+
     /// The bounds, wider by `margin` \[m\] on all sides.
     pub fn widened(&self, margin: f64) -> Self {
         Self { min: self.min - margin, max: self.max + margin }

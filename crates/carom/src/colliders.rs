@@ -22,9 +22,10 @@ pub(crate) struct Colliders {
     seams: OnceLock<Arc<Seams>>,
     /// Seams before the last changes from outside, and the numbers of the colliders that these changed.
     earlier: Option<(Arc<Seams>, BTreeSet<u64>)>,
-    /// Surfaces of the colliders that move; found when first read after a change from outside, as
-    /// seams.
+    /// Surfaces that move and deflect, and those that move and report; found when first read after a change from
+    /// outside, as seams.
     moving: OnceLock<Arc<MovingSurfaces>>,
+    moving_triggers: OnceLock<Arc<MovingSurfaces>>,
     /// Made when first read after a change, as the trees.
     surfaces: OnceLock<Vec<Surface>>,
     tree: OnceLock<SurfaceTree>,
@@ -69,9 +70,18 @@ impl Colliders {
         })
     }
 
-    /// The surfaces that move, by their index in [`Self::surfaces`].
+    /// The surfaces that move and deflect, by their index in [`Self::surfaces`].
     pub fn moving(&self) -> &MovingSurfaces {
-        self.moving.get_or_init(|| Arc::new(MovingSurfaces::of(&self.list, self.surfaces())))
+        self.moving.get_or_init(|| self.moving_of(Role::Deflects))
+    }
+
+    /// The surfaces that move and report, by their index in [`Self::surfaces`].
+    pub fn moving_triggers(&self) -> &MovingSurfaces {
+        self.moving_triggers.get_or_init(|| self.moving_of(Role::Reports))
+    }
+
+    fn moving_of(&self, role: Role) -> Arc<MovingSurfaces> {
+        Arc::new(MovingSurfaces::of(&self.list, self.surfaces(), role))
     }
 
     /// Has each surface that moves count as near every place, until colliders change from outside.
@@ -151,6 +161,7 @@ impl Colliders {
             numbers.extend(changed);
         }
         self.moving.take();
+        self.moving_triggers.take();
         self.forget_surfaces();
     }
 
@@ -158,6 +169,7 @@ impl Colliders {
         self.seams.take();
         self.earlier = None;
         self.moving.take();
+        self.moving_triggers.take();
         self.forget_surfaces();
     }
 

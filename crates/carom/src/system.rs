@@ -37,6 +37,8 @@ pub(crate) struct System<'a> {
     pub tree: &'a SurfaceTree,
     /// The surfaces that move and deflect.
     pub moving: &'a MovingSurfaces,
+    /// The surfaces that move and report.
+    pub moving_triggers: &'a MovingSurfaces,
     /// Time \[s\] for which the surfaces have moved on since the step began; `None` at its start.
     pub moved_for: Option<f64>,
     /// Tree of the surfaces that report contact and deflect nothing.
@@ -66,6 +68,7 @@ impl<'a> System<'a> {
             surfaces,
             tree,
             moving: colliders.moving(),
+            moving_triggers: colliders.moving_triggers(),
             moved_for: None,
             trigger_tree,
             spheres,
@@ -83,13 +86,22 @@ impl<'a> System<'a> {
         self.surfaces.iter().any(|it| it.motion.belt != DVec3::ZERO)
     }
 
-    /// The surfaces that move, where they are `h` \[s\] after the step began.
+    /// The surfaces that move and deflect, where they are `h` \[s\] after the step began.
     pub fn moving_after(
         &self,
         h: f64,
         last: &LastCarriage,
     ) -> impl Iterator<Item = PlacedTree<'a>> {
         self.moving.placed((self.colliders.list(), self.surfaces), h, last)
+    }
+
+    /// The surfaces that move and report, where they are `h` \[s\] after the step began.
+    pub fn moving_triggers_after(
+        &self,
+        h: f64,
+        last: &LastCarriage,
+    ) -> impl Iterator<Item = PlacedTree<'a>> {
+        self.moving_triggers.placed((self.colliders.list(), self.surfaces), h, last)
     }
 
     /// Whether two spheres collide, by their groups.

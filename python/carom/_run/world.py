@@ -180,8 +180,8 @@ class World(Strict, Queries, Bodies):
                 state, float64 or float32. With those of ``numpy.lib.format.open_memmap`` a run may
                 be larger than memory. Spheres must neither come nor go.
             impacts: Whether impacts are recorded: 128 bytes for each one, in memory in any case,
-                whatever ``out`` and ``every`` are. `carom.analysis` takes rates and pressures from
-                them.
+                whatever ``out`` and ``every`` are; `carom.impact_chunks` yields them in chunks.
+                `carom.analysis` takes rates and pressures from them.
             sensor_events: Whether entries into triggers and exits are recorded: 88 bytes for each.
 
         Raises:

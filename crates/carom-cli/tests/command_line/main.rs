@@ -154,7 +154,7 @@ fn bad_usage_ends_with_code_2_and_says_what_was_meant() {
         &["run", "simtest1", "--frame-time", "-1"],
         &["run", "simtest1", "--out", "same.csv", "--impacts", "same.csv"],
         &["run", "simtest1", "--out", "same.csv", "--impacts", "./same.csv"],
-        &["run", "simtest1", "--impacts", "impacts.npz"],
+        &["run", "simtest1", "--wells", "wells.npz"],
         &["run", "simtest1", "--impacts", "impacts.parquet"],
         &["run", "simtest1", "--seconds", "1", "--frames", "2"],
         &["run", "simtest1", "--every", "0"],

@@ -35,6 +35,32 @@ fn every_thins_the_trajectory() {
     assert_eq!(rows(&file).1.len(), 3 * 10);
 }
 
+/// An NPZ file.
+struct Archive(zip::ZipArchive<std::fs::File>);
+
+impl Archive {
+    fn open(path: &str) -> Self {
+        Self(zip::ZipArchive::new(std::fs::File::open(path).unwrap()).unwrap())
+    }
+
+    fn bytes(&mut self, name: &str) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        self.0.by_name(&format!("{name}.npy")).unwrap().read_to_end(&mut bytes).unwrap();
+        bytes
+    }
+
+    /// Shape and values of an array.
+    fn numbers(&mut self, name: &str) -> (Vec<u64>, Vec<f64>) {
+        let bytes = self.bytes(name);
+        let array = npyz::NpyFile::new(&bytes[..]).unwrap();
+        (array.shape().to_vec(), array.into_vec().unwrap())
+    }
+
+    fn integers(&mut self, name: &str) -> Vec<i64> {
+        npyz::NpyFile::new(&self.bytes(name)[..]).unwrap().into_vec().unwrap()
+    }
+}
+
 #[test]
 fn the_trajectory_as_npz_holds_the_same_numbers_as_the_csv() {
     let folder = tempfile::tempdir().unwrap();
@@ -43,26 +69,15 @@ fn the_trajectory_as_npz_holds_the_same_numbers_as_the_csv() {
         good(&["run", "simtest3", "--seconds", "2", "--out", file]);
     }
     let (_, rows) = rows(&table);
-    let mut zip = zip::ZipArchive::new(std::fs::File::open(&archive).unwrap()).unwrap();
-    let mut array = |name: &str| {
-        let mut bytes = Vec::new();
-        zip.by_name(&format!("{name}.npy")).unwrap().read_to_end(&mut bytes).unwrap();
-        bytes
-    };
-    let floats = |bytes: Vec<u8>| {
-        let array = npyz::NpyFile::new(&bytes[..]).unwrap();
-        (array.shape().to_vec(), array.into_vec::<f64>().unwrap())
-    };
-    let integers =
-        |bytes: Vec<u8>| npyz::NpyFile::new(&bytes[..]).unwrap().into_vec::<i64>().unwrap();
+    let mut archive = Archive::open(&archive);
     let count = rows.len() as u64;
-    let (shape, times) = floats(array("t"));
+    let (shape, times) = archive.numbers("t");
     assert_eq!(shape, [count]);
-    let (shape, positions) = floats(array("position"));
+    let (shape, positions) = archive.numbers("position");
     assert_eq!(shape, [count, 3]);
-    let (_, velocities) = floats(array("velocity"));
-    let balls = integers(array("ball"));
-    let starts = integers(array("frame_start"));
+    let (_, velocities) = archive.numbers("velocity");
+    let balls = archive.integers("ball");
+    let starts = archive.integers("frame_start");
     assert_eq!((starts.len(), starts[0], starts[100]), (101, 0, count as i64));
     for (i, row) in rows.iter().enumerate() {
         assert_eq!(row[0].parse::<f64>().unwrap(), times[i]);
@@ -98,6 +113,35 @@ fn a_shorter_series_leaves_no_frame_of_a_longer_one() {
     for (count, expected) in [("10", 10), ("4", 4)] {
         good(&["run", "tutorial2", "--frames", count, "--out", &file, "--force"]);
         assert_eq!(frames(), expected);
+    }
+}
+
+#[test]
+fn impacts_as_npz_are_those_of_the_csv() {
+    let folder = tempfile::tempdir().unwrap();
+    let (table, archive) = (path(&folder, "i.csv"), path(&folder, "i.npz"));
+    for file in [&table, &archive] {
+        good(&["run", "tutorial4", "--seconds", "2", "--impacts", file]);
+    }
+    let (_, rows) = rows(&table);
+    let mut archive = Archive::open(&archive);
+    let [colliders, firsts, seconds] =
+        ["collider", "sphere_1", "sphere_2"].map(|name| archive.integers(name));
+    let single = ["time", "approach_speed", "impulse"].map(|name| archive.numbers(name));
+    let triple = ["point", "normal", "tangential_impulse"].map(|name| archive.numbers(name));
+    let (count, parse) = (rows.len() as u64, |field: &String| field.parse::<f64>().unwrap());
+    assert!(count > 100 && single.iter().all(|(shape, _)| *shape == [count]));
+    assert!(triple.iter().all(|(shape, _)| *shape == [count, 3]));
+    for (i, row) in rows.iter().enumerate() {
+        let first = row[2].parse::<i64>().unwrap();
+        let bodies = if row[1] == "sphere" { [-1, first] } else { [first, -1] };
+        assert_eq!([colliders[i], firsts[i]], bodies);
+        assert_eq!(seconds[i], row[3].parse::<i64>().unwrap());
+        let columns = [&row[4..7], &row[7..10], &row[12..15]];
+        assert_eq!([&row[0], &row[10], &row[11]].map(parse), [0, 1, 2].map(|k| single[k].1[i]));
+        for ((_, values), column) in triple.iter().zip(columns) {
+            assert_eq!(values[3 * i..3 * i + 3], column.iter().map(parse).collect::<Vec<_>>());
+        }
     }
 }
 

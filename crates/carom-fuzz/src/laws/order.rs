@@ -9,9 +9,12 @@ use super::trace::Trace;
 pub const LAW: Law = Law { name: "in another order", pair };
 
 fn pair(scene: &Scene, _: &Trace) -> Option<Pair> {
-    // Other rules, and this impact law, answer the contacts of a sphere one after the other.
+    // Other rules, and this impact law, answer the contacts of a sphere one after the other; so do all laws where
+    // spheres grow or the box is sheared.
     let is_exact = scene.simulation.rule == Rule::Exact;
-    let in_turn = scene.simulation.exact.impact_law == ImpactLaw::Sequential;
+    let in_turn = scene.simulation.exact.impact_law == ImpactLaw::Sequential
+        || scene.settings().shear_rate != 0.0
+        || scene.spheres.iter().any(|it| it.growth_speed != 0.0);
     // Random numbers belong to ids.
     let is_random = scene.simulation.thermostat.is_some();
     if !is_exact || in_turn || is_random || !scene.generators.is_empty() {

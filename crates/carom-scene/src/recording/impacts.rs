@@ -1,12 +1,13 @@
-//! Records impacts as CSV: one row per impact.
+//! Records impacts as CSV or NPZ: one row per impact.
 
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use carom::{BodyPair, Impact};
 
-use super::error::RecordingError;
+use super::error::{RecordingError, unwritable};
 use super::headed_table::HeadedTable;
+use super::impact_arrays::ImpactArrays;
 use super::table_file::digits;
 
 /// Columns: time \[s\]; kind (`sphere` or `collider`) and number of body 1, and number of body 2, a
@@ -30,17 +31,28 @@ pub(super) const HEADER: [&str; 15] = [
     "tangential_z",
 ];
 
-/// Writes impacts to a CSV file.
+/// Writes impacts to a CSV or an NPZ file.
 #[derive(Debug)]
-pub struct ImpactTable(HeadedTable);
+pub struct ImpactTable(Table);
+
+#[derive(Debug)]
+enum Table {
+    Csv(HeadedTable),
+    Arrays(PathBuf, ImpactArrays),
+}
 
 impl ImpactTable {
-    /// Creates the file.
+    /// Creates the file: NPZ for the ending `.npz`, CSV for any other one.
     ///
     /// # Errors
     /// [`RecordingError`] if the file cannot be written.
     pub fn create(path: &Path) -> Result<Self, RecordingError> {
-        HeadedTable::create(path, &HEADER).map(Self)
+        let is_archive = path.extension().is_some_and(|it| it.eq_ignore_ascii_case("npz"));
+        if !is_archive {
+            return HeadedTable::create(path, &HEADER).map(|table| Self(Table::Csv(table)));
+        }
+        let arrays = ImpactArrays::create(path).map_err(|source| unwritable(path, source))?;
+        Ok(Self(Table::Arrays(path.to_owned(), arrays)))
     }
 
     /// Writes CSV to `out`; errors call it `name`.
@@ -48,7 +60,7 @@ impl ImpactTable {
     /// # Errors
     /// [`RecordingError`] if `out` cannot be written to.
     pub fn csv(out: impl io::Write + Send + 'static, name: &str) -> Result<Self, RecordingError> {
-        HeadedTable::new(out, name, &HEADER).map(Self)
+        HeadedTable::new(out, name, &HEADER).map(|table| Self(Table::Csv(table)))
     }
 
     /// Writes the impacts of a step that started at `start` \[s\].
@@ -56,16 +68,30 @@ impl ImpactTable {
     /// # Errors
     /// [`RecordingError`] if the disk is full or gone.
     pub fn write(&mut self, start: f64, impacts: &[Impact]) -> Result<(), RecordingError> {
-        impacts.iter().try_for_each(|impact| self.0.write(fields(start, impact)))?;
-        if impacts.is_empty() { Ok(()) } else { self.0.flush() }
+        match &mut self.0 {
+            Table::Csv(_) if impacts.is_empty() => Ok(()),
+            Table::Csv(table) => {
+                impacts.iter().try_for_each(|impact| table.write(fields(start, impact)))?;
+                table.flush()
+            }
+            Table::Arrays(path, arrays) => {
+                arrays.write(start, impacts).map_err(|source| unwritable(path, source))
+            }
+        }
     }
 
-    /// Completes the file.
+    /// Completes the file. Before that, an NPZ archive does not exist yet, but [`recover`](super::recover) creates it
+    /// after a crash.
     ///
     /// # Errors
     /// [`RecordingError`] if the disk is full or gone.
-    pub fn finish(mut self) -> Result<(), RecordingError> {
-        self.0.flush()
+    pub fn finish(self) -> Result<(), RecordingError> {
+        match self.0 {
+            Table::Csv(mut table) => table.flush(),
+            Table::Arrays(path, arrays) => {
+                arrays.finish().map_err(|source| unwritable(&path, source))
+            }
+        }
     }
 }
 

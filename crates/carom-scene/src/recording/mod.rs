@@ -1,14 +1,16 @@
 //! Recordings on disk: trajectories as CSV, NPZ, VTK, extended XYZ, dumps of LAMMPS or GSD, impacts
-//! as CSV. Trajectories in CSV can be played back; a scene can begin with a frame of a particle
+//! as CSV or NPZ. Trajectories in CSV can be played back; a scene can begin with a frame of a particle
 //! file. If spheres rotate at the first frame, or friction can make them rotate,
 //! trajectories also contain orientations and angular velocities.
 
+mod archive;
 mod csv_table;
 mod each_second;
 mod error;
 mod failing_once;
 mod format;
 mod headed_table;
+mod impact_arrays;
 mod impacts;
 mod ledger;
 mod npz;

@@ -8,15 +8,12 @@
 
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::{self, BufWriter, Seek, Write};
+use std::io::{self, Seek, Write};
 use std::path::Path;
 
 use carom::World;
-use npyz::WriterBuilder;
-use zip::result::ZipError;
-use zip::write::SimpleFileOptions;
 
-use super::failing_once::FailingOnce;
+use super::archive::{self, Zip, append_all, begin};
 use super::format::Format;
 use super::npz_journal::{Column, Extent, Head, Journal, JournalWriter};
 use super::records;
@@ -63,39 +60,31 @@ pub(super) fn close(source: &mut File, target: File) -> io::Result<Option<Recove
 }
 
 fn archive(journal: &mut Journal, file: impl Write + Seek) -> io::Result<()> {
-    write_archive(journal, file).map_err(|error| {
-        let of_zip = error.get_ref().and_then(|it| it.downcast_ref::<ZipError>());
-        match of_zip {
-            // The disk failed, not the format of the archive.
-            Some(ZipError::Io(inner)) => io::Error::new(inner.kind(), inner.to_string()),
-            _ => error,
-        }
-    })
+    archive::archive(file, |zip| add_arrays(journal, zip))
 }
 
-fn write_archive(journal: &mut Journal, file: impl Write + Seek) -> io::Result<()> {
-    let mut zip = zip::ZipWriter::new(FailingOnce::new(BufWriter::new(file)));
+fn add_arrays<W: Write + Seek>(journal: &mut Journal, zip: &mut Zip<W>) -> io::Result<()> {
     let rows = journal.extent.rows;
     let real = f64::from_le_bytes;
-    per_frame(&mut zip, journal, "t", rows, |head| (head.time, head.count))?;
-    column(&mut zip, journal, "position", Column::Position, real)?;
-    column(&mut zip, journal, "velocity", Column::Velocity, real)?;
+    per_frame(zip, journal, "t", rows, |head| (head.time, head.count))?;
+    column(zip, journal, "position", Column::Position, real)?;
+    column(zip, journal, "velocity", Column::Velocity, real)?;
     if journal.extent.has_rotation {
-        column(&mut zip, journal, "orientation", Column::Orientation, real)?;
-        column(&mut zip, journal, "angular_velocity", Column::AngularVelocity, real)?;
+        column(zip, journal, "orientation", Column::Orientation, real)?;
+        column(zip, journal, "angular_velocity", Column::AngularVelocity, real)?;
     }
-    column(&mut zip, journal, "ball", Column::Ball, i64::from_le_bytes)?;
-    frame_starts(&mut zip, journal)?;
+    column(zip, journal, "ball", Column::Ball, i64::from_le_bytes)?;
+    frame_starts(zip, journal)?;
     let frames = journal.extent.whole.records;
-    per_frame(&mut zip, journal, "time", frames, |head| (head.time, 1))?;
+    per_frame(zip, journal, "time", frames, |head| (head.time, 1))?;
     let known = bodies(journal)?;
-    append_all(&mut zip, "id", known.keys().map(|&id| id as i64))?;
-    append_all(&mut zip, "radius", known.values().map(|[radius, _]| *radius))?;
-    append_all(&mut zip, "mass", known.values().map(|[_, mass]| *mass))?;
+    append_all(zip, "id", known.keys().map(|&id| id as i64))?;
+    append_all(zip, "radius", known.values().map(|[radius, _]| *radius))?;
+    append_all(zip, "mass", known.values().map(|[_, mass]| *mass))?;
     if let Some(sides) = sides(journal)? {
-        append_all(&mut zip, "box", sides.into_iter())?;
+        append_all(zip, "box", sides.into_iter())?;
     }
-    zip.finish()?.flush()
+    Ok(())
 }
 
 /// Last radius \[m\] and mass \[kg\] of each sphere, by number.
@@ -134,30 +123,6 @@ fn sides(journal: &mut Journal) -> io::Result<Option<[f64; 3]>> {
         })
     })?;
     Ok(words.last_chunk().copied())
-}
-
-type Zip<W> = zip::ZipWriter<FailingOnce<BufWriter<W>>>;
-
-/// Starts an array in the archive and returns a writer for its values.
-fn begin<'a, T: npyz::AutoSerialize, W: Write + Seek>(
-    zip: &'a mut Zip<W>,
-    name: &str,
-    shape: &[u64],
-) -> io::Result<npyz::NpyWriter<T, &'a mut Zip<W>>> {
-    let options = SimpleFileOptions::default().large_file(true);
-    zip.start_file(npyz::npz::file_name_from_array_name(name), options)?;
-    npyz::WriteOptions::new().default_dtype().shape(shape).writer(zip).begin_nd()
-}
-
-/// Writes an array with these values.
-fn append_all<T: npyz::AutoSerialize, W: Write + Seek>(
-    zip: &mut Zip<W>,
-    name: &str,
-    values: impl ExactSizeIterator<Item = T>,
-) -> io::Result<()> {
-    let mut array = begin(zip, name, &[values.len() as u64])?;
-    array.extend(values)?;
-    array.finish()
 }
 
 /// Writes an array with one value per frame, repeated. `value` returns the value and how often it

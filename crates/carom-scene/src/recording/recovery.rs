@@ -5,17 +5,20 @@ use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 use std::path::Path;
 
 use super::recovered::{Recovered, RecoveryError, recover_by};
-use super::{csv_table, impacts, ledger, npz};
+use super::{csv_table, impact_arrays, impacts, ledger, npz};
 use crate::unfinished::lock;
 
-/// Creates the NPZ file `target` from the file `unfinished` of a killed run, and removes
+/// Creates the NPZ file `target`, a trajectory or impacts, from the file `unfinished` of a killed run, and removes
 /// `unfinished`.
 ///
 /// # Errors
 /// [`RecoveryError`]. Both files are then unchanged, except if only the removal of `unfinished`
 /// failed.
 pub fn recover(unfinished: &Path, target: &Path) -> Result<Recovered, RecoveryError> {
-    recover_by(unfinished, target, npz::close)
+    recover_by(unfinished, target, |source, target| {
+        let trajectory = npz::close(source, target.try_clone()?)?;
+        trajectory.map_or_else(|| impact_arrays::close(source, target), |it| Ok(Some(it)))
+    })
 }
 
 /// Removes the last line of a table if it is incomplete, as a killed run may leave it. Returns the

@@ -17,7 +17,7 @@ use crate::surface::{LastCarriage, Role, Surface, SurfaceMotion};
 /// Distances are compared with this part of the coordinates to spare: far more than their rounding.
 const SLACK: f64 = 1e-9;
 
-/// Trees over the surfaces of colliders that move and deflect spheres. A tree stays valid while its collider moves,
+/// Trees over the surfaces of one role of colliders that move. A tree stays valid while its collider moves,
 /// since its surfaces move as one: a place is looked up in the coordinates of the collider when the tree was made.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct MovingSurfaces {
@@ -51,9 +51,9 @@ pub(crate) struct PlacedTree<'a> {
 }
 
 impl MovingSurfaces {
-    /// Makes a tree for each collider that moves, over its surfaces that deflect spheres.
-    pub fn of(colliders: &Numbered<Collider>, surfaces: &[Surface]) -> Self {
-        let moves = |it: &Surface| it.role == Role::Deflects && !it.motion.is_at_rest();
+    /// Makes a tree for each collider that moves, over its surfaces of a role.
+    pub fn of(colliders: &Numbered<Collider>, surfaces: &[Surface], role: Role) -> Self {
+        let moves = |it: &Surface| it.role == role && !it.motion.is_at_rest();
         let mut numbers: BTreeMap<ColliderId, Vec<u32>> = BTreeMap::new();
         for (number, surface) in (0..).zip(surfaces).filter(|(_, it)| moves(it)) {
             numbers.entry(surface.collider).or_default().push(number);

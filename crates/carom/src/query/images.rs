@@ -55,7 +55,7 @@ fn surfaces(now: &Instant, region: Option<&Bounds>) -> Vec<u32> {
 
 /// A body with its middle wrapped into the box.
 fn in_box(item: Item, bounds: Bounds, period: DVec3) -> Leaf {
-    let middle = 0.5 * (bounds.min + bounds.max);
+    let middle = bounds.center();
     let shift = wrapped(middle, period) - middle;
     let bounds = Bounds { min: bounds.min + shift, max: bounds.max + shift };
     Leaf { bounds, item, shift, has_images: true }

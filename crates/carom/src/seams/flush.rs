@@ -164,7 +164,7 @@ fn is_apart(surfaces: &[Surface], half_space: &Flat, other: &Flat) -> bool {
     let (Form::HalfSpace { point, normal }, Some(bounds)) = (form, &other.bounds) else {
         return false;
     };
-    let (center, half) = (0.5 * (bounds.min + bounds.max), 0.5 * (bounds.max - bounds.min));
+    let (center, half) = (bounds.center(), bounds.half());
     let reach = half.dot(normal.abs());
     ((center - *point).dot(*normal)).abs() > reach + MARGIN * point.abs().max_element()
 }

@@ -13,8 +13,9 @@ pub(crate) use tracks::Tracks;
 
 use crate::detect::surface_tree;
 use crate::id::{ColliderId, SphereId};
+use crate::norm::Norm;
 use crate::report::SensorEvent;
-use crate::surface::Role;
+use crate::surface::{LastCarriage, Role};
 use crate::system::System;
 use crossing::{Crossing, Target};
 
@@ -46,7 +47,7 @@ impl Sensors {
     pub fn watch(&mut self, segment: &FlightSegment, system: &System, step_start: f64) {
         let period = system.settings.boundary.period();
         for segment in segment.pieces(period) {
-            self.find_targets(&segment, system, period);
+            self.find_targets(&segment, system, step_start);
             let targets = std::mem::take(&mut self.targets);
             for of_one in targets.chunk_by(|a, b| a.collider == b.collider) {
                 let crossing = Crossing { segment: &segment, targets: of_one, system, step_start };
@@ -59,22 +60,19 @@ impl Sensors {
     /// Drops spheres and triggers that are not in the world any more, and puts events in order of time.
     pub fn finish(&mut self, system: &System) {
         let ids = &system.spheres.id;
-        let is_trigger = |id: ColliderId| {
-            let of_collider = system.surfaces.partition_point(|it| it.collider < id);
-            let surface = system.surfaces.get(of_collider);
-            surface.is_some_and(|it| it.collider == id && it.role == Role::Reports)
-        };
+        let is_trigger = |id: ColliderId| triggers_of(id, system).next().is_some();
         self.presence.retain(|(sphere, id)| ids.binary_search(sphere).is_ok() && is_trigger(*id));
         self.events.sort_by(|a, b| {
             a.time.total_cmp(&b.time).then((a.sphere, a.collider).cmp(&(b.sphere, b.collider)))
         });
     }
 
-    /// Finds the triggers that a sphere may be in or meet along a segment, sorted by collider.
-    fn find_targets(&mut self, segment: &FlightSegment, system: &System, period: DVec3) {
+    /// Finds the triggers that a sphere may be in or meet along a segment, sorted by collider; surfaces are where the
+    /// system says at `step_start` \[s\].
+    fn find_targets(&mut self, segment: &FlightSegment, system: &System, step_start: f64) {
         self.targets.clear();
         let bounds = segment.bounds();
-        for shift in flight_segment::shifts(period) {
+        for shift in flight_segment::shifts(system.settings.boundary.period()) {
             let bounds = bounds.moved(-shift);
             system.trigger_tree.near(&bounds, &mut self.near);
             let repeats = |surface: &u32| {
@@ -85,21 +83,24 @@ impl Sensors {
             let of_tree = self.near.iter().copied().filter(repeats);
             self.targets.extend(of_tree.map(|surface| Target::new(surface, shift, system)));
         }
-        // Moving triggers may come from anywhere; a sphere inside one may have been moved by a program.
+        self.near.clear();
+        let (place, reach) = (bounds.center(), bounds.half().norm());
+        let times = [segment.from - step_start, segment.to - segment.from];
+        for tree in system.moving_triggers_after(times[0], &LastCarriage::default()) {
+            let beside = tree.way_beside(place, reach, times);
+            tree.add_near(place, reach + beside, &mut self.near);
+        }
+        // A program may have moved a sphere that was inside a trigger away from it.
         let first = (segment.sphere, ColliderId::from_number(0));
         let last = (segment.sphere, ColliderId::from_number(u64::MAX));
-        let inside: BTreeSet<_> = self.presence.range(first..=last).map(|it| it.1).collect();
-        for (number, surface) in (0..).zip(system.surfaces) {
-            if surface.role != Role::Reports {
-                continue;
-            }
-            let moves = !surface.motion.is_at_rest();
-            let is_left = inside.contains(&surface.collider)
-                && !self.targets.iter().any(|it| it.collider == surface.collider);
-            if moves || is_left {
-                self.targets.push(Target::new(number, DVec3::ZERO, system));
+        for (_, collider) in self.presence.range(first..=last) {
+            let near = self.near.iter().map(|&it| system.surfaces[it as usize].collider);
+            if self.targets.iter().map(|it| it.collider).chain(near).all(|it| it != *collider) {
+                self.near.extend(triggers_of(*collider, system));
             }
         }
+        let near = self.near.iter().map(|&surface| Target::new(surface, DVec3::ZERO, system));
+        self.targets.extend(near);
         let groups = system.spheres.groups(segment.index as usize);
         let is_seen = |it: &Target| system.surfaces[it.surface as usize].groups.collides(groups);
         self.targets.retain(is_seen);
@@ -138,4 +139,12 @@ impl Sensors {
         }
         self.events.push(crossing.event(key, enters, time));
     }
+}
+
+/// The numbers of the surfaces of a collider that report.
+fn triggers_of(collider: ColliderId, system: &System) -> impl Iterator<Item = u32> {
+    let first = system.surfaces.partition_point(|it| it.collider < collider);
+    let own = system.surfaces[first..].iter().take_while(move |it| it.collider == collider);
+    let numbered = (first as u32..).zip(own);
+    numbered.filter(|(_, it)| it.role == Role::Reports).map(|(number, _)| number)
 }

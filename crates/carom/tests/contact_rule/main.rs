@@ -3,6 +3,7 @@
 //!
 //! How fast it is, and how good for large heaps, is measured by `carom bench --set heaps`.
 
+mod elastic;
 mod fast_balls;
 mod sleep;
 

@@ -2,7 +2,6 @@
 
 use glam::DVec3;
 
-use super::contacts::batch;
 use super::contacts::swept::FAR;
 use super::places::{Place, Places};
 use super::slabs::{Slab, Slabs};
@@ -119,7 +118,7 @@ fn of_pairs(slots: &Slots, slab: &Slab, sub_step: &SubStep, bounces: &mut Vec<On
         let radius_sum = slab.batches.approaches[number].radius_sum[lane];
         let offset = slots.position[second].vector() - slots.position[first].vector();
         let offset = offset + slab.batches.shift(number, lane);
-        let normal = DVec3::from_array(batch::get(&slab.batches.pairs[number].normal, lane));
+        let normal = slab.batches.normal(number, lane);
         let velocity = slots.before[second].vector() - slots.before[first].vector();
         // Forces may have changed the speed of approach until then.
         let mean = 0.5 * (approach - velocity.dot(normal));

@@ -33,7 +33,8 @@ const SOFTENING: u32 = 3;
 /// Restitution in a group of contacts may add energy whatever the sweeps: there, less is given back. As a
 /// last resort less of all impulses is taken.
 ///
-/// Kicks, belts and moving surfaces do work, which counts as no gain.
+/// Kicks, belts and moving surfaces do work, which counts as no gain; nor does what forces add because a bounce turns
+/// a sphere round within the sub-step.
 pub(super) fn keep(solver: &mut Solver, sub_step: &SubStep, report: &mut StepReport) -> bool {
     let before = solver.energy_before;
     let h = sub_step.h;
@@ -43,7 +44,9 @@ pub(super) fn keep(solver: &mut Solver, sub_step: &SubStep, report: &mut StepRep
     let tolerance = if solver.has_moving_surfaces { SHAKEN } else { ROUNDING };
     let gains = |solver: &mut Solver, change: &Change| {
         let driven = driven_work(solver, h);
-        change.gain - kicks - driven > tolerance * (before + driven.abs())
+        let beyond = change.gain - kicks - driven;
+        let least = tolerance * (before + driven.abs());
+        beyond > least && beyond - gain_by_turning(solver, h) > least
     };
     while gains(solver, &change) && round < ROUNDS {
         if round >= SOFTENING {
@@ -57,7 +60,7 @@ pub(super) fn keep(solver: &mut Solver, sub_step: &SubStep, report: &mut StepRep
     report.contact_account.limited_sub_steps += u32::from(round > 0);
     let mut part = 1.0;
     if gains(solver, &change) {
-        let gain = change.gain - driven_work(solver, h);
+        let gain = change.gain - driven_work(solver, h) - gain_by_turning(solver, h);
         part = take_less(solver, gain, h);
         change = self::change(solver, h);
     }
@@ -110,6 +113,41 @@ fn most_beside_work(contact: &SurfaceContact, before: DVec3) -> f64 {
         -contact.bias
     };
     contact.impulses.normal * leaving.max(0.0)
+}
+
+/// What the forces of a sub-step of `h` \[s\] add to the kinetic energy because bounces turn spheres round within it
+/// \[J\].
+///
+/// The gain of impulses is counted as though they came after all forces. A ball that rises to a ceiling is slower then
+/// than when it bounces, and gravity makes it faster afterwards: with the speed of approach s that forces leave it, and
+/// the speed w with which its bounce has it leave at the end, that is m (w² − s²)/2.
+fn gain_by_turning(solver: &Solver, h: f64) -> f64 {
+    let Solver { slots, slabs, .. } = solver;
+    let of_surface = |slab: &Slab, it: &SurfaceContact| {
+        let slot = slab.start + it.slot as usize;
+        let approach = (it.velocity - slots.accelerated(slot, h)).dot(it.normal);
+        let mass = slots.velocity[slot].number().recip();
+        let is_there = it.is_bounce() && it.impulses.normal > 0.0;
+        if is_there { energy_beyond(mass, -it.bias - it.kicked, approach) } else { 0.0 }
+    };
+    let of_pair = |slab: &Slab, (number, lane, _): (usize, usize, f64)| {
+        let batch = &slab.batches.pairs[number];
+        let [first, second] = slab.slots_of(number, lane).map(|slot| slots.accelerated(slot, h));
+        let approach = (first - second).dot(slab.batches.normal(number, lane));
+        energy_beyond(batch.effective_mass[lane], -batch.bias[lane], approach)
+    };
+    let of_slab = |slab: &Slab| {
+        let surfaces = slab.surfaces.iter().map(|it| of_surface(slab, it));
+        let pairs = slab.batches.impacts().map(|it| of_pair(slab, it));
+        surfaces.sum::<f64>() + pairs.sum::<f64>()
+    };
+    slabs.iter().map(of_slab).sum()
+}
+
+/// The kinetic energy \[J\] of a mass \[kg\] at a speed, beyond that at another one \[m/s\]; 0 if it is less.
+fn energy_beyond(mass: f64, speed: f64, other: f64) -> f64 {
+    let speed = speed.max(0.0);
+    (0.5 * mass * (speed - other) * (speed + other)).max(0.0)
 }
 
 /// Work of the kicks of surfaces in a sub-step \[J\].

@@ -339,11 +339,15 @@ impl Batches {
         Some(self.impulse(number, lane) * (own / batch.impulse[lane]).min(1.0))
     }
 
+    /// Unit normal of a contact, from sphere 1 to sphere 2.
+    pub fn normal(&self, number: usize, lane: usize) -> DVec3 {
+        DVec3::from_array(get(&self.pairs[number].normal, lane))
+    }
+
     /// The impulse on sphere 2, normal and tangential \[N s\].
     pub fn impulse(&self, number: usize, lane: usize) -> DVec3 {
-        let batch = &self.pairs[number];
-        let normal = DVec3::from_array(get(&batch.normal, lane));
-        batch.impulse[lane] * normal + self.tangential_impulse(number, lane)
+        let normal = self.pairs[number].impulse[lane] * self.normal(number, lane);
+        normal + self.tangential_impulse(number, lane)
     }
 
     /// The impulse of friction on sphere 2 \[N s\].

@@ -275,8 +275,7 @@ impl SurfaceContact {
             let gap = distance.max(0.0);
             let speed_there = (speed * speed + 2.0 * pressing * gap).max(0.0).sqrt();
             let time = 2.0 * gap / (speed + speed_there);
-            let radius = run.position[slot].number();
-            self.note_impact((speed + pressing * time, pressing), radius, time, sub_step);
+            self.note_impact((speed + pressing * time, pressing), run, time, sub_step);
         } else if self.impulses.normal == 0.0 && distance > sub_step.h * (speed + fall) {
             // On its parabola the sphere does not get as far as with its last velocity.
             self.bias += fall.max(0.0);
@@ -307,7 +306,7 @@ impl SurfaceContact {
         let approach = -(velocity - self.velocity).dot(self.normal);
         let pressing = -flight.acceleration.dot(self.normal);
         self.bias = approach.max(0.0) * time / sub_step.h;
-        self.note_impact((approach.max(0.0), pressing), radius, time, sub_step);
+        self.note_impact((approach.max(0.0), pressing), run, time, sub_step);
         if motion.turns_form(form) && self.bias >= 0.0 && is_flat(form, separation.normal) {
             // It stays in contact with the plane, which turns on.
             let height = (flight.position - separation.point).dot(separation.normal);
@@ -338,22 +337,27 @@ impl SurfaceContact {
         self.bias = distance.max(0.0) / h - leaving;
     }
 
-    /// Notes an impact after a `time` \[s\] with this speed of approach \[m/s\] of a sphere with this radius \[m\]; it is
-    /// a bounce if the sphere, which accelerates towards the surface \[m/s²\], is still leaving it at the end.
+    /// Notes an impact after a `time` \[s\] with this speed of approach \[m/s\], before drag; it is a bounce if the
+    /// sphere, which accelerates towards the surface \[m/s²\], is still leaving it at the end.
     fn note_impact(
         &mut self,
         (approach, pressing): (f64, f64),
-        radius: f64,
+        run: &Run,
         time: f64,
         sub_step: &SubStep,
     ) {
+        let slot = self.slot as usize;
+        let (radius, drag_rate) = (run.position[slot].number(), run.acceleration[slot].number());
+        let slowed = |speed: f64, time: f64| speed / (1.0 + drag_rate * time);
+        let approach = slowed(approach, time);
         self.approach = approach;
         if let Some(law) = self.law {
             self.restitution = law.at(approach);
         }
         let pressing = pressing - self.swing.dot(self.normal);
         let kick = if approach > 0.0 { respond::kick(self.kick, pressing, radius) } else { 0.0 };
-        let rebound = self.restitution * approach + kick - pressing * (sub_step.h - time);
+        let left = sub_step.h - time;
+        let rebound = slowed(self.restitution * approach + kick - pressing * left, left);
         // A contact that already presses does not bounce: it would lose its starting impulse.
         if rebound > 0.0 && self.impulses.normal == 0.0 {
             (self.bias, self.time, self.kicked) = (-rebound, time, kick);

@@ -3,7 +3,6 @@
 use glam::DVec3;
 
 use crate::report::{BodyPair, Impact, StepReport};
-use crate::rule::contact::contacts::batch;
 use crate::rule::contact::slabs::Slab;
 use crate::rule::contact::solver::Solver;
 use crate::rule::contact::sub_step::SubStep;
@@ -29,7 +28,7 @@ fn of_pairs(solver: &Solver, slab: &Slab, time: f64, impacts: &mut Vec<Impact>) 
     for (number, lane, approach_speed) in slab.batches.impacts() {
         let pair = &slab.batches.pairs[number];
         let mut tangential_impulse = slab.batches.tangential_impulse(number, lane);
-        let mut normal = DVec3::from_array(batch::get(&pair.normal, lane));
+        let mut normal = slab.batches.normal(number, lane);
         let [mut first, mut second] = slab.slots_of(number, lane);
         if solver.landings.has(first) || solver.landings.has(second) {
             continue;
