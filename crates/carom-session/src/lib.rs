@@ -67,7 +67,9 @@ pub use edit::{Edit, SphereChange};
 pub use error::SessionError;
 pub use history::DEFAULT_MEMORY;
 pub use impacts::{ListedImpact, REMEMBERED, energy_change_alone};
-pub use link::{LOCAL_PAGE, Link, LinkCamera, LinkError, LinkSource, MAX_UNPACKED, PackedError};
+pub use link::{
+    LOCAL_PAGE, Link, LinkCamera, LinkError, LinkSource, MAX_MOVES, MAX_UNPACKED, PackedError,
+};
 pub use pace::{FASTEST, LONGEST_DELAY, Pace, SLOWEST};
 pub use readings::{PickedReading, RATE_WINDOW, Reading};
 pub use replay::Replay;

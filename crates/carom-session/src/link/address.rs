@@ -66,6 +66,9 @@ fn fragment(link: &Link) -> String {
     if let Some(goal) = link.goal {
         parts.push(("goal", number(goal)));
     }
+    if let Some(moves) = &link.moves {
+        parts.push(("moves", pack(moves)));
+    }
     let parts: Vec<String> = parts.iter().map(|(name, value)| format!("{name}={value}")).collect();
     parts.join("&")
 }

@@ -5,9 +5,11 @@ use carom_scene::{Fault, SceneError, legible};
 use thiserror::Error;
 
 use super::packed::PackedError;
+use super::run::MAX_MOVES;
 
 /// Names of the parts of a link.
-const PARTS: [&str; 9] = ["scene", "file", "name", "set", "rule", "edits", "t", "camera", "goal"];
+const PARTS: [&str; 10] =
+    ["scene", "file", "name", "set", "rule", "edits", "t", "camera", "goal", "moves"];
 
 /// Quotes the beginning of a text in one line.
 pub fn quoted(text: &str) -> String {
@@ -76,6 +78,9 @@ pub enum LinkError {
         /// The result as written, shortened.
         found: String,
     },
+    /// The moves are too long.
+    #[error("the moves of the link are longer than {} KiB, the limit", MAX_MOVES >> 10)]
+    Moves,
     /// A packed part cannot be unpacked.
     #[error("{part} of the link {source}")]
     Packed {

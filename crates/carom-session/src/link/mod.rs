@@ -15,7 +15,7 @@ mod written;
 pub use camera::LinkCamera;
 pub use error::LinkError;
 pub use packed::{MAX_UNPACKED, PackedError};
-pub use run::{Link, LinkSource};
+pub use run::{Link, LinkSource, MAX_MOVES};
 
 /// Address of the page that opens links if it is served on this machine.
 pub const LOCAL_PAGE: &str = "http://127.0.0.1:8042/";

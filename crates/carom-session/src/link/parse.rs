@@ -10,7 +10,7 @@ use super::camera::LinkCamera;
 use super::error::{LinkError, brief_problem, quoted};
 use super::packed::unpack;
 use super::rule::rule_override;
-use super::run::{Link, LinkSource, checked_goal};
+use super::run::{Link, LinkSource, checked_goal, checked_moves};
 use super::time::checked_time;
 use super::written;
 use crate::change::PastChange;
@@ -26,6 +26,7 @@ struct Once<'a> {
     t: Option<&'a str>,
     camera: Option<&'a str>,
     goal: Option<&'a str>,
+    moves: Option<&'a str>,
 }
 
 impl Link {
@@ -69,6 +70,7 @@ fn link(text: &str) -> Result<Link, LinkError> {
             "t" => ("t", &mut once.t),
             "camera" => ("camera", &mut once.camera),
             "goal" => ("goal", &mut once.goal),
+            "moves" => ("moves", &mut once.moves),
             "set" => {
                 overrides.push(decoded("set", value)?.parse::<Override>()?);
                 continue;
@@ -89,6 +91,7 @@ fn link(text: &str) -> Result<Link, LinkError> {
         time: once.t.map(time).transpose()?,
         camera: once.camera.map(camera).transpose()?,
         goal: once.goal.map(goal).transpose()?,
+        moves: once.moves.map(moves).transpose()?,
     })
 }
 
@@ -130,6 +133,10 @@ fn camera(text: &str) -> Result<LinkCamera, LinkError> {
 fn goal(text: &str) -> Result<f64, LinkError> {
     let goal = text.parse().map_err(|_| LinkError::Goal { found: quoted(text) })?;
     checked_goal(goal)
+}
+
+fn moves(packed: &str) -> Result<Arc<str>, LinkError> {
+    checked_moves(&unpacked("moves", packed)?)
 }
 
 fn unpacked(part: &'static str, packed: &str) -> Result<String, LinkError> {

@@ -25,7 +25,8 @@ use crate::change::PastChange;
 /// | `edits` | changes during the run, as TOML, packed |
 /// | `t` | time reached \[s\] |
 /// | `camera` | `x,y,z` of the camera and of the point that it looks at \[m\], and the vertical field of view \[°\] if it is not 35 |
-/// | `goal` | result to beat in a game: points, or a time \[s\] |
+/// | `goal` | result to beat in a game: points, strokes, or a time \[s\] |
+/// | `moves` | moves of the player who reached it, as the game writes them, packed |
 ///
 /// Packed text is compressed by zlib and written in URL-safe base64 without padding.
 ///
@@ -48,9 +49,14 @@ pub struct Link {
     /// Time reached \[s\].
     pub(super) time: Option<f64>,
     pub(super) camera: Option<LinkCamera>,
-    /// Result to beat in a game: points, or a time \[s\].
+    /// Result to beat in a game: points, strokes, or a time \[s\].
     pub(super) goal: Option<f64>,
+    /// Moves that reach the result to beat, as the game writes them.
+    pub(super) moves: Option<Arc<str>>,
 }
+
+/// Longest text of moves in a link \[bytes\]: a quarter of an hour of keys, or hundreds of strikes.
+pub const MAX_MOVES: usize = 1 << 16;
 
 /// The scene of a link.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -76,6 +82,7 @@ impl Link {
             time: None,
             camera: None,
             goal: None,
+            moves: None,
         }
     }
 
@@ -107,7 +114,7 @@ impl Link {
         self.camera = camera;
     }
 
-    /// Sets the result to beat in a game: points, or a time \[s\].
+    /// Sets the result to beat in a game: points, strokes, or a time \[s\].
     ///
     /// # Errors
     /// [`LinkError::Goal`] if the result is negative or not finite.
@@ -116,9 +123,18 @@ impl Link {
         Ok(self)
     }
 
-    /// Removes the result to beat.
+    /// Sets the moves that reach the result to beat, as the game writes them.
+    ///
+    /// # Errors
+    /// [`LinkError::Moves`] if the text is longer than [`MAX_MOVES`].
+    pub fn with_moves(mut self, moves: &str) -> Result<Self, LinkError> {
+        self.moves = Some(checked_moves(moves)?);
+        Ok(self)
+    }
+
+    /// Removes the result to beat, and the moves that reach it.
     pub fn without_goal(mut self) -> Self {
-        self.goal = None;
+        (self.goal, self.moves) = (None, None);
         self
     }
 
@@ -147,10 +163,20 @@ impl Link {
         self.camera
     }
 
-    /// Result to beat in a game, if the link states one: points, or a time \[s\].
+    /// Result to beat in a game, if the link states one: points, strokes, or a time \[s\].
     pub fn goal(&self) -> Option<f64> {
         self.goal
     }
+
+    /// Moves that reach the result to beat, if the link has them.
+    pub fn moves(&self) -> Option<&str> {
+        self.moves.as_deref()
+    }
+}
+
+/// Returns the moves if they are short enough.
+pub(super) fn checked_moves(moves: &str) -> Result<Arc<str>, LinkError> {
+    if moves.len() > MAX_MOVES { Err(LinkError::Moves) } else { Ok(moves.into()) }
 }
 
 /// Returns the result to beat if it is valid.

@@ -118,6 +118,10 @@ fn links_are_readable() {
     assert_eq!(challenge.to_fragment(), format!("{expected}&goal=12300"));
     assert_eq!(copied(&challenge).goal(), Some(12_300.0));
     assert_eq!(challenge.open().unwrap(), link.open().unwrap());
+    let played = challenge.clone().with_moves("strike 8 0.9 0 0 0").unwrap();
+    assert_eq!(copied(&played), played);
+    assert_eq!(copied(&played).moves(), Some("strike 8 0.9 0 0 0"));
+    assert_eq!(played.without_goal(), link);
     assert_eq!(challenge.without_goal(), link);
     // Times have only as many digits as are needed to identify the frame.
     let mut scene = Scene::clone(built_in("simtest1").scene());

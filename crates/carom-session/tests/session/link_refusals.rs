@@ -4,7 +4,7 @@ use std::io::Write;
 
 use base64::Engine;
 use base64::engine::general_purpose::URL_SAFE_NO_PAD;
-use carom_session::{Edit, Link, LinkSource, MAX_UNPACKED, Session, SessionError};
+use carom_session::{Edit, Link, LinkSource, MAX_MOVES, MAX_UNPACKED, Session, SessionError};
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use proptest::prelude::*;
@@ -31,7 +31,7 @@ const LONGEST: usize = 300;
 
 #[test]
 fn every_mistake_is_told() {
-    let parts = "scene, file, name, set, rule, edits, t, camera, goal";
+    let parts = "scene, file, name, set, rule, edits, t, camera, goal, moves";
     let empty = "the link is empty: after # it needs scene=NAME or file=...";
     let time =
         |t| format!("the link says t={t}; the time must be a number of seconds, zero or positive");
@@ -145,6 +145,10 @@ fn what_would_fill_the_memory_is_refused() {
     let most = packed(&vec![b'#'; MAX_UNPACKED]);
     assert!(most.len() < MAX_UNPACKED / 100);
     Link::parse(&format!("file={most}")).unwrap();
+    let longest = format!("scene=pinball&moves={}", packed(&vec![b'#'; MAX_MOVES]));
+    assert_eq!(Link::parse(&longest).unwrap().moves().map(str::len), Some(MAX_MOVES));
+    let error = refusal(&format!("scene=pinball&moves={}", packed(&vec![b'#'; MAX_MOVES + 1])));
+    assert_eq!(error, "the moves of the link are longer than 64 KiB, the limit");
     let error = refusal(&format!("file={}", packed(&vec![b'#'; MAX_UNPACKED + 1])));
     assert_eq!(error, "file of the link unpacks to more than 8 MiB, the limit");
 }
