@@ -326,6 +326,9 @@ pub struct Verify {
     /// Check the claims that take minutes, too.
     #[arg(long)]
     pub full: bool,
+    /// Check all claims, also those that take up to an hour each.
+    #[arg(long)]
+    pub long: bool,
     /// Print JSON instead of a table.
     #[arg(long)]
     pub json: bool,

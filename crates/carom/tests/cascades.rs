@@ -277,29 +277,55 @@ fn elastic_balls_in_a_box_keep_their_energy_when_several_meet_in_a_sub_step() {
     }
 }
 
+/// Elastic balls of 1 kg in a box without forces, as many along each edge, which fill this part of the plane or of
+/// space.
+fn gas(across: [i32; 3], packing: f64) -> World {
+    let mut world = World::new(Settings::default().with_rule(contact())).unwrap();
+    let radius: f64 = 0.05;
+    let is_flat = across[2] == 1;
+    let of_ball = std::f64::consts::PI * if is_flat { 1.0 } else { 4.0 / 3.0 };
+    let cell =
+        radius * if is_flat { (of_ball / packing).sqrt() } else { libm::cbrt(of_ball / packing) };
+    let counts = across.map(f64::from);
+    let size = cell * DVec3::from_array(counts);
+    let walls =
+        Shape::Container { size: if is_flat { size.with_z(1.0) } else { size }, open: Sides::NONE };
+    let walls = Collider::new(walls, Pose::at(DVec3::ZERO));
+    world.add_collider(walls.with_restitution(1.0)).unwrap();
+    let mut numbers = Numbers(7);
+    for number in 0..across.into_iter().product() {
+        let place =
+            [number % across[0], number / across[0] % across[1], number / across[0] / across[1]];
+        let place = cell * (DVec3::from_array(place.map(f64::from)) + 0.5) - 0.5 * size;
+        let velocity = 2.0 * numbers.vector();
+        let velocity = if is_flat { velocity.with_z(0.0) } else { velocity };
+        let ball = Sphere::new(if is_flat { place.with_z(0.0) } else { place }, radius);
+        let ball = ball.with_mass(1.0).with_velocity(velocity).with_restitution(1.0);
+        world.add_sphere(ball).unwrap();
+    }
+    world
+}
+
 #[test]
 fn elastic_balls_in_a_crowded_box_keep_their_energy() {
-    // Islands of balls of different speeds reach into each other.
-    for (across, packing) in [(2, 0.6), (4, 0.6), (6, 0.5)] {
-        let mut world = World::new(Settings::default().with_rule(contact())).unwrap();
-        let (radius, count) = (0.05, f64::from(across));
-        let width = count * radius * (std::f64::consts::PI / packing).sqrt();
-        let size = vec(width, width, 1.0);
-        let walls =
-            Collider::new(Shape::Container { size, open: Sides::NONE }, Pose::at(DVec3::ZERO));
-        world.add_collider(walls.with_restitution(1.0)).unwrap();
-        let mut numbers = Numbers(7);
-        for i in 0..across * across {
-            let place = |i: i32| (f64::from(i) + 0.5) * width / count - 0.5 * width;
-            let velocity = 2.0 * numbers.vector().with_z(0.0);
-            let ball = Sphere::new(vec(place(i % across), place(i / across), 0.0), radius);
-            let ball = ball.with_mass(1.0).with_velocity(velocity).with_restitution(1.0);
-            world.add_sphere(ball).unwrap();
-        }
+    // Islands of balls of different speeds reach into each other, and grow to the whole gas.
+    for (across, packing, seconds) in [
+        ([2, 2, 1], 0.6, 2.0),
+        ([4, 4, 1], 0.6, 2.0),
+        ([6, 6, 1], 0.5, 2.0),
+        ([10, 10, 1], 0.3, 1.0),
+        ([10, 10, 1], 0.6, 1.0),
+        ([10, 10, 1], 0.75, 0.5),
+        ([6, 6, 6], 0.3, 0.3),
+        ([32, 32, 1], 0.1, 0.2),
+        ([32, 32, 1], 0.6, 0.1),
+        ([10, 10, 10], 0.4, 0.1),
+    ] {
+        let mut world = gas(across, packing);
         let start = world.total_energy();
-        let (account, [least, _]) = watch(&mut world, 2.0, FRAME);
+        let (account, [least, _]) = watch(&mut world, seconds, FRAME);
         // Each of some thousand impacts is iterated to 1e-12 of the largest impulse.
-        assert!((least - start).abs() < 1e-9 * start, "{across}: {least} of {start}");
-        assert!(account.contacts.abs() < 1e-9 * start, "{across}: {account:?}");
+        assert!((least - start).abs() < 1e-9 * start, "{across:?} {packing}: {least} of {start}");
+        assert!(account.contacts.abs() < 1e-9 * start, "{across:?} {packing}: {account:?}");
     }
 }

@@ -2,8 +2,8 @@
 //! the simplest worlds cost; nothing about time.
 
 use carom::{
-    Bisect, Collider, DQuat, DVec3, Discrete, Gravity, Pose, Rule, Settings, Shape, Sides, Sphere,
-    StageCounts, World,
+    Bisect, Collider, Contact, DQuat, DVec3, Discrete, Gravity, Mesh, Pose, Rule, Settings, Shape,
+    Sides, Sphere, StageCounts, World,
 };
 
 fn row_of_spheres(rule: Rule, count: u32) -> World {
@@ -92,5 +92,23 @@ fn a_copy_of_a_world_does_the_same_work() {
         let counts = world.step(1.0).unwrap().work;
         assert_eq!(copy.step(1.0).unwrap().work, counts);
         assert!(counts.events > 0);
+    }
+}
+
+#[test]
+fn a_fast_ball_over_a_fine_mesh_has_contacts_with_the_facets_around_it_only() {
+    let mut world = World::new(Settings::default().with_rule(Contact::default())).unwrap();
+    // Each facet is half as long as the ball is wide, and none continues another.
+    let height = |column: u32, row: u32| 0.01 * f64::from((column * column + 3 * row) % 5);
+    let heights: Vec<Vec<f64>> =
+        (0..80).map(|row| (0..80).map(|column| height(column, row)).collect()).collect();
+    let ground = Shape::Mesh(Mesh::from_heights([8.0; 2], &heights).unwrap());
+    world.add_collider(Collider::new(ground, Pose::at(DVec3::ZERO))).unwrap();
+    let ball = Sphere::new(DVec3::new(-2.0, 0.2, 0.0), 0.1);
+    world.add_sphere(ball.with_velocity(DVec3::new(6.0, 0.0, 0.5))).unwrap();
+    for _ in 0..30 {
+        let counts = world.step(1.0 / 60.0).unwrap().work;
+        // Faces, edges and corners whose bounds reach into a cube of three radii about the ball.
+        assert!(counts.contacts <= 64, "{counts:?}");
     }
 }

@@ -1,6 +1,7 @@
 //! Claims: names, expected values, tolerances and measurements.
 
 use std::error::Error;
+use std::sync::OnceLock;
 
 use carom::{Rule, StateHash, World};
 
@@ -75,12 +76,14 @@ impl Tolerance {
 }
 
 /// Duration of the check of a claim.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Effort {
     /// Seconds.
     Quick,
     /// Minutes.
     Full,
+    /// Up to an hour.
+    Long,
 }
 
 /// A measured value.
@@ -124,6 +127,24 @@ impl Measured {
     }
 }
 
+/// A measurement that several claims are about: it is made once.
+pub struct Shared<T>(OnceLock<Result<T, String>>);
+
+impl<T> Shared<T> {
+    pub const fn new() -> Self {
+        Self(OnceLock::new())
+    }
+
+    /// Returns the result of `measure`, which the first call makes.
+    ///
+    /// # Errors
+    /// That of `measure`.
+    pub fn get(&self, measure: impl FnOnce() -> Result<T, Fault>) -> Result<&T, Fault> {
+        let made = self.0.get_or_init(|| measure().map_err(|fault| fault.to_string()));
+        made.as_ref().map_err(|fault| fault.clone().into())
+    }
+}
+
 impl Claim {
     /// Creates a claim about every rule that takes seconds to check.
     pub fn new(
@@ -144,5 +165,10 @@ impl Claim {
     /// Marks the claim as one that takes minutes.
     pub fn slow(self) -> Self {
         Self { effort: Effort::Full, ..self }
+    }
+
+    /// Marks the claim as one that takes up to an hour.
+    pub fn long(self) -> Self {
+        Self { effort: Effort::Long, ..self }
     }
 }

@@ -1,10 +1,13 @@
 //! Dense fluids and jammed packings of spheres that grow (Lubachevsky and Stillinger).
 
+use std::f64::consts::PI;
+
 use carom::packing::{self, Compression, Start, Until};
 use carom::{Error, Exact, Rule, StressMeter, World};
 use carom_scene::Scene;
 
 use super::claim::{Claim, Expected, Measured, Outcome, Tolerance};
+use super::equation;
 
 /// Number of spheres.
 const COUNT: usize = 2_000;
@@ -28,8 +31,32 @@ pub fn fluids() -> Vec<Claim> {
         Tolerance::relative(0.01, "statistics 0.3 %, the equation itself 0.3 %"),
         |_| pressure_by_stress(),
     );
-    let claims = fluids.into_iter().map(claim).chain([by_stress]);
+    let mixtures = [(0.5, 0.3), (0.5, 0.45), (0.3, 0.4)].map(mixture);
+    let claims = fluids.into_iter().map(claim).chain([by_stress]).chain(mixtures);
     claims.map(|claim| claim.about(Rule::Exact(Exact::default()))).collect()
+}
+
+/// Claim about a mixture of as many large spheres as small ones, by the ratio of their diameters.
+fn mixture((ratio, packing_fraction): (f64, f64)) -> Claim {
+    let z = equation::of_mixture(&species(ratio, packing_fraction));
+    Claim::new(
+        format!(
+            "compressibility factor of a mixture of diameters 1 and {ratio} at {packing_fraction}"
+        ),
+        Expected::value(z, "Boublík 1970; Mansoori, Carnahan, Starling and Leland 1971"),
+        Tolerance::relative(0.01, "statistics 0.3 %, the equation itself 0.5 %"),
+        move |_| {
+            let halves = [vec![0.5; COUNT / 2], vec![0.5 * ratio; COUNT / 2]];
+            let start = Start::of(halves.concat(), 1).with_packing_fraction(packing_fraction);
+            pressure_after_growth(&start, packing_fraction)
+        },
+    )
+}
+
+/// Diameter and number density of each species of such a mixture.
+fn species(ratio: f64, packing_fraction: f64) -> [(f64, f64); 2] {
+    let density = 6.0 / PI * packing_fraction / (1.0 + ratio * ratio * ratio);
+    [(1.0, density), (ratio, density)]
 }
 
 /// Claims about packings.
@@ -45,16 +72,23 @@ pub fn packings() -> Vec<Claim> {
     vec![jammed.slow().about(Rule::Exact(Exact::default()))]
 }
 
-fn grown(until: Until, packing_fraction: f64, growth: f64) -> Result<(World, f64), Error> {
-    let start = Start::of(vec![0.5; COUNT], 1).with_packing_fraction(packing_fraction);
-    let mut world = packing::start(&start)?;
+fn equal_spheres(packing_fraction: f64) -> Start {
+    Start::of(vec![0.5; COUNT], 1).with_packing_fraction(packing_fraction)
+}
+
+fn grown(start: &Start, until: Until, growth: f64) -> Result<(World, f64), Error> {
+    let mut world = packing::start(start)?;
     let compression = Compression::until(until).with_growth(growth);
     let compressed = packing::compress(&mut world, &compression)?;
     Ok((world, compressed.packing_fraction))
 }
 
 fn compressibility(packing_fraction: f64) -> Outcome {
-    let (mut world, _) = grown(Until::PackingFraction(packing_fraction), packing_fraction, 0.05)?;
+    pressure_after_growth(&equal_spheres(packing_fraction), packing_fraction)
+}
+
+fn pressure_after_growth(start: &Start, packing_fraction: f64) -> Outcome {
+    let (mut world, _) = grown(start, Until::PackingFraction(packing_fraction), 0.05)?;
     // It measures over the second half.
     let fluid = packing::equilibrate(&mut world, 2.0 * COLLISIONS, None)?;
     Ok(Measured::in_world(&world, fluid.pressure))
@@ -92,6 +126,6 @@ fn pressure_by_stress() -> Outcome {
 }
 
 fn jamming() -> Outcome {
-    let (world, packing_fraction) = grown(Until::Pressure(1e6), 0.64, 0.02)?;
+    let (world, packing_fraction) = grown(&equal_spheres(0.64), Until::Pressure(1e6), 0.02)?;
     Ok(Measured::in_world(&world, packing_fraction))
 }

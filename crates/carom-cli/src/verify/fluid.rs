@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use carom::{BodyPair, Rule, World};
 
 use super::claim::{Claim, Expected, Measured, Outcome, Tolerance};
-use super::dense;
+use super::{dense, diffusion, equation};
 use crate::gas::{COLLISIONS_TO_EQUILIBRIUM, Filling, Speeds, gas, run_collisions};
 
 /// Number of spheres: fills a face-centred cubic lattice of 10 cells along an edge.
@@ -40,7 +40,50 @@ pub fn claims() -> Vec<Claim> {
         ),
     ]);
     claims.extend(dense::fluids());
+    claims.extend(diffusion::claims());
+    claims.extend([0.2, 0.4, 0.6, 0.7, 0.8, 0.9].map(accurate_pressure));
     claims
+}
+
+/// Number of spheres for accurate pressures: fills a face-centred cubic lattice of 14 cells along an edge.
+const ACCURATE_COUNT: usize = 10_976;
+/// Impacts of an accurate pressure, whose standard error is about their inverse square root.
+const ACCURATE_IMPACTS: f64 = 1e8;
+
+/// Claim about the pressure at a number density.
+fn accurate_pressure(density: f64) -> Claim {
+    let packing_fraction = PI / 6.0 * density;
+    let filling = Filling { count: ACCURATE_COUNT, packing_fraction };
+    Claim::new(
+        format!("compressibility factor at number density {density}, 10^8 impacts"),
+        Expected::value(equation::kolafa(packing_fraction), "Kolafa, Labík and Malijevský 2004"),
+        Tolerance::relative(3e-4, "three standard errors of 1e-4"),
+        move |rule| {
+            let outcome = virial(rule, filling, ACCURATE_IMPACTS)?;
+            Ok(Measured { value: unbounded(filling, outcome.value), ..outcome })
+        },
+    )
+    .long()
+}
+
+/// Compressibility factor of an infinite number of spheres, given `1 + Σ r·Δp / (2 K t)` of some in a periodic box.
+///
+/// Without a total momentum, k T is `2 K / 3 (N - 1)`. With a fixed number, the mean of f = n² χ lacks
+/// `s n²/(2 N) d²f/dn²`, with the isothermal compressibility s = n k T κ (Lebowitz and Percus, Phys. Rev. 122, 1675
+/// (1961)).
+fn unbounded(filling: Filling, z: f64) -> f64 {
+    let Filling { count, packing_fraction: p } = filling;
+    let count = count as f64;
+    let excess = |p: f64| equation::kolafa(p) - 1.0;
+    // A thousandth balances the errors of rounding and of the finite differences.
+    let h = 1e-3 * p;
+    // f is proportional to p times the excess.
+    let second =
+        ((p + h) * excess(p + h) - 2.0 * p * excess(p) + (p - h) * excess(p - h)) / (h * h);
+    let slope = (excess(p + h) - excess(p - h)) / (2.0 * h);
+    let compressibility = 1.0 / (1.0 + excess(p) + p * slope);
+    let lacks = compressibility * p * second / (2.0 * count * excess(p));
+    1.0 + (z - 1.0) * (1.0 - 1.0 / count) / (1.0 - lacks)
 }
 
 /// Claim about the pressure at a packing fraction, where the compressibility factor is `z`.
@@ -61,10 +104,15 @@ fn filling(packing_fraction: f64) -> Filling {
 /// times the impulse along it. `3 N kT` is twice the kinetic energy. Alder and Wainwright, J. Chem.
 /// Phys. 33, 1439 (1960).
 fn compressibility(rule: Rule, filling: Filling) -> Outcome {
+    virial(rule, filling, 0.5 * COLLISIONS * filling.count as f64)
+}
+
+/// [`compressibility`] over at least this number of impacts.
+fn virial(rule: Rule, filling: Filling, least: f64) -> Outcome {
     let h = filling.frame_time();
     let mut world = equilibrium(filling, rule)?;
     let (mut virial, mut impacts, begin) = (0.0, 0, world.time());
-    while (impacts as f64) < 0.5 * COLLISIONS * filling.count as f64 {
+    while (impacts as f64) < least {
         let report = world.step(h)?;
         impacts += report.impacts.len();
         // The spheres touch, so the distance of their centres is the diameter.

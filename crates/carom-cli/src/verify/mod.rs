@@ -14,6 +14,8 @@ mod curved_flights;
 mod dem;
 mod dense;
 mod derivatives;
+mod diffusion;
+mod equation;
 mod fluid;
 mod forces;
 mod friction;
@@ -99,9 +101,14 @@ const TOPICS: [Topic; 23] = [
 
 /// Claims that the arguments select.
 fn claims(args: &Verify) -> Vec<Claim> {
+    let most = match (args.long, args.full) {
+        (true, _) => Effort::Long,
+        (false, true) => Effort::Full,
+        (false, false) => Effort::Quick,
+    };
     let of_topic = |(topic, claims): &Topic| {
         let is_wanted = |claim: &Claim| {
-            (args.full || claim.effort == Effort::Quick)
+            claim.effort <= most
                 && args
                     .filter
                     .as_ref()

@@ -1,10 +1,9 @@
 //! Gases in steady shear: viscosity of elastic spheres, steady temperature of inelastic ones.
 
-use std::f64::consts::PI;
-
 use carom::{CombineRule, DVec3, Error, Exact, Rule, SphereMotion, Thermostat, World};
 
 use super::claim::{Claim, Expected, Measured, Outcome, Tolerance};
+use super::equation;
 use crate::gas::{Filling, Speeds, gas};
 
 /// Dense enough for half of the stress to be that of impacts.
@@ -13,6 +12,9 @@ const VISCOUS: Filling = Filling { count: 2_048, packing_fraction: 0.2 };
 const RATE: f64 = 0.2;
 /// Collisions of each sphere before the stress is measured, and meanwhile.
 const COLLISIONS: [f64; 2] = [20.0, 500.0];
+/// A million spheres, and their collisions.
+const MILLION: Filling = Filling { count: 1_000_000, ..VISCOUS };
+const COLLISIONS_OF_MILLION: [f64; 2] = [5.0, 5.0];
 
 /// Dilute, so that impacts move no momentum.
 const DILUTE: Filling = Filling { count: 500, packing_fraction: 0.005 };
@@ -22,14 +24,25 @@ const E: f64 = 0.9;
 const STEADY: [f64; 2] = [200.0, 800.0];
 
 pub fn claims() -> Vec<Claim> {
-    let viscosity = Claim::new(
-        "elastic gas of packing fraction 0.2 in steady shear: viscosity by that of Enskog",
-        Expected::value(1.0, "Enskog's theory (Chapman and Cowling 1970, 16.41)"),
-        Tolerance::relative(
-            0.05,
-            "statistics 1.4 %, Enskog 2 % (Alder, Gass and Wainwright 1970), nonlinear 1 %",
-        ),
-        |_| viscosity(),
+    let by_enskog = |spheres: &str, statistics: &'static str, measure: fn() -> Outcome| {
+        Claim::new(
+            format!(
+                "{spheres} of packing fraction 0.2 in steady shear: viscosity by that of Enskog"
+            ),
+            Expected::value(1.0, "Enskog's theory (Chapman and Cowling 1970, 16.41)"),
+            Tolerance::relative(0.05, statistics),
+            move |_| measure(),
+        )
+    };
+    let viscosity_of_few = by_enskog(
+        "elastic gas",
+        "statistics 1.4 %, Enskog 2 % (Alder, Gass and Wainwright 1970), nonlinear 1 %",
+        || viscosity(VISCOUS, COLLISIONS),
+    );
+    let viscosity_of_million = by_enskog(
+        "a million spheres",
+        "statistics 0.7 %, Enskog 2 % (Alder, Gass and Wainwright 1970), nonlinear 1 %",
+        || viscosity(MILLION, COLLISIONS_OF_MILLION),
     );
     let temperature = Claim::new(
         format!("dilute gas, e = {E}, in steady shear: T by that of kinetic theory"),
@@ -37,7 +50,7 @@ pub fn claims() -> Vec<Claim> {
         Tolerance::relative(0.06, "density 3 %, statistics 1.5 %, higher moments 1 %"),
         |_| steady_temperature(),
     );
-    let claims = [viscosity.slow(), temperature.slow()];
+    let claims = [viscosity_of_few.slow(), viscosity_of_million.long(), temperature.slow()];
     claims.map(|claim| claim.about(Rule::Exact(Exact::default()))).into()
 }
 
@@ -61,24 +74,19 @@ fn sheared(filling: Filling, rate: f64) -> Result<World, Error> {
 }
 
 /// Stress by shear rate of the elastic gas at the temperature 1, divided by Enskog's viscosity.
-fn viscosity() -> Outcome {
-    let mut world = sheared(VISCOUS, RATE)?;
-    let interval = VISCOUS.time_of(1.0);
+fn viscosity(filling: Filling, [before, measured]: [f64; 2]) -> Outcome {
+    let mut world = sheared(filling, RATE)?;
+    let interval = filling.time_of(1.0);
     let thermostat = Thermostat::Rescale { interval, temperature: 1.0 };
     world.set_settings(world.settings().with_thermostat(Some(thermostat)))?;
-    let [before, measured] = COLLISIONS;
     let mut work = 0.0;
     for frame in 0..(before + measured) as u32 {
         let account = world.step(interval)?.energy_account;
         work += if f64::from(frame) < before { 0.0 } else { account.shear };
     }
-    let volume = libm::pow(VISCOUS.edge(), 3.0);
+    let volume = libm::pow(filling.edge(), 3.0);
     let viscosity = work / (volume * RATE * RATE * measured * interval);
-    let p = VISCOUS.packing_fraction;
-    let contact_value = (1.0 - 0.5 * p) / ((1.0 - p) * (1.0 - p) * (1.0 - p));
-    let b = 4.0 * p;
-    let dilute = 1.016 * 5.0 / (16.0 * PI.sqrt());
-    let enskog = dilute * (1.0 / contact_value + 0.8 * b + 0.7615 * b * b * contact_value);
+    let enskog = equation::viscosity(filling.packing_fraction);
     Ok(Measured::in_world(&world, viscosity / enskog))
 }
 

@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use carom::{Exact, PairPotential, Rule, StressMeter, World};
+use carom::{Exact, PairPotential, Rule, StressMeter, Thermostat, World};
 
-use super::claim::{Claim, Expected, Fault, Measured, Tolerance};
+use super::claim::{Claim, Expected, Fault, Measured, Shared, Tolerance};
 use crate::gas::{Filling, Speeds, gas, run_collisions};
 
 /// Number density of the gas.
@@ -32,7 +32,58 @@ pub fn claims() -> Vec<Claim> {
         |_| gas_by_series().map(|[_, energy]| energy),
     );
     let rule = Rule::Exact(Exact::default());
-    [pressure, energy].map(|claim| claim.about(rule)).into()
+    [pressure, energy].into_iter().chain(dense()).map(|claim| claim.about(rule)).collect()
+}
+
+/// Packing fraction of the dense fluid, whose wells have a depth of k T/2.
+const DENSE: Filling = Filling { count: 4_000, packing_fraction: PI / 6.0 * DENSE_DENSITY };
+const DENSE_DENSITY: f64 = 0.668_482;
+/// Pressure and potential energy of a sphere in that fluid \[k T\]; its runs had 2·10⁹ steps.
+const OF_ETOMICA: [f64; 2] = [1.8072, -2.4729];
+
+/// Claims about a dense fluid.
+fn dense() -> [Claim; 2] {
+    let source = "molecular dynamics of etomica (Schultz and Kofke), TestSWMD3D";
+    let pressure = Claim::new(
+        "fluid with square wells of range 1.5 and depth k T/2 at the density 0.6685: pressure",
+        Expected::value(OF_ETOMICA[0], source),
+        Tolerance::relative(0.01, "statistics 0.4 %, those of the source 0.2 %"),
+        |_| Ok(dense_fluid()?[0]),
+    );
+    let energy = Claim::new(
+        "fluid with square wells of range 1.5 and depth k T/2 at the density 0.6685: potential energy",
+        Expected::value(OF_ETOMICA[1], source),
+        Tolerance::relative(0.002, "statistics 0.05 %, those of the source 0.03 %"),
+        |_| Ok(dense_fluid()?[1]),
+    );
+    [pressure, energy].map(Claim::slow)
+}
+
+/// Pressure and potential energy of a sphere in the dense fluid, for k T = 1.
+fn dense_fluid() -> Result<&'static [Measured; 2], Fault> {
+    static FLUID: Shared<[Measured; 2]> = Shared::new();
+    FLUID.get(run_dense_fluid)
+}
+
+fn run_dense_fluid() -> Result<[Measured; 2], Fault> {
+    let mut world = gas(DENSE, Speeds::Equilibrium, Rule::Exact(Exact::default()), 1)?;
+    let well = PairPotential::SquareWell { depth: 0.5, range_ratio: RANGE };
+    let interval = DENSE.time_of(1.0);
+    let thermostat = Thermostat::Rescale { interval, temperature: 1.0 };
+    let settings = world.settings().with_pair_potential(Some(well));
+    world.set_settings(settings.with_thermostat(Some(thermostat)))?;
+    for _ in 0..FRAMES {
+        world.step(interval)?;
+    }
+    let (mut meter, mut potential) = (StressMeter::new(&world), 0.0);
+    for _ in 0..FRAMES {
+        world.step(interval)?;
+        meter.add_frame(&world);
+        potential += world.potential_energy() / f64::from(FRAMES);
+    }
+    let pressure = meter.stress(None)?.pressure();
+    let values = [pressure, potential / DENSE.count as f64];
+    Ok(values.map(|value| Measured::in_world(&world, value)))
 }
 
 /// Coefficients of the virial series at a temperature, for spheres of diameter 1.

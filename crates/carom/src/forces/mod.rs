@@ -31,8 +31,8 @@ pub use interaction::{Interaction, SphereStates};
 pub(crate) use interactions::Interactions;
 pub use mutual_gravity::MutualGravity;
 pub(crate) use nonconservative::{
-    are_conservative, nonconservative_linear, nonconservative_others, nonconservative_potential,
-    total_nonconservative,
+    are_conservative, conservative_potential, nonconservative_linear, nonconservative_others,
+    nonconservative_potential, total_conservative, total_nonconservative,
 };
 pub use quadratic_drag::QuadraticDrag;
 pub use spring::{Spring, SpringEnd};

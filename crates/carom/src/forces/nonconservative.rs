@@ -12,6 +12,11 @@ fn nonconservative(forces: &Numbered<Arc<dyn Force>>) -> impl Iterator<Item = &d
     forces.iter().map(|(_, force)| &**force).filter(|force| !force.is_conservative())
 }
 
+/// The conservative forces, in the order in which they entered the world.
+fn conservative(forces: &Numbered<Arc<dyn Force>>) -> impl Iterator<Item = &dyn Force> {
+    forces.iter().map(|(_, force)| &**force).filter(|force| force.is_conservative())
+}
+
 /// Whether all forces are conservative.
 pub(crate) fn are_conservative(forces: &Numbered<Arc<dyn Force>>) -> bool {
     nonconservative(forces).next().is_none()
@@ -45,6 +50,24 @@ pub(crate) fn nonconservative_others(
     nonconservative(forces)
         .filter(|force| linear_form(*force, sphere.radius, sphere.mass).is_none())
         .fold(DVec3::ZERO, |sum, force| sum + force.on(sphere, time))
+}
+
+/// Potential energy \[J\] of a sphere in the conservative forces.
+pub(crate) fn conservative_potential(
+    forces: &Numbered<Arc<dyn Force>>,
+    sphere: &SphereState,
+    time: f64,
+) -> f64 {
+    conservative(forces).map(|force| force.potential_energy(sphere, time)).sum()
+}
+
+/// Sum of the conservative forces \[N\] on a sphere.
+pub(crate) fn total_conservative(
+    forces: &Numbered<Arc<dyn Force>>,
+    sphere: &SphereState,
+    time: f64,
+) -> DVec3 {
+    conservative(forces).fold(DVec3::ZERO, |sum, force| sum + force.on(sphere, time))
 }
 
 /// Potential energy \[J\] of a sphere in the nonconservative forces: it accounts for a part of their work.

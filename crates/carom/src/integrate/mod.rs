@@ -2,10 +2,12 @@
 //!
 //! One file per scheme. Each says at which states it needs the acceleration, and makes of these the state
 //! at the end of an interval (`scheme`). Spheres move one by one, but for where forces act between them:
-//! there they go through the stages of the scheme side by side (`together`).
+//! there they go through the stages of the scheme side by side (`together`). Where forces damp motion too fast for an
+//! explicit scheme, a sphere takes an implicit step (`damped`).
 
 mod acceleration;
 pub(crate) mod crossing;
+pub(crate) mod damped;
 mod explicit_euler;
 pub(crate) mod field;
 pub(crate) mod gauss_legendre;
@@ -25,6 +27,8 @@ mod work;
 pub(crate) use acceleration::{acceleration, acceleration_alone};
 pub(crate) use together::Scratch;
 pub(crate) use work::work;
+
+use glam::DVec3;
 
 use acceleration::acceleration_at;
 use explicit_euler::ExplicitEuler;
@@ -47,8 +51,10 @@ fn advance_one<S: Scheme>(
     interval: Interval,
 ) -> Kinematics {
     let Interval { time, h } = interval;
+    let start = Kinematics::of(motion, index);
     let a = |t: f64, at: Kinematics| acceleration_at(system, index, at, time + t);
-    scheme::advance::<S>(Kinematics::of(motion, index), h, a)
+    damped::step_if_damped(system, index, start, DVec3::ZERO, interval)
+        .unwrap_or_else(|| scheme::advance::<S>(start, h, a))
 }
 
 /// Moves spheres over `interval` by an `integrator`. Where forces act between spheres, all of them move.

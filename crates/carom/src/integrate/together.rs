@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::acceleration::acceleration_at;
+use super::damped;
 use super::kinematics::Kinematics;
 use super::scheme::{MOST_STAGES, Scheme};
 use crate::bodies::Motion;
@@ -17,6 +18,8 @@ pub(crate) struct Scratch {
     velocity: Vec<DVec3>,
     /// Forces between spheres there \[N\].
     force: Vec<DVec3>,
+    /// The same at the start \[N\].
+    first_force: Vec<DVec3>,
     /// Accelerations at the stages so far \[m/s²\].
     known: Vec<[DVec3; MOST_STAGES]>,
 }
@@ -31,7 +34,7 @@ pub(super) fn advance<S: Scheme>(
 ) {
     let Interval { time, h } = interval;
     let count = motion.position.len();
-    let Scratch { position, velocity, force, known } = scratch;
+    let Scratch { position, velocity, force, first_force, known } = scratch;
     known.clear();
     known.resize(count, [DVec3::ZERO; MOST_STAGES]);
     position.resize(count, DVec3::ZERO);
@@ -43,6 +46,9 @@ pub(super) fn advance<S: Scheme>(
             (t, position[i], velocity[i]) = (stage_time, at.position, at.velocity);
         }
         system.forces_between([position, velocity], time + t, force);
+        if number == 0 {
+            first_force.clone_from(force);
+        }
         for (i, known) in known.iter_mut().enumerate() {
             let at = Kinematics { position: position[i], velocity: velocity[i] };
             let alone = acceleration_at(system, i, at, time + t);
@@ -50,6 +56,9 @@ pub(super) fn advance<S: Scheme>(
         }
     }
     for (i, known) in known.iter().enumerate() {
-        S::end(Kinematics::of(motion, i), h, &known[..S::STAGES]).write(motion, i);
+        let (start, between) = (Kinematics::of(motion, i), first_force[i] / system.spheres.mass[i]);
+        damped::step_if_damped(system, i, start, between, interval)
+            .unwrap_or_else(|| S::end(start, h, &known[..S::STAGES]))
+            .write(motion, i);
     }
 }

@@ -2,11 +2,12 @@
 //!
 //! The work is `h Σ b F·v` over the stages of a scheme, with their weights b. Schemes of the first and second order
 //! change the velocity by `h Σ b F / m`: with the mean of the first and the last velocity for v, the work is the change
-//! of the kinetic energy.
+//! of the kinetic energy. In an implicit step it is the change of the kinetic energy, less the work of all other forces.
 
 use glam::DVec3;
 
 use super::acceleration::acceleration_at;
+use super::damped;
 use super::kinematics::Kinematics;
 use super::scheme::{MOST_STAGES, Scheme};
 use super::{ExplicitEuler, RungeKutta4, SemiImplicitEuler, VelocityVerlet};
@@ -53,13 +54,16 @@ struct Way {
     forces: [DVec3; MOST_STAGES],
     /// Velocities at the stages so far \[m/s\].
     velocities: [DVec3; MOST_STAGES],
+    /// Accelerations at the start by all forces between spheres, and by conservative ones \[m/s²\].
+    between: [DVec3; 2],
 }
 
 impl Way {
     fn begin(motion: &Motion, index: usize) -> Self {
         let start = Kinematics::of(motion, index);
         let none = [DVec3::ZERO; MOST_STAGES];
-        Self { index, start, at: start, known: none, forces: none, velocities: none }
+        let between = [DVec3::ZERO; 2];
+        Self { index, start, at: start, known: none, forces: none, velocities: none, between }
     }
 }
 
@@ -84,6 +88,9 @@ fn work_by<S: Scheme>(system: &System, mut spheres: Vec<Way>, interval: Interval
             let state = SphereState { position, velocity, radius, mass };
             let [all, own] =
                 [0, 1].map(|which| between[which].get(place).copied().unwrap_or(DVec3::ZERO));
+            if number == 0 {
+                way.between = [all / mass, (all - own) / mass];
+            }
             way.known[number] = acceleration_at(system, way.index, way.at, time + t) + all / mass;
             way.forces[number] =
                 own + forces::total_nonconservative(system.forces, &state, time + t);
@@ -92,17 +99,46 @@ fn work_by<S: Scheme>(system: &System, mut spheres: Vec<Way>, interval: Interval
     }
     let mut work = ForceWork::default();
     for way in &spheres {
-        let end = S::end(way.start, h, &way.known[..S::STAGES]);
-        let mean = 0.5 * (way.start.velocity + end.velocity);
-        let mut path = DVec3::ZERO;
-        for number in 0..S::STAGES {
-            let velocity = if S::ORDER > 2 { way.velocities[number] } else { mean };
-            let part = h * S::WEIGHTS[number] * velocity;
-            work.forces += way.forces[number].dot(part);
-            path += part;
+        let Way { index, start, between: [all, _], .. } = *way;
+        match damped::step_if_damped(system, index, start, all, interval) {
+            Some(end) => work += work_of_damped(system, way, end, interval),
+            None => add_work_of_stages::<S>(system, way, h, &mut work),
         }
-        let applied = system.spheres.applied_force.get(way.index).copied();
-        work.applied += applied.unwrap_or(DVec3::ZERO).dot(path);
     }
     work
+}
+
+/// Adds the work on a sphere that goes through the stages of a scheme.
+fn add_work_of_stages<S: Scheme>(system: &System, way: &Way, h: f64, work: &mut ForceWork) {
+    let end = S::end(way.start, h, &way.known[..S::STAGES]);
+    let mean = 0.5 * (way.start.velocity + end.velocity);
+    let mut path = DVec3::ZERO;
+    for number in 0..S::STAGES {
+        let velocity = if S::ORDER > 2 { way.velocities[number] } else { mean };
+        let part = h * S::WEIGHTS[number] * velocity;
+        work.forces += way.forces[number].dot(part);
+        path += part;
+    }
+    work.applied += applied_force(system, way.index).dot(path);
+}
+
+/// Work on a sphere that an implicit step takes to a state at the end of an interval.
+fn work_of_damped(system: &System, way: &Way, end: Kinematics, interval: Interval) -> ForceWork {
+    let (radius, mass) = (system.spheres.radius[way.index], system.spheres.mass[way.index]);
+    let energy = |Kinematics { position, velocity }: Kinematics, time: f64| {
+        let state = SphereState { position, velocity, radius, mass };
+        let potential = forces::conservative_potential(system.forces, &state, time);
+        0.5 * mass * velocity.length_squared() + potential
+    };
+    let gained = energy(end, interval.time + interval.h) - energy(way.start, interval.time);
+    let path = end.position - way.start.position;
+    let [_, conservative] = way.between;
+    let applied = applied_force(system, way.index).dot(path);
+    let forces = gained - mass * conservative.dot(path) - applied;
+    ForceWork { forces, applied, ..ForceWork::default() }
+}
+
+/// The force applied to a single sphere \[N\].
+fn applied_force(system: &System, index: usize) -> DVec3 {
+    system.spheres.applied_force.get(index).copied().unwrap_or(DVec3::ZERO)
 }

@@ -10,7 +10,7 @@
 //! 4. **Prepare.** Normals, gaps and impacts; contacts begin with the impulses of the sub-step before.
 //! 5. **Sweep.** Each contact in turn gets the impulse that it needs, by Gauss and Seidel; contacts of spheres with very
 //!    different masses in blocks.
-//! 6. **Follow cascades.** Small islands go from impact to impact.
+//! 6. **Follow cascades.** Islands of spheres go from impact to impact.
 //! 7. **Keep energy.** Where impulses would add kinetic energy elsewhere, less of them is taken.
 //! 8. **Advance.** Positions follow the velocities.
 //! 9. **Correct.** Overlaps are reduced, without a change of velocities.

@@ -64,6 +64,11 @@ impl Body {
         }
     }
 
+    /// Whether impulses move the sphere.
+    pub fn is_awake(&self) -> bool {
+        self.inverse_mass > 0.0
+    }
+
     /// Returns the velocity after a flight of `h` \[s\] without contacts.
     pub fn accelerated(&self, h: f64) -> DVec3 {
         let force = Row::new(self.acceleration, self.drag_rate);

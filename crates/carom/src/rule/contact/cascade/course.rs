@@ -37,44 +37,46 @@ struct Accuracy {
 }
 
 /// The events of a cascade.
+#[derive(Default)]
 pub struct Course {
     /// Work of all impulses \[J\].
     pub work: f64,
     pub impacts: Vec<Met>,
-    /// How long the last flight took \[s\].
-    pub last: f64,
     visits: u32,
 }
 
 impl Course {
-    /// Advances an island through a sub-step.
-    pub fn run(island: &mut Island, places: &[Place], sub_step: &SubStep) -> Self {
-        let mut course = Self { work: 0.0, impacts: Vec::new(), last: 0.0, visits: 0 };
+    /// Advances an island through a time \[s\] of a sub-step.
+    pub fn run(
+        &mut self,
+        island: &mut Island,
+        places: &[Place],
+        (time, sub_step): (f64, &SubStep),
+    ) {
+        self.visits = 0;
         let most_by_looks = MOST_LOOKS / island.links.len().max(1);
         let most = (MOST_IMPACTS * island.bodies.len()).min(most_by_looks);
-        let mut left = sub_step.h;
-        island.links.iter_mut().for_each(Link::begin);
+        let mut left = time;
         for number in 0.. {
-            let is_last = number >= most || course.visits >= MOST_VISITS;
+            let is_last = number >= most || self.visits >= MOST_VISITS;
             expect(island, places, (left, sub_step), is_last);
-            course.fly(island, left);
+            self.fly(island, left);
             let meeting = first_meeting(island, places, left);
             let Some(time) = meeting.filter(|_| !is_last) else { break };
             if time > 0.0 {
-                course.fly(island, time);
-                course.arrive(island, time);
+                self.fly(island, time);
+                self.arrive(island, time);
                 left -= time;
             } else {
                 restart(island);
             }
-            course.meet(island, places, time);
+            self.meet(island, places, time);
             if left <= 0.0 {
                 break;
             }
         }
-        course.arrive(island, left.max(0.0));
-        course.last = left;
-        course
+        self.arrive(island, left.max(0.0));
+        island.links.iter_mut().for_each(|link| link.last = left);
     }
 
     /// Computes the velocities after a flight of a time \[s\], with the contact forces of its links.

@@ -7,13 +7,16 @@ use crate::rule::contact::slots::Slots;
 use crate::rule::contact::solver::Solver;
 use crate::rule::contact::sub_step::SubStep;
 
-/// Largest number of spheres of an island; larger ones are left to the sweeps.
-const MOST_BODIES: usize = 48;
-/// Largest number of contacts of an island.
+/// Largest number of spheres of a small island.
+pub const MOST_BODIES: usize = 48;
+/// Largest number of contacts of a small island.
 const MOST_LINKS: usize = 512;
+/// Largest number of spheres and of contacts of an island in which nothing presses; larger ones, and large heaps, are
+/// left to the sweeps.
+const MOST_FLYING: usize = 1 << 16;
 /// A sphere may get this many times as far in a cascade as by itself: what a heavy one hits flies off at twice its
 /// speed.
-const REACH: f64 = 2.0;
+pub const REACH: f64 = 2.0;
 
 /// Spheres and their contacts.
 #[derive(Debug, Clone, Default)]
@@ -22,10 +25,33 @@ pub struct Island {
     pub links: Vec<Link>,
 }
 
+impl Island {
+    /// Whether it can be followed as a whole.
+    pub fn is_small(&self) -> bool {
+        self.bodies.len() <= MOST_BODIES && self.links.len() <= MOST_LINKS
+    }
+
+    /// Whether it is no longer gathered.
+    fn is_too_large(&self, presses: bool) -> bool {
+        let [bodies, links] = [self.bodies.len(), self.links.len()];
+        !self.is_small() && (presses || bodies.max(links) > MOST_FLYING)
+    }
+
+    /// Largest speed of a body \[m/s\].
+    pub fn top_speed(&self) -> f64 {
+        self.bodies.iter().map(|body| body.velocity.length()).fold(0.0, f64::max)
+    }
+}
+
+/// A slot of no body in [`Gathering::places`].
+const NOWHERE: u32 = u32::MAX;
+
 /// Gathers the islands of a sub-step.
 pub struct Gathering {
     /// What the search found of each sphere, by slot.
     seen: Vec<Seen>,
+    /// Places of spheres in the island that grows, by slot.
+    places: Vec<u32>,
     /// Islands by number; `None` for those that became a part of another.
     islands: Vec<Option<Island>>,
 }
@@ -43,7 +69,11 @@ enum Seen {
 impl Gathering {
     /// Starts a search among this number of spheres.
     pub fn among(spheres: usize) -> Self {
-        Self { seen: vec![Seen::Never; spheres], islands: Vec::new() }
+        Self {
+            seen: vec![Seen::Never; spheres],
+            places: vec![NOWHERE; spheres],
+            islands: Vec::new(),
+        }
     }
 
     /// Gathers the island about the sphere in a slot, unless the sphere is in one already or the island is too large.
@@ -55,6 +85,9 @@ impl Gathering {
         let mut joined = Vec::new();
         loop {
             let growing = self.grow(solver, (seed, &joined), sub_step);
+            for body in &growing.island.bodies {
+                self.places[body.slot as usize] = NOWHERE;
+            }
             if let Some(number) = growing.reaches {
                 joined.push(number);
                 continue;
@@ -84,35 +117,39 @@ impl Gathering {
     /// Follows contacts from a sphere and the islands `joined` on, until there are no more, they are too many, or they
     /// reach another island.
     fn grow(
-        &self,
+        &mut self,
         solver: &Solver,
         (seed, joined): (usize, &[usize]),
         sub_step: &SubStep,
     ) -> Growing {
         let slots = &solver.slots;
+        let Self { seen, places, islands } = self;
         let mut growing = Growing::default();
-        growing.add(slots, seed);
-        for island in joined.iter().filter_map(|&number| self.islands[number].as_ref()) {
-            let awake = island.bodies.iter().filter(|body| body.inverse_mass > 0.0);
-            for body in awake {
-                growing.add(slots, body.slot as usize);
+        growing.add(slots, places, seed);
+        for island in joined.iter().filter_map(|&number| islands[number].as_ref()) {
+            for body in island.bodies.iter().filter(|body| body.is_awake()) {
+                growing.add(slots, places, body.slot as usize);
             }
         }
-        let mut next = 0;
+        let [mut next, mut checked_bodies, mut checked_links] = [0; 3];
+        let mut presses = false;
         while next < growing.island.bodies.len() {
             let body = growing.island.bodies[next];
             if body.inverse_mass > 0.0 {
                 for &origin in solver.incidence.of(body.slot as usize) {
-                    growing.follow(solver, next, origin, sub_step);
+                    growing.follow(solver, places, (next, origin), sub_step);
                 }
             }
             next += 1;
             let Island { bodies, links } = &growing.island;
-            let awake = bodies.iter().filter(|body| body.inverse_mass > 0.0);
-            let mut seen = awake.map(|body| self.seen[body.slot as usize]);
-            let is_large = bodies.len() > MOST_BODIES || links.len() > MOST_LINKS;
-            let is_driven = links.iter().any(|link| link.is_driven);
-            if is_large || is_driven || seen.clone().any(|it| it == Seen::TooLarge) {
+            let (new_bodies, new_links) = (&bodies[checked_bodies..], &links[checked_links..]);
+            [checked_bodies, checked_links] = [bodies.len(), links.len()];
+            let awake = new_bodies.iter().filter(|body| body.is_awake());
+            let mut seen = awake.map(|body| seen[body.slot as usize]);
+            let is_driven = new_links.iter().any(|link| link.is_driven);
+            presses |= new_links.iter().any(Link::pressed);
+            let is_too_large = growing.island.is_too_large(presses);
+            if is_too_large || is_driven || seen.clone().any(|it| it == Seen::TooLarge) {
                 return growing;
             }
             growing.reaches = seen.find_map(|it| match it {
@@ -141,18 +178,25 @@ struct Growing {
 
 impl Growing {
     /// The place of the sphere in a slot.
-    fn add(&mut self, slots: &Slots, slot: usize) -> usize {
-        let known = self.island.bodies.iter().position(|body| body.slot as usize == slot);
-        known.unwrap_or_else(|| {
+    fn add(&mut self, slots: &Slots, places: &mut [u32], slot: usize) -> usize {
+        let place = &mut places[slot];
+        if *place == NOWHERE {
             let body = Body::of(slots, slot);
             self.speed = self.speed.max(body.velocity.length());
+            *place = self.island.bodies.len() as u32;
             self.island.bodies.push(body);
-            self.island.bodies.len() - 1
-        })
+        }
+        *place as usize
     }
 
     /// Adds a contact of a body that may close in the sub-step, and the other sphere.
-    fn follow(&mut self, solver: &Solver, own: usize, origin: Origin, sub_step: &SubStep) {
+    fn follow(
+        &mut self,
+        solver: &Solver,
+        places: &mut [u32],
+        (own, origin): (usize, Origin),
+        sub_step: &SubStep,
+    ) {
         let slots = &solver.slots;
         let mut link = Link::of(solver, origin);
         let body = &self.island.bodies[own];
@@ -165,17 +209,15 @@ impl Growing {
                 let other = link.slots.into_iter().find(|&it| it != body.slot).unwrap_or(body.slot)
                     as usize;
                 let own_slot = body.slot as usize;
-                let place = self.island.bodies.iter().position(|it| it.slot as usize == other);
-                let is_known = place.is_some_and(|place| {
-                    place < own && self.island.bodies[place].inverse_mass > 0.0
-                });
+                let place = places[other] as usize;
+                let is_known = place < own && self.island.bodies[place].is_awake();
                 let reach =
                     REACH * sub_step.h * self.speed.max(slots.before[other].vector().length());
                 let is_near = link.bears || link.gap_between(slots) <= reach;
                 if is_known || other == own_slot || !is_near {
                     return;
                 }
-                let other = self.add(slots, other);
+                let other = self.add(slots, places, other);
                 let is_first = link.slots[0] as usize == own_slot;
                 let [first, second] = if is_first { [own, other] } else { [other, own] };
                 (link.first, link.second) = (Some(first), second);

@@ -59,6 +59,8 @@ pub struct Link {
     /// Speed of approach of an impact \[m/s\]; 0 without one.
     pub approach: f64,
     pub impulses: Impulses,
+    /// How long the last flight took \[s\].
+    pub last: f64,
 }
 
 impl Link {
@@ -86,6 +88,7 @@ impl Link {
             time: f64::INFINITY,
             approach: 0.0,
             impulses: Impulses::default(),
+            last: 0.0,
         };
         match origin {
             Origin::Pair { slab, batch, lane } => {
@@ -136,15 +139,20 @@ impl Link {
         }
     }
 
+    /// This link of bodies at other places.
+    pub fn between(self, first: Option<usize>, second: usize) -> Self {
+        Self { first, second, ..self }
+    }
+
     /// The gap of two spheres at the start of the sub-step \[m\].
     pub fn gap_between(&self, slots: &Slots) -> f64 {
         let [first, second] = self.slots.map(|slot| slots.position[slot as usize].vector());
         (second - first + self.shift).length() - self.radius_sum
     }
 
-    /// Notes whether the link pressed before the sub-step; that counts from its start on.
-    pub fn begin(&mut self) {
-        self.bears = self.carried > 0.0;
+    /// Whether the link pressed before the sub-step.
+    pub fn pressed(&self) -> bool {
+        self.carried > 0.0
     }
 
     /// Measures normal and gap. Returns whether there are any.
@@ -305,16 +313,15 @@ impl Link {
         }
     }
 
-    /// The impulses with which the link starts the next sub-step, after a last flight of this duration \[s\]: those
-    /// of a whole sub-step.
-    pub fn kept(&self, bodies: &[Body], last: f64, sub_step: &SubStep) -> Impulses {
-        if self.role != Role::Bears || self.impulses.normal == 0.0 || last <= 0.0 {
+    /// The impulses with which the link starts the next sub-step: those of the last flight, as in a whole sub-step.
+    pub fn kept(&self, bodies: &[Body], sub_step: &SubStep) -> Impulses {
+        if self.role != Role::Bears || self.impulses.normal == 0.0 || self.last <= 0.0 {
             return Impulses::default();
         }
         let masses = [self.first, Some(self.second)].into_iter().flatten();
         let inverse_mass: f64 = masses.map(|it| bodies[it].inverse_mass).sum();
         let most = self.carried.max(sub_step.growth / inverse_mass);
-        let part = (sub_step.h / last).min(most / self.impulses.normal);
+        let part = (sub_step.h / self.last).min(most / self.impulses.normal);
         let of = |vector: [f64; 3]| vector.map(|it| part * it);
         let normal = part * self.impulses.normal;
         Impulses {

@@ -1,5 +1,5 @@
 //! Cascades: where a sphere strikes a body that touches something else, or reaches a second body after its first
-//! impact, a small island of spheres repeats the sub-step, from impact to impact in order of time.
+//! impact, an island of spheres repeats the sub-step, from impact to impact in order of time.
 //!
 //! The sweeps answer all impacts of a sub-step together, as if they came at one time, and take what a few of
 //! them leave for solved. In a heap that is good enough, for much is lost there anyway. Elastic bounces
@@ -10,6 +10,7 @@ mod course;
 mod island;
 mod link;
 mod met;
+mod pieces;
 
 use super::contacts::batch::Impulses;
 use super::contacts::swept::FREE;
@@ -17,7 +18,6 @@ use super::solver::Solver;
 use super::sub_step::SubStep;
 use crate::report::StepReport;
 use crate::system::System;
-use course::Course;
 use island::{Gathering, Island};
 
 /// Follows the cascades about the spheres in these slots. Until they [`land`], their spheres move as if nothing
@@ -38,18 +38,20 @@ pub(super) fn follow(
     let mut gathering = Gathering::among(solver.slots.len());
     seeds.iter().for_each(|&seed| gathering.gather(solver, seed, sub_step));
     for mut island in gathering.into_islands() {
-        let course = Course::run(&mut island, solver.places.at_rest(), sub_step);
+        island.links.iter_mut().for_each(|link| link.bears = link.pressed());
+        let Some(course) = pieces::follow(&mut island, solver.places.at_rest(), sub_step) else {
+            continue;
+        };
         report.energy_account.contacts += course.work;
         let impacts = course.impacts.iter().map(|it| it.report(system, solver, sub_step));
         report.impacts.extend(impacts);
-        withdraw(solver, &island, course.last, sub_step);
+        withdraw(solver, &island, sub_step);
     }
     solver.landings.spheres.sort_unstable_by_key(|landed| landed.slot);
 }
 
-/// Removes an island, whose last flight took this long \[s\], from the spheres and contacts that the sweeps work
-/// on.
-fn withdraw(solver: &mut Solver, island: &Island, last: f64, sub_step: &SubStep) {
+/// Removes an island from the spheres and contacts that the sweeps work on.
+fn withdraw(solver: &mut Solver, island: &Island, sub_step: &SubStep) {
     let Solver { slots, slabs, landings, .. } = solver;
     for body in island.bodies.iter().filter(|body| body.inverse_mass > 0.0) {
         let slot = body.slot as usize;
@@ -61,7 +63,7 @@ fn withdraw(solver: &mut Solver, island: &Island, last: f64, sub_step: &SubStep)
         landings.spheres.push(body.landed());
     }
     for link in &island.links {
-        landings.contacts.push((link.origin, link.kept(&island.bodies, last, sub_step)));
+        landings.contacts.push((link.origin, link.kept(&island.bodies, sub_step)));
         link.origin.set(slabs, Impulses::default(), FREE);
     }
 }

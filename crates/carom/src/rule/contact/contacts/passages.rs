@@ -14,6 +14,9 @@ const JOINED: f64 = 1e-2;
 /// before and still overlap. While a sphere passes a part of an open mesh it passes the parts around, except those on
 /// which it presses or which it hardly overlaps.
 pub(crate) fn find(run: &Run, contacts: &mut [SurfaceContact], places: &Places) {
+    if !places.any_open {
+        return;
+    }
     for own in contacts.chunk_by_mut(|first, second| first.slot == second.slot) {
         find_of_sphere(run, own, places);
     }

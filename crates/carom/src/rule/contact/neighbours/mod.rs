@@ -17,10 +17,11 @@ use crate::rule::contact::contacts::dormant;
 use crate::rule::contact::contacts::materials::{ContactMaterial, Materials};
 use crate::rule::contact::contacts::surfaces::SurfaceContact;
 use crate::rule::contact::places::{Places, offsets};
-use crate::rule::contact::slabs::search::Search;
+use crate::rule::contact::slabs::search::{self, Search};
 use crate::rule::contact::slabs::warm_start::WarmStart;
 use crate::rule::contact::slabs::{self, Slab, Slabs};
 use crate::rule::contact::slots::Slots;
+use crate::rule::contact::slots::row::Row;
 use crate::rule::contact::solver::{Scratch, Solver};
 use crate::rule::contact::sub_step::SubStep;
 use crate::rule::periodic::image_shift;
@@ -55,7 +56,8 @@ pub(crate) fn search(
     slots.wrap();
     let approaches = NearMoving::approaches(system, slots, places, frame.h);
     let approaches = (!system.surfaces.is_empty()).then_some(&approaches[..]);
-    solver.drift = search.arrange(slots, [frame.h, sub_step.h], approaches);
+    let near = |place: &Row, distance: f64| surfaces_near(system, place, distance);
+    solver.drift = search.arrange(slots, [frame.h, sub_step.h], approaches, near);
     divide(slots, slabs, search);
     if !dormant.is_empty() {
         let places = search.places();
@@ -105,6 +107,18 @@ pub(crate) fn search(
     known.add_contacts(slabs);
     report.work.searches += 1;
     report.work.pair_tests += search.take_tests();
+}
+
+/// Returns the number of surfaces up to a distance \[m\] from a sphere with this row of centre and radius; 0 where all
+/// are few.
+fn surfaces_near(system: &System, place: &Row, distance: f64) -> usize {
+    if system.surfaces.len() <= search::MOST_SURFACES {
+        return 0;
+    }
+    let mut near = Vec::new();
+    let reach = DVec3::splat(place.number() + distance);
+    system.tree.near(&Bounds::around(place.vector(), reach), &mut near);
+    near.len()
 }
 
 /// Saves the impulses of all contacts that stay awake.

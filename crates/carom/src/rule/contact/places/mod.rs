@@ -52,6 +52,9 @@ pub(crate) struct Places {
     /// When surfaces changed last; a snapshot shares them.
     #[cfg_attr(feature = "serde", serde(skip))]
     starts: Arc<Vec<Place>>,
+    /// Whether spheres may come through a surface from behind.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub any_open: bool,
     /// Number of surfaces that are not images.
     own: usize,
     /// The numbers of moving surfaces that deflect spheres.
@@ -106,6 +109,7 @@ impl Places {
         starts.extend(surfaces.iter().map(|surface| surface.after(0.0)));
         place_images(surfaces, &self.images, starts);
         self.own = surfaces.len();
+        self.any_open = surfaces.iter().any(|surface| surface.form.is_open());
         let moves =
             |(_, it): &(u32, &Surface)| it.role == Role::Deflects && !it.motion.is_at_rest();
         self.moving.clear();

@@ -5,7 +5,6 @@ use glam::DVec3;
 use crate::force_work::ForceWork;
 use crate::forces::{self, SphereState};
 use crate::report::StepReport;
-use crate::rule::contact::slots::Slots;
 use crate::rule::contact::slots::row::Row;
 use crate::rule::contact::solver::Solver;
 use crate::rule::contact::sub_step::SubStep;
@@ -14,39 +13,97 @@ use crate::system::System;
 /// Computes the accelerations by nonconservative forces for a sub-step with its middle at `time` \[s\] on the world's
 /// clock; the arrays stay empty without such forces.
 pub(crate) fn find(system: &System, solver: &mut Solver, time: f64) {
-    let Solver { slots, held_forces, has_other_forces, .. } = solver;
-    slots.working.clear();
-    slots.applied.clear();
+    solver.slots.working.clear();
+    solver.slots.applied.clear();
     if !system.has_nonconservative_forces() {
         return;
     }
-    let between = forces_between(system, slots, time);
-    for slot in 0..slots.len() {
-        let index = slots.index[slot] as usize;
-        let inverse_mass = slots.velocity[slot].number();
-        let of = |forces: &[DVec3]| forces.get(index).copied().unwrap_or(DVec3::ZERO);
-        let (radius, mass) = (system.spheres.radius[index], system.spheres.mass[index]);
-        let (linear, _) = forces::nonconservative_linear(system.forces, radius, mass);
-        let mut force = of(&between);
-        if *has_other_forces {
-            let state = SphereState { radius, mass, ..slots.middle_of(slot) };
-            force += forces::nonconservative_others(system.forces, &state, time);
+    let forces = Forces::of(system, solver, time);
+    let count = solver.slots.len();
+    let applied: Vec<DVec3> = (0..count).map(|slot| forces.applied(slot)).collect();
+    let working = (0..count).zip(&applied).map(|(slot, &applied)| {
+        if solver.slots.is_damped(slot) {
+            forces.on_damped(slot)
+        } else {
+            forces.nonconservative(slot, applied)
         }
-        let applied = inverse_mass * (of(&system.spheres.applied_force) - of(held_forces));
-        let own = linear.acceleration + inverse_mass * force;
-        slots.working.push(Row::new(own + applied, linear.drag_rate));
-        slots.applied.push(applied);
-    }
+    });
+    solver.slots.working = working.collect();
+    solver.slots.applied = applied;
 }
 
-/// The nonconservative forces between spheres in the middle of a sub-step \[N\], by index; empty where there are none.
-fn forces_between(system: &System, slots: &Slots, time: f64) -> Vec<DVec3> {
-    let mut forces = Vec::new();
-    if system.has_interactions() {
-        let [positions, velocities] = &slots.middle;
-        system.nonconservative_forces_between([positions, velocities], time, &mut forces);
+/// Forces in the middle of a sub-step.
+struct Forces<'a> {
+    system: &'a System<'a>,
+    solver: &'a Solver,
+    /// On the world's clock \[s\].
+    time: f64,
+    /// Nonconservative forces between spheres, and all of them \[N\], by index; empty where none are needed.
+    between: [Vec<DVec3>; 2],
+}
+
+impl<'a> Forces<'a> {
+    fn of(system: &'a System<'a>, solver: &'a Solver, time: f64) -> Self {
+        let mut between = [Vec::new(), Vec::new()];
+        if system.has_interactions() {
+            let [positions, velocities] = &solver.slots.middle;
+            let states = [&positions[..], &velocities[..]];
+            let [nonconservative, all] = &mut between;
+            system.nonconservative_forces_between(states, time, nonconservative);
+            if solver.slots.are_any_damped() {
+                system.forces_between(states, time, all);
+            }
+        }
+        Self { system, solver, time, between }
     }
-    forces
+
+    /// Acceleration by the force applied to a single sphere \[m/s²\].
+    fn applied(&self, slot: usize) -> DVec3 {
+        let applied = self.by_index(&self.system.spheres.applied_force, slot);
+        self.inverse_mass(slot) * (applied - self.by_index(&self.solver.held_forces, slot))
+    }
+
+    /// Acceleration by nonconservative forces \[m/s²\], those of an `applied` one included, and the rate of their
+    /// linear drag \[1/s\].
+    fn nonconservative(&self, slot: usize, applied: DVec3) -> Row {
+        let (forces, [radius, mass]) = (self.system.forces, self.radius_and_mass(slot));
+        let (linear, _) = forces::nonconservative_linear(forces, radius, mass);
+        let mut force = self.by_index(&self.between[0], slot);
+        if self.solver.has_other_forces {
+            force += forces::nonconservative_others(forces, &self.state(slot), self.time);
+        }
+        let own = linear.acceleration + self.inverse_mass(slot) * force;
+        Row::new(own + applied, linear.drag_rate)
+    }
+
+    /// The same for a sphere with the acceleration of an implicit step: what the other forces leave of it.
+    fn on_damped(&self, slot: usize) -> Row {
+        let [nonconservative, all] = &self.between;
+        let between = self.by_index(all, slot) - self.by_index(nonconservative, slot);
+        let own = forces::total_conservative(self.system.forces, &self.state(slot), self.time);
+        let others = own + between + self.by_index(&self.solver.held_forces, slot);
+        let mean = self.solver.slots.acceleration[slot].vector();
+        Row::new(mean - self.inverse_mass(slot) * others, 0.0)
+    }
+
+    fn radius_and_mass(&self, slot: usize) -> [f64; 2] {
+        let index = self.solver.slots.index[slot] as usize;
+        [self.system.spheres.radius[index], self.system.spheres.mass[index]]
+    }
+
+    fn state(&self, slot: usize) -> SphereState {
+        let [radius, mass] = self.radius_and_mass(slot);
+        SphereState { radius, mass, ..self.solver.slots.middle_of(slot) }
+    }
+
+    fn inverse_mass(&self, slot: usize) -> f64 {
+        self.solver.slots.velocity[slot].number()
+    }
+
+    fn by_index(&self, forces: &[DVec3], slot: usize) -> DVec3 {
+        let index = self.solver.slots.index[slot] as usize;
+        forces.get(index).copied().unwrap_or(DVec3::ZERO)
+    }
 }
 
 /// Accounts for the work of the forces that [`find`] found: `F·Δx` along the path of a sphere that contacts touch, and

@@ -29,6 +29,10 @@ const MEAN_MARGIN: f64 = 0.15;
 const MOST_OF_BOX: f64 = 0.25;
 /// Least and most frames that a search is to last at the present speeds.
 const LASTING: [f64; 2] = [1.5, 16.0];
+/// Least number of sub-steps that a search is to last where many surfaces are near.
+const SHORTEST: f64 = 2.0;
+/// Mean number of surfaces near a sphere above which searches that last shorter cost less.
+pub(crate) const MOST_SURFACES: usize = 64;
 /// Speeds may grow by this factor meanwhile.
 const FASTER: f64 = 1.1;
 /// A sphere is wide if its reach is more than this many times the mean. It is looked for in all cells that it may
@@ -52,6 +56,21 @@ fn most_among(slots: &Slots, radius: f64) -> f64 {
 /// speed of approach.
 fn hit(approaches: &[f64], slot: usize) -> f64 {
     approaches.get(slot).map_or(0.0, |speed| 2.0 * speed)
+}
+
+/// Whether too many surfaces are near spheres within their `paths` until the next search \[m\], by slot, where these
+/// are long.
+fn is_crowded(
+    slots: &Slots,
+    near: impl Fn(&Row, f64) -> usize,
+    paths: impl Fn(usize) -> f64,
+) -> bool {
+    let far = (0..slots.len()).filter(|&slot| {
+        let radius = slots.position[slot].number();
+        paths(slot) > MOST_MARGIN * radius
+    });
+    let surfaces = far.map(|slot| near(&slots.position[slot], paths(slot)));
+    surfaces.sum::<usize>() > MOST_SURFACES * slots.len()
 }
 
 /// Working memory of a search.
@@ -79,14 +98,16 @@ pub(crate) struct Search {
 impl Search {
     /// Sorts spheres by place, and notes their places and margins, in frames of `frame` and sub-steps of `h` \[s\].
     /// Returns the common motion, to which the margins are relative. Where there are surfaces, spheres may reverse,
-    /// and moving ones may approach them this fast, by slot \[m/s\].
+    /// and moving ones may approach them this fast, by slot \[m/s\]. `near` returns the number of surfaces up to a
+    /// distance \[m\] from a sphere with this row of centre and radius.
     pub fn arrange(
         &mut self,
         slots: &mut Slots,
         [frame, h]: [f64; 2],
         approaches: Option<&[f64]>,
+        near: impl Fn(&Row, f64) -> usize,
     ) -> Drift {
-        let drift = self.find_margins(slots, [frame, h], approaches);
+        let drift = self.find_margins(slots, [frame, h], approaches, near);
         let Self { grid, starts, margins, from, slot_of, cells, spare, .. } = self;
         let count = slots.len();
         let reach = |slot: usize| slots.position[slot].number() + margins[slot];
@@ -113,12 +134,14 @@ impl Search {
     }
 
     /// The margin of each sphere relative to the common motion: on average a given part of the radius, but more for
-    /// faster spheres, so that a few fast ones do not cause frequent searches.
+    /// faster spheres, so that a few fast ones do not cause frequent searches. Where many surfaces are near, searches
+    /// are more frequent.
     fn find_margins(
         &mut self,
         slots: &Slots,
         [frame, h]: [f64; 2],
         approaches: Option<&[f64]>,
+        near: impl Fn(&Row, f64) -> usize,
     ) -> Drift {
         let count = slots.len().max(1) as f64;
         let velocity = slots.velocity.iter().map(|row| row.vector()).sum::<DVec3>() / count;
@@ -126,20 +149,32 @@ impl Search {
         let speeds = slots.velocity.iter().map(speed).sum::<f64>();
         let radii = slots.position.iter().map(|row| row.number()).sum::<f64>();
         let [least, most] = LASTING.map(|frames| frames * frame + h);
-        let lasting = (MEAN_MARGIN * radii / speeds.max(f64::MIN_POSITIVE)).clamp(least, most);
+        let mut lasting = (MEAN_MARGIN * radii / speeds.max(f64::MIN_POSITIVE)).clamp(least, most);
         // A slow sphere among fast ones may be hit and fly like them.
         let mean_speed = speeds / count;
         let farthest = MOST_OF_BOX * slots.period.min_element();
-        let wanted = |slot: usize| {
+        let wanted = |slot: usize, lasting: f64| {
             FASTER * lasting * speed(&slots.velocity[slot]).max(mean_speed)
                 / slots.position[slot].number()
         };
-        let fast = (0..slots.len()).filter(|&slot| wanted(slot) > MOST_MARGIN).count();
-        let are_few = fast <= FEW.1 || fast as f64 <= FEW.0 * count;
-        let most = if are_few { MOST_OF_FEW } else { most_among(slots, radii / count) };
+        let most_for = |lasting: f64| {
+            let fast = (0..slots.len()).filter(|&slot| wanted(slot, lasting) > MOST_MARGIN).count();
+            let are_few = fast <= FEW.1 || fast as f64 <= FEW.0 * count;
+            if are_few { MOST_OF_FEW } else { most_among(slots, radii / count) }
+        };
+        let mut most = most_for(lasting);
+        let path = |slot: usize, lasting: f64, most: f64| {
+            let margin = wanted(slot, lasting).min(most) * slots.position[slot].number();
+            margin + lasting * velocity.length()
+        };
+        while lasting > SHORTEST * h && is_crowded(slots, &near, |slot| path(slot, lasting, most)) {
+            lasting = (0.5 * lasting).max(SHORTEST * h);
+            most = most_for(lasting);
+        }
         self.margins.clear();
         self.margins.extend((0..slots.len()).map(|slot| {
-            let bounded = wanted(slot).clamp(LEAST_MARGIN, most) * slots.position[slot].number();
+            let bounded =
+                wanted(slot, lasting).clamp(LEAST_MARGIN, most) * slots.position[slot].number();
             let bounded = bounded.min(farthest);
             // Within a sub-step it may move on by half its path, or reverse at a surface.
             let row = &slots.velocity[slot];

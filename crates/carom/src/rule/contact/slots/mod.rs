@@ -1,6 +1,7 @@
 //! Slots: the spheres in the solver's order of memory.
 
 pub(crate) mod drift;
+mod forces;
 pub(crate) mod order;
 pub(crate) mod row;
 pub(crate) mod slab_totals;
@@ -10,7 +11,6 @@ use glam::DVec3;
 
 use self::row::Row;
 use crate::bodies::Motion;
-use crate::forces::{self, SphereState};
 use crate::id::SphereId;
 use crate::rule::periodic;
 use crate::settings::nearest_image;
@@ -50,6 +50,10 @@ pub(crate) struct Slots {
     pub acceleration: Vec<Row>,
     /// The acceleration by forces that are linear \[m/s²\]; empty where there are no others.
     linear: Vec<Row>,
+    /// Whether forces damp the motion of each sphere in less than the sub-step, by index: its acceleration is then that
+    /// of an implicit step.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    damped: Vec<bool>,
     /// Centres \[m\] and velocities \[m/s\], by index, in the middle of the sub-step, where forces that are not linear
     /// act.
     #[cfg_attr(feature = "serde", serde(skip))]
@@ -208,79 +212,6 @@ impl Slots {
         permute(&mut self.sleeps, from);
     }
 
-    /// Computes the accelerations of the linear forces now. Returns whether there are other forces.
-    pub fn read_forces(&mut self, system: &System) -> bool {
-        let spheres = system.spheres;
-        let mut has_others = system.has_interactions();
-        let mut last = None;
-        self.acceleration.clear();
-        for &index in &self.index {
-            let i = index as usize;
-            let like = (spheres.radius[i], spheres.mass[i]);
-            let (linear, is_all) = match last {
-                Some((known, linear)) if known == like => linear,
-                _ => forces::total_linear(system.forces, like.0, like.1),
-            };
-            last = Some((like, (linear, is_all)));
-            has_others |= !is_all;
-            let own = spheres.applied_acceleration(i).unwrap_or(DVec3::ZERO);
-            self.acceleration.push(Row::new(linear.acceleration + own, linear.drag_rate));
-        }
-        self.linear.clear();
-        if has_others {
-            self.linear.clone_from(&self.acceleration);
-        }
-        has_others
-    }
-
-    /// Adds the accelerations of the other forces in the middle of a sub-step of `h` \[s\] that starts at this time on
-    /// the world's clock \[s\].
-    pub fn add_other_forces(&mut self, system: &System, time: f64, h: f64) {
-        self.find_middle(system, time, h);
-        let middle = time + 0.5 * h;
-        let between = match system.has_interactions() {
-            true => self.forces_between(system, middle),
-            false => Vec::new(),
-        };
-        for slot in 0..self.len() {
-            let force = self.other_force(system, &between, slot, middle);
-            let linear = self.linear[slot];
-            let acceleration = linear.vector() + force * self.velocity[slot].number();
-            self.acceleration[slot] = linear.with_vector(acceleration);
-        }
-    }
-
-    /// Finds where spheres are in the middle of a sub-step if nothing accelerates them, and how fast under the forces
-    /// of its start (the midpoint rule; without forces that depend on velocities, the leapfrog scheme).
-    fn find_middle(&mut self, system: &System, time: f64, h: f64) {
-        let count = self.len();
-        self.middle.iter_mut().for_each(|states| states.resize(count, DVec3::ZERO));
-        for (slot, &index) in self.index.iter().enumerate() {
-            self.middle[0][index as usize] = self.position[slot].vector();
-            self.middle[1][index as usize] = self.velocity[slot].vector();
-        }
-        let between = match system.has_damped_interactions() {
-            true => self.forces_between(system, time),
-            false => Vec::new(),
-        };
-        for (slot, &index) in self.index.iter().enumerate() {
-            let (row, linear) = (self.velocity[slot], self.linear[slot]);
-            let force = self.other_force(system, &between, slot, time);
-            let acceleration = linear.vector() + force * row.number();
-            let [positions, velocities] = &mut self.middle;
-            positions[index as usize] += 0.5 * h * row.vector();
-            velocities[index as usize] =
-                accelerated(row, linear.with_vector(acceleration), 0.5 * h);
-        }
-    }
-
-    /// The force on a sphere in its present state of [`Self::middle`] \[N\], of forces that are not linear and of those
-    /// between spheres, by index.
-    fn other_force(&self, system: &System, between: &[DVec3], slot: usize, time: f64) -> DVec3 {
-        let own = forces::total_of_others(system.forces, &self.middle_of(slot), time);
-        between.get(self.index[slot] as usize).map_or(own, |&it| own + it)
-    }
-
     /// Returns by how much the mean velocity of a free sphere in the sub-step differs from its last
     /// one \[m/s\], where forces are not linear; others change too little in a sub-step for that to
     /// matter.
@@ -289,26 +220,6 @@ impl Slots {
             return 0.0;
         }
         0.5 * (self.velocity[slot].vector() - self.before[slot].vector()).length()
-    }
-
-    /// The state of a sphere in the middle of the sub-step.
-    pub fn middle_of(&self, slot: usize) -> SphereState {
-        let index = self.index[slot] as usize;
-        let [positions, velocities] = &self.middle;
-        SphereState {
-            position: periodic::wrapped(positions[index], self.period),
-            velocity: velocities[index],
-            radius: self.position[slot].number(),
-            mass: 1.0 / self.velocity[slot].number(),
-        }
-    }
-
-    /// The forces between spheres in their states of [`Self::middle`] \[N\], by index.
-    fn forces_between(&self, system: &System, time: f64) -> Vec<DVec3> {
-        let mut forces = Vec::new();
-        let [positions, velocities] = &self.middle;
-        system.forces_between([positions, velocities], time, &mut forces);
-        forces
     }
 
     /// Centres \[m\], by index.
