@@ -17,6 +17,7 @@ mod cue_hand;
 #[cfg(not(target_arch = "wasm32"))]
 mod desktop;
 mod exports;
+mod fonts;
 mod game_view;
 #[cfg(feature = "gamepad")]
 mod gamepad;

@@ -23,6 +23,7 @@ use crate::address::Address;
 use crate::billiards_screen::BilliardsScreen;
 use crate::chooser::{Asked, Chooser, invite};
 use crate::exports::Exports;
+use crate::fonts;
 use crate::game_view::{GameScreen, Wish};
 use crate::help;
 use crate::host::{Host, Inbox};
@@ -139,6 +140,7 @@ impl App {
             link: LinkDialog::default(),
             saved,
         };
+        fonts::install(&app.context);
         make_readable(&app.context);
         accept_slow_clicks(&app.context);
         if app.host.has_coarse_pointer() {
