@@ -101,6 +101,13 @@ def test_a_time_that_makes_no_sense_is_refused_and_changes_nothing(
 def test_what_makes_no_sense_is_refused_by_its_name(viewer: Viewer) -> None:
     with pytest.raises(carom.CaromError, match="picked: must be an id"):
         viewer.pick(-1)
+    still = viewer_of(carom.load("cradle"))
+    for id in (-1, 99):
+        with pytest.raises(carom.CaromError, match=f"id: no sphere has the id {id}"):
+            still.set_sphere(id, mass=2)
+        with pytest.raises(carom.CaromError, match=f"id: no sphere has the id {id}"):
+            still.remove_sphere(id)
+    still.set_sphere(3, mass=2)
     with pytest.raises(TypeError, match="colour: must be one of position, velocity"):
         viewer.set_sphere(0, colour=1)
     with pytest.raises(carom.CaromError, match="height: must be in"):

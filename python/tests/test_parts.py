@@ -326,3 +326,25 @@ def test_a_scene_of_ones_own_has_fields_of_its_own() -> None:
 def test_every_name_of_a_finish_is_taken() -> None:
     for finish in get_args(carom.Finish):
         assert carom.Sphere(finish=finish).finish == finish
+
+
+def test_a_camera_that_looks_at_a_point_is_the_one_of_a_scene_file() -> None:
+    for position, target in [
+        ((3, 4, 5), (0, 1, 0)),
+        ((-1, -2, 7), (4, 9, 0)),
+        ((0, 5, 0), (0, 0, 0)),
+    ]:
+        camera = carom.Camera(position, look_at=target)
+        ball = "spheres = [{ radius = 1 }]"
+        written = f"{ball}\ncamera = {{ position = {list(position)}, look_at = {list(target)} }}"
+        read = carom.Scene.from_toml(written).camera
+        assert read is not None
+        # Both compute sines and cosines of angles, by other libraries.
+        np.testing.assert_allclose(camera.rotation, read.rotation, rtol=0, atol=1e-15)
+        scene = carom.Scene(name="looking", camera=camera, spheres=[BALL])
+        assert carom.Scene.from_toml(scene.to_toml()).camera == camera
+        assert replace(camera, near=1.0).rotation == camera.rotation
+    with pytest.raises(carom.CaromError, match="look_at: must be another point than `position`"):
+        carom.Camera((1, 1, 1), look_at=(1, 1, 1))
+    with pytest.raises(carom.CaromError, match="takes `rotation` or `look_at`, not both"):
+        carom.Camera((1, 1, 1), (0, 1, 0, 0), look_at=(0, 0, 0))

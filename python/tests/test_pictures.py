@@ -396,3 +396,14 @@ def test_a_window_that_cannot_be_opened_says_why(
     assert len(str(caught.value)) > 20
     with pytest.raises(carom.SceneError):
         carom.Scene(name="broken", spheres=[carom.Sphere(radius=1)] * 2).view()
+
+
+def test_no_library_complains_where_a_server_names_no_runtime_folder() -> None:
+    program = (
+        "import os, carom; carom.load('simtest1').picture(size=(64, 36)); "
+        "assert 'XDG_RUNTIME_DIR' not in os.environ"
+    )
+    environment = {name: it for name, it in os.environ.items() if name != "XDG_RUNTIME_DIR"}
+    command = [sys.executable, "-c", program]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+    assert (done.stdout, done.stderr) == ("", "")

@@ -1,4 +1,4 @@
-// Four tasks of users; the time of each from the load of the page on is reported.
+// What users do; the time of each task from the load of the page on is reported.
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
@@ -30,6 +30,14 @@ after(() => desk?.clear());
 function report(context, began) {
   context.diagnostic(`${((performance.now() - began) / 1000).toFixed(1)} s from the load`);
 }
+
+test("a first visit moves without a click", async (context) => {
+  const began = performance.now();
+  const viewer = await desk.open();
+  await viewer.until(({ watching }) => watching?.time > 0);
+  report(context, began);
+  await viewer.close();
+});
 
 test("another bounciness changes how the scene goes on", async (context) => {
   const pictures = [];
@@ -79,7 +87,7 @@ test("controls that stand in a row or a column are aligned", async () => {
     });
   const spread = (/** @type {number[]} */ places) => Math.max(...places) - Math.min(...places);
   for (const row of [
-    ["Scenes", "View", "Measure", "Share", "Inspector"],
+    ["Scenes", "View", "Measure", "Share", "Settings"],
     ["Play", "Restart", "Step back", "Step", "Undo", "Redo"],
   ]) {
     const middles = named(row).map((it) => it.y + 0.5 * it.height);

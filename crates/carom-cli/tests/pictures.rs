@@ -74,6 +74,22 @@ fn the_stamp_is_in_the_lower_left_corner_only() {
 }
 
 #[test]
+fn a_title_in_any_script_is_written_or_its_missing_characters_are_reported() {
+    let folder = tempfile::tempdir().unwrap();
+    let (file, scene) = (path(&folder, "p.png"), path(&folder, "s.toml"));
+    // The last is no character, so no font has it.
+    for (title, lacks) in [("Bälle 🎱", ""), ("a\u{10fffe}b", "\u{10fffe}")] {
+        std::fs::write(&scene, format!("title = \"{title}\"\nspheres = [{{ radius = 1 }}]"))
+            .unwrap();
+        let run = [&["picture", &scene, "--force", "--out", &file], &SMALL[..]].concat();
+        let output = carom().args(run).output().unwrap();
+        let told = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.success(), "{told}");
+        assert_eq!(told.contains("the stamp lacks"), !lacks.is_empty(), "{told}");
+    }
+}
+
+#[test]
 fn a_picture_is_that_of_the_nearest_frame() {
     let folder = tempfile::tempdir().unwrap();
     let at = |time| picture(&folder, &["tutorial1", "--at", time]);

@@ -49,6 +49,24 @@ fn a_dash_reads_the_scene_from_the_standard_input() {
 }
 
 #[test]
+fn a_dash_grades_the_run_in_the_standard_input() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = path(&folder, "run.csv");
+    good(&["run", "simtest1", "--seconds", "2", "--out", &file]);
+    let recorded = std::fs::read_to_string(&file).unwrap();
+    let pages = path(&folder, "");
+    let graded = fed(&["grade", "-", "--scene", "simtest1", "--report", &pages], &recorded);
+    assert!(graded.status.success(), "{}", text(&graded.stderr));
+    assert!(text(&graded.stdout).starts_with("run        stdin, "), "{}", text(&graded.stdout));
+    assert!(text(&graded.stdout).contains("same as the course's rule"));
+    assert!(Path::new(&path(&folder, "stdin.html")).is_file());
+    let nameless = fed(&["grade", "-"], &recorded);
+    assert!(text(&nameless.stderr).contains("stdin: the file name contains no name of a scene"));
+    let broken = fed(&["grade", "-", "--scene", "simtest1"], "t,ball,x,y,z\n0.02,0,1,2,up\n");
+    assert!(text(&broken.stderr).contains("stdin:2: \"up\" is no number"));
+}
+
+#[test]
 fn a_dash_writes_the_trajectory_to_the_standard_output_and_the_summary_beside_it() {
     let folder = tempfile::tempdir().unwrap();
     let file = path(&folder, "t.csv");

@@ -105,10 +105,22 @@ impl Recorded {
             );
         }
         let unreadable = |source| GradeError::Unreadable { path: path.to_owned(), source };
+        Self::read_from(File::open(path).map_err(unreadable)?, path, reading)
+    }
+
+    /// Reads the table of a run from a stream that errors call `path`.
+    ///
+    /// # Errors
+    /// The same as those of [`Self::read`].
+    pub fn read_from(
+        stream: impl Read,
+        path: &Path,
+        reading: &Reading,
+    ) -> Result<Self, GradeError> {
+        let unreadable = |source| GradeError::Unreadable { path: path.to_owned(), source };
         let mut bytes = Vec::new();
         // The limit also stops the reading of endless devices.
-        let mut file = File::open(path).map_err(unreadable)?.take(MOST_BYTES + 1);
-        file.read_to_end(&mut bytes).map_err(unreadable)?;
+        stream.take(MOST_BYTES + 1).read_to_end(&mut bytes).map_err(unreadable)?;
         if bytes.len() as u64 > MOST_BYTES {
             return Err(refused(path, "is larger than 512 MiB"));
         }

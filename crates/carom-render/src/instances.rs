@@ -266,6 +266,8 @@ fn finish(finish: Finish) -> f64 {
             Finish::Glossy => 2.0,
             Finish::Metal => 3.0,
             Finish::Glass => 4.0,
+            Finish::Wood => 5.0,
+            Finish::Cloth => 6.0,
         }
 }
 

@@ -19,6 +19,7 @@ mod film;
 mod film_error;
 #[cfg(feature = "film")]
 mod film_form;
+mod fonts;
 #[cfg(feature = "film")]
 mod fragments;
 mod framing;
@@ -52,6 +53,7 @@ pub use drawing::{Arrow, Ball, Drawing, Light, Panel, Pattern};
 pub use film::{Film, FilmSummary};
 #[cfg(feature = "film")]
 pub use film_error::FilmError;
+pub use fonts::TEXT_FONT;
 pub use framing::Framing;
 pub use gpu::{Gpu, GpuError};
 pub use look::{Roll, bodies, draw_world, spring_line};
@@ -64,7 +66,7 @@ pub use preset::Preset;
 pub use quality::Quality;
 pub use readback::Readback;
 pub use renderer::Renderer;
-pub use stamp::{caption, stamp};
+pub use stamp::{caption, missing_characters, stamp};
 pub use surroundings::add_surroundings;
 pub use target::{COLOR_FORMAT, Target};
 pub use wgpu;

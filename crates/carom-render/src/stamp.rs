@@ -1,7 +1,8 @@
 //! Text on a picture: the name of the scene, and the time.
 
-use ab_glyph::{Font, FontRef, Glyph, PxScale, ScaleFont, point};
+use ab_glyph::{Font, FontArc, Glyph, PxScale, ScaleFont, point};
 
+use crate::fonts::{KnownFont, font_of};
 use crate::picture::Picture;
 
 /// Height of the text as a part of the picture's height.
@@ -31,7 +32,7 @@ const SOFTNESS: f32 = 1.5;
 ///
 /// The size follows the picture's height. Text too wide for the picture becomes smaller; at the
 /// smallest size it is cut and ends in an ellipsis. If that does not fit either, nothing is
-/// written.
+/// written. Characters that no font draws are left out; see [`missing_characters`].
 pub fn stamp(picture: &mut Picture, text: &str) {
     write(picture, text, TEXT_PART, Place::LowerLeft);
 }
@@ -39,6 +40,23 @@ pub fn stamp(picture: &mut Picture, text: &str) {
 /// Writes large text such as `You win!` into the middle of a picture, in the style of [`stamp`].
 pub fn caption(picture: &mut Picture, text: &str) {
     write(picture, text, CAPTION_PART, Place::Middle);
+}
+
+/// Returns the characters of a text that no font of the program or the system draws, each once.
+pub fn missing_characters(text: &str) -> String {
+    let mut missing = String::new();
+    for character in text.chars().filter(|it| !is_ignorable(*it)) {
+        if !missing.contains(character) && font_of(character).is_none() {
+            missing.push(character);
+        }
+    }
+    missing
+}
+
+/// Returns whether a character has no glyph of its own: controls, joiners, variation selectors.
+fn is_ignorable(character: char) -> bool {
+    character.is_control()
+        || matches!(character, '\u{200b}'..='\u{200f}' | '\u{2060}' | '\u{fe00}'..='\u{fe0f}' | '\u{feff}')
 }
 
 /// Position of a line in a picture.
@@ -61,13 +79,12 @@ impl Place {
 
 /// Writes a line whose text has the height `part` times that of the picture.
 fn write(picture: &mut Picture, text: &str, part: f32, place: Place) {
-    // The font is part of the program, so reading it cannot fail.
-    let Ok(font) = FontRef::try_from_slice(epaint_default_fonts::UBUNTU_LIGHT) else {
-        return;
-    };
-    let text: String = text.chars().filter(|char| !char.is_control()).take(LONGEST).collect();
+    // The font of usual text is part of the program, so reading it cannot fail.
+    let Some(KnownFont { font, .. }) = font_of(' ') else { return };
+    let text = text.chars().filter(|it| !is_ignorable(*it)).take(LONGEST);
+    let text: Vec<Character> = text.filter_map(Character::of).collect();
     let wished = (picture.height as f32 * part).max(SMALLEST);
-    let Some(line) = fit(&font, text.trim(), wished, picture.width as f32) else {
+    let Some(line) = fit(trimmed(&text), wished, picture.width as f32) else {
         return;
     };
     let size = line.size;
@@ -77,11 +94,31 @@ fn write(picture: &mut Picture, text: &str, part: f32, place: Place) {
     darken(picture, &rectangle, size * CORNER);
     let ascent = font.as_scaled(PxScale::from(size)).ascent();
     let origin = [left + size * PADDING_X, top + size * PADDING_Y + ascent];
-    for mut glyph in line.glyphs {
+    for (font, mut glyph) in line.glyphs {
         glyph.position.x += origin[0];
         glyph.position.y += origin[1];
-        draw(picture, &font, glyph);
+        draw(picture, &font.font, glyph);
     }
+}
+
+/// A character with the font that draws it.
+#[derive(Clone)]
+struct Character {
+    character: char,
+    font: KnownFont,
+}
+
+impl Character {
+    fn of(character: char) -> Option<Self> {
+        Some(Self { character, font: font_of(character)? })
+    }
+}
+
+/// Returns a text without the spaces at both ends.
+fn trimmed(text: &[Character]) -> &[Character] {
+    let is_ink = |it: &Character| !it.character.is_whitespace();
+    let (first, last) = (text.iter().position(is_ink), text.iter().rposition(is_ink));
+    first.zip(last).map_or(&[], |(first, last)| &text[first..=last])
 }
 
 /// A line of text whose base line begins at the origin.
@@ -90,7 +127,7 @@ struct Line {
     size: f32,
     /// Width \[px\].
     width: f32,
-    glyphs: Vec<Glyph>,
+    glyphs: Vec<(KnownFont, Glyph)>,
 }
 
 /// Sides in px from the upper left of the picture.
@@ -101,10 +138,10 @@ struct Rectangle {
 
 /// Lays the text out at the `wished` size, or smaller if a picture of this `width` requires it
 /// \[px\].
-fn fit(font: &FontRef, text: &str, wished: f32, width: f32) -> Option<Line> {
+fn fit(text: &[Character], wished: f32, width: f32) -> Option<Line> {
     // The text and the space around it grow with the size.
     let around = |size: f32| 2.0 * (MARGIN + PADDING_X) * size;
-    let line = line(font, text, wished);
+    let line = line(text, wished);
     let needed = line.width + around(wished);
     if line.glyphs.is_empty() {
         return None;
@@ -114,12 +151,12 @@ fn fit(font: &FontRef, text: &str, wished: f32, width: f32) -> Option<Line> {
     }
     let size = wished * width / needed;
     if size >= SMALLEST {
-        return Some(self::line(font, text, size));
+        return Some(self::line(text, size));
     }
-    let mut kept: Vec<char> = text.chars().collect();
-    while kept.pop().is_some() && !kept.is_empty() {
-        let cut = format!("{}…", kept.iter().collect::<String>().trim_end());
-        let line = self::line(font, &cut, SMALLEST);
+    let ellipsis = Character::of('…')?;
+    for kept in (1..text.len()).rev() {
+        let cut = trimmed(&text[..kept]).iter().chain([&ellipsis]).cloned();
+        let line = self::line(&cut.collect::<Vec<_>>(), SMALLEST);
         if line.width + around(SMALLEST) <= width {
             return Some(line);
         }
@@ -127,16 +164,17 @@ fn fit(font: &FontRef, text: &str, wished: f32, width: f32) -> Option<Line> {
     None
 }
 
-fn line(font: &FontRef, text: &str, size: f32) -> Line {
-    let scaled = font.as_scaled(PxScale::from(size));
+fn line(text: &[Character], size: f32) -> Line {
     let mut line = Line { size, width: 0.0, glyphs: Vec::new() };
-    let mut last = None;
-    for char in text.chars() {
-        let id = scaled.glyph_id(char);
-        line.width += last.map_or(0.0, |last| scaled.kern(last, id));
-        line.glyphs.push(id.with_scale_and_position(size, point(line.width, 0.0)));
+    for Character { character, font } in text {
+        let scaled = font.font.as_scaled(PxScale::from(size));
+        let id = scaled.glyph_id(*character);
+        // Glyphs of different fonts do not know each other.
+        let last = line.glyphs.last().filter(|(of, _)| of.number == font.number);
+        line.width += last.map_or(0.0, |(_, last)| scaled.kern(last.id, id));
+        let glyph = id.with_scale_and_position(size, point(line.width, 0.0));
+        line.glyphs.push((font.clone(), glyph));
         line.width += scaled.h_advance(id);
-        last = Some(id);
     }
     line
 }
@@ -166,7 +204,7 @@ fn pixels_between(low: f32, high: f32, count: u32) -> std::ops::Range<u32> {
     low.min(count)..high.min(count)
 }
 
-fn draw(picture: &mut Picture, font: &FontRef, glyph: Glyph) {
+fn draw(picture: &mut Picture, font: &FontArc, glyph: Glyph) {
     let Some(outline) = font.outline_glyph(glyph) else {
         return;
     };
@@ -314,10 +352,19 @@ mod tests {
     }
 
     #[test]
-    fn every_character_of_a_stamp_is_in_the_font() {
-        let font = FontRef::try_from_slice(epaint_default_fonts::UBUNTU_LIGHT).unwrap();
-        for char in (' '..='~').chain("äöüÄÖÜßéµ°±×·…²³".chars()) {
-            assert_ne!(font.glyph_id(char).0, 0, "{char}");
+    fn a_character_that_no_font_draws_is_left_out_and_reported() {
+        let odd = "\u{10fffe}simtest1  t = 3.200 s\u{10fffe}\u{fe0f}";
+        assert_eq!(stamped(640, 480, 128, odd), stamped(640, 480, 128, TEXT));
+        assert_eq!(missing_characters(odd), "\u{10fffe}");
+        assert_eq!(missing_characters(TEXT), "");
+    }
+
+    #[test]
+    fn every_character_has_ink_or_is_reported() {
+        for character in "éΩж🎱球の구ბ".chars() {
+            let picture = stamped(640, 480, 128, &format!("a{character}"));
+            let is_missing = !missing_characters(&character.to_string()).is_empty();
+            assert_eq!(picture == stamped(640, 480, 128, "a"), is_missing, "{character}");
         }
     }
 }

@@ -136,3 +136,54 @@ fn a_container_of_glass_shows_what_it_holds_through_every_wall() {
     assert!(green > bare_green + 20, "{green} {bare_green}");
     assert!(red > green + 40 && red.abs_diff(bare_red) < 60, "{red} {green} {bare_red}");
 }
+
+/// Draws the front of a board, twice as high as wide, of this finish and half width \[m\]; the camera is
+/// `away` half widths away.
+fn board(finish: Finish, half: f64, away: f64) -> Picture {
+    let mut drawing = Drawing::default();
+    let size = half * DVec3::new(2.0, 4.0, 0.2);
+    drawing.add_collider(
+        Shape::Box { size },
+        Pose::at(DVec3::ZERO),
+        Coat { color: [0.6, 0.4, 0.25], finish },
+        false,
+    );
+    let camera = Camera::looking_at(DVec3::Z * away * half, DVec3::ZERO, 0.6);
+    let mut offscreen = Offscreen::new(SIZE, Quality::FINE).expect("a graphics driver");
+    offscreen.draw(&drawing, &camera).expect("a picture")
+}
+
+/// Returns the largest change of green along the middle row, or column, within the board.
+fn spread(picture: &Picture, along_row: bool) -> u8 {
+    let [width, height] = SIZE.map(|edge| edge as usize);
+    let greens = (width / 4..3 * width / 4).map(|i| {
+        let place = if along_row { height / 2 * width + i } else { i * width + width / 2 };
+        picture.pixels[4 * place + 1]
+    });
+    let (least, most) =
+        greens.fold((u8::MAX, 0), |(least, most), it| (least.min(it), most.max(it)));
+    most - least
+}
+
+#[test]
+fn wood_has_grain_along_its_longer_side_and_cloth_a_weave() {
+    let [matte, wood] = [Finish::Matte, Finish::Wood].map(|it| board(it, 1.0, 3.0));
+    // Threads are seen near by.
+    let cloth = board(Finish::Cloth, 1.0, 0.6);
+    // Without texture only the light of the sky changes along the face.
+    assert!(spread(&matte, true) < 6, "{}", spread(&matte, true));
+    assert!(spread(&wood, true) > 20, "{}", spread(&wood, true));
+    assert!(spread(&wood, true) > spread(&wood, false), "the board is longer upward");
+    assert!(spread(&cloth, true) > 6, "{}", spread(&cloth, true));
+}
+
+#[test]
+fn a_texture_is_as_fine_as_its_face_is_small() {
+    for finish in [Finish::Wood, Finish::Cloth] {
+        let [one, million] = [1.0, 1e6].map(|half| board(finish, half, 3.0));
+        let differs = |(a, b): &(&u8, &u8)| a.abs_diff(**b) > 12;
+        let different = one.pixels.iter().zip(&million.pixels).filter(differs).count();
+        // Places are rounded to single precision.
+        assert!(different < one.pixels.len() / 100, "{finish:?}: {different}");
+    }
+}

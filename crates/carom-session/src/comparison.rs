@@ -8,6 +8,7 @@ use crate::distance::Distance;
 use crate::edit::{Edit, SphereChange};
 use crate::error::SessionError;
 use crate::history::DEFAULT_MEMORY;
+use crate::link::Link;
 use crate::series::Series;
 use crate::session::Session;
 use crate::view::{View, replace};
@@ -33,6 +34,20 @@ impl Comparison {
             Session::new(scene)
         });
         Ok(Self::of(first?, second?))
+    }
+
+    /// Opens the two runs of a link, and starts to go to its time in both.
+    ///
+    /// # Errors
+    /// The same as those of [`Session::replay`], for either run.
+    pub(crate) fn replay(
+        scene: Scene,
+        link: &Link,
+        (rule, second): (Rule, &Link),
+    ) -> Result<Self, SessionError> {
+        let mut beside = scene.clone();
+        beside.simulation.rule = rule;
+        Ok(Self::of(Session::replay(scene, link)?, Session::replay(beside, second)?))
     }
 
     /// Opens the scene of a session under two simulations, at the beginning, with the frame length

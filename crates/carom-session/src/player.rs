@@ -154,7 +154,7 @@ impl Player {
                 self.open(opened.map_err(SessionError::from));
             }
             Command::Replay(scene, link) => {
-                self.open(Session::replay(*scene, &link).map(Watched::from));
+                self.open(Watched::replay(*scene, &link));
             }
             Command::Nudge(sphere, displacement) => {
                 self.last_edit = None;

@@ -1,11 +1,12 @@
 //! The session or comparison of a driver.
 
 use carom::{DVec3, SphereId, StateHash, StopRequest};
-use carom_scene::scene::Simulation;
+use carom_scene::scene::{Scene, Simulation};
 
 use crate::comparison::Comparison;
 use crate::edit::Edit;
 use crate::error::SessionError;
+use crate::link::Link;
 use crate::session::Session;
 use crate::view::View;
 
@@ -31,6 +32,17 @@ impl From<Comparison> for Watched {
 }
 
 impl Watched {
+    /// Opens the run of a link, or both of two side by side, and starts to go to its time.
+    ///
+    /// # Errors
+    /// The same as those of [`Session::replay`], for either run.
+    pub fn replay(scene: Scene, link: &Link) -> Result<Self, SessionError> {
+        Ok(match link.second() {
+            Some((rule, second)) => Comparison::replay(scene, link, (rule, &second))?.into(),
+            None => Session::replay(scene, link)?.into(),
+        })
+    }
+
     /// The session, or the first of two.
     pub fn session(&self) -> &Session {
         match self {

@@ -180,7 +180,7 @@ shortcuts! {
     }
     Window {
         Choose: [key(Key::Enter)], "choose a scene";
-        Inspector: [key(Key::I)], "show or hide the inspector";
+        Inspector: [key(Key::I)], "show or hide the settings";
         Theme: [key(Key::T)], "light or dark";
         Help: [key(Key::F1), key(Key::Questionmark)], "this list";
         Close: [key(Key::Escape)], "close a dialog or a message";

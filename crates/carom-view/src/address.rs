@@ -29,6 +29,8 @@ pub struct Moment {
     scene: Arc<Scene>,
     frame: u64,
     changes: Arc<Vec<PastChange>>,
+    /// Scene and changes of the second of two runs.
+    beside: Option<(Arc<Scene>, Arc<Vec<PastChange>>)>,
     camera: Option<LinkCamera>,
 }
 
@@ -36,15 +38,21 @@ impl Moment {
     /// Returns the moment that a view shows, with the camera of the link `base`.
     pub fn of(view: &View, base: &Link) -> Self {
         let (scene, changes) = (view.scene.clone(), view.changes.clone());
-        Self { scene, frame: view.frame, changes, camera: base.camera() }
+        let beside = view.other.as_ref().map(|it| (it.scene.clone(), it.changes.clone()));
+        Self { scene, frame: view.frame, changes, beside, camera: base.camera() }
     }
 
     /// Returns whether both moments have the same link.
     pub fn is_same(&self, other: &Self) -> bool {
+        let is_same_beside = match (&self.beside, &other.beside) {
+            (Some(one), Some(two)) => Arc::ptr_eq(&one.0, &two.0) && Arc::ptr_eq(&one.1, &two.1),
+            (one, two) => one.is_none() && two.is_none(),
+        };
         Arc::ptr_eq(&self.scene, &other.scene)
             && self.frame == other.frame
             && self.camera == other.camera
             && Arc::ptr_eq(&self.changes, &other.changes)
+            && is_same_beside
     }
 }
 

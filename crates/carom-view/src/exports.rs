@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use carom_render::{Picture, stamp};
+use carom_render::{Picture, missing_characters, stamp};
 use carom_scene::scene::Scene;
 
 use crate::host::Host;
@@ -125,7 +125,13 @@ impl Outlet<'_> {
     }
 
     fn save_picture(&mut self, mut picture: Picture, name: &str, text: Option<&str>) {
-        text.into_iter().for_each(|text| stamp(&mut picture, text));
+        if let Some(text) = text {
+            stamp(&mut picture, text);
+            let missing = missing_characters(text);
+            if !missing.is_empty() {
+                self.notices.tell(format!("the picture lacks {missing}: no font draws that"));
+            }
+        }
         match picture.to_png() {
             Ok(content) => self.save(name, "png", &content),
             Err(error) => self.notices.complain(error),

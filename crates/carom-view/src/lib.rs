@@ -14,6 +14,7 @@ mod contact_forces;
 #[cfg(not(target_arch = "wasm32"))]
 mod desktop;
 mod exports;
+mod fonts;
 mod game_view;
 #[cfg(feature = "gamepad")]
 mod gamepad;

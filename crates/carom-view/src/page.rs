@@ -4,6 +4,8 @@ use carom_render::{COLOR_FORMAT, Readback};
 use egui::{Context, Rect, Theme, Ui, Vec2};
 use egui_wgpu::{RenderState, Renderer, RendererOptions, ScreenDescriptor, wgpu};
 
+use crate::fonts;
+
 /// Resolution for slides and print, if the device can draw textures of that size.
 const PIXELS_PER_POINT: f32 = 2.0;
 
@@ -18,6 +20,7 @@ pub fn draw(
     mut content: impl FnMut(&mut Ui),
 ) -> Readback {
     let context = Context::default();
+    fonts::install(&context);
     for theme in [Theme::Light, Theme::Dark] {
         context.set_style_of(theme, like.style_of(theme));
     }

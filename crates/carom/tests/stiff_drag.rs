@@ -1,5 +1,5 @@
 //! The rule `exact` under drag that stops a ball in much less than a frame: against closed forms, at rates up to 1e12
-//! per frame, each of which ends. Proves nothing of several balls that damped springs connect.
+//! per frame, each of which ends. Proves nothing of balls that touch.
 
 // What is expected need not have the same bits everywhere.
 #![allow(clippy::disallowed_methods)]
@@ -9,7 +9,8 @@ mod common;
 use std::f64::consts::{LN_2, PI};
 
 use carom::{
-    Collider, DVec3, Force, Gravity, Pose, QuadraticDrag, Shape, Sphere, SphereState, Vortex, World,
+    Collider, DVec3, Force, Gravity, Pose, QuadraticDrag, Shape, Sphere, SphereState, Spring,
+    Vortex, World,
 };
 use common::{G, account_of_run, assert_close, assert_close_vec, exact, run, vec};
 
@@ -141,4 +142,42 @@ fn frames_do_not_change_the_motion_of_a_ball_that_strong_drag_brings_to_rest() {
     let of_some = place_after(16);
     assert_eq!(of_some, place_after(64));
     assert_eq!(of_some, place_after(256));
+}
+
+#[test]
+fn a_chain_of_balls_on_springs_creeps_back_by_its_normal_mode() {
+    // In the mode of number n, q'' = -l q - c q' with l = 4 k/m sin²(pi n / (2 N)) for a chain.
+    let (count, mode, distance, amplitude) = (12, 3, 0.5, 0.02);
+    for rate in [1e3, 1e6] {
+        let wave = PI * f64::from(mode) / f64::from(count);
+        let shape = |number: i32| libm::cos(wave * (f64::from(number) + 0.5));
+        // So stiff that the mode creeps back in a second or so.
+        let square = 4.0 * libm::pow(libm::sin(0.5 * wave), 2.0);
+        let (stiffness, strength) = (rate / square, rate);
+        let mut world = exact();
+        world.add_force(AirDrag { rate, wind: DVec3::ZERO }).unwrap();
+        let place = |number: i32, part: f64| {
+            distance * f64::from(number) + amplitude * part * shape(number)
+        };
+        let ball = |number: i32| Sphere::new(vec(place(number, 1.0), 0.0, 0.0), 0.1).with_mass(1.0);
+        let balls: Vec<_> =
+            (0..count).map(|number| world.add_sphere(ball(number)).unwrap()).collect();
+        for pair in balls.windows(2) {
+            let spring = Spring::between(pair[0], pair[1], distance).with_stiffness(stiffness);
+            world.add_spring(spring).unwrap();
+        }
+        let root = (rate * rate - 4.0 * strength).sqrt();
+        let (slow, fast) = (-2.0 * strength / (rate + root), -0.5 * (rate + root));
+        for frame in 1..=16 {
+            world.step(FRAME).unwrap();
+            let time = f64::from(frame) * FRAME;
+            let part = fast * libm::exp(slow * time) - slow * libm::exp(fast * time);
+            let part = part / (fast - slow);
+            for (number, &ball) in (0..).zip(&balls) {
+                let x = world.sphere(ball).unwrap().position.x;
+                // Rounding of places of 6 m, of some tens of steps.
+                assert_close(x, place(number, part), 1e-13 * distance * f64::from(count));
+            }
+        }
+    }
 }

@@ -8,7 +8,7 @@ import tempfile
 from pathlib import Path
 
 from carom import _carom as engine
-from carom._pictures.picture import check_graphics, checked_path
+from carom._pictures.picture import check_graphics, checked_path, runtime_folder
 from carom._scene.view import View
 
 
@@ -72,4 +72,5 @@ def record(
 ) -> int:
     """Films the scene that is described in TOML into a file; the number of frames."""
     check_graphics()
-    return engine.film_scene(text, checked_path(path, ".mp4"), seconds, frame_rate, view)
+    with runtime_folder():
+        return engine.film_scene(text, checked_path(path, ".mp4"), seconds, frame_rate, view)

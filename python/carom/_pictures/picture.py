@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import os
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Protocol
 
@@ -103,7 +107,25 @@ def painter_of(world: engine.Engine, view: View) -> engine.Painter:
         GraphicsError: If nothing can be drawn here.
     """
     check_graphics()
-    return engine.Painter(world, view)
+    with runtime_folder():
+        return engine.Painter(world, view)
+
+
+@contextmanager
+def runtime_folder() -> Iterator[None]:
+    """Names a folder in ``$XDG_RUNTIME_DIR`` while a graphics device is opened.
+
+    On servers the variable is not set, and a library of the system prints a line about that.
+    """
+    name = "XDG_RUNTIME_DIR"
+    if not sys.platform.startswith("linux") or name in os.environ:
+        yield
+        return
+    os.environ[name] = tempfile.gettempdir()
+    try:
+        yield
+    finally:
+        os.environ.pop(name, None)
 
 
 def check_graphics() -> None:

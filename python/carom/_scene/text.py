@@ -75,6 +75,8 @@ def _fields(part: parts.Part) -> dict[str, object]:
     pairs = [(field.name, getattr(part, field.name)) for field in dataclasses.fields(part)]
     pairs = [(_RENAMED.get(name, name), value) for name, value in pairs]
     written = {name: value for name, value in pairs if value is not None}
+    if isinstance(part, parts.Camera) and part.look_at is not None:
+        del written["rotation"]
     if isinstance(part, (parts.Sphere, parts.Collider)) and part.material is not None:
         # What is usual is left to the material.
         for name in ("restitution", "finish"):

@@ -85,6 +85,8 @@ class Viewer(Widget):
         self._last_command = 0
         self._last_scene_command = 0
         self._is_reporting = False
+        # How many spheres the scene that was given has, once that was asked.
+        self._spheres: int | None = None
         # None while the scene is the one that was given.
         self._scene_text: str | None = None
         super().__init__(
@@ -118,7 +120,7 @@ class Viewer(Widget):
     def scene(self, scene: Scene | World) -> None:
         self._given = scene_of(scene)
         link = _link(self._given)
-        self._scene_text, self.link = None, link
+        self._scene_text, self._spheres, self.link = None, None, link
         # Opened first: its time and what is picked are set in the scene that is shown then.
         self._tell("open", link)
         self.picked, self.time = None, 0.0
@@ -149,8 +151,10 @@ class Viewer(Widget):
                 ``restitution``, ``angular_velocity`` [rad/s].
 
         Raises:
+            CaromError: For an id that no sphere has.
             TypeError: For another name.
         """
+        self._check_id(id)
         for name in changes:
             if name not in _SPHERE_FIELDS:
                 raise TypeError(f"{name}: must be one of {', '.join(_SPHERE_FIELDS)}")
@@ -158,8 +162,25 @@ class Viewer(Widget):
         self._edit({"sphere": {"sphere": id, "changes": given}})
 
     def remove_sphere(self, id: int) -> None:
-        """Takes a sphere out, at once."""
+        """Takes a sphere out, at once.
+
+        Raises:
+            CaromError: For an id that no sphere has.
+        """
+        self._check_id(id)
         self._edit({"remove-sphere": id})
+
+    def _check_id(self, id: int) -> None:
+        """Refuses an id that no sphere has, as far as that is known here.
+
+        Emitters and people in the browser add spheres, which the viewer alone knows.
+        """
+        is_known = self._scene_text is None and not self._given.emitters
+        if is_known and self._spheres is None:
+            self._spheres = len(self._given.world().ids)
+        ids = self._spheres if is_known and self._spheres is not None else 2**32
+        if not 0 <= id < ids:
+            raise CaromError(f"id: no sphere has the id {id}", "id")
 
     def set_restitution(self, restitution: float, collider: int | None = None) -> None:
         """Sets the coefficient of restitution of a collider, or of all, at once."""

@@ -1,7 +1,7 @@
 // Materials, pairs of them, and laws of restitution.
 
 /** How a surface reflects light; the default is `satin`, a soft highlight. */
-export type Finish = "matte" | "satin" | "glossy" | "metal" | "glass";
+export type Finish = "matte" | "satin" | "glossy" | "metal" | "glass" | "wood" | "cloth";
 
 /** Restitution that depends on the speed of approach v along the normal. Speeds in m/s. */
 export type RestitutionLaw =

@@ -13,7 +13,8 @@ use crate::replacing::Replacing;
 #[derive(Debug, clap::Args)]
 pub struct Grade {
     /// Recorded runs: CSV files or spreadsheets (.xlsx) with a row for each ball after each frame, and the
-    /// columns t, ball, x, y, z (vx, vy, vz); or particle files (.xyz, .extxyz, .lammpstrj, .dump, .gsd).
+    /// columns t, ball, x, y, z (vx, vy, vz); or particle files (.xyz, .extxyz, .lammpstrj, .dump, .gsd); `-` is
+    /// a table in the standard input, which needs --scene.
     #[arg(required_unless_present_any = ["mistakes", "plant"], value_name = "RUN")]
     pub runs: Vec<PathBuf>,
     /// The scene: name, title or file; without it, the scene whose name is in the name of the run's file.

@@ -21,6 +21,7 @@ use refusal::refused;
 use row::Row;
 
 use crate::failure::{Failure, complain, legible, unwritable};
+use crate::standard_input::{NAME, STANDARD};
 use crate::table::{Side, Table};
 
 /// Grades runs, lists the known mistakes, or writes a run that contains some.
@@ -42,10 +43,14 @@ pub fn grade(library: &Library, args: &Grade) -> Result<(), Failure> {
             && args.runs.len() > 1
         {
             complain(&format!("carom: {message}"));
-            rows.push(Row { run: run.clone(), verdict: None, error: Some(message.clone()) });
+            rows.push(Row {
+                run: named(run).to_owned(),
+                verdict: None,
+                error: Some(message.clone()),
+            });
             continue;
         }
-        rows.push(Row { run: run.clone(), verdict: Some(row?), error: None });
+        rows.push(Row { run: named(run).to_owned(), verdict: Some(row?), error: None });
     }
     if let Some(path) = &args.table {
         table::write(path, &rows)?;
@@ -76,18 +81,28 @@ impl Graders<'_> {
         let args = self.args;
         let scene = match &args.scene {
             Some(scene) => scene.as_str(),
-            None => named_in(&self.names, run)?,
+            None => named_in(&self.names, named(run))?,
         };
         let grader = match self.of_scene.entry(scene.to_owned()) {
             Entry::Occupied(known) => known.into_mut(),
             Entry::Vacant(place) => place.insert(grader(self.library, args, Some(scene))?),
         };
         let reading = args.format.reading(grader.course().frame_time);
-        let recorded = Recorded::read(run, &reading).map_err(refused)?;
+        let recorded = if run == Path::new(STANDARD) {
+            Recorded::read_from(io::stdin().lock(), named(run), &reading)
+        } else {
+            Recorded::read(run, &reading)
+        };
+        let recorded = recorded.map_err(refused)?;
         let graded = grader.grade(&recorded);
         reports.write(run, grader.course(), &graded)?;
         Ok(graded.verdict)
     }
+}
+
+/// Path of a run in tables and errors, and for the name of its page.
+fn named(run: &Path) -> &Path {
+    if run == Path::new(STANDARD) { Path::new(NAME) } else { run }
 }
 
 fn grader(library: &Library, args: &Grade, scene: Option<&str>) -> Result<Grader, Failure> {
@@ -145,7 +160,8 @@ impl<'a> Reports<'a> {
 
     fn file(&self, run: &Path) -> Option<PathBuf> {
         let path = self.path?;
-        let name = Path::new(run.file_name().unwrap_or_default()).with_extension("html");
+        let name = named(run).file_name().unwrap_or_default();
+        let name = Path::new(name).with_extension("html");
         Some(if self.is_folder { path.join(name) } else { path.to_owned() })
     }
 

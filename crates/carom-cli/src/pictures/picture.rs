@@ -5,9 +5,10 @@ use std::path::Path;
 use carom_scene::Library;
 
 use super::args::Picture;
+use super::footage::Footage;
 use super::stepped::Stepped;
 use super::studio::Studio;
-use crate::failure::Failure;
+use crate::failure::{Failure, complain};
 use crate::length::countable;
 use crate::progress::Progress;
 
@@ -21,6 +22,9 @@ pub fn picture(library: &Library, args: &Picture) -> Result<(), Failure> {
     let frames = countable((args.at / h).round(), h)?;
     let mut stepped = Stepped::new(scene)?;
     let mut studio = Studio::new(args.look.clone())?;
+    if let Some(remark) = studio.remark(stepped.title()) {
+        complain(&format!("carom: {remark}"));
+    }
     let progress = Progress::new(frames);
     let mut time = 0.0;
     for frame in 1..=frames {

@@ -12,7 +12,7 @@ use carom_render::{FilmError, FilmSummary};
 use super::film::{Filming, Order};
 use super::footage::Footage;
 use super::studio::Studio;
-use crate::failure::{Failure, both};
+use crate::failure::{Failure, both, complain};
 use crate::length::whole_frames;
 use crate::progress::Progress;
 
@@ -30,6 +30,9 @@ pub fn shoot(
     let path = order.path;
     // A film has at least one frame.
     let frames = whole_frames(seconds, 1.0 / f64::from(order.fps))?.max(1);
+    if let Some(remark) = studio.remark(footage.title()) {
+        complain(&format!("carom: {remark}"));
+    }
     let mut filming = Filming::begin(order, footage.as_mut(), studio)?;
     let progress = Progress::new(frames);
     let mut result: Result<(), Failure> = Ok(());

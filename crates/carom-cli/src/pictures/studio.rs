@@ -1,7 +1,8 @@
 //! Makes pictures of footage.
 
 use carom_render::{
-    Camera, Drawing, Framing, GpuError, Offscreen, Picture, Readback, caption, stamp,
+    Camera, Drawing, Framing, GpuError, Offscreen, Picture, Readback, caption, missing_characters,
+    stamp,
 };
 
 use super::args::PictureOptions;
@@ -37,6 +38,13 @@ impl Studio {
     /// Width and height of its pictures \[pixels\].
     pub fn size(&self) -> [u32; 2] {
         self.look.size
+    }
+
+    /// Returns a remark about characters of a title that no font draws, which pictures lack.
+    pub fn remark(&self, title: &str) -> Option<String> {
+        let missing = if self.look.no_stamp { String::new() } else { missing_characters(title) };
+        (!missing.is_empty())
+            .then(|| format!("the stamp lacks {missing}: no font of this machine draws that"))
     }
 
     /// Chooses a camera for footage that starts at `time` \[s\].

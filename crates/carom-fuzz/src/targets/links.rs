@@ -27,6 +27,7 @@ fn addresses() -> Vec<Vec<u8>> {
         "http://127.0.0.1:8042/#scene=simtest1&rule=exact&t=0.5",
         "scene=tutorial4&set=simulation.frame_time%3D0.01&t=0.25&camera=0,1,5,0,0,0",
         "scene=cradle&set=spheres[0].velocity%3D[1,0,0]&camera=0,1,5,0,0,0,50",
+        "scene=simtest3&rule=exact&beside=discrete&t=0.5",
     ];
     let held = Scene::from_toml("[[spheres]]\nradius = 1\n", "ball").map(|it| Link::to_scene(&it));
     let held = held.map(|it| it.to_fragment().into_bytes());

@@ -152,12 +152,12 @@ fn lit_by(surface: Surface, spread: f32) -> vec3<f32> {
     let ambient = mix((globals.ground.rgb + fill) * 0.55, from_sky, upward);
     let direct = globals.sun.rgb * max(facing, 0.0) * sunlit;
     let diffuse = surface.color * (0.66 * ambient + 0.95 * direct);
-    if surface.finish >= GLOSSY {
+    if surface.finish >= GLOSSY && surface.finish <= GLASS {
         let shine = polish(surface, sunlit * step(0.0, facing));
         let mirrors_all = surface.finish == METAL;
         return select(diffuse * (1.0 - shine.a) + shine.rgb, shine.rgb + 0.25 * diffuse, mirrors_all);
     }
-    if surface.finish == MATTE || surface.gloss == 0.0 {
+    if surface.finish == MATTE || surface.finish == CLOTH || surface.gloss == 0.0 {
         return diffuse;
     }
     let to_eye = -normalize(surface.point);

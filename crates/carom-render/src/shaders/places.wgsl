@@ -21,6 +21,8 @@ const MATTE: f32 = 1.0;
 const GLOSSY: f32 = 2.0;
 const METAL: f32 = 3.0;
 const GLASS: f32 = 4.0;
+const WOOD: f32 = 5.0;
+const CLOTH: f32 = 6.0;
 
 const TRIANGLE: f32 = 6.0;
 

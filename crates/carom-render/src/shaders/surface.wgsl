@@ -97,7 +97,12 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
     let is_piece = in.kind == TRIANGLE || in.kind == FACET;
     if is_front {
         let is_water = in.kind == GROUND && in.finish == GLASS;
-        if in.kind != BOX && !is_piece && !is_water {
+        let size = select(min(reach.x, reach.y), in.extent.w, in.kind >= GROUND && in.kind <= INCLINE);
+        if in.finish == WOOD && !is_piece {
+            color *= wood(select(place.yx, place, reach.x > reach.y) / size, max(pixel.x, pixel.y) / size);
+        } else if in.finish == CLOTH && !is_piece {
+            color *= cloth(place / size, max(pixel.x, pixel.y) / size);
+        } else if in.kind != BOX && !is_piece && !is_water {
             color *= 1.0 - 0.10 * grid(place, in.extent.w, pixel);
         }
     } else if !is_piece {
@@ -132,7 +137,7 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
     surface.point = in.point;
     surface.normal = normalize(select(-in.smooth_normal, in.smooth_normal, is_front));
     surface.color = color;
-    surface.gloss = 0.0;
+    surface.gloss = select(0.0, 0.3, in.finish == WOOD);
     surface.finish = in.finish;
     let is_upright = in.kind == PANE && abs(surface.normal.y) < 0.5;
     // What shines through hides a shadow on glass.
@@ -162,6 +167,44 @@ fn inside_room(point: vec3<f32>, kind: f32) -> f32 {
         inside = min(inside, min(room.x, min(room.y, room.z)));
     }
     return inside;
+}
+
+// Returns the tone of wood at a place whose first coordinate runs along the grain; the board reaches from
+// -1 to 1 across it. Growth rings that are cut lengthwise waver, and fibres run beside them.
+fn wood(place: vec2<f32>, pixel: f32) -> f32 {
+    let waver = noise(place * vec2<f32>(0.4, 1.5)) + 0.3 * noise(place * vec2<f32>(1.3, 5.0));
+    let ring = fract(2.5 * place.y + 2.0 * waver);
+    // Late wood is dark, and ends abruptly.
+    let late = ring * ring * (1.0 - smoothstep(0.9, 1.0, ring));
+    let fibre = noise(place * vec2<f32>(4.0, 70.0)) - 0.5;
+    let rings_seen = 1.0 - smoothstep(0.1, 0.3, pixel);
+    let fibres_seen = 1.0 - smoothstep(0.008, 0.03, pixel);
+    return 1.08 - 0.45 * late * rings_seen + 0.16 * fibre * fibres_seen;
+}
+
+// Returns the tone of cloth at a place in half widths of its face: a fine weave, and nap that lies in patches.
+fn cloth(place: vec2<f32>, pixel: f32) -> f32 {
+    let nap = noise(5.0 * place) + 0.5 * noise(17.0 * place) - 0.75;
+    let weave = noise(place * vec2<f32>(160.0, 320.0)) + noise(place * vec2<f32>(320.0, 160.0)) - 1.0;
+    return 1.0 + 0.07 * nap + 0.16 * weave * (1.0 - smoothstep(0.002, 0.012, pixel));
+}
+
+// Returns a number from 0 to 1 that varies smoothly over a plane, by about half of that within one unit.
+fn noise(place: vec2<f32>) -> f32 {
+    let cell = vec2<i32>(floor(place));
+    let part = fract(place);
+    let smoothed = part * part * (3.0 - 2.0 * part);
+    let below = mix(chance(cell), chance(cell + vec2<i32>(1, 0)), smoothed.x);
+    let above = mix(chance(cell + vec2<i32>(0, 1)), chance(cell + vec2<i32>(1, 1)), smoothed.x);
+    return mix(below, above, smoothed.y);
+}
+
+// Returns a number from 0 to 1 that looks random, the same for a cell on every device.
+fn chance(cell: vec2<i32>) -> f32 {
+    var bits = u32(cell.x) * 0x8da6b343u + u32(cell.y) * 0xd8163841u;
+    bits = (bits ^ (bits >> 13u)) * 0x5bd1e995u;
+    bits = (bits ^ (bits >> 15u)) & 0xffffu;
+    return f32(bits) / 65535.0;
 }
 
 fn stripes(along: f32, distance: f32, pixel: f32) -> f32 {

@@ -18,6 +18,10 @@ pub enum Finish {
     Metal,
     /// Clear, in a tint of its colour.
     Glass,
+    /// As wood: grain along the longer side of a face; spheres are satin.
+    Wood,
+    /// As felt: no highlight, and a weave on faces.
+    Cloth,
 }
 
 impl Finish {
@@ -25,8 +29,8 @@ impl Finish {
     /// glass, those of its surface.
     pub fn metallic_roughness(self) -> [f64; 2] {
         match self {
-            Self::Matte => [0.0, 1.0],
-            Self::Satin => [0.0, 0.5],
+            Self::Matte | Self::Cloth => [0.0, 1.0],
+            Self::Satin | Self::Wood => [0.0, 0.5],
             Self::Glossy => [0.0, 0.1],
             Self::Metal => [1.0, 0.15],
             Self::Glass => [0.0, 0.0],

@@ -57,6 +57,12 @@ fn fragment(link: &Link) -> String {
     if !link.changes.is_empty() {
         parts.push(("edits", pack(&written::to_toml(&link.changes))));
     }
+    if let Some(beside) = &link.beside {
+        parts.push(("beside", beside.rule.name().to_owned()));
+        if beside.changes != link.changes {
+            parts.push(("beside-edits", pack(&written::to_toml(&beside.changes))));
+        }
+    }
     if let Some(time) = link.time {
         parts.push(("t", number(time)));
     }

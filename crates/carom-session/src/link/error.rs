@@ -8,8 +8,20 @@ use super::packed::PackedError;
 use super::run::MAX_MOVES;
 
 /// Names of the parts of a link.
-const PARTS: [&str; 10] =
-    ["scene", "file", "name", "set", "rule", "edits", "t", "camera", "goal", "moves"];
+const PARTS: [&str; 12] = [
+    "scene",
+    "file",
+    "name",
+    "set",
+    "rule",
+    "edits",
+    "beside",
+    "beside-edits",
+    "t",
+    "camera",
+    "goal",
+    "moves",
+];
 
 /// Quotes the beginning of a text in one line.
 pub fn quoted(text: &str) -> String {
@@ -52,9 +64,14 @@ pub enum LinkError {
         /// Name of the part.
         part: &'static str,
     },
+    /// The link has edits of a second run, but no second run.
+    #[error("the link says beside-edits, which is for a second run, but no beside")]
+    EditsOfNoRun,
     /// The rule is unknown.
-    #[error("the link says rule={found}; the rules are {}", Rule::NAMES.join(", "))]
+    #[error("the link says {part}={found}; the rules are {}", Rule::NAMES.join(", "))]
     Rule {
+        /// Name of the part.
+        part: &'static str,
         /// The rule as written, shortened.
         found: String,
     },

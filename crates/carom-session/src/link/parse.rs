@@ -9,8 +9,8 @@ use percent_encoding::percent_decode_str;
 use super::camera::LinkCamera;
 use super::error::{LinkError, brief_problem, quoted};
 use super::packed::unpack;
-use super::rule::rule_override;
-use super::run::{Link, LinkSource, checked_goal, checked_moves};
+use super::rule::{named_rule, rule_override};
+use super::run::{Beside, Link, LinkSource, checked_goal, checked_moves};
 use super::time::checked_time;
 use super::written;
 use crate::change::PastChange;
@@ -23,6 +23,8 @@ struct Once<'a> {
     name: Option<&'a str>,
     rule: Option<&'a str>,
     edits: Option<&'a str>,
+    beside: Option<&'a str>,
+    beside_edits: Option<&'a str>,
     t: Option<&'a str>,
     camera: Option<&'a str>,
     goal: Option<&'a str>,
@@ -67,6 +69,8 @@ fn link(text: &str) -> Result<Link, LinkError> {
             "name" => ("name", &mut once.name),
             "rule" => ("rule", &mut once.rule),
             "edits" => ("edits", &mut once.edits),
+            "beside" => ("beside", &mut once.beside),
+            "beside-edits" => ("beside-edits", &mut once.beside_edits),
             "t" => ("t", &mut once.t),
             "camera" => ("camera", &mut once.camera),
             "goal" => ("goal", &mut once.goal),
@@ -84,10 +88,13 @@ fn link(text: &str) -> Result<Link, LinkError> {
             overrides.push(rule_override(value)?);
         }
     }
+    let changes =
+        Arc::new(once.edits.map(|it| edits("edits", it)).transpose()?.unwrap_or_default());
     Ok(Link {
         source: source(&once)?,
         overrides,
-        changes: Arc::new(once.edits.map(edits).transpose()?.unwrap_or_default()),
+        beside: beside(&once, &changes)?,
+        changes,
         time: once.t.map(time).transpose()?,
         camera: once.camera.map(camera).transpose()?,
         goal: once.goal.map(goal).transpose()?,
@@ -115,8 +122,18 @@ fn source(once: &Once) -> Result<LinkSource, LinkError> {
     }
 }
 
-fn edits(packed: &str) -> Result<Vec<PastChange>, LinkError> {
-    let text = unpacked("edits", packed)?;
+/// Reads the second run, whose changes are those of the first unless the link has others.
+fn beside(once: &Once, first: &Arc<Vec<PastChange>>) -> Result<Option<Beside>, LinkError> {
+    let Some(rule) = once.beside else {
+        return if once.beside_edits.is_some() { Err(LinkError::EditsOfNoRun) } else { Ok(None) };
+    };
+    let rule = named_rule("beside", rule)?;
+    let own = once.beside_edits.map(|it| edits("beside-edits", it)).transpose()?;
+    Ok(Some(Beside { rule, changes: own.map_or_else(|| first.clone(), Arc::new) }))
+}
+
+fn edits(part: &'static str, packed: &str) -> Result<Vec<PastChange>, LinkError> {
+    let text = unpacked(part, packed)?;
     written::from_toml(&text)
         .map_err(|problem| LinkError::Edits { problem: brief_problem(&problem) })
 }

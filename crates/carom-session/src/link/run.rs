@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use carom_scene::Override;
+use carom_scene::scene::Rule;
 
 use super::camera::LinkCamera;
 use super::error::LinkError;
@@ -23,6 +24,8 @@ use crate::change::PastChange;
 /// | `set` | an [`Override`], may be repeated |
 /// | `rule` | short for an override of `simulation.rule` |
 /// | `edits` | changes during the run, as TOML, packed |
+/// | `beside` | rule of a second run of the scene, side by side with the first |
+/// | `beside-edits` | changes during the second run, if they are not those of the first |
 /// | `t` | time reached \[s\] |
 /// | `camera` | `x,y,z` of the camera and of the point that it looks at \[m\], and the vertical field of view \[°\] if it is not 35 |
 /// | `goal` | result to beat in a game: points, strokes, or a time \[s\] |
@@ -46,6 +49,8 @@ pub struct Link {
     pub(super) overrides: Vec<Override>,
     /// Changes, ascending by frame.
     pub(super) changes: Arc<Vec<PastChange>>,
+    /// The second of two runs side by side.
+    pub(super) beside: Option<Beside>,
     /// Time reached \[s\].
     pub(super) time: Option<f64>,
     pub(super) camera: Option<LinkCamera>,
@@ -53,6 +58,15 @@ pub struct Link {
     pub(super) goal: Option<f64>,
     /// Moves that reach the result to beat, as the game writes them.
     pub(super) moves: Option<Arc<str>>,
+}
+
+/// The second of two runs of one scene, side by side, as far as it differs from the first.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Beside {
+    /// Rule of the second run.
+    pub rule: Rule,
+    /// Changes of the second run, ascending by frame.
+    pub changes: Arc<Vec<PastChange>>,
 }
 
 /// Longest text of moves in a link \[bytes\]: a quarter of an hour of keys, or hundreds of strikes.
@@ -79,6 +93,7 @@ impl Link {
             source,
             overrides: Vec::new(),
             changes: Arc::default(),
+            beside: None,
             time: None,
             camera: None,
             goal: None,
@@ -151,6 +166,13 @@ impl Link {
     /// Changes during the run, ascending by frame.
     pub fn changes(&self) -> &Arc<Vec<PastChange>> {
         &self.changes
+    }
+
+    /// Rule of the second of two runs side by side, and the link to that run; `None` for a single
+    /// run.
+    pub(crate) fn second(&self) -> Option<(Rule, Self)> {
+        let Beside { rule, changes } = self.beside.clone()?;
+        Some((rule, Self { changes, beside: None, ..self.clone() }))
     }
 
     /// Time reached \[s\], if the link states it.

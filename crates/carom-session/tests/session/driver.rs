@@ -7,7 +7,9 @@ use std::time::{Duration, Instant};
 use carom::{DVec3, StateHash};
 use carom_scene::Scene;
 use carom_scene::scene::{ImpactLaw, Integrator, Rule, Simulation, Zones};
-use carom_session::{Command, Comparison, Driver, Edit, FASTEST, Session, SessionError, View};
+use carom_session::{
+    Command, Comparison, Driver, Edit, FASTEST, Link, Session, SessionError, View, Watched,
+};
 
 use crate::{built_in, busy, busy_scene, hashes};
 
@@ -356,6 +358,36 @@ fn a_nudged_copy_differs_by_the_nudge_alone_until_balls_meet() {
     driver.update(0.0, || false);
     let view = driver.view();
     assert!(view.other.is_none() && view.playback.error.is_some(), "the ball is gone");
+}
+
+#[test]
+fn a_link_leads_to_both_of_two_runs() {
+    let scene = || built_in("tutorial3").scene().as_ref().clone();
+    let ball = Driver::inline(built_in("tutorial3")).view().spheres.ids[0];
+    let bounce = Edit::AllColliderRestitutions(0.5);
+    let two_rules = Command::Compare(simulations([Rule::Exact, Rule::Discrete]));
+    for side_by_side in [Command::Nudge(ball, 1e-9 * DVec3::Y), two_rules] {
+        let mut driver = Driver::inline(Session::new(scene()).unwrap());
+        let edits = [Command::Seek(0.5), Command::Edit(bounce.clone())];
+        send(&mut driver, edits);
+        driver.update(0.0, || false);
+        send(&mut driver, [side_by_side, Command::Seek(4.0), Command::ShowStateHash(true)]);
+        driver.update(0.0, || false);
+        let (hashes, link) = (both_hashes(&driver), driver.view().link());
+        assert!(hashes[1].is_some() && hashes[1] != hashes[0]);
+        let copied = Link::parse(&link.to_fragment()).unwrap();
+        assert_eq!(copied, link);
+        let opened = Watched::replay(copied.open().unwrap(), &copied).unwrap();
+        let mut again = Driver::inline(opened);
+        send(&mut again, [Command::ShowStateHash(true)]);
+        again.update(0.0, || false);
+        assert_eq!(both_hashes(&again), hashes, "{link}");
+        assert_eq!(again.view().link(), link);
+        // A link to one run again, once the second is closed.
+        send(&mut again, [Command::Compare(None)]);
+        again.update(0.0, || false);
+        assert!(!again.view().link().to_fragment().contains("beside"));
+    }
 }
 
 /// State hashes of both runs.

@@ -31,7 +31,7 @@ const LONGEST: usize = 300;
 
 #[test]
 fn every_mistake_is_told() {
-    let parts = "scene, file, name, set, rule, edits, t, camera, goal, moves";
+    let parts = "scene, file, name, set, rule, edits, beside, beside-edits, t, camera, goal, moves";
     let empty = "the link is empty: after # it needs scene=NAME or file=...";
     let time =
         |t| format!("the link says t={t}; the time must be a number of seconds, zero or positive");
@@ -42,8 +42,10 @@ fn every_mistake_is_told() {
         let form = "it must be x,y,z to look from and x,y,z to look at, in m, and may have a field of view in degrees";
         format!("the link says camera={it}; {form}")
     };
-    let rule =
-        |it| format!("the link says rule={it}; the rules are exact, contact, bisect, discrete");
+    let rule_in = |part, it| {
+        format!("the link says {part}={it}; the rules are exact, contact, bisect, discrete")
+    };
+    let rule = |it| rule_in("rule", it);
     let unknown = |it| format!("the link has a part \"{it}\"; links know only {parts}");
     let long = format!("{}...", "x".repeat(40));
     let cases = [
@@ -70,6 +72,11 @@ fn every_mistake_is_told() {
         ("scene=%FF%FE", "scene of the link is garbled: it is no text".to_owned()),
         ("scene=a&rule=fast", rule("fast")),
         ("scene=a&rule", rule("")),
+        ("scene=a&beside=fast", rule_in("beside", "fast")),
+        (
+            "scene=a&beside-edits=x",
+            "the link says beside-edits, which is for a second run, but no beside".to_owned(),
+        ),
         ("scene=a&t=", time("")),
         ("scene=a&camera=1,2,3", camera("1,2,3")),
         ("scene=a&camera=1,2,3,1,2,3", camera("1,2,3,1,2,3")),

@@ -124,7 +124,7 @@ impl App {
                     let button = Button::selectable(is_on, "⚙  Settings");
                     let response = ui.add(button).on_hover_text(Action::Inspector.hint());
                     response.widget_info(|| {
-                        WidgetInfo::selected(Role::Button, true, is_on, "Inspector")
+                        WidgetInfo::selected(Role::Button, true, is_on, "Settings")
                     });
                     if response.clicked() {
                         actions.push(Action::Inspector);

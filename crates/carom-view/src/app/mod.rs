@@ -23,6 +23,7 @@ use crate::action::{self, Action};
 use crate::address::Address;
 use crate::chooser::{Asked, Chooser, invite};
 use crate::exports::Exports;
+use crate::fonts;
 use crate::game_view::{GameScreen, Wish};
 use crate::help;
 use crate::host::{Host, Inbox};
@@ -136,6 +137,7 @@ impl App {
             link: LinkDialog::default(),
             saved,
         };
+        fonts::install(&app.context);
         make_readable(&app.context);
         accept_slow_clicks(&app.context);
         if app.host.has_coarse_pointer() {

@@ -9,7 +9,7 @@ const HEIGHT: f32 = 132.0;
 
 /// Draws a figure and its title. Returns whether the user wants to save its numbers.
 pub fn show(figure: &Figure, ui: &mut Ui) -> bool {
-    let is_wanted = ui.horizontal_wrapped(|ui| {
+    let is_wanted = ui.horizontal(|ui| {
         ui.strong(figure.heading());
         let save = ui.small_button(RichText::new("CSV").size(9.0));
         let save = save.on_hover_text("Save the numbers of this figure");
@@ -17,9 +17,12 @@ pub fn show(figure: &Figure, ui: &mut Ui) -> bool {
             let text = format!("Save the numbers of {}", figure.title);
             egui::WidgetInfo::labeled(egui::Role::Button, true, text)
         });
-        name_curves(figure, ui);
         save.clicked()
     });
+    // Names on a line of their own: in a narrow panel they would wrap onto the plot.
+    if figure.curves.len() > 1 {
+        ui.horizontal_wrapped(|ui| name_curves(figure, ui));
+    }
     plot(figure, ui, if figure.mark.is_some() { HEIGHT } else { 1.5 * HEIGHT });
     is_wanted.inner
 }

@@ -29,7 +29,7 @@ impl Watching {
         entries.extend([
             Entry::switch("Fit all", Action::Fit, self.viewpoint.fits()),
             Entry::switch("Follow the picked ball", Action::Follow, self.viewpoint.follows()),
-            Entry::switch("Inspector", Action::Inspector, self.shows_inspector()),
+            Entry::switch("Settings", Action::Inspector, self.shows_inspector()),
         ]);
         entries
     }

@@ -113,7 +113,7 @@ pub struct Manner {
     pub has_card: bool,
 }
 
-const INSPECTOR: Beside = Beside { title: "Inspector", is_right: true, widths: [300.0; 3] };
+const INSPECTOR: Beside = Beside { title: "Settings", is_right: true, widths: [300.0; 3] };
 const PLOTS: Beside = Beside { title: "Plots", is_right: false, widths: [200.0, 330.0, 700.0] };
 
 impl Watching {
@@ -141,12 +141,12 @@ impl Watching {
         inline_budget: Option<Duration>,
         context: &egui::Context,
     ) -> Result<Self, SessionError> {
-        let session = Session::replay(scene, link)?;
+        let runs = Watched::replay(scene, link)?;
         let source = match link.source() {
             LinkSource::BuiltIn(_) => Source::BuiltIn,
             LinkSource::File { .. } => Source::Registered,
         };
-        let mut watching = Self::at(session, link.clone(), source, inline_budget, context)?;
+        let mut watching = Self::at(runs, link.clone(), source, inline_budget, context)?;
         if let LinkSource::File { name, text } = link.source() {
             watching.written = WrittenScene::new(name, text, link.overrides().to_vec()).ok();
             watching.shows_text = watching.written.is_some();
@@ -164,13 +164,13 @@ impl Watching {
     }
 
     fn at(
-        session: Session,
+        watched: impl Into<Watched>,
         link: Link,
         source: Source,
         inline_budget: Option<Duration>,
         context: &egui::Context,
     ) -> Result<Self, SessionError> {
-        let driver = driver(session.into(), inline_budget, context)?;
+        let driver = driver(watched.into(), inline_budget, context)?;
         let throw = Throw::like_those_of(driver.view());
         Ok(Self {
             link: (driver.view().scene.clone(), link),

@@ -98,12 +98,12 @@ fn the_menu_has_what_the_bar_has_elsewhere() {
     assert!(desk.query_by_label("Plots").is_none());
     desk.get_by_label("Menu").click();
     desk.run_steps(3);
-    for label in ["Inspector", "Plots", "Two rules", "Top", "Picture", "Film", "Link", "Keys"] {
+    for label in ["Settings", "Plots", "Two rules", "Top", "Picture", "Film", "Link", "Keys"] {
         desk.get_by_label(label);
     }
-    desk.get_by_label("Inspector").click();
+    desk.get_by_label("Settings").click();
     desk.run_steps(3);
-    desk.get_by_role_and_label(Role::Window, "Inspector");
+    desk.get_by_role_and_label(Role::Window, "Settings");
 }
 
 #[test]
@@ -135,10 +135,10 @@ fn below_nine_hundred_points_one_sheet_covers_two_fifths_of_the_picture_at_most(
             assert!(covered > 0.1 && covered < 0.42, "{label} at {size:?}: {covered}");
         };
         press(&mut desk, Key::I);
-        assert_covers_little(&desk, "Inspector");
+        assert_covers_little(&desk, "Settings");
         press(&mut desk, Key::G);
         assert_covers_little(&desk, "Plots");
-        assert!(desk.query_by_role_and_label(Role::Window, "Inspector").is_none(), "{size:?}");
+        assert!(desk.query_by_role_and_label(Role::Window, "Settings").is_none(), "{size:?}");
     }
 }
 

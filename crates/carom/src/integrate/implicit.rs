@@ -14,8 +14,10 @@ use super::radau_tables::{END_GAINS, END_NEWTON, END_NODES, END_VELOCITIES, END_
 use crate::norm::Norm;
 use crate::polynomial_flight::TERMS;
 
-/// Most spheres whose equations are solved together: the work grows with the cube of their number.
-const MOST_SPHERES: usize = 8;
+/// Most spheres whose equations are solved together.
+const MOST_SPHERES: usize = 128;
+/// Largest work of an elimination, in the work for one sphere alone: that of sixteen of which each acts on all others.
+const MOST_WORK: usize = 4096;
 /// Damping over a step \[1\] above which an implicit step is of use. Below it the iteration of other steps converges.
 const LEAST_DAMPING: f64 = 1.0;
 /// Largest number of iterations of Newton's method.
@@ -58,10 +60,12 @@ pub(super) fn attempt(
         return None;
     }
     let slopes = Slopes::of(start, first, length, field)?;
-    let equations = Factorized::of(TERMS * slopes.count, slopes.matrix_of_nodes(length))?;
+    let order = Order::of(&slopes);
+    (order.work() <= MOST_WORK).then_some(())?;
+    let equations = slopes.equations_of_nodes(length, &order)?;
     let mut attempt = Attempt::new(start, first, length, &slopes);
-    attempt.iterate(&equations, field).then_some(())?;
-    let error = attempt.error(&slopes)?;
+    attempt.iterate((&equations, &order), field).then_some(())?;
+    let error = attempt.error(&slopes, &order)?;
     Some(Implicit { powers: attempt.powers(), error })
 }
 
@@ -105,29 +109,98 @@ impl Slopes {
         })
     }
 
-    /// The matrix of the equations for the accelerations at all nodes, by rows: `1 - h A J_v - h² B J_x`.
-    fn matrix_of_nodes(&self, length: f64) -> Vec<f64> {
-        let (count, h) = (self.count, length);
-        let size = TERMS * count;
-        let mut matrix = vec![0.0; size * size];
-        for (row, values) in matrix.chunks_exact_mut(size).enumerate() {
-            let (node, i) = (row / count, row % count);
-            for (column, value) in values.iter_mut().enumerate() {
-                let (other, j) = (column / count, column % count);
-                let place = i * count + j;
-                *value = -h * END_VELOCITIES[node][other] * self.by_velocity[place]
-                    - h * h * END_WAYS[node][other] * self.by_position[place];
-            }
-            values[row] += 1.0;
-        }
-        matrix
+    /// Whether the motion of one sphere changes the acceleration of another.
+    fn couple(&self, one: usize, other: usize) -> bool {
+        let rows = 3 * one..3 * one + 3;
+        rows.into_iter().any(|row| {
+            let places = row * self.count + 3 * other..row * self.count + 3 * other + 3;
+            places.into_iter().any(|it| self.by_velocity[it] != 0.0 || self.by_position[it] != 0.0)
+        })
     }
 
-    /// The matrix `1 - h J_v` by rows: its inverse takes what is damped within a step out of an acceleration.
-    fn damped(&self, length: f64) -> Vec<f64> {
-        let mut matrix: Vec<f64> = self.by_velocity.iter().map(|it| -length * it).collect();
-        (0..self.count).for_each(|i| matrix[i * self.count + i] += 1.0);
-        matrix
+    /// The equations for the accelerations at all nodes, sphere by sphere: `1 - h A J_v - h² B J_x`.
+    fn equations_of_nodes(&self, length: f64, order: &Order) -> Option<Factorized> {
+        let h = length;
+        let of_sphere = 3 * TERMS;
+        let unknown = |number: usize| {
+            let (sphere, rest) = (order.spheres[number / of_sphere], number % of_sphere);
+            (rest / 3, 3 * sphere + rest % 3)
+        };
+        let number = |row: usize, column: usize| {
+            let ((node, i), (other, j)) = (unknown(row), unknown(column));
+            let place = i * self.count + j;
+            let coupling = -h * END_VELOCITIES[node][other] * self.by_velocity[place]
+                - h * h * END_WAYS[node][other] * self.by_position[place];
+            if row == column { 1.0 + coupling } else { coupling }
+        };
+        Factorized::of(TERMS * self.count, order.reach_of(of_sphere), number)
+    }
+
+    /// The matrix `1 - h J_v`, sphere by sphere: its inverse takes what is damped within a step out of an acceleration.
+    fn damped(&self, length: f64, order: &Order) -> Option<Factorized> {
+        let coordinate = |number: usize| 3 * order.spheres[number / 3] + number % 3;
+        let number = |row: usize, column: usize| {
+            let place = coordinate(row) * self.count + coordinate(column);
+            let damping = -length * self.by_velocity[place];
+            if row == column { 1.0 + damping } else { damping }
+        };
+        Factorized::of(self.count, order.reach_of(3), number)
+    }
+}
+
+/// An order of spheres in which those that act on each other are near.
+///
+/// Source: Cuthill and McKee, Proc. 24th Nat. Conf. ACM, 157 (1969).
+struct Order {
+    /// The sphere at each place.
+    spheres: Vec<usize>,
+    /// Place of each sphere.
+    places: Vec<usize>,
+    /// Largest distance of places between which forces act.
+    reach: usize,
+}
+
+impl Order {
+    fn of(slopes: &Slopes) -> Self {
+        let count = slopes.count / 3;
+        let acts = |one: usize, other: usize| {
+            one != other && (slopes.couple(one, other) || slopes.couple(other, one))
+        };
+        let partners: Vec<Vec<usize>> =
+            (0..count).map(|one| (0..count).filter(|&other| acts(one, other)).collect()).collect();
+        let mut by_partners: Vec<usize> = (0..count).collect();
+        by_partners.sort_by_key(|&sphere| partners[sphere].len());
+        let (mut spheres, mut is_known) = (Vec::with_capacity(count), vec![false; count]);
+        for first in by_partners {
+            let mut next = spheres.len();
+            if !std::mem::replace(&mut is_known[first], true) {
+                spheres.push(first);
+            }
+            while let Some(&sphere) = spheres.get(next) {
+                next += 1;
+                for &partner in &partners[sphere] {
+                    if !std::mem::replace(&mut is_known[partner], true) {
+                        spheres.push(partner);
+                    }
+                }
+            }
+        }
+        let mut places = vec![0; count];
+        spheres.iter().enumerate().for_each(|(place, &sphere)| places[sphere] = place);
+        let distance = |one: usize, &other: &usize| places[one].abs_diff(places[other]);
+        let of_sphere = |one: usize| partners[one].iter().map(move |other| distance(one, other));
+        let reach = (0..count).flat_map(of_sphere).max().unwrap_or(0);
+        Self { spheres, places, reach }
+    }
+
+    /// Work of an elimination, in the work for one sphere alone.
+    fn work(&self) -> usize {
+        self.spheres.len() * (self.reach + 1) * (self.reach + 1)
+    }
+
+    /// How far from the diagonal numbers are, with this number of unknowns of each sphere.
+    fn reach_of(&self, unknowns: usize) -> usize {
+        unknowns * (self.reach + 1) - 1
     }
 }
 
@@ -210,7 +283,11 @@ impl<'a> Attempt<'a> {
     }
 
     /// Solves the equations of the nodes. Returns whether Newton's method converges.
-    fn iterate(&mut self, equations: &Factorized, field: &mut impl Field) -> bool {
+    fn iterate(
+        &mut self,
+        (equations, order): (&Factorized, &Order),
+        field: &mut impl Field,
+    ) -> bool {
         let spheres = self.at_nodes.len();
         let mut values = Values::of(spheres);
         let mut missing = vec![0.0; 3 * spheres * TERMS];
@@ -222,13 +299,13 @@ impl<'a> Attempt<'a> {
                 let time = self.start.time + s * self.length;
                 field.evaluate(time, &positions, &velocities, &mut values);
                 for (sphere, acceleration) in values.accelerations.iter().enumerate() {
-                    let place = 3 * (node * spheres + sphere);
+                    let place = 3 * (order.places[sphere] * TERMS + node);
                     let missed = *acceleration - self.at_nodes[sphere][node];
                     missing[place..place + 3].copy_from_slice(&missed.to_array());
                 }
             }
             equations.solve(&mut missing);
-            let change = self.add(&missing);
+            let change = self.add(&missing, order);
             if !change.is_finite() {
                 return false;
             }
@@ -241,11 +318,10 @@ impl<'a> Attempt<'a> {
     }
 
     /// Adds changes of the accelerations at the nodes. Returns the largest, as a part of its scale.
-    fn add(&mut self, changes: &[f64]) -> f64 {
-        let spheres = self.at_nodes.len();
+    fn add(&mut self, changes: &[f64], order: &Order) -> f64 {
         let mut most = 0.0f64;
         for (place, change) in changes.chunks_exact(3).enumerate() {
-            let (node, sphere) = (place / spheres, place % spheres);
+            let (node, sphere) = (place % TERMS, order.spheres[place / TERMS]);
             let change = DVec3::from_slice(change);
             self.at_nodes[sphere][node] += change;
             if !change.is_finite() {
@@ -274,16 +350,16 @@ impl<'a> Attempt<'a> {
 
     /// The error as a part of what it is measured by: the highest term, or how far the polynomial is from the
     /// acceleration at the start, where no node is, without what is damped within the step.
-    fn error(&self, slopes: &Slopes) -> Option<f64> {
+    fn error(&self, slopes: &Slopes, order: &Order) -> Option<f64> {
         let powers = self.powers();
-        let missed = powers.iter().zip(&self.first.accelerations);
-        let mut missed: Vec<f64> =
-            missed.flat_map(|(powers, &first)| (first - powers[0]).to_array()).collect();
-        Factorized::of(slopes.count, slopes.damped(self.length))?.solve(&mut missed);
-        let of_each = powers.iter().zip(missed.chunks_exact(3)).zip(&self.scales);
-        let parts = of_each.map(|((powers, missed), scale)| {
-            let error = powers[TERMS - 1].norm().max(DVec3::from_slice(missed).norm());
-            if error == 0.0 { 0.0 } else { error / scale }
+        let missed =
+            |&sphere: &usize| (self.first.accelerations[sphere] - powers[sphere][0]).to_array();
+        let mut missed: Vec<f64> = order.spheres.iter().flat_map(missed).collect();
+        slopes.damped(self.length, order)?.solve(&mut missed);
+        let of_each = order.spheres.iter().zip(missed.chunks_exact(3));
+        let parts = of_each.map(|(&sphere, missed)| {
+            let error = powers[sphere][TERMS - 1].norm().max(DVec3::from_slice(missed).norm());
+            if error == 0.0 { 0.0 } else { error / self.scales[sphere] }
         });
         Some(parts.fold(0.0, f64::max)).filter(|error| error.is_finite())
     }

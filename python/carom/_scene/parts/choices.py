@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Literal, TypeAlias
 
-Finish: TypeAlias = Literal["matte", "satin", "glossy", "metal", "glass"]
+Finish: TypeAlias = Literal["matte", "satin", "glossy", "metal", "glass", "wood", "cloth"]
 """How a surface reflects light.
 
 It changes no motion.
@@ -17,6 +17,8 @@ It changes no motion.
 - ``"glossy"``: As lacquer: a sharp highlight, and the sky mirrored.
 - ``"metal"``: Polished: the sky mirrored in its colour.
 - ``"glass"``: Clear, in a tint of its colour.
+- ``"wood"``: As wood: grain along the longer side of a face; spheres are satin.
+- ``"cloth"``: As felt: no highlight, and a weave on faces.
 """
 Side: TypeAlias = Literal["left", "right", "bottom", "top", "back", "front"]
 """A side of a box in its own coordinates.

@@ -19,7 +19,7 @@ from carom._scene.parts.kinds import (
     Vector,
 )
 from carom._scene.parts.part import Part
-from carom._scene.parts.together import expect_far_behind_near
+from carom._scene.parts.together import expect_far_behind_near, simplify_look_at
 
 
 @dataclass(frozen=True)
@@ -30,10 +30,11 @@ class Camera(Part):
 
     Attributes:
         position: Position [m].
-        rotation: How it is turned.
+        rotation: How it is turned. Give this or ``look_at``.
         vertical_fov_degrees: Vertical field of view [degrees], in (0, 180).
         near: Nearest distance drawn [m], > 0.
         far: Farthest distance drawn [m], > near.
+        look_at: Point to look at [m]; +y is up in the picture. The camera keeps it as its rotation.
     """
 
     position: Vector
@@ -41,10 +42,12 @@ class Camera(Part):
     vertical_fov_degrees: FieldOfView = 35.0
     near: Positive = 0.3
     far: Positive = 1000.0
+    look_at: Vector | None = None
 
     def __post_init__(self) -> None:
         super().__post_init__()
         expect_far_behind_near(self)
+        simplify_look_at(self)
 
 
 @dataclass(frozen=True)

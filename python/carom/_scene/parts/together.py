@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from carom._scene.checks import wrong_value
+from carom._scene.parts.kinds import UNTURNED
 from carom.errors import CaromError
 
 NO_SIZE = "needs `radius` or `diameter`"
@@ -56,6 +58,33 @@ def expect_far_behind_near(camera: Any) -> None:
     are_numbers = not isinstance(camera.near, str) and not isinstance(camera.far, str)
     if are_numbers and camera.far <= camera.near:
         raise wrong_value("Camera.far", "farther than `near`", camera.far)
+
+
+def simplify_look_at(camera: Any) -> None:
+    """Replaces the point to look at by the rotation towards it, as in a scene read from text."""
+    if camera.look_at is None:
+        return
+    if tuple(camera.rotation) != UNTURNED:
+        raise CaromError("Camera: takes `rotation` or `look_at`, not both", "Camera")
+    parts = (*camera.look_at, *camera.position)
+    if any(isinstance(part, str) for part in parts):
+        # The engine reads formulas.
+        return
+    way = [to - of for to, of in zip(camera.look_at, camera.position, strict=True)]
+    length = math.hypot(*way)
+    if length == 0.0:
+        raise wrong_value("Camera.look_at", "another point than `position`", camera.look_at)
+    x, y, z = (part / length for part in way)
+    # Halves of the angles about +y and, after it, about +x.
+    yaw, pitch = 0.5 * math.atan2(-x, -z), 0.5 * math.asin(y)
+    rotation = (
+        math.cos(yaw) * math.sin(pitch),
+        math.sin(yaw) * math.cos(pitch),
+        -math.sin(yaw) * math.sin(pitch),
+        math.cos(yaw) * math.cos(pitch),
+    )
+    object.__setattr__(camera, "rotation", rotation)
+    object.__setattr__(camera, "look_at", None)
 
 
 def simplify_open(container: Any) -> None:
