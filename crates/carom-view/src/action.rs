@@ -215,6 +215,17 @@ pub const PINBALL: GameControls = (
     ],
 );
 
+/// Controls of nine-ball.
+pub const BILLIARDS: GameControls = (
+    "Nine-ball",
+    &[
+        ("drag from the cue ball", "aim along its path; let go to strike"),
+        ("arrow keys", "strike it off its middle: side, top and bottom"),
+        ("drag the cue ball in hand", "move it, after Move was chosen"),
+        ("Enter, when the rack is won", "play again"),
+    ],
+);
+
 /// Controls of the picture with the mouse, for the help.
 pub const MOUSE: &[(&str, &str)] = &[
     ("drag", "turn the camera"),

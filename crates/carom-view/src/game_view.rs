@@ -10,6 +10,7 @@ use egui::{
 
 use crate::action::Action;
 use crate::orbit::{Orbit, Preset, zoom_asked};
+use crate::projection::Projection;
 use crate::saved::SavedGame;
 use crate::snapshot::Snapshot;
 use crate::studio::{Canvas, Studio};
@@ -64,11 +65,31 @@ pub trait GameScreen {
     /// Shows the game. Returns a request of the player.
     fn picture(&mut self, ui: &mut Ui, studio: &mut Studio, dark: bool) -> Option<Wish>;
 
-    /// Returns a link to the game with the best result as the one to beat.
+    /// Returns the text of the moves that reached the best result, if they are known.
+    fn best_moves(&self) -> Option<&str> {
+        None
+    }
+
+    /// Plays the game of the link again; returns whether its moves can be read.
+    fn watch(&mut self) -> bool {
+        false
+    }
+
+    /// Plays the game of the link again, or says why not.
+    fn show_moves(&mut self, ui: &Ui) {
+        if !self.watch() {
+            let now = ui.input(|input| input.time);
+            self.view_mut().say("The moves of the link cannot be read".to_owned(), now);
+        }
+    }
+
+    /// Returns a link to the game with the best result as the one to beat, and the moves that reached it.
     fn challenge(&self) -> Link {
         let link = self.view().link.clone();
-        let challenge = self.best().map(|best| link.clone().with_goal(best));
-        challenge.and_then(Result::ok).unwrap_or(link)
+        let best = self.best().map(|best| link.clone().without_goal().with_goal(best));
+        let Some(challenge) = best.and_then(Result::ok) else { return link };
+        let moves = self.best_moves().map(|moves| challenge.clone().with_moves(moves));
+        moves.and_then(Result::ok).unwrap_or(challenge)
     }
 
     /// Performs the action of a key or button.
@@ -275,6 +296,12 @@ impl GameView {
         });
     }
 
+    /// Returns where points are in the picture in `rect`.
+    pub fn projection(&self, rect: Rect) -> Projection {
+        let aspect = f64::from(rect.width() / rect.height());
+        Projection { camera: self.camera(aspect).in_picture(aspect), rect }
+    }
+
     /// Starts to draw the present picture in this size in pixels.
     fn snapshot(
         &self,
@@ -287,16 +314,20 @@ impl GameView {
     }
 }
 
-/// Shows counts and texts in a line above the picture.
-pub fn count_line(ui: &mut Ui, counts: &[String], goal: &str, hint: &str) {
+/// Shows counts and texts in a line above the picture, and the button of a recorded game if there is one; returns whether
+/// the button was clicked.
+pub fn count_line(ui: &mut Ui, counts: &[String], goal: &str, hint: &str, can_watch: bool) -> bool {
+    let mut is_clicked = false;
     let row = |ui: &mut Ui| {
         for count in counts {
             ui.label(RichText::new(count).size(16.0).strong());
             ui.separator();
         }
+        is_clicked = can_watch && ui.button("Watch it").clicked();
         ui.label(goal);
         ui.weak(hint);
     };
     let margin = egui::Margin::symmetric(8, 3);
     Frame::new().inner_margin(margin).show(ui, |ui| ui.horizontal_wrapped(row));
+    is_clicked
 }

@@ -193,7 +193,7 @@ impl MazeScreen {
         } else {
             "Arrow keys or WASD tilt the maze; so does the right mouse button."
         };
-        count_line(ui, &counts, GOALS[usize::from(of == 0)], hint);
+        count_line(ui, &counts, GOALS[usize::from(of == 0)], hint, false);
     }
 
     /// Asks whether to continue an earlier game.

@@ -11,6 +11,7 @@ use carom_session::Link;
 use egui::{Event, Key, PointerButton, Pos2, Sense, TouchPhase, Ui, Vec2};
 
 use crate::game_view::{GameScreen, GameView, LastScreen, Wish, count_line};
+use crate::input_log::{Input, InputLog};
 use crate::layout::is_touched;
 use crate::saved::SavedGame;
 use crate::studio::Studio;
@@ -31,6 +32,37 @@ pub struct PinballScreen {
     fingers: BTreeMap<u64, Pos2>,
     /// Middle of the last picture: fingers to the left of it raise the left flipper.
     middle: f32,
+    /// What was pressed in each frame of this game.
+    pressed: InputLog<Keys>,
+    /// Text of the keys that reached the best score, if it is known.
+    best_keys: Option<String>,
+    /// The game of the link that is played again.
+    replay: Option<Replay>,
+}
+
+/// A recorded game that is played again.
+struct Replay {
+    /// Keys of the frames that are left.
+    keys: Box<dyn Iterator<Item = Keys>>,
+    /// The player's own best score.
+    best: Option<u64>,
+}
+
+impl Input for Keys {
+    fn write(self) -> String {
+        let letters = [(self.left, 'L'), (self.right, 'R'), (self.plunger, 'P')];
+        let pressed: String = letters
+            .into_iter()
+            .filter_map(|(is_pressed, letter)| is_pressed.then_some(letter))
+            .collect();
+        if pressed.is_empty() { "-".to_owned() } else { pressed }
+    }
+
+    fn read(text: &str) -> Option<Self> {
+        let has = |letter| text.contains(letter);
+        let keys = Self { left: has('L'), right: has('R'), plunger: has('P') };
+        (keys.write() == text).then_some(keys)
+    }
 }
 
 impl PinballScreen {
@@ -42,7 +74,9 @@ impl PinballScreen {
         let palette = Palette::new(table.scene())?;
         let game = Game::new(table)?;
         let view = GameView::new(FROM, link);
-        Ok(Self { game, palette, view, fingers: BTreeMap::new(), middle: 0.0 })
+        let fingers = BTreeMap::new();
+        let (pressed, best_keys, replay) = (InputLog::default(), None, None);
+        Ok(Self { game, palette, view, fingers, middle: 0.0, pressed, best_keys, replay })
     }
 
     /// The game.
@@ -66,14 +100,16 @@ impl PinballScreen {
     /// If the physics refuses a frame; the game is then unchanged.
     pub fn advance(&mut self, ui: &Ui) -> Result<(), GameError> {
         self.follow_fingers(ui);
-        let keys = self.keys(ui);
+        let by_player = self.keys(ui);
         let (wall_seconds, now) = ui.input(|input| (f64::from(input.unstable_dt), input.time));
         for _ in 0..self.view.pace.frames_due(wall_seconds, self.game.frame_time()) {
             self.view.clock += self.game.frame_time();
+            let Some(keys) = self.keys_of_frame(by_player, now) else { continue };
             let before = self.ball();
             let stepped = self.game.step(keys).map(<[_]>::to_vec);
             // A step that failed once would fail again.
             let events = stepped.inspect_err(|_| self.view.pace.set_playing(false))?;
+            self.pressed.push(keys);
             events.into_iter().for_each(|event| self.note(event, now));
             if let (Some((id, before, radius)), Some((ball, after, _))) = (before, self.ball())
                 && id == ball
@@ -83,6 +119,21 @@ impl PinballScreen {
         }
         ui.ctx().request_repaint();
         Ok(())
+    }
+
+    /// Returns the keys of the next frame: those of the player, or of the game that is played again. Where the latter ends
+    /// before the game is over, the player begins.
+    fn keys_of_frame(&mut self, by_player: Keys, now: f64) -> Option<Keys> {
+        let is_over = self.is_over();
+        let Some(replay) = self.replay.as_mut().filter(|_| !is_over) else {
+            return Some(by_player);
+        };
+        let keys = replay.keys.next();
+        if keys.is_none() {
+            self.play_again();
+            self.view.say("Now you".to_owned(), now);
+        }
+        keys
     }
 
     /// Returns number, position \[m\] and radius \[m\] of the ball in play.
@@ -98,9 +149,19 @@ impl PinballScreen {
             GameEvent::AllLit { points } => format!("All targets: {points}"),
             GameEvent::Lost { left: 1 } => "The last ball".to_owned(),
             GameEvent::Lost { left } => format!("{left} balls left"),
-            GameEvent::Kicked { .. } | GameEvent::Over { .. } => return,
+            GameEvent::Over { is_best, .. } => return self.note_end(is_best),
+            GameEvent::Kicked { .. } => return,
         };
         self.view.say(text, now);
+    }
+
+    /// Keeps the keys of the best game; one that is played again is none of the player's.
+    fn note_end(&mut self, is_best: bool) {
+        match &self.replay {
+            Some(replay) => self.game.set_best(replay.best),
+            None if is_best => self.best_keys = self.pressed.to_text(),
+            None => {}
+        }
     }
 
     /// Follows each finger from its touch until it is lifted.
@@ -133,8 +194,8 @@ impl PinballScreen {
         }
     }
 
-    /// Shows score, balls and what to press in a line above the picture.
-    fn counts(&self, ui: &mut Ui) {
+    /// Shows score, balls and what to press in a line above the picture; returns whether the recorded game is asked for.
+    fn counts(&self, ui: &mut Ui) -> bool {
         let mut counts =
             vec![format!("Score {}", self.game.score()), format!("Balls {}", self.game.balls())];
         counts.extend(self.game.best().map(|best| format!("Best {best}")));
@@ -145,7 +206,8 @@ impl PinballScreen {
             (false, true) => "Touch the left or right half to raise a flipper.",
             (false, false) => "Left and right arrow, or A and D, raise the flippers.",
         };
-        count_line(ui, &counts, "Light all targets.", hint);
+        let can_watch = self.replay.is_none() && self.view.link.moves().is_some();
+        count_line(ui, &counts, "Light all targets.", hint, can_watch)
     }
 }
 
@@ -173,6 +235,10 @@ impl GameScreen for PinballScreen {
     fn last_screen(&self) -> Option<LastScreen> {
         let GameState::Over = self.game.state() else { return None };
         let (score, best) = (self.game.score(), self.game.best().unwrap_or(0));
+        if self.replay.is_some() {
+            let lines = vec![format!("{score} points"), "This is the game to beat.".to_owned()];
+            return Some(LastScreen { heading: "Now you", lines, next: None });
+        }
         let comparison = if score >= best {
             "The best score so far.".to_owned()
         } else {
@@ -191,18 +257,35 @@ impl GameScreen for PinballScreen {
     }
 
     fn saved(&self) -> Option<SavedGame> {
-        self.game.best().map(|best| SavedGame::Pinball { best })
+        let keys = || self.best_keys.clone();
+        self.game.best().map(|best| SavedGame::Pinball { best, keys: keys() })
     }
 
     fn resume(&mut self, game: &SavedGame) {
-        if let SavedGame::Pinball { best } = game {
+        if let SavedGame::Pinball { best, keys } = game {
             self.game.set_best(Some(*best));
+            self.best_keys.clone_from(keys);
         }
+    }
+
+    fn best_moves(&self) -> Option<&str> {
+        self.best_keys.as_deref()
+    }
+
+    fn watch(&mut self) -> bool {
+        let text = self.view.link.moves();
+        let Some(log) = text.and_then(InputLog::<Keys>::from_text) else { return false };
+        let best = self.replay.take().map_or(self.game.best(), |replay| replay.best);
+        self.play_again();
+        self.replay = Some(Replay { keys: Box::new(log.into_frames()), best });
+        true
     }
 
     fn play_again(&mut self) {
         self.game.play_again();
         self.view.start_again();
+        self.pressed = InputLog::default();
+        self.replay = None;
     }
 
     fn draw(&mut self) {
@@ -216,7 +299,9 @@ impl GameScreen for PinballScreen {
 
     fn picture(&mut self, ui: &mut Ui, studio: &mut Studio, dark: bool) -> Option<Wish> {
         self.view.dark = dark;
-        self.counts(ui);
+        if self.counts(ui) {
+            self.show_moves(ui);
+        }
         let rect = ui.available_rect_before_wrap();
         self.middle = rect.center().x;
         let response = ui.allocate_rect(rect, Sense::click_and_drag());

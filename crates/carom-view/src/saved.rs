@@ -44,6 +44,16 @@ pub enum SavedGame {
     Pinball {
         /// The most points of a game.
         best: u64,
+        /// Text of the keys that reached them.
+        #[serde(default)]
+        keys: Option<String>,
+    },
+    /// Racks of nine-ball.
+    Billiards {
+        /// Number of players.
+        players: usize,
+        /// Fewest strokes of a rack of one player alone, and the moves, one a line.
+        best: Option<(u32, String)>,
     },
 }
 
@@ -130,14 +140,15 @@ mod tests {
         let link = |name: &str| Link::parse(&format!("scene={name}")).expect("a link");
         let mut kept = SavedValues::default();
         for (name, best) in [("pinball", 10), ("table", 20), ("pinball", 30)] {
-            kept.keep_game(&link(name), SavedGame::Pinball { best });
+            kept.keep_game(&link(name), SavedGame::Pinball { best, keys: None });
         }
         let challenge = link("pinball").with_goal(500.0).expect("a goal");
-        assert_eq!(kept.game(&challenge), Some(&SavedGame::Pinball { best: 30 }));
-        assert_eq!(kept.game(&link("table")), Some(&SavedGame::Pinball { best: 20 }));
+        assert_eq!(kept.game(&challenge), Some(&SavedGame::Pinball { best: 30, keys: None }));
+        assert_eq!(kept.game(&link("table")), Some(&SavedGame::Pinball { best: 20, keys: None }));
         assert_eq!((kept.games.len(), kept.game(&link("maze"))), (2, None));
-        (0..20)
-            .for_each(|i| kept.keep_game(&link(&format!("t{i}")), SavedGame::Pinball { best: 0 }));
+        (0..20).for_each(|i| {
+            kept.keep_game(&link(&format!("t{i}")), SavedGame::Pinball { best: 0, keys: None })
+        });
         assert_eq!(kept.games.len(), MOST_GAMES);
     }
 }

@@ -9,7 +9,7 @@ use serde::Serialize;
 #[derive(Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Status<'a> {
-    /// `"empty"`, `"scene"`, `"maze"` or `"pinball"`.
+    /// `"empty"`, `"scene"`, `"maze"`, `"pinball"` or `"billiards"`.
     screen: &'static str,
     /// Whether the chooser is open.
     choosing: bool,
@@ -33,6 +33,8 @@ pub struct Status<'a> {
     maze: Option<Maze>,
     /// The pinball game being played.
     pinball: Option<Pinball>,
+    /// The game of nine-ball being played.
+    billiards: Option<Billiards>,
 }
 
 /// A watched scene.
@@ -99,6 +101,28 @@ struct Pinball {
     ball: Option<[f64; 3]>,
 }
 
+/// A game of nine-ball being played.
+#[derive(Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Billiards {
+    scene: String,
+    /// Number of players.
+    players: usize,
+    /// Player at the table, counted from 0.
+    shooter: usize,
+    /// Shots of this rack, each foul counted as one more.
+    strokes: u32,
+    /// The fewest strokes of a rack of one player alone.
+    best: Option<u32>,
+    /// Strokes to beat, if the link states them.
+    goal: Option<f64>,
+    /// The lowest ball on the table.
+    lowest: u8,
+    /// Whether balls roll.
+    rolling: bool,
+    over: bool,
+}
+
 impl<'a> Status<'a> {
     /// Reads the state of an interface.
     pub fn of(
@@ -132,6 +156,20 @@ impl<'a> Status<'a> {
                 ball: game.world().spheres().positions().first().map(|it| it.to_array()),
             }
         });
+        let billiards = app.billiards().map(|screen| {
+            let (game, rack) = (screen.game(), screen.game().rack());
+            Billiards {
+                scene: game.table().scene().name.clone(),
+                players: rack.players(),
+                shooter: rack.shooter(),
+                strokes: rack.strokes(),
+                best: game.best().map(|best| best.strokes),
+                goal: screen.goal(),
+                lowest: rack.lowest(),
+                rolling: game.is_rolling(),
+                over: screen.is_over(),
+            }
+        });
         let watching = app.watching().map(|watching| {
             let view = watching.view();
             Watching {
@@ -153,11 +191,12 @@ impl<'a> Status<'a> {
             }
         });
         Self {
-            screen: match (&watching, &maze, &pinball) {
+            screen: match (&watching, &maze, &pinball, &billiards) {
                 (Some(_), ..) => "scene",
-                (None, Some(_), _) => "maze",
-                (None, None, Some(_)) => "pinball",
-                (None, None, None) => "empty",
+                (None, Some(_), ..) => "maze",
+                (None, None, Some(_), _) => "pinball",
+                (None, None, None, Some(_)) => "billiards",
+                (None, None, None, None) => "empty",
             },
             choosing: app.is_choosing(),
             scenes,
@@ -170,6 +209,7 @@ impl<'a> Status<'a> {
             version,
             maze,
             pinball,
+            billiards,
         }
     }
 }

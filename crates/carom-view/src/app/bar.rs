@@ -190,7 +190,7 @@ impl App {
     fn view_menu(&mut self, ui: &mut Ui) -> Vec<Action> {
         let mut entries = match &self.screen {
             Screen::Watching(watching) => watching.cameras(),
-            Screen::Maze(_) | Screen::Pinball(_) => PRESETS.to_vec(),
+            Screen::Maze(_) | Screen::Pinball(_) | Screen::Billiards(_) => PRESETS.to_vec(),
             Screen::Empty => Vec::new(),
         };
         entries.push(Entry::once("Light or dark", Action::Theme));

@@ -11,7 +11,6 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use carom_maze::Maze;
-use carom_pinball::Table;
 use carom_render::Quality;
 use carom_scene::scene::Scene;
 use carom_scene::{Budget, Library, Source};
@@ -21,6 +20,7 @@ use egui::{Context, Pos2, Rect, Theme, Ui};
 
 use crate::action::{self, Action};
 use crate::address::Address;
+use crate::billiards_screen::BilliardsScreen;
 use crate::chooser::{Asked, Chooser, invite};
 use crate::exports::Exports;
 use crate::fonts;
@@ -61,7 +61,9 @@ pub enum Start {
     /// A maze to play.
     Maze(Box<Maze>),
     /// A pinball table to play on.
-    Pinball(Box<Table>),
+    Pinball(Box<carom_pinball::Table>),
+    /// A table to play nine-ball on.
+    Billiards(Box<carom_billiards::Table>),
     /// The run of a link.
     Link(Box<Link>),
 }
@@ -101,6 +103,7 @@ enum Screen {
     Watching(Box<Watching>),
     Maze(Box<MazeScreen>),
     Pinball(Box<PinballScreen>),
+    Billiards(Box<BilliardsScreen>),
 }
 
 impl App {
@@ -150,6 +153,10 @@ impl App {
                 let link = Link::to_scene(table.scene());
                 app.play_pinball(*table, link);
             }
+            Some(Start::Billiards(table)) => {
+                let link = Link::to_scene(table.scene());
+                app.play_billiards(*table, link);
+            }
             Some(Start::Link(link)) => app.follow(&link),
             None => app.welcome(),
         }
@@ -195,6 +202,22 @@ impl App {
     pub fn pinball(&self) -> Option<&PinballScreen> {
         match &self.screen {
             Screen::Pinball(screen) => Some(screen),
+            _ => None,
+        }
+    }
+
+    /// Returns the game, if nine-ball is played.
+    pub fn billiards(&self) -> Option<&BilliardsScreen> {
+        match &self.screen {
+            Screen::Billiards(screen) => Some(screen),
+            _ => None,
+        }
+    }
+
+    /// Returns the game, if nine-ball is played, to make moves in it.
+    pub fn billiards_mut(&mut self) -> Option<&mut BilliardsScreen> {
+        match &mut self.screen {
+            Screen::Billiards(screen) => Some(screen),
             _ => None,
         }
     }
@@ -381,7 +404,8 @@ impl App {
             Screen::Empty => {}
             Screen::Watching(watching) => watching.advance(ui),
             // The game pauses behind the dialog.
-            Screen::Maze(_) | Screen::Pinball(_) if self.chooser.is_open() => {}
+            Screen::Maze(_) | Screen::Pinball(_) | Screen::Billiards(_)
+                if self.chooser.is_open() => {}
             Screen::Maze(screen) => {
                 screen.stick = self.host.stick();
                 let steering = screen.steering(ui);
@@ -390,6 +414,11 @@ impl App {
                 }
             }
             Screen::Pinball(screen) => {
+                if let Err(error) = screen.advance(ui) {
+                    self.notices.complain(error);
+                }
+            }
+            Screen::Billiards(screen) => {
                 if let Err(error) = screen.advance(ui) {
                     self.notices.complain(error);
                 }
@@ -404,6 +433,7 @@ impl Screen {
         match self {
             Self::Maze(screen) => Some(&**screen),
             Self::Pinball(screen) => Some(&**screen),
+            Self::Billiards(screen) => Some(&**screen),
             Self::Empty | Self::Watching(_) => None,
         }
     }
@@ -413,6 +443,7 @@ impl Screen {
         match self {
             Self::Maze(screen) => Some(&mut **screen),
             Self::Pinball(screen) => Some(&mut **screen),
+            Self::Billiards(screen) => Some(&mut **screen),
             Self::Empty | Self::Watching(_) => None,
         }
     }
@@ -456,6 +487,7 @@ impl eframe::App for App {
         let game = match &self.screen {
             Screen::Maze(_) => Some(&action::MAZE),
             Screen::Pinball(_) => Some(&action::PINBALL),
+            Screen::Billiards(_) => Some(&action::BILLIARDS),
             Screen::Watching(_) | Screen::Empty => None,
         };
         help::show(&context, &mut self.help, game);

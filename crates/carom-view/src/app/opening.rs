@@ -1,12 +1,12 @@
 //! Opens scenes, and games in scenes.
 
 use carom_maze::Maze;
-use carom_pinball::Table;
 use carom_scene::Source;
 use carom_scene::scene::Scene;
 use carom_session::Link;
 
 use super::{App, Screen, Start};
+use crate::billiards_screen::BilliardsScreen;
 use crate::maze_screen::MazeScreen;
 use crate::pinball_screen::PinballScreen;
 use crate::watching::Watching;
@@ -15,13 +15,21 @@ use crate::written_scene::WrittenScene;
 impl Start {
     /// Returns the start of the game in a scene; `None` if the scene is no game.
     pub fn game(scene: &Scene) -> Option<Self> {
-        let maze = Maze::from_scene(scene).map(|it| Self::Maze(Box::new(it)));
-        maze.or_else(|_| Table::from_scene(scene).map(|it| Self::Pinball(Box::new(it)))).ok()
+        let maze = || Maze::from_scene(scene).ok().map(|it| Self::Maze(Box::new(it)));
+        let pinball = || {
+            let table = carom_pinball::Table::from_scene(scene).ok();
+            table.map(|it| Self::Pinball(Box::new(it)))
+        };
+        let billiards = || {
+            let table = carom_billiards::Table::from_scene(scene).ok();
+            table.map(|it| Self::Billiards(Box::new(it)))
+        };
+        maze().or_else(pinball).or_else(billiards)
     }
 }
 
 impl App {
-    /// Opens a scene: plays a maze or a pinball table, watches any other scene.
+    /// Opens a scene: plays a game, watches any other scene.
     pub(super) fn open(&mut self, scene: Scene, source: Source) {
         if !self.play_scene(&scene, || Link::to_scene(&scene)) {
             self.watch(scene, source);
@@ -33,6 +41,7 @@ impl App {
         match Start::game(scene) {
             Some(Start::Maze(maze)) => self.play_maze(*maze, link()),
             Some(Start::Pinball(table)) => self.play_pinball(*table, link()),
+            Some(Start::Billiards(table)) => self.play_billiards(*table, link()),
             _ => return false,
         }
         true
@@ -72,9 +81,16 @@ impl App {
         }
     }
 
-    pub(super) fn play_pinball(&mut self, table: Table, link: Link) {
+    pub(super) fn play_pinball(&mut self, table: carom_pinball::Table, link: Link) {
         match PinballScreen::new(table, link) {
             Ok(screen) => self.begin(Screen::Pinball(Box::new(screen))),
+            Err(error) => self.notices.complain(error),
+        }
+    }
+
+    pub(super) fn play_billiards(&mut self, table: carom_billiards::Table, link: Link) {
+        match BilliardsScreen::new(table, link) {
+            Ok(screen) => self.begin(Screen::Billiards(Box::new(screen))),
             Err(error) => self.notices.complain(error),
         }
     }

@@ -2,23 +2,14 @@
 
 use carom::{DVec3, SphereId};
 use carom_session::{Aim, Command, Edit, SphereChange, View};
-use egui::{Align2, Color32, CursorIcon, FontId, Painter, PointerButton, Pos2, Response, Ui, Vec2};
+use egui::{CursorIcon, Painter, PointerButton, Pos2, Response, Ui};
 
 use super::Watching;
 use super::cue::Cue;
-use super::hand::ray;
-use super::marker::{Projection, three_digits};
 use super::sides::side_of;
+use crate::aiming;
 use crate::look;
-
-/// Time in which a ball covers the drag that strikes it \[s\]: a drag over a billiard table breaks.
-const DRAG_SECS: f64 = 0.25;
-
-/// Radius of a dot of the path, in points.
-const DOT: f32 = 2.0;
-
-/// Colours of dots and text, and of their borders.
-const INK: [Color32; 2] = [Color32::WHITE, Color32::from_black_alpha(200)];
+use crate::projection::Projection;
 
 impl Watching {
     /// Handles a drag from the cue ball; returns whether the drag is one.
@@ -62,33 +53,17 @@ impl Watching {
 
     /// Returns the velocity of a blow \[m/s\] towards the point of the table under the pointer; `None` on the ball.
     fn blow(&self, rect: egui::Rect, pointer: Pos2, cue: Cue) -> Option<DVec3> {
-        let (orbit, view) = (self.viewpoint.orbit()?, side_of(self.driver.view(), cue.side));
+        let view = side_of(self.driver.view(), cue.side);
         let index = view.spheres.index_of(cue.ball)?;
         let center = look::place(view, index, self.driver.blend());
-        let (origin, direction) = ray(orbit, rect, pointer);
-        let distance = (center.y - origin.y) / direction.y;
-        let way = (origin + direction * distance - center).with_y(0.0);
-        let is_off = way.length() > view.spheres.radii[index];
-        (distance > 0.0 && way.is_finite() && is_off).then(|| way / DRAG_SECS)
+        aiming::blow(&self.projection(rect)?, pointer, center, view.spheres.radii[index])
     }
 
     /// Draws the path of the ball that is aimed, and its speed.
     pub(super) fn draw_aim(&self, painter: &Painter, projection: &Projection, side: usize) {
         let Some(cue) = self.cue.filter(|cue| cue.side == side) else { return };
-        let view = self.driver.view();
-        let places = view.aimed.iter().filter_map(|point| projection.place(*point));
-        for place in places {
-            painter.circle_filled(place, DOT + 1.0, INK[1]);
-            painter.circle_filled(place, DOT, INK[0]);
-        }
-        let Some((start, velocity)) = view.aimed.first().zip(cue.velocity) else { return };
-        let Some(place) = projection.place(*start) else { return };
-        let text = format!("{} m/s", three_digits(velocity.length()));
-        let galley = painter.layout_no_wrap(text, FontId::proportional(14.0), INK[0]);
-        let size = galley.size() + Vec2::new(10.0, 4.0);
-        let back = Align2::LEFT_TOP.anchor_size(place + Vec2::splat(12.0), size);
-        painter.rect_filled(back, 4.0, INK[1]);
-        painter.galley(back.min + Vec2::new(5.0, 2.0), galley, INK[0]);
+        let speed = cue.velocity.map(|it| it.length());
+        aiming::draw_path(painter, projection, &self.driver.view().aimed, speed);
     }
 }
 

@@ -6,11 +6,11 @@ use egui::{CursorIcon, Modifiers, PointerButton, Pos2, Rect, Response, Ui};
 
 use super::Watching;
 use super::grab::Grab;
-use super::marker::Projection;
 use super::sides::side_of;
 use crate::inspector::Throw;
 use crate::look;
 use crate::orbit::{Orbit, zoom_asked};
+use crate::projection::Projection;
 
 /// Distance from a ball within which the pointer takes it, in points.
 const REACH: f32 = 8.0;

@@ -2,11 +2,11 @@
 //! path. It lies over the picture, so that no other ball hides it.
 
 use carom::DVec3;
-use carom_render::Camera;
 use carom_session::View;
-use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, Vec2};
+use egui::{Align2, Color32, FontId, Painter, Stroke, Vec2};
 
 use crate::look;
+use crate::projection::Projection;
 
 /// Number of frames of the path.
 const TRAIL: usize = 40;
@@ -17,33 +17,6 @@ const SMALLEST: f32 = 7.0;
 const LIGHT: Color32 = Color32::WHITE;
 const DARK: Color32 = Color32::from_rgb(20, 24, 32);
 
-/// A camera and the rectangle of its picture on the screen.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Projection {
-    pub camera: Camera,
-    pub rect: Rect,
-}
-
-impl Projection {
-    fn aspect(&self) -> f64 {
-        f64::from(self.rect.width() / self.rect.height())
-    }
-
-    /// Returns the position of a point \[m\] on the screen; `None` behind the camera.
-    pub fn place(&self, point: DVec3) -> Option<Pos2> {
-        let place = self.camera.place(point, self.aspect())?;
-        Some(self.rect.center() + Vec2::new(place.x, -place.y) * 0.5 * self.rect.size())
-    }
-
-    /// Returns the radius on the screen of a sphere, in points; `None` if the camera is within it.
-    pub fn radius(&self, center: DVec3, radius: f64) -> Option<f32> {
-        let distance = (center - self.camera.position).length_squared() - radius * radius;
-        let height = (0.5 * self.camera.vertical_fov).tan();
-        (distance > 0.0)
-            .then(|| (radius / distance.sqrt() / height) as f32 * 0.5 * self.rect.height())
-    }
-}
-
 /// Returns the text of the label; `None` without a picked ball.
 pub(super) fn label(view: &View) -> Option<String> {
     let id = view.picked?;
@@ -52,7 +25,7 @@ pub(super) fn label(view: &View) -> Option<String> {
 }
 
 /// Formats a speed so that the label keeps its width.
-pub(super) fn three_digits(speed: f64) -> String {
+pub fn three_digits(speed: f64) -> String {
     match speed {
         s if s != 0.0 && !(1e-2..1e4).contains(&s) => format!("{s:.1e}"),
         s if s < 10.0 => format!("{s:.2}"),
@@ -104,23 +77,5 @@ fn trail(painter: &Painter, view: &View, now: DVec3, projection: &Projection) {
         let strength = (i + 1) as f32 / points.len() as f32;
         painter.line_segment([from, to], Stroke::new(3.5, DARK.gamma_multiply(0.7 * strength)));
         painter.line_segment([from, to], Stroke::new(1.5, LIGHT.gamma_multiply(strength)));
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_ring_is_as_large_as_the_ball_in_the_picture() {
-        let camera = Camera::looking_at(DVec3::Z * 10.0, DVec3::ZERO, 1.0);
-        let rect = Rect::from_min_size(Pos2::ZERO, Vec2::new(400.0, 300.0));
-        let projection = Projection { camera, rect };
-        let radius = projection.radius(DVec3::ZERO, 1.0).unwrap();
-        // The tangent from the eye touches the sphere at an angle whose sine is a tenth.
-        let expected = 150.0 * 0.1f64.asin().tan() / 0.5f64.tan();
-        assert!((f64::from(radius) - expected).abs() < 1e-3, "{radius} {expected}");
-        assert_eq!(projection.place(DVec3::ZERO), Some(rect.center()));
-        assert_eq!(projection.radius(DVec3::Z * 9.5, 1.0), None);
     }
 }

@@ -44,6 +44,7 @@ use departures::Departures;
 pub use entries::PRESETS;
 use grab::Grab;
 use hints::{Restarted, Way};
+pub use marker::three_digits;
 use sides::side_of;
 use viewpoint::Viewpoint;
 

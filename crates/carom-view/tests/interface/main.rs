@@ -2,6 +2,7 @@
 //! The software driver draws; the physics runs in the same thread, so that no timing matters.
 
 mod aim;
+mod billiards;
 mod card;
 mod contact_forces;
 mod contrast;

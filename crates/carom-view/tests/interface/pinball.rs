@@ -152,5 +152,31 @@ fn a_link_to_a_game_has_the_best_score_as_the_one_to_beat() {
     desk.get_by_label("Copy the link").click();
     desk.run_steps(1);
     let copied = copied_text(&desk).expect("something was copied");
-    assert_eq!(copied, format!("http://127.0.0.1:8042/#scene=pinball&goal={score}"));
+    let copied = Link::parse(&copied).expect("a link");
+    assert_eq!(copied.goal(), Some(score as f64));
+    // Its moves are the same game once more, which is none of the player's.
+    desk.state_mut().follow(&copied);
+    desk.run_steps(2);
+    desk.get_by_label("Watch it").click();
+    desk.run_steps(2);
+    while game(&desk).state() == GameState::Playing {
+        desk.run_steps(4);
+    }
+    assert_eq!((game(&desk).score(), game(&desk).best()), (score, Some(score)));
+    desk.run_steps(2);
+    desk.get_by_label("This is the game to beat.");
+    desk.key_press(Key::Enter);
+    desk.run_steps(2);
+    assert_eq!((game(&desk).state(), game(&desk).score()), (GameState::Playing, 0));
+}
+
+#[test]
+fn moves_that_are_no_keys_do_no_harm() {
+    let link = Link::parse("scene=pinball").expect("a link").with_moves("4 X").expect("short");
+    let mut desk = desk(Setup { start: Some(Start::Link(Box::new(link))), ..setup() });
+    desk.run_steps(2);
+    desk.get_by_label("Watch it").click();
+    desk.run_steps(2);
+    desk.get_by_label("The moves of the link cannot be read");
+    assert_eq!(game(&desk).state(), GameState::Playing);
 }

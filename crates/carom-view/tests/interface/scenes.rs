@@ -83,6 +83,8 @@ fn open_from_the_chooser(first: usize) {
         let opened = app.watching().map(|it| it.view().scene.name.clone());
         let opened = opened.or_else(|| app.maze().map(|it| it.game().scene().name.clone()));
         let opened = opened.or_else(|| app.pinball().map(|it| it.game().scene().name.clone()));
+        let billiards = || app.billiards().map(|it| it.game().table().scene().name.clone());
+        let opened = opened.or_else(billiards);
         assert_eq!(opened.as_deref(), Some(entry.name.as_str()));
         assert!(!app.notices().any_error());
     }

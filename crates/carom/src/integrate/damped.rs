@@ -33,7 +33,8 @@ pub(crate) fn is_damped(
     let size = change.norm();
     let opposing = (first - acceleration(velocity + change)).dot(change / size);
     // What is not a number comes from a step that went far too far.
-    size > 0.0 && !(h * opposing <= size)
+    let goes_too_far = h * opposing > size || opposing.is_nan();
+    size > 0.0 && goes_too_far
 }
 
 /// Returns the velocity at the end of a step of `h` \[s\] from a velocity `before` \[m/s\], by Newton's method; `None` if
