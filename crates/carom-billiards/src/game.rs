@@ -5,8 +5,8 @@ use carom_scene::scene::Strike;
 
 use crate::error::{GameError, MoveError};
 use crate::moves::Move;
-use crate::nine_ball::{BallInHand, CUE, NINE, Rack, Stage, Verdict};
-use crate::shot::Referee;
+use crate::nine_ball::{BallInHand, NINE, Rack, Stage, Verdict};
+use crate::shot::{CUE, Referee};
 use crate::table::Table;
 
 /// Longest duration of a shot \[s\]; balls that still move are then stopped, as on a table without friction.

@@ -31,8 +31,8 @@ mod table;
 pub use error::{GameError, MoveError, TableError};
 pub use game::{Best, Game};
 pub use moves::Move;
-pub use nine_ball::{BallInHand, CUE, Foul, NINE, Rack, Stage, Verdict};
-pub use shot::{Referee, Shot};
+pub use nine_ball::{BallInHand, Foul, NINE, Rack, Stage, Verdict};
+pub use shot::{CUE, Referee, Shot};
 pub use table::Table;
 
 /// The program of the README as a documentation test.

@@ -1,10 +1,7 @@
 //! The rules of nine-ball: what a shot is worth, and who plays next.
 
 use crate::error::MoveError;
-use crate::shot::Shot;
-
-/// Number of the cue ball.
-pub const CUE: u8 = 0;
+use crate::shot::{CUE, Shot};
 
 /// The ball that wins.
 pub const NINE: u8 = 9;

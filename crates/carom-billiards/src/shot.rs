@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use carom::{BodyPair, ColliderId, SphereId, StepReport};
 
-use crate::nine_ball::CUE;
+/// Number of the cue ball.
+pub const CUE: u8 = 0;
 
 /// What happened in a shot, by the numbers of the balls: 0 for the cue ball.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]

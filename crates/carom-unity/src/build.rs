@@ -12,10 +12,11 @@ use crate::look;
 use crate::mapping::{EmitterFields, ForceFields, SphereFields};
 use crate::material::{self, Appearance};
 use crate::parts::Parts;
+use crate::placed::Placed;
 use crate::pose::{mirrored, mirrored_rotation};
 use crate::project::Project;
 use crate::script::Script;
-use crate::shape::{Mesh, Placed, of_collider, of_mesh};
+use crate::shape::{Mesh, of_collider, of_mesh};
 use crate::value::Value;
 use crate::walls::{Face, enclosed};
 

@@ -24,6 +24,7 @@ mod model;
 mod modification;
 mod parts;
 mod physics;
+mod placed;
 mod pose;
 mod prefab;
 mod project;

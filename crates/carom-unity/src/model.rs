@@ -6,9 +6,9 @@ use carom::DVec3;
 use carom_scene::import::wavefront;
 use carom_scene::scene::{self, Shape};
 
+use crate::placed::Placed;
 use crate::pose::{Pose, mirrored};
 use crate::project::Project;
-use crate::shape::Placed;
 
 /// Shape of the model with this guid at a pose; the error is the reason for the report.
 ///

@@ -11,8 +11,9 @@ use crate::error::ImportError;
 use crate::graph::Node;
 use crate::material::Surface;
 use crate::parts::{Parts, is_set, is_trigger};
+use crate::placed::Placed;
 use crate::pose::mirrored;
-use crate::shape::{Placed, of_collider};
+use crate::shape::of_collider;
 use crate::value::Value;
 
 /// Unity's own physics in a scene.

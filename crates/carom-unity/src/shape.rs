@@ -8,19 +8,10 @@ use crate::class;
 use crate::document::Document;
 use crate::error::ImportError;
 use crate::model;
+use crate::placed::Placed;
 use crate::pose::Pose;
 use crate::project::Project;
 use crate::value::Value;
-
-/// A shape with its pose in Unity's coordinates.
-#[derive(Debug, Clone)]
-pub(crate) struct Placed {
-    pub shape: Shape,
-    pub position: DVec3,
-    pub rotation: DQuat,
-    /// Description of an inexact conversion, if there is one.
-    pub inexact: Option<&'static str>,
-}
 
 /// A mesh that comes with Unity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -5,7 +5,9 @@ use carom_scene::{Fault, SceneError, legible};
 use thiserror::Error;
 
 use super::packed::PackedError;
-use super::run::MAX_MOVES;
+
+/// Longest text of moves in a link \[bytes\]: a quarter of an hour of keys, or hundreds of strikes.
+pub const MAX_MOVES: usize = 1 << 16;
 
 /// Names of the parts of a link.
 const PARTS: [&str; 12] = [

@@ -6,7 +6,7 @@ use carom_scene::Override;
 use carom_scene::scene::Rule;
 
 use super::camera::LinkCamera;
-use super::error::LinkError;
+use super::error::{LinkError, MAX_MOVES};
 use super::time::{checked_time, readable};
 use crate::change::PastChange;
 
@@ -68,9 +68,6 @@ pub(crate) struct Beside {
     /// Changes of the second run, ascending by frame.
     pub changes: Arc<Vec<PastChange>>,
 }
-
-/// Longest text of moves in a link \[bytes\]: a quarter of an hour of keys, or hundreds of strikes.
-pub const MAX_MOVES: usize = 1 << 16;
 
 /// The scene of a link.
 #[derive(Debug, Clone, PartialEq, Eq)]
