@@ -153,7 +153,7 @@ impl BilliardsScreen {
         self.best_moves = self.game.best().map(|best| text_of(&best.moves));
     }
 
-    /// Shows the turn and the results in a line above the picture; returns whether the recorded rack is asked for.
+    /// Shows the turn and the results in a line above the picture; returns whether the user wants the recorded rack.
     fn counts(&self, ui: &mut Ui) -> bool {
         let rack = self.game.rack();
         let mut counts = match rack.players() {

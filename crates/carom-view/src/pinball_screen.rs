@@ -194,7 +194,7 @@ impl PinballScreen {
         }
     }
 
-    /// Shows score, balls and what to press in a line above the picture; returns whether the recorded game is asked for.
+    /// Shows score, balls and what to press in a line above the picture; returns whether the user wants the recorded game.
     fn counts(&self, ui: &mut Ui) -> bool {
         let mut counts =
             vec![format!("Score {}", self.game.score()), format!("Balls {}", self.game.balls())];

@@ -41,7 +41,7 @@ impl Curves {
     /// step \[s\].
     pub fn companions(&self, place: usize, since: f64) -> Vec<usize> {
         let joint = self.at(place, since).map(|(number, _)| &self.joints[number]);
-        joint.map_or(vec![place], |joint| places_of(joint))
+        joint.map_or(vec![place], places_of)
     }
 }
 

@@ -44,7 +44,7 @@ pub struct Link {
     carried: f64,
     /// Whether the link pressed in the sub-step, or in the flight before.
     pub bears: bool,
-    /// Whether its surface kicks or is a belt, which no cascade follows.
+    /// Whether its surface moves, kicks or is a belt, which no cascade follows.
     pub is_driven: bool,
     pub role: Role,
     pub normal: DVec3,
@@ -132,7 +132,9 @@ impl Link {
                     friction: ContactFriction { rolling, spinning, ..contact.friction },
                     carried,
                     bears: carried > 0.0,
-                    is_driven: contact.kick > 0.0 || contact.belt != DVec3::ZERO,
+                    is_driven: contact.kick > 0.0
+                        || contact.belt != DVec3::ZERO
+                        || !solver.places.at_start(contact.surface).1.is_at_rest(),
                     ..none
                 }
             }

@@ -31,7 +31,7 @@ pub(super) fn follow(
 ) {
     solver.landings.spheres.clear();
     solver.landings.contacts.clear();
-    if seeds.is_empty() || solver.has_moving_surfaces || solver.has_other_forces {
+    if seeds.is_empty() {
         return;
     }
     solver.incidence.renew(&solver.slabs, solver.slots.len());
