@@ -17,7 +17,7 @@ pub(super) fn archive<W: Write + Seek>(
     write: impl FnOnce(&mut Zip<W>) -> io::Result<()>,
 ) -> io::Result<()> {
     let mut zip = zip::ZipWriter::new(FailingOnce::new(BufWriter::new(file)));
-    let written = write(&mut zip).and_then(|()| Ok(zip.finish()?.flush()?));
+    let written = write(&mut zip).and_then(|()| zip.finish()?.flush());
     written.map_err(|error| {
         let of_zip = error.get_ref().and_then(|it| it.downcast_ref::<ZipError>());
         match of_zip {

@@ -37,7 +37,7 @@ pub struct ImpactTable(Table);
 
 #[derive(Debug)]
 enum Table {
-    Csv(HeadedTable),
+    Csv(Box<HeadedTable>),
     Arrays(PathBuf, ImpactArrays),
 }
 
@@ -49,7 +49,8 @@ impl ImpactTable {
     pub fn create(path: &Path) -> Result<Self, RecordingError> {
         let is_archive = path.extension().is_some_and(|it| it.eq_ignore_ascii_case("npz"));
         if !is_archive {
-            return HeadedTable::create(path, &HEADER).map(|table| Self(Table::Csv(table)));
+            return HeadedTable::create(path, &HEADER)
+                .map(|table| Self(Table::Csv(Box::new(table))));
         }
         let arrays = ImpactArrays::create(path).map_err(|source| unwritable(path, source))?;
         Ok(Self(Table::Arrays(path.to_owned(), arrays)))
@@ -60,7 +61,7 @@ impl ImpactTable {
     /// # Errors
     /// [`RecordingError`] if `out` cannot be written to.
     pub fn csv(out: impl io::Write + Send + 'static, name: &str) -> Result<Self, RecordingError> {
-        HeadedTable::new(out, name, &HEADER).map(|table| Self(Table::Csv(table)))
+        HeadedTable::new(out, name, &HEADER).map(|table| Self(Table::Csv(Box::new(table))))
     }
 
     /// Writes the impacts of a step that started at `start` \[s\].
