@@ -30,7 +30,7 @@ fn set_out(scene: &mut Scene, places: &[(u64, [f64; 2])]) {
 
 /// Returns a strike of this speed from a place towards another.
 fn towards(from: [f64; 2], to: [f64; 2], speed: f64) -> Strike {
-    let azimuth_degrees = f64::atan2(from[1] - to[1], to[0] - from[0]).to_degrees();
+    let azimuth_degrees = libm::atan2(from[1] - to[1], to[0] - from[0]).to_degrees();
     Strike { azimuth_degrees, ..Strike::new(speed) }
 }
 
