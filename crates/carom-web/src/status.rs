@@ -1,7 +1,7 @@
 //! The state of the interface as plain data, for scripts of the page and for tests.
 
 use carom::SphereId;
-use carom_view::App;
+use carom_view::{App, BilliardsScreen, MazeScreen, PinballScreen};
 use egui::Context;
 use serde::Serialize;
 
@@ -132,64 +132,10 @@ impl<'a> Status<'a> {
         context: &Context,
         graphics: &'static str,
     ) -> Self {
-        let maze = app.maze().map(|screen| {
-            let game = screen.game();
-            Maze {
-                scene: game.scene().name.clone(),
-                collected: game.collected(),
-                collectibles: game.maze().collectibles().count(),
-                elapsed: game.elapsed(),
-                won: screen.is_won(),
-                ball: game.ball_in_maze().0.to_array(),
-            }
-        });
-        let pinball = app.pinball().map(|screen| {
-            let game = screen.game();
-            Pinball {
-                scene: game.scene().name.clone(),
-                score: game.score(),
-                best: game.best(),
-                goal: screen.goal(),
-                balls: game.balls(),
-                elapsed: game.elapsed(),
-                over: screen.is_over(),
-                ball: game.world().spheres().positions().first().map(|it| it.to_array()),
-            }
-        });
-        let billiards = app.billiards().map(|screen| {
-            let (game, rack) = (screen.game(), screen.game().rack());
-            Billiards {
-                scene: game.table().scene().name.clone(),
-                players: rack.players(),
-                shooter: rack.shooter(),
-                strokes: rack.strokes(),
-                best: game.best().map(|best| best.strokes),
-                goal: screen.goal(),
-                lowest: rack.lowest(),
-                rolling: game.is_rolling(),
-                over: screen.is_over(),
-            }
-        });
-        let watching = app.watching().map(|watching| {
-            let view = watching.view();
-            Watching {
-                scene: view.scene.name.clone(),
-                source: watching.source.to_string(),
-                rule: view.setup.simulation.rule.to_string(),
-                time: view.time,
-                frame: view.frame,
-                playing: view.playback.playing,
-                seeking: view.seeking.is_some(),
-                speed: view.playback.speed,
-                spheres: view.spheres.ids.len(),
-                impacts: view.now.impacts,
-                picked: view.picked.map(SphereId::number),
-                energy: view.now.total_energy(),
-                restitutions: view.setup.colliders.iter().map(|it| it.1.restitution).collect(),
-                state_hash: view.playback.state_hash.map(|hash| hash.to_string()),
-                comparing: view.other.is_some(),
-            }
-        });
+        let maze = app.maze().map(Maze::of);
+        let pinball = app.pinball().map(Pinball::of);
+        let billiards = app.billiards().map(Billiards::of);
+        let watching = app.watching().map(Watching::of);
         Self {
             screen: match (&watching, &maze, &pinball, &billiards) {
                 (Some(_), ..) => "scene",
@@ -210,6 +156,80 @@ impl<'a> Status<'a> {
             maze,
             pinball,
             billiards,
+        }
+    }
+}
+
+impl Maze {
+    /// Reads the state of the maze.
+    fn of(screen: &MazeScreen) -> Self {
+        let game = screen.game();
+        Self {
+            scene: game.scene().name.clone(),
+            collected: game.collected(),
+            collectibles: game.maze().collectibles().count(),
+            elapsed: game.elapsed(),
+            won: screen.is_won(),
+            ball: game.ball_in_maze().0.to_array(),
+        }
+    }
+}
+
+impl Pinball {
+    /// Reads the state of pinball.
+    fn of(screen: &PinballScreen) -> Self {
+        let game = screen.game();
+        Self {
+            scene: game.scene().name.clone(),
+            score: game.score(),
+            best: game.best(),
+            goal: screen.goal(),
+            balls: game.balls(),
+            elapsed: game.elapsed(),
+            over: screen.is_over(),
+            ball: game.world().spheres().positions().first().map(|it| it.to_array()),
+        }
+    }
+}
+
+impl Billiards {
+    /// Reads the state of a game of billiards.
+    fn of(screen: &BilliardsScreen) -> Self {
+        let (game, rack) = (screen.game(), screen.game().rack());
+        Self {
+            scene: game.table().scene().name.clone(),
+            players: rack.players(),
+            shooter: rack.shooter(),
+            strokes: rack.strokes(),
+            best: game.best().map(|best| best.strokes),
+            goal: screen.goal(),
+            lowest: rack.lowest(),
+            rolling: game.is_rolling(),
+            over: screen.is_over(),
+        }
+    }
+}
+
+impl Watching {
+    /// Reads the state of a watched scene.
+    fn of(watching: &carom_view::Watching) -> Self {
+        let view = watching.view();
+        Self {
+            scene: view.scene.name.clone(),
+            source: watching.source.to_string(),
+            rule: view.setup.simulation.rule.to_string(),
+            time: view.time,
+            frame: view.frame,
+            playing: view.playback.playing,
+            seeking: view.seeking.is_some(),
+            speed: view.playback.speed,
+            spheres: view.spheres.ids.len(),
+            impacts: view.now.impacts,
+            picked: view.picked.map(SphereId::number),
+            energy: view.now.total_energy(),
+            restitutions: view.setup.colliders.iter().map(|it| it.1.restitution).collect(),
+            state_hash: view.playback.state_hash.map(|hash| hash.to_string()),
+            comparing: view.other.is_some(),
         }
     }
 }

@@ -98,17 +98,18 @@ pub(super) fn add_parts(
     let length = (end - start) / count;
     let starts = (0..count as u32).map(|part| start + f64::from(part) * length);
     for start in starts {
-        add_part(section, companions, (places, start, length), parts)?;
+        add_part(section, companions, places, [start, length], parts)?;
     }
     Some(())
 }
 
-/// Adds the derivative of a part of a section that begins at a time since the start of the flights \[s\]: in halves where
-/// forces are not smooth.
+/// Adds the derivative of a part of a section, by its start since that of the flights and its length \[s\]: in halves
+/// where forces are not smooth.
 fn add_part(
     section: &Section,
     companions: &Companions,
-    (places, start, length): (&[usize], f64, f64),
+    places: &[usize],
+    [start, length]: [f64; 2],
     parts: &mut Vec<CurvedFlight>,
 ) -> Option<()> {
     let nodes = END_NODES.map(|node| section.linearized(companions, start + node * length));
@@ -125,8 +126,8 @@ fn add_part(
         return Some(());
     }
     let half = 0.5 * length;
-    add_part(section, companions, (places, start, half), parts)?;
-    add_part(section, companions, (places, start + half, half), parts)
+    add_part(section, companions, places, [start, half], parts)?;
+    add_part(section, companions, places, [start + half, half], parts)
 }
 
 /// Returns how far the derivatives of accelerations at the start of a step of some length \[s\] are off the polynomials

@@ -197,7 +197,7 @@ impl<'a> Companions<'a> {
         for &(id, ref spring, first, second) in &self.springs {
             let [offset, velocity] = self.stretch(spring, [Some(first), second], states);
             let pull = spring.pull_derivatives(offset, velocity)?;
-            self.add_spring((id, first, second), &pull, &mut sums);
+            self.add_spring(id, (first, second), &pull, &mut sums);
         }
         self.add_interactions(states, time, &mut sums).then_some(())?;
         Some(self.divided(sums, accelerations))
@@ -264,7 +264,8 @@ impl<'a> Companions<'a> {
 
     fn add_spring(
         &self,
-        (id, first, second): (SpringId, usize, Option<usize>),
+        id: SpringId,
+        (first, second): (usize, Option<usize>),
         pull: &PullDerivatives,
         sums: &mut Sums,
     ) {
