@@ -33,6 +33,11 @@ pub fn start() -> Option<Start> {
     Some(Start::Billiards(Box::new(Table::built_in().expect("the built-in table"))))
 }
 
+/// A game of one player a stroke before its end.
+pub fn start_of_combination() -> Option<Start> {
+    Some(Start::Billiards(Box::new(combination())))
+}
+
 fn playing(start: Option<Start>) -> Desk {
     let mut desk = desk(Setup { start, ..setup() });
     desk.run_steps(3);

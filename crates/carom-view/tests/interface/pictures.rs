@@ -5,12 +5,12 @@
 use carom_maze::Maze;
 use carom_session::Command;
 use carom_view::{Action, Setup, Start};
-use egui::{Key, Theme};
+use egui::{Key, Theme, Vec2};
 use egui_kittest::{SnapshotOptions, SnapshotResults};
 
 use crate::desk::{Desk, SIZE, desk_for_picture, go_to, press, scene, setup_for_pictures, start};
 use crate::maze::{SHORT, win};
-use crate::pinball;
+use crate::{billiards, pinball};
 
 /// Versions of the software driver round differently at edges of shapes, text and shadows: a
 /// thousandth of the pixels may differ. A visible change - another colour, a panel that moved, a
@@ -60,7 +60,9 @@ in_light_and_dark!(
     the_maze,
     the_win_screen,
     pinball_in_two_sizes,
-    the_end_of_pinball
+    the_end_of_pinball,
+    nine_ball_in_two_sizes,
+    the_end_of_a_rack
 );
 
 /// Compares the window with the picture of this name and theme.
@@ -179,6 +181,29 @@ fn the_end_of_pinball(theme: Theme) {
     set_theme(&mut desk, theme);
     pinball::lose(&mut desk);
     compare_in(theme, &mut desk, "pinball_over");
+}
+
+/// A break that is aimed, with its path.
+fn nine_ball_in_two_sizes(theme: Theme) {
+    let mut results = SnapshotResults::new();
+    for [width, height] in [[1280.0, 800.0], [390.0, 844.0]] {
+        let setup = Setup { start: billiards::start(), ..setup_for_pictures() };
+        let mut desk = desk_for_picture([width, height], COARSE, setup);
+        set_theme(&mut desk, theme);
+        desk.run_steps(2);
+        billiards::drag(&mut desk, Vec2::new(30.0, -90.0));
+        compare(&mut desk, &format!("nine_ball_{width}_{}", name_of(theme)), &mut results);
+    }
+    results.unwrap();
+}
+
+fn the_end_of_a_rack(theme: Theme) {
+    let setup = Setup { start: billiards::start_of_combination(), ..setup_for_pictures() };
+    let mut desk = desk_for_picture(SIZE, COARSE, setup);
+    set_theme(&mut desk, theme);
+    desk.run_steps(2);
+    billiards::win(&mut desk);
+    compare_in(theme, &mut desk, "nine_ball_over");
 }
 
 fn the_win_screen(theme: Theme) {
