@@ -10,6 +10,7 @@ use super::gather::{
 use crate::lanes::Lanes;
 use crate::real::Real;
 use crate::rule::contact::slots::Run;
+use crate::rule::contact::slots::row::Row;
 use crate::rule::contact::slots::slab_totals::SlabTotals;
 use crate::rule::contact::sub_step::{RELAXATION, SLOP};
 
@@ -31,9 +32,9 @@ pub(crate) fn sweep(run: &mut Run, batches: &mut Batches, backwards: bool) -> Sl
     }
 }
 
-/// Moves spheres that overlap apart; velocities stay as they are. Returns the largest overlap, as a part
-/// of the sum of radii.
-pub(crate) fn correct(run: &mut Run, batches: &Batches) -> f64 {
+/// Moves spheres that overlap apart; velocities stay as they are. Returns the work against the conservative forces
+/// \[J\], and the largest overlap as a part of the sum of radii.
+pub(crate) fn correct(run: &mut Run, batches: &Batches) -> SlabTotals {
     dispatch!(Level::new(), simd => correct_all(simd, run, batches))
 }
 
@@ -161,9 +162,9 @@ fn solve_rolling<S: Simd>(simd: S, run: &mut Run, batch: &PairBatch, rolling: &m
 }
 
 #[inline(always)]
-fn correct_all<S: Simd>(simd: S, run: &mut Run, batches: &Batches) -> f64 {
+fn correct_all<S: Simd>(simd: S, run: &mut Run, batches: &Batches) -> SlabTotals {
     let zero = Lanes::all(simd, 0.0);
-    let mut largest = zero;
+    let (mut largest, mut work) = (zero, 0.0);
     let both = batches.pairs.iter().zip(&batches.approaches);
     for (number, (batch, approach)) in both.enumerate() {
         let offset = offset(simd, run.position, batch, batches.shifts.get(number));
@@ -187,7 +188,12 @@ fn correct_all<S: Simd>(simd: S, run: &mut Run, batches: &Batches) -> f64 {
             shift(simd, &mut run.position[first], row * of_first);
             let of_second = run.velocity[second].number();
             shift(simd, &mut run.position[second], row * of_second);
+            // Forces do no work on what sleeps, which stays where it is.
+            let push = Row(row.to_array()).vector();
+            let along = |slot: usize| run.conservative_acceleration(slot).dot(push);
+            work += if of_first < 0.0 { along(first) } else { 0.0 };
+            work -= if of_second > 0.0 { along(second) } else { 0.0 };
         }
     }
-    largest.largest()
+    SlabTotals { energy: work, overlap: largest.largest(), ..SlabTotals::default() }
 }

@@ -150,10 +150,10 @@ pub(crate) fn soften_bounces(solver: &mut Solver, part: f64) {
 pub(crate) fn correct(solver: &mut Solver, report: &mut StepReport) {
     let Solver { slots, slabs, places, .. } = solver;
     slabs.each_contact(slots, Direction::Forwards, |run, slab| {
-        let overlap = kernel::correct(run, &slab.batches);
+        let of_pairs = kernel::correct(run, &slab.batches);
         let of_surfaces = surfaces::correct(run, &slab.surfaces, places);
-        slab.totals.energy = of_surfaces.energy;
-        slab.totals.overlap = overlap.max(of_surfaces.overlap);
+        slab.totals.energy = of_pairs.energy + of_surfaces.energy;
+        slab.totals.overlap = of_pairs.overlap.max(of_surfaces.overlap);
     });
     report.energy_account.correction += slabs.energy();
     let overlap = slabs.iter().map(|slab| slab.totals.overlap).fold(0.0, f64::max);
