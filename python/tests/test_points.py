@@ -127,7 +127,7 @@ def test_points_refuse_what_does_not_fit(wrong: dict[str, object], problem: str)
         ({"masses": [1, 1, 0]}, r"spheres\[2\]\.mass"),
         ({"restitutions": 1.5}, r"spheres\[0\]\.restitution"),
         ({"radii": 1.5}, "overlaps"),
-        ({"finishes": ["metal", "wood", "metal"]}, "finishes: .*wood"),
+        ({"finishes": ["metal", "wool", "metal"]}, "finishes: .*wool"),
     ],
 )
 def test_a_scene_refuses_points_by_their_number(wrong: dict[str, object], problem: str) -> None:

@@ -122,7 +122,7 @@ fn tables_have_files_of_their_own_that_end_as_tables_do() {
     let folder = tempfile::tempdir().unwrap();
     let (table, archive) = (path(&folder, "t.csv"), path(&folder, "x.npz"));
     let run = ["run", "tutorial1", "--rule", "exact", "--frames", "1"];
-    for option in ["--impacts", "--ledger"] {
+    for option in ["--wells", "--ledger"] {
         assert!(bad_line(&[&run[..], &[option, &archive]].concat(), 2).contains(".csv"));
     }
     let other = path(&folder, "./t.csv");
