@@ -262,7 +262,7 @@ impl Game {
         self.begin(self.rack.players(), breaker);
     }
 
-    /// Begins anew with one or two players, and no rack won.
+    /// Starts a game of one or two players, with no rack won.
     ///
     /// # Errors
     /// [`MoveError::Players`]

@@ -8,11 +8,8 @@ mod common;
 
 use std::f64::consts::{LN_2, PI};
 
-use carom::{
-    Collider, DVec3, Force, Gravity, Pose, QuadraticDrag, Shape, Sphere, SphereState, Spring,
-    Vortex, World,
-};
-use common::{G, account_of_run, assert_close, assert_close_vec, exact, run, vec};
+use carom::{Collider, DVec3, Gravity, Pose, QuadraticDrag, Shape, Sphere, Spring, Vortex, World};
+use common::{AirDrag, G, account_of_run, assert_close, assert_close_vec, exact, run, vec};
 
 const FRAME: f64 = 1.0 / 64.0;
 const RATES: [f64; 6] = [1.0, 1e2, 1e4, 1e6, 1e9, 1e12];
@@ -26,21 +23,6 @@ fn falling_world() -> World {
 /// Quadratic drag under which a ball of 1 kg and 1 m falls with this terminal velocity \[m/s\].
 fn drag_to(terminal: f64) -> QuadraticDrag {
     QuadraticDrag::new(2.0 * G / (0.44 * PI * terminal * terminal))
-}
-
-/// Drag against the velocity through air that moves, of which the rule does not know that it is linear.
-#[derive(Debug)]
-struct AirDrag {
-    /// \[1/s\]
-    rate: f64,
-    /// \[m/s\]
-    wind: DVec3,
-}
-
-impl Force for AirDrag {
-    fn on(&self, sphere: &SphereState, _time: f64) -> DVec3 {
-        -self.rate * sphere.mass * (sphere.velocity - self.wind)
-    }
 }
 
 #[test]

@@ -9,10 +9,10 @@ mod common;
 use std::f64::consts::PI;
 
 use carom::{
-    Bisect, Buoyancy, Collider, Contact, DVec3, Discrete, Force, Gravity, Integrator, Motion,
-    MotionPart, Pose, QuadraticDrag, Rule, Shape, Sphere, SphereState, ViscousDrag, Vortex,
+    Bisect, Buoyancy, Collider, Contact, DVec3, Discrete, Gravity, Integrator, Motion, MotionPart,
+    Pose, QuadraticDrag, Rule, Shape, Sphere, ViscousDrag, Vortex,
 };
-use common::{G, account_of_run, assert_close, assert_close_vec, vec, world};
+use common::{AirDrag, G, account_of_run, assert_close, assert_close_vec, vec, world};
 
 const FRAME: f64 = 1.0 / 64.0;
 const RATES: [f64; 9] = [1e-3, 0.1, 1.5, 3.0, 1e2, 1e4, 1e6, 1e9, 1e12];
@@ -46,21 +46,6 @@ fn is_of_fourth_order(rule: Rule) -> bool {
 /// Every rule with frames, at every rate.
 fn all_cases() -> impl Iterator<Item = (Rule, f64)> {
     rules().into_iter().flat_map(|rule| RATES.map(|rate| (rule, rate)))
-}
-
-/// Drag against the velocity through air that moves, of which the rules do not know that it is linear.
-#[derive(Debug)]
-struct AirDrag {
-    /// \[1/s\]
-    rate: f64,
-    /// \[m/s\]
-    wind: DVec3,
-}
-
-impl Force for AirDrag {
-    fn on(&self, sphere: &SphereState, _time: f64) -> DVec3 {
-        -self.rate * sphere.mass * (sphere.velocity - self.wind)
-    }
 }
 
 /// Quadratic drag `-k |v| v` on a ball of 1 kg and 1 m, with k \[1/m\].

@@ -7,7 +7,8 @@ pub mod rough_mesh;
 pub mod solid_mesh;
 
 use carom::{
-    Bisect, DVec3, Discrete, EnergyAccount, Exact, Integrator, Rule, Settings, WindBack, World,
+    Bisect, DVec3, Discrete, EnergyAccount, Exact, Force, Integrator, Rule, Settings, SphereState,
+    WindBack, World,
 };
 
 pub const G: f64 = 9.81;
@@ -38,6 +39,21 @@ pub fn bisect() -> Rule {
 
 pub fn bisect_all() -> Rule {
     Rule::Bisect(Bisect::default().with_wind_back(WindBack::All))
+}
+
+/// Drag against the velocity through air that moves, of which the rules do not know that it is linear.
+#[derive(Debug)]
+pub struct AirDrag {
+    /// \[1/s\]
+    pub rate: f64,
+    /// \[m/s\]
+    pub wind: DVec3,
+}
+
+impl Force for AirDrag {
+    fn on(&self, sphere: &SphereState, _time: f64) -> DVec3 {
+        -self.rate * sphere.mass * (sphere.velocity - self.wind)
+    }
 }
 
 /// Numbers in [0, 1), the same in every run.
