@@ -87,12 +87,6 @@ impl Surface {
         (form, SurfaceMotion { belt, ..motion })
     }
 
-    /// The surface as it is after `h` \[s\].
-    pub fn moved(&self, h: f64) -> Self {
-        let (form, motion) = self.after(h);
-        Self { form, motion, course: self.course_after(h), ..self.clone() }
-    }
-
     /// Returns the motion from `h` \[s\] later on, if it is not steady.
     pub fn course_after(&self, h: f64) -> Option<Course> {
         self.course.as_ref().map(|course| course.after(h))
@@ -101,7 +95,10 @@ impl Surface {
     /// Returns the mean motion between two times from now \[s\], as a steady one.
     pub fn mean_motion(&self, times: [f64; 2]) -> Option<SurfaceMotion> {
         let course = self.course.as_ref()?;
-        let (_, SurfaceMotion { belt, .. }) = self.carried(&course.carriage(times[0]));
+        let belt = match course.carriage(times[0]).turn {
+            Some(rotation) => rotation * self.motion.belt,
+            None => self.motion.belt,
+        };
         Some(SurfaceMotion { belt, ..course.mean_motion(times) })
     }
 }
@@ -126,6 +123,12 @@ impl LastCarriage {
             Some(course) => surface.carried(&self.carriage(surface, course, h)),
             None => surface.after(h),
         }
+    }
+
+    /// Returns a surface as it is after `h` \[s\].
+    pub fn moved(&self, surface: &Surface, h: f64) -> Surface {
+        let (form, motion) = self.after(surface, h);
+        Surface { form, motion, course: surface.course_after(h), ..surface.clone() }
     }
 
     /// Origin \[m\] of the collider of a surface after `h` \[s\], and its rotation since now.

@@ -1,5 +1,7 @@
 //! Surfaces at both ends of a sub-step.
 
+mod of_collider;
+
 pub(crate) mod flat;
 pub(crate) mod top_speed;
 
@@ -10,6 +12,7 @@ use std::sync::Arc;
 use educe::Educe;
 use glam::DVec3;
 
+use self::of_collider::OfCollider;
 use self::top_speed::TopSpeed;
 use crate::band::Band;
 use crate::bounds::Bounds;
@@ -119,12 +122,14 @@ impl Places {
     /// Begins a sub-step between two times of the frame \[s\].
     pub fn begin_sub_step(&mut self, system: &System, times: [f64; 2]) {
         (self.start, self.times) = (self.times[1], times);
-        let last = LastCarriage::default();
+        let [begun, last] = [LastCarriage::default(), LastCarriage::default()];
+        let mut mean = OfCollider::default();
         let mut known = std::mem::take(&mut self.known);
         known.iter_mut().for_each(|it| {
-            let surface = self.surface(system, it.number);
+            let surface = self.surface(system, it.number, &begun);
             it.end = last.after(&surface, times[1]);
-            it.start.1 = surface.mean_motion(times).unwrap_or(it.start.1);
+            let mean = mean.get(surface.collider, || surface.mean_motion(times));
+            it.start.1 = mean.unwrap_or(it.start.1);
         });
         self.known = known;
     }
@@ -143,14 +148,18 @@ impl Places {
         }
         new.sort_unstable();
         new.dedup();
-        let last = [LastCarriage::default(), LastCarriage::default()];
+        let [begun, first, last] = [(); 3].map(|()| LastCarriage::default());
+        let (mut mean, mut fastest) = (OfCollider::default(), OfCollider::default());
         let places = new.into_iter().map(|number| {
-            let surface = self.surface(system, number);
-            let mut start = last[0].after(&surface, self.start);
-            let end = last[1].after(&surface, self.times[1]);
-            start.1 = surface.mean_motion(self.times).unwrap_or(start.1);
-            let bounds = surface.course.as_ref().map(|it| it.bounds(0.0, self.frame));
-            let fastest = bounds.map(|it| [it.speed, it.spin]);
+            let surface = self.surface(system, number, &begun);
+            let mut start = first.after(&surface, self.start);
+            let end = last.after(&surface, self.times[1]);
+            let mean = mean.get(surface.collider, || surface.mean_motion(self.times));
+            start.1 = mean.unwrap_or(start.1);
+            let fastest = fastest.get(surface.collider, || {
+                let bounds = surface.course.as_ref()?.bounds(0.0, self.frame);
+                Some([bounds.speed, bounds.spin])
+            });
             MovingPlace { number, start, end, fastest }
         });
         let places: Vec<MovingPlace> = places.collect();
@@ -159,10 +168,15 @@ impl Places {
     }
 
     /// A surface as it is when the frame begins.
-    fn surface<'a>(&self, system: &System<'a>, number: u32) -> Cow<'a, Surface> {
+    fn surface<'a>(
+        &self,
+        system: &System<'a>,
+        number: u32,
+        begun: &LastCarriage,
+    ) -> Cow<'a, Surface> {
         let surface = &system.surfaces[number as usize];
         match system.moved_for {
-            Some(time) => Cow::Owned(surface.moved(time)),
+            Some(time) => Cow::Owned(begun.moved(surface, time)),
             None => Cow::Borrowed(surface),
         }
     }
