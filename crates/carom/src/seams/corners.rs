@@ -9,11 +9,14 @@ use crate::norm::Norm;
 /// Dot product up to which a unit vector does not point along another one: more than between the normals of flush
 /// faces.
 const BESIDE: f64 = 1e-8;
+/// Length of the difference of two unit vectors that are one: more than their rounding, less than any angle that
+/// counts.
+const ONE: f64 = 1e-12;
 /// Angle \[rad\] from its borders that the middle of a flat cone has at most.
 const FLAT_CONE: f64 = 1e-6;
 
 /// Parts of a corner that no face covers: one, or one for each side that spheres come from.
-pub(super) fn uncovered(corner: &Corner, faces: &[FlushFace]) -> Vec<Corner> {
+pub(super) fn uncovered(corner: &Corner, faces: &[&FlushFace]) -> Vec<Corner> {
     let own = corner.rays.iter().map(|&ray| corner.rotation * ray).collect();
     let mut cones: Vec<Vec<DVec3>> = vec![own];
     let mut is_whole = true;
@@ -24,6 +27,9 @@ pub(super) fn uncovered(corner: &Corner, faces: &[FlushFace]) -> Vec<Corner> {
         }
         cones = cones.into_iter().flat_map(|cone| beside(cone, face.normal, &rays)).collect();
         is_whole = false;
+        if cones.is_empty() {
+            break;
+        }
     }
     if is_whole {
         return vec![corner.clone()];
@@ -44,17 +50,28 @@ fn beside(cone: Vec<DVec3>, normal: DVec3, rays: &[DVec3]) -> Vec<Vec<DVec3>> {
     if borders.iter().all(|it| it.dot(normal) <= BESIDE) {
         return vec![cone];
     }
-    let with = |more: &[DVec3]| -> Vec<DVec3> { cone.iter().chain(more).copied().collect() };
+    let with = |more: &[DVec3]| -> Vec<DVec3> { distinct(cone.iter().chain(more).copied()) };
     let before = with(rays);
     if is_in_front {
         return if has_inside(&before) { vec![before] } else { Vec::new() };
     }
-    let before: Vec<DVec3> = before.into_iter().chain([-normal]).collect();
+    let before: Vec<DVec3> = distinct(before.into_iter().chain([-normal]));
     let mut parts = vec![with(&[normal])];
     if has_inside(&before) {
         parts.push(before);
     }
     parts
+}
+
+/// Unit vectors without those that are one with an earlier one.
+fn distinct(rays: impl Iterator<Item = DVec3>) -> Vec<DVec3> {
+    let mut kept: Vec<DVec3> = Vec::new();
+    for ray in rays {
+        if !kept.iter().any(|it| (ray - *it).norm() <= ONE) {
+            kept.push(ray);
+        }
+    }
+    kept
 }
 
 /// Unit vectors along the lines in which two sides of a cone meet.

@@ -6,27 +6,26 @@ use super::face::{FLAT, FlushFace};
 use crate::mesh::{Edge, Facet};
 use crate::norm::Norm;
 
-/// Parts of an edge that no face covers.
-pub(super) fn uncovered(edge: &Edge, faces: &[FlushFace]) -> Vec<Edge> {
+/// Parts of an edge that no face covers. Those no longer than `least` \[m\] count as covered.
+pub(super) fn uncovered(edge: &Edge, faces: &[&FlushFace], least: f64) -> Vec<Edge> {
     let [first, second] = edge.outward;
     if first != second {
-        return parts(edge, faces);
+        return parts(edge, faces, least);
     }
     // It is met from both sides of its face: each may be covered by another face.
     let normal = edge.axis.cross(first);
     let halves = [normal, -normal].map(|it| Edge { outward: [first, it], ..*edge });
-    let left: Vec<Edge> = halves.iter().flat_map(|half| parts(half, faces)).collect();
+    let left: Vec<Edge> = halves.iter().flat_map(|half| parts(half, faces, least)).collect();
     if left == halves { vec![*edge] } else { left }
 }
 
 /// Parts of a one-sided edge that no face covers.
-fn parts(edge: &Edge, faces: &[FlushFace]) -> Vec<Edge> {
+fn parts(edge: &Edge, faces: &[&FlushFace], least: f64) -> Vec<Edge> {
     let mut covered: Vec<[f64; 2]> = faces.iter().flat_map(|face| intervals(edge, face)).collect();
     if covered.is_empty() {
         return vec![*edge];
     }
     covered.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    let least = faces.iter().map(|face| 4.0 * face.gap).fold(0.0, f64::max);
     let (mut left, mut from) = (Vec::new(), -edge.half);
     for [start, end] in covered.into_iter().chain([[edge.half; 2]]) {
         if start - from > least {

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::face::FlushFace;
+use super::faces::Faces;
 use super::motions;
 use crate::bounds::Bounds;
 use crate::bounds_tree::{Bounded, BoundsTree};
@@ -26,6 +26,8 @@ struct Flat<'a> {
     collider: &'a Collider,
     /// Range of its surfaces.
     surfaces: Range<usize>,
+    /// Its faces, with their normals.
+    faces: Vec<(u32, DVec3)>,
     /// `None` for a half-space.
     bounds: Option<Bounds>,
 }
@@ -51,10 +53,10 @@ impl Bounded for Leaf {
 /// Pairs of flush surfaces of different colliders, ascending. At least one collider of each pair satisfies `is_asked`.
 pub(super) fn pairs(
     colliders: &Numbered<Collider>,
-    surfaces: &[Surface],
+    faces: &mut Faces,
     is_asked: impl Fn(ColliderId, &Collider) -> bool,
 ) -> Vec<[u32; 2]> {
-    let flats = flats(colliders, surfaces);
+    let flats = flats(colliders, faces.surfaces);
     let asked: Vec<bool> = flats.iter().map(|it| is_asked(it.id, it.collider)).collect();
     let mut pairs = Vec::new();
     if flats.len() < 2 || !asked.contains(&true) {
@@ -78,7 +80,7 @@ pub(super) fn pairs(
             near.extend((number + 1..flats.len()).filter(|&it| flats[it].bounds.is_some()));
         }
         for other in near.into_iter().filter(|&it| asked[number] || asked[it]) {
-            add_pairs(surfaces, &flats, [number, other], &mut trees, &mut pairs);
+            add_pairs(faces, &flats, [number, other], &mut trees, &mut pairs);
         }
     }
     pairs.sort_unstable();
@@ -99,7 +101,9 @@ fn flats<'a>(colliders: &'a Numbered<Collider>, surfaces: &[Surface]) -> Vec<Fla
             let margin = MARGIN * (it.min.abs().max(it.max.abs())).max_element();
             it.widened(margin)
         });
-        flats.push(Flat { id, collider, surfaces: range, bounds });
+        let faces = range.clone().filter_map(|it| Some((it as u32, normal_of(&surfaces[it])?)));
+        let faces = faces.collect();
+        flats.push(Flat { id, collider, surfaces: range, faces, bounds });
     }
     flats
 }
@@ -119,12 +123,13 @@ pub(super) fn has_faces(collider: &Collider) -> bool {
 
 /// Adds the flush faces of two colliders.
 fn add_pairs(
-    surfaces: &[Surface],
+    faces: &mut Faces,
     flats: &[Flat],
     numbers: [usize; 2],
     trees: &mut BTreeMap<usize, SurfaceTree>,
     pairs: &mut Vec<[u32; 2]>,
 ) {
+    let surfaces = faces.surfaces;
     let [first, second] = numbers.map(|number| &flats[number]);
     let is_one = first.collider.groups == second.collider.groups
         && motions::are_one(first.collider, second.collider);
@@ -136,26 +141,36 @@ fn add_pairs(
     } else {
         (numbers[1], numbers[0])
     };
+    let (few, many) = (&flats[few], &flats[many]);
     let mut near: Vec<u32> = Vec::new();
-    for own in faces(surfaces, flats[few].surfaces.clone()) {
-        let form = &surfaces[own as usize].form;
-        let all = flats[many].surfaces.clone();
-        if let (Some(bounds), true) = (surface_tree::bounds(form), all.len() > MANY_FACES) {
-            let numbers = all.clone().map(|it| it as u32);
-            let tree = trees.entry(many).or_insert_with(|| SurfaceTree::of(surfaces, numbers));
+    for &(own, normal) in &few.faces {
+        let bounds = surface_tree::bounds(&surfaces[own as usize].form);
+        near.clear();
+        if let (Some(bounds), true) = (bounds, many.surfaces.len() > MANY_FACES) {
+            let numbers = many.surfaces.clone().map(|it| it as u32);
+            let tree = trees
+                .entry(many.surfaces.start)
+                .or_insert_with(|| SurfaceTree::of(surfaces, numbers));
             let margin = MARGIN * (bounds.min.abs().max(bounds.max.abs())).max_element();
             tree.near(&bounds.widened(margin), &mut near);
-            near.retain(|&it| is_face(&surfaces[it as usize]));
+            near.retain(|&it| {
+                normal_of(&surfaces[it as usize]).is_some_and(|it| faces_alike(it, normal))
+            });
         } else {
-            near.clear();
-            near.extend(faces(surfaces, all));
+            let alike = many.faces.iter().filter(|(_, it)| faces_alike(*it, normal));
+            near.extend(alike.map(|(number, _)| number));
         }
         for &other in &near {
-            if are_flush([form, &surfaces[other as usize].form]) {
+            if faces.are_flush([own, other]) {
                 pairs.push([own.min(other), own.max(other)]);
             }
         }
     }
+}
+
+/// Returns whether two normals may be those of flush faces. Most pairs differ in them.
+fn faces_alike(normal: DVec3, other: DVec3) -> bool {
+    normal.dot(other) >= 0.5
 }
 
 /// Returns whether a collider is a half-space whose plane does not cut the bounds of another one.
@@ -169,30 +184,15 @@ fn is_apart(surfaces: &[Surface], half_space: &Flat, other: &Flat) -> bool {
     ((center - *point).dot(*normal)).abs() > reach + MARGIN * point.abs().max_element()
 }
 
-/// Faces among the surfaces of a range.
-fn faces(surfaces: &[Surface], range: Range<usize>) -> impl Iterator<Item = u32> {
-    range.filter(|&it| is_face(&surfaces[it])).map(|it| it as u32)
-}
-
-/// Returns whether a surface is a flat face that deflects spheres.
-fn is_face(surface: &Surface) -> bool {
-    let is_flat =
-        matches!(surface.form, Form::Rectangle(_) | Form::HalfSpace { .. } | Form::Facet(_));
-    is_flat && surface.role == Role::Deflects
-}
-
-/// Returns whether two flat forms are flush.
-fn are_flush(forms: [&Form; 2]) -> bool {
-    let normal = |form: &Form| match form {
-        Form::Rectangle(it) => it.normal,
-        Form::Facet(it) => it.frame.normal,
-        Form::HalfSpace { normal, .. } => *normal,
-        _ => DVec3::ZERO,
-    };
-    // Most pairs differ in their normals.
-    if normal(forms[0]).dot(normal(forms[1])) < 0.5 {
-        return false;
+/// Normal of a flat face that deflects spheres; `None` of another surface.
+fn normal_of(surface: &Surface) -> Option<DVec3> {
+    if surface.role != Role::Deflects {
+        return None;
     }
-    let [first, second] = forms.map(|form| FlushFace::of(form, DVec3::ZERO));
-    first.zip(second).is_some_and(|(first, second)| first.is_flush_with(&second))
+    match &surface.form {
+        Form::Rectangle(it) => Some(it.normal),
+        Form::Facet(it) => Some(it.frame.normal),
+        Form::HalfSpace { normal, .. } => Some(*normal),
+        _ => None,
+    }
 }

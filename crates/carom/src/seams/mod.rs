@@ -6,6 +6,7 @@
 mod corners;
 mod edges;
 mod face;
+mod faces;
 mod flush;
 mod motions;
 mod polyhedron;
@@ -16,6 +17,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::collider::Collider;
 use crate::collider_motion::Motion;
 use crate::connected::Connected;
+use crate::detect::surface_tree;
 use crate::id::ColliderId;
 use crate::mesh::Placement;
 use crate::numbered::Numbered;
@@ -23,6 +25,7 @@ use crate::pose::Pose;
 use crate::surface::{self, Form, Role, Surface};
 
 use face::FlushFace;
+use faces::Faces;
 use polyhedron::Polyhedra;
 
 /// The colliders that have faces flush with those of others.
@@ -49,7 +52,8 @@ impl Seams {
     /// Finds the seams between colliders; `plain` are their surfaces without seams.
     pub fn of(colliders: &Numbered<Collider>, plain: &[Surface]) -> Self {
         let surfaces = &*at_rest(colliders, plain);
-        let pairs = flush::pairs(colliders, surfaces, |_, _| true);
+        let mut faces = Faces::of(surfaces);
+        let pairs = flush::pairs(colliders, &mut faces, |_, _| true);
         let mut flush_with: BTreeMap<u64, Vec<u32>> = BTreeMap::new();
         for [first, second] in &pairs {
             for (own, other) in [(first, second), (second, first)] {
@@ -67,14 +71,14 @@ impl Seams {
             others.sort_unstable();
             others.dedup();
             let rest = motions::rest_pose(collider);
-            let faces = others.iter().map(|&other| &surfaces[other as usize].form);
-            let faces: Vec<FlushFace> =
-                faces.filter_map(|form| FlushFace::of(form, rest.position)).collect();
+            let beside =
+                others.iter().filter_map(|&it| Some(faces.face(it)?.beside(rest.position)));
+            let beside: Vec<FlushFace> = beside.collect();
             let first = surfaces.partition_point(|it| it.collider.0 < number);
             let own = surfaces[first..].iter().take_while(|it| it.collider.0 == number);
             let deflecting = own.filter(|it| it.role == Role::Deflects).map(|it| &it.form);
             let forms = polyhedra.forms(&collider.shape, rest, deflecting);
-            let forms = forms.map(|forms| without_covered(forms, &faces));
+            let forms = forms.map(|forms| without_covered(forms, &beside));
             are_of_now |= motions::is_steady(collider);
             joined.insert(number, Joined { whole, rest, forms });
         }
@@ -98,7 +102,8 @@ impl Seams {
         };
         let has_faces = |(number, it)| is_asked(ColliderId(number), it) && flush::has_faces(it);
         !colliders.iter().any(has_faces)
-            || flush::pairs(colliders, &at_rest(colliders, plain), is_asked).is_empty()
+            || flush::pairs(colliders, &mut Faces::of(&at_rest(colliders, plain)), is_asked)
+                .is_empty()
     }
 
     /// Returns the surfaces of colliders with their seams; `plain` are those without.
@@ -170,17 +175,27 @@ fn at_rest<'a>(colliders: &Numbered<Collider>, plain: &'a [Surface]) -> Cow<'a, 
 
 /// Forms of a collider without the parts that flush faces of others cover.
 fn without_covered(forms: Vec<Form>, faces: &[FlushFace]) -> Vec<Form> {
+    let least = faces.iter().map(|face| 4.0 * face.gap).fold(0.0, f64::max);
     let mut kept = Vec::with_capacity(forms.len());
+    let mut near = Vec::new();
     for form in forms {
+        if let (Form::Edge(_) | Form::Corner(_), Some(bounds)) =
+            (&form, surface_tree::bounds(&form))
+        {
+            near.clear();
+            near.extend(faces.iter().filter(|face| face.may_cover(&bounds)));
+        }
         match form {
             Form::Edge(edge) => {
-                kept.extend(edges::uncovered(&edge, faces).into_iter().map(Form::Edge));
+                kept.extend(edges::uncovered(&edge, &near, least).into_iter().map(Form::Edge));
             }
             Form::Corner(corner) => {
-                kept.extend(corners::uncovered(&corner, faces).into_iter().map(Form::Corner));
+                kept.extend(corners::uncovered(&corner, &near).into_iter().map(Form::Corner));
             }
             form => kept.push(form),
         }
     }
+    // Most edges and corners between tiles are gone.
+    kept.shrink_to_fit();
     kept
 }
