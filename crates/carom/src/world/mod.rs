@@ -423,7 +423,8 @@ impl World {
 
     /// Changes a collider. It keeps its place in the order.
     ///
-    /// # Errors [`Error::Unknown`] if there is no such collider, [`Error::Invalid`] for an invalid number.
+    /// # Errors
+    /// [`Error::Unknown`] if there is no such collider, [`Error::Invalid`] for an invalid number.
     pub fn set_collider(&mut self, id: ColliderId, collider: Collider) -> Result<(), Error> {
         self.set_colliders(&[(id, collider)])
     }
