@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::mem::{self, Discriminant};
 use std::sync::{Arc, OnceLock};
 
-use crate::collider::Collider;
+use crate::collider::{Collider, Shape};
 use crate::detect::moving_surfaces::MovingSurfaces;
 use crate::detect::surface_tree::SurfaceTree;
 use crate::id::ColliderId;
@@ -41,7 +41,12 @@ impl Colliders {
     /// The surfaces of all colliders, in their order.
     pub fn surfaces(&self) -> &[Surface] {
         self.surfaces.get_or_init(|| {
-            let mut plain = Vec::new();
+            // Growing by doubling would copy those of large meshes twice.
+            let counts = self.list.iter().map(|(_, it)| match &it.shape {
+                Shape::Mesh(mesh) => mesh.features().count() + 1,
+                _ => 1,
+            });
+            let mut plain = Vec::with_capacity(counts.sum());
             for (number, collider) in self.list.iter() {
                 surface::place(ColliderId(number), collider, self.time, &mut plain);
             }
@@ -211,7 +216,6 @@ mod tests {
     use glam::DVec3;
 
     use super::*;
-    use crate::collider::Shape;
     use crate::collider_motion::{Motion, MotionPart};
     use crate::pose::Pose;
 

@@ -25,6 +25,12 @@ pub(crate) struct Features {
 }
 
 impl Features {
+    /// Number of surfaces that they make; faces met from both sides are two.
+    pub fn count(&self) -> usize {
+        let sides = if self.is_two_sided { 2 } else { 1 };
+        sides * self.facets.len() + self.edges.len() + self.corners.len()
+    }
+
     /// Computes the features of a mesh, met from both sides if it is neither closed nor one-sided.
     pub(in crate::mesh) fn of(topology: &Topology, is_one_sided: bool) -> Self {
         let is_two_sided = !(is_one_sided || topology.is_closed);
