@@ -1,7 +1,8 @@
 //! Edits of a running scene.
 
 use carom::{
-    ColliderId, DVec3, Emitter, EmitterId, ForceId, Friction, Mass, SphereId, Spring, SpringId,
+    ColliderId, DVec3, Emitter, EmitterId, ForceId, Friction, Mass, Pose, SphereId, Spring,
+    SpringId,
 };
 use carom_scene::scene::{Color, Force, Simulation};
 
@@ -39,6 +40,8 @@ pub enum Edit {
     /// Sets the friction of all colliders with this group name, see
     /// [`group_name`](crate::group_name).
     NamedColliderFrictions(String, Friction),
+    /// Puts a collider elsewhere; one with a motion moves on from there in the same way.
+    ColliderPose(ColliderId, Pose),
     /// Replaces an emitter. If its period changes, it starts again now.
     Emitter(EmitterId, Box<Emitter>),
     /// Changes a sphere.
@@ -111,7 +114,7 @@ impl Edit {
     /// and motion; `None` if nothing remains.
     pub(crate) fn value(&self) -> Option<Self> {
         match self {
-            Self::Throw { .. } | Self::RemoveSphere(_) => None,
+            Self::Throw { .. } | Self::RemoveSphere(_) | Self::ColliderPose(..) => None,
             // Springs depend on the spheres that they join.
             Self::AddSpring(_) | Self::RemoveSpring(_) => None,
             Self::Sphere(id, change) => {
@@ -143,6 +146,9 @@ impl Edit {
                 Some(later.clone())
             }
             (Self::ColliderFriction(id, _), Self::ColliderFriction(same, _)) if id == same => {
+                Some(later.clone())
+            }
+            (Self::ColliderPose(id, _), Self::ColliderPose(same, _)) if id == same => {
                 Some(later.clone())
             }
             (

@@ -11,7 +11,7 @@ pub struct Setup {
     pub simulation: Simulation,
     /// Forces, in the order in which they are summed.
     pub forces: Vec<(ForceId, Force)>,
-    /// Colliders in their order, with their poses as opened; the world has the present ones.
+    /// Colliders in their order, with their poses as opened or last edited; the world has the present ones.
     pub colliders: Vec<(ColliderId, Collider)>,
     /// Emitters, in the order in which they emit.
     pub emitters: Vec<(EmitterId, Emitter)>,

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use carom::{Collider, ColliderId, Emitter, EmitterId, Error, ForceId, Subject, World};
+use carom::{Collider, ColliderId, Emitter, EmitterId, Error, ForceId, Pose, Subject, World};
 use carom_scene::scene::{self, Force, RestitutionLaw, Scene, Simulation};
 use carom_scene::{Paint, SceneError};
 
@@ -66,6 +66,7 @@ impl Subjects<'_> {
                     it.with_friction(*friction).with_material(0)
                 })
             }
+            Edit::ColliderPose(id, pose) => set_pose(*id, *pose, world, setup),
             Edit::Emitter(id, emitter) => {
                 set_emitter(*id, emitter, scene, Subjects { world, setup, looks })
             }
@@ -181,6 +182,24 @@ fn set_collider(
         described.restitution_law = collider.restitution_law.and_then(RestitutionLaw::of);
         described.material = described.material.take().filter(|_| collider.material > 0);
         described.set_surface_friction(collider.friction);
+    }
+    Ok(())
+}
+
+/// Puts a collider into this pose; its description gets the pose without its motion.
+fn set_pose(
+    id: ColliderId,
+    pose: Pose,
+    world: &mut World,
+    setup: &mut Arc<Setup>,
+) -> Result<(), SessionError> {
+    world.set_collider(id, world.collider(id)?.with_pose(pose))?;
+    let collider = world.collider(id)?;
+    let Pose { position, rotation } = collider.motion.rest().unwrap_or(collider.pose);
+    let colliders = &mut Arc::make_mut(setup).colliders;
+    for (_, described) in colliders.iter_mut().filter(|it| it.0 == id) {
+        described.position = position.to_array();
+        described.rotation = rotation.to_array();
     }
     Ok(())
 }

@@ -9,8 +9,8 @@
 //! Ids are written as numbers. TOML preserves every number exactly.
 
 use carom::{
-    ColliderId, DQuat, DVec3, EmitterId, ForceId, Friction, Groups, Mass, SOLID_BALL, SphereId,
-    SpringEnd, SpringId,
+    ColliderId, DQuat, DVec3, EmitterId, ForceId, Friction, Groups, Mass, Pose, SOLID_BALL,
+    SphereId, SpringEnd, SpringId,
 };
 use carom_scene::legible;
 use carom_scene::scene::{Color, Force, Quaternion, Simulation, Vector};
@@ -99,6 +99,7 @@ enum Written {
     ColliderFriction { collider: u64, friction: SurfaceFriction },
     AllColliderFrictions(SurfaceFriction),
     NamedColliderFrictions { name: String, friction: SurfaceFriction },
+    ColliderPose { collider: u64, position: Vector, rotation: Quaternion },
     Emitter { emitter: u64, is: Box<Emitter> },
     Sphere { sphere: u64, changes: Box<SphereFields> },
     Throw { sphere: Box<Sphere>, color: Option<Color> },
@@ -241,6 +242,11 @@ impl From<&Change> for Written {
             Edit::NamedColliderFrictions(name, friction) => {
                 Self::NamedColliderFrictions { name: name.clone(), friction: (*friction).into() }
             }
+            Edit::ColliderPose(id, pose) => Self::ColliderPose {
+                collider: id.number(),
+                position: pose.position.to_array(),
+                rotation: pose.rotation.to_array(),
+            },
             Edit::Emitter(id, emitter) => {
                 Self::Emitter { emitter: id.number(), is: Box::new((&**emitter).into()) }
             }
@@ -284,6 +290,11 @@ impl From<Written> for Change {
             Written::AllColliderFrictions(friction) => Edit::AllColliderFrictions(friction.into()),
             Written::NamedColliderFrictions { name, friction } => {
                 Edit::NamedColliderFrictions(name, friction.into())
+            }
+            Written::ColliderPose { collider, position, rotation } => {
+                let pose = Pose::at(DVec3::from_array(position));
+                let pose = pose.rotated(DQuat::from_array(rotation));
+                Edit::ColliderPose(ColliderId::from_number(collider), pose)
             }
             Written::Emitter { emitter, is } => {
                 Edit::Emitter(EmitterId::from_number(emitter), Box::new((*is).into()))

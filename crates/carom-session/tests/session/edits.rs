@@ -1,6 +1,6 @@
 //! Edits: each changes the world and its description, or nothing.
 
-use carom::{Bisect, ConstantForce, DVec3, Exact, Friction, Sphere, Spring, SpringId};
+use carom::{Bisect, ConstantForce, DQuat, DVec3, Exact, Friction, Pose, Sphere, Spring, SpringId};
 use carom_scene::scene::{self, Color, Force, ImpactLaw, Integrator, Scene};
 use carom_session::{Edit, Session, SphereChange, View, group_name};
 
@@ -331,4 +331,43 @@ fn a_coefficient_set_by_hand_overrides_law_and_pair_and_the_others_keep_theirs()
     }
     let at = |x: f64| found.iter().find(|it| it.0 == x).unwrap().1;
     assert!((at(0.0) - 0.4).abs() < 1e-12 && (at(1.0) - 0.25).abs() < 1e-12, "{found:?}");
+}
+
+#[test]
+fn a_surface_put_elsewhere_is_there_in_world_and_file_whatever_its_motion() {
+    let motions = [
+        "",
+        "velocity = [0.5, 0.0, 0.0]\nangular_velocity = [0.0, 1.0, 0.0]",
+        "motion = { swing = { axis = [0, 0, 1], amplitude_degrees = 20, frequency = 2 } }",
+        "motion = [{ oscillate = { axis = [0, 1, 0], amplitude = 0.1, frequency = 1 } }, \
+         { turn = { axis = [0, 1, 0], rate = 2 } }]",
+    ];
+    for motion in motions {
+        let text = format!(
+            "name = \"put\"\nspheres = [{{ position = [0, 2, 0], radius = 0.2 }}]\n\
+             [[colliders]]\nshape = {{ mesh = {{ vertices = [[0, 0, 1], [1, 0, -1], [-1, 0, -1]], \
+             triangles = [[0, 1, 2]] }} }}\n{motion}\n"
+        );
+        let mut session = Session::new(Scene::from_toml(&text, "put").unwrap()).unwrap();
+        (0..20).for_each(|_| session.step().unwrap());
+        let id = session.setup().colliders[0].0;
+        let turned = DQuat::from_xyzw(0.0, 0.6, 0.0, 0.8);
+        let pose = Pose::at(DVec3::new(0.25, -1.0, 0.5)).rotated(turned);
+        session.edit(Edit::ColliderPose(id, pose)).unwrap();
+        let now = session.world().collider(id).unwrap().pose;
+        // Rounding of the pose at rest, from which a motion leads back.
+        assert!((now.position - pose.position).length() < 1e-14, "{motion}: {now:?}");
+        assert!(now.rotation.dot(pose.rotation).abs() > 1.0 - 1e-14, "{motion}: {now:?}");
+        let mut again = Session::new(session.scene_now()).unwrap();
+        for frame in 0..20 {
+            let [one, other] = [&session, &again].map(|it| view(it).poses[0]);
+            // The same, by sines of angles that were rounded on another clock.
+            let apart = (one.position - other.position).length();
+            assert!(apart < 1e-12, "{motion}, frame {frame}: {one:?} {other:?}");
+            let alike = one.rotation.dot(other.rotation).abs();
+            assert!(alike > 1.0 - 1e-12, "{motion}, frame {frame}: {one:?} {other:?}");
+            session.step().unwrap();
+            again.step().unwrap();
+        }
+    }
 }

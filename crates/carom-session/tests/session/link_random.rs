@@ -1,6 +1,8 @@
 //! Links of random sessions are repeated bit for bit.
 
-use carom::{ColliderId, DVec3, ForceId, Friction, Sphere, SphereId, Spring, SpringId};
+use carom::{
+    ColliderId, DQuat, DVec3, ForceId, Friction, Pose, Sphere, SphereId, Spring, SpringId,
+};
 use carom_scene::scene::{Force, Rule, Zones};
 use carom_session::{Edit, Session, SphereChange};
 use proptest::prelude::*;
@@ -30,6 +32,11 @@ fn edit() -> impl Strategy<Value = Edit> {
         (0..3_u64, 0.0..1.0).prop_map(|(id, it)| {
             let friction = Friction::default().with_rolling(0.1 * it).with_spinning(it);
             Edit::ColliderFriction(ColliderId::from_number(id), friction)
+        }),
+        (0..3_u64, -1.0..1.0).prop_map(|(id, it)| {
+            let pose = Pose::at(DVec3::new(it, -9.0, 0.3 * it));
+            let turned = pose.rotated(DQuat::from_xyzw(0.0, 0.0, 0.6 * it, 0.8));
+            Edit::ColliderPose(ColliderId::from_number(id), turned)
         }),
         (0..20_u64, -0.1..1.0).prop_map(|(id, it)| {
             let friction = Some(Friction::sliding(it));
