@@ -231,8 +231,9 @@ pub const MOUSE: &[(&str, &str)] = &[
     ("drag", "turn the camera"),
     ("right drag, or Shift + drag", "move the camera"),
     ("wheel", "come nearer or go away"),
-    ("click on a ball", "pick it; beside all balls: pick none"),
+    ("click on a ball or surface", "pick it; beside all: pick none"),
     ("drag the picked ball", "pull it by a spring; let go to throw it"),
+    ("Ctrl + drag of the picked surface", "move it across the view"),
     (
         "drag from a cue ball",
         "aim along its path; let go to strike, on the ball to put the cue away",

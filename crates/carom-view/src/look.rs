@@ -1,6 +1,6 @@
 //! Turns the view of a session into a drawing.
 
-use carom::{DQuat, DVec3, SphereId};
+use carom::{ColliderId, DQuat, DVec3, SphereId};
 use carom_render::{Arrow, Ball, Body, Drawing, Light, Pattern, add_surroundings, spring_line};
 use carom_scene::scene::{self, Color, Finish};
 use carom_scene::{Coat, Palette};
@@ -39,11 +39,15 @@ pub struct DrawOptions {
     pub dark: bool,
     /// Part of the way from the previous to the present positions, in \[0, 1\].
     pub blend: f64,
+    /// The picked surface.
+    pub picked: Option<ColliderId>,
 }
 
 /// Colour of triggers that have none.
 const TRIGGER: Color = [0.95, 0.76, 0.20];
 const VELOCITY: Color = [0.13, 0.55, 0.33];
+/// Colour that a picked surface is mixed with, and its part.
+const PICKED: (Color, f64) = ([0.20, 0.55, 0.95], 0.5);
 const CONTACT: Color = [0.93, 0.26, 0.21];
 
 /// Length of the normal of a contact, in radii of the sphere.
@@ -54,7 +58,7 @@ pub fn draw(view: &View, look: &DrawOptions, drawing: &mut Drawing) {
     drawing.clear();
     let light = Light::of_scene(&view.scene);
     drawing.light = if look.dark { light.at_dusk() } else { light };
-    add_colliders(view, drawing);
+    add_colliders(view, look.picked, drawing);
     add_spheres(view, look, drawing);
     add_springs(view, look, drawing);
     let forces = view.setup.forces.iter().map(|(_, force)| force);
@@ -80,17 +84,25 @@ fn collider_color(collider: &scene::Collider, colors: Option<&scene::Colors>) ->
     collider.color.unwrap_or(of_scene)
 }
 
-fn add_colliders(view: &View, drawing: &mut Drawing) {
+fn add_colliders(view: &View, picked: Option<ColliderId>, drawing: &mut Drawing) {
     let colors = view.scene.colors.as_ref();
-    for ((_, collider), pose) in view.setup.colliders.iter().zip(&view.poses) {
+    for ((id, collider), pose) in view.setup.colliders.iter().zip(&view.poses) {
         if !collider.visible {
             continue;
         }
-        let coat = Coat { color: collider_color(collider, colors), finish: collider.finish };
+        let plain = collider_color(collider, colors);
+        let color = if picked == Some(*id) { picked_color(plain) } else { plain };
+        let coat = Coat { color, finish: collider.finish };
         // A mesh that cannot be made is in no world.
         let Ok(shape) = collider.shape.physical() else { continue };
         drawing.add_collider(shape, *pose, coat, collider.trigger);
     }
+}
+
+/// Returns the colour of a surface while it is picked.
+fn picked_color(plain: Color) -> Color {
+    let (color, part) = PICKED;
+    std::array::from_fn(|it| plain[it] + part * (color[it] - plain[it]))
 }
 
 /// Returns the colour of a sphere.
@@ -207,7 +219,8 @@ mod tests {
             session.step().unwrap();
             let mut view = View::default();
             session.fill(&mut view);
-            let look = DrawOptions { marks: Marks::default(), dark: false, blend: 0.5 };
+            let look =
+                DrawOptions { marks: Marks::default(), dark: false, blend: 0.5, picked: None };
             let mut drawing = Drawing::default();
             draw(&view, &look, &mut drawing);
             let half_frame = 0.5 * session.frame_time();

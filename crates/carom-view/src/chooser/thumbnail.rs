@@ -142,6 +142,6 @@ pub(super) fn is_dark(context: &Context) -> bool {
 }
 
 fn draw_into(view: &View, dark: bool, drawing: &mut Drawing) {
-    let look = DrawOptions { marks: Marks::default(), dark, blend: 1.0 };
+    let look = DrawOptions { marks: Marks::default(), dark, blend: 1.0, picked: None };
     look::draw(view, &look, drawing);
 }

@@ -121,7 +121,7 @@ fn row(ui: &mut Ui, view: &View, group: &Group, commands: &mut Vec<Command>) {
 }
 
 /// Returns the parts of the motion of a collider in words.
-fn motion_of(collider: &Collider) -> String {
+pub(super) fn motion_of(collider: &Collider) -> String {
     let part = |motion: &Motion| match *motion {
         Motion::Steady { velocity } => {
             format!("moves with {:.3} m/s", DVec3::from_array(velocity).length())

@@ -8,8 +8,10 @@ mod friction;
 mod parameters;
 pub mod simulation;
 mod spring;
+mod surface;
 mod value;
 
+use carom::ColliderId;
 use carom_scene::Parameter;
 use carom_session::{Command, View};
 use egui::{CollapsingHeader, ScrollArea, Ui};
@@ -22,13 +24,14 @@ pub use value::significant;
 /// Indent of the rows of a group, in points.
 const INDENT: f32 = 13.0;
 
-/// Shows the panel beside the picture. Returns a parameter of the scene file if its value was
-/// changed.
+/// Shows the panel beside the picture, with the picked surface if there is one. Returns a parameter of
+/// the scene file if its value was changed.
 pub fn show(
     ui: &mut Ui,
     view: &View,
     parameters: &[Parameter],
     throw: &mut Throw,
+    picked: &mut Option<ColliderId>,
     commands: &mut Vec<Command>,
 ) -> Option<Parameter> {
     let mut changed = None;
@@ -45,6 +48,9 @@ pub fn show(
             None => {
                 ui.weak(format!("{} a ball to see and change it.", press_word(ui)));
             }
+        }
+        if picked.is_some() {
+            section(ui, "Surface", true, |ui| surface::show(ui, view, picked, commands));
         }
         if !view.setup.colliders.is_empty() {
             section(ui, "Surfaces", true, |ui| collider::show(ui, view, commands));

@@ -7,6 +7,7 @@ use egui::{CursorIcon, Modifiers, PointerButton, Pos2, Rect, Response, Ui};
 use super::Watching;
 use super::grab::Grab;
 use super::sides::side_of;
+use super::surface::surface_at;
 use crate::inspector::Throw;
 use crate::look;
 use crate::orbit::{Orbit, zoom_asked};
@@ -18,7 +19,10 @@ const REACH: f32 = 8.0;
 impl Watching {
     /// Handles mouse and fingers in the picture.
     pub(super) fn hand(&mut self, ui: &Ui, response: &Response, side: usize) {
-        if self.aim(ui, response, side) || self.grab(ui, response, side) {
+        let is_taken = self.aim(ui, response, side)
+            || self.grab(ui, response, side)
+            || self.drag_surface(ui, response, side);
+        if is_taken {
             return;
         }
         let Some(mut orbit) = self.viewpoint.orbit() else { return };
@@ -129,6 +133,10 @@ impl Watching {
             orbit.center_on(look::place(view, index, blend));
             self.viewpoint.take(orbit);
         }
+        self.surface = match picked {
+            Some(_) => None,
+            None => surface_at(view, orbit.camera.near, [origin, direction]).map(|(id, _)| id),
+        };
         self.viewpoint.unfollow();
         self.commands.push(Command::Pick(picked));
     }

@@ -12,6 +12,7 @@ mod hints;
 mod marker;
 mod over;
 mod sides;
+mod surface;
 mod text;
 mod verdict;
 mod viewpoint;
@@ -19,7 +20,7 @@ mod viewpoint;
 use std::sync::Arc;
 use std::time::Duration;
 
-use carom::{DVec3, SphereId};
+use carom::{ColliderId, DVec3, SphereId};
 use carom_render::{Camera, Drawing, GpuError};
 use carom_scene::Source;
 use carom_scene::scene::Scene;
@@ -46,6 +47,7 @@ use grab::Grab;
 use hints::{Restarted, Way};
 pub use marker::three_digits;
 use sides::side_of;
+use surface::HeldSurface;
 use viewpoint::Viewpoint;
 
 /// The screen of a watched scene.
@@ -81,6 +83,9 @@ pub struct Watching {
     card: Card,
     /// The ball in the hand.
     grabbed: Option<Grab>,
+    /// The picked surface.
+    surface: Option<ColliderId>,
+    held_surface: Option<HeldSurface>,
     /// The cue in the hand.
     cue: Option<Cue>,
     /// The pictures of both rules; one rule uses the first.
@@ -193,6 +198,8 @@ impl Watching {
             thrown_after: None,
             card: Card::default(),
             grabbed: None,
+            surface: None,
+            held_surface: None,
             cue: None,
             canvases: Default::default(),
             drawing: Drawing::default(),
@@ -340,7 +347,7 @@ impl Watching {
     pub fn panels(&mut self, ui: &mut Ui) {
         self.has_sheets = has_sheets(ui);
         let parameters = self.parameters();
-        let Self { driver, commands, layout, throw, departures, wanted, sheet, .. } = self;
+        let Self { driver, commands, layout, throw, departures, wanted, sheet, surface, .. } = self;
         let mut changed = None;
         let Layout { panels, plots, .. } = layout;
         let panels = if self.has_sheets { sheet } else { panels };
@@ -348,7 +355,7 @@ impl Watching {
         let whole = ui.available_size();
         let mut room = 0.5 * whole.x;
         INSPECTOR.show(ui, &mut room, &mut panels.inspector, |ui| {
-            changed = inspector::show(ui, view, &parameters, throw, commands);
+            changed = inspector::show(ui, view, &parameters, throw, surface, commands);
         });
         PLOTS.show(ui, &mut room, &mut panels.plots, |ui| {
             *wanted = plots::show(ui, view, departures.since(), plots);
@@ -400,7 +407,8 @@ impl Watching {
     }
 
     fn look(&self, manner: Manner) -> DrawOptions {
-        DrawOptions { marks: self.layout.marks, dark: manner.dark, blend: self.driver.blend() }
+        let (marks, blend) = (self.layout.marks, self.driver.blend());
+        DrawOptions { marks, dark: manner.dark, blend, picked: self.surface }
     }
 
     /// Draws the picture of one rule, if anything in it has changed.

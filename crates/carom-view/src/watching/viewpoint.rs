@@ -139,7 +139,7 @@ impl Viewpoint {
             let mut drawing = Drawing::default();
             look::draw(
                 view,
-                &DrawOptions { marks: Marks::default(), dark: false, blend },
+                &DrawOptions { marks: Marks::default(), dark: false, blend, picked: None },
                 &mut drawing,
             );
             drawing

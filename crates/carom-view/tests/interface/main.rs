@@ -21,6 +21,7 @@ mod revisions;
 mod scenes;
 mod sides;
 mod springs;
+mod surfaces;
 mod touch;
 mod transport;
 mod welcome;
