@@ -770,6 +770,12 @@ namespace Carom
             get { CaromEnergyAccount it; Check(Native.carom_world_energy_account(Id, out it)); return it; }
         }
 
+        /// <summary>Energy that held forces added in the last step under the rule exact [J].</summary>
+        public double IntegrationEnergy
+        {
+            get { double it; Check(Native.carom_world_integration_energy(Id, out it)); return it; }
+        }
+
         /// <summary>Sets the groups that a sphere is in and those that it collides with, one bit for each.</summary>
         public void SetGroups(ulong sphere, uint groups, uint collidesWith)
         {
@@ -1637,6 +1643,8 @@ namespace Carom
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern CaromStatus carom_world_energy_account(
             WorldId world, out CaromEnergyAccount account);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_integration_energy(WorldId world, out double energy);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern CaromStatus carom_world_set_groups(
             WorldId world, ulong sphere, uint groups, uint collidesWith);

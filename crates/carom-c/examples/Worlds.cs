@@ -240,6 +240,7 @@ static class Worlds
                     "the balls enter their well after one radius");
                 Expect(events[0].First == first && events[0].Second == second, "the smaller id comes first");
                 Expect(world.EnergyAccount.Contacts == 0.0 && world.Triggers().Length == 0, "nothing else happens");
+                Expect(world.IntegrationEnergy == 0.0, "no force is held");
                 world.SnapshotInto(snapshot);
                 var hash = world.StateHash;
                 world.Step(0.75);

@@ -1039,6 +1039,10 @@ CaromStatus carom_world_report(CaromWorld world, CaromReport *report);
 /// Reads the work of the kicks of colliders in the last step [J]; 0 after carom_world_restore().
 CaromStatus carom_world_kick_work(CaromWorld world, double *work);
 
+/// Reads the energy that held forces added in the last step under the rule `exact` [J], besides
+/// carom_world_energy_account(); 0 after carom_world_restore().
+CaromStatus carom_world_integration_energy(CaromWorld world, double *energy);
+
 /// Reads the impacts of the last step in order of time, in the way of carom_world_ids().
 CaromStatus carom_world_impacts(CaromWorld world, CaromImpact *impacts, size_t stride, size_t capacity, size_t *count);
 

@@ -277,6 +277,18 @@ pub unsafe extern "C" fn carom_world_kick_work(world: CaromWorld, work: *mut f64
     world.measure(place, |inner| inner.world.report().energy_account.kicks)
 }
 
+/// Reads the energy that held forces added in the last step under the rule `exact` [J], besides
+/// carom_world_energy_account(); 0 after carom_world_restore().
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carom_world_integration_energy(
+    world: CaromWorld,
+    energy: *mut f64,
+) -> CaromStatus {
+    // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
+    let place = unsafe { Out::new(energy, "energy") };
+    world.measure(place, |inner| inner.world.report().energy_account.integration)
+}
+
 /// Reads the impacts of the last step in order of time, in the way of carom_world_ids().
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_impacts(

@@ -66,7 +66,7 @@ impl EnergyBalance {
     ) -> Self {
         let EnergyAccount { contacts, colliders, kicks, growth, forces, applied, .. } = account;
         let EnergyAccount { shear, thermostat, correction, emission, .. } = account;
-        let integration = end.total - start.total - account.total();
+        let integration = end.total - start.total - (account.total() - account.integration);
         let of_bodies = [contacts, colliders, kicks, growth, shear, thermostat];
         let given = [forces, applied, correction, emission];
         let largest = of_bodies

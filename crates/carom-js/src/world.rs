@@ -178,7 +178,8 @@ impl World {
         let of_bodies = [account.contacts, account.colliders, account.kicks, account.growth];
         let driven = [account.shear, account.thermostat];
         let others = [account.forces, account.applied, account.correction, account.emission];
-        of_bodies.into_iter().chain(driven).chain(others).collect()
+        let all = of_bodies.into_iter().chain(driven).chain(others);
+        all.chain([account.integration]).collect()
     }
 
     /// Returns the quality of the solutions of the rule `contact`: sub-steps with limited impulses,

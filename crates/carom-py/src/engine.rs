@@ -389,7 +389,7 @@ impl Engine {
         let of_bodies = [account.contacts, account.colliders, account.kicks, account.growth];
         let driven = [account.shear, account.thermostat];
         let others = [account.forces, account.applied, account.correction, account.emission];
-        Ok([&of_bodies[..], &driven, &others].concat())
+        Ok([&of_bodies[..], &driven, &others, &[account.integration]].concat())
     }
 
     /// Returns the quality of the solutions of the rule `contact`: sub-steps with limited impulses,

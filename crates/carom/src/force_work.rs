@@ -11,6 +11,8 @@ pub(crate) struct ForceWork {
     pub applied: f64,
     /// Work of steady shear on the motion relative to the mean flow.
     pub shear: f64,
+    /// What held forces did beyond what the forces themselves would have done along the same flights.
+    pub integration: f64,
 }
 
 impl AddAssign for ForceWork {
@@ -18,5 +20,6 @@ impl AddAssign for ForceWork {
         self.forces += other.forces;
         self.applied += other.applied;
         self.shear += other.shear;
+        self.integration += other.integration;
     }
 }

@@ -82,7 +82,7 @@ pub struct ZoneAccount {
 /// Changes of the energy of a world in a step, by cause, under any rule.
 ///
 /// [`World::total_energy`](crate::World::total_energy) after the step is the energy before it, plus the sum of
-/// these, plus the error of the integration. Flights in closed form have no error but rounding.
+/// these, plus the error of the integration: of other rules than `exact`, or rounding.
 ///
 /// ```
 /// use carom::{Collider, DVec3, Gravity, Pose, Shape, Sphere, World};
@@ -129,6 +129,9 @@ pub struct EnergyAccount {
     pub correction: f64,
     /// Energy of the spheres that emitters added, minus the energy of those that they or triggers removed \[J\].
     pub emission: f64,
+    /// Energy that the rule `exact` adds where it holds a force constant for a time, in stepped zones and in some
+    /// persistent contacts \[J\]: the work of the held force, less that of the force itself.
+    pub integration: f64,
 }
 
 impl EnergyAccount {
@@ -140,7 +143,8 @@ impl EnergyAccount {
             + self.growth
             + self.shear
             + self.thermostat;
-        of_bodies + self.forces + self.applied + self.correction + self.emission
+        let of_forces = self.forces + self.applied + self.integration;
+        of_bodies + of_forces + self.correction + self.emission
     }
 
     /// Returns the account with all entries multiplied by a factor.
@@ -156,6 +160,7 @@ impl EnergyAccount {
             applied: part * self.applied,
             correction: part * self.correction,
             emission: part * self.emission,
+            integration: part * self.integration,
         }
     }
 
@@ -164,6 +169,7 @@ impl EnergyAccount {
         self.forces += work.forces;
         self.shear += work.shear;
         self.applied += work.applied;
+        self.integration += work.integration;
     }
 }
 
@@ -179,6 +185,7 @@ impl AddAssign for EnergyAccount {
         self.applied += other.applied;
         self.correction += other.correction;
         self.emission += other.emission;
+        self.integration += other.integration;
     }
 }
 

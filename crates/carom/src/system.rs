@@ -222,6 +222,34 @@ impl<'a> System<'a> {
         }
     }
 
+    /// The conservative forces between spheres \[N\] without springs, as in
+    /// [`Self::nonconservative_forces_between`].
+    pub fn conservative_interactions(
+        &self,
+        states: [&[DVec3]; 2],
+        time: f64,
+        forces: &mut Vec<DVec3>,
+    ) {
+        forces.clear();
+        forces.resize(states[0].len(), DVec3::ZERO);
+        if let Some(interactions) = self.interactions {
+            interactions.add_conservative(&self.states(states), time, forces);
+        }
+    }
+
+    /// Potential energy \[J\] of the conservative forces between spheres, without springs.
+    pub fn conservative_interaction_potential(&self, states: [&[DVec3]; 2], time: f64) -> f64 {
+        let spheres = self.states(states);
+        self.interactions.map_or(0.0, |it| it.conservative_potential(&spheres, time))
+    }
+
+    /// Potential energy \[J\] of the conservative forces between spheres, springs included.
+    pub fn conservative_potential_between(&self, states: [&[DVec3]; 2], time: f64) -> f64 {
+        let spheres = self.states(states);
+        let of_springs = self.springs().map(|spring| spring.potential_energy(&spheres));
+        of_springs.sum::<f64>() + self.conservative_interaction_potential(states, time)
+    }
+
     /// Potential energy \[J\] in nonconservative forces of spheres at `positions` \[m\] with `velocities` \[m/s\], at a
     /// time on the world's clock \[s\].
     pub fn nonconservative_potential(&self, states: [&[DVec3]; 2], time: f64) -> f64 {

@@ -1,7 +1,7 @@
 //! Random worlds under the rule `exact`: proves that the account of energy closes where springs, threads and other forces
-//! meet surfaces, friction and impacts; not that the motion is right beyond that.
+//! meet surfaces, friction, impacts and stepped zones; not that the motion is right beyond that.
 //!
-//! Worlds in which a zone stepped spheres are counted apart: zones have their own accuracy.
+//! In zones and in some persistent contacts forces are held: what they add or take by that is the entry `integration`.
 
 // What is expected need not have the same bits everywhere.
 #![allow(clippy::disallowed_methods)]
@@ -11,8 +11,8 @@ mod common;
 use std::time::Instant;
 
 use carom::{
-    Buoyancy, Collider, DQuat, DVec3, Gravity, MutualGravity, PointAttractor, Pose, QuadraticDrag,
-    Shape, Sides, Sphere, SphereId, Spring, ViscousDrag, Vortex, World,
+    Buoyancy, Collider, DQuat, DVec3, Friction, Gravity, MutualGravity, PointAttractor, Pose,
+    QuadraticDrag, Shape, Sides, Sphere, SphereId, Spring, ViscousDrag, Vortex, World,
 };
 use common::{G, Numbers, exact, vec};
 
@@ -30,7 +30,7 @@ fn one_of<T: Copy>(numbers: &mut Numbers, of: &[T]) -> T {
 #[derive(Clone, Copy)]
 struct Material {
     restitution: f64,
-    friction: f64,
+    friction: Friction,
 }
 
 /// Adds what the balls fall on. Returns the lowest height \[m\] of a ball above it.
@@ -126,8 +126,8 @@ fn add_springs(world: &mut World, numbers: &mut Numbers, material: Material, bal
     }
 }
 
-/// The world of a seed.
-fn world_of(seed: u64) -> World {
+/// The world of a seed, with this friction instead of its own.
+fn world_of(seed: u64, friction: Option<Friction>) -> World {
     let mut numbers = Numbers(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1);
     let numbers = &mut numbers;
     for _ in 0..4 {
@@ -136,8 +136,9 @@ fn world_of(seed: u64) -> World {
     let mut world = exact();
     let material = Material {
         restitution: one_of(numbers, &[0.0, 0.3, 0.6, 1.0]),
-        friction: one_of(numbers, &[0.0, 0.0, 0.0, 0.5]),
+        friction: Friction::sliding(one_of(numbers, &[0.0, 0.0, 0.0, 0.5])),
     };
+    let material = Material { friction: friction.unwrap_or(material.friction), ..material };
     let lowest = add_colliders(&mut world, numbers, material);
     add_forces(&mut world, numbers);
     let count = one_of(numbers, &[1, 2, 3, 4, 5]);
@@ -165,57 +166,71 @@ fn world_of(seed: u64) -> World {
 struct Outcome {
     /// Largest part of the energy that a frame, or all frames together, leave open.
     open: f64,
+    /// Largest part of the energy that all frames up to one added by held forces.
+    integration: f64,
     had_zone: bool,
     seconds: f64,
 }
 
-fn outcome(seed: u64) -> Outcome {
-    let mut world = world_of(seed);
+fn outcome(seed: u64, friction: Option<Friction>) -> Outcome {
+    let mut world = world_of(seed, friction);
     let start = Instant::now();
     let mut energy = world.total_energy();
     let mut largest = energy.abs().max(world.kinetic_energy());
     let (mut sum, mut most, mut had_zone) = (0.0f64, 0.0f64, false);
+    let (mut integration, mut most_integration) = (0.0f64, 0.0f64);
     for _ in 0..FRAMES {
         let report = world.step(FRAME).unwrap();
-        let (zones, account) = (report.zone_account, report.energy_account.total());
+        let (zones, account) = (report.zone_account, report.energy_account);
         had_zone |= zones.joined > 0 || zones.spheres > 0;
+        integration += account.integration;
+        most_integration = most_integration.max(integration.abs());
+        let account = account.total();
         let left = world.total_energy() - energy - account;
         energy += left + account;
         largest = largest.max(energy.abs()).max(world.kinetic_energy());
         sum += left;
         most = most.max(left.abs()).max(sum.abs());
     }
-    Outcome { open: most / largest, had_zone, seconds: start.elapsed().as_secs_f64() }
+    let [open, integration] = [most, most_integration].map(|it| it / largest);
+    Outcome { open, integration, had_zone, seconds: start.elapsed().as_secs_f64() }
 }
 
-/// Checks the worlds with these seeds.
-fn assert_accounts_close(seeds: impl Iterator<Item = u64>) {
-    let (mut zones, mut open_zones, mut slowest) = (0, 0, (0, 0.0));
-    let mut open_worlds = Vec::new();
+/// Checks the worlds with these seeds, with this friction instead of their own.
+fn assert_accounts_close(seeds: impl Iterator<Item = u64>, friction: Option<Friction>) {
+    let (mut zones, mut slowest) = (0, (0, 0.0));
+    let (mut open_worlds, mut integrated) = (Vec::new(), Vec::new());
     for seed in seeds {
-        let Outcome { open, had_zone, seconds } = outcome(seed);
+        let Outcome { open, integration, had_zone, seconds } = outcome(seed, friction);
         zones += u32::from(had_zone);
         if seconds > slowest.1 {
             slowest = (seed, seconds);
         }
-        match (open > CLOSED, had_zone) {
-            (true, true) => open_zones += 1,
-            (true, false) => open_worlds.push((seed, open)),
-            _ => {}
+        if integration > CLOSED {
+            integrated.push((seed, integration));
+        }
+        if open > CLOSED {
+            open_worlds.push((seed, open, had_zone));
         }
     }
-    println!("{zones} worlds with a zone, {open_zones} of them open; slowest {slowest:?}");
+    println!("{zones} worlds with a zone; slowest {slowest:?}; by held forces {integrated:?}");
     assert!(open_worlds.is_empty(), "{open_worlds:?}");
 }
 
 #[test]
-fn random_worlds_without_zones_close_their_account() {
+fn random_worlds_close_their_account() {
     // In two of them a ball on a spring pushed one without, and the account stayed open.
-    assert_accounts_close((1205..1215).chain(1295..1305));
+    assert_accounts_close((1205..1215).chain(1295..1305), None);
+}
+
+#[test]
+fn worlds_with_stepped_zones_close_their_account() {
+    // Up to 3e-5 of the energy was in no entry.
+    assert_accounts_close([1003, 1178, 1280, 1346, 1354, 1421].into_iter(), None);
 }
 
 #[test]
 #[ignore = "takes minutes"]
-fn hundreds_of_random_worlds_without_zones_close_their_account() {
-    assert_accounts_close(1000..1500);
+fn hundreds_of_random_worlds_close_their_account() {
+    assert_accounts_close(1000..1500, None);
 }

@@ -55,6 +55,8 @@ class EnergyAccount(NamedTuple):
     """Work of moving spheres out of what they overlap [J]."""
     emission: float
     """Energy of emitted spheres, less that of those taken out [J]."""
+    integration: float
+    """Energy that held forces add under ``exact``, in zones and some persistent contacts [J]."""
 
 
 class ContactAccount(NamedTuple):

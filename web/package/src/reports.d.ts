@@ -155,6 +155,8 @@ export interface EnergyAccount {
   correction: number;
   /** Energy of emitted spheres minus that of removed ones [J]. */
   emission: number;
+  /** Energy that held forces add under `exact`, in stepped zones and some persistent contacts [J]. */
+  integration: number;
 }
 
 /** Quality of the solution of a frame under `contact`, and in stepped zones of `exact`; else 0. */

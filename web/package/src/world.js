@@ -146,9 +146,9 @@ export class World extends Spheres {
 
   get energyAccount() {
     const [contacts, colliders, kicks, growth, ...others] = this[ENGINE].energyAccount;
-    const [shear, thermostat, forces, applied, correction, emission] = others;
+    const [shear, thermostat, forces, applied, correction, emission, integration] = others;
     const ofBodies = { contacts, colliders, kicks, growth, shear, thermostat };
-    return { ...ofBodies, forces, applied, correction, emission };
+    return { ...ofBodies, forces, applied, correction, emission, integration };
   }
 
   get contactAccount() {

@@ -89,6 +89,7 @@ test("contacts and the account tell of friction", () => {
       applied: 0,
       correction: 0,
       emission: 0,
+      integration: 0,
     },
   );
   const account = world.contactAccount;

@@ -58,6 +58,22 @@ impl<'a> Interactions<'a> {
         self.nonconservative().map(|it| it.potential_energy(spheres, time)).sum()
     }
 
+    /// The conservative interactions, without springs.
+    fn conservative(&self) -> impl Iterator<Item = &'a dyn Interaction> {
+        let forces = self.forces.iter().filter(|(_, force)| force.is_conservative());
+        forces.filter_map(|(_, force)| force.interaction())
+    }
+
+    /// Adds the conservative forces \[N\], without those of springs.
+    pub fn add_conservative(&self, spheres: &SphereStates, time: f64, forces: &mut [DVec3]) {
+        self.conservative().for_each(|it| it.add_forces(spheres, time, forces));
+    }
+
+    /// Potential energy \[J\] of the conservative interactions, without springs.
+    pub fn conservative_potential(&self, spheres: &SphereStates, time: f64) -> f64 {
+        self.conservative().map(|it| it.potential_energy(spheres, time)).sum()
+    }
+
     /// The springs, in the order in which they entered the world.
     pub fn springs(&self) -> impl Iterator<Item = &'a Spring> + use<'a> {
         self.springs.iter().map(|(_, spring)| spring)

@@ -145,9 +145,13 @@ impl Spring {
     }
 
     /// `k (l - l0)² / 2` \[J\]; none where it is slack.
-    pub(super) fn potential_energy(&self, spheres: &SphereStates) -> f64 {
-        let Some(ends) = self.ends(spheres) else { return 0.0 };
-        let stretch = ends.offset.norm() - self.rest_length;
+    pub(crate) fn potential_energy(&self, spheres: &SphereStates) -> f64 {
+        self.ends(spheres).map_or(0.0, |ends| self.energy_over(ends.offset))
+    }
+
+    /// The potential energy \[J\] of the spring over this offset of its ends \[m\].
+    pub(crate) fn energy_over(&self, offset: DVec3) -> f64 {
+        let stretch = offset.norm() - self.rest_length;
         if self.only_pulls && stretch <= 0.0 {
             return 0.0;
         }

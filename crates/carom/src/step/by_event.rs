@@ -60,13 +60,15 @@ pub(super) fn step(mut attempt: Attempt, parameters: Exact, until: Until) -> Res
     Ok(())
 }
 
-/// Watch over spheres in a step; `None` without sensors and nonconservative forces.
+/// Watch over spheres in a step; `None` without sensors, nonconservative forces and forces that may be held.
 fn watch_over(attempt: &mut Attempt) -> Option<Watch> {
     let (start, presence) = (attempt.start, attempt.state.presence.clone());
     let (system, _) = attempt.state.split();
     let presence = (!system.trigger_tree.is_empty()).then_some(presence);
     let is_sheared = Shear::of(system.settings).is_some();
-    let measures_work = system.has_nonconservative_forces() || is_sheared;
+    let are_linear = forces::are_linear(system.forces) && !system.has_interactions();
+    let may_hold = !are_linear && !system.holds_forces_of_all();
+    let measures_work = system.has_nonconservative_forces() || is_sheared || may_hold;
     (presence.is_some() || measures_work).then(|| Watch::new(presence, measures_work, start))
 }
 

@@ -39,7 +39,7 @@ mod sub_step;
 
 pub(crate) use guard::{Passage, held};
 pub(crate) use places::turning_rate;
-pub(crate) use proximity::{Proximity, bearing, proximity};
+pub(crate) use proximity::{Proximity, bearing, conservative_forces, proximity};
 pub(crate) use report::listing::{passages, persistent_contacts};
 pub(crate) use resolution::{TURN, longest_frame_for_springs};
 pub(crate) use solver::{Scratch, Solver};

@@ -1,6 +1,10 @@
-//! Proximity of spheres: zones of the rule `exact` release those that are near no other.
+//! What zones of the rule `exact` read of a sub-step: proximities, since zones release spheres that are near no other
+//! one, and forces.
+
+use glam::DVec3;
 
 use super::contacts::dormant::Partner;
+use super::slots::Slots;
 use super::solver::Solver;
 use super::sub_step::SLOP;
 use crate::id::SphereId;
@@ -14,6 +18,20 @@ const SUB_STEPS: f64 = 16.0;
 /// changed its velocity in the last sub-step.
 pub(crate) fn bearing(solver: &Solver) -> impl Iterator<Item = (u32, bool)> {
     solver.slots.index.iter().copied().zip(solver.slots.bears.iter().copied())
+}
+
+/// The forces with a potential, held ones included, that acted on each sphere in the last sub-step \[N\], by index.
+pub(crate) fn conservative_forces(solver: &Solver) -> Vec<DVec3> {
+    let Slots { index, velocity, acceleration, working, .. } = &solver.slots;
+    let mut forces = vec![DVec3::ZERO; index.len()];
+    for (slot, &index) in index.iter().enumerate() {
+        let nonconservative = working.get(slot).map_or(DVec3::ZERO, |row| row.vector());
+        let inverse_mass = velocity[slot].number();
+        if inverse_mass > 0.0 {
+            forces[index as usize] = (acceleration[slot].vector() - nonconservative) / inverse_mass;
+        }
+    }
+    forces
 }
 
 /// Proximity of a sphere to the nearest other one.

@@ -218,6 +218,9 @@ fn begin_under(
     timeline.flights.set_free_acceleration(slot, acceleration);
     let contact_work = planar.contact_work();
     let PlanarSupport { velocity, acceleration, valid_for, persists, belt_work, .. } = planar;
+    let after = Member { velocity, angular_velocity: planar.angular_velocity, ..member };
+    let moment = system.spheres.moment_of_inertia(member.index as usize);
+    timeline.flights.add_contact_work(after.gained_since(&member, moment) - belt_work);
     timeline.flights.add_collider_work(belt_work);
     timeline.flights.set_acceleration(slot, acceleration, contact_work);
     timeline.flights.rotate(slot, [planar.angular_velocity, planar.angular_acceleration], start);

@@ -4,7 +4,9 @@ use glam::DVec3;
 
 use super::Watch;
 use super::seen::Seen;
+use crate::forces;
 use crate::id::SphereId;
+use crate::rule::exact::flights::ContactWork;
 use crate::rule::exact::timeline::Timeline;
 use crate::sensor::FlightSegment;
 use crate::system::System;
@@ -12,7 +14,7 @@ use crate::system::System;
 /// Begins to watch all flights at `now` \[s\].
 pub(crate) fn begin(timeline: &mut Timeline, system: &System, mut watch: Watch, now: f64) {
     let slots = &timeline.flights.slot_of;
-    watch.flights = slots.iter().map(|&slot| seen(timeline, slot, now)).collect();
+    watch.flights = slots.iter().map(|&slot| seen(timeline, system, slot, now)).collect();
     watch.begun.clear();
     if let Some(tally) = &mut watch.tally {
         tally.restart(system, now);
@@ -39,19 +41,19 @@ fn look_along_ended(timeline: &mut Timeline, system: &System) {
         let index = index_of[slot as usize] as usize;
         bodies[slot as usize].generation != watch.flights[index].generation
     });
-    // A damper needs the old flights of both of its ends, an interaction those of all spheres.
+    // A spring needs the old flights of both of its ends, an interaction those of all spheres.
     for &slot in &begun {
         let index = index_of[slot as usize];
         look_along(&mut watch, timeline, system, index as usize, bodies[slot as usize].time);
         if let Some(tally) = &mut watch.tally {
             let now = watch.flights[index as usize].from;
-            tally.follow_dampers(index, &watch.flights, system, now);
+            tally.follow_springs(index, &watch.flights, system, now);
             tally.follow_interactions(&watch.flights, system, now);
         }
     }
     for &slot in &begun {
         let index = index_of[slot as usize] as usize;
-        watch.flights[index] = seen(timeline, slot, watch.flights[index].from);
+        watch.flights[index] = seen(timeline, system, slot, watch.flights[index].from);
     }
     begun.clear();
     watch.begun = begun;
@@ -66,7 +68,7 @@ pub(crate) fn end(timeline: &mut Timeline, system: &System, now: f64) -> Option<
         look_along(&mut watch, timeline, system, index, now);
     }
     if let Some(tally) = &mut watch.tally {
-        tally.follow_all_dampers(&watch.flights, system, now);
+        tally.follow_all_springs(&watch.flights, system, now);
         tally.follow_interactions(&watch.flights, system, now);
     }
     Some(watch)
@@ -92,19 +94,49 @@ fn look_along(watch: &mut Watch, timeline: &Timeline, system: &System, index: us
 }
 
 /// The flight of a sphere, along which the watch has looked up to `from` \[s\].
-fn seen(timeline: &Timeline, slot: u32, from: f64) -> Seen {
+fn seen(timeline: &Timeline, system: &System, slot: u32, from: f64) -> Seen {
     let body = &timeline.flights.bodies[slot as usize];
     let species = timeline.flights.species_of(slot);
     let index = timeline.flights.index_of[slot as usize] as usize;
     let curve = timeline.flights.curve_of(slot).map(|curve| curve.0);
-    let held = timeline.working_forces.get(index).filter(|_| curve.is_none());
+    let working = timeline.working_forces.get(index).filter(|_| curve.is_none());
+    let working_force = working.copied().unwrap_or(DVec3::ZERO);
+    let held_force = held_force(timeline, system, slot).map(|force| force - working_force);
     Seen {
         flight: body.flight(species),
         curve,
         flight_start: body.time,
         generation: body.generation,
         is_stepped: species.is_stepped,
-        held_force: held.copied().unwrap_or(DVec3::ZERO),
+        working_force,
+        held_force: held_force.filter(|_| curve.is_none()),
         from: body.time.max(from),
     }
+}
+
+/// The force \[N\] under which a sphere flies where it is held constant, without that of contacts, without the linear
+/// one that has no potential, and without the applied one; `None` where it is not held, or where spheres are too many
+/// to take their steps together.
+fn held_force(timeline: &Timeline, system: &System, slot: u32) -> Option<DVec3> {
+    let flights = &timeline.flights;
+    if !flights.forces_vary || system.holds_forces_of_all() {
+        return None;
+    }
+    let species = flights.species_of(slot);
+    let index = flights.index_of[slot as usize] as usize;
+    if species.is_stepped {
+        return Some(timeline.zone.force_on(index as u32, system.spheres.id[index]));
+    }
+    if species.cluster.is_none() || species.is_curved {
+        return None;
+    }
+    let acceleration = match species.contact_work {
+        // Contacts that do no work are among the forces: what they do by rounding is no work of their own.
+        ContactWork::None => species.acceleration,
+        _ => flights.free_species_of(slot).acceleration,
+    };
+    let (radius, mass) = (species.radius, species.mass);
+    let (linear, _) = forces::nonconservative_linear(system.forces, radius, mass);
+    let applied = system.spheres.applied_acceleration(index).unwrap_or(DVec3::ZERO);
+    Some(mass * (acceleration - linear.acceleration - applied))
 }

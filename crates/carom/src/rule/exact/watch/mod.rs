@@ -3,6 +3,7 @@
 pub(crate) mod force_work;
 pub(crate) mod look_along;
 pub(crate) mod seen;
+mod watched_spring;
 
 use self::force_work::ForceTally;
 use self::seen::Seen;
@@ -14,7 +15,7 @@ use crate::sensor::{Presence, Sensors};
 pub(crate) struct Watch {
     /// Results of sensors; `None` without sensors.
     pub sensors: Option<Sensors>,
-    /// Work of nonconservative forces; `None` without such forces.
+    /// Work of forces; `None` where none has to be counted.
     pub(crate) tally: Option<ForceTally>,
     /// Flights as seen, by index.
     pub(crate) flights: Vec<Seen>,

@@ -15,7 +15,10 @@ pub(crate) struct Seen {
     /// Whether the sphere is in a zone.
     pub is_stepped: bool,
     /// Forces of nonconservative interactions, held over the flight \[N\].
-    pub held_force: DVec3,
+    pub working_force: DVec3,
+    /// The other forces that are held over the flight \[N\]: conservative ones, dampers, and in persistent contacts
+    /// also others that are not linear. `None` where the flight follows the forces as they change.
+    pub held_force: Option<DVec3>,
     /// Time up to which the watch has looked along the flight, on the world's clock \[s\].
     pub from: f64,
 }

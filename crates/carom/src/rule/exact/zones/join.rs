@@ -128,15 +128,15 @@ fn without_closing(
     velocity
 }
 
-/// The velocity \[m/s\] with which a sphere passes no surface from its centre \[m\] until the next tick.
+/// The velocity \[m/s\] with which a sphere passes no surface from its centre \[m\] until the next tick \[s\].
 fn in_front(
     timeline: &Timeline,
     context: &StepContext,
     slot: u32,
     [position, velocity]: [DVec3; 2],
-    time: f64,
+    [time, tick]: [f64; 2],
 ) -> DVec3 {
-    let duration = timeline.zone.next_tick() - time;
+    let duration = tick - time;
     let radius = timeline.flights.species_of(slot).radius;
     // Pushed by one surface, the sphere may come to another one.
     let way = 2.0 * (radius + duration * velocity.norm());
@@ -176,30 +176,36 @@ fn under_forces(
 
 /// Accounts for the energy that a sphere with this centre \[m\] gains as it moves with a mean velocity from a time until
 /// the next tick \[s\], while its velocity changes from one to another \[m/s\]: what its forces do not do, the spheres or
-/// surfaces do with which it moves.
+/// surfaces do with which it moves. Returns the part of its forces that has a potential, or is a damper \[N\].
 fn account_for_motion(
     timeline: &Timeline,
     context: &mut StepContext,
     slot: u32,
     ([position, mean], [before, after]): ([DVec3; 2], [DVec3; 2]),
     [time, tick]: [f64; 2],
-) {
+) -> DVec3 {
     let system = context.system;
     let Species { radius, mass, acceleration, drag_rate, .. } =
         *timeline.flights.free_species_of(slot);
     let way = (tick - time) * mean;
     let gained = 0.5 * mass * (after - before).dot(after + before);
-    let force = mass * (acceleration - drag_rate * before);
+    let all = mass * (acceleration - drag_rate * before);
     let account = &mut context.report.energy_account;
-    account.correction += gained - force.dot(way);
-    if system.has_nonconservative_forces() {
-        let state = SphereState { position, velocity: before, radius, mass };
-        let force = forces::total_nonconservative(system.forces, &state, time);
-        let index = timeline.flights.index_of[slot as usize] as usize;
-        let applied = system.spheres.applied_force.get(index).copied().unwrap_or(DVec3::ZERO);
-        let [forces, applied] = [force, applied].map(|force| force.dot(way));
-        account.add_force_work(ForceWork { forces, applied, ..ForceWork::default() });
+    account.correction += gained - all.dot(way);
+    if !system.has_nonconservative_forces() {
+        return all;
     }
+    let state = SphereState { position, velocity: before, radius, mass };
+    let force = forces::total_nonconservative(system.forces, &state, time);
+    let index = timeline.flights.index_of[slot as usize] as usize;
+    let applied = system.spheres.applied_force.get(index).copied().unwrap_or(DVec3::ZERO);
+    let works = [force, applied].map(|force| force.dot(way));
+    account.add_force_work(ForceWork {
+        forces: works[0],
+        applied: works[1],
+        ..ForceWork::default()
+    });
+    all - force - applied
 }
 
 /// Adds a sphere, by its slot, to a zone with this centre \[m\] and velocity \[m/s\].
@@ -227,10 +233,10 @@ fn join(
         Moves::Under(_) => under_forces(timeline, context, slot, state, [time, next]),
     };
     let sphere = context.system.spheres.id[index as usize];
-    timeline.zone.join(sphere, [velocity, later], time);
-    let mean = in_front(timeline, context, slot, [position, mean], time);
+    let mean = in_front(timeline, context, slot, [position, mean], [time, next]);
     let motion = ([position, mean], [velocity, later]);
-    account_for_motion(timeline, context, slot, motion, [time, next]);
+    let force = account_for_motion(timeline, context, slot, motion, [time, next]);
+    timeline.zone.join(sphere, [velocity, later], force, time);
     timeline.flights.enter_zone(slot, [position, mean], time);
     timeline.note_flight(slot);
     timeline.note_for_companions(slot);

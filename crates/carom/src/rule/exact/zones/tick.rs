@@ -8,7 +8,7 @@ use glam::DVec3;
 use crate::bodies::Motion;
 use crate::detect::contact::Bodies;
 use crate::detect::sphere_surface;
-use crate::forces;
+use crate::forces::{self, SphereState};
 use crate::id::SphereId;
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::events::{NextEvents, Prediction};
@@ -19,6 +19,7 @@ use crate::rule::exact::predict::moving::Around;
 use crate::rule::exact::timeline::Timeline;
 use crate::rule::exact::zones::zone::Stepped;
 use crate::rule::periodic;
+use crate::system::System;
 
 /// A sphere touches surfaces that are nearer than this part of its radius: the solver leaves less.
 const NEAR: f64 = 0.01;
@@ -185,21 +186,20 @@ fn leave(
 ) {
     let slot = timeline.flights.slot_of[index as usize];
     let mut position = where_it_counts(timeline, context, slot, position, now);
-    let species = *timeline.flights.free_species_of(slot);
-    let around = Around::touching(position, species.radius, now).farther(species.radius);
+    let before = position;
+    let radius = timeline.flights.free_species_of(slot).radius;
+    let around = Around::touching(position, radius, now).farther(radius);
     for (surface, shift) in context.surfaces_near(timeline, slot, around) {
         let (form, _) = context.surface_at(surface, now);
-        let separation = sphere_surface(&form, position - shift, species.radius);
+        let separation = sphere_surface(&form, position - shift, radius);
         if let Some(overlap) = separation.filter(|it| it.distance < 0.0) {
-            let lift = -overlap.distance * overlap.normal;
-            position += lift;
-            let (working, _) =
-                forces::nonconservative_linear(context.system.forces, species.radius, species.mass);
-            let own = context.system.spheres.applied_acceleration(index as usize);
-            let working = working.acceleration + own.unwrap_or(DVec3::ZERO);
-            let work = -species.mass * (species.acceleration - working).dot(lift);
-            context.report.energy_account.correction += work;
+            position -= overlap.distance * overlap.normal;
         }
+    }
+    if position != before {
+        let places = [before, position];
+        let gained = energy_gained(timeline, context.system, index, (places, velocity), now);
+        context.report.energy_account.correction += gained;
     }
     timeline.flights.leave_zone(slot, [position, velocity], now);
     timeline.note_flight(slot);
@@ -209,6 +209,34 @@ fn leave(
     predict::predict(timeline, context, slot, now);
     timeline.zone.near.push(slot);
     context.report.zone_account.left += 1;
+}
+
+/// The potential energy \[J\] that the sphere with this index and velocity \[m/s\] gains as it is moved from one place to
+/// another \[m\] at `now` \[s\].
+fn energy_gained(
+    timeline: &Timeline,
+    system: &System,
+    index: u32,
+    (places, velocity): ([DVec3; 2], DVec3),
+    now: f64,
+) -> f64 {
+    let place = index as usize;
+    let (radius, mass) = (system.spheres.radius[place], system.spheres.mass[place]);
+    let [before, after] = places.map(|position| {
+        let state = SphereState { position, velocity, radius, mass };
+        forces::conservative_potential(system.forces, &state, now)
+    });
+    if !system.has_interactions() {
+        return after - before;
+    }
+    let slots = &timeline.flights.slot_of;
+    let states = slots.iter().map(|&slot| timeline.flights.state_of(slot, now));
+    let (mut positions, velocities): (Vec<DVec3>, Vec<DVec3>) = states.unzip();
+    let between = places.map(|position| {
+        positions[place] = position;
+        system.conservative_potential_between([&positions, &velocities], now)
+    });
+    after - before + between[1] - between[0]
 }
 
 /// Writes the velocities of spheres in a zone at `time` \[s\]: between ticks they change steadily.

@@ -44,6 +44,8 @@ pub(crate) struct Zone {
     motion: Motion,
     /// Velocities of the spheres at the last tick \[m/s\].
     velocity_before: Vec<DVec3>,
+    /// Forces that have a potential, as they act on each sphere from the last tick to the next one \[N\].
+    conservative_forces: Vec<DVec3>,
     /// Ticks since each sphere last had a pressing contact.
     free_ticks: Vec<u32>,
     /// Spheres that joined since the last tick.
@@ -56,6 +58,8 @@ pub(crate) struct Zone {
     ticks: [f64; 2],
     /// Changes of energy in the sub-step from the last tick to the next one.
     account: EnergyAccount,
+    /// Kinetic energy of the changes of velocity in that sub-step \[J\].
+    energy_of_changes: f64,
     /// Part of the account that is reported, 0 to 1.
     reported: f64,
     /// Number of halvings of a tick that small spheres need.
@@ -75,6 +79,8 @@ struct Waiting {
     since: f64,
     /// Velocity of the sphere then and at the tick \[m/s\].
     velocities: [DVec3; 2],
+    /// Forces that have a potential, as they act on it until the tick \[N\].
+    force: DVec3,
 }
 
 /// The motion of a sphere in a zone between two ticks.
@@ -143,9 +149,17 @@ impl Zone {
     }
 
     /// Adds a sphere for which [`Self::expect`] was called. Its velocity changes steadily from that at `since`,
-    /// when it joined \[s\], to that at the next tick \[m/s\].
-    pub fn join(&mut self, sphere: SphereId, velocities: [DVec3; 2], since: f64) {
-        self.waiting.push(Waiting { sphere, since, velocities });
+    /// when it joined \[s\], to that at the next tick \[m/s\], under a `force` that has a potential \[N\].
+    pub fn join(&mut self, sphere: SphereId, velocities: [DVec3; 2], force: DVec3, since: f64) {
+        self.waiting.push(Waiting { sphere, since, velocities, force });
+    }
+
+    /// The force that has a potential, as it acts until the next tick on a sphere with this index and id \[N\].
+    pub fn force_on(&self, index: u32, sphere: SphereId) -> DVec3 {
+        let place = || self.index.binary_search(&index).ok();
+        let known = || self.conservative_forces.get(place()?).copied();
+        let waiting = self.waiting.iter().find(|it| it.sphere == sphere).map(|it| it.force);
+        waiting.or_else(known).unwrap_or(DVec3::ZERO)
     }
 
     /// The time between its ticks \[s\].
@@ -154,11 +168,13 @@ impl Zone {
     }
 
     /// Reports the changes of energy up to `time` \[s\], at most up to the next tick. Between two ticks they grow
-    /// linearly, as velocities do.
+    /// linearly, as velocities do, whose energy is then less than that by a parabola.
     pub fn report_energy(&mut self, time: f64, account: &mut EnergyAccount) {
         let [last, next] = self.ticks;
         let part =
             if time < next { ((time - last) / (next - last)).max(self.reported) } else { 1.0 };
+        let missing = |part: f64| self.energy_of_changes * part * (1.0 - part);
+        account.integration += missing(self.reported) - missing(part);
         *account += self.account.part(part - self.reported);
         self.reported = part;
     }
@@ -172,14 +188,17 @@ impl Zone {
         self.properties = Properties::default();
         (self.motion, self.velocity_before, self.free_ticks) = Default::default();
         // The rest of the sub-step is dropped.
-        self.account = EnergyAccount::default();
+        (self.account, self.energy_of_changes) = (EnergyAccount::default(), 0.0);
+        self.conservative_forces.clear();
         self.near.clear();
         // The held forces may be outdated, and their indices may belong to other spheres now.
         self.held_forces.clear();
         self.solver.set_changed();
         for index in all {
             self.expect(system, index, time, tick);
-            self.join(system.spheres.id[index as usize], [velocities[index as usize]; 2], time);
+            let (sphere, velocity) =
+                (system.spheres.id[index as usize], velocities[index as usize]);
+            self.join(sphere, [velocity; 2], DVec3::ZERO, time);
         }
     }
 
@@ -210,6 +229,8 @@ impl Zone {
         self.motion = self.motion.of_some(&kept);
         let velocity = |&place: &u32| self.velocity_before[place as usize];
         self.velocity_before = kept.iter().map(velocity).collect();
+        let force = |&place: &u32| self.conservative_forces.get(place as usize).copied();
+        self.conservative_forces = kept.iter().filter_map(force).collect();
         self.free_ticks = kept.iter().map(|&place| self.free_ticks[place as usize]).collect();
     }
 
@@ -282,7 +303,8 @@ impl Zone {
     /// The spheres that joined since the last tick, with their velocities at a time since then \[s\].
     pub fn waiting(&self, time: f64) -> impl Iterator<Item = (SphereId, DVec3)> {
         let next = self.ticks[1];
-        self.waiting.iter().map(move |&Waiting { sphere, since, velocities: [before, after] }| {
+        self.waiting.iter().map(move |waiting| {
+            let Waiting { sphere, since, velocities: [before, after], .. } = *waiting;
             let part = if next > since { (time - since) / (next - since) } else { 1.0 };
             (sphere, before + part.clamp(0.0, 1.0) * (after - before))
         })
@@ -370,6 +392,8 @@ impl Zone {
         });
         self.ticks = [now, next];
         self.account = std::mem::replace(&mut report.energy_account, others);
+        self.energy_of_changes = energy_of_changes(&self.properties, [&before, &self.motion]);
+        self.conservative_forces = contact::conservative_forces(&self.solver);
         self.reported = 0.0;
         for (place, bears) in contact::bearing(&self.solver) {
             let ticks = &mut self.free_ticks[place as usize];
@@ -404,6 +428,20 @@ impl Zone {
         };
         self.properties.applied_force = self.index.iter().filter_map(force).collect();
     }
+}
+
+/// The kinetic energy \[J\] of the changes of velocity from one state of motion to another.
+fn energy_of_changes(properties: &Properties, [before, after]: [&Motion; 2]) -> f64 {
+    let energy = |place: usize| {
+        let mass = properties.mass[place];
+        let change = after.velocity[place] - before.velocity[place];
+        let spins = [before, after].map(|motion| motion.spin.angular_velocity.get(place));
+        let turned = spins[0].zip(spins[1]).map_or(DVec3::ZERO, |(first, last)| last - first);
+        let radius = properties.radius[place];
+        let inertia = properties.inertia_factor(place) * radius * radius;
+        0.5 * mass * (change.length_squared() + inertia * turned.length_squared())
+    };
+    (0..properties.mass.len()).map(energy).sum()
 }
 
 /// The rotation of a sphere between two ticks \[s\], from its angular velocities at both.
