@@ -57,6 +57,7 @@ mod invariants;
 mod lanes;
 mod material_pair;
 mod mesh;
+mod moving_bounds;
 mod norm;
 mod numbered;
 pub mod packing;

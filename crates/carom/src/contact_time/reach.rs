@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::flight::Flight;
+use crate::moving_bounds::MovingBounds;
 use crate::norm::Norm;
 use crate::polynomial_flight::PolynomialAcceleration;
 use crate::surface::{Form, Rectangle};
@@ -47,11 +48,39 @@ impl Reach {
         Self { way: reach.way + beside, beside, ..reach }
     }
 
-    /// Reach relative to a surface whose origin moves by at most `way` \[m\] and that turns by at most `angle` \[rad\].
-    /// The flight begins `arm` \[m\] from that origin.
-    pub fn seen_from_moving(self, way: f64, angle: f64, arm: f64) -> Self {
-        let beside = (way + angle * (arm + self.way + way)) * (1.0 + MARGIN);
-        Self { way: self.way + beside, beside: self.beside + beside, ..self }
+    /// Reach relative to a surface that was in its place some time before the flight \[s\] and has moved in these bounds
+    /// since. `origin` is that of its collider \[m\].
+    pub fn seen_from_moving(self, since: f64, origin: DVec3, moving: &MovingBounds) -> Self {
+        // Air does not move along.
+        let goes_along = moving.beside < moving.way && self.flight.drag_rate == 0.0;
+        let (reach, way) = match goes_along {
+            true => (self.seen_along(moving.velocity, since), moving.beside),
+            false => (self, moving.way),
+        };
+        let arm = (reach.flight.position - origin).norm();
+        let beside = (way + moving.angle * (arm + reach.way + way)) * (1.0 + MARGIN);
+        Self { way: reach.way + beside, beside: reach.beside + beside, ..reach }
+    }
+
+    /// Reach in a coordinate system that moves with a velocity \[m/s\], and that was in its place some time before the
+    /// flight \[s\].
+    fn seen_along(self, velocity: DVec3, since: f64) -> Self {
+        let Flight { position, velocity: own, .. } = self.flight;
+        let (position, velocity) = (position - since * velocity, own - velocity);
+        let flight = Flight { position, velocity, ..self.flight };
+        let way = flight.farthest(self.horizon).norm() * (1.0 + MARGIN) + self.beside;
+        Self { flight, way, ..self }
+    }
+
+    /// Centre of the sphere at the start \[m\].
+    pub fn center(&self) -> DVec3 {
+        self.flight.position
+    }
+
+    /// The same reach, shifted by a distance \[m\].
+    pub fn shifted(self, way: DVec3) -> Self {
+        let flight = Flight { position: self.flight.position + way, ..self.flight };
+        Self { flight, ..self }
     }
 
     /// Distance from its start that no point of the sphere exceeds \[m\].
@@ -194,5 +223,42 @@ mod tests {
             }
         }
         assert!(met > 10_000 && passed_over > 100_000, "{met} {passed_over}");
+    }
+
+    #[test]
+    fn what_a_moving_surface_meets_within_the_time_is_never_out_of_reach() {
+        let mut next = numbers(2);
+        let mut vector = |scale: f64| scale * DVec3::new(next(), next(), next());
+        let (mut met, mut passed_over) = (0, 0);
+        for case in 0..100_000 {
+            let drag_rate = if case % 2 == 0 { 0.0 } else { 5.0 };
+            let (position, acceleration) = (vector(3.0), vector(100.0));
+            let (velocity, along) = (vector(20.0), vector(20.0));
+            let flight = Flight { position, velocity: velocity + along, acceleration, drag_rate };
+            let form = Form::Sphere { center: vector(1.0), radius: 0.4 };
+            let angular_velocity = if case % 3 == 0 { vector(8.0) } else { DVec3::ZERO };
+            let motion = SurfaceMotion {
+                origin: vector(1.0),
+                velocity: along,
+                angular_velocity,
+                belt: DVec3::ZERO,
+                drive: None,
+            };
+            let (radius, horizon) = (0.3, 0.05);
+            let contact = sphere_surface(&flight, radius, &form, &motion, horizon);
+            let moving = MovingBounds {
+                velocity: along,
+                way: horizon * along.norm(),
+                beside: 0.0,
+                angle: horizon * angular_velocity.norm(),
+            };
+            let reach = Reach::of(flight, radius, horizon);
+            let reach = reach.seen_from_moving(0.0, motion.origin, &moving);
+            let is_out = reach.misses(&form, DVec3::ZERO);
+            assert!(contact.is_none() || !is_out, "{flight:?} {form:?} {motion:?}");
+            met += usize::from(contact.is_some());
+            passed_over += usize::from(is_out);
+        }
+        assert!(met > 500 && passed_over > 10_000, "{met} {passed_over}");
     }
 }

@@ -19,6 +19,7 @@ mod sphere_mesh;
 mod sphere_rectangle;
 mod sphere_sphere;
 pub(crate) mod surface_tree;
+pub(crate) mod swept_region;
 
 use glam::DVec3;
 

@@ -5,14 +5,17 @@ use std::collections::BTreeMap;
 use glam::{DQuat, DVec3};
 
 use super::surface_tree::SurfaceTree;
+use super::swept_region::{SweptPlane, SweptRegion};
 use crate::bounds::Bounds;
 use crate::collider::Collider;
 use crate::collider_motion::MotionBounds;
 use crate::id::ColliderId;
+use crate::moving_bounds::MovingBounds;
 use crate::norm::Norm;
 use crate::numbered::Numbered;
 use crate::pose::Pose;
-use crate::surface::{LastCarriage, Role, Surface, SurfaceMotion};
+use crate::rotation;
+use crate::surface::{Form, LastCarriage, Role, Surface, SurfaceMotion};
 
 /// Distances are compared with this part of the coordinates to spare: far more than their rounding.
 const SLACK: f64 = 1e-9;
@@ -125,6 +128,45 @@ impl PlacedTree<'_> {
     pub fn way_beside(&self, place: DVec3, reach: f64, times: [f64; 2]) -> f64 {
         let [way, spin] = self.farthest(times);
         way + spin * times[1] * ((place - self.origin).norm() + reach + way)
+    }
+
+    /// How the collider moves from now on for a `length` of time \[s\].
+    pub fn moving(&self, length: f64) -> MovingBounds {
+        let velocity = self.surface.motion.velocity;
+        MovingBounds::within(length, velocity, &self.bounds([0.0, length]))
+    }
+
+    /// Where the surfaces may be from now on for a `length` of time \[s\].
+    pub fn swept(&self, length: f64) -> SweptRegion {
+        let MotionBounds { way, spin, .. } = self.bounds([0.0, length]);
+        let angle = spin * length;
+        if self.tree.has_unbounded() {
+            return self.swept_by_plane(way, angle);
+        }
+        let Some(bounds) = self.tree.bounds() else { return SweptRegion::Everywhere };
+        let turn = self.back.conjugate();
+        let center = self.origin + turn * (bounds.center() - self.start);
+        let [x, y, z] = rotation::axes(turn).map(DVec3::abs);
+        let half = bounds.half();
+        let half = half.x * x + half.y * y + half.z * z;
+        let arm = (center - self.origin).norm() + half.norm();
+        let coordinates = [center, self.origin, self.start, half].map(|it| it.abs().element_sum());
+        // A chord is no longer than its arc, nor than the diameter.
+        let way = way + angle.min(2.0) * arm;
+        let slack = SLACK * (coordinates.iter().sum::<f64>() + way);
+        SweptRegion::Within(Bounds::around(center, half + (way + slack)))
+    }
+
+    /// Where the only surface may be if it is a half-space, whose origin moves by at most `way` \[m\] and which turns by
+    /// at most an angle \[rad\].
+    fn swept_by_plane(&self, way: f64, angle: f64) -> SweptRegion {
+        match self.surface.form {
+            Form::HalfSpace { point, normal } => {
+                let way = way + SLACK * (point.abs().element_sum() + way);
+                SweptRegion::Behind(SweptPlane { point, normal, way, angle })
+            }
+            _ => SweptRegion::Everywhere,
+        }
     }
 
     fn bounds(&self, [from, length]: [f64; 2]) -> MotionBounds {

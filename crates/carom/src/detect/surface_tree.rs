@@ -105,6 +105,11 @@ impl SurfaceTree {
         self.leaves.is_empty() && self.unbounded.is_empty()
     }
 
+    /// Whether some surfaces have no bounds.
+    pub fn has_unbounded(&self) -> bool {
+        !self.unbounded.is_empty()
+    }
+
     /// Appends the node over `leaves[first .. last]`, and those below it.
     fn build(&mut self, first: usize, last: usize) {
         let part = &mut self.leaves[first..last];

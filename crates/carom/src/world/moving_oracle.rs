@@ -10,6 +10,7 @@ use crate::collider_motion::{Keyframe, Keyframes, MotionPart};
 use crate::forces::Gravity;
 use crate::mesh::Mesh;
 use crate::pose::Pose;
+use crate::report::BodyPair;
 use crate::settings::{Contact, Exact, Rule, Settings, Zones};
 use crate::sphere::Sphere;
 
@@ -95,4 +96,57 @@ fn spheres_near_moving_meshes_go_the_same_way_as_where_all_surfaces_are_tested()
         }
     }
     assert!(impacts > 500, "{impacts}");
+}
+
+/// A gas in a box, of which one wall moves, about a plate that swings and a ball that turns about a pivot.
+fn gas(numbers: &mut Numbers, case: usize) -> World {
+    let mut world = World::new(Settings::default()).unwrap();
+    let motion = numbers.motion();
+    for (number, normal) in DVec3::AXES.into_iter().flat_map(|axis| [axis, -axis]).enumerate() {
+        let turn = DQuat::from_rotation_arc(DVec3::Y, normal);
+        let shape = match case % 2 {
+            0 => Shape::HalfSpace,
+            _ => Shape::Rectangle { size_x: 8.0, size_z: 8.0 },
+        };
+        let wall = Collider::new(shape, Pose::at(-3.0 * normal).rotated(turn));
+        let wall = match (number, case / 2 % 3) {
+            (0, 0) => {
+                let (amplitude, frequency) = (0.2, 0.7);
+                let axis = DVec3::X;
+                wall.with_motion([MotionPart::Oscillate { axis, amplitude, frequency, phase: 0.0 }])
+            }
+            (0, 1) => wall.moving(0.1 * DVec3::X, DVec3::ZERO),
+            (0, _) => wall.moving(DVec3::ZERO, DVec3::new(0.0, 0.02, 0.05)),
+            _ => wall,
+        };
+        world.add_collider(wall).unwrap();
+    }
+    let plate = Shape::Box { size: DVec3::new(0.5, 0.1, 0.8) };
+    world.add_collider(Collider::new(plate, Pose::at(DVec3::ZERO)).with_motion([motion])).unwrap();
+    for number in 0..125 {
+        let place = [number % 5, number / 5 % 5, number / 25].map(|it| f64::from(it) - 2.0);
+        let sphere = Sphere::new(DVec3::from_array(place) + 0.5, 0.06);
+        world.add_sphere(sphere.with_velocity(numbers.vector())).unwrap();
+    }
+    world
+}
+
+#[test]
+fn a_gas_beside_walls_that_move_goes_the_same_way_as_where_each_sphere_is_near_them() {
+    let mut numbers = Numbers(11);
+    let mut at_colliders = 0;
+    for case in 0..6 {
+        let mut world = gas(&mut numbers, case);
+        let mut oracle = world.clone();
+        Arc::make_mut(&mut oracle.state.colliders).find_moving_everywhere();
+        // Longer than spheres are found to be clear of what moves.
+        for frame in 0..120 {
+            let impacts = &world.step(1.0 / 60.0).unwrap().impacts;
+            at_colliders +=
+                impacts.iter().filter(|it| matches!(it.between, BodyPair::Collider { .. })).count();
+            oracle.step(1.0 / 60.0).unwrap();
+            assert_eq!(world.state_hash(), oracle.state_hash(), "case {case}, frame {frame}");
+        }
+    }
+    assert!(at_colliders > 100, "{at_colliders}");
 }

@@ -6,6 +6,7 @@ use glam::DVec3;
 use super::contacts::Member;
 use super::events::{Event, NextEvents, PackedTarget, Prediction, Schedule, UpcomingEvent};
 use super::flights::{Component, FlightLog, Flights, JointStep, Species, StepLimits, Support};
+use super::moving_regions::MovingRegions;
 use super::neighbours::clearance::{Clearance, Obstacle};
 use super::neighbours::{NeighbourBuffer, Neighbours};
 use super::ticks;
@@ -35,6 +36,9 @@ pub(crate) struct Timeline {
     pub(super) schedule: Schedule,
     /// Moving surfaces that deflect spheres.
     pub(super) moving_surfaces: Vec<u32>,
+    /// Where colliders that move may be within the frame.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub(super) moving_regions: MovingRegions,
     /// Clearance of each sphere, by slot, where flights restart often near surfaces at rest; else empty.
     pub(super) clearances: Vec<Clearance>,
     pub(super) work: FrameWork,

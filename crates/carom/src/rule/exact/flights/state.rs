@@ -238,6 +238,17 @@ impl Flights {
         }
     }
 
+    /// Bounds of the flight of a sphere between two times on the world's clock \[s\], or over its step if it is on a curve,
+    /// and when they begin.
+    pub fn reach_within(&self, slot: u32, [start, end]: [f64; 2]) -> (Reach, f64) {
+        let body = &self.bodies[slot as usize];
+        let species = self.species_of(slot);
+        if species.is_curved {
+            return (self.reach_of(slot, self.step_end(slot)), body.time);
+        }
+        (Reach::of(body.flight_from(species, start), species.radius, end - start), start)
+    }
+
     /// Sets the acceleration of a sphere without the forces of its persistent contacts \[m/s²\].
     pub fn set_free_acceleration(&mut self, slot: u32, acceleration: DVec3) {
         let free = self.species_of(slot).free;

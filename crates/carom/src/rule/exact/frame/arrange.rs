@@ -26,6 +26,8 @@ pub(crate) fn arrange(timeline: &mut Timeline, system: &System, time: f64) {
         .filter(|(_, surface)| surface.role == Role::Deflects && !surface.motion.is_at_rest())
         .map(|(number, _)| number)
         .collect();
+    timeline.moving_regions.forget_clear();
+    timeline.moving_regions.find(system, timeline.frame);
     // The old schedule is dropped first, so that two never are in memory.
     timeline.schedule = Schedule::default();
     timeline.neighbours = Neighbours::default();

@@ -222,6 +222,7 @@ pub(crate) fn begin(
 fn set_frame(timeline: &mut Timeline, system: &System, frame: [f64; 2]) {
     let before = timeline.zone_tick();
     timeline.frame = frame;
+    timeline.moving_regions.find(system, frame);
     let tick = timeline.zone_tick();
     if tick != before {
         timeline.zone.follow_tick(system, [tick, timeline.spring_rate]);

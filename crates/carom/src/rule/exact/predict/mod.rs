@@ -330,8 +330,7 @@ fn meet_surfaces(
         }
     }
     if !timeline.moving_surfaces.is_empty() {
-        let (movers, memory) = (moving::movers(timeline, system), &mut moving::Memory::default());
-        moving::meet((timeline, system), slot, &movers, passed, (events, memory));
+        moving::meet_near((timeline, system), slot, passed, events);
     }
 }
 

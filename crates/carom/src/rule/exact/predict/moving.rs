@@ -6,9 +6,11 @@ use glam::DVec3;
 use crate::contact_time;
 use crate::detect::contact::Bodies;
 use crate::detect::moving_surfaces::PlacedTree;
-use crate::norm::Norm;
+use crate::detect::swept_region::{PathBounds, SweptRegion};
+use crate::moving_bounds::MovingBounds;
 use crate::parallel;
 use crate::rule::exact::events::{Event, NextEvents, PackedTarget};
+use crate::rule::exact::moving_regions::Clear;
 use crate::rule::exact::timeline::Timeline;
 use crate::surface::LastCarriage;
 use crate::system::System;
@@ -70,89 +72,184 @@ pub(crate) fn near(
 
 /// The surfaces of a collider that moves.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Mover<'a> {
+struct Mover<'a> {
     /// Tree as placed at the start of the frame.
     tree: PlacedTree<'a>,
-    /// How far its origin moves within the frame, at most \[m\].
-    way: f64,
-    /// How far it turns within the frame, at most \[rad\].
-    angle: f64,
+    /// Where it may be within the frame.
+    region: SweptRegion,
+    /// How it moves within the frame.
+    moving: MovingBounds,
 }
 
 /// The colliders that move in the frame.
-pub(crate) fn movers<'a>(timeline: &Timeline, system: &System<'a>) -> Vec<Mover<'a>> {
-    let times @ [_, length] = [0.0, timeline.frame[1] - timeline.frame[0]];
-    let mover = |tree: PlacedTree<'a>| {
-        let [way, spin] = tree.farthest(times);
-        Mover { tree, way, angle: spin * length }
+fn movers<'a>(timeline: &Timeline, system: &System<'a>) -> Vec<Mover<'a>> {
+    let (frame, length) = (timeline.frame, timeline.frame[1] - timeline.frame[0]);
+    let mover = |(number, tree): (usize, PlacedTree<'a>)| {
+        let region = *timeline.moving_regions.of(number, frame);
+        Mover { tree, region, moving: tree.moving(length) }
     };
-    system.moving_after(0.0, &LastCarriage::default()).map(mover).collect()
+    system.moving_after(0.0, &LastCarriage::default()).enumerate().map(mover).collect()
 }
 
 /// Working memory: surfaces near a sphere, and where their collider was last.
 #[derive(Default)]
-pub(crate) struct Memory {
+struct Memory {
     near: Vec<u32>,
     last: LastCarriage,
 }
 
 /// Adds the meetings of all spheres with surfaces that move, within a frame that begins, to their next events.
 pub(crate) fn meet_in_frame(timeline: &mut Timeline, system: &System) {
+    let slots = slots_near_movers(timeline, system);
     let known = &*timeline;
-    let (count, movers) = (known.flights.bodies.len(), movers(known, system));
-    let found: Vec<Option<NextEvents>> = parallel::map(count, |memory: &mut Memory, slot| {
-        let slot = slot as u32;
-        if known.flights.is_stepped(slot) {
-            return None;
-        }
+    let movers = movers(known, system);
+    let found = parallel::map(slots.len(), |memory: &mut Memory, number| {
+        let slot = slots[number];
+        let way = Way::of(known, slot)?;
         let before = known.schedule.next_events(slot);
         let mut events = before;
-        meet((known, system), slot, &movers, &[], (&mut events, memory));
+        meet((known, system), (slot, &way), &movers, &[], (&mut events, memory));
         (events != before).then_some(events)
     });
-    for (slot, events) in (0..).zip(found) {
+    for (slot, events) in slots.into_iter().zip(found) {
         if let Some(events) = events {
             timeline.reschedule(slot, events);
         }
     }
 }
 
-/// Adds the meetings of a sphere with the surfaces of `movers`, within the frame and its flight, to its next events;
+/// Returns the slots of the spheres outside zones that may meet surfaces that move within the frame, ascending, and
+/// notes for how long others are clear.
+fn slots_near_movers(timeline: &mut Timeline, system: &System) -> Vec<u32> {
+    let count = timeline.flights.bodies.len();
+    let mut clear = timeline.moving_regions.take_clear(count);
+    let mut are_near = vec![false; count];
+    let known = &*timeline;
+    // In a periodic box a flight leaves the image that it is beside.
+    let are_lasting = known.moving_regions.are_lasting() && !system.settings.boundary.is_periodic();
+    parallel::fill((&mut clear, &mut are_near), |first, (clear, are_near)| {
+        let bodies = &known.flights.bodies[first..first + clear.len()];
+        let spheres = bodies.iter().zip(clear).zip(are_near);
+        for (slot, ((body, clear), is_near)) in (first as u32..).zip(spheres) {
+            if clear.holds(known.frame[1], body.generation) {
+                continue;
+            }
+            let until = if are_lasting { clear_for_long(known, slot) } else { None };
+            match until {
+                Some(until) => *clear = Clear::until(until, body.generation),
+                None => {
+                    let way = Way::of(known, slot).filter(|_| !known.flights.is_stepped(slot));
+                    *is_near = way.is_some_and(|way| way.meets_any(known));
+                }
+            }
+        }
+    });
+    timeline.moving_regions.set_clear(clear);
+    (0..).zip(are_near).filter(|&(_, is_near)| is_near).map(|(slot, _)| slot).collect()
+}
+
+/// Returns the end of the time \[s\], not before the end of the frame, for which a free sphere is clear of surfaces that
+/// move for several frames.
+fn clear_for_long(timeline: &Timeline, slot: u32) -> Option<f64> {
+    let body = &timeline.flights.bodies[slot as usize];
+    let species = &timeline.flights.species[body.species as usize];
+    if species.is_curved || species.is_stepped || species.cluster.is_some() {
+        return None;
+    }
+    let [start, end] = timeline.frame;
+    let sought = timeline.moving_regions.sought_until(timeline.frame);
+    let until = sought.min(timeline.flight_end(slot, species));
+    if body.time > start || until < end {
+        return None;
+    }
+    let flight = body.flight_from(species, start);
+    let center = flight.position - timeline.neighbours.shift_from_box(slot);
+    let path = PathBounds { center, way: flight.farthest(until - start), radius: species.radius };
+    timeline.moving_regions.are_missed_for_long(&path).then_some(until)
+}
+
+/// Adds the meetings of a sphere with the surfaces that move, within the frame and its flight, to its next events;
 /// those that it passes over do not count.
-pub(crate) fn meet(
+pub(crate) fn meet_near(
     (timeline, system): (&Timeline, &System),
     slot: u32,
+    passed: &[Bodies],
+    events: &mut NextEvents,
+) {
+    if let Some(way) = Way::of(timeline, slot).filter(|way| way.meets_any(timeline)) {
+        let (movers, memory) = (movers(timeline, system), &mut Memory::default());
+        meet((timeline, system), (slot, &way), &movers, passed, (events, memory));
+    }
+}
+
+/// The way of a sphere within the frame and its flight.
+struct Way {
+    /// When it begins and ends, on the world's clock \[s\].
+    times: [f64; 2],
+    bounds: PathBounds,
+}
+
+impl Way {
+    /// The way of the sphere at a slot; `None` if its flight is over or begins later.
+    #[inline]
+    fn of(timeline: &Timeline, slot: u32) -> Option<Self> {
+        let body = &timeline.flights.bodies[slot as usize];
+        let species = &timeline.flights.species[body.species as usize];
+        let flight_end = timeline.flight_end(slot, species);
+        let times @ [start, until] =
+            [body.time.max(timeline.frame[0]), timeline.frame[1].min(flight_end)];
+        if until < start {
+            return None;
+        }
+        let curve = if species.is_curved { timeline.flights.curve_of(slot) } else { None };
+        let (center, way) = match curve {
+            Some((flight, _)) => (body.position, flight.farthest()),
+            None if species.is_curved => (body.position, DVec3::INFINITY),
+            None => {
+                let flight = body.flight_from(species, start);
+                (flight.position, flight.farthest(until - start))
+            }
+        };
+        let center = center - timeline.neighbours.shift_from_box(slot);
+        let bounds = PathBounds { center, way, radius: species.radius };
+        Some(Self { times, bounds })
+    }
+
+    /// Whether it may meet any collider that moves.
+    #[inline]
+    fn meets_any(&self, timeline: &Timeline) -> bool {
+        !timeline.moving_regions.are_missed(&self.bounds, timeline.frame)
+    }
+}
+
+/// Adds the meetings of a sphere on its way with the surfaces of `movers` to its next events; those that it passes over
+/// do not count.
+fn meet(
+    (timeline, system): (&Timeline, &System),
+    (slot, way): (u32, &Way),
     movers: &[Mover],
     passed: &[Bodies],
     (events, memory): (&mut NextEvents, &mut Memory),
 ) {
-    let body = &timeline.flights.bodies[slot as usize];
-    let species = &timeline.flights.species[body.species as usize];
-    let flight_end = timeline.flight_end(slot, species);
-    let (start, until) = (body.time.max(timeline.frame[0]), timeline.frame[1].min(flight_end));
-    if until < start {
-        return;
-    }
-    let end = if species.is_curved { flight_end } else { until };
-    let reach = timeline.flights.reach_of(slot, end);
     let shift = timeline.neighbours.shift_from_box(slot);
-    let place = body.position - shift;
+    let (reach, begun) = timeline.flights.reach_within(slot, way.times);
+    let (reach, since) = (reach.shifted(-shift), begun - timeline.frame[0]);
     let sphere = timeline.flights.index_of[slot as usize];
     let Memory { near, last } = memory;
-    for Mover { tree, way, angle } in movers {
-        let reach = reach.seen_from_moving(*way, *angle, (place - tree.origin).norm());
+    for mover in movers.iter().filter(|it| !way.bounds.misses(&it.region)) {
+        let reach = reach.seen_from_moving(since, mover.tree.origin, &mover.moving);
         near.clear();
-        tree.add_near(place, reach.farthest(), near);
+        mover.tree.add_near(reach.center(), reach.farthest(), near);
         near.retain(|&it| {
             let is_passed = passed.contains(&Bodies::Surface { sphere, surface: it });
-            !reach.misses(&system.surfaces[it as usize].form, shift)
+            !reach.misses(&system.surfaces[it as usize].form, DVec3::ZERO)
                 && !is_passed
                 && timeline.neighbours.meets_surface(slot, it)
                 && !timeline.flights.is_held_by(slot, it)
         });
         near.sort_unstable();
         for &surface in near.iter() {
-            let time = meeting(timeline, system, (slot, surface), [start, until], last);
+            let time = meeting(timeline, system, (slot, surface), way.times, last);
             if let Some(time) = time {
                 events.add(Event::at(time, PackedTarget::surface(surface)));
             }
@@ -177,12 +274,11 @@ fn meeting(
     let (form, motion) = last.after(surface, since);
     let course = surface.course_after(since);
     if let Some(course) = &course {
-        let end = if species.is_curved { flight_end } else { until };
-        let bounds = course.bounds(0.0, until - start);
-        let arm = (body.position - shift - motion.origin).norm();
-        let reach = timeline.flights.reach_of(slot, end);
-        let reach = reach.seen_from_moving(bounds.way, bounds.spin * (until - start), arm);
-        if reach.misses(&form, shift) {
+        let length = until - start;
+        let moving = MovingBounds::within(length, motion.velocity, &course.bounds(0.0, length));
+        let (reach, begun) = timeline.flights.reach_within(slot, [start, until]);
+        let reach = reach.shifted(-shift).seen_from_moving(begun - start, motion.origin, &moving);
+        if reach.misses(&form, DVec3::ZERO) {
             return None;
         }
     }
