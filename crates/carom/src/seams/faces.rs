@@ -8,7 +8,7 @@ use crate::surface::Surface;
 /// Faces among the surfaces of colliders.
 pub(super) struct Faces<'a> {
     pub surfaces: &'a [Surface],
-    /// Those that were needed, by the numbers of the surfaces; `None` for what is not flat.
+    /// Faces that were needed, by the numbers of the surfaces; `None` for what is not flat.
     known: BTreeMap<u32, Option<FlushFace>>,
     outlines: Outlines,
 }

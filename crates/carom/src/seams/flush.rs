@@ -26,7 +26,7 @@ struct Flat<'a> {
     collider: &'a Collider,
     /// Range of its surfaces.
     surfaces: Range<usize>,
-    /// Its faces, with their normals.
+    /// Faces of the collider, with their normals.
     faces: Vec<(u32, DVec3)>,
     /// `None` for a half-space.
     bounds: Option<Bounds>,
