@@ -8,6 +8,7 @@ mod departures;
 mod entries;
 mod grab;
 mod hand;
+mod held_surface;
 mod hints;
 mod marker;
 mod over;
@@ -44,10 +45,10 @@ use cue::Cue;
 use departures::Departures;
 pub use entries::PRESETS;
 use grab::Grab;
+use held_surface::HeldSurface;
 use hints::{Restarted, Way};
 pub use marker::three_digits;
 use sides::side_of;
-use surface::HeldSurface;
 use viewpoint::Viewpoint;
 
 /// The screen of a watched scene.

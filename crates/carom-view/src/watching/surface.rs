@@ -5,37 +5,12 @@ use carom_session::{Command, Edit, View};
 use egui::{CursorIcon, PointerButton, Pos2, Response, Ui};
 
 use super::Watching;
+use super::held_surface::HeldSurface;
 use super::sides::side_of;
 use crate::projection::Projection;
 
 /// Distance up to which a surface is found, in nearest distances drawn.
 const FARTHEST: f64 = 1e7;
-
-/// A picked surface in the hand.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct HeldSurface {
-    id: ColliderId,
-    /// Pose when it was taken.
-    from: Pose,
-    /// The point under the pointer then \[m\].
-    point: DVec3,
-    /// Direction of view: the pointer moves in the plane across it.
-    normal: DVec3,
-    /// The last position \[m\].
-    position: DVec3,
-    has_moved: bool,
-    /// The picture in which it is held.
-    side: usize,
-}
-
-impl HeldSurface {
-    /// Returns the position of the surface with the pointer on a ray \[m\].
-    fn position_on(&self, [origin, direction]: [DVec3; 2]) -> Option<DVec3> {
-        let distance = (self.point - origin).dot(self.normal) / direction.dot(self.normal);
-        let place = self.from.position + (origin + direction * distance - self.point);
-        (distance > 0.0 && place.is_finite()).then_some(place)
-    }
-}
 
 impl Watching {
     /// Handles a drag of the picked surface; returns whether the drag is one.
