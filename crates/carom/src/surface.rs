@@ -1,6 +1,7 @@
 //! Colliders as the world sees them: surfaces in their places.
 
 use std::cell::Cell;
+use std::sync::Arc;
 
 use glam::{DQuat, DVec2, DVec3};
 
@@ -38,8 +39,8 @@ pub(crate) struct Surface {
     pub role: Role,
     /// Now.
     pub motion: SurfaceMotion,
-    /// Motion from now on, if it is not steady.
-    pub course: Option<Course>,
+    /// Motion from now on, if it is not steady. The surfaces of a collider share it.
+    pub course: Option<Arc<Course>>,
 }
 
 impl SurfaceMotion {
@@ -128,7 +129,7 @@ impl LastCarriage {
     /// Returns a surface as it is after `h` \[s\].
     pub fn moved(&self, surface: &Surface, h: f64) -> Surface {
         let (form, motion) = self.after(surface, h);
-        Surface { form, motion, course: surface.course_after(h), ..surface.clone() }
+        Surface { form, motion, course: surface.course_after(h).map(Arc::new), ..surface.clone() }
     }
 
     /// Origin \[m\] of the collider of a surface after `h` \[s\], and its rotation since now.
@@ -336,7 +337,7 @@ impl Form {
 pub(crate) fn place(id: ColliderId, collider: &Collider, time: f64, surfaces: &mut Vec<Surface>) {
     let Collider { ref shape, pose, friction, trigger, kick, groups, material, .. } = *collider;
     let restitution = BodyRestitution::of(collider.restitution, collider.restitution_law);
-    let course = collider.course(time);
+    let course = collider.course(time).map(Arc::new);
     let motion = match &course {
         Some(course) => SurfaceMotion { belt: belt_of(collider), ..course.place(0.0).1 },
         None => SurfaceMotion::of(collider),
