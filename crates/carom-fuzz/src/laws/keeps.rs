@@ -1,6 +1,6 @@
 //! What rules keep: energy, places, the account of what moving colliders do.
 
-use carom::{BodyPair, DQuat, DVec3, World};
+use carom::{BodyPair, ColliderId, DQuat, DVec3, Pose, World};
 use carom_scene::Scene;
 use carom_scene::scene::{Boundary, Collider, Force, Rule, Shape};
 
@@ -43,8 +43,8 @@ pub struct Keeps {
     has_varying_forces: bool,
     /// Whether spheres were in persistent contact after the frame before.
     was_in_contact: bool,
-    /// The container that keeps what is inside.
-    container: Option<Collider>,
+    /// The container that keeps what is inside, with its id.
+    container: Option<(ColliderId, Collider)>,
     /// Energy after the frame before \[J\].
     energy: f64,
     /// The largest energy of any kind so far \[J\].
@@ -68,11 +68,20 @@ impl Keeps {
     pub fn of(scene: &Scene, world: &World) -> Self {
         let rule = scene.simulation.rule;
         let is_driven = is_driven(scene);
-        let mut colliders = scene.colliders.iter();
-        let container = colliders.find(|it| matches!(it.shape, Shape::Container { .. }));
+        let ids = world.colliders().map(|(id, _)| id);
+        let mut colliders = ids.zip(&scene.colliders);
+        let container = colliders.find(|(_, it)| matches!(it.shape, Shape::Container { .. }));
         let is_solid = matches!(rule, Rule::Exact | Rule::Contact);
-        // What moves may press a sphere through what stands.
         let is_kept = is_solid && !is_driven;
+        // What moves may press a sphere through another collider, or leave an emitter behind.
+        let is_alone = scene.colliders.len() == 1 && scene.emitters.is_empty();
+        let is_closed = is_solid && (!is_driven || is_alone);
+        // A motion may begin elsewhere.
+        let holds_all = |id: ColliderId, container: &Collider| {
+            let is_in = |center: &DVec3, pose: Pose| !is_out(*center, container, pose);
+            let positions = world.spheres().positions();
+            world.collider(id).is_ok_and(|it| positions.iter().all(|at| is_in(at, it.pose)))
+        };
         let is_constant =
             |force: &Force| matches!(force, Force::Gravity { .. } | Force::Constant { .. });
         let is_linear = |force: &Force| {
@@ -103,7 +112,9 @@ impl Keeps {
                 && !scene.colliders.iter().any(passes),
             has_varying_forces: !scene.springs.is_empty() || !scene.forces.iter().all(is_linear),
             was_in_contact: false,
-            container: container.filter(|_| is_kept).cloned(),
+            container: container
+                .filter(|(id, it)| is_closed && holds_all(*id, it))
+                .map(|(id, it)| (id, it.clone())),
             energy,
             scale: energy.abs().max(world.kinetic_energy()),
             was_stepped: false,
@@ -209,8 +220,10 @@ impl Keeps {
         if spheres.positions().iter().any(|it| !it.is_finite()) {
             return Err("is nowhere".to_owned());
         }
-        if let Some(container) = &self.container
-            && let Some(out) = spheres.positions().iter().find(|&&it| is_out(it, container))
+        if let Some((id, container)) = &self.container
+            && let Ok(now) = world.collider(*id)
+            && let Some(out) =
+                spheres.positions().iter().find(|&&it| is_out(it, container, now.pose))
         {
             return Err(format!("has a sphere outside its container, at {out}"));
         }
@@ -262,13 +275,12 @@ fn speed_of_sub_step(scene: &Scene) -> f64 {
     length * gravity.sum::<f64>()
 }
 
-/// Whether the centre of a sphere is outside a container without open sides.
-fn is_out(center: DVec3, container: &Collider) -> bool {
+/// Whether the centre of a sphere is outside a container without open sides, which has this pose now.
+fn is_out(center: DVec3, container: &Collider, pose: Pose) -> bool {
     let Shape::Container { size, ref open } = container.shape else { return false };
     if !open.is_empty() {
         return false;
     }
-    let rotation = DQuat::from_array(container.rotation).normalize();
-    let place = rotation.inverse() * (center - DVec3::from_array(container.position));
+    let place = pose.rotation.normalize().inverse() * (center - pose.position);
     place.abs().cmpgt(0.5 * DVec3::from_array(size)).any()
 }

@@ -38,6 +38,8 @@ pub struct Around {
     pub velocity: Option<Vector>,
     /// Angular velocity of a container \[rad/s\].
     pub spin: Option<Vector>,
+    /// Parts of the motion of a container, if it is not steady.
+    pub parts: Vec<String>,
     /// Sides without a wall.
     pub open: &'static str,
 }
@@ -204,6 +206,7 @@ fn growing(drawn: Drawn) -> Drawn {
     let mut drawn = elastic(alone_in_shear(drawn));
     drawn.choices.retain(|it| !it.starts_with("thermostat"));
     (drawn.around.velocity, drawn.around.spin) = (None, None);
+    drawn.around.parts.clear();
     if drawn.around.kind == "sheared" {
         drawn.around.kind = "periodic";
     }
@@ -273,8 +276,17 @@ fn around() -> impl Strategy<Value = Around> {
     let turn = prop_oneof![Just([0.0; 3]), vector_of(180.0)];
     let open = prop_oneof![8 => Just(""), 1 => Just("\"top\""), 1 => Just("[\"left\", \"front\"]")];
     let velocity = weighted(0.1, prop_oneof![vector_of(1.0), vector_of(30.0)]);
-    (kind, turn, velocity, weighted(0.05, vector_of(0.5)), open)
-        .prop_map(|(kind, turn, velocity, spin, open)| Around { kind, turn, velocity, spin, open })
+    let parts = prop_oneof![8 => Just(Vec::new()), 1 => vec(part(), 1..3)];
+    (kind, turn, velocity, weighted(0.05, vector_of(0.5)), parts, open).prop_map(
+        |(kind, turn, velocity, spin, parts, open)| Around {
+            kind,
+            turn,
+            velocity,
+            spin,
+            parts,
+            open,
+        },
+    )
 }
 
 fn material() -> impl Strategy<Value = Material> {
@@ -398,17 +410,19 @@ fn obstacle() -> impl Strategy<Value = Obstacle> {
     )
 }
 
-/// Draws a part of a motion, with speeds of some metres per second.
+/// Draws a part of a motion, with speeds of some metres per second, seldom of up to a hundred.
 fn part() -> impl Strategy<Value = String> {
     let axis = vector().prop_filter("has a direction", |it| it.iter().any(|part| part.abs() > 0.1));
     let frequency = (-1.0..1.5f64).prop_map(|it| 10f64.powf(it));
-    (0..5, axis, vector(), frequency, (-1.0..1.0, 0.0..360.0)).prop_map(
-        |(kind, axis, pivot, frequency, (size, phase))| {
+    let speed = prop_oneof![4 => Just(1.0), 1 => (0.0..1.2f64).prop_map(|it| 10f64.powf(it))];
+    (0..5, axis, vector(), frequency, (-1.0..1.0, speed, 0.0..360.0)).prop_map(
+        |(kind, axis, pivot, frequency, (size, speed, phase))| {
+            let size = speed * size;
             let (amplitude, angle) = (size / frequency, 60.0 * size / frequency.max(1.0));
             let sine = format!("frequency = {frequency:?}, phase_degrees = {phase:?}");
             let axis = format!("axis = {axis:?}");
             match kind {
-                0 => format!("{{ steady = {{ velocity = {pivot:?} }} }}"),
+                0 => format!("{{ steady = {{ velocity = {:?} }} }}", scaled(pivot, speed)),
                 1 => format!("{{ oscillate = {{ {axis}, amplitude = {amplitude:?}, {sine} }} }}"),
                 2 => format!("{{ turn = {{ {axis}, pivot = {pivot:?}, rate = {:?} }} }}", 5.0 * size),
                 3 => {

@@ -114,9 +114,19 @@ fn motion(drawn: &Drawn, velocity: Option<Vector>, spin: Option<Vector>) -> Stri
     moving.map(|(name, it)| format!("{name} = {it:?}\n")).collect()
 }
 
+/// Returns a motion of parts, and of the velocity that all bodies share.
+fn motion_of_parts(drawn: &Drawn, parts: &[String]) -> String {
+    let along = format!("{{ steady = {{ velocity = {:?} }} }}", velocity_of_all(drawn));
+    format!("motion = [{}, {along}]\n", parts.join(", "))
+}
+
 fn around(drawn: &Drawn, material: &str) -> String {
     let (around, width) = (&drawn.around, 2.0 * HALF);
-    let motion = motion(drawn, None, around.spin);
+    let motion = if around.parts.is_empty() {
+        motion(drawn, None, around.spin)
+    } else {
+        motion_of_parts(drawn, &around.parts)
+    };
     match around.kind {
         "container" => {
             let open = if around.open.is_empty() {
@@ -183,8 +193,7 @@ fn obstacle(drawn: &Drawn, obstacle: &Obstacle, material: &str) -> String {
     let motion = if parts.is_empty() {
         motion(drawn, *velocity, *spin)
     } else {
-        let along = format!("{{ steady = {{ velocity = {:?} }} }}", velocity_of_all(drawn));
-        format!("motion = [{}, {along}]\n", parts.join(", "))
+        motion_of_parts(drawn, parts)
     };
     let trigger = if *is_trigger { "trigger = true\n" } else { "" };
     let kick = kick.map_or(String::new(), |it| format!("kick = {it:?}\n"));
