@@ -67,6 +67,14 @@ pub(crate) fn among_threads<T: Send>(_: usize, work: impl FnOnce() -> T + Send) 
     work()
 }
 
+/// Returns how many threads there are for parallel work.
+pub(crate) fn threads() -> usize {
+    #[cfg(feature = "rayon")]
+    return rayon::current_num_threads();
+    #[cfg(not(feature = "rayon"))]
+    return 1;
+}
+
 /// Runs independent tasks in parallel.
 #[cfg(feature = "rayon")]
 pub(crate) fn for_each<T: Send>(tasks: Vec<T>, f: impl Fn(T) + Sync + Send) {

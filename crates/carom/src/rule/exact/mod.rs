@@ -17,6 +17,7 @@ mod answer;
 mod contacts;
 mod context;
 mod course;
+mod domains;
 mod events;
 mod features;
 mod flights;
@@ -100,6 +101,25 @@ fn next(timeline: &mut Timeline, end: f64) -> Option<Next> {
 
 /// Advances all spheres over a span. Returns the time reached \[s\] (`docs/physics/exact.md`).
 pub(crate) fn advance(
+    system: &System,
+    timeline: &mut Timeline,
+    span: Span,
+    work: &Work,
+    report: &mut StepReport,
+    until: Until,
+) -> Result<f64, Unfinished> {
+    if until == Until::End {
+        while let end = domains::advance(system, timeline, span, work, report)?
+            && end < span.end
+        {
+            advance_in_order(system, timeline, Span { end, ..span }, work, report, until)?;
+        }
+    }
+    advance_in_order(system, timeline, span, work, report, until)
+}
+
+/// Advances all spheres over a span, one event after another. Returns the time reached \[s\].
+fn advance_in_order(
     system: &System,
     timeline: &mut Timeline,
     span: Span,

@@ -4,6 +4,7 @@ use educe::Educe;
 use glam::DVec3;
 
 use super::contacts::Member;
+use super::domains::Domains;
 use super::events::{Event, NextEvents, PackedTarget, Prediction, Schedule, UpcomingEvent};
 use super::flights::{Component, FlightLog, Flights, JointStep, Species, StepLimits, Support};
 use super::neighbours::clearance::{Clearance, Obstacle};
@@ -71,6 +72,15 @@ pub(crate) struct Timeline {
     /// Events, and cell crossings among them, since the spheres were put in order of place.
     pub(super) events: u64,
     pub(super) cell_crossings: u64,
+    /// Slots of spheres whose predictions were entered since this was cleared, where domains must know.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub(super) entered: Option<Vec<u32>>,
+    /// Grows with each prediction.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub(super) revision: u64,
+    /// Copies in which several threads take events.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub(super) domains: Domains,
 }
 
 impl Timeline {
@@ -457,6 +467,10 @@ impl Timeline {
     /// Enters the prediction of a sphere into the schedule.
     #[inline]
     pub(super) fn enter(&mut self, slot: u32, prediction: Prediction) {
+        self.revision += 1;
+        if let Some(entered) = &mut self.entered {
+            entered.push(slot);
+        }
         self.schedule.enter(slot, self.flights.index_of[slot as usize], prediction);
     }
 

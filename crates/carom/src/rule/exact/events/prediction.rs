@@ -126,6 +126,24 @@ pub(crate) enum UpcomingEvent {
     CellCrossing(f64),
 }
 
+impl UpcomingEvent {
+    /// Time on the world's clock \[s\].
+    pub fn time(&self) -> f64 {
+        match self {
+            Self::Event(event) => event.time,
+            Self::CellCrossing(time) => *time,
+        }
+    }
+
+    /// The slot of the other sphere of a meeting.
+    pub fn other_sphere(&self) -> Option<u32> {
+        match self {
+            Self::Event(event) => event.target.slot(),
+            Self::CellCrossing(_) => None,
+        }
+    }
+}
+
 /// The next events of a sphere, and when it leaves its neighbour region.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

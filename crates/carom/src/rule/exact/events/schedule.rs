@@ -6,6 +6,9 @@ use prefetch_index::prefetch_index;
 use super::prediction::{NextEvents, Prediction, UpcomingEvent};
 use super::queue::{Entry, EventQueue};
 
+/// Spheres of which a median is taken.
+const SAMPLE: usize = 1_000;
+
 /// The next event of each sphere, and the order of these events. It follows from the flights: the queue decides how
 /// fast the next event is found, never what it is.
 #[derive(Debug, Educe, Default)]
@@ -34,6 +37,31 @@ impl Schedule {
     #[inline(always)]
     pub fn next_events(&self, slot: u32) -> NextEvents {
         self.predictions[slot as usize].events
+    }
+
+    /// The next events of a sphere, and when it leaves its neighbour region.
+    #[inline(always)]
+    pub fn prediction(&self, slot: u32) -> Prediction {
+        self.predictions[slot as usize]
+    }
+
+    /// Puts the next event of a sphere, which is at an `index` of the world's arrays, back into the queue.
+    pub fn put_back(&mut self, slot: u32, index: u32) {
+        let time = self.predictions[slot as usize].time();
+        self.queue.push(Entry { time, slot, index });
+    }
+
+    /// When the first event of all comes, on the world's clock \[s\], and the median of the next events of a sample of
+    /// the spheres.
+    pub fn first_and_median(&self) -> [f64; 2] {
+        let times = || self.predictions.iter().map(Prediction::time);
+        let first = times().fold(f64::INFINITY, f64::min);
+        let mut sample: Vec<f64> = times().step_by(times().len() / SAMPLE + 1).collect();
+        if sample.is_empty() {
+            return [first; 2];
+        }
+        let middle = sample.len() / 2;
+        [first, *sample.select_nth_unstable_by(middle, f64::total_cmp).1]
     }
 
     /// When a sphere crosses the boundary of its neighbour region, on the world's clock \[s\].

@@ -19,7 +19,7 @@ pub(crate) enum ContactWork {
 }
 
 /// Work of persistent contacts that is in no report yet.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct WorkDone {
     /// \[J\]

@@ -118,6 +118,21 @@ impl Flights {
         }
     }
 
+    /// Whether a log of the flights is kept.
+    pub fn is_logged(&self) -> bool {
+        self.log.is_some()
+    }
+
+    /// Whether persistent contacts have done the same work as on other flights.
+    pub fn has_worked_as(&self, other: &Self) -> bool {
+        self.contact_work == other.contact_work
+    }
+
+    /// Takes over the work of persistent contacts.
+    pub fn copy_work(&mut self, other: &Self) {
+        self.contact_work = other.contact_work;
+    }
+
     /// Reorders the spheres by their slots in `order`.
     pub fn reorder(&mut self, order: &[u32]) {
         let mut new_slots = vec![0; order.len()];

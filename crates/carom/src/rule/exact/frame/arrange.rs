@@ -111,6 +111,12 @@ impl ArrangementDue {
         timeline.events > self.events || timeline.cell_crossings > self.cell_crossings
     }
 
+    /// Whether the spheres must be ordered after so many more events, and cell crossings among them.
+    pub fn is_after(self, timeline: &Timeline, events: u64, cell_crossings: u64) -> bool {
+        timeline.events + events > self.events
+            || timeline.cell_crossings + cell_crossings > self.cell_crossings
+    }
+
     fn after_crossings(cell_crossings: u64) -> Self {
         Self { events: u64::MAX, cell_crossings }
     }

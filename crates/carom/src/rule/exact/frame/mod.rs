@@ -428,4 +428,5 @@ fn predict_all(timeline: &mut Timeline, system: &System, time: f64) {
     counts.pair_tests += pair_tests.into_inner();
     let horizon = timeline.horizon();
     timeline.schedule = Schedule::new(predictions, &timeline.flights.index_of, horizon);
+    timeline.revision += 1;
 }

@@ -39,6 +39,15 @@ pub(super) struct Grid {
     runs: [Vec<[Run; 3]>; 3],
 }
 
+/// How many cells a grid has.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Layout {
+    /// Number of cells along each axis.
+    pub counts: [u16; 3],
+    /// Whether each axis closes on itself.
+    pub periodic: [bool; 3],
+}
+
 /// A block of cells around a cell, ghosts included, that share one image offset.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Block<'a> {
@@ -169,6 +178,11 @@ impl Grid {
     /// Returns the number of cells.
     pub fn len(&self) -> usize {
         self.counts.iter().map(|&count| usize::from(count)).product()
+    }
+
+    /// Returns the number of cells along each axis.
+    pub fn layout(&self) -> Layout {
+        Layout { counts: self.counts, periodic: self.periodic }
     }
 
     /// Returns the number of cells with ghosts.

@@ -1,6 +1,7 @@
 //! The neighbours of all spheres, by cell and by list.
 
 mod crossing;
+mod transfer;
 
 use educe::Educe;
 use fearless_simd::Simd;
@@ -15,11 +16,10 @@ use super::images::{Images, PeriodicBox, offset_between};
 use super::level::{Level, Levels};
 use super::neighbour::Neighbour;
 use super::neighbour_lists::{Crowd, NeighbourLists};
-use super::region::{CROSSING, LEAD, Region};
+use super::region::{CROSSING, Region};
 use super::sliding::Sliding;
 use crate::groups::Groups;
 use crate::lanes::{LANES, Lanes};
-use crate::norm::Norm;
 use crate::real::Vector;
 use crate::rule::exact::flights::{Body, Flights, Species};
 use crate::rule::periodic;
@@ -305,25 +305,10 @@ impl Neighbours {
     }
 
     /// Moves the neighbour region of a sphere so that the sphere is at its centre. Returns the cell there.
-    fn place(&mut self, slot: u32, level: u32, [position, velocity]: [DVec3; 2]) -> [u16; 3] {
-        let Level { grid, half_edges, .. } = &self.levels[level as usize];
-        let period = self.periodic_box.period;
-        let region = &mut self.regions[slot as usize];
-        let is_listed = self.lists.is_some();
-        let speed = if is_listed { velocity.norm() } else { 0.0 };
-        let lead = if speed > 0.0 && speed.is_finite() {
-            LEAD * half_edges * (velocity / speed)
-        } else {
-            DVec3::ZERO
-        };
-        let center = self.sliding.map_or(position + lead, |sliding| sliding.in_search(position));
-        region.image_offset = periodic::image_offset_of(center, period);
-        region.center = center - periodic::image_shift(region.image_offset, period);
-        let cell = grid.cell_of(region.center);
-        if !is_listed {
-            region.center = grid.center(cell);
-        }
-        cell
+    fn place(&mut self, slot: u32, level: u32, state: [DVec3; 2]) -> [u16; 3] {
+        let region = self.region_at(slot, level, state);
+        self.regions[slot as usize] = region;
+        self.levels[level as usize].grid.cell_of(region.center)
     }
 
     /// The cell of a grid that the region of a sphere lies about.

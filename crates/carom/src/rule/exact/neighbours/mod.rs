@@ -36,8 +36,10 @@ mod surfaces;
 
 pub(super) use buffer::NeighbourBuffer;
 pub(super) use contents::{Contents, SURFACES_PER_SPHERE};
+pub(super) use grid::Layout;
 pub(super) use hierarchy::Neighbours;
 pub(super) use images::Images;
 pub(crate) use neighbour::MAX_SPHERES;
 pub(super) use neighbour::Neighbour;
+pub(super) use region::Region;
 pub(super) use sliding::Sliding;

@@ -12,9 +12,9 @@ pub(super) const CROSSING: f64 = 1.0 - 1.0 / 512.0;
 pub(super) const LEAD: f64 = 0.5;
 
 /// The region of a sphere until it crosses into another.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(super) struct Region {
+pub(crate) struct Region {
     /// Centre of the region in the box \[m\].
     pub center: DVec3,
     /// Radius of the sphere, rounded up \[m\].

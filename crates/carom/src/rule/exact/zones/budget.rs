@@ -44,6 +44,28 @@ pub(crate) struct Budget {
     /// Units of short flights, by index of the sphere.
     short_flights: BTreeMap<u32, u64>,
     of_all: u64,
+    /// What was spent since this was cleared, where another copy must know.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub charges: Option<Vec<Charge>>,
+}
+
+/// What a group spent, or a short flight.
+#[derive(Debug, Clone)]
+pub(crate) struct Charge {
+    /// The number of the tick.
+    pub tick: f64,
+    /// The spheres, by index.
+    pub spheres: Vec<u32>,
+    /// Units that the answer of the group spent, and what it took besides.
+    pub units: [u64; 2],
+    flight: Option<ShortFlight>,
+}
+
+impl Charge {
+    /// Whether a group made it, and no short flight.
+    pub fn is_of_group(&self) -> bool {
+        self.flight.is_none()
+    }
 }
 
 impl Budget {
@@ -58,6 +80,7 @@ impl Budget {
 
     /// Adds what the answer of a group of these spheres spent, and what it took `besides`.
     pub fn charge(&mut self, spheres: &[u32], spent: u64, besides: u64) {
+        self.note(spheres, [spent, besides], None);
         self.of_all += spent + besides;
         spheres.iter().for_each(|&index| *self.spent_by_sphere.entry(index).or_default() += spent);
     }
@@ -71,6 +94,31 @@ impl Budget {
         time: f64,
     ) -> bool {
         self.follow(time / parameters.zone_tick, u64::from(parameters.zone_budget));
+        self.note(&[sphere], [0; 2], Some(flight));
+        self.counts_too_many(parameters, (sphere, flight))
+    }
+
+    /// Notes a charge for other copies.
+    fn note(&mut self, spheres: &[u32], units: [u64; 2], flight: Option<ShortFlight>) {
+        let Self { tick, charges, .. } = self;
+        if let Some(charges) = charges {
+            charges.push(Charge { tick: *tick, spheres: spheres.to_vec(), units, flight });
+        }
+    }
+
+    /// Makes a charge that another copy noted. Returns whether a sphere has made too many short flights.
+    pub fn repeat(&mut self, parameters: Exact, charge: &Charge) -> bool {
+        let Charge { tick, ref spheres, units: [spent, besides], flight } = *charge;
+        self.follow(tick, u64::from(parameters.zone_budget));
+        let Some(flight) = flight else {
+            self.charge(spheres, spent, besides);
+            return false;
+        };
+        spheres.iter().any(|&sphere| self.counts_too_many(parameters, (sphere, flight)))
+    }
+
+    /// Counts a short flight in the present tick. Returns whether a sphere, by index, has made too many.
+    fn counts_too_many(&mut self, parameters: Exact, (sphere, flight): (u32, ShortFlight)) -> bool {
         let units = self.short_flights.entry(sphere).or_default();
         *units += flight.units();
         *units > u64::from(parameters.zone_budget)
