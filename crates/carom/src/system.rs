@@ -215,11 +215,9 @@ impl<'a> System<'a> {
         time: f64,
         forces: &mut Vec<DVec3>,
     ) {
-        forces.clear();
-        forces.resize(states[0].len(), DVec3::ZERO);
-        if let Some(interactions) = self.interactions {
-            interactions.add_nonconservative(&self.states(states), time, forces);
-        }
+        self.sum_interactions(states, forces, |interactions, spheres, forces| {
+            interactions.add_nonconservative(spheres, time, forces);
+        });
     }
 
     /// The conservative forces between spheres \[N\] without springs, as in
@@ -230,10 +228,22 @@ impl<'a> System<'a> {
         time: f64,
         forces: &mut Vec<DVec3>,
     ) {
+        self.sum_interactions(states, forces, |interactions, spheres, forces| {
+            interactions.add_conservative(spheres, time, forces);
+        });
+    }
+
+    /// Writes the forces \[N\] that `add` adds to those of no interaction.
+    fn sum_interactions(
+        &self,
+        states: [&[DVec3]; 2],
+        forces: &mut Vec<DVec3>,
+        add: impl FnOnce(Interactions, &SphereStates, &mut [DVec3]),
+    ) {
         forces.clear();
         forces.resize(states[0].len(), DVec3::ZERO);
         if let Some(interactions) = self.interactions {
-            interactions.add_conservative(&self.states(states), time, forces);
+            add(interactions, &self.states(states), forces);
         }
     }
 
