@@ -39,6 +39,7 @@ mod pinball_screen;
 mod plots;
 mod projection;
 mod recorder;
+mod ring;
 mod saved;
 mod snapshot;
 mod studio;

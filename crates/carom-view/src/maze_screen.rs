@@ -1,15 +1,16 @@
 //! The maze game on the screen: controls, picture, counts and times.
 
-use carom::DVec3;
+use carom::{DVec3, QueryFilter};
 use carom_maze::{Game, GameError, GameEvent, GameState, Maze, Options, Steering, Tilt};
 use carom_render::draw_world;
 use carom_scene::Palette;
 use carom_scene::scene::Scene;
 use carom_session::Link;
-use egui::{Align2, Area, Frame, Id, Key, Response, RichText, Sense, Ui, Vec2};
+use egui::{Align2, Area, Frame, Id, Key, Rect, Response, RichText, Sense, Ui, Vec2};
 
 use crate::game_view::{GameScreen, GameView, LastScreen, Wish, count_line};
 use crate::layout::is_touched;
+use crate::ring;
 use crate::saved::SavedGame;
 use crate::studio::Studio;
 
@@ -196,6 +197,31 @@ impl MazeScreen {
         count_line(ui, &counts, GOALS[usize::from(of == 0)], hint, false);
     }
 
+    /// Draws a ring around the ball where walls hide most of it.
+    fn outline(&self, ui: &Ui, rect: Rect) {
+        let projection = self.view.projection(rect);
+        let spheres = self.game.world().spheres();
+        let (center, radius) = (spheres.positions()[0], spheres.radii()[0]);
+        let camera = projection.camera;
+        // The middle, and four points between it and the edge.
+        let across = [DVec3::X, DVec3::Y].map(|axis| 0.7 * radius * (camera.rotation * axis));
+        let points = [DVec3::ZERO, across[0], -across[0], across[1], -across[1]];
+        let hidden = points.iter().filter(|it| self.is_hidden(center + **it, camera.position));
+        if hidden.count() < 3 {
+            return;
+        }
+        let seen = projection.place(center).zip(projection.radius(center, radius));
+        if let Some((place, radius)) = seen {
+            ring::draw(&ui.painter_at(rect), place, radius);
+        }
+    }
+
+    /// Returns whether a surface is between a point and the eye, which is above the ceiling.
+    fn is_hidden(&self, point: DVec3, eye: DVec3) -> bool {
+        let filter = QueryFilter::DEFAULT.with_spheres(false);
+        matches!(self.game.world().cast_ray(eye, point - eye, &filter), Ok(Some(_)))
+    }
+
     /// Asks whether to continue an earlier game.
     fn wait(&mut self, ui: &Ui) {
         if !self.waits {
@@ -318,6 +344,7 @@ impl GameScreen for MazeScreen {
         let drag = self.hand(ui, &response);
         self.draw();
         self.view.show(ui, &response, drag, studio);
+        self.outline(ui, rect);
         self.wait(ui);
         self.show_last_screen(ui)
     }

@@ -3,19 +3,14 @@
 
 use carom::DVec3;
 use carom_session::View;
-use egui::{Align2, Color32, FontId, Painter, Stroke, Vec2};
+use egui::{Align2, FontId, Painter, Stroke, Vec2};
 
 use crate::look;
 use crate::projection::Projection;
+use crate::ring::{self, DARK, LIGHT};
 
 /// Number of frames of the path.
 const TRAIL: usize = 40;
-
-/// Smallest radius of the ring, in points: a distant ball stays easy to find.
-const SMALLEST: f32 = 7.0;
-
-const LIGHT: Color32 = Color32::WHITE;
-const DARK: Color32 = Color32::from_rgb(20, 24, 32);
 
 /// Returns the text of the label; `None` without a picked ball.
 pub(super) fn label(view: &View) -> Option<String> {
@@ -45,9 +40,7 @@ pub(super) fn draw(painter: &Painter, view: &View, blend: f64, projection: &Proj
     else {
         return;
     };
-    let radius = radius.max(SMALLEST) + 2.0;
-    painter.circle_stroke(place, radius, Stroke::new(4.5, DARK));
-    painter.circle_stroke(place, radius, Stroke::new(2.0, LIGHT));
+    let radius = ring::draw(painter, place, radius);
     let Some(text) = label(view) else { return };
     let galley = painter.layout_no_wrap(text, FontId::proportional(13.0), LIGHT);
     let corner = place + Vec2::new(0.72 * radius + 4.0, -0.72 * radius - 4.0);

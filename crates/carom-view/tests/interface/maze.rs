@@ -1,8 +1,9 @@
 //! The maze game by keys.
 
 use carom_maze::{GameState, Maze};
-use carom_view::{Setup, Start};
+use carom_view::{Action, Setup, Start};
 use egui::Key;
+use egui::epaint::Shape;
 use egui_kittest::kittest::Queryable;
 
 use crate::desk::{Desk, desk, setup};
@@ -114,4 +115,67 @@ fn a_maze_that_is_opened_again_goes_on_when_the_player_does() {
     desk.state_mut().play(Maze::from_text(SHORT, "short").expect("a maze"));
     desk.run_steps(3);
     assert!(desk.query_by_label("Here you were").is_none());
+}
+
+/// Returns the number of rings in the picture.
+fn rings(desk: &Desk) -> usize {
+    let is_ring = |shape: &Shape| matches!(shape, Shape::Circle(it) if it.stroke.width > 4.0);
+    desk.output().shapes.iter().filter(|it| is_ring(&it.shape)).count()
+}
+
+#[test]
+fn a_ball_behind_a_wall_has_a_ring_and_one_in_sight_has_none() {
+    let mut desk = playing(Maze::from_text(SHORT, "short").expect("a maze"));
+    assert_eq!(rings(&desk), 0, "first");
+    // From the front, the near wall hides the ball.
+    desk.state_mut().act(Action::FrontCamera);
+    desk.run_steps(3);
+    assert_eq!(rings(&desk), 1);
+    desk.state_mut().act(Action::TopCamera);
+    desk.run_steps(3);
+    assert_eq!(rings(&desk), 0);
+}
+
+/// Returns the part of the picture that shows anything but sky and ground: what is warm or red is floor and end wall.
+fn warm_part(desk: &mut Desk) -> f64 {
+    desk.remove_cursor();
+    desk.run_steps(2);
+    let picture = desk.render().expect("a picture");
+    let is_warm = |pixel: &[u8]| i32::from(pixel[0]) > i32::from(pixel[2]) + 8;
+    let all = (picture.width() * picture.height()) as usize;
+    picture.as_raw().chunks_exact(4).filter(|it| is_warm(it)).count() as f64 / all as f64
+}
+
+#[test]
+fn the_floor_of_a_maze_stays_whole_however_it_is_tilted() {
+    let mazes = [Maze::course(), Maze::random(1, 8, 6), Maze::random(7, 5, 5)];
+    for maze in mazes {
+        let mut desk = playing(maze.expect("a maze"));
+        let level = warm_part(&mut desk);
+        assert!(level > 0.1, "{level}");
+        for keys in [[Key::ArrowLeft, Key::ArrowUp], [Key::ArrowRight, Key::ArrowDown]] {
+            keys.iter().for_each(|key| desk.key_down(*key));
+            desk.run_steps(8);
+            // Walls hide more or less of the tilted floor, up to the half; glass would show none.
+            let tilted = warm_part(&mut desk);
+            assert!((0.4..1.6).contains(&(tilted / level)), "{keys:?}: {tilted} of {level}");
+            keys.iter().for_each(|key| desk.key_up(*key));
+            desk.run_steps(12);
+        }
+    }
+}
+
+/// The ground ends to the right of the start.
+const OPEN: &str = "#######\n#E   S \n#######\n";
+
+#[test]
+fn a_ball_that_falls_off_is_announced() {
+    let mut desk = playing(Maze::from_text(OPEN, "open").expect("a maze"));
+    desk.key_down(Key::ArrowRight);
+    let message = "Off the edge - once more from the start";
+    let found = (0..600).any(|_| {
+        desk.run_steps(1);
+        desk.query_by_label(message).is_some()
+    });
+    assert!(found);
 }
