@@ -1,6 +1,6 @@
-//! Strikes and pockets of scene files, and the scenes `nine-ball` and `butterfly`.
+//! Strikes and pockets of scene files, and the tables of scenes.
 
-use carom::{DVec3, Tangents, Variation, World};
+use carom::{DVec3, QueryFilter, Tangents, Variation, World};
 use carom_scene::{Library, Scene};
 
 const TEXT: &str = "name = 'shot'
@@ -122,4 +122,23 @@ fn two_breaks_part_as_the_derivative_says_until_nothing_is_alike() {
     assert!(compared > 100, "{compared}");
     assert!(largest(&apart(&world)) > 0.1);
     assert!((world.total_energy() - before).abs() < 1e-14 * before);
+}
+
+#[test]
+fn no_ground_is_seen_between_the_cloth_and_the_rails() {
+    let (scene, _) = Library::new().find("billiards", &[]).unwrap();
+    let world = scene.world().unwrap();
+    let queries = world.queries();
+    let filter = QueryFilter::DEFAULT.with_spheres(false);
+    // The outer edges of the rails, and how far the table reaches down.
+    let (half, bottom) = (DVec3::new(1.43, 0.0, 0.795), -0.11);
+    for column in 0..=400 {
+        for row in 0..=200 {
+            let part = DVec3::new(column as f64 / 200.0 - 1.0, 0.0, row as f64 / 100.0 - 1.0);
+            // Not on the edge itself, which rounding may miss.
+            let place = 0.999 * half * part;
+            let hit = queries.cast_ray(place + DVec3::Y, -2.0 * DVec3::Y, &filter).unwrap();
+            assert!(hit.is_some_and(|it| it.point.y > bottom), "{place}: {hit:?}");
+        }
+    }
 }
