@@ -171,8 +171,7 @@ impl Beside {
             );
         }
         let frame = egui::Frame::window(ui.style());
-        let title_bar = if is_for_fingers(ui.ctx()) { 0.0 } else { 30.0 };
-        let outer = frame.total_margin().sum() + Vec2::new(0.0, title_bar);
+        let outer = frame.total_margin().sum();
         let window = Window::new(self.title)
             .id(egui::Id::unique(("over the picture", self.title)))
             .frame(frame)

@@ -1,10 +1,12 @@
 //! The transport bar: play, step, and move through time.
 
 use carom_session::{Command, FASTEST, SLOWEST, View};
-use egui::{Align, Button, Layout, Rangef, Rect, RichText, Slider, Stroke, Ui, Vec2, Widget};
+use egui::{
+    Align, Button, DragValue, Layout, Rangef, Rect, RichText, Slider, Stroke, Ui, Vec2, Widget,
+};
 
 use crate::action::Action;
-use crate::layout::{is_compact, is_narrow};
+use crate::layout::{has_sheets, is_compact, is_narrow};
 
 /// Speeds that the keys select.
 const SPEEDS: [f64; 9] = [SLOWEST, 0.05, 0.1, 0.25, 0.5, 1.0, 2.0, 5.0, FASTEST];
@@ -136,9 +138,15 @@ fn speed(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
             format!("{speed:.1}x")
         }
     };
-    let slider =
-        Slider::new(&mut speed, SLOWEST..=FASTEST).logarithmic(true).custom_formatter(text);
-    let response = slider.custom_parser(parse_speed).ui(ui).on_hover_text("Speed");
+    let response = if has_sheets(ui) && !is_narrow(ui) {
+        // The time line needs the room of the slider.
+        let number = DragValue::new(&mut speed).range(SLOWEST..=FASTEST).speed(0.01);
+        number.custom_formatter(text).custom_parser(parse_speed).ui(ui)
+    } else {
+        let slider = Slider::new(&mut speed, SLOWEST..=FASTEST).logarithmic(true);
+        slider.custom_formatter(text).custom_parser(parse_speed).ui(ui)
+    };
+    let response = response.on_hover_text("Speed");
     if response.changed() {
         commands.push(Command::Speed(speed));
     }
@@ -163,7 +171,7 @@ fn pace(ui: &mut Ui, view: &View) {
     let playback = &view.playback;
     if playback.playing && !playback.keeps_up {
         let reached = playback.realtime_factor.unwrap_or_default();
-        let word = if is_narrow(ui) { "only" } else { "slower than chosen:" };
+        let word = if has_sheets(ui) { "only" } else { "slower than chosen:" };
         let text = format!("{word} {reached:.2}x");
         ui.colored_label(ui.visuals().warn_fg_color, text)
             .on_hover_text("This machine cannot keep up. Nothing is left out: time goes slower.");

@@ -2,11 +2,11 @@
 
 use carom_maze::{BUILT_IN_DRAWINGS, Maze, MazeError};
 use carom_session::Command;
-use egui::{Align, Button, Layout, Role, Ui, Vec2, WidgetInfo};
+use egui::{Align, Button, Label, Layout, RichText, Role, Ui, Vec2, WidgetInfo};
 
 use super::{App, Screen};
 use crate::action::Action;
-use crate::layout::{has_one_menu, is_for_fingers, scrolled_within};
+use crate::layout::{has_one_menu, is_compact, is_for_fingers, scrolled_within};
 use crate::menu::{self, Entry};
 use crate::plots;
 use crate::watching::PRESETS;
@@ -86,18 +86,11 @@ impl App {
     pub(super) fn bar(&mut self, ui: &mut Ui) -> Vec<Action> {
         let mut actions = Vec::new();
         if has_one_menu(ui) {
-            ui.horizontal_wrapped(|ui| {
-                if !is_for_fingers(ui.ctx()) {
-                    ui.spacing_mut().item_spacing.x = CLOSE;
-                }
-                self.scenes(ui, "Scenes", &mut actions);
-                if let Some((name, _)) = self.shown() {
-                    ui.strong(name);
-                    ui.separator();
-                }
-                let menu = ui.menu_button("Menu", |ui| self.all_menus(ui));
-                actions.extend(menu.inner.unwrap_or_default());
-            });
+            if is_compact(ui) {
+                ui.horizontal_wrapped(|ui| self.narrow_bar(ui, &mut actions));
+            } else {
+                ui.horizontal(|ui| self.narrow_bar(ui, &mut actions));
+            }
             return actions;
         }
         ui.horizontal(|ui| {
@@ -133,6 +126,26 @@ impl App {
             });
         });
         actions
+    }
+
+    /// Shows the bar of a narrow window, with all menus in one.
+    fn narrow_bar(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
+        if !is_for_fingers(ui.ctx()) {
+            ui.spacing_mut().item_spacing.x = CLOSE;
+        }
+        self.scenes(ui, "Scenes", actions);
+        // An embedded window has no room for a title.
+        let is_compact = is_compact(ui);
+        if let Some((name, _)) = self.shown().filter(|_| is_compact) {
+            ui.strong(name);
+            ui.separator();
+        }
+        let menu = ui.menu_button("Menu", |ui| self.all_menus(ui));
+        actions.extend(menu.inner.unwrap_or_default());
+        if let Some(title) = self.title().filter(|_| !is_compact) {
+            ui.separator();
+            ui.add(Label::new(RichText::new(title).strong()).truncate());
+        }
     }
 
     /// The menus beside "Scenes": text with icon, name, and contents.

@@ -56,10 +56,11 @@ fn room(ui: &mut Ui, needs_room: &mut Option<bool>, is_contact: bool) {
 
 /// Shows a limit on balls, at a time or in all; `usual` is the first value of a new limit.
 fn limit(ui: &mut Ui, what: &str, usual: u32, limit: &mut Option<u32>) {
+    let hint = "Largest number of balls of this emitter; without a tick any number";
     ui.horizontal(|ui| {
-        name(ui, what, "Largest number of balls of this emitter; without a tick any number");
+        name(ui, what, hint);
         let mut is_limited = limit.is_some();
-        let tick = ui.checkbox(&mut is_limited, "");
+        let tick = ui.checkbox(&mut is_limited, "").on_hover_text(hint);
         let text = format!("{what} is limited");
         tick.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, is_limited, &text));
         if tick.changed() {
@@ -68,7 +69,7 @@ fn limit(ui: &mut Ui, what: &str, usual: u32, limit: &mut Option<u32>) {
         match limit {
             Some(most) => {
                 let drag = DragValue::new(most).range(1..=u32::MAX).suffix(" balls");
-                let response = ui.add(drag);
+                let response = ui.add(drag).on_hover_text(hint);
                 response.widget_info(|| WidgetInfo {
                     label: Some(format!("{what}, balls")),
                     ..WidgetInfo::drag_value(true, f64::from(*most))

@@ -2,6 +2,8 @@
 //! The software driver draws; the physics runs in the same thread, so that no timing matters.
 
 mod aim;
+mod aligned;
+mod bar;
 mod billiards;
 mod card;
 mod contact_forces;
