@@ -82,7 +82,7 @@ pub use plain_text::{NotText, text_of};
 pub use remarks::remarks;
 pub use scene::Scene;
 pub use schema::json_schema;
-pub use text::SceneText;
+pub use text::{SceneText, from_toml_text};
 pub use tries::Tried;
 
 /// The program of the README, compiled and run as a documentation test.

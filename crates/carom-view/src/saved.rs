@@ -89,12 +89,14 @@ impl SavedValues {
     /// Reads the values from the storage; returns the defaults if there are none or they cannot be
     /// read.
     pub fn load(storage: Option<&dyn Storage>) -> Self {
-        storage.and_then(|storage| eframe::get_value(storage, KEY)).unwrap_or_default()
+        let text = storage.and_then(|storage| storage.get_string(KEY));
+        text.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default()
     }
 
     /// Writes the values to the storage.
     pub fn save(&self, storage: &mut dyn Storage) {
-        eframe::set_value(storage, KEY, self);
+        // Texts, numbers and lists are written without errors.
+        storage.set_string(KEY, serde_json::to_string(self).unwrap_or_default());
     }
 
     /// Keeps a game, and forgets the oldest of too many.
@@ -150,5 +152,39 @@ mod tests {
             kept.keep_game(&link(&format!("t{i}")), SavedGame::Pinball { best: 0, keys: None })
         });
         assert_eq!(kept.games.len(), MOST_GAMES);
+    }
+
+    /// A storage in memory.
+    #[derive(Default)]
+    struct Texts(std::collections::BTreeMap<String, String>);
+
+    impl Storage for Texts {
+        fn get_string(&self, key: &str) -> Option<String> {
+            self.0.get(key).cloned()
+        }
+
+        fn set_string(&mut self, key: &str, value: String) {
+            self.0.insert(key.to_owned(), value);
+        }
+
+        fn remove_string(&mut self, key: &str) {
+            self.0.remove(key);
+        }
+
+        fn flush(&mut self) {}
+    }
+
+    #[test]
+    fn values_come_back_from_a_storage_and_what_is_no_value_is_forgotten() {
+        let mut kept = SavedValues::default();
+        kept.layout.panels.impacts = true;
+        kept.remember(Path::new("/a.toml"));
+        let link = Link::parse("scene=nine-ball").expect("a link");
+        kept.keep_game(&link, SavedGame::Billiards { players: 2, best: Some((9, "a\n".into())) });
+        let mut storage = Texts::default();
+        kept.save(&mut storage);
+        assert_eq!(SavedValues::load(Some(&storage)), kept);
+        storage.set_string(KEY, "(layout:".to_owned());
+        assert_eq!(SavedValues::load(Some(&storage)), SavedValues::default());
     }
 }

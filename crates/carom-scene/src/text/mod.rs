@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 pub(crate) use self::include::named_files;
+pub use self::source::from_toml_text;
 use self::source::{SourceText, fault};
 use crate::budget::Budget;
 use crate::error::{Fault, Problem, SceneError, segments};

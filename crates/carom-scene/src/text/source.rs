@@ -1,9 +1,10 @@
 //! Text of one file, and the lines of its fields.
 
+use serde::de::DeserializeOwned;
 use toml::de::{DeTable, DeValue};
-use toml::{Spanned, Table};
+use toml::{Spanned, Table, Value};
 
-use crate::error::Fault;
+use crate::error::{Fault, segments};
 use crate::wording::{slip_of_syntax, suggestion, without_list};
 
 /// Text of a scene file, or of a part of one.
@@ -25,7 +26,7 @@ impl SourceText {
 
     /// Creates a fault at the line of a field.
     pub fn fault(&self, field: &str, problem: &str) -> Fault {
-        let place: Vec<String> = crate::error::segments(field);
+        let place: Vec<String> = segments(field);
         fault(&self.name, self.line_of(&place).map(|(line, _)| line), field, problem)
     }
 
@@ -53,6 +54,19 @@ impl SourceText {
         }
         Some(found)
     }
+}
+
+/// Deserializes a text in TOML as scene files are, so that a program holds the code of each type once.
+///
+/// # Errors
+/// The line, and what is wrong there.
+pub fn from_toml_text<T: DeserializeOwned>(text: &str) -> Result<T, (usize, String)> {
+    let source =
+        SourceText::new("", text).map_err(|fault| (fault.line.unwrap_or(1), fault.problem))?;
+    serde_path_to_error::deserialize(Value::Table(source.table.clone())).map_err(|error| {
+        let place = source.line_of(&segments(&error.path().to_string()));
+        (place.map_or(1, |(line, _)| line), error.into_inner().message().to_owned())
+    })
 }
 
 /// Converts a syntax error of the TOML parser.

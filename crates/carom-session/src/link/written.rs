@@ -12,8 +12,8 @@ use carom::{
     ColliderId, DQuat, DVec3, EmitterId, ForceId, Friction, Groups, Mass, Pose, SOLID_BALL,
     SphereId, SpringEnd, SpringId,
 };
-use carom_scene::legible;
 use carom_scene::scene::{Color, Force, Quaternion, Simulation, Vector};
+use carom_scene::{from_toml_text, legible};
 use serde::{Deserialize, Serialize};
 
 use crate::change::{Change, PastChange};
@@ -30,7 +30,7 @@ pub fn to_toml(changes: &[PastChange]) -> String {
 
 /// Reads changes from TOML; the error is one line.
 pub fn from_toml(text: &str) -> Result<Vec<PastChange>, String> {
-    let document: Document = toml::from_str(text).map_err(|error| problem_in(text, &error))?;
+    let document: Document = from_toml_text(text).map_err(problem_in)?;
     if !document.changes.is_sorted_by_key(|it| it.frame) {
         return Err("they are not in the order of their frames".to_owned());
     }
@@ -44,7 +44,7 @@ impl Edit {
     /// # Errors
     /// A description of what is wrong, in one line.
     pub fn from_toml(text: &str) -> Result<Self, String> {
-        let single: Single = toml::from_str(text).map_err(|error| problem_in(text, &error))?;
+        let single: Single = from_toml_text(text).map_err(problem_in)?;
         match single.change.into() {
             Change::Edit(edit) => Ok(edit),
             Change::FailedStep => Err("a failed step is no edit".to_owned()),
@@ -52,10 +52,9 @@ impl Edit {
     }
 }
 
-/// Describes an error of the TOML parser in one line.
-fn problem_in(text: &str, error: &toml::de::Error) -> String {
-    let line = error.span().map_or(1, |span| text[..span.start].matches('\n').count() + 1);
-    let problem = error.message().lines().next().unwrap_or_default();
+/// Describes an error in one line.
+fn problem_in((line, problem): (usize, String)) -> String {
+    let problem = problem.lines().next().unwrap_or_default();
     format!("in line {line}, {}", legible(problem, LONGEST_PROBLEM))
 }
 
