@@ -323,6 +323,7 @@ pub unsafe extern "C" fn carom_world_set_collider(
             let collider = collider.physical(Some(before.shape))?;
             let collider = collider.with_kick(kick).with_groups(groups).with_user_data(user_data);
             let mut collider = collider.with_surface_velocity(before.surface_velocity);
+            collider.cushion = before.cushion;
             collider.captures = before.captures && collider.trigger;
             replace(inner, own, with_motion(collider, before.motion))
         })

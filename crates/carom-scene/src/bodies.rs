@@ -198,6 +198,10 @@ pub(crate) fn collider(collider: &Collider) -> Result<carom::Collider, String> {
         .with_kick(collider.kick)
         .with_groups(Groups { groups: collider.groups, collides_with: collider.collides_with })
         .with_user_data(collider.user_data);
+    let solid = match collider.cushion {
+        Some(ratio) => solid.with_cushion(ratio),
+        None => solid,
+    };
     let law = collider.restitution_law;
     let solid = match law {
         Some(law) => solid.with_restitution_law(law.into()),

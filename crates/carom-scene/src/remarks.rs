@@ -52,6 +52,7 @@ fn of_trigger(collider: &Collider) -> Option<&'static str> {
     match collider {
         _ if !collider.trigger => None,
         Collider { kick, .. } if *kick != 0.0 => Some("kick"),
+        Collider { cushion: Some(_), .. } => Some("cushion"),
         Collider { surface_velocity, .. } if *surface_velocity != [0.0; 3] => {
             Some("surface_velocity")
         }

@@ -15,6 +15,7 @@ user_data = 42
 shape = 'half-space'
 position = [0, -1, 0]
 kick = '150 cm/s'
+cushion = 1.7
 surface_velocity = ['36 km/h', 0, 0.5]
 groups = 0b10
 
@@ -35,7 +36,7 @@ fn groups_user_data_kicks_and_belts_reach_the_world() {
     assert_eq!(sphere.groups, Groups { groups: 5, collides_with: 1 });
     assert_eq!(sphere.user_data, 42);
     let (_, floor) = world.colliders().next().unwrap();
-    assert_eq!((floor.kick, floor.user_data), (1.5, 0));
+    assert_eq!((floor.kick, floor.user_data, floor.cushion), (1.5, 0, Some(1.7)));
     assert_eq!(floor.surface_velocity.to_array(), [10.0, 0.0, 0.5]);
     assert_eq!(floor.groups, Groups { groups: 2, collides_with: u32::MAX });
     let (_, emitter) = world.emitters().next().unwrap();
@@ -60,10 +61,12 @@ fn wrong_ones_are_refused_with_their_line() {
     };
     let kick = refusal(&TEXT.replace("'150 cm/s'", "-1"));
     assert!(kick.contains("11") && kick.contains("kick"), "{kick}");
+    let cushion = refusal(&TEXT.replace("1.7", "2.1"));
+    assert!(cushion.contains("12") && cushion.contains("cushion"), "{cushion}");
     let belt = refusal(&TEXT.replace("'36 km/h'", "inf"));
     assert!(belt.contains("surface_velocity"), "{belt}");
     let units = refusal(&TEXT.replace("'36 km/h'", "'3 kg'"));
-    assert!(units.contains("12") && units.contains("m/s"), "{units}");
+    assert!(units.contains("13") && units.contains("m/s"), "{units}");
     let groups = refusal(&TEXT.replace("0b101", "-1"));
     assert!(groups.contains("4") && groups.contains("groups"), "{groups}");
 }

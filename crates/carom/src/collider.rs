@@ -217,6 +217,13 @@ pub struct Collider {
     pub restitution_law: Option<RestitutionLaw>,
     /// Friction at its surface; `None` in each coefficient unless given.
     pub friction: Friction,
+    /// Compliance of the surface, if it has any: the frequency of its vibration across the normal divided by that along
+    /// it, in \[1, 2\]. Friction in impacts then follows Stronge's law instead of the tangential restitution: the
+    /// contact slips, sticks and slips as its two springs are pressed and relax.
+    ///
+    /// Source: W. J. Stronge, Impact Mechanics, Cambridge 2000, section 5.1. 1.7 in pooltool, for cushions of a pool
+    /// table.
+    pub cushion: Option<f64>,
     /// A trigger reports contact and deflects nothing.
     pub trigger: bool,
     /// Whether a sphere that enters this trigger leaves the world at the end of the step, as in the pocket of a billiard
@@ -248,6 +255,7 @@ impl Collider {
             restitution: 1.0,
             restitution_law: None,
             friction: Friction::default(),
+            cushion: None,
             trigger: false,
             captures: false,
             kick: 0.0,
@@ -324,6 +332,27 @@ impl Collider {
         Self { friction: friction.into(), ..self }
     }
 
+    /// Returns the collider with a compliant surface of this frequency ratio.
+    ///
+    /// ```
+    /// use carom::{Collider, DVec3, Pose, Shape, Sphere, World};
+    ///
+    /// let cushion = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO));
+    /// let mut world = World::default();
+    /// world.add_collider(cushion.with_friction(0.5).with_cushion(1.7))?;
+    /// let ball = Sphere::new(DVec3::Y, 0.03).with_velocity(DVec3::new(0.1, -2.0, 0.0));
+    /// let ball = world.add_sphere(ball)?;
+    /// world.step(1.0)?;
+    /// // A steep impact sticks, and the spring along the surface reverses the slip.
+    /// let after = world.sphere(ball)?;
+    /// let slip = after.velocity.x + 0.03 * after.angular_velocity.z;
+    /// assert!(-0.1 < slip && slip < -0.05);
+    /// # Ok::<(), carom::Error>(())
+    /// ```
+    pub fn with_cushion(self, frequency_ratio: f64) -> Self {
+        Self { cushion: Some(frequency_ratio), ..self }
+    }
+
     /// Returns the collider as a trigger.
     pub fn as_trigger(self) -> Self {
         Self { trigger: true, ..self }
@@ -379,6 +408,8 @@ impl Collider {
         validate::unit_interval("restitution", self.restitution)?;
         self.restitution_law.map_or(Ok(()), |law| law.validate())?;
         validate::non_negative("kick", self.kick)?;
+        let is_known = self.cushion.is_none_or(|ratio| (1.0..=2.0).contains(&ratio));
+        validate::require(is_known, "cushion", "in [1, 2]", self.cushion.unwrap_or_default())?;
         let is_possible = self.trigger || !self.captures;
         validate::require(is_possible, "captures", "false for what is no trigger", true)?;
         self.friction.validate()

@@ -1,6 +1,10 @@
 //! Friction of two bodies in contact.
 
+use glam::DVec3;
+
+use crate::compliant_impact::CompliantImpact;
 use crate::error::InvalidValue;
+use crate::norm::Norm;
 use crate::settings::CombineRule;
 use crate::validate;
 
@@ -88,9 +92,63 @@ pub(crate) struct ContactFriction {
     pub rolling: f64,
     pub spinning: f64,
     pub tangential_restitution: f64,
+    /// Frequency ratio of a compliant surface, which replaces the tangential restitution; 0 for none.
+    pub cushion: f64,
+}
+
+/// A slip in an impact.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Slip {
+    /// Speed \[m/s\].
+    pub speed: f64,
+    /// Impulse along the normal, divided by the mass that it has to turn round \[m/s\].
+    pub change: f64,
+    /// Coefficient of restitution.
+    pub restitution: f64,
+    /// Velocity that a unit impulse gives the contact across the normal, divided by that along it.
+    pub mobility_ratio: f64,
 }
 
 impl ContactFriction {
+    /// Whether an impact may leave something of the slip.
+    pub fn reverses(&self) -> bool {
+        self.tangential_restitution > 0.0 || self.cushion > 0.0
+    }
+
+    /// Returns the part of a slip that an impact reverses.
+    pub fn reversal(&self, slip: &Slip) -> f64 {
+        match self.compliant(slip) {
+            Some(impact) => impact.reversal().value,
+            None => self.tangential_restitution,
+        }
+    }
+
+    /// Returns the slip after an impact of a sphere on a surface, where friction suffices \[m/s\].
+    ///
+    /// - `change`: what the impulse along the normal adds to the velocity \[m/s\], and the restitution
+    /// - `masses`: 1/m and 1/(k m) \[1/kg\]
+    pub fn slip_after(
+        &self,
+        slip: DVec3,
+        (change, restitution): (f64, f64),
+        [inverse_mass, inverse_inertia]: [f64; 2],
+    ) -> DVec3 {
+        let mobility_ratio = 1.0 + inverse_inertia / inverse_mass;
+        let speed = slip.norm();
+        -self.reversal(&Slip { speed, change, restitution, mobility_ratio }) * slip
+    }
+
+    /// Returns the impact of a slip on a compliant surface; `None` on another one.
+    pub fn compliant(&self, slip: &Slip) -> Option<CompliantImpact> {
+        let &Slip { speed, change, restitution, mobility_ratio } = slip;
+        (self.cushion > 0.0).then(|| CompliantImpact {
+            incidence: (1.0 + restitution) * speed / (self.sliding * change),
+            restitution,
+            mobility_ratio,
+            frequency_ratio: self.cushion,
+        })
+    }
+
     /// Whether there is any: a tangential force or a torque.
     pub fn acts(&self) -> bool {
         [self.sliding, self.rolling, self.spinning].iter().any(|&it| it > 0.0)
@@ -111,6 +169,7 @@ impl ContactFriction {
                 first.tangential_restitution,
                 second.tangential_restitution,
             ),
+            cushion: 0.0,
         }
     }
 }

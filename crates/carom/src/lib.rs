@@ -37,6 +37,7 @@ mod clock;
 mod collider;
 mod collider_motion;
 mod colliders;
+mod compliant_impact;
 mod connected;
 mod contact_matrix;
 mod contact_tangents;

@@ -72,6 +72,7 @@ impl MaterialPair {
             spinning: spinning.unwrap_or(friction.spinning),
             tangential_restitution: tangential_restitution
                 .unwrap_or(friction.tangential_restitution),
+            ..*friction
         };
     }
 

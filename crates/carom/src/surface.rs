@@ -31,6 +31,8 @@ pub(crate) struct Surface {
     pub whole: ColliderId,
     pub restitution: BodyRestitution,
     pub friction: Friction,
+    /// Frequency ratio of a compliant surface; 0 for none.
+    pub cushion: f64,
     /// Speed that an impact adds along the normal \[m/s\].
     pub kick: f64,
     pub groups: Groups,
@@ -346,13 +348,13 @@ pub(crate) fn place(id: ColliderId, collider: &Collider, time: f64, surfaces: &m
     let axes @ [_, y, _] = rotation::axes(rotation);
     let mut add = |form: Form, role| {
         let (form, role) = if trigger { (form.closed(), Role::Reports) } else { (form, role) };
-        let collider = id;
         surfaces.push(Surface {
             form,
-            collider,
-            whole: collider,
+            collider: id,
+            whole: id,
             restitution,
             friction,
+            cushion: collider.cushion.unwrap_or(0.0),
             kick,
             groups,
             material,

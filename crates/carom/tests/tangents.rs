@@ -113,6 +113,7 @@ fn rough_world(number: u64) -> (World, Vec<SphereId>) {
     let pose = Pose::at(vec(0.1, -0.2, 0.05));
     let pillar = Collider::new(shapes[number as usize % 3].clone(), pose).with_restitution(0.8);
     let pillar = pillar.with_friction(0.5);
+    let pillar = if number % 5 < 2 { pillar.with_cushion(1.7) } else { pillar };
     let axis = vec(0.6, 0.0, 0.8);
     world
         .add_collider(match number % 4 {

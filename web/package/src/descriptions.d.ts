@@ -247,6 +247,11 @@ export interface ColliderDescription {
   spinningFriction?: number;
   /** Coefficient of tangential restitution in [0, 1]; default: that of the touching body. */
   tangentialRestitution?: number;
+  /**
+   * Compliance of the surface: the frequency of its vibration across the normal divided by that
+   * along it, in [1, 2], instead of a tangential restitution; default: rigid.
+   */
+  cushion?: number;
   /** Whether it is a trigger, which reports contact at the end of a frame but deflects nothing. */
   trigger?: boolean;
   /** Whether a sphere that enters this trigger leaves the world. */

@@ -99,6 +99,7 @@ fn kind_of(property: &Value, schema: &Schema) -> String {
             bound("maximum"),
             bound("exclusiveMaximum"),
         ) {
+            (Some(1.0), _, Some(_), _) => "FrequencyRatio",
             (Some(_), _, Some(_), _) => "Restitution",
             (Some(_), ..) => "NonNegative",
             (_, Some(_), _, Some(_)) => "FieldOfView",

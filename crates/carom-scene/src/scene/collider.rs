@@ -72,6 +72,11 @@ pub struct Collider {
     #[schemars(range(min = 0.0, max = 1.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tangential_restitution: Option<f64>,
+    /// Compliance of the surface: the frequency of its vibration across the normal divided by that along it, in [1, 2],
+    /// instead of a tangential restitution. 1.7 for cushions of a pool table; by default rigid.
+    #[schemars(range(min = 1.0, max = 2.0))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cushion: Option<f64>,
     /// Whether it only reports spheres and deflects none.
     #[serde(default, skip_serializing_if = "is_default")]
     pub trigger: bool,
@@ -122,6 +127,7 @@ impl Collider {
             rolling_friction: None,
             spinning_friction: None,
             tangential_restitution: None,
+            cushion: None,
             trigger: false,
             capture: false,
             kick: 0.0,

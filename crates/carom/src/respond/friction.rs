@@ -2,8 +2,9 @@
 
 use glam::DVec3;
 
-use crate::friction::ContactFriction;
+use crate::friction::{ContactFriction, Slip};
 use crate::norm::Norm;
+use crate::restitution::ContactRestitution;
 use crate::sum::Sum;
 use crate::work::Work;
 
@@ -11,6 +12,8 @@ use crate::work::Work;
 const SETTLED: f64 = f64::EPSILON;
 /// Impulses that stay as they are up to this part of the momentum at hand change by rounding of the velocities.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
+/// Normals are the same if their product is larger: far from rounding.
+const SAME_NORMAL: f64 = 1.0 - 1e-12;
 /// Sweeps over the contacts of a group, at most. Each takes kinetic energy, so any number will do.
 const MOST_SWEEPS: usize = 1000;
 
@@ -41,6 +44,8 @@ pub(crate) struct FrictionContact {
     /// Velocity of the surface where it is touched \[m/s\]; zero if body 1 is a sphere.
     pub surface_velocity: DVec3,
     pub friction: ContactFriction,
+    /// Restitution along the normal.
+    pub restitution: ContactRestitution,
     /// Impulse on body 2 along the normal \[N s\].
     pub normal_impulse: f64,
     /// Impulse of friction on body 2, across the normal \[N s\].
@@ -100,6 +105,33 @@ impl FrictionContact {
         self.mass(spheres) * (speeds + self.surface_velocity.norm())
     }
 
+    /// The slip that friction would leave if it were large enough \[m/s\], in an impact with these contacts.
+    fn target(&self, contacts: &[Self], spheres: &[SpinningSphere]) -> DVec3 {
+        let slip = self.slip(spheres);
+        if self.friction.cushion == 0.0 {
+            return -self.friction.tangential_restitution * slip;
+        }
+        let second = &spheres[self.second];
+        let first = self.first.map(|first| &spheres[first]);
+        let lightness = 1.0 / second.mass + first.map_or(0.0, |first| 1.0 / first.mass);
+        let other = first.map_or(self.surface_velocity, |first| first.velocity);
+        // Both faces of an edge bear a part of its impulse.
+        let is_same = |it: &&Self| {
+            (it.first, it.second) == (self.first, self.second)
+                && it.normal.dot(self.normal) > SAME_NORMAL
+        };
+        let pushed: f64 = contacts.iter().filter(is_same).map(|it| it.normal_impulse).sum();
+        let change = pushed * lightness;
+        let approach = change - (second.velocity - other).dot(self.normal);
+        let slipping = Slip {
+            speed: slip.norm(),
+            change,
+            restitution: self.restitution.at(approach),
+            mobility_ratio: 1.0 / (self.mass(spheres) * lightness),
+        };
+        -self.friction.reversal(&slipping) * slip
+    }
+
     /// The largest impulse of friction \[N s\].
     fn limit(&self) -> f64 {
         self.friction.sliding * self.normal_impulse
@@ -132,13 +164,11 @@ pub(crate) fn apply_friction(
         return 0.0;
     }
     if contacts.len() == 1 {
-        let target = -contacts[0].friction.tangential_restitution * contacts[0].slip(spheres);
+        let target = contacts[0].target(contacts, spheres);
         return sweeps(work, contacts, spheres, &[target], largest);
     }
-    let turned = |contact: &FrictionContact| {
-        -contact.friction.tangential_restitution * contact.slip(spheres)
-    };
-    let targets: Vec<DVec3> = contacts.iter().map(turned).collect();
+    let targets = contacts.iter().map(|contact| contact.target(contacts, spheres));
+    let targets: Vec<DVec3> = targets.collect();
     let (before, free) = (spheres.to_vec(), contacts.to_vec());
     let change = sweeps(work, contacts, spheres, &targets, largest);
     if change <= 0.0 || targets.iter().all(|&target| target == DVec3::ZERO) {

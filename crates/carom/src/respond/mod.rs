@@ -124,6 +124,9 @@ pub(crate) fn friction_of(bodies: Bodies, system: &System) -> ContactFriction {
         }
     };
     let mut friction = ContactFriction::of(both, system.settings.friction_combine_rule);
+    if let Bodies::Surface { surface, .. } = bodies {
+        friction.cushion = system.surfaces[surface as usize].cushion;
+    }
     if let Some(pair) = system.material_pair(bodies) {
         pair.apply_friction(&mut friction);
     }

@@ -1,6 +1,7 @@
 //! The law of one impact in dual numbers: Newton's law along the normal, then Walton's law across it.
 
 use super::dual::Dual;
+use crate::friction::{ContactFriction, Slip};
 use crate::real::{Real, Vector};
 
 /// A sphere in an impact.
@@ -31,7 +32,8 @@ pub(super) struct Coefficients {
     pub restitution_by_speed: f64,
     /// Coefficient of Coulomb friction.
     pub sliding: Dual,
-    pub tangential_restitution: f64,
+    /// Friction across the normal, without its derivative.
+    pub friction: ContactFriction,
     /// Speed that the surface adds along the normal \[m/s\].
     pub kick: f64,
 }
@@ -87,7 +89,8 @@ pub(super) fn collide(
     let gained = Dual::constant(coefficients.kick) - (one + restitution) * closing;
     let impulse = gained / lightness;
     let along = normal * impulse;
-    let across = friction(first, second, normal, (relative, impulse), coefficients);
+    let coefficients = Coefficients { restitution, ..*coefficients };
+    let across = friction(first, second, normal, (relative, gained), &coefficients);
     let turning = normal.cross(across);
     second.push(along + across, turning);
     if let FirstBody::Sphere(sphere) = first {
@@ -95,32 +98,64 @@ pub(super) fn collide(
     }
 }
 
-/// Returns the impulse of friction on body 2 \[N s\]. `relative` is the velocity of body 2 relative to body 1
-/// \[m/s\], `impulse` the impulse along the normal \[N s\].
+/// Returns the impulse of friction on body 2 \[N s\]. `relative` is the velocity of body 2 relative to body 1,
+/// `gained` the change of that along the normal \[m/s\].
 fn friction(
     first: &FirstBody,
     second: &StruckSphere,
     normal: Vector<Dual>,
-    (relative, impulse): (Vector<Dual>, Dual),
+    (relative, gained): (Vector<Dual>, Dual),
     coefficients: &Coefficients,
 ) -> Vector<Dual> {
-    let nothing = normal * Dual::constant(0.0);
-    let limit = coefficients.sliding * impulse;
-    let (rim, mobility) = match first {
+    let (one, nothing) = (Dual::constant(1.0), normal * Dual::constant(0.0));
+    let (rim, mobility, lightness) = match first {
         FirstBody::Sphere(sphere) => (
             sphere.rim_velocity(normal) + second.rim_velocity(normal),
             sphere.mobility() + second.mobility(),
+            one / sphere.mass + one / second.mass,
         ),
-        FirstBody::Surface(_) => (second.rim_velocity(normal), second.mobility()),
+        FirstBody::Surface(_) => {
+            (second.rim_velocity(normal), second.mobility(), one / second.mass)
+        }
     };
+    let limit = coefficients.sliding * (gained / lightness);
     let slip = relative - normal * relative.dot(normal) - rim;
-    let speed = slip.length_squared();
-    if limit.value <= 0.0 || speed.value == 0.0 {
+    if limit.value <= 0.0 {
         return nothing;
     }
-    let speed = speed.sqrt();
-    let share = Dual::constant(1.0 + coefficients.tangential_restitution) / mobility;
+    let speed = match slip.length_squared() {
+        it if it.value > 0.0 => it.sqrt(),
+        _ => Dual::constant(0.0),
+    };
+    let share = (one + reversal(coefficients, (speed, gained), mobility / lightness)) / mobility;
+    if speed.value == 0.0 {
+        // A small slip does not reach the limit of friction.
+        return slip * share * Dual::constant(-1.0);
+    }
     let stops = share * speed;
     let size = if stops.value <= limit.value { stops } else { limit };
     slip * (size / speed) * Dual::constant(-1.0)
+}
+
+/// Returns the part of a slip of this speed \[m/s\] that the impact reverses.
+fn reversal(
+    coefficients: &Coefficients,
+    (speed, gained): (Dual, Dual),
+    mobility_ratio: Dual,
+) -> Dual {
+    let &Coefficients { restitution, sliding, friction, .. } = coefficients;
+    let slip = Slip {
+        speed: speed.value,
+        change: gained.value,
+        restitution: restitution.value,
+        mobility_ratio: mobility_ratio.value,
+    };
+    let Some(impact) = friction.compliant(&slip) else {
+        return Dual::constant(friction.tangential_restitution);
+    };
+    let found = impact.reversal();
+    let incidence = (Dual::constant(1.0) + restitution) * speed / (sliding * gained);
+    let [by_incidence, by_restitution] = found.by;
+    let change = by_incidence * incidence.change + by_restitution * restitution.change;
+    Dual::new(found.value, change)
 }

@@ -398,7 +398,7 @@ impl Replay<'_> {
             normal,
             restitution,
             sliding: sliding_of(system, bodies),
-            tangential_restitution: respond::friction_of(bodies, system).tangential_restitution,
+            friction: respond::friction_of(bodies, system),
             kick: impact.kick,
             companions: Vec::new(),
             time: self.elapsed + impact.time,

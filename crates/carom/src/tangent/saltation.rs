@@ -9,6 +9,7 @@ use super::state::SphereTangent;
 use super::supported::Rates;
 use super::variation::Variation;
 use crate::forces::LinearForce;
+use crate::friction::ContactFriction;
 use crate::id::{ColliderId, SphereId};
 use crate::real::Vector;
 use crate::rule::exact::NormalCurvature;
@@ -23,7 +24,7 @@ pub(super) struct Saltation {
     pub normal: DVec3,
     pub restitution: RestitutionRates,
     pub sliding: Combined,
-    pub tangential_restitution: f64,
+    pub friction: ContactFriction,
     /// Speed that the surface adds along the normal \[m/s\].
     pub kick: f64,
     /// Indices of other spheres whose accelerations depend on the velocities of these, and how much smaller their
@@ -319,7 +320,7 @@ impl Saltation {
             restitution: Dual::new(self.restitution.combined.value, change.restitution),
             restitution_by_speed: self.restitution.by_speed,
             sliding: Dual::new(self.sliding.value, change.sliding),
-            tangential_restitution: self.tangential_restitution,
+            friction: self.friction,
             kick: self.kick,
         };
         collide(&mut first, &mut second, normal, &coefficients);

@@ -16,6 +16,7 @@ from carom._scene.parts.kinds import (
     Color,
     Direction,
     Finite,
+    FrequencyRatio,
     Heights,
     LargeNumber,
     Lengths,
@@ -430,6 +431,9 @@ class Collider(Part):
             as of a conveyor belt: friction feels it, and the shape stays.
         capture: Whether a sphere that enters this trigger leaves the scene, as in the pocket of a
             billiard table.
+        cushion: Compliance of the surface: the frequency of its vibration across the normal divided
+            by that along it, in [1, 2], instead of a tangential restitution. 1.7 for cushions of a
+            pool table; by default rigid.
     """
 
     shape: Shape
@@ -456,6 +460,7 @@ class Collider(Part):
     restitution_law: RestitutionLaw | None = None
     surface_velocity: Vector = ORIGIN
     capture: bool = False
+    cushion: FrequencyRatio | None = None
 
     def __post_init__(self) -> None:
         super().__post_init__()

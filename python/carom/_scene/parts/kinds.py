@@ -97,6 +97,10 @@ Finite: TypeAlias = Annotated[float, Requirement("finite", math.isfinite)]
 """Any finite number."""
 Restitution: TypeAlias = Annotated[float, Requirement("in [0, 1]", lambda value: 0 <= value <= 1)]
 """A number in [0, 1]."""
+FrequencyRatio: TypeAlias = Annotated[
+    float, Requirement("in [1, 2]", lambda value: 1 <= value <= 2)
+]
+"""A number in [1, 2]."""
 Count: TypeAlias = Annotated[int, _AT_LEAST_ONE, _IN_32_BITS]
 """A whole number >= 1."""
 Number: TypeAlias = Annotated[int, _IN_32_BITS]

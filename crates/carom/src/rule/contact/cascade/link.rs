@@ -95,8 +95,7 @@ impl Link {
                 let slab = Origin::slab(&solver.slabs, slab);
                 let (batch, lane) = (batch as usize, lane as usize);
                 let batches = &slab.batches;
-                let friction = batches.frictions.get(batch);
-                let rolling = batches.rollings.get(batch);
+                let (rough, rolling) = (batches.frictions.get(batch), batches.rollings.get(batch));
                 let carried = batches.approaches[batch].previous[lane];
                 Self {
                     slots: slab.slots_of(batch, lane).map(|slot| slot as u32),
@@ -104,11 +103,12 @@ impl Link {
                     radius_sum: batches.approaches[batch].radius_sum[lane],
                     restitution: batches.restitution(batch, lane),
                     friction: ContactFriction {
-                        sliding: friction.map_or(0.0, |it| it.sliding[lane]),
+                        sliding: rough.map_or(0.0, |it| it.sliding[lane]),
                         rolling: rolling.map_or(0.0, |it| it.rolling[lane]),
                         spinning: rolling.map_or(0.0, |it| it.spinning[lane]),
-                        tangential_restitution: friction
+                        tangential_restitution: rough
                             .map_or(0.0, |it| it.tangential_restitution[lane]),
+                        cushion: 0.0,
                     },
                     carried,
                     bears: carried > 0.0 || batches.pairs[batch].impulse[lane] > 0.0,
@@ -236,9 +236,13 @@ impl Link {
     pub fn strike(&mut self, bodies: &[Body], approach: f64) {
         self.set(Role::Bears, -self.restitution.at(approach) * approach);
         self.approach = approach;
-        let part = self.friction.tangential_restitution;
-        if part > 0.0 {
-            self.slip = -part * self.slip_of(bodies);
+        if self.friction.reverses() {
+            let slip = self.slip_of(bodies);
+            let restitution = self.restitution.at(approach);
+            // Only surfaces are compliant, so the masses of a first sphere do not matter.
+            let masses = [bodies[self.second].inverse_mass, bodies[self.second].inverse_inertia];
+            let change = (1.0 + restitution) * approach;
+            self.slip = self.friction.slip_after(slip, (change, restitution), masses);
         }
     }
 

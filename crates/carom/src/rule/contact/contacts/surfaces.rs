@@ -245,11 +245,12 @@ impl SurfaceContact {
             self.belt = belt - belt.dot(self.normal) * self.normal;
         }
         self.slip = self.belt;
-        let part = self.friction.tangential_restitution;
-        if self.approach > 0.0 && part > 0.0 && !run.spin.is_empty() {
+        if self.approach > 0.0 && self.friction.reverses() && !run.spin.is_empty() {
             let (before, spin) = (run.before[slot].vector(), run.spin_before[slot].vector());
-            let slip = slip(before - self.velocity, self.normal, spin);
-            self.slip = -part * (slip - self.belt);
+            let slip = slip(before - self.velocity, self.normal, spin) - self.belt;
+            let change = (1.0 + self.restitution) * self.approach + self.kicked;
+            let masses = [run.velocity[slot].number(), run.spin[slot].number()];
+            self.slip = self.friction.slip_after(slip, (change, self.restitution), masses);
             if is_felt {
                 self.slip += self.belt;
             }

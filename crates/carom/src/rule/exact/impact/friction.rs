@@ -93,6 +93,7 @@ fn contact_of(
         normal,
         surface_velocity: DVec3::ZERO,
         friction: respond::friction_of(bodies, context.system),
+        restitution: respond::restitution_of(bodies, context.system),
         normal_impulse,
         impulse: DVec3::ZERO,
     }
