@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use carom::{Collider, DVec3, MotionPart, Pose, Shape, Sides, Sphere};
+use carom::{Collider, DQuat, DVec3, Motion, MotionPart, Pose, Shape, Sides, Sphere};
 
 use crate::common::{G, assert_close, vec};
 use crate::{SIZES, contact, exact, first_root, heavy_world, impacts, oscillate, plate};
@@ -125,5 +125,118 @@ fn balls_stay_in_a_box_that_swings_under_all_rules_that_promise_it() {
                 }
             }
         }
+    }
+}
+
+/// The way of a smooth ball along a swing, by Runge and Kutta's scheme in its frame: `s'' = φ'' d + φ'² s - g sin φ` at
+/// the height d above the pivot.
+fn along_swing(start: f64, height: f64, [amplitude, omega]: [f64; 2], end: f64) -> f64 {
+    let rate = |t: f64, [s, v]: [f64; 2]| {
+        let (angle, turn) = (amplitude * (omega * t).sin(), amplitude * omega * (omega * t).cos());
+        let faster = -omega * omega * angle;
+        [v, faster * height + turn * turn * s - G * angle.sin()]
+    };
+    let steps = 20_000;
+    let h = end / f64::from(steps);
+    let mut state = [start, 0.0];
+    let after = |state: [f64; 2], h: f64, rate: [f64; 2]| [0, 1].map(|i| state[i] + h * rate[i]);
+    for step in 0..steps {
+        let t = f64::from(step) * h;
+        let first = rate(t, state);
+        let second = rate(t + 0.5 * h, after(state, 0.5 * h, first));
+        let third = rate(t + 0.5 * h, after(state, 0.5 * h, second));
+        let fourth = rate(t + h, after(state, h, third));
+        let mean = [0, 1].map(|i| (first[i] + 2.0 * second[i] + 2.0 * third[i] + fourth[i]) / 6.0);
+        state = after(state, h, mean);
+    }
+    state[0]
+}
+
+#[test]
+fn smooth_ball_on_a_swing_slides_as_its_equation_in_the_frame_of_the_swing_says() {
+    let (amplitude, frequency, length, radius) = (0.2, 0.3, 1.0, 0.1);
+    let omega = TAU * frequency;
+    for size in SIZES {
+        let mut world = heavy_world(exact(), size);
+        let pivot = vec(0.0, length, 0.0) * size;
+        let motion = MotionPart::Swing { axis: DVec3::Z, pivot, amplitude, frequency, phase: 0.0 };
+        world.add_collider(plate([motion]).with_restitution(0.0)).unwrap();
+        let (start, height) = (0.05, radius - length);
+        let velocity = amplitude * omega * vec(-height, start, 0.0);
+        let ball = Sphere::new(vec(start, radius, 0.0) * size, radius * size);
+        world.add_sphere(ball.with_velocity(velocity * size)).unwrap();
+        let mut off: f64 = 0.0;
+        for frame in 1..=60 {
+            world.step(1.0 / 60.0).unwrap();
+            let t = f64::from(frame) / 60.0;
+            let angle = amplitude * (omega * t).sin();
+            let along = along_swing(start, height, [amplitude, omega], t);
+            let place = world.spheres().positions()[0] / size;
+            let expected =
+                vec(0.0, length, 0.0) + DQuat::from_rotation_z(angle) * vec(along, height, 0.0);
+            off = off.max((place - expected).length());
+        }
+        // What pieces of path that are each right to 1e-7 of the radius leave after a second.
+        assert!(!world.was_stepped() && off < 2e-5, "{off}");
+    }
+}
+
+#[test]
+fn ball_on_a_turning_platform_circles_at_two_sevenths_of_its_rate() {
+    // Weltner, Am. J. Phys. 47, 984 (1979): a circle, at 2/7 of the rate.
+    let (rate, radius) = (3.0, 0.1);
+    for size in SIZES {
+        let mut world = heavy_world(exact(), size);
+        let floor = plate(Motion::default()).with_restitution(0.0).with_friction(1.0);
+        world.add_collider(floor.moving(DVec3::ZERO, rate * DVec3::Y)).unwrap();
+        let (start, velocity) = (vec(0.5, radius, 0.0), vec(0.3, 0.0, 0.4));
+        let beside = velocity - rate * DVec3::Y.cross(start);
+        let ball = Sphere::new(start * size, radius * size)
+            .with_velocity(velocity * size)
+            .with_angular_velocity(DVec3::Y.cross(beside) / radius);
+        world.add_sphere(ball).unwrap();
+        let mut off: f64 = 0.0;
+        for frame in 1..=120 {
+            world.step(1.0 / 60.0).unwrap();
+            let turned = 2.0 / 7.0 * rate * f64::from(frame) / 60.0;
+            let expected = DQuat::from_rotation_y(turned) * velocity;
+            off = off.max((world.spheres().velocities()[0] / size - expected).length());
+        }
+        // A ball that rolls on what turns is stepped: of first order.
+        assert!(off < 1e-2, "{off}");
+    }
+}
+
+#[test]
+fn rough_ball_bounces_off_a_turning_platform_as_off_one_at_rest_in_its_frame() {
+    let (rate, radius, friction, restitution) = (7.0, 0.1, 0.15, 0.8);
+    let mut world = heavy_world(exact(), 1.0);
+    let floor = plate(Motion::default()).with_restitution(restitution);
+    let floor = floor.with_friction(friction).moving(DVec3::ZERO, rate * DVec3::Y);
+    world.add_collider(floor).unwrap();
+    let ball = Sphere::new(vec(0.4, 0.5, -0.2), radius).with_velocity(vec(0.3, 0.0, 0.4));
+    let id = world.add_sphere(ball.with_angular_velocity(vec(3.0, 2.0, -9.0))).unwrap();
+    let mut count = 0;
+    while count < 12 {
+        let before = world.sphere(id).unwrap();
+        let report = world.step_to_next_event(1.0).unwrap();
+        let [impact] = &report.impacts[..] else { continue };
+        let time = impact.time;
+        let platform = rate * DVec3::Y;
+        let place = before.position + time * before.velocity - 0.5 * G * time * time * DVec3::Y;
+        // Seen from the platform it flies and turns relative to it.
+        let velocity = before.velocity - G * time * DVec3::Y - platform.cross(place);
+        let spin = before.angular_velocity - platform;
+        let slip = (velocity + spin.cross(-radius * DVec3::Y)).with_y(0.0);
+        let most = friction * (1.0 + restitution) * -velocity.y;
+        let pushed = -slip.normalize() * (2.0 / 7.0 * slip.length()).min(most);
+        let bounced = velocity.with_y(-restitution * velocity.y) + pushed;
+        let turned = spin - 2.5 / radius * DVec3::Y.cross(pushed);
+        let after = world.sphere(id).unwrap();
+        let off = after.velocity - platform.cross(place) - bounced;
+        let off_turning = radius * (after.angular_velocity - platform - turned);
+        // Rounding of one flight.
+        assert!(off.length().max(off_turning.length()) < 1e-12, "{off} {off_turning}");
+        count += 1;
     }
 }
