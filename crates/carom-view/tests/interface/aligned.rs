@@ -7,7 +7,9 @@ use egui::epaint::{Shape, TextShape};
 use egui::{Key, Rect};
 use egui_kittest::kittest::{By, Queryable};
 
-use crate::desk::{Desk, press, scene, watching_at};
+use carom_view::Setup;
+
+use crate::desk::{Desk, PlainHost, desk_of, press, scene, setup, start, watching_at};
 
 /// Largest distance of edges that are aligned, in points.
 const ALIGNED: f32 = 1.0;
@@ -122,16 +124,23 @@ fn the_bars_have_their_controls_in_a_row_in_windows_of_four_sizes() {
 
 #[test]
 fn the_time_line_is_long_and_the_pace_beside_it_covers_nothing() {
-    for size in [WINDOW, [800.0, 600.0], [844.0, 390.0]] {
-        let mut desk = watching_at(size, "cradle");
-        // Nothing keeps up with the fastest speed but a short scene; the message is there or not.
+    let by_fingers = |has_coarse_pointer| {
+        let host = Box::new(PlainHost { has_coarse_pointer, ..PlainHost::default() });
+        Setup { host, start: start("cradle"), ..setup() }
+    };
+    for (size, is_touched) in
+        [(WINDOW, false), ([800.0, 600.0], false), ([844.0, 390.0], false), ([844.0, 390.0], true)]
+    {
+        let mut desk = desk_of(size, by_fingers(is_touched));
+        // The message of a pace that is not reached may be there or not.
         desk.state_mut().command(Command::Speed(10.0));
         press(&mut desk, Key::P);
         desk.run_steps(5);
         let line = desk.get_by_label("Time line").rect();
-        assert!(line.width() >= 100.0, "{size:?}: {line}");
+        assert!(line.width() >= 100.0, "{size:?}, {is_touched}: {line}");
         let clock = desk.get_by_label_contains("t = ").rect();
-        assert!(clock.right() <= line.left(), "{size:?}: {clock} {line}");
+        assert!(clock.right() <= line.left(), "{size:?}, {is_touched}: {clock} {line}");
+        assert!(line.right() <= size[0], "{size:?}, {is_touched}: {line}");
     }
 }
 
