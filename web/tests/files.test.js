@@ -66,7 +66,7 @@ test("panels stay open when the page is loaded again", async () => {
   const viewer = await desk.choose("simtest1");
   await viewer.page.keyboard.press("l");
   await viewer.widget("Approach, m/s", "Label");
-  const isKept = () => Object.values(localStorage).some((it) => it.includes("impacts:true"));
+  const isKept = () => Object.values(localStorage).some((it) => it.includes('"impacts":true'));
   await viewer.page.waitForFunction(isKept);
   await viewer.page.reload();
   await viewer.page.waitForSelector("#loading.done", { state: "attached" });
