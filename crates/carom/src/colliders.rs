@@ -27,7 +27,7 @@ pub(crate) struct Colliders {
     moving: OnceLock<Arc<MovingSurfaces>>,
     moving_triggers: OnceLock<Arc<MovingSurfaces>>,
     /// Made when first read after a change, as the trees.
-    surfaces: OnceLock<Vec<Surface>>,
+    surfaces: OnceLock<Arc<Vec<Surface>>>,
     tree: OnceLock<SurfaceTree>,
     /// Tree of the surfaces of triggers.
     trigger_tree: OnceLock<SurfaceTree>,
@@ -40,6 +40,11 @@ impl Colliders {
 
     /// The surfaces of all colliders, in their order.
     pub fn surfaces(&self) -> &[Surface] {
+        self.shared_surfaces()
+    }
+
+    /// [`Self::surfaces`], which others may keep.
+    pub fn shared_surfaces(&self) -> &Arc<Vec<Surface>> {
         self.surfaces.get_or_init(|| {
             // Growing by doubling would copy those of large meshes twice.
             let counts = self.list.iter().map(|(_, it)| match &it.shape {
@@ -56,7 +61,7 @@ impl Colliders {
                 }
                 _ => Arc::new(Seams::of(&self.list, &plain)),
             });
-            seams.applied(&self.list, plain)
+            Arc::new(seams.applied(&self.list, plain))
         })
     }
 

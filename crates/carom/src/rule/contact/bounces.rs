@@ -265,7 +265,7 @@ impl FinalFlight {
         // A turning surface may catch up with a sphere that has just bounced off it.
         let stops = slabs.surfaces_of(self.slot).filter_map(|contact| {
             let place = places.at_start(contact.surface);
-            let may_be_met = contact.impulses.normal == 0.0 || place.1.turns_form(&place.0);
+            let may_be_met = contact.impulses.normal == 0.0 || place.1.turns_form(place.0);
             (may_be_met && !contact.passes).then(|| self.meets(slots, place))?
         });
         Stop::first(stops)
@@ -280,7 +280,7 @@ impl FinalFlight {
                 return self.meets(slots, place);
             }
             let radius = slots.position[self.slot].number();
-            let (form, motion) = place.1.carry(&place.0, self.start);
+            let (form, motion) = place.1.carry(place.0, self.start);
             let Flight { position, velocity, .. } = self.flight;
             let Separation { distance, normal, point } = sphere_surface(&form, position, radius)?;
             let speed = -(velocity - motion.velocity_at(point)).dot(normal);
@@ -291,9 +291,9 @@ impl FinalFlight {
     }
 
     /// Returns where the sphere reaches a surface.
-    fn meets(&self, slots: &Slots, place: &Place) -> Option<Stop> {
+    fn meets(&self, slots: &Slots, place: Place) -> Option<Stop> {
         let radius = slots.position[self.slot].number();
-        let (form, motion) = place.1.carry(&place.0, self.start);
+        let (form, motion) = place.1.carry(place.0, self.start);
         let time = contact_time::sphere_surface(
             &self.flight,
             radius,
@@ -305,7 +305,7 @@ impl FinalFlight {
     }
 
     /// The stop of the sphere after a time \[s\] of the final flight, at a surface.
-    fn stop(&self, time: f64, radius: f64, (form, motion): &Place) -> Stop {
+    fn stop(&self, time: f64, radius: f64, (form, motion): Place) -> Stop {
         let (place, rest) = (self.flight.after(time).0, self.duration - time);
         let end = if motion.is_at_rest() {
             place

@@ -62,7 +62,7 @@ pub(super) fn begin(system: &System, motion: &mut Motion, h: f64, solver: &mut S
         && system.spheres.applied_force.is_empty();
     // Bounds of moving surfaces are present ones.
     solver.is_stale |= solver.has_moving_surfaces;
-    solver.places.begin_frame(system.surfaces, h, are_surfaces_changed);
+    solver.places.begin_frame(system.colliders.shared_surfaces(), h, are_surfaces_changed);
 }
 
 /// Copies from the world what the solver does not have from the frame before, which wrote it to the world.
@@ -75,7 +75,7 @@ pub(super) fn go_on(system: &System, motion: &mut Motion, h: f64, solver: &mut S
     if is_known && solver.slots.are_of(&system.spheres.id) {
         if !solver.places.are_of(system.surfaces) {
             // A snapshot that was read does not hold them.
-            solver.places.begin_frame(system.surfaces, h, false);
+            solver.places.begin_frame(system.colliders.shared_surfaces(), h, false);
         }
         solver.slots.turn.fill(Row::default());
     } else {

@@ -10,12 +10,15 @@ use super::contacts::surfaces::{self, SurfaceContact};
 use super::neighbours::near_moving::NearMoving;
 use super::places::Places;
 use super::slabs::Slab;
+use super::slabs::search::MOST_SURFACES;
 use super::slabs::landings::Landings;
 use super::slots::Run;
+use super::slots::row::Row;
 use super::slots::slab_totals::SlabTotals;
 use super::solver::{Bounce, Solver, Turn};
 use super::sub_step::SubStep;
 use crate::band::Band;
+use crate::bounds::Bounds;
 use crate::contact_time;
 use crate::flight::Flight;
 use crate::mesh::Facet;
@@ -107,7 +110,7 @@ impl Guard<'_> {
                     let start = own.map_or(run.reference[slot].vector(), |it| it.start);
                     let start = self.start_of(slab.start + slot, start);
                     let way = (start, self.turn_of(slab.start + slot));
-                    let mut surfaces = self.surfaces_of(slab.start + slot);
+                    let mut surfaces = self.surfaces_of(slab.start + slot, run.position[slot], start);
                     let own = slab.surfaces[first..].iter();
                     for passed in
                         own.take_while(|it| it.slot as usize == slot).filter(|it| it.passes)
@@ -135,7 +138,7 @@ impl Guard<'_> {
         let start = self.start_of(first + slot, contacts[0].start);
         let passes = |contact: &SurfaceContact| {
             let forms =
-                [&self.places.at_start(contact.surface).0, &self.places.at_end(contact.surface).0];
+                [self.places.at_start(contact.surface).0, self.places.at_end(contact.surface).0];
             let way = Way { forms, centers: [start, end] };
             !contact.passes && way.pushed(LEAST_IN_FRONT * radius, BESIDE * radius).is_some()
         };
@@ -174,28 +177,39 @@ impl Guard<'_> {
     ) -> Vec<Passage> {
         let passage = |&number: &u32| {
             let place = self.places.at_start(number);
-            let (before, motion) = place.1.carry(&place.0, from);
+            let (before, motion) = place.1.carry(place.0, from);
             let carried = motion.carried(start, to - from);
             let is_whole = to == self.h;
             let after = if is_whole {
                 self.places.at_end(number).0.clone()
             } else {
-                place.1.carry(&place.0, to).0
+                place.1.carry(place.0, to).0
             };
             Passage { before, after, carried }
         };
         surfaces.iter().map(passage).collect()
     }
 
-    /// The numbers of all surfaces that deflect a sphere, by its slot.
-    fn surfaces_of(&self, slot: usize) -> Vec<u32> {
+    /// The numbers of the surfaces that deflect a sphere, by its slot, near its path from `start` \[m\]; all of them
+    /// where they are few.
+    fn surfaces_of(&self, slot: usize, end: Row, start: DVec3) -> Vec<u32> {
         let sphere = self.index[slot];
         let deflects = |it: &u32| {
             let own = self.places.surface_of(*it);
             self.system.surfaces[own as usize].role == Role::Deflects
                 && self.system.meets_surface(sphere, own)
         };
-        self.places.all_known().filter(deflects).collect()
+        if self.system.surfaces.len() <= MOST_SURFACES {
+            return self.places.all_known().filter(deflects).collect();
+        }
+        let path = Bounds::around(start, DVec3::ZERO).union(Bounds::around(end.vector(), DVec3::ZERO));
+        // The sphere may be pushed from surface to surface.
+        let beside = 2.0 * (end.number() + (end.vector() - start).length());
+        let mut near = Vec::new();
+        self.system.tree.near(&path.widened(beside), &mut near);
+        let is_at_rest = |it: &u32| self.system.surfaces[*it as usize].motion.is_at_rest();
+        let at_rest = near.into_iter().filter(is_at_rest);
+        at_rest.chain(self.places.images_and_moving()).filter(deflects).collect()
     }
 
     /// Returns where a sphere was turned back, by its slot.

@@ -9,7 +9,7 @@ use super::met::{Contact, Met, Partners};
 use crate::contact_time;
 use crate::flight::Flight;
 use crate::rule::contact::contacts::swept::FAR;
-use crate::rule::contact::places::Place;
+use crate::rule::contact::places::Places;
 use crate::rule::contact::sub_step::SubStep;
 
 /// Largest number of impacts per sphere of an island; later ones are answered together.
@@ -50,7 +50,7 @@ impl Course {
     pub fn run(
         &mut self,
         island: &mut Island,
-        places: &[Place],
+        places: &Places,
         (time, sub_step): (f64, &SubStep),
     ) {
         self.visits = 0;
@@ -129,7 +129,7 @@ impl Course {
     }
 
     /// Answers the impacts of bodies that meet after a time of their flight \[s\], and of what touches them.
-    fn meet(&mut self, island: &mut Island, places: &[Place], time: f64) {
+    fn meet(&mut self, island: &mut Island, places: &Places, time: f64) {
         let Island { bodies, links } = island;
         for link in &mut *links {
             let (was_awaited, bore) = (link.role == Role::Awaited, link.bears);
@@ -167,7 +167,7 @@ impl Course {
 }
 
 /// Sets the role of each link in a flight of at most this time \[s\]; in the last flight, none awaits a meeting.
-fn expect(island: &mut Island, places: &[Place], (left, sub_step): (f64, &SubStep), is_last: bool) {
+fn expect(island: &mut Island, places: &Places, (left, sub_step): (f64, &SubStep), is_last: bool) {
     let Island { bodies, links } = island;
     for link in links {
         let is_there = link.measure(bodies, places);
@@ -193,7 +193,7 @@ fn expect(island: &mut Island, places: &[Place], (left, sub_step): (f64, &SubSte
 }
 
 /// Time of the first meeting that a link awaits in a flight of a time \[s\].
-fn first_meeting(island: &mut Island, places: &[Place], time: f64) -> Option<f64> {
+fn first_meeting(island: &mut Island, places: &Places, time: f64) -> Option<f64> {
     let touched = touched(island);
     let bodies = &island.bodies;
     let path = |place: usize| path(&bodies[place], touched[place], time);
@@ -204,7 +204,7 @@ fn first_meeting(island: &mut Island, places: &[Place], time: f64) -> Option<f64
         let found = match link.first {
             Some(other) => contact_time::sphere_sphere(&path(other), &own, link.size(), time),
             None => {
-                let (form, motion) = &places[link.surface as usize];
+                let (form, motion) = places.at_start(link.surface);
                 contact_time::sphere_surface(&own, link.size(), form, motion, time)
             }
         };

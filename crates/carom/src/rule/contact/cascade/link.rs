@@ -8,7 +8,7 @@ use crate::friction::ContactFriction;
 use crate::restitution::ContactRestitution;
 use crate::rule::contact::contacts::batch::{Impulses, get};
 use crate::rule::contact::contacts::coulomb::{limited, slip};
-use crate::rule::contact::places::Place;
+use crate::rule::contact::places::Places;
 use crate::rule::contact::slabs::incidence::Origin;
 use crate::rule::contact::slots::Slots;
 use crate::rule::contact::solver::Solver;
@@ -158,10 +158,10 @@ impl Link {
     }
 
     /// Measures normal and gap. Returns whether there are any.
-    pub fn measure(&mut self, bodies: &[Body], places: &[Place]) -> bool {
+    pub fn measure(&mut self, bodies: &[Body], places: &Places) -> bool {
         let second = &bodies[self.second];
         let Some(first) = self.first else {
-            let (form, _) = &places[self.surface as usize];
+            let (form, _) = places.at_start(self.surface);
             let separation = sphere_surface(form, second.position, second.radius);
             if let Some(it) = separation {
                 (self.normal, self.gap, self.point) = (it.normal, it.distance, it.point);

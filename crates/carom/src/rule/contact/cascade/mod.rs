@@ -39,7 +39,7 @@ pub(super) fn follow(
     seeds.iter().for_each(|&seed| gathering.gather(solver, seed, sub_step));
     for mut island in gathering.into_islands() {
         island.links.iter_mut().for_each(|link| link.bears = link.pressed());
-        let Some(course) = pieces::follow(&mut island, solver.places.at_rest(), sub_step) else {
+        let Some(course) = pieces::follow(&mut island, &solver.places, sub_step) else {
             continue;
         };
         report.energy_account.contacts += course.work;

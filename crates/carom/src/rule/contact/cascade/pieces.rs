@@ -4,7 +4,7 @@ use super::course::Course;
 use super::island::{Island, MOST_BODIES, REACH};
 use super::link::{Link, Role};
 use crate::connected::Connected;
-use crate::rule::contact::places::Place;
+use crate::rule::contact::places::Places;
 use crate::rule::contact::sub_step::SubStep;
 
 /// The shortest pieces are the sub-step halved this many times.
@@ -12,7 +12,7 @@ const MOST_HALVINGS: u32 = 6;
 
 /// Advances an island through a sub-step. Returns its events; `None` for an island that stays large in the shortest
 /// pieces, which is not followed.
-pub fn follow(island: &mut Island, places: &[Place], sub_step: &SubStep) -> Option<Course> {
+pub fn follow(island: &mut Island, places: &Places, sub_step: &SubStep) -> Option<Course> {
     if !island.is_small() && !falls_apart(island, places, sub_step) {
         return None;
     }
@@ -25,7 +25,7 @@ pub fn follow(island: &mut Island, places: &[Place], sub_step: &SubStep) -> Opti
 fn advance(
     course: &mut Course,
     island: &mut Island,
-    places: &[Place],
+    places: &Places,
     (time, sub_step): (f64, &SubStep),
     halvings: u32,
 ) -> bool {
@@ -75,7 +75,7 @@ impl Part {
 }
 
 /// The parts of an island in a time \[s\]. Each has its own copies of the sleeping bodies that it reaches.
-fn parts(island: &mut Island, places: &[Place], time: f64) -> Vec<Part> {
+fn parts(island: &mut Island, places: &Places, time: f64) -> Vec<Part> {
     let near = near_links(island, places, time);
     let mut connected = connected(island, &near);
     let is_awake = |body: usize| island.bodies[body].is_awake();
@@ -105,7 +105,7 @@ fn parts(island: &mut Island, places: &[Place], time: f64) -> Vec<Part> {
 }
 
 /// Whether the parts of an island are small at the start of the shortest piece.
-fn falls_apart(island: &mut Island, places: &[Place], sub_step: &SubStep) -> bool {
+fn falls_apart(island: &mut Island, places: &Places, sub_step: &SubStep) -> bool {
     let near = near_links(island, places, sub_step.h / f64::from(1_u32 << MOST_HALVINGS));
     let mut connected = connected(island, &near);
     let mut sizes = vec![0; island.bodies.len()];
@@ -127,7 +127,7 @@ fn connected(island: &Island, near: &[usize]) -> Connected {
 }
 
 /// The links of an island that act or may close in a time \[s\]; the others are switched off.
-fn near_links(island: &mut Island, places: &[Place], time: f64) -> Vec<usize> {
+fn near_links(island: &mut Island, places: &Places, time: f64) -> Vec<usize> {
     let reach = REACH * time * island.top_speed();
     let Island { bodies, links } = island;
     let mut near = Vec::new();

@@ -285,7 +285,7 @@ impl SurfaceContact {
 
     /// Computes the contact for the impact of the sphere within the sub-step, wherever on the surface that is;
     /// without an impact the contact does not press.
-    fn aim_at_impact(&mut self, run: &Run, place: &Place, sub_step: &SubStep) {
+    fn aim_at_impact(&mut self, run: &Run, place: Place, sub_step: &SubStep) {
         let (form, motion) = place;
         let slot = self.slot as usize;
         let radius = run.position[slot].number();
@@ -320,7 +320,7 @@ impl SurfaceContact {
 
     /// Makes the contact hold a sphere without an impact out of the surface at the end of its path, should others
     /// push it there; not if it has passed the surface by then, where others may send it back.
-    fn aim_at_end(&mut self, flight: &Flight, radius: f64, place: &Place, sub_step: &SubStep) {
+    fn aim_at_end(&mut self, flight: &Flight, radius: f64, place: Place, sub_step: &SubStep) {
         let (form, motion) = place;
         let h = sub_step.h;
         let (there, velocity) = flight.after(h);

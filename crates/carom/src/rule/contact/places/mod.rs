@@ -28,7 +28,7 @@ use crate::system::System;
 const IMAGES_FARTHER: f64 = 1.5;
 
 /// The form and motion of a surface.
-pub(crate) type Place = (Form, SurfaceMotion);
+pub(crate) type Place<'a> = (&'a Form, &'a SurfaceMotion);
 
 /// An image of a surface in a periodic box: the number of the surface, and boxes between both along each axis.
 type ImageKey = (u32, [i8; 3]);
@@ -39,8 +39,8 @@ struct MovingPlace {
     number: u32,
     /// Place at the start; within the sub-step the surface moves as this says, between its places
     /// at both ends.
-    start: Place,
-    end: Place,
+    start: (Form, SurfaceMotion),
+    end: (Form, SurfaceMotion),
     /// Bounds for the frame of the speed of its origin \[m/s\] and of its angular velocity \[rad/s\], if it does not
     /// move steadily.
     fastest: Option<[f64; 2]>,
@@ -52,9 +52,12 @@ struct MovingPlace {
 #[educe(Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Places {
-    /// When surfaces changed last; a snapshot shares them.
+    /// The surfaces when they changed last, which the colliders share.
     #[cfg_attr(feature = "serde", serde(skip))]
-    starts: Arc<Vec<Place>>,
+    starts: Arc<Vec<Surface>>,
+    /// The forms of the images, in their order; a snapshot shares them.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    of_images: Arc<Vec<Form>>,
     /// Whether spheres may come through a surface from behind.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub any_open: bool,
@@ -89,34 +92,39 @@ pub(crate) struct Places {
 impl Places {
     /// Whether it holds as many surfaces, none of which moves: as long as no collider changes, these.
     pub fn are_of(&self, surfaces: &[Surface]) -> bool {
-        self.moving.is_empty() && self.starts.len() == surfaces.len() + self.images.len()
+        self.moving.is_empty() && self.holds(surfaces)
     }
 
-    /// Begins a frame of `h` \[s\]; copies the surfaces if they `changed`, or are not known.
-    pub fn begin_frame(&mut self, surfaces: &[Surface], h: f64, changed: bool) {
+    fn holds(&self, surfaces: &[Surface]) -> bool {
+        self.starts.len() == surfaces.len() && self.of_images.len() == self.images.len()
+    }
+
+    /// Begins a frame of `h` \[s\]; shares the surfaces if they `changed`, or are not known.
+    pub fn begin_frame(&mut self, surfaces: &Arc<Vec<Surface>>, h: f64, changed: bool) {
         self.known.clear();
         (self.start, self.times, self.frame) = (0.0, [0.0; 2], h);
-        self.copy(surfaces, changed);
+        self.share(surfaces, changed);
         let moving = self.moving.iter().map(|&number| &surfaces[number as usize]);
         let rates = moving.map(|it| turning_rate(&it.form, &it.motion));
         self.turning_rate = rates.fold(0.0, f64::max);
     }
 
-    /// Copies the surfaces if they `changed`, or are not known.
-    fn copy(&mut self, surfaces: &[Surface], changed: bool) {
-        if !changed && self.starts.len() == surfaces.len() + self.images.len() {
+    /// Shares the surfaces if they `changed`, or are not known.
+    fn share(&mut self, surfaces: &Arc<Vec<Surface>>, changed: bool) {
+        if !changed && self.holds(surfaces) {
             return;
         }
-        let starts = Arc::make_mut(&mut self.starts);
-        starts.clear();
-        starts.extend(surfaces.iter().map(|surface| surface.after(0.0)));
-        place_images(surfaces, &self.images, starts);
+        self.starts = Arc::clone(surfaces);
+        let image = |((surface, _), shift): &(ImageKey, DVec3)| {
+            Some(surfaces.get(*surface as usize)?.form.shifted(*shift))
+        };
+        self.of_images = Arc::new(self.images.iter().filter_map(image).collect());
         self.own = surfaces.len();
         self.any_open = surfaces.iter().any(|surface| surface.form.is_open());
         let moves =
             |(_, it): &(u32, &Surface)| it.role == Role::Deflects && !it.motion.is_at_rest();
         self.moving.clear();
-        self.moving.extend((0..).zip(surfaces).filter(moves).map(|(number, _)| number));
+        self.moving.extend((0..).zip(surfaces.iter()).filter(moves).map(|(number, _)| number));
     }
 
     /// Begins a sub-step between two times of the frame \[s\].
@@ -207,8 +215,8 @@ impl Places {
             return;
         }
         self.image_reach = IMAGES_FARTHER * reach;
-        let Self { starts, images, number_of, image_reach, .. } = self;
-        let starts = Arc::make_mut(starts);
+        let Self { own, of_images, images, number_of, image_reach, .. } = self;
+        let of_images = Arc::make_mut(of_images);
         let near = Bounds::around(DVec3::ZERO, 0.5 * period).widened(*image_reach);
         for (number, surface) in (0..).zip(surfaces) {
             let bounds = bounds(&surface.form).filter(|_| surface.motion.is_at_rest());
@@ -217,9 +225,9 @@ impl Places {
                 let shift = image_shift(offset.map(i32::from), period);
                 let is_near = Bounds { min: min + shift, max: max + shift }.overlap(&near);
                 if is_near && !number_of.contains_key(&(number, offset)) {
-                    number_of.insert((number, offset), starts.len() as u32);
+                    number_of.insert((number, offset), (*own + of_images.len()) as u32);
                     images.push(((number, offset), shift));
-                    starts.push((surface.form.shifted(shift), surface.motion));
+                    of_images.push(surface.form.shifted(shift));
                 }
             }
         }
@@ -267,25 +275,36 @@ impl Places {
         at_rest.chain(self.known.iter().map(|it| it.number))
     }
 
-    /// All surfaces, where all are at rest.
-    pub fn at_rest(&self) -> &[Place] {
-        &self.starts
+    /// The numbers of all images, and of the moving surfaces that are known.
+    pub fn images_and_moving(&self) -> impl Iterator<Item = u32> {
+        let images = self.own as u32..self.len() as u32;
+        images.chain(self.known.iter().map(|it| it.number))
     }
 
     /// A surface at the start of the sub-step.
-    pub fn at_start(&self, surface: u32) -> &Place {
+    pub fn at_start(&self, surface: u32) -> Place<'_> {
         match self.moving_place(surface) {
-            Some(place) => &place.start,
-            None => &self.starts[surface as usize],
+            Some(MovingPlace { start: (form, motion), .. }) => (form, motion),
+            None => self.begun(surface),
         }
     }
 
     /// A surface at the end of the sub-step.
-    pub fn at_end(&self, surface: u32) -> &Place {
+    pub fn at_end(&self, surface: u32) -> Place<'_> {
         match self.moving_place(surface) {
-            Some(place) => &place.end,
-            None => &self.starts[surface as usize],
+            Some(MovingPlace { end: (form, motion), .. }) => (form, motion),
+            None => self.begun(surface),
         }
+    }
+
+    /// A surface when the surfaces changed last.
+    fn begun(&self, number: u32) -> Place<'_> {
+        let Some(image) = (number as usize).checked_sub(self.own) else {
+            let Surface { form, motion, .. } = &self.starts[number as usize];
+            return (form, motion);
+        };
+        let ((surface, _), _) = self.images[image];
+        (&self.of_images[image], &self.starts[surface as usize].motion)
     }
 
     /// Returns the fastest turning rate of the surfaces \[rad/s\].
@@ -337,13 +356,6 @@ pub(crate) fn offsets(period: DVec3) -> impl Iterator<Item = [i8; 3]> {
         y.clone().flat_map(move |y| z.clone().map(move |z| [x, y, z]))
     });
     all.filter(|&offset| offset != [0; 3])
-}
-
-fn place_images(surfaces: &[Surface], images: &[(ImageKey, DVec3)], places: &mut Vec<Place>) {
-    places.extend(images.iter().map(|&((surface, _), shift)| {
-        let surface = &surfaces[surface as usize];
-        (surface.form.shifted(shift), surface.motion)
-    }));
 }
 
 /// Returns how fast a surface changes by turning, or how fast its motion does \[rad/s\].
