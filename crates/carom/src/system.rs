@@ -84,7 +84,7 @@ impl<'a> System<'a> {
 
     /// Whether the material of any surface moves along it.
     pub fn has_belts(&self) -> bool {
-        self.surfaces.iter().any(|it| it.motion.belt != DVec3::ZERO)
+        self.colliders.list().iter().any(|(_, it)| it.surface_velocity != DVec3::ZERO)
     }
 
     /// The surfaces that move and deflect, where they are `h` \[s\] after the step began.

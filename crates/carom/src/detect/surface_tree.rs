@@ -89,7 +89,7 @@ impl SurfaceTree {
             }
         }
         if !tree.leaves.is_empty() {
-            tree.build(0, tree.leaves.len());
+            tree.build(0, tree.leaves.len(), None);
         }
         tree
     }
@@ -110,24 +110,32 @@ impl SurfaceTree {
         !self.unbounded.is_empty()
     }
 
-    /// Appends the node over `leaves[first .. last]`, and those below it.
-    fn build(&mut self, first: usize, last: usize) {
+    /// Appends the node over `leaves[first .. last]`, which are one side of a split along an axis, and those below it.
+    fn build(&mut self, first: usize, last: usize, split: Option<usize>) {
         let part = &mut self.leaves[first..last];
         let bounds = part.iter().map(|leaf| leaf.0).reduce(Bounds::union);
         let Some(bounds) = bounds else { return };
         let count = part.len();
         let node = self.nodes.len();
+        let along = |axis: usize| {
+            let center = move |leaf: &(Bounds, u32)| leaf.0.min[axis] + leaf.0.max[axis];
+            move |a: &(Bounds, u32), b: &(Bounds, u32)| {
+                center(a).total_cmp(&center(b)).then(a.1.cmp(&b.1))
+            }
+        };
         if count <= LEAF_SIZE {
+            if let Some(axis) = split {
+                part.sort_unstable_by(along(axis));
+            }
             let surfaces = [first, last].map(|place| place as u32);
             self.nodes.push(Node { bounds, next: node as u32 + 1, surfaces });
             return;
         }
         let axis = (bounds.max - bounds.min).max_position();
-        let center = |leaf: &(Bounds, u32)| leaf.0.min[axis] + leaf.0.max[axis];
-        part.sort_by(|a, b| center(a).total_cmp(&center(b)).then(a.1.cmp(&b.1)));
+        part.select_nth_unstable_by(count / 2, along(axis));
         self.nodes.push(Node { bounds, next: 0, surfaces: [0; 2] });
-        self.build(first, first + count / 2);
-        self.build(first + count / 2, last);
+        self.build(first, first + count / 2, Some(axis));
+        self.build(first + count / 2, last, Some(axis));
         self.nodes[node].next = self.nodes.len() as u32;
     }
 
@@ -146,6 +154,18 @@ impl SurfaceTree {
     /// Appends the indices of the surfaces whose bounds overlap `query`, in no useful order.
     pub fn add_near(&self, query: &Bounds, near: &mut Vec<u32>) {
         near.extend_from_slice(&self.unbounded);
+        self.visit_near(query, |surface| near.push(surface));
+    }
+
+    /// Returns the number of surfaces whose bounds overlap `query`.
+    pub fn count_near(&self, query: &Bounds) -> usize {
+        let mut count = self.unbounded.len();
+        self.visit_near(query, |_| count += 1);
+        count
+    }
+
+    /// Visits the bounded surfaces whose bounds overlap `query`.
+    fn visit_near(&self, query: &Bounds, mut visit: impl FnMut(u32)) {
         let mut place = 0;
         while let Some(node) = self.nodes.get(place) {
             if !node.bounds.overlap(query) {
@@ -154,7 +174,7 @@ impl SurfaceTree {
             }
             let [first, last] = node.surfaces.map(|place| place as usize);
             let leaves = &self.leaves[first..last];
-            near.extend(leaves.iter().filter(|leaf| leaf.0.overlap(query)).map(|leaf| leaf.1));
+            leaves.iter().filter(|leaf| leaf.0.overlap(query)).for_each(|leaf| visit(leaf.1));
             place += 1;
         }
     }

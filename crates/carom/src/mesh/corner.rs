@@ -57,6 +57,12 @@ impl Corner {
         self.rays.iter().map(|ray| offset.dot(*ray)).fold(0.0, f64::max)
     }
 
+    /// Returns whether a sphere with this centre and radius \[m\] may come to meet the corner once it has moved by a
+    /// distance `way` \[m\].
+    pub fn may_be_met(&self, center: DVec3, radius: f64, way: f64) -> bool {
+        (center - self.point).norm() <= radius + way && self.distance_beside(center) <= way
+    }
+
     fn slack(&self, point: DVec3) -> f64 {
         ROUNDING * (point.norm() + self.point.norm())
     }

@@ -45,11 +45,21 @@ impl Edge {
 
     /// Returns whether a centre \[m\] beyond a border is behind the plane of its face, by less than a radius \[m\].
     pub fn is_seen_from_behind(&self, center: DVec3, radius: f64) -> bool {
+        if !self.is_border {
+            return false;
+        }
         let offset = center - self.center;
         let [outward, normal] = self.outward.map(|direction| offset.dot(direction));
         let is_beside =
             offset.dot(self.axis).abs() <= self.half && (0.0..radius).contains(&outward);
-        self.is_border && is_beside && -radius < normal && normal < 0.0
+        is_beside && -radius < normal && normal < 0.0
+    }
+
+    /// Returns whether a sphere with this centre and radius \[m\] may come to meet the edge, from behind a border as
+    /// well, once it has moved by a distance `way` \[m\].
+    pub fn may_be_met(&self, center: DVec3, radius: f64, way: f64) -> bool {
+        let is_near = self.distance_of(center) <= radius + way;
+        is_near && (self.is_border || self.distance_beside(center) <= way)
     }
 
     /// Returns the point of its line that is nearest to a point \[m\].

@@ -44,7 +44,24 @@ impl Facet {
 
     /// Returns whether a centre \[m\] projects into the outline, up to rounding.
     pub fn is_under(&self, center: DVec3) -> bool {
-        self.outline.is_within(self.local(center), self.slack(center))
+        let (place, slack) = (self.local(center), self.slack(center));
+        self.is_in_frame(place, 2.0 * slack) && self.outline.is_within(place, slack)
+    }
+
+    /// Returns whether a place in the plane \[m\] is in the bounding rectangle, or at most this far \[m\] outside.
+    fn is_in_frame(&self, place: DVec2, slack: f64) -> bool {
+        let Rectangle { half_x, half_z, .. } = self.frame;
+        place.x.abs() <= half_x + slack && place.y.abs() <= half_z + slack
+    }
+
+    /// Returns whether a centre may come to project into the outline from the front, or from behind within a `radius`
+    /// \[m\], once it has moved by a distance `way` \[m\].
+    pub fn may_be_met(&self, center: DVec3, radius: f64, way: f64) -> bool {
+        let height = self.height_of(center);
+        let place = self.local(center);
+        (-radius - way <= height && height <= radius + way)
+            && self.is_in_frame(place, way)
+            && self.outline.is_within(place, way)
     }
 
     /// Returns whether a sphere with this centre \[m\] and relative velocity \[m/s\] belongs to the face. On the

@@ -103,8 +103,16 @@ impl Outline {
         squares.fold(f64::INFINITY, f64::min).sqrt()
     }
 
-    /// Returns whether a point \[m\] is inside, or at most `slack` \[m\] outside.
+    /// Returns whether a point \[m\] is inside, or at most `slack` \[m\] outside, which is more than rounding.
     pub fn is_within(&self, point: DVec2, slack: f64) -> bool {
+        // A triangle is convex: clearly inside or outside, a point needs no exact test.
+        if let [a, b, c] = self.sides() {
+            let beyond = |side: &Side| (point - side.ends[0]).dot(side.outward);
+            let most = beyond(a).max(beyond(b)).max(beyond(c));
+            if most < -slack || most > 2.0 * slack {
+                return most < 0.0;
+            }
+        }
         let is_near = |side: &Side| side.distance_squared(point) <= slack * slack;
         self.contains(point) || self.sides().iter().any(is_near)
     }

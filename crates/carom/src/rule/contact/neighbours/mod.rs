@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use self::near_moving::NearMoving;
 use crate::bounds::Bounds;
+use crate::collider::Shape;
 use crate::detect::contact::Bodies;
 use crate::detect::sphere_surface;
 use crate::detect::surface_tree;
@@ -31,6 +32,10 @@ use crate::system::System;
 /// Overlap of a sphere that is not pressed to a surface, as a part of its radius, beyond which it came from behind
 /// before the solver knew it.
 const WITHIN: f64 = 0.1;
+
+/// Distance beside a feature of a mesh, as a part of the radius, that counts as within its region: what hits a sphere
+/// may send it farther than its own speed does.
+const BESIDE: f64 = 0.25;
 
 /// Two images are equally near whose squared distances differ by less than this part.
 const ROUNDING: f64 = 1e-9;
@@ -115,10 +120,8 @@ fn surfaces_near(system: &System, place: &Row, distance: f64) -> usize {
     if system.surfaces.len() <= search::MOST_SURFACES {
         return 0;
     }
-    let mut near = Vec::new();
     let reach = DVec3::splat(place.number() + distance);
-    system.tree.near(&Bounds::around(place.vector(), reach), &mut near);
-    near.len()
+    system.tree.count_near(&Bounds::around(place.vector(), reach))
 }
 
 /// Saves the impulses of all contacts that stay awake.
@@ -326,6 +329,13 @@ impl Known<'_> {
             let reach = Bounds::around(center, DVec3::splat(radius + margin));
             surface_tree::bounds(form).is_none_or(|bounds| bounds.overlap(&reach))
         };
+        // Of the many features of a mesh that are near, few are the nearest one after so short a way.
+        let is_of_mesh = || {
+            let collider = self.system.surfaces[own as usize].collider;
+            let collider = self.system.colliders.list().get(collider.0);
+            collider.is_some_and(|it| matches!(it.shape, Shape::Mesh(_)))
+        };
+        let way = margin + BESIDE * radius;
         match (sphere_surface(form, center, radius), form) {
             (Some(separation), _) => separation.distance <= margin,
             // From just behind a rectangle, a sphere may come round its edge.
@@ -336,6 +346,9 @@ impl Known<'_> {
             (None, Form::Band(band)) => {
                 band.seen_from(center).front >= -margin && (!moves || are_bounds_near())
             }
+            (None, Form::Facet(it)) if is_of_mesh() => it.may_be_met(center, radius, way),
+            (None, Form::Edge(it)) if is_of_mesh() => it.may_be_met(center, radius, way),
+            (None, Form::Corner(it)) if is_of_mesh() => it.may_be_met(center, radius, way),
             (None, Form::Facet(_) | Form::Edge(_) | Form::Corner(_)) => are_bounds_near(),
             (None, _) => true,
         }
