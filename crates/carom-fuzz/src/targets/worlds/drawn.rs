@@ -5,6 +5,7 @@ use proptest::option::weighted;
 use proptest::prelude::*;
 use proptest::sample::select;
 
+use super::meshes::mesh;
 use super::vector::{HALF, Vector, scaled};
 
 #[derive(Debug, Clone)]
@@ -80,7 +81,8 @@ pub struct Springs {
 
 #[derive(Debug, Clone)]
 pub struct Obstacle {
-    pub shape: &'static str,
+    /// As written in scene files.
+    pub shape: String,
     pub position: Vector,
     pub turn: Vector,
     /// Velocity of an obstacle that moves \[m/s\].
@@ -387,8 +389,8 @@ const MESHES: [&str; 4] = [
 ];
 
 fn obstacle() -> impl Strategy<Value = Obstacle> {
-    let shape =
-        prop_oneof![3 => select(&FLAT[..]), 3 => select(&ROUND[..]), 1 => select(&MESHES[..])];
+    let fixed = prop_oneof![3 => select(&FLAT[..]), 3 => select(&ROUND[..]), 1 => select(&MESHES[..])];
+    let shape = prop_oneof![6 => fixed.prop_map(str::to_owned), 1 => mesh()];
     let velocity = weighted(0.15, prop_oneof![3 => vector(), 1 => vector_of(20.0)]);
     let place = (vector_of(0.5 * HALF), prop_oneof![1 => Just([0.0; 3]), 3 => vector_of(180.0)]);
     let spin = weighted(0.1, vector_of(3.0));

@@ -2,6 +2,7 @@
 //! start, edges and corners, surfaces that move and turn, speeds that cross everything within a frame.
 
 mod drawn;
+mod meshes;
 mod placed;
 mod vector;
 mod written;
