@@ -42,6 +42,9 @@ pub enum Edit {
     NamedColliderFrictions(String, Friction),
     /// Puts a collider elsewhere; one with a motion moves on from there in the same way.
     ColliderPose(ColliderId, Pose),
+    /// Scales a collider of triangles: a mesh to this factor of its vertices, a height field to this length along x
+    /// \[m\], a track to this radius of its gutter \[m\].
+    ColliderScale(ColliderId, f64),
     /// Replaces an emitter. If its period changes, it starts again now.
     Emitter(EmitterId, Box<Emitter>),
     /// Changes a sphere.
@@ -149,6 +152,9 @@ impl Edit {
                 Some(later.clone())
             }
             (Self::ColliderPose(id, _), Self::ColliderPose(same, _)) if id == same => {
+                Some(later.clone())
+            }
+            (Self::ColliderScale(id, _), Self::ColliderScale(same, _)) if id == same => {
                 Some(later.clone())
             }
             (

@@ -39,6 +39,12 @@ pub enum SessionError {
         /// Group names of the scene, each once.
         known: Vec<String>,
     },
+    /// An edit of the scale of a collider that has none, or a scale that is no positive number.
+    #[error("only a mesh, a height field and a track have a scale, a positive number")]
+    NoScale,
+    /// A shape that cannot be made.
+    #[error("{0}")]
+    Shape(String),
     /// The time is negative or not finite.
     #[error("cannot go to {seconds} s: the time must be zero or positive, and finite")]
     Time {

@@ -67,6 +67,7 @@ impl Subjects<'_> {
                 })
             }
             Edit::ColliderPose(id, pose) => set_pose(*id, *pose, world, setup),
+            Edit::ColliderScale(id, scale) => set_scale(*id, *scale, world, setup),
             Edit::Emitter(id, emitter) => {
                 set_emitter(*id, emitter, scene, Subjects { world, setup, looks })
             }
@@ -201,6 +202,25 @@ fn set_pose(
         described.position = position.to_array();
         described.rotation = rotation.to_array();
     }
+    Ok(())
+}
+
+/// Scales a collider of triangles, see [`Edit::ColliderScale`].
+fn set_scale(
+    id: ColliderId,
+    scale: f64,
+    world: &mut World,
+    setup: &mut Arc<Setup>,
+) -> Result<(), SessionError> {
+    let collider = world.collider(id)?;
+    let described = setup.colliders.iter().find(|it| it.0 == id);
+    let shape = described.and_then(|(_, it)| it.shape.scaled(scale));
+    let shape = shape.ok_or(SessionError::NoScale)?;
+    let mut scaled = collider;
+    scaled.shape = shape.physical().map_err(SessionError::Shape)?;
+    world.set_collider(id, scaled)?;
+    let colliders = &mut Arc::make_mut(setup).colliders;
+    colliders.iter_mut().filter(|it| it.0 == id).for_each(|it| it.1.shape = shape.clone());
     Ok(())
 }
 

@@ -12,6 +12,7 @@ mod material;
 mod mesh;
 mod motion;
 mod rotation;
+mod scale;
 mod simulation;
 mod sphere;
 mod spring;

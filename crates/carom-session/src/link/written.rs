@@ -99,6 +99,7 @@ enum Written {
     AllColliderFrictions(SurfaceFriction),
     NamedColliderFrictions { name: String, friction: SurfaceFriction },
     ColliderPose { collider: u64, position: Vector, rotation: Quaternion },
+    ColliderScale { collider: u64, scale: f64 },
     Emitter { emitter: u64, is: Box<Emitter> },
     Sphere { sphere: u64, changes: Box<SphereFields> },
     Throw { sphere: Box<Sphere>, color: Option<Color> },
@@ -246,6 +247,9 @@ impl From<&Change> for Written {
                 position: pose.position.to_array(),
                 rotation: pose.rotation.to_array(),
             },
+            Edit::ColliderScale(id, scale) => {
+                Self::ColliderScale { collider: id.number(), scale: *scale }
+            }
             Edit::Emitter(id, emitter) => {
                 Self::Emitter { emitter: id.number(), is: Box::new((&**emitter).into()) }
             }
@@ -294,6 +298,9 @@ impl From<Written> for Change {
                 let pose = Pose::at(DVec3::from_array(position));
                 let pose = pose.rotated(DQuat::from_array(rotation));
                 Edit::ColliderPose(ColliderId::from_number(collider), pose)
+            }
+            Written::ColliderScale { collider, scale } => {
+                Edit::ColliderScale(ColliderId::from_number(collider), scale)
             }
             Written::Emitter { emitter, is } => {
                 Edit::Emitter(EmitterId::from_number(emitter), Box::new((*is).into()))

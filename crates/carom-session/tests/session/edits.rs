@@ -371,3 +371,42 @@ fn a_surface_put_elsewhere_is_there_in_world_and_file_whatever_its_motion() {
         }
     }
 }
+
+#[test]
+fn a_scaled_surface_is_so_in_world_and_file_and_undo_brings_it_back() {
+    let shapes = [
+        "{ mesh = { vertices = [[0, 0, 1], [1, 0.25, -1], [-1, 0, -1]], triangles = [[0, 1, 2]] } }",
+        "{ height-field = { size_x = 2, size_z = 3, heights = [[0, 0.5], [0.25, 0]] } }",
+        "{ track = { radius = 0.5, pieces = [{ straight = { length = 1 } }] } }",
+        "half-space",
+    ];
+    for (number, shape) in shapes.into_iter().enumerate() {
+        let quoted = if number == 3 { format!("\"{shape}\"") } else { shape.to_owned() };
+        let text = format!(
+            "name = \"scaled\"\nforces = [{{ gravity = {{ acceleration = [0, -9.81, 0] }} }}]\n\
+             spheres = [{{ position = [0.1, 2, 0.1], radius = 0.2 }}]\n\
+             [[colliders]]\nshape = {quoted}\nrestitution = 0.5\n"
+        );
+        let mut session = Session::new(Scene::from_toml(&text, "scaled").unwrap()).unwrap();
+        let id = session.setup().colliders[0].0;
+        let before = session.scene_now();
+        let Some(scale) = before.colliders[0].shape.scale() else {
+            let refused = session.edit(Edit::ColliderScale(id, 2.0)).unwrap_err();
+            assert!(refused.to_string().contains("have a scale"), "{refused}");
+            continue;
+        };
+        for wrong in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert!(session.edit(Edit::ColliderScale(id, wrong)).is_err(), "{shape}, {wrong}");
+        }
+        session.edit(Edit::ColliderScale(id, 3.0 * scale)).unwrap();
+        let mut again = Session::new(session.scene_now()).unwrap();
+        for _ in 0..90 {
+            session.step().unwrap();
+            again.step().unwrap();
+        }
+        let places = [&session, &again].map(|it| it.world().spheres().positions()[0]);
+        assert_eq!(places[0], places[1], "{shape}");
+        assert!(session.undo());
+        assert_eq!(session.scene_now().colliders, before.colliders, "{shape}");
+    }
+}

@@ -194,6 +194,7 @@ fn edits() -> Vec<Edit> {
         Edit::AllColliderRestitutions(f),
         Edit::ColliderFriction(ColliderId::from_number(2), friction.with_tangential_restitution(e)),
         Edit::AllColliderFrictions(Friction::default().with_spinning(f)),
+        Edit::ColliderScale(ColliderId::from_number(2), b),
         Edit::NamedColliderRestitutions("left \"peg\"".to_owned(), e),
         Edit::NamedColliderFrictions(String::new(), friction),
         Edit::Emitter(EmitterId::from_number(1), Box::new(emitter)),

@@ -38,6 +38,8 @@ fn edit() -> impl Strategy<Value = Edit> {
             let turned = pose.rotated(DQuat::from_xyzw(0.0, 0.0, 0.6 * it, 0.8));
             Edit::ColliderPose(ColliderId::from_number(id), turned)
         }),
+        (0..3_u64, 0.1..2.0)
+            .prop_map(|(id, scale)| Edit::ColliderScale(ColliderId::from_number(id), scale)),
         (0..20_u64, -0.1..1.0).prop_map(|(id, it)| {
             let friction = Some(Friction::sliding(it));
             let angular_velocity = Some(DVec3::new(it, -9.0 * it, 4.0));

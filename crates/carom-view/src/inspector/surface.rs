@@ -34,6 +34,9 @@ pub(super) fn show(
     if let Some(pose) = put(ui, *id, pose) {
         commands.push(Command::Edit(Edit::ColliderPose(*id, pose)));
     }
+    if let Some(scale) = scaled(ui, &collider.shape) {
+        commands.push(Command::Edit(Edit::ColliderScale(*id, scale)));
+    }
     answer(ui, view, (*id, collider), commands);
     if ui.small_button("Let go").clicked() {
         *picked = None;
@@ -58,6 +61,17 @@ fn put(ui: &mut Ui, id: ColliderId, pose: Pose) -> Option<Pose> {
     }
     let position = DVec3::from_array(position);
     (is_moved || is_turned).then(|| Pose::at(position).rotated(rotation))
+}
+
+/// Shows the scale of a surface of triangles. Returns it if it was changed.
+fn scaled(ui: &mut Ui, shape: &Shape) -> Option<f64> {
+    let field = match shape {
+        Shape::HeightField(_) => Field::positive("Length", "m").hint("Along x; all lengths follow"),
+        Shape::Track(_) => Field::positive("Radius", "m").hint("Of the gutter; all lengths follow"),
+        _ => Field::positive("Scale", "").hint("Factor of all coordinates"),
+    };
+    let mut scale = shape.scale()?;
+    number(ui, field, &mut scale).then_some(scale)
 }
 
 /// Returns the angles \[°\] about the own axes x, y, z, one after the other.

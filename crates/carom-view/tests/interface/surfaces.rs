@@ -158,9 +158,12 @@ fn typed_numbers_put_and_turn_the_picked_surface() {
     let mut desk = desk(&text(MESH, "", 1.0));
     let middle = picture(&desk).center();
     click(&mut desk, middle);
-    for (label, number) in
-        [("Position y, m", "0.25"), ("Rotation y, °", "90"), ("Bounciness (restitution)", "0.75")]
-    {
+    for (label, number) in [
+        ("Position y, m", "0.25"),
+        ("Rotation y, °", "90"),
+        ("Scale", "1.5"),
+        ("Bounciness (restitution)", "0.75"),
+    ] {
         desk.get_by_role_and_label(Role::SpinButton, label).click();
         desk.run_steps(2);
         desk.event(Event::Text(number.to_owned()));
@@ -174,6 +177,8 @@ fn typed_numbers_put_and_turn_the_picked_surface() {
     // Rounding of a sine.
     assert!((pose.rotation * DVec3::X - DVec3::NEG_Z).length() < 1e-12, "{pose:?}");
     assert_eq!(view.setup.colliders[0].1.restitution, 0.75);
+    assert_eq!(view.setup.colliders[0].1.shape.scale(), Some(1.5));
+    assert!(desk.query_by_label("3 m × 1.5 m × 3 m").is_some());
     let before = view.scene_now();
     go_to(&mut desk, 0.5);
     go_to(&mut desk, 0.0);
