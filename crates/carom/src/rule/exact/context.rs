@@ -90,7 +90,7 @@ impl<'a> StepContext<'a> {
     }
 
     /// Restitution of an impact. It is 0 where all spheres of the impact were hit less than a contact's duration
-    /// ago, unless the impact is elastic. So the shorter and shorter flights of an inelastic collapse end (McNamara
+    /// ago, unless the impact is elastic; `velocity` is that of one body relative to the other \[m/s\]. So the shorter and shorter flights of an inelastic collapse end (McNamara
     /// and Young, Phys. Fluids A 4, 496 (1992)). The TC model of Luding and McNamara, Granular Matter 1, 113
     /// (1998), has the same condition and takes the restitution 1 there, which leaves wedged spheres bouncing
     /// without end.
@@ -98,6 +98,7 @@ impl<'a> StepContext<'a> {
         &self,
         timeline: &Timeline,
         slots: [u32; N],
+        velocity: DVec3,
         Coefficient { value, is_elastic }: Coefficient,
         time: f64,
     ) -> Coefficient {
@@ -106,13 +107,9 @@ impl<'a> StepContext<'a> {
             return Coefficient { value, is_elastic };
         }
         let scale = ContactScale::from_spheres(&timeline.flights, &slots, time);
-        let velocity = |slot: u32| timeline.flights.state_of(slot, time).1;
-        let speed = match slots[..] {
-            [first, second] => (velocity(second) - velocity(first)).norm(),
-            _ => slots.iter().map(|&slot| velocity(slot).norm()).sum(),
-        };
+        let resolved = scale.resolved_time(velocity.norm());
         let least = self.parameters.contact_duration;
-        let duration = self.duration_of(&scale, time).min(scale.resolved_time(speed)).max(least);
+        let duration = self.duration_of(&scale, time).min(resolved).max(least);
         let is_over = bodies.iter().any(|body| time - body.time >= duration);
         Coefficient { value: if is_over { value } else { 0.0 }, is_elastic }
     }

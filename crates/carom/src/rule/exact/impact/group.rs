@@ -437,13 +437,14 @@ fn contacts_of(
     let contact = |(touch, &speed): (&Touch, &f64)| {
         let speed = if speed > CLOSING * fastest { speed } else { fastest };
         let restitution = respond::restitution_of(touch.bodies, context.system).coefficient(speed);
+        let velocity = touch.relative_velocity(&group.members);
         let second = slot(touch.second);
         let restitution = match touch.first {
             Some(first) => {
                 let slots = [slot(first), second];
-                context.restitution_at(timeline, slots, restitution, group.time)
+                context.restitution_at(timeline, slots, velocity, restitution, group.time)
             }
-            None => context.restitution_at(timeline, [second], restitution, group.time),
+            None => context.restitution_at(timeline, [second], velocity, restitution, group.time),
         };
         TouchingContact { restitution: restitution.value, ..touch.contact() }
     };

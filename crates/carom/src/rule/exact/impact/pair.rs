@@ -139,7 +139,7 @@ impl PairImpact {
             let [e1, e2] = species.map(|species| species.restitution);
             Coefficient::constant(context.combine_rule().combine(e1, e2))
         };
-        let restitution = context.restitution_at(timeline, slots, restitution, time).value;
+        let restitution = context.restitution_at(timeline, slots, v2 - v1, restitution, time).value;
         let masses = species.map(|species| species.mass);
         let answer = respond::line_of_centres([v1, v2], masses, normal, restitution);
         let mut impact = Self {

@@ -133,7 +133,8 @@ fn strike(
             continue;
         }
         let touched = (slot, contact.surface);
-        let restitution = restitution_of(timeline, context, touched, approach_speed, time).value;
+        let closing = (contact.normal, before);
+        let restitution = restitution_of(timeline, context, touched, closing, time).value;
         let Some(change) = respond::reflection(before, contact.normal, restitution) else {
             continue;
         };

@@ -183,7 +183,7 @@ fn bounces_off(
     let Member { slot, velocity, species, .. } = *member;
     let approach_speed = -velocity.dot(round.normal);
     let touched = (slot, round.surfaces[0]);
-    let restitution = restitution_of(timeline, context, touched, approach_speed, time);
+    let restitution = restitution_of(timeline, context, touched, (round.normal, velocity), time);
     let leaves = restitution.value * approach_speed
         + kick_of(context, member, (round.surfaces[0], round.normal));
     let pull = free_acceleration(member).norm() + velocity.length_squared() / species.radius;
@@ -192,15 +192,16 @@ fn bounces_off(
     approach_speed > respond::rounding_of(velocity) && !is_back_within(duration, leaves, pull)
 }
 
-/// Restitution of an impact of a sphere on a surface with a speed of approach \[m/s\], at `time` \[s\].
+/// Restitution of an impact of a sphere with a velocity \[m/s\] on a surface at rest with this normal, at `time` \[s\].
 pub(super) fn restitution_of(
     timeline: &Timeline,
     context: &StepContext,
     (slot, surface): (u32, u32),
-    approach_speed: f64,
+    (normal, velocity): (DVec3, DVec3),
     time: f64,
 ) -> Coefficient {
     let bodies = Bodies::Surface { sphere: timeline.flights.index_of[slot as usize], surface };
+    let approach_speed = -velocity.dot(normal);
     let restitution = respond::restitution_of(bodies, context.system).coefficient(approach_speed);
-    context.restitution_at(timeline, [slot], restitution, time)
+    context.restitution_at(timeline, [slot], velocity, restitution, time)
 }
