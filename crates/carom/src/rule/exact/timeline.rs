@@ -273,7 +273,7 @@ impl Timeline {
             if self.spring_rate > 0.0 { self.force_tick } else { self.parameters.force_tick };
         let limits = StepLimits { until, tick, is_rough };
         let step = self.flights.step_from_start(system, (&component, &clusters), limits);
-        let JointStep { curves, turning, evaluations, releases, .. } = step;
+        let JointStep { curves, turning, evaluations, contact_work, releases, .. } = step;
         let held = slots.iter().find(|&&slot| self.flights.cluster_on_curves(slot).is_some());
         let is_spent = step.is_jammed || is_rough && (only_contacts || !step.is_accurate);
         let held = held.filter(|_| is_spent);
@@ -287,6 +287,7 @@ impl Timeline {
             self.flights.clusters.get_mut(number).renewal = release;
         }
         self.flights.components.charge(number, evaluations);
+        self.budget.charge_at(self.parameters, &component.members, contact_work, now);
     }
 
     /// Continues a sphere in another flight at `time` \[s\] without counting it as work.

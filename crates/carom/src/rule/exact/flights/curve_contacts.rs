@@ -12,6 +12,8 @@ use crate::rule::exact::features::{Feature, NormalCurvature};
 
 /// Most contacts whose forces are solved for at once: the work grows with the third power of their number.
 pub(crate) const MOST_CONTACTS: usize = 64;
+/// Elements of the matrix of contacts that take a unit of work, to fill them in and to solve for the forces.
+const ELEMENTS_PER_UNIT: u64 = 8;
 
 /// A persistent contact of the sphere at a place.
 #[derive(Debug, Clone, Copy)]
@@ -164,11 +166,15 @@ pub(crate) struct CurveContacts {
     /// How each normal turns.
     curvatures: Vec<NormalCurvature>,
     directions: Vec<ForceDirection>,
+    /// Number of the first direction of each contact, and of all directions.
+    first_directions: Vec<usize>,
     matrix: ContactMatrix,
     /// Forces along the directions \[N\].
     parts: Vec<f64>,
     /// One per contact: normal force and friction on body 2 \[N\].
     pub forces: Vec<(f64, DVec3)>,
+    /// Units of work spent so far.
+    pub work: u64,
 }
 
 impl CurveContacts {
@@ -190,9 +196,11 @@ impl CurveContacts {
             normals: vec![DVec3::ZERO; count],
             curvatures: vec![NormalCurvature::Flat; count],
             directions: Vec::new(),
+            first_directions: Vec::new(),
             matrix: ContactMatrix::default(),
             parts: Vec::new(),
             forces: vec![(0.0, DVec3::ZERO); count],
+            work: 0,
         }
     }
 
@@ -326,14 +334,16 @@ impl CurveContacts {
 
     /// Fills in and factorizes the matrix. Returns whether all forces are independent.
     fn fill_matrix(&mut self, spheres: &[ContactSphere]) -> bool {
-        let Self { contacts, linked, directions, matrix, .. } = self;
+        let Self { contacts, linked, directions, first_directions, matrix, work, .. } = self;
         matrix.begin(directions.len());
+        // Contacts far from each other in their order do not depend on each other: the work grows with the square of their
+        // number rather than with the third power.
+        *work += (directions.len() * directions.len()) as u64 / ELEMENTS_PER_UNIT;
         for (row, held) in directions.iter().enumerate() {
             let one = &contacts[held.contact];
             for &other in &linked[held.contact] {
-                let first = directions.partition_point(|it| it.contact < other);
-                let forces = directions.iter().enumerate().skip(first);
-                for (column, force) in forces.take_while(|it| it.1.contact == other) {
+                let columns = first_directions[other]..first_directions[other + 1];
+                for (column, force) in columns.clone().zip(&directions[columns]) {
                     let value = coupling((one, held), (&contacts[other], force), spheres);
                     matrix.set(row, column, value);
                 }
@@ -346,7 +356,9 @@ impl CurveContacts {
     fn find_directions(&mut self, moving: Option<Moving>, spheres: &[ContactSphere]) {
         let mut directions = std::mem::take(&mut self.directions);
         directions.clear();
+        self.first_directions.clear();
         for (contact, &normal) in self.normals.iter().enumerate() {
+            self.first_directions.push(directions.len());
             let friction = self.contacts[contact].friction;
             let of_normal =
                 ForceDirection { contact, normal, force: normal, held: normal, is_along: false };
@@ -366,6 +378,7 @@ impl CurveContacts {
                 _ => directions.push(of_normal),
             }
         }
+        self.first_directions.push(directions.len());
         self.directions = directions;
     }
 }

@@ -48,6 +48,8 @@ pub(crate) struct JointStep {
     pub curves: Vec<(u32, Curve)>,
     /// How often the forces on a sphere were evaluated.
     pub evaluations: u64,
+    /// Units of work that the forces of contacts took.
+    pub contact_work: u64,
     /// Angular accelerations of the spheres on which friction has a torque, by slot \[rad/s²\].
     pub turning: Vec<(u32, PolynomialAcceleration)>,
     /// Time at which a persistent contact of each cluster opens, on the world's clock \[s\];
@@ -299,8 +301,15 @@ impl Flights {
         let steps = bodies.iter().zip(step.accelerations).map(curve_of);
         let curves =
             slots.iter().copied().zip(steps.map(|step| Curve(Some(Box::new(step))))).collect();
-        let (evaluations, is_accurate) = (field.evaluations, step.is_accurate);
-        JointStep { curves, turning, evaluations, releases, is_accurate, is_jammed: held.is_jammed }
+        JointStep {
+            curves,
+            turning,
+            evaluations: field.evaluations,
+            contact_work: field.contacts.iter().map(|it| it.work).sum(),
+            releases,
+            is_accurate: step.is_accurate,
+            is_jammed: held.is_jammed,
+        }
     }
 
     /// The parts of the states \[m\], \[m/s\] that the last steps of spheres left to the next ones, where they led to

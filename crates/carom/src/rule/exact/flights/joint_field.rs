@@ -90,7 +90,7 @@ pub(super) struct JointField<'a> {
     /// What contacts need of the flying spheres, by place.
     spheres: Vec<ContactSphere>,
     /// Persistent contacts between those places; those of different clusters have no sphere in common.
-    contacts: Vec<CurveContacts>,
+    pub contacts: Vec<CurveContacts>,
     /// Surfaces at rest that spheres touch.
     touched: Vec<Touched<'a>>,
     /// Forces between all spheres of the world, where all are members.
