@@ -54,11 +54,12 @@ fn kepler_ellipse_of_eccentricity_0_9_keeps_energy_and_period() {
     let ball = Sphere::new(start, 1e-3).with_velocity(vec(0.0, speed, 0.0));
     let id = world.add_sphere(ball).unwrap();
     let energy = world.total_energy();
-    let periods = 20;
+    let periods = 200;
     for _ in 0..periods * 4 {
         world.step(PI / 2.0).unwrap();
     }
-    assert_close(world.total_energy(), energy, 1e-13 * energy.abs());
+    // Rounding of 20,000 steps, at random, each of which adds what the one before left.
+    assert_close(world.total_energy(), energy, 5e-14 * energy.abs());
     // Where it hardly moves, an error of the phase of 2 pi 1e-10 is one of the way of v times that.
     let place = world.sphere(id).unwrap().position;
     assert!((place - start).length() < 1e-10, "{place}");
@@ -168,8 +169,9 @@ fn a_ball_that_bobs_in_a_fluid_keeps_its_energy() {
     let id = world.add_sphere(Sphere::new(vec(0.0, 0.7, 0.0), r).with_mass(mass)).unwrap();
     let energy = world.total_energy();
     run(&mut world, 10.0, FRAME);
-    // At the surface the slope of the force changes at once: steps across it are short, not exact.
-    assert_close(world.total_energy(), energy, 1e-11 * mass * G);
+    // At the surface the slope of the force changes at once: steps across it are short, not exact. Each of some thirty
+    // leaves 1e-12.
+    assert_close(world.total_energy(), energy, 3e-11 * mass * G);
     assert!(world.sphere(id).unwrap().position.y.abs() < 1.5);
 }
 

@@ -13,7 +13,7 @@ use super::setup::{G, world};
 /// Eccentricity of the ellipse of the claims, with a semi-major axis of 1 m and 1 m³/s² in its focus.
 const ECCENTRICITY: f64 = 0.9;
 /// Periods that they last.
-const PERIODS: u32 = 200;
+const PERIODS: u32 = 1000;
 
 /// Creates a sphere at the apocentre of its ellipse.
 fn in_apocentre(rule: Rule) -> Result<World, carom::Error> {
@@ -27,9 +27,9 @@ fn in_apocentre(rule: Rule) -> Result<World, carom::Error> {
 
 pub fn kepler_energy() -> Claim {
     let claim = Claim::new(
-        "Kepler, e = 0.9, by exact: energy over 200 periods [start]",
+        "Kepler, e = 0.9, by exact: energy over 1,000 periods [start]",
         Expected::no_error("conservation of energy"),
-        Tolerance::absolute(1e-12, "rounding of 20,000 steps, at random"),
+        Tolerance::absolute(1e-13, "rounding of 100,000 steps, at random"),
         |rule| change_of_energy(in_apocentre(rule)?, PERIODS * 4, TAU / 4.0),
     );
     claim.about(exact())
@@ -37,7 +37,7 @@ pub fn kepler_energy() -> Claim {
 
 pub fn kepler_phase() -> Claim {
     let claim = Claim::new(
-        "Kepler, e = 0.9, by exact: it is back after 200 periods [periods]",
+        "Kepler, e = 0.9, by exact: it is back after 1,000 periods [periods]",
         Expected::no_error("Kepler's third law"),
         Tolerance::absolute(1e-9, "the period changes by 3/2 of what the energy does, each time"),
         |rule| periods_off(in_apocentre(rule)?, PERIODS),

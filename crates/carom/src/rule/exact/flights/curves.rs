@@ -238,9 +238,9 @@ impl Flights {
         let mut field = JointField::of(system, self, component);
         let slots = std::mem::take(&mut field.flying);
         let Some(&first) = slots.first() else { return JointStep::default() };
-        let bodies: Vec<&Body> = slots.iter().map(|&slot| &self.bodies[slot as usize]).collect();
-        let mut positions: Vec<DVec3> = bodies.iter().map(|body| body.position).collect();
-        let mut velocities: Vec<DVec3> = bodies.iter().map(|body| body.velocity).collect();
+        let bodies = slots.iter().map(|&slot| &self.bodies[slot as usize]);
+        let (mut positions, mut velocities): (Vec<DVec3>, Vec<DVec3>) =
+            bodies.map(|body| (body.position, body.velocity)).unzip();
         let time = self.bodies[first as usize].time;
         field.hold(system, (component, clusters), [&positions, &velocities]);
         let count = slots.len();
@@ -255,9 +255,7 @@ impl Flights {
             field.ties.iter_mut().for_each(|tie| *tie = tie.with_changes());
         }
         let brief = field.brief(states, time).unwrap_or(limits.tick);
-        // A close passage of two spheres multiplies the rounding of their places.
-        let close = if field.between.is_some() { &slots[..] } else { &[] };
-        let carried = self.left_by_last_steps(close, time, positions.len());
+        let carried = self.left_by_last_steps(&slots, time, positions.len());
         let start = Start {
             positions: &positions,
             velocities: &velocities,
@@ -272,12 +270,10 @@ impl Flights {
         let known_pace = shortest_pace(before.iter().flatten()).unwrap_or(Pace::of(brief));
         let pace = limits.pace(known_pace);
         field.choose_friction(states, time, pace.trial);
-        // The last step predicts this one only if no event was between, and if it was no rough step, which may be
-        // of any length.
-        let before = before.filter(|steps| steps.iter().all(|step| step.leads_to(time)));
+        // A rough step may be of any length.
         let before = before.filter(|_| !limits.is_rough);
         let turned = if positions.len() > count { &slots[..] } else { &[] };
-        let before = before.map(|steps| self.accelerations_over(&steps, turned));
+        let before = before.and_then(|steps| self.accelerations_up_to(&steps, turned, time));
         let step = gauss_radau::step(&start, before.as_deref(), pace, &mut field);
         let held = field.held_over(&start, &step);
         let releases = held.releases.into_iter().map(|release| time + release).collect();
@@ -287,23 +283,20 @@ impl Flights {
         let end =
             change.map_or(step.end, |change| (time + change).max(time.next_up()).min(step.end));
         let turning = |&place: &usize| (slots[place], step.accelerations[count + place]);
-        let turning = field.turned().iter().map(turning).collect();
         // A rough step says nothing of the next one.
         let pace = if limits.is_rough { known_pace } else { step.pace };
         let mut free = held.free.into_iter();
-        let curve_of = |(body, acceleration): (&&Body, PolynomialAcceleration)| {
-            let Body { position, velocity, generation, .. } = **body;
+        let curve_of = |(&slot, acceleration): (&u32, PolynomialAcceleration)| {
+            let Body { position, velocity, generation, .. } = self.bodies[slot as usize];
             let flight = PolynomialFlight { position, velocity, acceleration };
             let left = flight.left_after(end - time);
             let (is_smooth, free) = (change.is_none(), free.next().map(Box::new));
-            CurveStep { generation, acceleration, end, is_smooth, pace, left, free }
+            let step = CurveStep { generation, acceleration, end, is_smooth, pace, left, free };
+            (slot, Curve(Some(Box::new(step))))
         };
-        let steps = bodies.iter().zip(step.accelerations).map(curve_of);
-        let curves =
-            slots.iter().copied().zip(steps.map(|step| Curve(Some(Box::new(step))))).collect();
         JointStep {
-            curves,
-            turning,
+            turning: field.turned().iter().map(turning).collect(),
+            curves: slots.iter().zip(step.accelerations).map(curve_of).collect(),
             evaluations: field.evaluations,
             contact_work: field.contacts.iter().map(|it| it.work).sum(),
             releases,
@@ -324,15 +317,20 @@ impl Flights {
         left
     }
 
-    /// The accelerations over steps, and behind them the angular ones of these spheres.
-    fn accelerations_over(
+    /// The accelerations over steps, and behind them the angular ones of these spheres: they predict a step from `time`
+    /// \[s\] on, if no event was between.
+    fn accelerations_up_to(
         &self,
         steps: &[&CurveStep],
         turned: &[u32],
-    ) -> Vec<PolynomialAcceleration> {
+        time: f64,
+    ) -> Option<Vec<PolynomialAcceleration>> {
+        if !steps.iter().all(|step| step.leads_to(time)) {
+            return None;
+        }
         let of_centres = steps.iter().map(|step| step.acceleration);
         let turning = turned.iter().zip(steps);
-        of_centres.chain(turning.map(|(&slot, step)| self.turning_over(slot, step))).collect()
+        Some(of_centres.chain(turning.map(|(&slot, step)| self.turning_over(slot, step))).collect())
     }
 
     /// The angular acceleration of a sphere over its last step.

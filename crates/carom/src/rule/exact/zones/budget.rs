@@ -64,8 +64,10 @@ impl Budget {
 
     /// Adds what the curves of these spheres, by index, spent that begin at `time` \[s\].
     pub fn charge_at(&mut self, parameters: Exact, spheres: &[u32], spent: u64, time: f64) {
-        self.follow(time / parameters.zone_tick, u64::from(parameters.zone_budget));
-        self.charge(spheres, spent, 0);
+        if spent > 0 {
+            self.follow(time / parameters.zone_tick, u64::from(parameters.zone_budget));
+            self.charge(spheres, spent, 0);
+        }
     }
 
     /// Counts a short flight of a sphere, by index, that ends at `time` \[s\]. Returns whether there have been too
