@@ -106,7 +106,7 @@ pub use emitter::Emitter;
 pub use error::{Error, InvalidValue, Subject};
 pub use flight::Flight;
 pub use forces::{
-    Buoyancy, ConstantForce, Force, ForceDerivatives, Gravity, Interaction, LinearForce,
+    Buoyancy, ConstantForce, Force, ForceDerivatives, ForceEdge, Gravity, Interaction, LinearForce,
     MutualGravity, PointAttractor, QuadraticDrag, SphereState, SphereStates, Spring, SpringEnd,
     ViscousDrag, Vortex, Wind,
 };

@@ -3,7 +3,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 
 use super::derivatives::outer;
-use super::{Force, ForceDerivatives, SphereState};
+use super::{Force, ForceDerivatives, ForceEdge, SphereState};
 use crate::error::InvalidValue;
 use crate::norm::Norm;
 use crate::validate;
@@ -61,6 +61,13 @@ impl Force for Buoyancy {
 
     fn is_conservative(&self) -> bool {
         true
+    }
+
+    /// Where the lowest and the highest point of the sphere pass the surface.
+    fn edges(&self, radius: f64) -> Vec<ForceEdge> {
+        let normal = -self.gravity / self.gravity.norm();
+        let edge = |reach| ForceEdge { normal, height: self.surface_height + reach };
+        vec![edge(-radius), edge(radius)]
     }
 
     fn derivatives(&self, sphere: &SphereState, _time: f64) -> Option<ForceDerivatives> {

@@ -5,6 +5,7 @@ mod buoyancy;
 mod constant;
 mod derivatives;
 mod drag;
+mod edge;
 mod gravity;
 mod interaction;
 mod interactions;
@@ -28,6 +29,7 @@ pub use buoyancy::Buoyancy;
 pub use constant::ConstantForce;
 pub use derivatives::ForceDerivatives;
 pub use drag::ViscousDrag;
+pub use edge::ForceEdge;
 pub use gravity::Gravity;
 pub use interaction::{Interaction, SphereStates};
 pub(crate) use interactions::Interactions;
@@ -114,6 +116,14 @@ pub trait Force: Any + Debug + Send + Sync {
     /// [`EnergyAccount::forces`](crate::EnergyAccount::forces), less what its potential accounts for.
     fn is_conservative(&self) -> bool {
         false
+    }
+
+    /// Planes at which the force on a sphere of this `radius` \[m\] bends or jumps; none by default.
+    ///
+    /// The rule `exact` ends a step of a curved flight there, so that none misses a field however thin, and all between
+    /// are smooth.
+    fn edges(&self, _radius: f64) -> Vec<ForceEdge> {
+        Vec::new()
     }
 
     /// Derivatives of [`Self::on`] by the state of the sphere, for derivatives of whole runs; `None` (the default)

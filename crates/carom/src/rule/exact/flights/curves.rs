@@ -5,13 +5,14 @@ use glam::DVec3;
 use super::body::Body;
 use super::components::Component;
 use super::curve::{Curve, CurveStep};
+use super::edge_crossing;
 use super::free_field::FreeField;
 use super::joint_field::JointField;
 use super::species::Species;
 use super::state::Flights;
 use crate::contact_time::{PolynomialTrack, Track};
 use crate::integrate::field::Start;
-use crate::integrate::gauss_radau::{self, Pace};
+use crate::integrate::gauss_radau::{self, Pace, Step};
 use crate::polynomial_flight::{PolynomialAcceleration, PolynomialFlight};
 use crate::settings::nearest_image;
 use crate::system::System;
@@ -19,6 +20,9 @@ use crate::system::System;
 /// Where forces are steady, a step lasts at most this many times the time in which a sphere moves by its radius,
 /// since forces may differ farther away.
 const STEADY_RADII: f64 = 16.0;
+
+/// Most steps that are tried towards an edge of a force, where each finds it better than the one before.
+const MOST_TRIALS: u32 = 4;
 
 /// Bounds for the steps of curves.
 #[derive(Debug, Clone, Copy)]
@@ -252,11 +256,11 @@ impl Flights {
         let states = [&positions[..], &velocities[..]];
         field.begin(component, states, time);
         if limits.is_rough {
-            field.ties.iter_mut().for_each(|tie| *tie = tie.with_changes());
+            field.ignore_changes();
         }
         let brief = field.brief(states, time).unwrap_or(limits.tick);
         let carried = self.left_by_last_steps(&slots, time, positions.len());
-        let start = Start {
+        let mut start = Start {
             positions: &positions,
             velocities: &velocities,
             carried: &carried,
@@ -274,11 +278,12 @@ impl Flights {
         let before = before.filter(|_| !limits.is_rough);
         let turned = if positions.len() > count { &slots[..] } else { &[] };
         let before = before.and_then(|steps| self.accelerations_up_to(&steps, turned, time));
-        let step = gauss_radau::step(&start, before.as_deref(), pace, &mut field);
+        let step = step_to_an_edge(&mut start, before.as_deref(), pace, &mut field);
         let held = field.held_over(&start, &step);
         let releases = held.releases.into_iter().map(|release| time + release).collect();
         let of_friction = Some(held.change).filter(|it| it.is_finite() && !limits.is_rough);
-        let changes = [field.first_change(&start, &step), of_friction];
+        let of_edge = edge_crossing::first_crossing(&field.alone, &start, &step);
+        let changes = [field.first_change(&start, &step), of_friction, of_edge];
         let change = changes.into_iter().flatten().reduce(f64::min);
         let end =
             change.map_or(step.end, |change| (time + change).max(time.next_up()).min(step.end));
@@ -384,6 +389,29 @@ impl Flights {
         }
         self.curves[index as usize] = curve;
     }
+}
+
+/// Takes a step that ends at the first edge of a force that a sphere passes, if it reaches one: what is beyond has no part
+/// in it.
+fn step_to_an_edge(
+    start: &mut Start,
+    before: Option<&[PolynomialAcceleration]>,
+    pace: Pace,
+    field: &mut JointField,
+) -> Step {
+    let mut step = gauss_radau::step(start, before, pace, field);
+    for _ in 0..MOST_TRIALS {
+        let Some(crossing) = edge_crossing::first_crossing(&field.alone, start, &step) else {
+            break;
+        };
+        let until = (start.time + crossing).max(start.time.next_up());
+        if until >= step.end {
+            break;
+        }
+        start.until = until;
+        step = gauss_radau::step(start, before, pace, field);
+    }
+    step
 }
 
 /// The pace of the shortest trial among steps.

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::forces::{self, Force, SphereState};
+use crate::forces::{self, Force, ForceEdge, SphereState};
 use crate::norm::Norm;
 use crate::system::System;
 
@@ -16,6 +16,8 @@ pub(crate) struct FreeField<'a> {
     pub mass: f64,
     /// Forces that are not linear.
     others: Vec<&'a dyn Force>,
+    /// Edges of these forces.
+    edges: Vec<ForceEdge>,
 }
 
 impl<'a> FreeField<'a> {
@@ -23,14 +25,32 @@ impl<'a> FreeField<'a> {
     pub fn of(system: &System<'a>, index: usize) -> Self {
         let (radius, mass) = (system.spheres.radius[index], system.spheres.mass[index]);
         let (linear, _) = forces::total_linear(system.forces, radius, mass);
+        let others = forces::without_linear_form(system.forces, radius, mass);
         let applied = system.spheres.applied_acceleration(index).unwrap_or(DVec3::ZERO);
         Self {
             uniform: linear.acceleration + applied,
             drag_rate: linear.drag_rate,
             radius,
             mass,
-            others: forces::without_linear_form(system.forces, radius, mass),
+            edges: others.iter().flat_map(|force| force.edges(radius)).collect(),
+            others,
         }
+    }
+
+    /// Time in which the sphere moves by its radius \[s\].
+    pub fn time_of_a_radius(&self, velocity: DVec3, acceleration: DVec3) -> f64 {
+        let by_speed = self.radius / velocity.norm();
+        by_speed.min((2.0 * self.radius / acceleration.norm()).sqrt())
+    }
+
+    /// Lets steps go on beyond the edges of the forces.
+    pub fn ignore_edges(&mut self) {
+        self.edges.clear();
+    }
+
+    /// Planes at which the forces bend or jump.
+    pub fn edges(&self) -> impl Iterator<Item = ForceEdge> {
+        self.edges.iter().copied()
     }
 
     pub fn acceleration_and_size(

@@ -55,12 +55,6 @@ fn moving<'a>([positions, velocities]: [&'a [DVec3]; 2], count: usize) -> Moving
     Moving { positions: &positions[..count], velocities, angular_velocities }
 }
 
-/// Time in which a sphere moves by its radius \[s\].
-fn time_of_a_radius(radius: f64, velocity: DVec3, acceleration: DVec3) -> f64 {
-    let by_speed = radius / velocity.norm();
-    by_speed.min((2.0 * radius / acceleration.norm()).sqrt())
-}
-
 /// A surface at rest that a sphere touches.
 struct Touched<'a> {
     /// Place of its cluster.
@@ -80,13 +74,13 @@ pub(super) struct JointField<'a> {
     /// Slots of the spheres that it acts on.
     pub flying: Vec<u32>,
     /// Forces on each sphere by itself.
-    alone: Vec<FreeField<'a>>,
+    pub alone: Vec<FreeField<'a>>,
     /// Slots of the other members, whose motion is given.
     others: Vec<u32>,
     /// Place of each member in `flying` followed by `others`.
     place_of: Vec<usize>,
     /// Springs between those places.
-    pub ties: Vec<Tie<'a>>,
+    ties: Vec<Tie<'a>>,
     /// What contacts need of the flying spheres, by place.
     spheres: Vec<ContactSphere>,
     /// Persistent contacts between those places; those of different clusters have no sphere in common.
@@ -282,13 +276,19 @@ impl<'a> JointField<'a> {
         self.between = Some(between);
     }
 
+    /// Lets steps go on beyond changes of springs and edges of forces.
+    pub fn ignore_changes(&mut self) {
+        self.ties.iter_mut().for_each(|tie| *tie = tie.with_changes());
+        self.alone.iter_mut().for_each(FreeField::ignore_edges);
+    }
+
     /// The shortest time in which one of its spheres moves by its radius \[s\]; `None` if none does.
     pub fn brief(&mut self, [positions, velocities]: [&[DVec3]; 2], time: f64) -> Option<f64> {
         let mut values = Values::of(positions.len());
         self.evaluate(time, positions, velocities, &mut values);
         let of_each = self.alone.iter().zip(velocities).zip(values.accelerations);
         let times = of_each.map(|((alone, &velocity), acceleration)| {
-            time_of_a_radius(alone.radius, velocity, acceleration)
+            alone.time_of_a_radius(velocity, acceleration)
         });
         times.reduce(f64::min).filter(|time| time.is_finite() && *time > 0.0)
     }

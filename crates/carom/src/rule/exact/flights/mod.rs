@@ -9,6 +9,7 @@ mod contact_work;
 mod curve;
 mod curve_contacts;
 mod curves;
+mod edge_crossing;
 mod flight_log;
 mod free_field;
 mod friction_choice;
