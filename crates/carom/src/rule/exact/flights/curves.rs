@@ -285,8 +285,7 @@ impl Flights {
         let of_edge = edge_crossing::first_crossing(&field.alone, &start, &step);
         let changes = [field.first_change(&start, &step), of_friction, of_edge];
         let change = changes.into_iter().flatten().reduce(f64::min);
-        let end =
-            change.map_or(step.end, |change| (time + change).max(time.next_up()).min(step.end));
+        let end = change.map_or(step.end, |it| (time + it).clamp(time.next_up(), step.end));
         let turning = |&place: &usize| (slots[place], step.accelerations[count + place]);
         // A rough step says nothing of the next one.
         let pace = if limits.is_rough { known_pace } else { step.pace };
