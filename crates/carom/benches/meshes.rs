@@ -27,7 +27,10 @@ fn main() {
         }
         let time = 1e3 * (processor_seconds() - began) / f64::from(FRAMES);
         let least = world.spheres().positions().iter().map(|it| it.y).fold(f64::INFINITY, f64::min);
-        println!("  {} balls, {FRAMES} frames: {time:.2} ms a frame; lowest {least:.2} m", BALLS * BALLS);
+        println!(
+            "  {} balls, {FRAMES} frames: {time:.2} ms a frame; lowest {least:.2} m",
+            BALLS * BALLS
+        );
     }
 }
 
@@ -70,9 +73,8 @@ fn field(count: usize, cell: f64) -> Shape {
     };
     let place = |number: usize| cell * (number as f64 - 0.5 * (count - 1) as f64);
     let wave = |place: f64, length: f64| libm::sin(6.283 * place / length);
-    let mut height = |x: f64, z: f64| {
-        wave(x, 25.0) * wave(z, 31.0) + 0.2 * wave(x, 7.0) + 0.02 * cell * noise()
-    };
+    let mut height =
+        |x: f64, z: f64| wave(x, 25.0) * wave(z, 31.0) + 0.2 * wave(x, 7.0) + 0.02 * cell * noise();
     let rows: Vec<Vec<f64>> = (0..count)
         .map(|row| (0..count).map(|column| height(place(column), place(row))).collect())
         .collect();

@@ -80,7 +80,8 @@ mod tests {
 
     #[test]
     fn all_lengths_of_a_shape_grow_with_its_scale() {
-        let triangle = Mesh::listed(vec![[0.0; 3], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]], vec![[0, 1, 2]]);
+        let triangle =
+            Mesh::listed(vec![[0.0; 3], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]], vec![[0, 1, 2]]);
         let field = HeightField::new([2.0, 4.0], vec![vec![0.0, 1.0], vec![0.5, 0.0]]);
         let curve = Piece::Curve { radius: 1.0, degrees: 90.0, bank_degrees: 0.0 };
         let gap = Piece::Gap { length: 1.0, drop: 0.2, pitch_degrees: None };

@@ -389,7 +389,8 @@ const MESHES: [&str; 4] = [
 ];
 
 fn obstacle() -> impl Strategy<Value = Obstacle> {
-    let fixed = prop_oneof![3 => select(&FLAT[..]), 3 => select(&ROUND[..]), 1 => select(&MESHES[..])];
+    let fixed =
+        prop_oneof![3 => select(&FLAT[..]), 3 => select(&ROUND[..]), 1 => select(&MESHES[..])];
     let shape = prop_oneof![6 => fixed.prop_map(str::to_owned), 1 => mesh()];
     let velocity = weighted(0.15, prop_oneof![3 => vector(), 1 => vector_of(20.0)]);
     let place = (vector_of(0.5 * HALF), prop_oneof![1 => Just([0.0; 3]), 3 => vector_of(180.0)]);

@@ -67,9 +67,8 @@ fn sheet(numbers: &[Vector], size: usize) -> Triangles {
     let width = size + 1;
     let place = |it: usize| {
         let [x, y, z] = numbers[it];
-        let along = |number: usize, beside: f64| {
-            1.4 * ((number as f64 + 0.3 * beside) / size as f64 - 0.5)
-        };
+        let along =
+            |number: usize, beside: f64| 1.4 * ((number as f64 + 0.3 * beside) / size as f64 - 0.5);
         [along(it % width, x), 0.25 * y, along(it / width, z)]
     };
     let mut triangles = Vec::new();
@@ -77,7 +76,8 @@ fn sheet(numbers: &[Vector], size: usize) -> Triangles {
         let first = cell / size * width + cell % size;
         let corners = [first, first + 1, first + width, first + width + 1];
         let [a, b, c, d] = corners;
-        let halves = if numbers[cell][2] > 0.0 { [[a, c, b], [b, c, d]] } else { [[a, c, d], [a, d, b]] };
+        let halves =
+            if numbers[cell][2] > 0.0 { [[a, c, b], [b, c, d]] } else { [[a, c, d], [a, d, b]] };
         let kept = halves.into_iter().enumerate().filter(|(half, _)| numbers[cell][*half] > -0.6);
         triangles.extend(kept.map(|(_, triangle)| triangle));
     }

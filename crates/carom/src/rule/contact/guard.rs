@@ -10,8 +10,8 @@ use super::contacts::surfaces::{self, SurfaceContact};
 use super::neighbours::near_moving::NearMoving;
 use super::places::Places;
 use super::slabs::Slab;
-use super::slabs::search::MOST_SURFACES;
 use super::slabs::landings::Landings;
+use super::slabs::search::MOST_SURFACES;
 use super::slots::Run;
 use super::slots::row::Row;
 use super::slots::slab_totals::SlabTotals;
@@ -110,7 +110,8 @@ impl Guard<'_> {
                     let start = own.map_or(run.reference[slot].vector(), |it| it.start);
                     let start = self.start_of(slab.start + slot, start);
                     let way = (start, self.turn_of(slab.start + slot));
-                    let mut surfaces = self.surfaces_of(slab.start + slot, run.position[slot], start);
+                    let mut surfaces =
+                        self.surfaces_of(slab.start + slot, run.position[slot], start);
                     let own = slab.surfaces[first..].iter();
                     for passed in
                         own.take_while(|it| it.slot as usize == slot).filter(|it| it.passes)
@@ -202,7 +203,8 @@ impl Guard<'_> {
         if self.system.surfaces.len() <= MOST_SURFACES {
             return self.places.all_known().filter(deflects).collect();
         }
-        let path = Bounds::around(start, DVec3::ZERO).union(Bounds::around(end.vector(), DVec3::ZERO));
+        let path =
+            Bounds::around(start, DVec3::ZERO).union(Bounds::around(end.vector(), DVec3::ZERO));
         // The sphere may be pushed from surface to surface.
         let beside = 2.0 * (end.number() + (end.vector() - start).length());
         let mut near = Vec::new();

@@ -47,12 +47,7 @@ pub struct Course {
 
 impl Course {
     /// Advances an island through a time \[s\] of a sub-step.
-    pub fn run(
-        &mut self,
-        island: &mut Island,
-        places: &Places,
-        (time, sub_step): (f64, &SubStep),
-    ) {
+    pub fn run(&mut self, island: &mut Island, places: &Places, (time, sub_step): (f64, &SubStep)) {
         self.visits = 0;
         let most_by_looks = MOST_LOOKS / island.links.len().max(1);
         let most = (MOST_IMPACTS * island.bodies.len()).min(most_by_looks);
