@@ -303,6 +303,11 @@ impl Game {
         self.events.clear();
     }
 
+    /// Sets the least time in which this maze was won \[s\].
+    pub fn set_best(&mut self, best: Option<f64>) {
+        self.best = best;
+    }
+
     /// Returns the progress of the game; of a won game, only the best time.
     pub fn progress(&self) -> Progress {
         if self.state != GameState::Rolling {

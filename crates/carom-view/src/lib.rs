@@ -29,6 +29,7 @@ mod inspector;
 mod layout;
 mod link_dialog;
 mod look;
+mod maze_input;
 mod maze_screen;
 mod menu;
 mod naming;

@@ -9,7 +9,9 @@ use carom_session::Link;
 use egui::{Align2, Area, Frame, Id, Key, Rect, Response, RichText, Sense, Ui, Vec2};
 
 use crate::game_view::{GameScreen, GameView, LastScreen, Wish, count_line};
+use crate::input_log::InputLog;
 use crate::layout::is_touched;
+use crate::maze_input::MazeInput;
 use crate::ring;
 use crate::saved::SavedGame;
 use crate::studio::Studio;
@@ -36,6 +38,22 @@ pub struct MazeScreen {
     finger: Option<Vec2>,
     /// Whether a continued game waits for the player.
     waits: bool,
+    /// What the player did in each frame of this game; `None` if its beginning is not known.
+    pressed: Option<InputLog<MazeInput>>,
+    /// Text of the moves that reached the best time, if they are known.
+    best_moves: Option<String>,
+    /// The game of the link that is played again.
+    replay: Option<Replay>,
+}
+
+/// A recorded game that is played again.
+struct Replay {
+    /// Inputs of the frames that are left.
+    inputs: Box<dyn Iterator<Item = MazeInput>>,
+    /// The player's own best time \[s\].
+    best: Option<f64>,
+    /// The player's own options.
+    options: Options,
 }
 
 /// Keys, and the parts of the full tilt towards +x and +z that they give.
@@ -59,7 +77,9 @@ impl MazeScreen {
         let game = Game::new(maze, Options::default())?;
         let palette = Palette::new(game.scene())?;
         let view = GameView::new(FROM, link);
-        Ok(Self { game, palette, view, stick: None, finger: None, waits: false })
+        let pressed = Some(InputLog::default());
+        let (stick, finger, best_moves, replay) = (None, None, None, None);
+        Ok(Self { game, palette, view, stick, finger, waits: false, pressed, best_moves, replay })
     }
 
     /// Returns whether the win screen is shown.
@@ -84,10 +104,14 @@ impl MazeScreen {
         }
         for _ in 0..self.view.pace.frames_due(wall_seconds, self.game.frame_time()) {
             self.view.clock += self.game.frame_time();
+            let Some(input) = self.input_of_frame(steering, now)? else { continue };
             let before = self.game.ball_in_maze().0;
-            let stepped = self.game.step(steering).map(<[_]>::to_vec);
+            let stepped = self.game.step(input.steering(self.full_tilt())).map(<[_]>::to_vec);
             // A step that failed once would fail again.
             let events = stepped.inspect_err(|_| self.view.pace.set_playing(false))?;
+            if let Some(pressed) = &mut self.pressed {
+                pressed.push(input);
+            }
             for event in events {
                 self.note(event, now);
             }
@@ -102,19 +126,71 @@ impl MazeScreen {
         Ok(())
     }
 
+    /// Returns the input of the next frame: that of the player, or of the game that is played again. Where the latter
+    /// ends before the end wall, the player begins.
+    fn input_of_frame(
+        &mut self,
+        steering: Steering,
+        now: f64,
+    ) -> Result<Option<MazeInput>, GameError> {
+        let is_won = self.is_won();
+        let Some(replay) = self.replay.as_mut().filter(|_| !is_won) else {
+            let options = [self.rolls(), self.levels_back()];
+            return Ok(Some(MazeInput::of(steering, self.full_tilt(), options)));
+        };
+        let input = replay.inputs.next();
+        match input {
+            Some(input) if input.rolls != self.rolls() => self.set_rolls(input.rolls)?,
+            Some(_) => {}
+            None => {
+                self.play_again();
+                self.view.say("Now you".to_owned(), now);
+            }
+        }
+        if let Some(input) = input.filter(|it| it.levels_back != self.levels_back()) {
+            self.set_levels_back(input.levels_back)?;
+        }
+        Ok(input)
+    }
+
+    /// Returns the angle of a full tilt \[rad\].
+    fn full_tilt(&self) -> f64 {
+        self.game.options().max_tilt_degrees.to_radians()
+    }
+
+    /// Keeps the moves of the best game; one that is played again is none of the player's.
+    fn note_end(&mut self, is_best: bool) {
+        match &self.replay {
+            Some(replay) => self.game.set_best(replay.best),
+            None if is_best => {
+                self.best_moves = self.pressed.as_ref().and_then(InputLog::to_text);
+            }
+            None => {}
+        }
+    }
+
+    /// Ends a recorded game; the player's own options hold again.
+    fn end_replay(&mut self) {
+        if let Some(Replay { options, best, .. }) = self.replay.take() {
+            self.game.set_best(best);
+            // They held before.
+            self.game.set_options(options).ok();
+        }
+    }
+
     fn note(&mut self, event: GameEvent, now: f64) {
         let of = self.game.maze().collectibles().count();
         let text = match event {
             GameEvent::Collected { count, .. } => format!("{count} of {of}"),
             GameEvent::Fell => "Off the edge - once more from the start".to_owned(),
-            GameEvent::Won { .. } => return,
+            GameEvent::Won { is_best, .. } => return self.note_end(is_best),
         };
         self.view.say(text, now);
     }
 
     /// Returns the tilt by keys, mouse, finger or gamepad.
     pub fn steering(&self, ui: &Ui) -> Steering {
-        let most = self.game.options().max_tilt_degrees.to_radians();
+        let most = self.full_tilt();
         let towards =
             |x: f64, z: f64| Steering::Towards(Tilt { about_x: z * most, about_z: -x * most });
         if let Some(stick) = self.stick.filter(|stick| stick.length() > 0.12) {
@@ -181,8 +257,9 @@ impl MazeScreen {
         }
     }
 
-    /// Shows collectibles, times and the task in a line above the picture.
-    fn counts(&self, ui: &mut Ui) {
+    /// Shows collectibles, times and the task in a line above the picture; returns whether the user wants the recorded
+    /// game.
+    fn counts(&self, ui: &mut Ui) -> bool {
         let of = self.game.maze().collectibles().count();
         let collected = (of > 0).then(|| format!("Collected {} of {of}", self.game.collected()));
         let mut counts: Vec<String> = collected.into_iter().collect();
@@ -194,7 +271,8 @@ impl MazeScreen {
         } else {
             "Arrow keys or WASD tilt the maze; so does the right mouse button."
         };
-        count_line(ui, &counts, GOALS[usize::from(of == 0)], hint, false);
+        let can_watch = self.replay.is_none() && self.view.link.moves().is_some();
+        count_line(ui, &counts, GOALS[usize::from(of == 0)], hint, can_watch)
     }
 
     /// Draws a ring around the ball where walls hide most of it.
@@ -275,6 +353,10 @@ impl GameScreen for MazeScreen {
 
     fn last_screen(&self) -> Option<LastScreen> {
         let GameState::Won { time } = self.game.state() else { return None };
+        if self.replay.is_some() {
+            let lines = vec![format!("{time:.1} s"), "This is the game to beat.".to_owned()];
+            return Some(LastScreen { heading: "Now you", lines, next: None });
+        }
         let has_all = self.game.remaining().next().is_none();
         let is_best = has_all && self.game.best().is_some_and(|best| time <= best);
         let of = self.game.maze().collectibles().count();
@@ -301,22 +383,46 @@ impl GameScreen for MazeScreen {
     }
 
     fn saved(&self) -> Option<SavedGame> {
-        Some(SavedGame::Maze { progress: self.game.progress(), rolls: self.rolls() })
+        let mut game = self.game.clone();
+        if let Some(Replay { best, options, .. }) = &self.replay {
+            game.set_best(*best);
+            game.play_again();
+            game.set_options(*options).ok()?;
+        }
+        let (progress, rolls) = (game.progress(), game.options().friction > 0.0);
+        Some(SavedGame::Maze { progress, rolls, moves: self.best_moves.clone() })
     }
 
     fn resume(&mut self, game: &SavedGame) {
-        let SavedGame::Maze { progress, rolls } = game else { return };
+        let SavedGame::Maze { progress, rolls, moves } = game else { return };
         if self.set_rolls(*rolls).is_err() || self.game.resume(progress).is_err() {
             return;
         }
+        self.best_moves.clone_from(moves);
         let is_begun = self.game.elapsed() > 0.0;
+        self.pressed = (!is_begun).then(InputLog::default);
         self.view.pace.set_playing(!is_begun);
         self.waits = is_begun;
     }
 
+    fn best_moves(&self) -> Option<&str> {
+        self.best_moves.as_deref()
+    }
+
+    fn watch(&mut self) -> bool {
+        let text = self.view.link.moves();
+        let Some(log) = text.and_then(InputLog::<MazeInput>::from_text) else { return false };
+        self.play_again();
+        let (best, options) = (self.game.best(), *self.game.options());
+        self.replay = Some(Replay { inputs: Box::new(log.into_frames()), best, options });
+        true
+    }
+
     fn play_again(&mut self) {
+        self.end_replay();
         self.game.play_again();
         self.view.start_again();
+        self.pressed = Some(InputLog::default());
         if self.waits {
             self.go_on();
         }
@@ -337,7 +443,9 @@ impl GameScreen for MazeScreen {
 
     fn picture(&mut self, ui: &mut Ui, studio: &mut Studio, dark: bool) -> Option<Wish> {
         self.view.dark = dark;
-        self.counts(ui);
+        if self.counts(ui) {
+            self.show_moves(ui);
+        }
         let rect = ui.available_rect_before_wrap();
         let response = ui.allocate_rect(rect, Sense::click_and_drag());
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Maze"));

@@ -39,6 +39,9 @@ pub enum SavedGame {
         progress: Progress,
         /// Whether the ball rolls by friction.
         rolls: bool,
+        /// Text of the moves that reached the best time.
+        #[serde(default)]
+        moves: Option<String>,
     },
     /// Games on a pinball table.
     Pinball {

@@ -1,12 +1,14 @@
 //! The maze game by keys.
 
 use carom_maze::{GameState, Maze};
+use carom_session::Link;
 use carom_view::{Action, Setup, Start};
 use egui::Key;
 use egui::epaint::Shape;
 use egui_kittest::kittest::Queryable;
 
-use crate::desk::{Desk, desk, setup};
+use crate::desk::{Desk, desk, press, setup};
+use crate::links::copied_text;
 
 /// The end wall is to the right of the start.
 pub const SHORT: &str = "#######\n#S o E#\n#######\n";
@@ -56,6 +58,38 @@ fn the_end_wall_wins_and_play_again_starts_anew() {
     let game = desk.state().maze().expect("a game").game();
     assert_eq!((game.state(), game.collected()), (GameState::Rolling, 0));
     assert_eq!(game.best(), Some(time));
+}
+
+#[test]
+fn the_moves_of_a_link_win_again_in_the_same_time() {
+    let mut desk = playing(Maze::from_text(SHORT, "short").expect("a maze"));
+    win(&mut desk);
+    let game = |desk: &Desk| desk.state().maze().expect("a maze").game().clone();
+    let won = game(&desk).state();
+    let GameState::Won { time } = won else { panic!("not won") };
+    press(&mut desk, Key::U);
+    desk.run_steps(2);
+    desk.get_by_label("Copy the link").click();
+    desk.run_steps(1);
+    let copied = Link::parse(&copied_text(&desk).expect("something was copied")).expect("a link");
+    assert_eq!(copied.goal(), Some(time));
+    // Another player, whose options stay as they were.
+    let mut desk = self::desk(Setup { start: Some(Start::Link(Box::new(copied))), ..setup() });
+    desk.run_steps(2);
+    desk.get_by_label("Watch it").click();
+    desk.run_steps(2);
+    let is_won = (0..1200).any(|_| {
+        desk.run_steps(1);
+        matches!(game(&desk).state(), GameState::Won { .. })
+    });
+    assert!(is_won);
+    assert_eq!((game(&desk).state(), game(&desk).best()), (won, None));
+    desk.run_steps(2);
+    desk.get_by_label("This is the game to beat.");
+    desk.key_press(Key::Enter);
+    desk.run_steps(2);
+    assert_eq!((game(&desk).state(), game(&desk).best()), (GameState::Rolling, None));
+    assert!(desk.query_by_label("Watch it").is_some());
 }
 
 #[test]
