@@ -94,6 +94,7 @@ pub struct Obstacle {
     pub is_trigger: bool,
     /// Speed that an impact on the obstacle adds \[m/s\].
     pub kick: Option<f64>,
+    pub cushion: Option<f64>,
     /// Velocity of the material along the surface \[m/s\].
     pub belt: Option<[f64; 3]>,
 }
@@ -397,9 +398,10 @@ fn obstacle() -> impl Strategy<Value = Obstacle> {
     let spin = weighted(0.1, vector_of(3.0));
     let parts = prop_oneof![6 => Just(Vec::new()), 1 => vec(part(), 1..4)];
     let belt = weighted(0.15, vector_of(3.0));
-    let answer = (proptest::bool::weighted(0.05), weighted(0.1, 0.1..5.0), belt);
+    let thrown = (weighted(0.1, 0.1..5.0), weighted(0.2, 1.0..2.0));
+    let answer = (proptest::bool::weighted(0.05), thrown, belt);
     (shape, place, velocity, (spin, parts), answer).prop_map(
-        |(shape, (position, turn), velocity, (spin, parts), (is_trigger, kick, belt))| Obstacle {
+        |(shape, (position, turn), velocity, (spin, parts), (is_trigger, thrown, belt))| Obstacle {
             shape,
             position,
             turn,
@@ -407,7 +409,8 @@ fn obstacle() -> impl Strategy<Value = Obstacle> {
             spin,
             parts,
             is_trigger,
-            kick,
+            kick: thrown.0,
+            cushion: thrown.1,
             belt,
         },
     )

@@ -188,7 +188,7 @@ fn emitter(drawn: &Drawn, emitter: &Emitter) -> String {
 }
 
 fn obstacle(drawn: &Drawn, obstacle: &Obstacle, material: &str) -> String {
-    let Obstacle { shape, position, turn, velocity, spin, parts, is_trigger, kick, belt } =
+    let Obstacle { shape, position, turn, velocity, spin, parts, is_trigger, kick, cushion, belt } =
         obstacle;
     let motion = if parts.is_empty() {
         motion(drawn, *velocity, *spin)
@@ -197,9 +197,10 @@ fn obstacle(drawn: &Drawn, obstacle: &Obstacle, material: &str) -> String {
     };
     let trigger = if *is_trigger { "trigger = true\n" } else { "" };
     let kick = kick.map_or(String::new(), |it| format!("kick = {it:?}\n"));
+    let cushion = cushion.map_or(String::new(), |it| format!("cushion = {it:?}\n"));
     let belt = belt.map_or(String::new(), |it| format!("surface_velocity = {it:?}\n"));
     format!(
         "[[colliders]]\nshape = {shape}\nposition = {position:?}\n\
-         rotation = {{ euler_degrees = {turn:?} }}\n{motion}{belt}{trigger}{kick}{material}"
+         rotation = {{ euler_degrees = {turn:?} }}\n{motion}{belt}{trigger}{kick}{cushion}{material}"
     )
 }
