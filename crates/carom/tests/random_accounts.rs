@@ -21,8 +21,6 @@ const FRAME: f64 = 1.0 / 60.0;
 const FRAMES: usize = 120;
 /// Part of the largest energy that an account may leave open.
 const CLOSED: f64 = 1e-9;
-/// The same with a stepped zone: in one of two thousand worlds a tick leaves a part of the work of its contacts open.
-const CLOSED_WITH_ZONE: f64 = 1e-7;
 /// Part of a radius by which spheres may overlap others and surfaces: by so much may a path along a curve miss its contacts.
 const MISSED: f64 = 1e-7;
 /// The same in a stepped zone.
@@ -222,7 +220,7 @@ fn assert_worlds_hold(seeds: impl Iterator<Item = u64>, friction: Option<Frictio
         if integration > CLOSED {
             integrated.push((seed, integration));
         }
-        if open > if had_zone { CLOSED_WITH_ZONE } else { CLOSED } {
+        if open > CLOSED {
             open_worlds.push((seed, open, had_zone));
         }
         if overlap > if had_zone { MISSED_IN_ZONE } else { MISSED } {
@@ -242,8 +240,8 @@ fn random_worlds_close_their_account_and_miss_no_contact() {
 
 #[test]
 fn worlds_with_stepped_zones_close_their_account() {
-    // Up to 3e-5 of the energy was in no entry.
-    assert_worlds_hold([1003, 1178, 1280, 1346, 1354, 1421].into_iter(), None);
+    // Up to 3e-5 of the energy was in no entry; in the last, the work of a vortex on a sphere that was held back.
+    assert_worlds_hold([1003, 1178, 1280, 1346, 1354, 1421, 2805].into_iter(), None);
 }
 
 #[test]

@@ -166,7 +166,9 @@ fn stay_within_margin<S: Simd>(
             leaves |= is_beyond && !is_late;
             if is_late {
                 let end: DVec3 = origin + way * (margin / length_squared.sqrt());
-                work += work_of_shift(run, slot, end - position.vector());
+                // Other forces have done their work on the way as far as it went.
+                let force = run.conservative_acceleration(slot) / run.velocity[slot].number();
+                work -= force.dot(end - position.vector());
                 run.position[slot] = position.with_vector(end);
             }
         }
