@@ -72,13 +72,12 @@ fn sheet(numbers: &[Vector], size: usize) -> Triangles {
         [along(it % width, x), 0.25 * y, along(it / width, z)]
     };
     let mut triangles = Vec::new();
-    for cell in 0..size * size {
+    for (cell, number) in numbers.iter().enumerate().take(size * size) {
         let first = cell / size * width + cell % size;
         let corners = [first, first + 1, first + width, first + width + 1];
         let [a, b, c, d] = corners;
-        let halves =
-            if numbers[cell][2] > 0.0 { [[a, c, b], [b, c, d]] } else { [[a, c, d], [a, d, b]] };
-        let kept = halves.into_iter().enumerate().filter(|(half, _)| numbers[cell][*half] > -0.6);
+        let halves = if number[2] > 0.0 { [[a, c, b], [b, c, d]] } else { [[a, c, d], [a, d, b]] };
+        let kept = halves.into_iter().enumerate().filter(|(half, _)| number[*half] > -0.6);
         triangles.extend(kept.map(|(_, triangle)| triangle));
     }
     if triangles.is_empty() {

@@ -12,8 +12,8 @@ use crate::rule::exact::features::{Feature, NormalCurvature};
 
 /// Most contacts whose forces are solved for at once: the work grows with the third power of their number.
 pub(crate) const MOST_CONTACTS: usize = 64;
-/// Elements of the matrix of contacts that take a unit of work, to fill them in and to solve for the forces.
-const ELEMENTS_PER_UNIT: u64 = 8;
+/// A unit of work solves for this many forces, to the third power.
+const CUBE_PER_UNIT: u64 = 1000;
 
 /// A persistent contact of the sphere at a place.
 #[derive(Debug, Clone, Copy)]
@@ -336,9 +336,7 @@ impl CurveContacts {
     fn fill_matrix(&mut self, spheres: &[ContactSphere]) -> bool {
         let Self { contacts, linked, directions, first_directions, matrix, work, .. } = self;
         matrix.begin(directions.len());
-        // Contacts far from each other in their order do not depend on each other: the work grows with the square of their
-        // number rather than with the third power.
-        *work += (directions.len() * directions.len()) as u64 / ELEMENTS_PER_UNIT;
+        *work += (directions.len() as u64).pow(3) / CUBE_PER_UNIT;
         for (row, held) in directions.iter().enumerate() {
             let one = &contacts[held.contact];
             for &other in &linked[held.contact] {

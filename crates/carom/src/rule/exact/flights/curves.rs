@@ -259,7 +259,7 @@ impl Flights {
             field.ignore_changes();
         }
         let brief = field.brief(states, time).unwrap_or(limits.tick);
-        let carried = self.left_by_last_steps(&slots, time, positions.len());
+        let carried = self.left_by_last_steps((&slots, clusters), time, positions.len());
         let mut start = Start {
             positions: &positions,
             velocities: &velocities,
@@ -310,13 +310,19 @@ impl Flights {
     }
 
     /// The parts of the states \[m\], \[m/s\] that the last steps of spheres left to the next ones, where they led to
-    /// `time` \[s\]; none for the others of `count`.
-    fn left_by_last_steps(&self, slots: &[u32], time: f64, count: usize) -> Vec<[DVec3; 2]> {
+    /// `time` \[s\]; none for the others of `count`, or where contacts keep the gaps of the states as they are.
+    fn left_by_last_steps(
+        &self,
+        (slots, clusters): (&[u32], &[u32]),
+        time: f64,
+        count: usize,
+    ) -> Vec<[DVec3; 2]> {
         let left_by = |&slot: &u32| {
             let last = self.last_step(slot).filter(|step| step.end == time);
             last.map_or([DVec3::ZERO; 2], |step| step.left)
         };
-        let mut left: Vec<[DVec3; 2]> = slots.iter().map(left_by).collect();
+        let flying = if clusters.is_empty() { slots } else { &[] };
+        let mut left: Vec<[DVec3; 2]> = flying.iter().map(left_by).collect();
         left.resize(count, [DVec3::ZERO; 2]);
         left
     }
