@@ -89,11 +89,11 @@ impl<'a> StepContext<'a> {
         self.system.spheres.id[timeline.flights.index_of[slot as usize] as usize]
     }
 
-    /// Restitution of an impact. It is 0 where all spheres of the impact were hit less than a contact's duration
-    /// ago, unless the impact is elastic; `velocity` is that of one body relative to the other \[m/s\]. So the shorter and shorter flights of an inelastic collapse end (McNamara
-    /// and Young, Phys. Fluids A 4, 496 (1992)). The TC model of Luding and McNamara, Granular Matter 1, 113
-    /// (1998), has the same condition and takes the restitution 1 there, which leaves wedged spheres bouncing
-    /// without end.
+    /// Restitution of an impact of bodies with this relative velocity \[m/s\]. It is 0 where all spheres of the impact
+    /// were hit less than a contact's duration ago, unless the impact is elastic. So the shorter and shorter flights of
+    /// an inelastic collapse end (McNamara and Young, Phys. Fluids A 4, 496 (1992)). The TC model of Luding and
+    /// McNamara, Granular Matter 1, 113 (1998), has the same condition and takes the restitution 1 there, which leaves
+    /// wedged spheres bouncing without end.
     pub fn restitution_at<const N: usize>(
         &self,
         timeline: &Timeline,

@@ -12,7 +12,7 @@ use crate::rule::exact::features::{Feature, NormalCurvature};
 
 /// Most contacts whose forces are solved for at once: the work grows with the third power of their number.
 pub(crate) const MOST_CONTACTS: usize = 64;
-/// A unit of work solves for this many forces, to the third power.
+/// The third power of a number of forces that takes a unit of work.
 const CUBE_PER_UNIT: u64 = 1000;
 
 /// A persistent contact of the sphere at a place.
