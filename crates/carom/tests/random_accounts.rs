@@ -21,8 +21,9 @@ const FRAME: f64 = 1.0 / 60.0;
 const FRAMES: usize = 120;
 /// Part of the largest energy that an account may leave open.
 const CLOSED: f64 = 1e-9;
-/// Part of a radius by which spheres may overlap others and surfaces: by so much may a path along a curve miss its contacts.
-const MISSED: f64 = 1e-7;
+/// Part of a radius by which spheres may overlap others and surfaces: a piece of a path along a curve may miss its contacts
+/// by a tenth of this, and a few follow each other.
+const MISSED: f64 = 1e-6;
 /// The same in a stepped zone.
 const MISSED_IN_ZONE: f64 = 0.1;
 

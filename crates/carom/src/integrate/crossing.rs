@@ -16,15 +16,16 @@ pub(crate) fn first_positive(
     length: f64,
 ) -> Option<f64> {
     let (mut time, mut least) = (0.0, LEAST * length);
+    let [mut value, mut slope] = function(time);
     for _ in 0..MOST_STEPS {
-        let [value, slope] = function(time);
         let safe = time_below(value.min(0.0), slope, curvature);
         least = if safe < least { 2.0 * least } else { LEAST * length };
         let next = (time + safe.max(least)).min(length);
         if next <= time {
             return None;
         }
-        if function(next)[0] > 0.0 {
+        [value, slope] = function(next);
+        if value > 0.0 {
             return Some(bisected(&function, [time, next]));
         }
         if next == length {

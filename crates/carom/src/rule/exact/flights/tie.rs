@@ -180,18 +180,21 @@ pub(super) enum TiePath {
 }
 
 impl TiePath {
-    /// Place \[m\], velocity \[m/s\] and acceleration \[m/s²\] at a time \[s\].
-    fn at(&self, t: f64) -> [DVec3; 3] {
+    /// Place \[m\] and velocity \[m/s\] at a time \[s\].
+    fn at(&self, t: f64) -> [DVec3; 2] {
         match self {
-            Self::Polynomial(flight) => {
-                let (position, velocity) = flight.after(t);
-                [position, velocity, flight.acceleration.at(t)]
-            }
-            Self::Flight(flight) => {
-                let (position, velocity) = flight.after(t);
-                [position, velocity, flight.acceleration - flight.drag_rate * velocity]
-            }
-            Self::Point(place) => [*place, DVec3::ZERO, DVec3::ZERO],
+            Self::Polynomial(flight) => flight.after(t).into(),
+            Self::Flight(flight) => flight.after(t).into(),
+            Self::Point(place) => [*place, DVec3::ZERO],
+        }
+    }
+
+    /// Acceleration \[m/s²\] at a time \[s\] at which it moves with this velocity \[m/s\].
+    fn acceleration_at(&self, t: f64, velocity: DVec3) -> DVec3 {
+        match self {
+            Self::Polynomial(flight) => flight.acceleration.at(t),
+            Self::Flight(flight) => flight.acceleration - flight.drag_rate * velocity,
+            Self::Point(_) => DVec3::ZERO,
         }
     }
 
@@ -244,9 +247,19 @@ struct Apart {
 }
 
 impl Apart {
-    fn at(&self, t: f64) -> [DVec3; 3] {
+    /// Offset \[m\] and relative velocity \[m/s\] at a time \[s\].
+    fn at(&self, t: f64) -> [DVec3; 2] {
         let [first, second] = self.ends.each_ref().map(|end| end.at(t));
-        [second[0] + self.shift - first[0], second[1] - first[1], second[2] - first[2]]
+        [second[0] + self.shift - first[0], second[1] - first[1]]
+    }
+
+    /// Relative acceleration at a time \[s\] \[m/s²\].
+    fn acceleration_at(&self, t: f64) -> DVec3 {
+        let [first, second] = self.ends.each_ref().map(|end| {
+            let [_, velocity] = end.at(t);
+            end.acceleration_at(t, velocity)
+        });
+        second - first
     }
 
     /// Upper bounds of the distance \[m\], the relative speed \[m/s\], the relative acceleration \[m/s²\] and its rate of
@@ -264,7 +277,7 @@ impl Apart {
         let [distance, speed, acceleration, _] = self.bounds();
         let curvature = 2.0 * (speed * speed + distance * acceleration);
         let function = |t| {
-            let [offset, velocity, _] = self.at(t);
+            let [offset, velocity] = self.at(t);
             let beyond = sign * beyond_length(rest, offset) - amount;
             [beyond, sign * 2.0 * offset.dot(velocity)]
         };
@@ -281,7 +294,7 @@ impl Apart {
         let of_damper = 3.0 * speed * acceleration + distance * jerk;
         let curvature = stiffness * of_pull + damping * of_damper;
         let function = |t| {
-            let [offset, velocity, acceleration] = self.at(t);
+            let ([offset, velocity], acceleration) = (self.at(t), self.acceleration_at(t));
             let along = offset.dot(velocity);
             let length = offset.norm();
             let lengthening = if length > 0.0 { along / length } else { 0.0 };
@@ -301,7 +314,7 @@ impl Apart {
         let leaves = |(axis, side): (usize, f64)| {
             let bound = (0.5 + 2.0 * BEYOND) * period[axis];
             let function = |t| {
-                let [offset, velocity, _] = self.at(t);
+                let [offset, velocity] = self.at(t);
                 [side * offset[axis] - bound, side * velocity[axis]]
             };
             first_positive(function, acceleration, self.length)
