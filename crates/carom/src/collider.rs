@@ -339,7 +339,7 @@ impl Collider {
     ///
     /// let cushion = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO));
     /// let mut world = World::default();
-    /// world.add_collider(cushion.with_friction(0.5).with_cushion(1.7))?;
+    /// world.add_collider(cushion.with_friction(0.5).with_cushion(1.3))?;
     /// let ball = Sphere::new(DVec3::Y, 0.03).with_velocity(DVec3::new(0.1, -2.0, 0.0));
     /// let ball = world.add_sphere(ball)?;
     /// world.step(1.0)?;
