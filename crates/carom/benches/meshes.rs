@@ -4,6 +4,7 @@
 
 use allocation_counter::measure;
 use carom::{Collider, Contact, DVec3, Gravity, Mesh, Pose, Settings, Shape, Sphere, World};
+use std::f64::consts::TAU;
 
 const FRAME: f64 = 1.0 / 60.0;
 const FRAMES: u32 = 300;
@@ -72,7 +73,7 @@ fn field(count: usize, cell: f64) -> Shape {
         (state >> 33) as f64 / (1u64 << 31) as f64 - 0.5
     };
     let place = |number: usize| cell * (number as f64 - 0.5 * (count - 1) as f64);
-    let wave = |place: f64, length: f64| libm::sin(6.283 * place / length);
+    let wave = |place: f64, length: f64| libm::sin(TAU * place / length);
     let mut height =
         |x: f64, z: f64| wave(x, 25.0) * wave(z, 31.0) + 0.2 * wave(x, 7.0) + 0.02 * cell * noise();
     let rows: Vec<Vec<f64>> = (0..count)
