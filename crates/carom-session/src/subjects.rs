@@ -177,8 +177,7 @@ fn set_collider(
 ) -> Result<(), SessionError> {
     let collider = change(world.collider(id)?);
     world.set_collider(id, collider.clone())?;
-    let colliders = &mut Arc::make_mut(setup).colliders;
-    for (_, described) in colliders.iter_mut().filter(|it| it.0 == id) {
+    for described in descriptions(setup, id) {
         described.restitution = collider.restitution;
         described.restitution_law = collider.restitution_law.and_then(RestitutionLaw::of);
         described.material = described.material.take().filter(|_| collider.material > 0);
@@ -197,8 +196,7 @@ fn set_pose(
     world.set_collider(id, world.collider(id)?.with_pose(pose))?;
     let collider = world.collider(id)?;
     let Pose { position, rotation } = collider.motion.rest().unwrap_or(collider.pose);
-    let colliders = &mut Arc::make_mut(setup).colliders;
-    for (_, described) in colliders.iter_mut().filter(|it| it.0 == id) {
+    for described in descriptions(setup, id) {
         described.position = position.to_array();
         described.rotation = rotation.to_array();
     }
@@ -212,16 +210,23 @@ fn set_scale(
     world: &mut World,
     setup: &mut Arc<Setup>,
 ) -> Result<(), SessionError> {
-    let collider = world.collider(id)?;
+    let mut scaled = world.collider(id)?;
     let described = setup.colliders.iter().find(|it| it.0 == id);
     let shape = described.and_then(|(_, it)| it.shape.scaled(scale));
     let shape = shape.ok_or(SessionError::NoScale)?;
-    let mut scaled = collider;
     scaled.shape = shape.physical().map_err(SessionError::Shape)?;
     world.set_collider(id, scaled)?;
-    let colliders = &mut Arc::make_mut(setup).colliders;
-    colliders.iter_mut().filter(|it| it.0 == id).for_each(|it| it.1.shape = shape.clone());
+    descriptions(setup, id).for_each(|described| described.shape = shape.clone());
     Ok(())
+}
+
+/// The descriptions of a collider.
+fn descriptions(
+    setup: &mut Arc<Setup>,
+    id: ColliderId,
+) -> impl Iterator<Item = &mut scene::Collider> {
+    let colliders = Arc::make_mut(setup).colliders.iter_mut();
+    colliders.filter(move |it| it.0 == id).map(|it| &mut it.1)
 }
 
 /// Changes restitution or friction of all colliders with this group name, which one has at least; `None` for all.

@@ -167,8 +167,7 @@ fn stay_within_margin<S: Simd>(
             if is_late {
                 let end: DVec3 = origin + way * (margin / length_squared.sqrt());
                 // Other forces have done their work on the way as far as it went.
-                let force = run.conservative_acceleration(slot) / run.velocity[slot].number();
-                work -= force.dot(end - position.vector());
+                work += run.work_of_move(slot, end - position.vector());
                 run.position[slot] = position.with_vector(end);
             }
         }

@@ -475,10 +475,10 @@ pub(crate) fn correct(run: &mut Run, contacts: &[SurfaceContact], places: &Place
     SlabTotals { energy: work, overlap: largest, ..SlabTotals::default() }
 }
 
-/// Moves a sphere. Returns the work against the forces that are linear \[J\].
+/// Moves a sphere. Returns the work against conservative forces \[J\].
 pub(crate) fn move_by(run: &mut Run, slot: usize, way: DVec3) -> f64 {
     run.position[slot] = run.position[slot].with_vector(run.position[slot].vector() + way);
-    -run.conservative_acceleration(slot).dot(way) / run.velocity[slot].number()
+    run.work_of_move(slot, way)
 }
 
 /// Applies impulses along the normal and across it to a sphere.

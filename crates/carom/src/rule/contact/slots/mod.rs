@@ -310,6 +310,11 @@ impl Run<'_> {
         self.acceleration[slot].vector() - working
     }
 
+    /// Work against the conservative forces on a sphere that is moved by a way \[m\] \[J\].
+    pub fn work_of_move(&self, slot: usize, way: DVec3) -> f64 {
+        -self.conservative_acceleration(slot).dot(way) / self.velocity[slot].number()
+    }
+
     /// The velocity of a sphere at the end of a sub-step of `h` \[s\], without contacts \[m/s\].
     pub fn accelerated(&self, slot: usize, h: f64) -> DVec3 {
         if self.sleeps[slot] {
