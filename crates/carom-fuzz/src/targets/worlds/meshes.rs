@@ -62,7 +62,7 @@ fn divided([a, b, c]: [usize; 3], vertices: &mut Vec<Vector>) -> [[usize; 3]; 4]
     [[a, d, f], [d, b, e], [f, e, c], [d, e, f]]
 }
 
-/// A rough sheet of so many cells along each side, without some of its triangles.
+/// A rough sheet with `size` cells along each side; some of its triangles are missing.
 fn sheet(numbers: &[Vector], size: usize) -> Triangles {
     let width = size + 1;
     let place = |it: usize| {

@@ -278,11 +278,10 @@ impl Flights {
         let before = before.filter(|_| !limits.is_rough);
         let turned = if positions.len() > count { &slots[..] } else { &[] };
         let before = before.and_then(|steps| self.accelerations_up_to(&steps, turned, time));
-        let step = step_to_an_edge(&mut start, before.as_deref(), pace, &mut field);
+        let (step, of_edge) = step_to_an_edge(&mut start, before.as_deref(), pace, &mut field);
         let held = field.held_over(&start, &step);
         let releases = held.releases.into_iter().map(|release| time + release).collect();
         let of_friction = Some(held.change).filter(|it| it.is_finite() && !limits.is_rough);
-        let of_edge = edge_crossing::first_crossing(&field.alone, &start, &step);
         let changes = [field.first_change(&start, &step), of_friction, of_edge];
         let change = changes.into_iter().flatten().reduce(f64::min);
         let end = change.map_or(step.end, |it| (time + it).clamp(time.next_up(), step.end));
@@ -397,26 +396,24 @@ impl Flights {
 }
 
 /// Takes a step that ends at the first edge of a force that a sphere passes, if it reaches one: what is beyond has no part
-/// in it.
+/// in it. Returns also the time \[s\] from the start at which it still passes one.
 fn step_to_an_edge(
     start: &mut Start,
     before: Option<&[PolynomialAcceleration]>,
     pace: Pace,
     field: &mut JointField,
-) -> Step {
-    let mut step = gauss_radau::step(start, before, pace, field);
-    for _ in 0..MOST_TRIALS {
-        let Some(crossing) = edge_crossing::first_crossing(&field.alone, start, &step) else {
-            break;
-        };
-        let until = (start.time + crossing).max(start.time.next_up());
-        if until >= step.end {
-            break;
+) -> (Step, Option<f64>) {
+    let mut trials = 0;
+    loop {
+        let step = gauss_radau::step(start, before, pace, field);
+        let crossing = edge_crossing::first_crossing(&field.alone, start, &step);
+        let until = crossing.map(|it| (start.time + it).max(start.time.next_up()));
+        match until.filter(|&until| until < step.end && trials < MOST_TRIALS) {
+            Some(until) => start.until = until,
+            None => return (step, crossing),
         }
-        start.until = until;
-        step = gauss_radau::step(start, before, pace, field);
+        trials += 1;
     }
-    step
 }
 
 /// The pace of the shortest trial among steps.

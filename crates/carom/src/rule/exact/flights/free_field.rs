@@ -43,7 +43,7 @@ impl<'a> FreeField<'a> {
         by_speed.min((2.0 * self.radius / acceleration.norm()).sqrt())
     }
 
-    /// Lets steps go on beyond the edges of the forces.
+    /// Removes the edges of the forces, for a step of any length.
     pub fn ignore_edges(&mut self) {
         self.edges.clear();
     }

@@ -276,7 +276,7 @@ impl<'a> JointField<'a> {
         self.between = Some(between);
     }
 
-    /// Lets steps go on beyond changes of springs and edges of forces.
+    /// Follows springs through their changes, and no edges of forces, for a step of any length.
     pub fn ignore_changes(&mut self) {
         self.ties.iter_mut().for_each(|tie| *tie = tie.with_changes());
         self.alone.iter_mut().for_each(FreeField::ignore_edges);
