@@ -57,6 +57,14 @@ pub(crate) struct Moving<'a> {
     pub angular_velocities: &'a [DVec3],
 }
 
+impl<'a> Moving<'a> {
+    /// The motion of `count` spheres, given by that of all centres, then of all angles.
+    pub fn of([positions, velocities]: [&'a [DVec3]; 2], count: usize) -> Self {
+        let (velocities, angular_velocities) = velocities.split_at(count);
+        Self { positions: &positions[..count], velocities, angular_velocities }
+    }
+}
+
 /// A direction of the force of a contact, and the direction along which that force allows no acceleration.
 #[derive(Debug, Clone, Copy)]
 struct ForceDirection {

@@ -15,6 +15,7 @@ mod free_field;
 mod friction_choice;
 mod friction_state;
 mod growth;
+mod held_over;
 mod image_beside;
 mod joint_field;
 mod lanes;
@@ -26,6 +27,7 @@ mod state;
 mod support_change;
 mod tie;
 mod time_in_wells;
+mod touched;
 mod wells;
 
 pub(super) use at_time::{first_lost, write_motion};
