@@ -172,7 +172,10 @@ where
 }
 
 /// Coefficients in `q s` of a polynomial in s, as those of one in s.
-fn scaled(coefficients: [DVec3; TERMS], ratio: f64) -> [DVec3; TERMS] {
+pub(crate) fn scaled<T>(coefficients: [T; TERMS], ratio: f64) -> [T; TERMS]
+where
+    T: std::ops::Mul<f64, Output = T>,
+{
     let mut power = 1.0;
     coefficients.map(|c| {
         let scaled = c * power;

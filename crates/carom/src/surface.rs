@@ -90,6 +90,20 @@ impl Surface {
         (form, SurfaceMotion { belt, ..motion })
     }
 
+    /// Placement after `h` \[s\] of what the surface carries, and motion of the surface then.
+    pub fn placement_after(&self, h: f64) -> (Placement, SurfaceMotion) {
+        let Some(course) = &self.course else { return self.motion.placement(&self.form, h) };
+        let Carriage { to, turn, motion } = course.carriage(h);
+        let rotation = turn.unwrap_or(DQuat::IDENTITY);
+        let belt = rotation * self.motion.belt;
+        (Placement { rotation, from: self.motion.origin, to }, SurfaceMotion { belt, ..motion })
+    }
+
+    /// Whether it moves, or its material does.
+    pub fn carries(&self) -> bool {
+        !self.motion.is_at_rest() || self.motion.belt != DVec3::ZERO
+    }
+
     /// Returns the motion from `h` \[s\] later on, if it is not steady.
     pub fn course_after(&self, h: f64) -> Option<Course> {
         self.course.as_ref().map(|course| course.after(h))
@@ -159,12 +173,18 @@ impl SurfaceMotion {
         if self.is_at_rest() {
             return (form.clone(), *self);
         }
+        let (placement, motion) = self.placement(form, h);
+        (form.placed(&placement), motion)
+    }
+
+    /// Placement after `h` \[s\] of a surface of this form that moves so, and its motion then.
+    fn placement(&self, form: &Form, h: f64) -> (Placement, Self) {
         let Self { origin, velocity, angular_velocity, .. } = *self;
         let turning = if self.turns_form(form) { angular_velocity } else { DVec3::ZERO };
         let pose = Pose::at(origin).moved(velocity, turning, h);
         let placement = Placement { rotation: pose.rotation, from: origin, to: pose.position };
         let belt = if self.belt == DVec3::ZERO { self.belt } else { self.turned(self.belt, h) };
-        (form.placed(&placement), Self { origin: pose.position, belt, ..*self })
+        (placement, Self { origin: pose.position, belt, ..*self })
     }
 }
 

@@ -77,6 +77,18 @@ impl SurfaceMotion {
         -turning.cross(2.0 * beside + turning.cross(point - self.origin))
     }
 
+    /// Acceleration \[m/s²\] in space of what is at a point with this velocity \[m/s\] and does not accelerate as seen
+    /// from the surface: with Coriolis' part, `A + α × r + ω × (ω × r) + 2 ω × (v - u)`.
+    pub fn carrying(&self, point: DVec3, velocity: DVec3) -> DVec3 {
+        let swing = -self.swing(point, velocity);
+        match self.drive {
+            Some(Drive { acceleration, angular_acceleration, .. }) => {
+                swing + acceleration + angular_acceleration.cross(point - self.origin)
+            }
+            None => swing,
+        }
+    }
+
     /// A direction that turns along, after `h` \[s\].
     pub fn turned(&self, direction: DVec3, h: f64) -> DVec3 {
         if !self.turns() {

@@ -22,6 +22,16 @@ impl Placement {
         self.to + rotation::turned_offset(self.rotation, point - self.from)
     }
 
+    /// Where a point was before.
+    pub fn point_back(&self, point: DVec3) -> DVec3 {
+        self.from + self.vector_back(point - self.to)
+    }
+
+    /// A vector as it was before the rotation.
+    pub fn vector_back(&self, vector: DVec3) -> DVec3 {
+        rotation::turned_offset(self.rotation.conjugate(), vector)
+    }
+
     pub fn direction(&self, direction: DVec3) -> DVec3 {
         rotation::turned_direction(self.rotation, direction)
     }

@@ -271,7 +271,7 @@ impl Timeline {
         }
         let tick =
             if self.spring_rate > 0.0 { self.force_tick } else { self.parameters.force_tick };
-        let limits = StepLimits { until, tick, is_rough };
+        let limits = StepLimits { until, surfaces_at: self.frame[0], tick, is_rough };
         let step = self.flights.step_from_start(system, (&component, &clusters), limits);
         let JointStep { curves, turning, evaluations, contact_work, releases, .. } = step;
         let held = slots.iter().find(|&&slot| self.flights.cluster_on_curves(slot).is_some());

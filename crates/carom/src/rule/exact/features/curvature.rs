@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::separation::{are_within, is_over_face};
 use crate::band::{Band, View};
 use crate::detect::Separation;
+use crate::mesh::Placement;
 use crate::norm::Norm;
 use crate::surface::Form;
 
@@ -41,6 +42,18 @@ impl NormalCurvature {
                 let sharpest = curvatures[0].abs().max(curvatures[1].abs()).recip();
                 let rate = self.rate(tangential).norm();
                 Some((velocity, if rate > 0.0 { velocity.norm() / rate } else { sharpest }))
+            }
+        }
+    }
+
+    /// The same on a surface that is turned.
+    pub fn turned(self, placement: &Placement) -> Self {
+        let turn = |direction: DVec3| placement.direction(direction);
+        match self {
+            Self::Flat | Self::RoundFeature(_) => self,
+            Self::Edge(direction, distance) => Self::Edge(turn(direction), distance),
+            Self::Principal { directions, curvatures } => {
+                Self::Principal { directions: directions.map(turn), curvatures }
             }
         }
     }

@@ -4,7 +4,7 @@ use educe::Educe;
 use glam::DVec3;
 
 use crate::integrate::gauss_radau::Pace;
-use crate::polynomial_flight::PolynomialAcceleration;
+use crate::polynomial_flight::{ORDERS, PolynomialAcceleration, TERMS, scaled, shifted};
 
 /// A step's polynomial predicts the start of the next step only up to this many times its own length.
 const LONGEST_GUESS: f64 = 64.0;
@@ -29,8 +29,38 @@ pub(super) struct CurveStep {
     pub pace: Pace,
     /// Parts of the position \[m\] and of the velocity \[m/s\] at its end below their rounding.
     pub left: [DVec3; 2],
-    /// The acceleration without persistent contacts, where the sphere has some \[m/s²\].
-    pub free: Option<Box<PolynomialAcceleration>>,
+    /// What its persistent contacts do, where it has some.
+    pub held: Option<Box<HeldCurve>>,
+}
+
+/// What the persistent contacts of a sphere do over a step.
+#[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(super) struct HeldCurve {
+    /// The acceleration without them \[m/s²\].
+    pub free: PolynomialAcceleration,
+    /// Power of moving surfaces on the sphere \[W\]: the coefficients of a polynomial over the same time.
+    pub collider_power: [f64; TERMS],
+}
+
+impl HeldCurve {
+    /// The rest from a time \[s\] on.
+    pub fn from(&self, time: f64) -> Self {
+        let length = self.free.length;
+        let rest = shifted(self.collider_power, time / length);
+        let collider_power = scaled(rest, (length - time) / length);
+        Self { free: self.free.from(time), collider_power }
+    }
+
+    /// Work of moving surfaces between two times \[s\], \[J\].
+    pub fn collider_work(&self, times: [f64; 2]) -> f64 {
+        let [before, after] = times.map(|time| {
+            let s = time / self.free.length;
+            let terms = self.collider_power.iter().zip(ORDERS).rev();
+            s * terms.fold(0.0, |sum, (c, k)| sum * s + c / (k + 1.0))
+        });
+        self.free.length * (after - before)
+    }
 }
 
 impl CurveStep {
@@ -54,7 +84,7 @@ impl Curve {
         if let Some(step) = &mut self.0 {
             // No flight has this generation: those that events begin are even, those that impacts begin are one more.
             step.generation = u32::MAX;
-            step.free = None;
+            step.held = None;
         }
     }
 }

@@ -4,6 +4,7 @@
 use glam::DVec3;
 
 use super::friction_state::FrictionState;
+use super::moving_surface::{Carried, MovingSurface};
 use crate::contact_matrix::ContactMatrix;
 use crate::contact_tangents::tangents;
 use crate::integrate::field::Values;
@@ -17,8 +18,8 @@ const CUBE_PER_UNIT: u64 = 1000;
 
 /// A persistent contact of the sphere at a place.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct CurveContact {
-    pub first: CurveBody,
+pub(crate) struct CurveContact<'a> {
+    pub first: CurveBody<'a>,
     pub second: usize,
     /// Shift from the centre of body 2 to its image beside body 1 \[m\].
     pub shift: DVec3,
@@ -28,11 +29,13 @@ pub(crate) struct CurveContact {
 
 /// What a sphere touches.
 #[derive(Debug, Clone, Copy)]
-pub(crate) enum CurveBody {
+pub(crate) enum CurveBody<'a> {
     /// The sphere at a place.
     Sphere(usize),
     /// A part of a surface at rest.
     Feature(Feature),
+    /// A part of a surface that moves, where the system says that it is.
+    Moving(Feature, MovingSurface<'a>),
 }
 
 /// What a contact needs to know of a sphere.
@@ -49,6 +52,8 @@ pub(crate) struct ContactSphere {
 /// The motion of spheres, by place.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Moving<'a> {
+    /// On the world's clock \[s\].
+    pub time: f64,
     /// \[m\]
     pub positions: &'a [DVec3],
     /// \[m/s\]
@@ -57,11 +62,23 @@ pub(crate) struct Moving<'a> {
     pub angular_velocities: &'a [DVec3],
 }
 
+impl<'a> CurveBody<'a> {
+    /// A part of a surface, which may move.
+    pub fn part_of(feature: Feature, moving: Option<MovingSurface<'a>>) -> Self {
+        moving.map_or(Self::Feature(feature), |surface| Self::Moving(feature, surface))
+    }
+}
+
 impl<'a> Moving<'a> {
-    /// The motion of `count` spheres, given by that of all centres, then of all angles.
-    pub fn of([positions, velocities]: [&'a [DVec3]; 2], count: usize) -> Self {
+    /// The motion of `count` spheres at a time \[s\], given by that of all centres, then of all angles.
+    pub fn of(time: f64, [positions, velocities]: [&'a [DVec3]; 2], count: usize) -> Self {
         let (velocities, angular_velocities) = velocities.split_at(count);
-        Self { positions: &positions[..count], velocities, angular_velocities }
+        Self { time, positions: &positions[..count], velocities, angular_velocities }
+    }
+
+    /// Angular velocity of a sphere \[rad/s\]; zero where no friction acts.
+    fn turning(&self, place: usize) -> DVec3 {
+        self.angular_velocities.get(place).copied().unwrap_or(DVec3::ZERO)
     }
 }
 
@@ -80,12 +97,12 @@ struct ForceDirection {
     is_along: bool,
 }
 
-impl CurveContact {
+impl<'a> CurveContact<'a> {
     /// Returns the place of body 1 if it is a sphere.
     pub fn first_place(&self) -> Option<usize> {
         match self.first {
             CurveBody::Sphere(place) => Some(place),
-            CurveBody::Feature(_) => None,
+            CurveBody::Feature(_) | CurveBody::Moving(..) => None,
         }
     }
 
@@ -94,15 +111,27 @@ impl CurveContact {
         self.first_place().map(|first| (first, -1.0)).into_iter().chain([(self.second, 1.0)])
     }
 
-    /// Unit normal from body 1 to body 2, and how it turns, with the spheres at these positions \[m\].
-    fn normal_at(&self, positions: &[DVec3]) -> (DVec3, NormalCurvature) {
+    /// Unit normal from body 1 to body 2, how it turns, and what the motion of a surface adds.
+    fn measure(&self, moving: Moving) -> (DVec3, NormalCurvature, Carried) {
         let center = match self.shift {
-            DVec3::ZERO => positions[self.second],
-            shift => positions[self.second] + shift,
+            DVec3::ZERO => moving.positions[self.second],
+            shift => moving.positions[self.second] + shift,
+        };
+        let at_rest = |feature: &Feature| {
+            let (normal, curvature) = feature.normal_at(center);
+            (normal, curvature, Carried::default())
         };
         match &self.first {
-            CurveBody::Sphere(first) => Feature::Point(positions[*first]).normal_at(center),
-            CurveBody::Feature(feature) => feature.normal_at(center),
+            CurveBody::Sphere(first) => at_rest(&Feature::Point(moving.positions[*first])),
+            CurveBody::Feature(feature) => at_rest(feature),
+            CurveBody::Moving(feature, surface) => {
+                let state = surface.at(moving.time);
+                let (normal, curvature) = feature.normal_at(state.placement.point_back(center));
+                let turning = moving.turning(self.second);
+                let carried = state.carried([center, moving.velocities[self.second], turning]);
+                let placement = &state.placement;
+                (placement.direction(normal), curvature.turned(placement), carried)
+            }
         }
     }
 
@@ -161,8 +190,8 @@ impl CurveContact {
 ///
 /// Source: Baraff, Computer Graphics 23, 223 (1989), section 5, with equalities; with friction, Glocker and Pfeiffer,
 /// Nonlinear Dynamics 7, 471 (1995).
-pub(crate) struct CurveContacts {
-    pub contacts: Vec<CurveContact>,
+pub(crate) struct CurveContacts<'a> {
+    pub contacts: Vec<CurveContact<'a>>,
     /// One per contact: those that have a sphere in common with it, ascending.
     linked: Vec<Vec<usize>>,
     /// One per contact.
@@ -173,6 +202,8 @@ pub(crate) struct CurveContacts {
     pub normals: Vec<DVec3>,
     /// How each normal turns.
     curvatures: Vec<NormalCurvature>,
+    /// What the motion of a surface adds to each contact.
+    carried: Vec<Carried>,
     directions: Vec<ForceDirection>,
     /// Number of the first direction of each contact, and of all directions.
     first_directions: Vec<usize>,
@@ -185,10 +216,10 @@ pub(crate) struct CurveContacts {
     pub work: u64,
 }
 
-impl CurveContacts {
+impl<'a> CurveContacts<'a> {
     /// Contacts without friction up to the choice of their states. The work is least where those of neighbours are
     /// beside each other.
-    pub fn new(contacts: Vec<CurveContact>) -> Self {
+    pub fn new(contacts: Vec<CurveContact<'a>>) -> Self {
         let count = contacts.len();
         let shares = |one: &CurveContact, other: &CurveContact| {
             one.ends().any(|(place, _)| other.ends().any(|it| it.0 == place))
@@ -203,6 +234,7 @@ impl CurveContacts {
             slack: vec![0.0; count],
             normals: vec![DVec3::ZERO; count],
             curvatures: vec![NormalCurvature::Flat; count],
+            carried: vec![Carried::default(); count],
             directions: Vec::new(),
             first_directions: Vec::new(),
             matrix: ContactMatrix::default(),
@@ -217,9 +249,9 @@ impl CurveContacts {
         self.contacts.iter().any(|contact| contact.friction > 0.0)
     }
 
-    /// Whether no contact of spheres at these positions \[m\] follows from the others, without friction.
-    pub fn are_independent(&mut self, positions: &[DVec3], spheres: &[ContactSphere]) -> bool {
-        self.find_normals(positions);
+    /// Whether no contact of spheres in this motion follows from the others, without friction.
+    pub fn are_independent(&mut self, moving: Moving, spheres: &[ContactSphere]) -> bool {
+        self.measure(moving);
         self.states.fill(FrictionState::None);
         self.find_directions(None, spheres);
         self.fill_matrix(spheres)
@@ -236,7 +268,7 @@ impl CurveContacts {
     /// Finds the forces and adds their accelerations \[m/s²\] to those `at` this motion: first those of all centres, then
     /// the angular ones \[rad/s²\].
     pub fn add(&mut self, moving: Moving, spheres: &[ContactSphere], at: &mut Values) {
-        self.find_normals(moving.positions);
+        self.measure(moving);
         self.find_directions(Some(moving), spheres);
         self.fill_matrix(spheres);
         self.forces.fill((0.0, DVec3::ZERO));
@@ -298,7 +330,7 @@ impl CurveContacts {
     /// The acceleration of the gap of a contact \[m/s²\].
     pub fn opening(&self, number: usize, moving: Moving, accelerations: &[DVec3]) -> f64 {
         let (contact, normal) = (&self.contacts[number], self.normals[number]);
-        let relative = contact.difference(accelerations);
+        let relative = contact.difference(accelerations) - self.carried[number].acceleration;
         let across = self.across(number, moving);
         relative.dot(normal) + self.curvatures[number].acceleration(across)
     }
@@ -312,31 +344,50 @@ impl CurveContacts {
         accelerations: &[DVec3],
     ) -> DVec3 {
         let (contact, normal) = (&self.contacts[number], self.normals[number]);
-        let relative = contact.difference(accelerations);
-        let angular = &accelerations[spheres.len()..];
-        let turning = contact.surface_turning(spheres, angular).cross(normal);
-        let spin = contact.surface_turning(spheres, moving.angular_velocities);
+        let Carried { acceleration, spin_change, belt, .. } = self.carried[number];
+        let relative = contact.difference(accelerations) - acceleration;
+        let angular = contact.surface_turning(spheres, &accelerations[spheres.len()..]);
+        let turning = (angular - spheres[contact.second].radius * spin_change).cross(normal);
         let rate = self.curvatures[number].rate(self.across(number, moving));
-        relative - turning - spin.cross(rate)
+        relative - turning - self.spin(number, moving, spheres).cross(rate)
+            + belt.dot(normal) * rate
     }
 
     /// The relative velocity in a contact across its normal \[m/s\].
     fn across(&self, number: usize, moving: Moving) -> DVec3 {
         let (contact, normal) = (&self.contacts[number], self.normals[number]);
-        let velocity = contact.difference(moving.velocities);
+        let velocity = contact.difference(moving.velocities) - self.carried[number].velocity;
         velocity - velocity.dot(normal) * normal
+    }
+
+    /// The sum of radius times angular velocity, as seen from a surface that turns \[m/s\].
+    fn spin(&self, number: usize, moving: Moving, spheres: &[ContactSphere]) -> DVec3 {
+        let contact = &self.contacts[number];
+        let spin = contact.surface_turning(spheres, moving.angular_velocities);
+        spin - spheres[contact.second].radius * self.carried[number].spin
     }
 
     /// The velocity with which body 2 of a contact slides along body 1 \[m/s\].
     pub fn slip(&self, number: usize, moving: Moving, spheres: &[ContactSphere]) -> DVec3 {
-        let (contact, normal) = (&self.contacts[number], self.normals[number]);
-        let spin = contact.surface_turning(spheres, moving.angular_velocities);
-        self.across(number, moving) - spin.cross(normal)
+        let (normal, belt) = (self.normals[number], self.carried[number].belt);
+        let beside = self.across(number, moving) - (belt - belt.dot(normal) * normal);
+        beside - self.spin(number, moving, spheres).cross(normal)
     }
 
-    pub fn find_normals(&mut self, positions: &[DVec3]) {
+    /// Power of the moving surface of a contact on its sphere, with the forces found last \[W\].
+    pub fn power_of_surface(&self, number: usize, spheres: &[ContactSphere]) -> f64 {
+        let Carried { velocity, spin, belt, .. } = self.carried[number];
+        let (normal, (normal_force, friction)) = (self.normals[number], self.forces[number]);
+        let arm = spheres[self.contacts[number].second].radius * normal;
+        let at_point = velocity - spin.cross(arm);
+        normal_force * normal.dot(velocity) + friction.dot(at_point + belt)
+    }
+
+    /// Finds the normals, and what surfaces that move add.
+    pub fn measure(&mut self, moving: Moving) {
         for (number, contact) in self.contacts.iter().enumerate() {
-            (self.normals[number], self.curvatures[number]) = contact.normal_at(positions);
+            (self.normals[number], self.curvatures[number], self.carried[number]) =
+                contact.measure(moving);
         }
     }
 

@@ -29,6 +29,8 @@ const MOST_TRIALS: u32 = 4;
 pub(crate) struct StepLimits {
     /// Time at which all steps have to end at the latest, on the world's clock \[s\].
     pub until: f64,
+    /// When surfaces are where the system says, on the world's clock \[s\].
+    pub surfaces_at: f64,
     /// Longest step where nothing is known of a force \[s\].
     pub tick: f64,
     /// Whether a step lasts a whole tick, whatever its error and however springs change within it.
@@ -168,7 +170,8 @@ impl Flights {
         match self.step_of(slot, body) {
             Some(step) => {
                 let age = time - body.time;
-                let acceleration = step.free.as_deref().unwrap_or(&step.acceleration).at(age);
+                let acceleration =
+                    step.held.as_deref().map_or(&step.acceleration, |held| &held.free).at(age);
                 // Drag in closed form is no part of the acceleration of a species.
                 let drag = free.drag_rate * self.state_on_curve(slot, time).1;
                 Species { acceleration: acceleration + drag, ..free }
@@ -246,7 +249,8 @@ impl Flights {
         let (mut positions, mut velocities): (Vec<DVec3>, Vec<DVec3>) =
             bodies.map(|body| (body.position, body.velocity)).unzip();
         let time = self.bodies[first as usize].time;
-        field.hold(system, (component, clusters), [&positions, &velocities]);
+        let times = [limits.surfaces_at, time];
+        field.hold(system, (component, clusters), [&positions, &velocities], times);
         let count = slots.len();
         if field.has_friction() {
             // Angles from the start follow the centres.
@@ -265,7 +269,7 @@ impl Flights {
             velocities: &velocities,
             carried: &carried,
             time,
-            until: limits.until,
+            until: limits.until.min((time + field.smooth_for(time)).max(time.next_up())),
             steady: STEADY_RADII * brief,
             rough: limits.tick,
         };
@@ -288,13 +292,13 @@ impl Flights {
         let turning = |&place: &usize| (slots[place], step.accelerations[count + place]);
         // A rough step says nothing of the next one.
         let pace = if limits.is_rough { known_pace } else { step.pace };
-        let mut free = held.free.into_iter();
+        let mut held_curves = held.curves.into_iter();
         let curve_of = |(&slot, acceleration): (&u32, PolynomialAcceleration)| {
             let Body { position, velocity, generation, .. } = self.bodies[slot as usize];
             let flight = PolynomialFlight { position, velocity, acceleration };
             let left = flight.left_after(end - time);
-            let (is_smooth, free) = (change.is_none(), free.next().map(Box::new));
-            let step = CurveStep { generation, acceleration, end, is_smooth, pace, left, free };
+            let (is_smooth, held) = (change.is_none(), held_curves.next().map(Box::new));
+            let step = CurveStep { generation, acceleration, end, is_smooth, pace, left, held };
             (slot, Curve(Some(Box::new(step))))
         };
         JointStep {
@@ -363,10 +367,10 @@ impl Flights {
         let goes_on = <[DVec3; 2]>::from(self.state_on_curve(slot, time)) == state;
         let age = time - body.time;
         let acceleration = step.acceleration.from(age);
-        let free = step.free.as_deref().map(|free| Box::new(free.from(age)));
+        let held = step.held.as_deref().map(|held| Box::new(held.from(age)));
         let left = [DVec3::ZERO; 2];
         goes_on
-            .then(|| Curve(Some(Box::new(CurveStep { acceleration, free, left, ..step.clone() }))))
+            .then(|| Curve(Some(Box::new(CurveStep { acceleration, held, left, ..step.clone() }))))
     }
 
     /// Continues a sphere's new flight along the rest of a step.

@@ -36,7 +36,7 @@ const MOST_CHANGES: usize = 8;
 /// Most sweeps of the relaxation.
 const MOST_SWEEPS: usize = 1000;
 
-impl CurveContacts {
+impl CurveContacts<'_> {
     /// Chooses the states of all contacts for a step of some length \[s\] that begins with this motion and these
     /// accelerations without contacts \[m/s²\]: what slides goes on, and what does not begins to slide where rolling takes
     /// more than the largest friction.
@@ -301,7 +301,7 @@ impl CurveContacts {
         spheres: &[ContactSphere],
         accelerations: &[f64],
     ) -> Vec<f64> {
-        self.find_normals(moving.positions);
+        self.measure(moving);
         let slow_of = |contact: &CurveContact| {
             let speed = |(place, _): (usize, f64)| {
                 let radius = spheres[place].radius;

@@ -3,6 +3,7 @@
 
 use glam::DVec3;
 
+use super::curve::HeldCurve;
 use super::curve_contacts::{CurveContacts, Moving};
 use super::friction_choice::OPENS;
 use super::friction_state::FrictionState;
@@ -19,8 +20,8 @@ const SOONEST: f64 = 1e-6;
 
 /// What persistent contacts do in a step.
 pub(super) struct HeldOver {
-    /// Accelerations without contacts, by place; empty without contacts.
-    pub free: Vec<PolynomialAcceleration>,
+    /// By place; empty without contacts.
+    pub curves: Vec<HeldCurve>,
     /// Time from the start \[s\] at which a contact of each cluster opens, or a sphere reaches
     /// another part of a surface; infinite where none does.
     pub releases: Vec<f64>,
@@ -39,51 +40,32 @@ struct Bound {
     values: [f64; TERMS],
 }
 
+/// What is found at the nodes of a step.
+struct AtNodes {
+    /// Acceleration of each sphere without contacts \[m/s²\].
+    free: Vec<[DVec3; TERMS]>,
+    /// Power of moving surfaces on each sphere \[W\].
+    power: Vec<[f64; TERMS]>,
+    /// Acceleration of each sphere that touches a surface, as seen from there \[m/s²\].
+    seen: Vec<[DVec3; TERMS]>,
+    bounds: Vec<Bound>,
+    is_jammed: bool,
+}
+
 impl JointField<'_> {
     /// Follows the persistent contacts over a step.
     pub fn held_over(&mut self, start: &Start, step: &Step) -> HeldOver {
         if self.contacts.is_empty() {
-            let (free, releases) = (Vec::new(), Vec::new());
-            return HeldOver { free, releases, change: f64::INFINITY, is_jammed: false };
+            let (curves, releases) = (Vec::new(), Vec::new());
+            return HeldOver { curves, releases, change: f64::INFINITY, is_jammed: false };
         }
-        let count = self.alone.len();
         let length = step.accelerations[0].length;
-        let mut free = vec![[DVec3::ZERO; TERMS]; count];
-        let mut bounds = Vec::new();
-        let mut is_jammed = false;
-        for (node, &s) in NODES.iter().enumerate() {
-            let state = |place: usize| {
-                let (position, velocity) = (start.positions[place], start.velocities[place]);
-                let acceleration = step.accelerations[place];
-                PolynomialFlight { position, velocity, acceleration }.after(s * length)
-            };
-            let all = 0..step.accelerations.len();
-            let (positions, velocities): (Vec<DVec3>, Vec<DVec3>) = all.map(state).unzip();
-            let mut values = Values::of(positions.len());
-            self.evaluate_forces(start.time + s * length, &positions, &velocities, &mut values);
-            free.iter_mut().zip(&values.accelerations).for_each(|(free, &at)| free[node] = at);
-            self.add_contacts([&positions, &velocities], &mut values);
-            is_jammed |= self.contacts.iter().any(CurveContacts::are_jammed);
-            let states = [&positions[..], &velocities[..]];
-            if node == 0 {
-                bounds = self.bounds(&values);
-            }
-            let at_node = self.margins(states);
-            bounds.iter_mut().zip(at_node).for_each(|(bound, at)| bound.values[node] = at);
-        }
-        let carried = [DVec3::ZERO; 2];
-        let polynomial = |values: [DVec3; TERMS]| {
-            let coefficients = gauss_radau::through_nodes(values);
-            let through_all = PolynomialAcceleration { length, coefficients, carried };
-            if through_all.is_finite() {
-                return through_all;
-            }
-            // A rough step reaches to where forces are not finite.
-            let mut coefficients = [DVec3::ZERO; TERMS];
-            coefficients[0] = values[0];
-            PolynomialAcceleration { length, coefficients, carried }
+        let AtNodes { free, power, seen, bounds, is_jammed } = self.at_nodes(start, step);
+        let curve = |(free, power)| HeldCurve {
+            free: polynomial(free, length),
+            collider_power: gauss_radau::through_nodes(power),
         };
-        let free = free.into_iter().map(polynomial).collect();
+        let curves = free.into_iter().zip(power).map(curve).collect();
         let mut releases = vec![f64::INFINITY; self.contacts.len()];
         let mut change = f64::INFINITY;
         for Bound { opens, least, values } in bounds {
@@ -92,16 +74,75 @@ impl JointField<'_> {
             let first = opens.map_or(&mut change, |cluster| &mut releases[cluster]);
             *first = first.min(time);
         }
-        for &Touched { cluster, sphere, shift, form, is_on_ring } in &self.touched {
-            let (position, velocity) = (start.positions[sphere] + shift, start.velocities[sphere]);
-            let acceleration = step.accelerations[sphere];
+        for (&Touched { cluster, sphere, shift, form, moving, is_on_ring }, seen) in
+            self.touched.iter().zip(seen)
+        {
+            let state = [start.positions[sphere] + shift, start.velocities[sphere]];
+            let [position, velocity] = match moving {
+                Some(surface) => surface.seen_from(state, start.time),
+                None => state,
+            };
+            let acceleration = match moving {
+                Some(_) => polynomial(seen, length),
+                None => step.accelerations[sphere],
+            };
             let flight = PolynomialFlight { position, velocity, acceleration };
             let time = time_on_curve(form, &flight, is_on_ring);
             if time < length {
                 releases[cluster] = releases[cluster].min(time.max(SOONEST * length));
             }
         }
-        HeldOver { free, releases, change, is_jammed }
+        HeldOver { curves, releases, change, is_jammed }
+    }
+
+    /// Finds the forces at the nodes of a step.
+    fn at_nodes(&mut self, start: &Start, step: &Step) -> AtNodes {
+        let count = self.alone.len();
+        let length = step.accelerations[0].length;
+        let mut found = AtNodes {
+            free: vec![[DVec3::ZERO; TERMS]; count],
+            power: vec![[0.0; TERMS]; count],
+            seen: vec![[DVec3::ZERO; TERMS]; self.touched.len()],
+            bounds: Vec::new(),
+            is_jammed: false,
+        };
+        for (node, &s) in NODES.iter().enumerate() {
+            let time = start.time + s * length;
+            let state = |place: usize| {
+                let (position, velocity) = (start.positions[place], start.velocities[place]);
+                let acceleration = step.accelerations[place];
+                PolynomialFlight { position, velocity, acceleration }.after(s * length)
+            };
+            let all = 0..step.accelerations.len();
+            let (positions, velocities): (Vec<DVec3>, Vec<DVec3>) = all.map(state).unzip();
+            let mut values = Values::of(positions.len());
+            self.evaluate_forces(time, &positions, &velocities, &mut values);
+            let free = found.free.iter_mut().zip(&values.accelerations);
+            free.for_each(|(free, &at)| free[node] = at);
+            let states = [&positions[..], &velocities[..]];
+            self.add_contacts(time, states, &mut values);
+            found.is_jammed |= self.contacts.iter().any(CurveContacts::are_jammed);
+            for contacts in &self.contacts {
+                for (number, contact) in contacts.contacts.iter().enumerate() {
+                    let power = contacts.power_of_surface(number, &self.spheres);
+                    found.power[contact.second][node] += power;
+                }
+            }
+            for (touched, seen) in self.touched.iter().zip(&mut found.seen) {
+                let &Touched { sphere, shift, moving, .. } = touched;
+                let Some(surface) = moving else { continue };
+                let (center, velocity) = (positions[sphere] + shift, velocities[sphere]);
+                let motion = [center, velocity, values.accelerations[sphere]];
+                seen[node] = surface.at(time).acceleration_seen(motion);
+            }
+            if node == 0 {
+                found.bounds = self.bounds(&values);
+            }
+            let margins = self.margins(time, states);
+            let bounds = found.bounds.iter_mut().zip(margins);
+            bounds.for_each(|(bound, at)| bound.values[node] = at);
+        }
+        found
     }
 
     /// The bounds of what contacts can do, at the start of a step with these accelerations \[m/s²\].
@@ -130,8 +171,8 @@ impl JointField<'_> {
 
     /// How far all contacts are from what they can do, in the order of their bounds: the normal force \[N\], then what
     /// friction may add \[N\], or the slip along its first direction \[m/s\].
-    fn margins(&self, states: [&[DVec3]; 2]) -> Vec<f64> {
-        let moving = Moving::of(states, self.spheres.len());
+    fn margins(&self, time: f64, states: [&[DVec3]; 2]) -> Vec<f64> {
+        let moving = Moving::of(time, states, self.spheres.len());
         let mut margins = Vec::new();
         for contacts in &self.contacts {
             for (number, &state) in contacts.states.iter().enumerate() {
@@ -151,6 +192,20 @@ impl JointField<'_> {
         }
         margins
     }
+}
+
+/// The acceleration with these values at the nodes of a step of some length \[s\] \[m/s²\].
+fn polynomial(values: [DVec3; TERMS], length: f64) -> PolynomialAcceleration {
+    let carried = [DVec3::ZERO; 2];
+    let coefficients = gauss_radau::through_nodes(values);
+    let through_all = PolynomialAcceleration { length, coefficients, carried };
+    if through_all.is_finite() {
+        return through_all;
+    }
+    // A rough step reaches to where forces are not finite.
+    let mut coefficients = [DVec3::ZERO; TERMS];
+    coefficients[0] = values[0];
+    PolynomialAcceleration { length, coefficients, carried }
 }
 
 /// First `s` in `[0, 1]` at which a polynomial is below a bound, a moment later at least than 0.

@@ -7,6 +7,7 @@ use super::components::{Component, PlacedSpring};
 use super::curve_contacts::{ContactSphere, CurveBody, CurveContact, CurveContacts, Moving};
 use super::free_field::FreeField;
 use super::image_beside::{shift_beside_sphere, shift_beside_surface};
+use super::moving_surface::MovingSurface;
 use super::species::Species;
 use super::state::Flights;
 use super::tie::{Tie, TieEnd, TiePath};
@@ -20,6 +21,10 @@ use crate::polynomial_flight::PolynomialFlight;
 use crate::respond::friction_of;
 use crate::rule::exact::features::Feature;
 use crate::system::System;
+
+/// Largest angle by which a surface turns, or that part of the period of its motion, in a step \[rad\]: the nodes of a
+/// step would not see the rest.
+const MOST_TURNED: f64 = 2.0;
 
 /// The forces on the spheres of a component whose forces are not held.
 pub(super) struct JointField<'a> {
@@ -37,8 +42,8 @@ pub(super) struct JointField<'a> {
     /// What contacts need of the flying spheres, by place.
     pub spheres: Vec<ContactSphere>,
     /// Persistent contacts between those places; those of different clusters have no sphere in common.
-    pub contacts: Vec<CurveContacts>,
-    /// Surfaces at rest that spheres touch.
+    pub contacts: Vec<CurveContacts<'a>>,
+    /// Surfaces that spheres touch.
     pub touched: Vec<Touched<'a>>,
     /// Forces between all spheres of the world, where all are members.
     pub between: Option<ForcesBetween<'a>>,
@@ -83,12 +88,14 @@ impl<'a> JointField<'a> {
         }
     }
 
-    /// Adds the persistent contacts of clusters, of spheres in these states \[m\], \[m/s\].
+    /// Adds the persistent contacts of clusters, of spheres in these states \[m\], \[m/s\] at the second of two times
+    /// \[s\]; at the first, surfaces are where the system says.
     pub fn hold(
         &mut self,
         system: &System<'a>,
         (component, clusters): (&Component, &[u32]),
         [positions, velocities]: [&[DVec3]; 2],
+        [known_at, time]: [f64; 2],
     ) {
         let flights = self.flights;
         let friction_of = |bodies: Bodies| friction_of(bodies, system).sliding;
@@ -115,17 +122,25 @@ impl<'a> JointField<'a> {
                     }
                     Bodies::Surface { sphere, surface } => {
                         let Some(second) = place_of(sphere) else { continue };
-                        let form = &system.surfaces[surface as usize].form;
-                        let shift = shift_beside_surface(form, positions[second], self.period);
+                        let surface = &system.surfaces[surface as usize];
+                        let (form, moving) = (&surface.form, MovingSurface::of(surface, known_at));
+                        let shift = match moving {
+                            Some(_) => {
+                                let (form, _) = surface.after(time - known_at);
+                                shift_beside_surface(&form, positions[second], self.period)
+                            }
+                            None => shift_beside_surface(form, positions[second], self.period),
+                        };
                         let sides: Vec<DVec3> = held.sides_of(bodies).collect();
-                        let is_on_ring = !sides.is_empty();
-                        touched.push(Touched { cluster, sphere: second, shift, form, is_on_ring });
+                        let (is_on_ring, sphere) = (!sides.is_empty(), second);
+                        touched.push(Touched { cluster, sphere, shift, form, moving, is_on_ring });
                         let of_sides = sides.iter().map(|&side| Feature::side_of(form, side));
                         let state = [positions[second] + shift, velocities[second]];
-                        let under = || Feature::under(form, state, self.alone[second].radius);
+                        let seen = moving.map_or(state, |it| it.seen_from(state, time));
+                        let under = || Feature::under(form, seen, self.alone[second].radius);
                         let of_all = if is_on_ring { None } else { Some(under()) };
                         let features = of_sides.chain(of_all).flatten();
-                        features.for_each(|it| add(CurveBody::Feature(it), second, shift));
+                        features.for_each(|it| add(CurveBody::part_of(it, moving), second, shift));
                     }
                 }
             }
@@ -151,7 +166,7 @@ impl<'a> JointField<'a> {
         if self.has_friction() {
             let mut free = Values::of(positions.len());
             self.evaluate_forces(time, positions, velocities, &mut free);
-            let moving = Moving::of([positions, velocities], self.spheres.len());
+            let moving = Moving::of(time, [positions, velocities], self.spheres.len());
             for contacts in &mut self.contacts {
                 contacts.choose_states(moving, &self.spheres, &free, length);
             }
@@ -166,6 +181,12 @@ impl<'a> JointField<'a> {
         places.sort_unstable();
         places.dedup();
         places
+    }
+
+    /// How long from a time on \[s\] the motion of the surfaces that spheres touch is smooth and turns little.
+    pub fn smooth_for(&self, time: f64) -> f64 {
+        let moving = self.touched.iter().filter_map(|touched| touched.moving);
+        moving.map(|it| it.smooth_for(time, MOST_TURNED)).fold(f64::INFINITY, f64::min)
     }
 
     /// Begins a step with the spheres in these states \[m\], \[m/s\] at a time \[s\].
@@ -272,8 +293,8 @@ impl<'a> JointField<'a> {
 
 impl JointField<'_> {
     /// Adds the accelerations of persistent contacts.
-    pub fn add_contacts(&mut self, states: [&[DVec3]; 2], at: &mut Values) {
-        let moving = Moving::of(states, self.spheres.len());
+    pub fn add_contacts(&mut self, time: f64, states: [&[DVec3]; 2], at: &mut Values) {
+        let moving = Moving::of(time, states, self.spheres.len());
         for contacts in &mut self.contacts {
             contacts.add(moving, &self.spheres, at);
         }
@@ -283,7 +304,7 @@ impl JointField<'_> {
 impl Field for JointField<'_> {
     fn evaluate(&mut self, time: f64, positions: &[DVec3], velocities: &[DVec3], at: &mut Values) {
         self.evaluate_forces(time, positions, velocities, at);
-        self.add_contacts([positions, velocities], at);
+        self.add_contacts(time, [positions, velocities], at);
     }
 
     fn evaluate_forces(

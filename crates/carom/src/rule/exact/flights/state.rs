@@ -22,7 +22,7 @@ use crate::integrate::gauss_legendre;
 use crate::polynomial_flight::PolynomialAcceleration;
 use crate::rule::periodic;
 use crate::shear::Shear;
-use crate::surface::{Form, Role};
+use crate::surface::{Form, Role, Surface, SurfaceMotion};
 use crate::system::System;
 
 /// The flights of all spheres, and the clusters that persistent contacts make of them.
@@ -268,32 +268,40 @@ impl Flights {
         match species.contact_work {
             ContactWork::None => {}
             ContactWork::Friction { moment, collider_power } => {
-                let along = match species.is_curved {
+                let [along, by_curve] = match species.is_curved {
                     true => self.contact_work_on_curve(slot, [from, time]),
-                    false => along_way(),
+                    false => [along_way(), 0.0],
                 };
                 let [before, after] = [from, time].map(|at| self.angular_velocity_of(slot, at));
                 let turning = 0.5 * moment * (after - before).dot(after + before);
-                let by_colliders = (time - from) * collider_power;
+                let by_colliders = (time - from) * collider_power + by_curve;
                 self.contact_work.friction += along + turning - by_colliders;
                 self.contact_work.colliders += by_colliders;
             }
-            ContactWork::Colliders => self.contact_work.colliders += along_way(),
+            ContactWork::Colliders => {
+                self.contact_work.colliders += match species.is_curved {
+                    true => self.contact_work_on_curve(slot, [from, time])[0],
+                    false => along_way(),
+                };
+            }
         }
     }
 
-    /// The work of the persistent contacts of a sphere along a part of its curve, from one time to another \[s\], \[J\].
-    fn contact_work_on_curve(&self, slot: u32, range: [f64; 2]) -> f64 {
+    /// The work of the persistent contacts of a sphere along a part of its curve, from one time to another \[s\], and that
+    /// of moving surfaces among it \[J\].
+    fn contact_work_on_curve(&self, slot: u32, range: [f64; 2]) -> [f64; 2] {
         let body = &self.bodies[slot as usize];
-        let Some(step) = self.step_of(slot, body).filter(|_| range[0] < range[1]) else {
-            return 0.0;
+        let step = self.step_of(slot, body).filter(|_| range[0] < range[1]);
+        let Some((step, held)) = step.and_then(|step| step.held.as_ref().map(|it| (step, it)))
+        else {
+            return [0.0; 2];
         };
-        let Some(free) = &step.free else { return 0.0 };
-        let force = step.acceleration.minus(free);
+        let force = step.acceleration.minus(&held.free);
         let mass = self.species_of(slot).mass;
-        gauss_legendre::integral(range, |time| {
+        let along = gauss_legendre::integral(range, |time| {
             mass * force.at(time - body.time).dot(self.state_on_curve(slot, time).1)
-        })
+        });
+        [along, held.collider_work(range.map(|time| time - body.time))]
     }
 
     /// Adds the energy that impulses in persistent contacts gave at once \[J\].
@@ -438,8 +446,10 @@ impl Flights {
     }
 }
 
-/// Whether normals of persistent contacts with surfaces may turn.
+/// Whether normals of persistent contacts with surfaces may turn, or surfaces move otherwise than steadily.
 fn touch_may_turn(system: &System) -> bool {
     let is_flat = |form: &Form| matches!(form, Form::HalfSpace { .. } | Form::Facet(_));
-    system.surfaces.iter().any(|it| it.role == Role::Deflects && !is_flat(&it.form))
+    let is_steady = |motion: &SurfaceMotion| motion.drive.is_none() && !motion.turns();
+    let may_turn = |it: &Surface| !is_flat(&it.form) || !is_steady(&it.motion);
+    system.surfaces.iter().any(|it| it.role == Role::Deflects && may_turn(it))
 }

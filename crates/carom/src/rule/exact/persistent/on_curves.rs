@@ -13,8 +13,10 @@ use crate::rule::exact::contacts::{Group, Member, Touch};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::features::Feature;
 use crate::rule::exact::flights::{
-    ContactSphere, CurveBody, CurveContact, CurveContacts, MOST_CONTACTS, Moving, Species,
+    ContactSphere, CurveBody, CurveContact, CurveContacts, MOST_CONTACTS, Moving, MovingSurface,
+    Species,
 };
+use crate::system::System;
 
 /// Angle \[rad\] below which two normals count as one: they differ by rounding.
 pub(super) const SAME_NORMAL: f64 = 1e-9;
@@ -36,24 +38,25 @@ pub(super) fn are_some_slowed(members: &[Member]) -> bool {
     members.iter().any(|member| member.species.drag_rate > 0.0)
 }
 
-/// Whether all spheres in these contacts can fly on curves with them: they touch each other and surfaces at rest, and
-/// no contact follows from others.
-pub(super) fn fly_so(context: &StepContext, members: &[Member], touches: &[Touch]) -> bool {
-    let Some(mut contacts) = contacts(context, members, touches) else { return false };
-    let positions: Vec<DVec3> = members.iter().map(|member| member.position).collect();
-    contacts.are_independent(&positions, &spheres(context, members))
+/// Whether all spheres in these contacts can fly on curves with them: no contact follows from others.
+pub(super) fn fly_so(context: &StepContext, group: &Group, touches: &[Touch]) -> bool {
+    let Group { members, time, .. } = group;
+    let Some(mut contacts) = contacts(context, group, touches) else { return false };
+    let motion = MotionOfMembers::of(members, *time);
+    contacts.are_independent(motion.moving(), &spheres(context, members))
 }
 
 /// The touches, of those that may persist, that press where friction acts, with the accelerations of the members;
 /// `None` unless all of them fly on curves with these contacts.
 pub(super) fn pressing_with_friction(
     context: &StepContext,
-    members: &[Member],
+    group: &Group,
     candidates: &[Touch],
 ) -> Option<(Vec<Touch>, Accelerations)> {
+    let members = &group.members;
     let touches = in_order(candidates);
-    let mut contacts = contacts(context, members, &touches)?;
-    let (spheres, motion) = (spheres(context, members), MotionOfMembers::of(members));
+    let mut contacts = contacts(context, group, &touches)?;
+    let (spheres, motion) = (spheres(context, members), MotionOfMembers::of(members, group.time));
     let free = motion.free();
     let found = contacts.unilateral(motion.moving(), &spheres, &free);
     let largest = contacts.forces.iter().map(|force| force.0).fold(0.0, f64::max);
@@ -70,8 +73,8 @@ pub(super) fn pressing_with_friction(
     let persistent: Vec<Touch> =
         (0..touches.len()).filter(stays).map(|number| touches[number]).collect();
     let (persistent, found) =
-        without_pulling(context, members, (persistent, found), (&motion, &spheres))?;
-    if !fly_so(context, members, &persistent) {
+        without_pulling(context, group, (persistent, found), (&motion, &spheres))?;
+    if !fly_so(context, group, &persistent) {
         return None;
     }
     // Faces that share an edge persist together.
@@ -92,12 +95,12 @@ pub(super) fn pressing_with_friction(
 /// Friction may allow several solutions, of which a step takes one and the search for contacts that press another.
 fn without_pulling(
     context: &StepContext,
-    members: &[Member],
+    group: &Group,
     (mut touches, mut accelerations): (Vec<Touch>, Vec<DVec3>),
     (motion, spheres): (&MotionOfMembers, &[ContactSphere]),
 ) -> Option<(Vec<Touch>, Vec<DVec3>)> {
     loop {
-        let mut contacts = contacts(context, members, &touches)?;
+        let mut contacts = contacts(context, group, &touches)?;
         let mut values = motion.free();
         contacts.choose_states(motion.moving(), spheres, &values, 0.0);
         contacts.add(motion.moving(), spheres, &mut values);
@@ -114,10 +117,10 @@ fn without_pulling(
 
 /// Normal force and friction \[N\] on body 2 of each touch of a cluster on curves, as it moves now; `None` if it is none.
 pub(super) fn forces_now(context: &StepContext, group: &Group) -> Option<Vec<(f64, DVec3)>> {
-    let Group { members, touches, .. } = group;
+    let Group { members, touches, time, .. } = group;
     let ordered = in_order(touches);
-    let mut contacts = contacts(context, members, &ordered)?;
-    let (spheres, motion) = (spheres(context, members), MotionOfMembers::of(members));
+    let mut contacts = contacts(context, group, &ordered)?;
+    let (spheres, motion) = (spheres(context, members), MotionOfMembers::of(members, *time));
     let mut values = motion.free();
     contacts.choose_states(motion.moving(), &spheres, &values, 0.0);
     contacts.add(motion.moving(), &spheres, &mut values);
@@ -131,6 +134,8 @@ pub(super) fn forces_now(context: &StepContext, group: &Group) -> Option<Vec<(f6
 
 /// The motion of the members of a group, as contacts take it.
 struct MotionOfMembers {
+    /// On the world's clock \[s\].
+    time: f64,
     positions: Vec<DVec3>,
     velocities: Vec<DVec3>,
     angular_velocities: Vec<DVec3>,
@@ -138,9 +143,10 @@ struct MotionOfMembers {
 }
 
 impl MotionOfMembers {
-    fn of(members: &[Member]) -> Self {
+    fn of(members: &[Member], time: f64) -> Self {
         let of_all = |of: fn(&Member) -> DVec3| members.iter().map(of).collect();
         Self {
+            time,
             positions: of_all(|member| member.position),
             velocities: of_all(|member| member.velocity),
             angular_velocities: of_all(|member| member.angular_velocity),
@@ -149,8 +155,8 @@ impl MotionOfMembers {
     }
 
     fn moving(&self) -> Moving<'_> {
-        let Self { positions, velocities, angular_velocities, .. } = self;
-        Moving { positions, velocities, angular_velocities }
+        let Self { time, positions, velocities, angular_velocities, .. } = self;
+        Moving { time: *time, positions, velocities, angular_velocities }
     }
 
     /// The accelerations without contacts: those of all centres, then the angular ones.
@@ -180,13 +186,17 @@ fn are_same(one: &Touch, other: &Touch) -> bool {
 }
 
 /// The contacts in the form of curves; `None` if some sphere does not fly on one with them.
-fn contacts(context: &StepContext, members: &[Member], touches: &[Touch]) -> Option<CurveContacts> {
+fn contacts<'a>(
+    context: &StepContext<'a>,
+    group: &Group,
+    touches: &[Touch],
+) -> Option<CurveContacts<'a>> {
     // In a sheared box images slide past each other.
     let is_sheared = context.system.settings.shear_rate != 0.0;
     if touches.len() > MOST_CONTACTS || is_sheared {
         return None;
     }
-    let contacts = touches.iter().map(|touch| contact(context, members, touch)).collect();
+    let contacts = touches.iter().map(|touch| contact(context, group, touch)).collect();
     let contacts: Option<Vec<CurveContact>> = contacts;
     let contacts = contacts?;
     // Of faces with a common edge one bears the sphere.
@@ -222,24 +232,34 @@ fn is_repeated(touches: &[Touch]) -> bool {
     last.first.is_none() && others.iter().any(|other| are_same(last, other))
 }
 
-/// A contact of spheres on curves with each other or with a surface at rest.
-fn contact(context: &StepContext, members: &[Member], touch: &Touch) -> Option<CurveContact> {
+/// A contact of spheres on curves with each other or with a surface.
+fn contact<'a>(
+    context: &StepContext<'a>,
+    Group { members, time, .. }: &Group,
+    touch: &Touch,
+) -> Option<CurveContact<'a>> {
     if !touch.places().all(|place| flies_with(context, &members[place].species, touch.bodies)) {
         return None;
     }
     let second = touch.second;
     let first = match touch.bodies {
         Bodies::Pair(..) => CurveBody::Sphere(touch.first?),
-        // Neither what moves nor a belt is at rest.
-        Bodies::Surface { .. } if touch.does_work() || touch.belt != DVec3::ZERO => return None,
         Bodies::Surface { surface, .. } => {
-            let form = &context.system.surfaces[surface as usize].form;
+            let system: &'a System<'a> = context.system;
+            let surface = &system.surfaces[surface as usize];
+            let (form, moving) = (&surface.form, MovingSurface::of(surface, context.start));
             let Member { position, velocity, species, .. } = members[second];
             let state = [position + touch.shift, velocity];
-            CurveBody::Feature(match touch.side {
-                Some(side) => Feature::side_of(form, side)?,
-                None => Feature::under(form, state, species.radius)?,
-            })
+            let feature = match (touch.side, moving) {
+                // The sides of a ring are known where it is at rest.
+                (Some(_), Some(_)) => return None,
+                (Some(side), None) => Feature::side_of(form, side)?,
+                (None, Some(it)) => {
+                    Feature::under(form, it.seen_from(state, *time), species.radius)?
+                }
+                (None, None) => Feature::under(form, state, species.radius)?,
+            };
+            CurveBody::part_of(feature, moving)
         }
     };
     Some(CurveContact {

@@ -110,7 +110,7 @@ fn find_on_curves(
     candidates: &[Touch],
 ) -> Option<Vec<Support>> {
     let (mut persistent, accelerations) =
-        on_curves::pressing_with_friction(context, &group.members, candidates)?;
+        on_curves::pressing_with_friction(context, group, candidates)?;
     correct(context, group, &mut persistent);
     let accelerations = zero_roundoff(context, group, accelerations);
     let mut supports = connected(group, &persistent, &accelerations, None);
@@ -150,7 +150,7 @@ fn find_smooth(
         let turning = turning_time(&group.members, &persistent, &accelerations, frame_left);
         let is_bent = on_curves::may_bend(&group.members, &persistent)
             && (turning < f64::INFINITY || on_curves::are_some_curved(&group.members));
-        if is_bent && on_curves::fly_so(context, &group.members, &persistent) {
+        if is_bent && on_curves::fly_so(context, group, &persistent) {
             return connected(group, &persistent, &accelerations, None);
         }
         let (accelerations, valid_for) = if turning == f64::INFINITY {
