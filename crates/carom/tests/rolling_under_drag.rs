@@ -156,13 +156,12 @@ fn a_ball_at_rest_under_drag_takes_no_steps() {
 }
 
 #[test]
-fn a_ball_that_a_belt_carried_under_drag_rolls_exactly_once_it_is_on_a_surface_at_rest() {
+fn a_ball_that_a_belt_carries_under_drag_rolls_on_from_it_without_a_zone() {
     let mut world = exact();
     world.add_force(Gravity::new(vec(0.0, -G, 0.0))).unwrap();
     world.add_force(ViscousDrag::new(DRAG)).unwrap();
     let floor = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO)).with_friction(MU);
     world.add_collider(floor).unwrap();
-    // The ball leaves it and is on the floor within a tick or two.
     let belt = Shape::Rectangle { size_x: 1.0, size_z: 1.0 };
     let belt = Collider::new(belt, Pose::at(vec(0.0, 1e-5, 0.0))).with_friction(MU);
     world.add_collider(belt.with_surface_velocity(vec(2.0, 0.0, 0.0))).unwrap();
@@ -174,10 +173,11 @@ fn a_ball_that_a_belt_carried_under_drag_rolls_exactly_once_it_is_on_a_surface_a
         ticks += world.step(FRAME).unwrap().zone_account.ticks;
     }
     let before = world.sphere(ball).unwrap();
-    assert!(ticks > 0 && before.position.x > 0.6, "{ticks} ticks, {before:?}");
+    assert!(before.position.x > 0.6, "{before:?}");
     for _ in 0..64 {
-        assert_eq!(world.step(FRAME).unwrap().zone_account.ticks, 0);
+        ticks += world.step(FRAME).unwrap().zone_account.ticks;
     }
+    assert_eq!(ticks, 0);
     let after = world.sphere(ball).unwrap();
     let left = (-DRAG / 1.4).exp();
     // Rounding of some ten steps.

@@ -6,6 +6,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod keyframes;
+mod on_curves;
 mod riding;
 
 use std::f64::consts::{PI, TAU};

@@ -78,7 +78,7 @@ impl Flights {
         let rub_under_drag =
             || system.has_friction() && species.iter().any(|it| it.drag_rate > 0.0);
         let may_bend =
-            || !system.holds_forces_of_all() && (touch_may_turn(system) || rub_under_drag());
+            || !system.holds_forces_of_all() && (touch_may_bend(system) || rub_under_drag());
         let are_curved = species.iter().any(|it| it.is_curved) || may_bend();
         let components =
             Components::of(system, |index| species[number_of[index] as usize].is_curved);
@@ -446,10 +446,13 @@ impl Flights {
     }
 }
 
-/// Whether normals of persistent contacts with surfaces may turn, or surfaces move otherwise than steadily.
-fn touch_may_turn(system: &System) -> bool {
+/// Whether persistent contacts with some surface may bend flights: its normal turns, it moves otherwise than steadily, or
+/// it draws spheres along.
+fn touch_may_bend(system: &System) -> bool {
     let is_flat = |form: &Form| matches!(form, Form::HalfSpace { .. } | Form::Facet(_));
     let is_steady = |motion: &SurfaceMotion| motion.drive.is_none() && !motion.turns();
-    let may_turn = |it: &Surface| !is_flat(&it.form) || !is_steady(&it.motion);
-    system.surfaces.iter().any(|it| it.role == Role::Deflects && may_turn(it))
+    let has_friction = system.has_friction();
+    let draws = |it: &Surface| has_friction && it.carries();
+    let may_bend = |it: &Surface| !is_flat(&it.form) || !is_steady(&it.motion) || draws(it);
+    system.surfaces.iter().any(|it| it.role == Role::Deflects && may_bend(it))
 }

@@ -81,7 +81,7 @@ fn find_among(context: &StepContext, group: &mut Group) -> Result<Vec<Support>, 
 }
 
 /// Computes the persistent contacts where friction acts in those that bear: in closed form if there is one, else, of
-/// spheres that drag slows and no others bear, on curves. Heaps are for zones, whether drag acts or not.
+/// spheres that drag slows or a moving surface carries, and no others bear, on curves. Heaps are for zones.
 ///
 /// # Errors
 /// [`NoClosedForm`] if there are neither.
@@ -91,7 +91,8 @@ fn find_with_friction(
     candidates: &[Touch],
     bearing: &[Touch],
 ) -> Result<Vec<Support>, NoClosedForm> {
-    let may_bend = on_curves::are_some_slowed(&group.members)
+    let are_carried = || bearing.iter().any(|touch| touch.does_work() || touch.belt != DVec3::ZERO);
+    let may_bend = (on_curves::are_some_slowed(&group.members) || are_carried())
         && !with_friction::are_some_borne(&group.members, bearing);
     if !may_bend {
         return with_friction::find(context, group, candidates, bearing);
