@@ -10,7 +10,7 @@ use crate::flight::Flight;
 use crate::id::{ColliderId, SphereId};
 use crate::norm::Norm;
 use crate::report::SensorEvent;
-use crate::surface::{Form, Rectangle, SurfaceMotion};
+use crate::surface::{Form, LastCarriage, Rectangle, SurfaceMotion};
 use crate::system::System;
 
 /// Distances below this part of the coordinates are rounding.
@@ -47,6 +47,8 @@ pub(super) struct Crossing<'a> {
     pub system: &'a System<'a>,
     /// Time for which the system has the surfaces, on the world's clock \[s\].
     pub step_start: f64,
+    /// Motion of the trigger when it was asked for last.
+    pub last: &'a LastCarriage,
 }
 
 /// Depth and velocity of a sphere relative to a trigger at one time.
@@ -247,7 +249,7 @@ impl Crossing<'_> {
 
     /// Geometry and motion of a surface at `time` \[s\].
     fn place(&self, target: &Target, time: f64) -> (Form, SurfaceMotion) {
-        self.system.surfaces[target.surface as usize].after(time - self.step_start)
+        self.last.after(&self.system.surfaces[target.surface as usize], time - self.step_start)
     }
 
     /// The event of an entry or an exit at `time` \[s\].

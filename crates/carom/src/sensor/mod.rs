@@ -50,7 +50,8 @@ impl Sensors {
             self.find_targets(&segment, system, step_start);
             let targets = std::mem::take(&mut self.targets);
             for of_one in targets.chunk_by(|a, b| a.collider == b.collider) {
-                let crossing = Crossing { segment: &segment, targets: of_one, system, step_start };
+                let (segment, last) = (&segment, &LastCarriage::default());
+                let crossing = Crossing { segment, targets: of_one, system, step_start, last };
                 self.pass(&crossing, of_one[0].collider);
             }
             self.targets = targets;
