@@ -18,6 +18,14 @@ pub(crate) struct MovingBounds {
 }
 
 impl MovingBounds {
+    /// No bounds at all.
+    pub const UNKNOWN: Self = Self {
+        velocity: DVec3::ZERO,
+        way: f64::INFINITY,
+        beside: f64::INFINITY,
+        angle: f64::INFINITY,
+    };
+
     /// The bounds for a `length` of time \[s\] with this velocity at the start \[m/s\].
     pub fn within(length: f64, velocity: DVec3, bounds: &MotionBounds) -> Self {
         let MotionBounds { way, acceleration, jerk, spin, .. } = *bounds;

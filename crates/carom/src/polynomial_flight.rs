@@ -116,7 +116,11 @@ impl PolynomialAcceleration {
 
     /// Returns the rest of the flight from a time \[s\] within its length on.
     pub fn from(&self, time: f64) -> Self {
-        let length = self.length - time;
+        self.within(time, self.length - time)
+    }
+
+    /// Returns the part of the flight from a time \[s\] within its length on, of some length \[s\].
+    pub fn within(&self, time: f64, length: f64) -> Self {
         let rest = shifted(self.coefficients, time / self.length);
         let coefficients = scaled(rest, length / self.length);
         Self { length, coefficients, carried: [DVec3::ZERO; 2] }

@@ -249,6 +249,20 @@ impl Flights {
         (Reach::of(body.flight_from(species, start), species.radius, end - start), start)
     }
 
+    /// Bounds of the flight of a sphere between two times on the world's clock \[s\], within its step if it is on a curve.
+    pub fn reach_between(&self, slot: u32, [start, end]: [f64; 2]) -> Reach {
+        let body = &self.bodies[slot as usize];
+        let species = self.species_of(slot);
+        match self.step_of(slot, body) {
+            Some(step) => {
+                let state = self.state_on_curve(slot, start);
+                let acceleration = step.acceleration.within(start - body.time, end - start);
+                Reach::of_polynomial(state.into(), &acceleration, species.radius)
+            }
+            None => Reach::of(body.flight_from(species, start), species.radius, end - start),
+        }
+    }
+
     /// Sets the acceleration of a sphere without the forces of its persistent contacts \[m/s²\].
     pub fn set_free_acceleration(&mut self, slot: u32, acceleration: DVec3) {
         let free = self.species_of(slot).free;

@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 
-use crate::contact_time;
+use crate::contact_time::{self, Reach};
 use crate::detect::contact::Bodies;
 use crate::detect::moving_surfaces::PlacedTree;
 use crate::detect::swept_region::{PathBounds, SweptRegion};
@@ -14,6 +14,11 @@ use crate::rule::exact::moving_regions::Clear;
 use crate::rule::exact::timeline::Timeline;
 use crate::surface::LastCarriage;
 use crate::system::System;
+
+/// Number of surfaces of a collider near the way of a sphere above which parts of the way are looked at.
+const MANY_SURFACES: usize = 8;
+/// Largest number of parts of a way.
+const MOST_PARTS: f64 = 32.0;
 
 /// A place where a sphere may touch surfaces.
 #[derive(Debug, Clone, Copy)]
@@ -236,7 +241,10 @@ fn meet(
     let (reach, since) = (reach.shifted(-shift), begun - timeline.frame[0]);
     let sphere = timeline.flights.index_of[slot as usize];
     let Memory { near, last } = memory;
-    for mover in movers.iter().filter(|it| !way.bounds.misses(&it.region)) {
+    for (number, mover) in movers.iter().enumerate() {
+        if way.bounds.misses(&mover.region) {
+            continue;
+        }
         let reach = reach.seen_from_moving(since, mover.tree.origin, &mover.moving);
         near.clear();
         mover.tree.add_near(reach.center(), reach.farthest(), near);
@@ -247,6 +255,10 @@ fn meet(
                 && timeline.neighbours.meets_surface(slot, it)
                 && !timeline.flights.is_held_by(slot, it)
         });
+        if near.len() > MANY_SURFACES {
+            let in_parts = near_in_parts((timeline, system), (slot, way), number, &reach, last);
+            near.retain(|surface| in_parts.binary_search(surface).is_ok());
+        }
         near.sort_unstable();
         for &surface in near.iter() {
             let time = meeting(timeline, system, (slot, surface), way.times, last);
@@ -255,6 +267,35 @@ fn meet(
             }
         }
     }
+}
+
+/// The surfaces of a mover, by its number, that the way of a sphere comes near, ascending: in each part of the way, in
+/// which surfaces and sphere move by about its radius. `whole` is the reach over all of the way.
+fn near_in_parts(
+    (timeline, system): (&Timeline, &System),
+    (slot, way): (u32, &Way),
+    number: usize,
+    whole: &Reach,
+    last: &LastCarriage,
+) -> Vec<u32> {
+    let shift = timeline.neighbours.shift_from_box(slot);
+    let parts = (whole.farthest() / way.bounds.radius).clamp(1.0, MOST_PARTS) as u32;
+    let [start, until] = way.times;
+    let length = (until - start) / f64::from(parts);
+    let mut near = Vec::new();
+    for part in 0..parts {
+        let from = start + f64::from(part) * length;
+        let since = from - timeline.frame[0];
+        let Some(tree) = system.moving_after(since, last).nth(number) else { continue };
+        let [way, spin] = tree.farthest([since, length]);
+        let moving = MovingBounds { way, angle: spin * length, ..MovingBounds::UNKNOWN };
+        let reach = timeline.flights.reach_between(slot, [from, from + length]);
+        let reach = reach.shifted(-shift).seen_from_moving(0.0, tree.origin, &moving);
+        tree.add_near(reach.center(), reach.farthest(), &mut near);
+    }
+    near.sort_unstable();
+    near.dedup();
+    near
 }
 
 /// Returns when a sphere meets a surface that moves, between two times of the frame \[s\].
