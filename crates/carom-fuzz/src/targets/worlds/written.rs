@@ -196,6 +196,8 @@ fn obstacle(drawn: &Drawn, obstacle: &Obstacle, material: &str) -> String {
         motion_of_parts(drawn, parts)
     };
     let trigger = if *is_trigger { "trigger = true\n" } else { "" };
+    // Kicks make elastic balls faster without end, and their impacts ever more.
+    let kick = kick.filter(|_| drawn.material.restitution < 1.0);
     let kick = kick.map_or(String::new(), |it| format!("kick = {it:?}\n"));
     let cushion = cushion.map_or(String::new(), |it| format!("cushion = {it:?}\n"));
     let belt = belt.map_or(String::new(), |it| format!("surface_velocity = {it:?}\n"));
