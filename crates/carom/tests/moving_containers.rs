@@ -86,7 +86,9 @@ fn balls_in_a_zone_stay_in_a_box_that_moves() {
         world.add_collider(moving.with_restitution(0.5)).unwrap();
         for place in [vec(0.0, -0.0299999999, 0.0), vec(0.0, -0.00999999, 0.0005)] {
             let ball = Sphere::new(place, 0.01).with_restitution(0.5);
-            world.add_sphere(ball.with_friction(Friction::sliding(0.5))).unwrap();
+            // What rolls with rolling friction on what moves is stepped.
+            let friction = Friction::sliding(0.5).with_rolling(0.01);
+            world.add_sphere(ball.with_friction(friction)).unwrap();
         }
         let mut joined = 0;
         for _ in 0..60 {

@@ -20,7 +20,7 @@ const SOONEST: f64 = 1e-6;
 
 /// What persistent contacts do in a step.
 pub(super) struct HeldOver {
-    /// By place; empty without contacts.
+    /// One per place; none without contacts.
     pub curves: Vec<HeldCurve>,
     /// Time from the start \[s\] at which a contact of each cluster opens, or a sphere reaches
     /// another part of a surface; infinite where none does.
