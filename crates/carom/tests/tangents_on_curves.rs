@@ -5,8 +5,8 @@ mod common;
 use std::ops::Range;
 
 use carom::{
-    Buoyancy, Collider, DVec3, DerivativeError, Force, Gravity, MutualGravity, PointAttractor,
-    Pose, QuadraticDrag, Shape, Sides, Sphere, SphereId, SphereState, SphereTangent, Spring,
+    Buoyancy, Collider, DVec3, DerivativeError, Force, ForceDerivatives, ForceEdge, Gravity,
+    MutualGravity, PointAttractor, Pose, QuadraticDrag, Shape, Sides, Sphere, SphereId, SphereState, SphereTangent, Spring,
     Tangents, Tape, Variation, Vortex, World,
 };
 use common::derivatives::{assert_backwards_equals_forwards, off_differences, varied};
@@ -218,6 +218,110 @@ fn a_damped_thread_that_becomes_taut_has_the_derivatives_of_its_closed_form() {
         // Rounding of the weights of the quadrature.
         assert!((found - expected).abs() < 2e-12, "{found} {expected}");
     }
+}
+
+/// A layer between two heights in which every sphere gets an acceleration \[m/s²\], once its highest point is there.
+#[derive(Debug, Clone, Copy)]
+struct Layer {
+    heights: [f64; 2],
+    acceleration: DVec3,
+}
+
+impl Force for Layer {
+    fn on(&self, sphere: &SphereState, _time: f64) -> DVec3 {
+        let [low, high] = self.heights;
+        let is_inside = (low..high).contains(&(sphere.position.y + sphere.radius));
+        if is_inside { sphere.mass * self.acceleration } else { DVec3::ZERO }
+    }
+
+    fn edges(&self, radius: f64) -> Vec<ForceEdge> {
+        self.heights.map(|it| ForceEdge { normal: DVec3::Y, height: it - radius }).to_vec()
+    }
+
+    fn derivatives(&self, sphere: &SphereState, time: f64) -> Option<ForceDerivatives> {
+        let by_mass = self.on(sphere, time) / sphere.mass;
+        Some(ForceDerivatives { by_mass, ..ForceDerivatives::ZERO })
+    }
+}
+
+#[test]
+fn a_layer_that_a_ball_passes_has_the_derivatives_of_its_closed_form() {
+    // It comes with the speed v to the lower edge after (l - r - y)/v, leaves the layer of the width w with u, u² = v² +
+    // 2 a w, and gets b t across in the layer.
+    let (radius, start, width, a, b, end) = (0.1, 0.2, 0.3, 7.0, -3.0, 1.0);
+    for scale in [1.0, libm::ldexp(1.0, -20), libm::ldexp(1.0, 20)] {
+        let mut world = World::default();
+        let heights = [1.0, 1.0 + width].map(|it| scale * it);
+        world.add_force(Layer { heights, acceleration: scale * vec(b, a, 0.0) }).unwrap();
+        let speed = 2.0;
+        let ball = Sphere::new(vec(0.0, scale * start, 0.0), scale * radius);
+        let ball = world.add_sphere(ball.with_velocity(vec(0.0, scale * speed, 0.0))).unwrap();
+        let mut tape = Tape::start(&world).unwrap();
+        for _ in 0..7 {
+            tape.step(&mut world, end / 7.0).unwrap();
+        }
+        let of = |y: f64, v: f64, r: f64| {
+            let u = (v * v + 2.0 * a * width).sqrt();
+            let (comes, inside) = ((1.0 - r - y) / v, (u - v) / a);
+            let left = end - comes - inside;
+            [b * inside * (0.5 * inside + left), 1.0 - r + width + u * left]
+        };
+        for (number, axis) in [DVec3::X, DVec3::Y].into_iter().enumerate() {
+            let h = 1e-3;
+            let difference = |at: &dyn Fn(f64) -> [f64; 2]| {
+                let at = |h: f64| at(h)[number];
+                (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h)
+            };
+            let along = SphereTangent { position: axis, ..SphereTangent::default() };
+            let by = tape.gradient(&[(ball, along)]).unwrap().sphere(ball);
+            for (found, expected) in [
+                (by.position.y, difference(&|h| of(start + h, speed, radius))),
+                (by.velocity.y, difference(&|h| of(start, speed + h, radius))),
+                (by.radius, difference(&|h| of(start, speed, radius + h))),
+                (by.mass, 0.0),
+            ] {
+                // The fourth power of the step times the fifth derivative, and rounding over the step.
+                assert!((found - expected).abs() < 1e-9, "{scale} {axis} {found} {expected}");
+            }
+        }
+    }
+}
+
+#[test]
+fn derivatives_through_layers_agree_with_differences_and_with_the_gradient() {
+    let mut compared = 0;
+    for number in 0..24 {
+        let (mut world, balls, gravity) = some_world(8 * number + number % 6);
+        let mut numbers = Numbers(900 + number);
+        for _ in 0..2 {
+            let low = numbers.between(-1.5, 1.0);
+            let heights = [low, low + numbers.between(0.05, 0.5)];
+            world.add_force(Layer { heights, acceleration: 3.0 * numbers.vector() }).unwrap();
+        }
+        let direction = some_direction(&world, &balls, &mut numbers);
+        let (mut run, mut recorded) = (world.clone(), world.clone());
+        let mut tangents = Tangents::new(&world, vec![direction.clone()]).unwrap();
+        let mut tape = Tape::start(&world).unwrap();
+        for _ in 0..6 {
+            tangents.step(&mut run, 0.1).unwrap();
+            tape.step(&mut recorded, 0.1).unwrap();
+        }
+        assert_backwards_equals_forwards((&tangents, &tape), &direction, &balls, &mut numbers);
+        let force = world.forces().next().map(|(force, _)| (force, gravity));
+        let [off, spread] = off_differences(&tangents, &balls, |by| {
+            let mut other = varied(&world, &direction, by, force);
+            for _ in 0..6 {
+                other.step(0.1).unwrap();
+            }
+            other
+        });
+        // A jump is passed within the rounding of a coordinate, which differences multiply.
+        if spread < 2e-9 {
+            assert!(off < 1e-8, "{number}: {off:e} {spread:e}");
+            compared += 1;
+        }
+    }
+    assert!(compared > 12, "{compared}");
 }
 
 /// A force of a program, without derivatives.

@@ -121,7 +121,7 @@ pub trait Force: Any + Debug + Send + Sync {
     /// Planes at which the force on a sphere of this `radius` \[m\] bends or jumps; none by default.
     ///
     /// The rule `exact` ends a step of a curved flight there, so that none misses a field however thin, and all between
-    /// are smooth. Derivatives of whole runs know bends, not jumps.
+    /// are smooth, for derivatives of whole runs, too.
     fn edges(&self, _radius: f64) -> Vec<ForceEdge> {
         Vec::new()
     }

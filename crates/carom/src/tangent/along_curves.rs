@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::curve_section::{Section, add_parts};
 use super::curves::places_of;
+use super::edge_passage::{Passage, Side};
 use super::error::DerivativeError;
 use super::linearized::Companions;
 use super::replay::{Piece, Replay};
@@ -12,6 +13,8 @@ use crate::rule::periodic;
 
 /// A thread becomes taut where its length is off its rest length by at most this part.
 const TAUT: f64 = 1e-9;
+/// Largest change of an acceleration at an edge that is rounding, as a part of it.
+const NO_JUMP: f64 = 1e-11;
 
 impl Replay<'_> {
     /// Advances a sphere on a curve, and all that fly with it, to a time since the start of the step \[s\].
@@ -42,6 +45,12 @@ impl Replay<'_> {
         let taut_or_slack = companions.clone();
         let [positions, velocities, _] = section.at(0.5 * (section.ages[0] + section.ages[1]));
         companions.fix_threads([&positions, &velocities]);
+        companions.fix_sides([&positions, &velocities]);
+        let passage = self.pass_edges(&companions, [&starts[0], &starts[1]], since)?;
+        if let Some(Passage { place, lost, .. }) = passage {
+            let body = &mut self.start.bodies[place];
+            body.acceleration = body.acceleration.map(|it| it - lost);
+        }
         let first = section.linearized(&companions, section.ages[0])?;
         let tolerance = section.tolerance(&first, section.ages[0]);
         let jumps = self.jumps(&places, &starts[2], tolerance);
@@ -63,9 +72,53 @@ impl Replay<'_> {
             (body.position, body.velocity) = (ends[0][at], ends[1][at]);
             (body.acceleration, body.since) = (Some(ends[2][at]), time);
         }
+        for (&place, sides) in places.iter().zip(companions.sides) {
+            self.sides.insert(place, sides);
+        }
+        self.pieces.extend(passage.map(|it| Piece::Passage(Box::new(it))));
         self.pieces.extend(tightening.map(|it| Piece::Tightening(Box::new(it))));
         self.pieces.extend(parts.into_iter().map(|it| Piece::Curved(Box::new(it))));
         Some(())
+    }
+
+    /// Passes the edges of forces between the last flights of spheres and those that begin in this state \[m\], \[m/s\] and
+    /// at this time since the start of the step \[s\]. Returns the derivative of the passage at which an acceleration
+    /// jumps; `None` if that is not known.
+    fn pass_edges(
+        &self,
+        companions: &Companions,
+        states: [&[DVec3]; 2],
+        since: f64,
+    ) -> Option<Option<Passage>> {
+        let mut before = companions.clone();
+        let mut passed: Vec<(usize, Side)> = Vec::new();
+        for (number, (&place, now)) in companions.places.iter().zip(&companions.sides).enumerate() {
+            let last = self.sides.get(&place).filter(|it| it.len() == now.len());
+            let Some(last) = last else { continue };
+            before.sides[number].clone_from(last);
+            let changed = last.iter().zip(now).filter(|(a, b)| a.is_beyond != b.is_beyond);
+            passed.extend(changed.map(|(_, side)| (number, *side)));
+        }
+        let Some(&(number, side)) = passed.first() else { return Some(None) };
+        let place = companions.places[number];
+        let [earlier, later] =
+            [&before, companions].map(|it| it.accelerations(states, self.start.time + since));
+        let lost = |number: usize| earlier[number] - later[number];
+        let jumps = |number: usize| lost(number).length() > NO_JUMP * earlier[number].length();
+        if !passed.iter().any(|&(number, _)| jumps(number)) {
+            return Some(None);
+        }
+        let is_one = passed.iter().all(|it| it.0 == number && it.1.is_of_same_plane(&side));
+        is_one.then_some(())?;
+        Some(Some(Passage {
+            place,
+            id: self.start.ids[place],
+            normal: side.edge.normal,
+            by_radius: side.by_radius?,
+            velocity: states[1][number],
+            lost: lost(number),
+            time: self.elapsed + since,
+        }))
     }
 
     /// Returns the spheres, by index, whose accelerations \[m/s²\] at the start of a section are off those at the end of

@@ -43,8 +43,14 @@ impl Followed {
         let pieces = start.pieces(world, log, self.elapsed);
         let pieces = pieces.inspect_err(|error| self.lost = Some(error.clone()))?;
         for piece in &pieces {
-            if let Piece::Impact(saltation) = piece {
-                self.margin.look_at(saltation, self.began, &mut self.last_impacts);
+            match piece {
+                Piece::Impact(it) => {
+                    self.margin.look_at(it, self.began, &mut self.last_impacts);
+                }
+                Piece::Passage(it) => {
+                    self.margin.look_at_directness(it.directness(), (it.id, self.began + it.time));
+                }
+                _ => {}
             }
         }
         self.elapsed += world.time() - before;

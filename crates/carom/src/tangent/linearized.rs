@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::{DMat3, DVec3};
 
+use super::edge_passage::Side;
 use super::tightening::Tightening;
 use super::variation::Variation;
 use crate::forces::{self, ForceDerivatives, PullDerivatives, SphereState, Spring, SpringEnd};
@@ -86,9 +87,11 @@ impl Input {
 pub(super) struct Companions<'a> {
     system: System<'a>,
     /// Indices of the spheres in the arrays of the world.
-    places: &'a [usize],
+    pub places: &'a [usize],
     /// Springs at these spheres, with the numbers of their ends; `None` for one at a fixed point.
     springs: Vec<(SpringId, Spring, usize, Option<usize>)>,
+    /// For each sphere, the sides of the edges of forces on which it flies; empty where its position decides.
+    pub sides: Vec<Vec<Side>>,
 }
 
 /// Sums of derivatives, before they are divided by masses.
@@ -130,7 +133,7 @@ impl<'a> Companions<'a> {
                 _ => return None,
             }
         }
-        Some(Self { system, places, springs })
+        Some(Self { system, places, springs, sides: Vec::new() })
     }
 
     /// Returns the damped thread that is at its rest length in this state \[m\], \[m/s\], to a `part` of that, and
@@ -182,6 +185,12 @@ impl<'a> Companions<'a> {
             acts
         });
         self.springs = springs;
+    }
+
+    /// Fixes the sides of edges on which spheres fly to those in this state \[m\], \[m/s\].
+    pub fn fix_sides(&mut self, states: [&[DVec3]; 2]) {
+        let sides = self.states(states).map(|state| Side::all(&self.system, &state)).collect();
+        self.sides = sides;
     }
 
     /// Returns the forces at a time on the world's clock \[s\], linearised about these positions \[m\] and velocities
@@ -237,8 +246,12 @@ impl<'a> Companions<'a> {
         [positions, velocities]: [&'b [DVec3]; 2],
     ) -> impl Iterator<Item = SphereState> + use<'a, 'b> {
         let spheres = self.system.spheres;
+        let kept = |number: usize| {
+            let sides = self.sides.get(number).into_iter().flatten();
+            sides.fold(positions[number], |position, side| side.keep(position))
+        };
         self.places.iter().enumerate().map(move |(number, &place)| SphereState {
-            position: positions[number],
+            position: kept(number),
             velocity: velocities[number],
             radius: spheres.radius[place],
             mass: spheres.mass[place],

@@ -8,7 +8,7 @@ use crate::id::SphereId;
 #[non_exhaustive]
 pub struct Margin {
     /// Smallest ratio of the speed of approach to the relative speed of an impact: 1 if all were head-on, near 0 if
-    /// one grazed. 1 if there was no impact.
+    /// one grazed. 1 if there was no impact. A sphere that passes an edge at which a force jumps counts likewise.
     pub directness: f64,
     /// Body 2 of that impact, and its time on the world's clock \[s\].
     pub most_grazing: Option<(SphereId, f64)>,
@@ -29,11 +29,7 @@ impl Margin {
     /// time of the last impact of each sphere since then \[s\], by index.
     pub(super) fn look_at(&mut self, saltation: &Saltation, began: f64, last_impacts: &mut [f64]) {
         let time = saltation.time;
-        let directness = saltation.directness();
-        if directness < self.directness {
-            self.directness = directness;
-            self.most_grazing = Some((saltation.second.id, began + time));
-        }
+        self.look_at_directness(saltation.directness(), (saltation.second.id, began + time));
         for sphere in saltation.spheres() {
             let interval = time - last_impacts[sphere.place];
             if interval < self.interval {
@@ -41,6 +37,14 @@ impl Margin {
                 self.closest = Some((sphere.id, began + time));
             }
             last_impacts[sphere.place] = time;
+        }
+    }
+
+    /// Adds the directness of an impact of a sphere, or of its passing an edge, at a time on the world's clock \[s\].
+    pub(super) fn look_at_directness(&mut self, directness: f64, at: (SphereId, f64)) {
+        if directness < self.directness {
+            self.directness = directness;
+            self.most_grazing = Some(at);
         }
     }
 }

@@ -10,6 +10,7 @@ mod curved;
 mod curves;
 mod dry_motion;
 mod dual;
+mod edge_passage;
 mod error;
 mod followed;
 mod known;
@@ -200,6 +201,7 @@ fn pass(
             Piece::Supported(ref flight) => flight.pass(direction, spheres),
             Piece::Curved(ref flight) => flight.pass((direction, accelerations), spheres),
             Piece::Tightening(ref thread) => thread.pass(direction, spheres),
+            Piece::Passage(ref passage) => passage.pass(direction, spheres),
             Piece::Impact(ref saltation) => saltation.pass(direction, spheres),
         }
     }

@@ -7,6 +7,7 @@ use glam::DVec3;
 use super::coefficients::{RestitutionRates, restitution_of, sliding_of};
 use super::curved::CurvedFlight;
 use super::curves::Curves;
+use super::edge_passage::{Passage, Side};
 use super::error::DerivativeError;
 use super::saltation::{Colliding, First, Saltation};
 use super::start::{Flying, Held, ROUNDING, Start};
@@ -42,6 +43,7 @@ pub(super) enum Piece {
     Supported(Box<SupportedFlight>),
     Curved(Box<CurvedFlight>),
     Tightening(Box<Tightening>),
+    Passage(Box<Passage>),
     Impact(Box<Saltation>),
 }
 
@@ -50,10 +52,12 @@ pub(super) struct Replay<'a> {
     pub start: Start,
     pub system: System<'a>,
     /// Time from the start of the derivatives to the start of the step \[s\].
-    elapsed: f64,
+    pub elapsed: f64,
     /// Changes of persistent contact during the step, by index of the sphere.
     changes: BTreeMap<usize, VecDeque<SupportChange>>,
     pub curves: Curves,
+    /// For each sphere on a curve, by index, the side of each edge of forces on which it flew last.
+    pub sides: BTreeMap<usize, Vec<Side>>,
     pub pieces: Vec<Piece>,
     /// End of the step on the world's clock \[s\].
     end: f64,
@@ -79,8 +83,16 @@ impl Start {
             changes.entry(change.index as usize).or_default().push_back(change);
         }
         let curves = Curves::new(log.curves, [self.time, end]);
-        let pieces = Vec::new();
-        let mut replay = Replay { start: self, system, elapsed, changes, curves, pieces, end };
+        let mut replay = Replay {
+            start: self,
+            system,
+            elapsed,
+            changes,
+            curves,
+            sides: BTreeMap::new(),
+            pieces: Vec::new(),
+            end,
+        };
         for group in &report.groups {
             let impact = &report.impacts[group.first];
             if group.count > 1 {

@@ -89,7 +89,7 @@ impl Tape {
                 }
                 self.last_flights[flight.place] = Some(self.pieces.len());
             }
-            Piece::Curved(_) | Piece::Tightening(_) => {}
+            Piece::Curved(_) | Piece::Tightening(_) | Piece::Passage(_) => {}
             Piece::Impact(saltation) => {
                 for sphere in saltation.spheres() {
                     self.last_flights[sphere.place] = None;
@@ -126,6 +126,7 @@ impl Tape {
                     flight.pass_back(&mut spheres, (&mut gradient, &mut accelerations));
                 }
                 Piece::Tightening(ref thread) => thread.pass_back(&mut spheres, &mut gradient),
+                Piece::Passage(ref passage) => passage.pass_back(&mut spheres, &mut gradient),
                 Piece::Impact(ref saltation) => saltation.pass_back(&mut spheres, &mut gradient),
             }
         }
