@@ -6,8 +6,8 @@ use std::ops::Range;
 
 use carom::{
     Buoyancy, Collider, DVec3, DerivativeError, Force, ForceDerivatives, ForceEdge, Gravity,
-    MutualGravity, PointAttractor, Pose, QuadraticDrag, Shape, Sides, Sphere, SphereId, SphereState, SphereTangent, Spring,
-    Tangents, Tape, Variation, Vortex, World,
+    MutualGravity, PointAttractor, Pose, QuadraticDrag, Shape, Sides, Sphere, SphereId,
+    SphereState, SphereTangent, Spring, Tangents, Tape, Variation, Vortex, World,
 };
 use common::derivatives::{assert_backwards_equals_forwards, off_differences, varied};
 use common::{Numbers, vec};

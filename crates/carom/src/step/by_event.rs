@@ -6,11 +6,15 @@ use super::place::{
     account_for_persistent_contacts, no_longer_finite, place_spheres, work_written,
 };
 use super::{shear, thermostat};
+use crate::bodies::Spheres;
 use crate::emitter;
 use crate::error::{Error, InvalidValue, Subject};
 use crate::forces;
+use crate::id::SphereId;
 use crate::report::StepReport;
-use crate::rule::exact::{self, Arrivals, HoldError, Span, Timeline, Unfinished, Until, Watch};
+use crate::rule::exact::{
+    self, Arrival, Arrivals, HoldError, Span, Timeline, Unfinished, Until, Watch,
+};
 use crate::settings::Exact;
 use crate::shear::Shear;
 use crate::state::State;
@@ -185,9 +189,26 @@ fn emit(attempt: &mut Attempt, timeline: &mut Timeline, time: f64) -> Result<(),
         Err(_) => time,
     };
     let arrivals = Arrivals { known: &known, time_of, next };
+    let log = timeline.end_log();
     let (system, motion) = attempt.state.split();
     *timeline = exact::adopt(timeline, &system, motion, arrivals, time);
+    if attempt.scratch.flight_log.is_some() {
+        let arrivals = emission.emitted.iter().zip(&emission.due);
+        let arrivals =
+            arrivals.filter_map(|(&id, &time)| arrival(&attempt.state.spheres, id, time));
+        timeline.resume_log(log, arrivals.collect(), time);
+    }
     Ok(())
+}
+
+/// Returns a sphere that begins at `time` \[s\], for a log of flights.
+fn arrival(spheres: &Spheres, id: SphereId, time: f64) -> Option<Arrival> {
+    let index = spheres.index_of(id)?;
+    let [positions, velocities] = [spheres.positions(), spheres.velocities()];
+    let spin = spheres.angular_velocities().get(index).copied();
+    let angular_velocity = spin.unwrap_or_default();
+    let (position, velocity) = (positions[index], velocities[index]);
+    Some(Arrival { id, time, position, velocity, angular_velocity })
 }
 
 /// Returns the error of a step that starts at `time` \[s\] and was not taken to its end.

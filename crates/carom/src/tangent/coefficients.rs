@@ -3,7 +3,7 @@
 use crate::detect::contact::Bodies;
 use crate::material_pair::MaterialPair;
 use crate::respond;
-use crate::restitution::BodyRestitution;
+use crate::restitution::{BodyRestitution, ContactRestitution};
 use crate::system::System;
 
 /// A coefficient of a contact, and its derivatives by those of the two bodies.
@@ -31,10 +31,11 @@ pub(super) struct RestitutionRates {
 /// Returns the coefficient of restitution of a contact at a speed of approach \[m/s\]. A body with a law, and a pair of
 /// materials with a restitution of its own, have no coefficient to differentiate by.
 pub(super) fn restitution_of(system: &System, bodies: Bodies, speed: f64) -> RestitutionRates {
-    let restitution = respond::restitution_of(bodies, system);
     let pair = system.material_pair(bodies).and_then(MaterialPair::contact_restitution);
     let both = respond::body_restitutions(bodies, system);
-    let of_bodies = system.settings.combine_rule.derivatives(both.map(|it| it.at(speed)));
+    let rule = system.settings.combine_rule;
+    let restitution = pair.unwrap_or_else(|| ContactRestitution::of(both, rule));
+    let of_bodies = rule.derivatives([both[0].at(speed), both[1].at(speed)]);
     let by_body = |body: usize| match both[body] {
         BodyRestitution::Constant(_) if pair.is_none() => of_bodies[body],
         _ => 0.0,

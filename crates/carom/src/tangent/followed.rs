@@ -42,6 +42,7 @@ impl Followed {
         let log = world.step_with_log(dt)?;
         let pieces = start.pieces(world, log, self.elapsed);
         let pieces = pieces.inspect_err(|error| self.lost = Some(error.clone()))?;
+        self.last_impacts.resize(world.spheres().ids().len(), f64::NEG_INFINITY);
         for piece in &pieces {
             match piece {
                 Piece::Impact(it) => {
@@ -54,6 +55,9 @@ impl Followed {
             }
         }
         self.elapsed += world.time() - before;
+        // Spheres that were added come last.
+        self.ids.clear();
+        self.ids.extend(world.spheres().ids());
         Ok(pieces)
     }
 

@@ -21,9 +21,6 @@ pub(super) fn check(world: &World) -> Result<(), DerivativeError> {
     if !are_differentiable(&system, motion) {
         return refuse("a force without `derivatives`");
     }
-    if world.emitters().len() > 0 {
-        return refuse("emitters");
-    }
     if system.settings.thermostat.is_some() {
         return refuse("a thermostat");
     }

@@ -88,12 +88,20 @@ impl Tangents {
             followed.ids.iter().map(|&id| direction.sphere(id).motion()).collect()
         };
         let spheres = directions.iter().map(of_direction).collect();
-        let accelerations = |direction: &Variation| {
-            let of = |&id| direction.acceleration + direction.sphere(id).acceleration;
-            followed.ids.iter().map(of).collect()
-        };
-        let accelerations = directions.iter().map(accelerations).collect();
-        Ok(Self { directions, spheres, accelerations, followed })
+        let accelerations = vec![Vec::new(); directions.len()];
+        let mut tangents = Self { directions, spheres, accelerations, followed };
+        tangents.add_spheres();
+        Ok(tangents)
+    }
+
+    /// Adds spheres that were added to the world: no change of the start changes how they begin.
+    fn add_spheres(&mut self) {
+        let Self { directions, spheres, accelerations, followed } = self;
+        for ((direction, spheres), all) in directions.iter().zip(spheres).zip(accelerations) {
+            spheres.resize(followed.ids.len(), SphereTangent::default());
+            let added = followed.ids.iter().skip(all.len());
+            all.extend(added.map(|&id| direction.acceleration + direction.sphere(id).acceleration));
+        }
     }
 
     /// Advances the world by `dt` \[s\], and the derivatives with it. A change of the world from outside since the
@@ -105,6 +113,7 @@ impl Tangents {
     /// call gives that error again.
     pub fn step(&mut self, world: &mut World, dt: f64) -> Result<(), DerivativeError> {
         let pieces = self.followed.step(world, dt)?;
+        self.add_spheres();
         let accelerations = self.accelerations.iter().map(Vec::as_slice);
         let directions = self.directions.iter().zip(accelerations);
         for (direction, spheres) in directions.zip(&mut self.spheres) {

@@ -17,8 +17,7 @@ use super::touched::touched;
 use crate::detect::contact::Bodies;
 use crate::detect::instant::Instant;
 use crate::detect::sphere_surface;
-use crate::flight::{Flight, Propagator};
-use crate::forces::LinearForce;
+use crate::flight::Propagator;
 use crate::id::SphereId;
 use crate::report::{BodyPair, Impact};
 use crate::respond;
@@ -70,13 +69,14 @@ impl Start {
     /// # Errors
     /// The part of the step that has no derivative.
     pub fn pieces(
-        self,
+        mut self,
         world: &World,
         log: FlightLog,
         elapsed: f64,
     ) -> Result<Vec<Piece>, DerivativeError> {
         let report = world.report();
         let Instant { system, motion, time: end } = world.now();
+        self.add(&log.arrivals, &system);
         self.check(report, &system, end)?;
         let mut changes: BTreeMap<usize, VecDeque<SupportChange>> = BTreeMap::new();
         for change in log.supports {
@@ -214,30 +214,46 @@ impl Replay<'_> {
         if self.start.bodies[place].is_curved {
             return self.fly_on_curve(place, time);
         }
-        let Flying { position, velocity, angular_velocity, held, .. } = self.start.bodies[place];
-        let over = time - self.start.bodies[place].since;
-        let LinearForce { acceleration, drag_rate } = self.rates(place).linear;
-        let flight = Flight { position, velocity, acceleration, drag_rate };
-        let (position, end_velocity) = flight.after(over);
-        let turning = self.rates(place).angular_acceleration;
-        let end_angular_velocity = angular_velocity + over * turning;
-        let piece = match held {
-            Some(held) if over > 0.0 => {
-                let flight = self.supported(place, held, over, next);
-                let flight = flight.ok_or_else(|| self.lost(place))?;
-                if !flight.is_that(acceleration, [end_velocity, end_angular_velocity]) {
-                    return Err(self.lost(place));
-                }
-                Piece::Supported(Box::new(flight))
-            }
-            _ => Piece::Flight { place, time: over, drag_rate },
-        };
-        self.pieces.push(piece);
         let body = &mut self.start.bodies[place];
+        let over = time - body.since;
+        let turned = match body.held {
+            None => {
+                let drag_rate = body.linear.drag_rate;
+                self.pieces.push(Piece::Flight { place, time: over, drag_rate });
+                None
+            }
+            Some(held) => Some(self.fly_on_plane((place, held), over, next)?),
+        };
+        let body = &mut self.start.bodies[place];
+        let linear = body.held.map_or(body.linear, |held| held.rates(body.linear).linear);
+        let (position, velocity) = body.flight(linear).after(over);
         body.tolerance += ROUNDING * (position - body.position).length();
-        (body.position, body.velocity) = (position, end_velocity);
-        (body.angular_velocity, body.since) = (end_angular_velocity, time);
+        (body.position, body.velocity, body.since) = (position, velocity, time);
+        body.angular_velocity = turned.unwrap_or(body.angular_velocity);
         Ok(())
+    }
+
+    /// Adds the derivative of a flight of a length \[s\] on the plane that supports a sphere. Returns the angular velocity
+    /// at its end \[rad/s\].
+    fn fly_on_plane(
+        &mut self,
+        (place, held): (usize, Held),
+        over: f64,
+        next: Option<(HeldMotion, Held)>,
+    ) -> Result<DVec3, DerivativeError> {
+        let body = &self.start.bodies[place];
+        let Rates { linear, angular_acceleration } = held.rates(body.linear);
+        let (_, velocity) = body.flight(linear).after(over);
+        let angular_velocity = body.angular_velocity + over * angular_acceleration;
+        if over > 0.0 {
+            let flight = self.supported(place, held, over, next);
+            let flight = flight.ok_or_else(|| self.lost(place))?;
+            if !flight.is_that(linear.acceleration, [velocity, angular_velocity]) {
+                return Err(self.lost(place));
+            }
+            self.pieces.push(Piece::Supported(Box::new(flight)));
+        }
+        Ok(angular_velocity)
     }
 
     /// Returns the flight of a sphere on the plane that supports it, of a length \[s\]; `None` if its friction has
@@ -307,13 +323,6 @@ impl Replay<'_> {
         self.flight_on(place, held, velocities).rates().ok_or_else(|| self.lost(place))
     }
 
-    /// Returns the present accelerations of a sphere.
-    fn rates(&self, place: usize) -> Rates {
-        let Flying { linear, held, .. } = self.start.bodies[place];
-        let free = Rates { linear, angular_acceleration: DVec3::ZERO };
-        held.map_or(free, |held| held.rates(linear))
-    }
-
     /// Advances the spheres of an impact to its time, and applies the impact.
     fn collide(&mut self, impact: &Impact) -> Result<(), DerivativeError> {
         let places = self.start.places(impact);
@@ -322,24 +331,17 @@ impl Replay<'_> {
             self.fly(place, impact.time, None)?;
         }
         let second = places[1].ok_or(DerivativeError::Changed)?;
-        let mut afterwards = Vec::new();
-        for &place in places.iter().flatten() {
-            let motion = self.next_change(place, |at| at == impact.time).and_then(|it| it.held);
-            let held = match motion {
-                Some(motion) => {
-                    let held = self.held(place, &motion).ok_or_else(|| self.lost(place))?;
-                    Some((motion, held))
-                }
-                None => None,
-            };
-            afterwards.push((place, held));
+        let mut afterwards: [Option<(HeldMotion, Held)>; 2] = [None; 2];
+        if !self.changes.is_empty() {
+            for (next, place) in afterwards.iter_mut().zip(places) {
+                *next = place.map_or(Ok(None), |place| self.held_after(place, impact.time))?;
+            }
         }
         let mut rates = [None; 2];
-        for (rates, place) in rates.iter_mut().zip(places) {
+        for ((rates, place), next) in rates.iter_mut().zip(places).zip(&afterwards) {
             let Some(place) = place else { continue };
             let Flying { held, velocity, angular_velocity, .. } = self.start.bodies[place];
             let before = held.map(|held| (held, [velocity, angular_velocity]));
-            let next = afterwards.iter().find(|it| it.0 == place).and_then(|it| it.1);
             let after =
                 next.map(|(motion, held)| (held, [motion.velocity, motion.angular_velocity]));
             *rates = Some([self.rates_in(place, before)?, self.rates_in(place, after)?]);
@@ -348,16 +350,31 @@ impl Replay<'_> {
         let saltation = self.saltation(impact, places, rates);
         let mut saltation = saltation.ok_or_else(|| self.lost(second))?;
         self.leave(&saltation);
-        saltation.set_curved(&before, &self.accelerations_on_curves(places));
-        before.iter().for_each(|&(place, _)| self.start.bodies[place].acceleration = None);
-        self.pieces.push(Piece::Impact(Box::new(saltation)));
-        for (place, held) in afterwards {
+        if !before.is_empty() {
+            saltation.set_curved(&before, &self.accelerations_on_curves(places));
+            before.iter().for_each(|&(place, _)| self.start.bodies[place].acceleration = None);
+        }
+        self.pieces.push(Piece::Impact(saltation));
+        for (place, next) in places.into_iter().zip(afterwards) {
+            let Some(place) = place else { continue };
             self.start.bodies[place].held = None;
-            if let Some((motion, held)) = held {
+            if let Some((motion, held)) = next {
                 self.hold(place, &motion, held)?;
             }
         }
         Ok(())
+    }
+
+    /// Returns the persistent contact of a sphere after an impact at a time since the start of the step \[s\], if any.
+    fn held_after(
+        &mut self,
+        place: usize,
+        time: f64,
+    ) -> Result<Option<(HeldMotion, Held)>, DerivativeError> {
+        let motion = self.next_change(place, |at| at == time).and_then(|it| it.held);
+        let Some(motion) = motion else { return Ok(None) };
+        let held = self.held(place, &motion).ok_or_else(|| self.lost(place))?;
+        Ok(Some((motion, held)))
     }
 
     /// Returns the derivative of an impact, with the accelerations of its spheres before and after; `None` if the
@@ -367,7 +384,7 @@ impl Replay<'_> {
         impact: &Impact,
         places: [Option<usize>; 2],
         rates: [Option<[Rates; 2]>; 2],
-    ) -> Option<Saltation> {
+    ) -> Option<Box<Saltation>> {
         let system = &self.system;
         let period = system.settings.boundary.period();
         let Impact { point, normal, .. } = *impact;
@@ -404,7 +421,7 @@ impl Replay<'_> {
         if impact.separation_speed < NOTHING * asked {
             restitution = RestitutionRates::default();
         }
-        Some(Saltation {
+        Some(Box::new(Saltation {
             first,
             second,
             normal,
@@ -414,7 +431,7 @@ impl Replay<'_> {
             kick: impact.kick,
             companions: Vec::new(),
             time: self.elapsed + impact.time,
-        })
+        }))
     }
 
     /// Sets the motion of the spheres of an impact to that after it.

@@ -90,20 +90,31 @@ pub(super) struct Change {
 struct Collided {
     /// Centres of the spheres; the centre of body 2 twice if body 1 is a surface.
     places: [Vector<Dual>; 2],
-    first: FirstBody,
-    second: StruckSphere,
+    first: FirstBody<Dual>,
+    second: StruckSphere<Dual>,
     /// Delay of the impact \[s\].
     later: f64,
 }
 
 impl Colliding {
+    /// Returns the motion, radius and mass of the sphere before the impact.
+    fn struck(&self) -> StruckSphere<f64> {
+        StruckSphere {
+            velocity: self.velocity.into(),
+            angular_velocity: self.angular_velocity.into(),
+            radius: self.radius,
+            mass: self.mass,
+            inertia_factor: self.inertia_factor,
+        }
+    }
+
     /// Returns the centre, motion, radius and mass of a sphere at an impact that comes `later` \[s\].
     fn at_impact(
         &self,
         change: &SphereTangent,
         [radius, mass]: [f64; 2],
         later: f64,
-    ) -> (Vector<Dual>, StruckSphere) {
+    ) -> (Vector<Dual>, StruckSphere<Dual>) {
         let position = vector(self.position, change.position + later * self.velocity);
         let gained = change.velocity + later * self.before.acceleration(self.velocity);
         let turned = change.angular_velocity + later * self.before.angular_acceleration;
@@ -119,7 +130,7 @@ impl Colliding {
 
     /// Returns the change of the motion after an impact that comes later by this \[s\], at the time of the
     /// undisturbed impact.
-    fn after(&self, place: Vector<Dual>, sphere: &StruckSphere, later: f64) -> SphereTangent {
+    fn after(&self, place: Vector<Dual>, sphere: &StruckSphere<Dual>, later: f64) -> SphereTangent {
         let velocity = sphere.velocity.value();
         SphereTangent {
             position: place.change() - later * velocity,
@@ -197,8 +208,23 @@ impl Saltation {
 
     /// Returns velocities and angular velocities of bodies 1 and 2 after the impact; zero for a surface.
     pub fn outcome(&self) -> [[DVec3; 2]; 2] {
-        let Collided { first, second, .. } = self.collided(&Change::default());
-        let motion = |it: &StruckSphere| [it.velocity.value(), it.angular_velocity.value()];
+        let mut second = self.second.struck();
+        let mut first = match &self.first {
+            First::Sphere(sphere) => FirstBody::Sphere(sphere.struck()),
+            First::Surface(surface) => {
+                let belt = surface.belt - self.normal * surface.belt.dot(self.normal);
+                FirstBody::Surface((surface.velocity_at(self.point()) + belt).into())
+            }
+        };
+        let coefficients = Coefficients {
+            restitution: self.restitution.combined.value,
+            restitution_by_speed: self.restitution.by_speed,
+            sliding: self.sliding.value,
+            friction: self.friction,
+            kick: self.kick,
+        };
+        collide(&mut first, &mut second, self.normal.into(), &coefficients);
+        let motion = |it: &StruckSphere<f64>| [it.velocity.into(), it.angular_velocity.into()];
         let of_first = match &first {
             FirstBody::Sphere(sphere) => motion(sphere),
             FirstBody::Surface(_) => [DVec3::ZERO; 2],
@@ -234,9 +260,11 @@ impl Saltation {
         if let First::Sphere(first) = &self.first {
             change.spheres[0] = spheres[first.place];
         }
-        let later = self.delay(&change);
-        for &(place, lost) in &self.companions {
-            spheres[place].velocity += later * lost;
+        if !self.companions.is_empty() {
+            let later = self.delay(&change);
+            for &(place, lost) in &self.companions {
+                spheres[place].velocity += later * lost;
+            }
         }
         let [first, last] = self.apply(&change);
         spheres[second] = last;

@@ -9,9 +9,11 @@ use super::known;
 use super::supported::Rates;
 use crate::colliders::Colliders;
 use crate::detect::instant::Instant;
+use crate::flight::Flight;
 use crate::forces::{self, LinearForce};
 use crate::id::{ColliderId, SphereId};
 use crate::report::{BodyPair, Impact, StepReport};
+use crate::rule::exact::Arrival;
 use crate::system::System;
 use crate::world::World;
 
@@ -66,16 +68,11 @@ impl Start {
         known::check(world)?;
         let Instant { system, motion, time } = world.now();
         let is_curved = known::curved(&system);
+        let spins = &motion.spin.angular_velocity;
         let flying = |place: usize| Flying {
-            position: motion.position[place],
-            velocity: motion.velocity[place],
-            angular_velocity: motion.spin.angular_velocity.get(place).copied().unwrap_or_default(),
-            linear: linear_on(&system, place),
-            held: None,
+            angular_velocity: spins.get(place).copied().unwrap_or_default(),
             is_curved: is_curved[place],
-            acceleration: None,
-            since: 0.0,
-            tolerance: ROUNDING * (system.spheres.radius[place] + motion.position[place].length()),
+            ..Flying::at(&system, place, [motion.position[place], motion.velocity[place]])
         };
         let bodies = (0..motion.position.len()).map(flying).collect();
         Ok(Self {
@@ -86,7 +83,23 @@ impl Start {
         })
     }
 
-    /// Refuses a step in which spheres were added, removed or stepped in zones.
+    /// Adds spheres that are added within the step.
+    pub fn add(&mut self, arrivals: &[Arrival], system: &System) {
+        if arrivals.is_empty() {
+            return;
+        }
+        let is_curved = known::curved(system);
+        for it in arrivals {
+            let Ok(place) = system.spheres.id.binary_search(&it.id) else { continue };
+            let mut body = Flying::at(system, place, [it.position, it.velocity]);
+            body.angular_velocity = it.angular_velocity;
+            (body.is_curved, body.since) = (is_curved[place], (it.time - self.time).max(0.0));
+            self.ids.push(it.id);
+            self.bodies.push(body);
+        }
+    }
+
+    /// Refuses a step in which spheres were removed or stepped in zones.
     pub fn check(
         &self,
         report: &StepReport,
@@ -112,6 +125,28 @@ impl Start {
             BodyPair::Spheres(first, second) => [place(first), place(second)],
             BodyPair::Collider { sphere, .. } => [None, place(sphere)],
         }
+    }
+}
+
+impl Flying {
+    /// Returns a sphere that begins a free flight without spin at the start of the step.
+    fn at(system: &System, place: usize, [position, velocity]: [DVec3; 2]) -> Self {
+        Self {
+            position,
+            velocity,
+            angular_velocity: DVec3::ZERO,
+            linear: linear_on(system, place),
+            held: None,
+            is_curved: false,
+            acceleration: None,
+            since: 0.0,
+            tolerance: ROUNDING * (system.spheres.radius[place] + position.length()),
+        }
+    }
+
+    /// Returns the flight under some forces from now on.
+    pub fn flight(&self, LinearForce { acceleration, drag_rate }: LinearForce) -> Flight {
+        Flight { position: self.position, velocity: self.velocity, acceleration, drag_rate }
     }
 }
 

@@ -60,6 +60,7 @@ impl Tape {
     /// Those of [`Tangents::step`](crate::Tangents::step).
     pub fn step(&mut self, world: &mut World, dt: f64) -> Result<(), DerivativeError> {
         let pieces = self.followed.step(world, dt)?;
+        self.last_flights.resize(self.followed.ids.len(), None);
         pieces.into_iter().for_each(|piece| self.record(piece));
         Ok(())
     }

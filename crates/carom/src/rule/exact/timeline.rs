@@ -5,7 +5,9 @@ use glam::DVec3;
 
 use super::contacts::Member;
 use super::events::{Event, NextEvents, PackedTarget, Prediction, Schedule, UpcomingEvent};
-use super::flights::{Component, FlightLog, Flights, JointStep, Species, StepLimits, Support};
+use super::flights::{
+    Arrival, Component, FlightLog, Flights, JointStep, Species, StepLimits, Support,
+};
 use super::moving_regions::MovingRegions;
 use super::neighbours::clearance::{Clearance, Obstacle};
 use super::neighbours::{NeighbourBuffer, Neighbours};
@@ -141,6 +143,11 @@ impl Timeline {
     /// Starts a log of persistent contacts and curved flights at `now` \[s\].
     pub fn begin_log(&mut self, now: f64) {
         self.flights.begin_log(now);
+    }
+
+    /// Continues a log after spheres were added at `now` \[s\].
+    pub fn resume_log(&mut self, before: FlightLog, arrivals: Vec<Arrival>, now: f64) {
+        self.flights.resume_log(before, arrivals, now);
     }
 
     /// Ends and returns the log.

@@ -1,6 +1,9 @@
 //! A log of the persistent contacts and the curved flights of spheres during a step, for derivatives.
 
+use glam::DVec3;
+
 use super::support_change::SupportChange;
+use crate::id::SphereId;
 use crate::polynomial_flight::PolynomialFlight;
 
 /// Persistent contacts and curved flights of spheres during a step.
@@ -10,6 +13,19 @@ pub(crate) struct FlightLog {
     pub supports: Vec<SupportChange>,
     /// Curved flights of spheres that take their steps together, in order of time.
     pub curves: Vec<JointFlight>,
+    /// Spheres that were added within the step, in order of time.
+    pub arrivals: Vec<Arrival>,
+}
+
+/// A sphere that is added within a step, as it begins.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Arrival {
+    pub id: SphereId,
+    /// On the world's clock \[s\].
+    pub time: f64,
+    pub position: DVec3,
+    pub velocity: DVec3,
+    pub angular_velocity: DVec3,
 }
 
 /// Curved flights of some spheres from one instant on, until they all begin other ones.

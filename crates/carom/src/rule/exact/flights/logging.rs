@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::flight_log::{FlightLog, JointFlight};
+use super::flight_log::{Arrival, FlightLog, JointFlight};
 use super::state::Flights;
 use super::support_change::{HeldMotion, SupportChange};
 use crate::polynomial_flight::PolynomialFlight;
@@ -22,6 +22,16 @@ impl Flights {
                 self.note_curves(&slots, now);
             }
         }
+    }
+
+    /// Continues a log after spheres were added at `now` \[s\], and all flights began again.
+    pub fn resume_log(&mut self, before: FlightLog, arrivals: Vec<Arrival>, now: f64) {
+        self.begin_log(now);
+        let log = self.log.get_or_insert_default();
+        let FlightLog { supports, curves, .. } = std::mem::replace(log, before);
+        log.supports.extend(supports);
+        log.curves.extend(curves);
+        log.arrivals.extend(arrivals);
     }
 
     /// Ends and returns the log.
