@@ -42,7 +42,7 @@ class Gradient:
     """The derivatives of a number by all that a run started with.
 
     Rows are spheres in the order of ids, or colliders and springs in the order in which they are in
-    the world.
+    the world. Spheres that emitters added come last; what they began with counts for them.
 
     Attributes:
         positions: By the centres of spheres, shape (n, 3).
@@ -212,7 +212,7 @@ class Tangents(Followed):
     [[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]]
     """
 
-    __slots__ = ("_shape",)
+    __slots__ = ("_count",)
 
     _engine: TangentsEngine
 
@@ -248,26 +248,26 @@ class Tangents(Followed):
         if not given:
             raise CaromError("at least one of the changes must be given", "positions")
         count = len(np.asarray(given[0]))
-        self._shape = (count, len(world), 3)
-        rows = [_numbers(name, values, self._shape) for name, values in motion.items()]
+        shape = (count, len(world), 3)
+        rows = [_numbers(name, values, shape) for name, values in motion.items()]
         along = _numbers("accelerations", accelerations, (count, 3))
-        self._world = world
+        self._world, self._count = world, count
         self._engine = TangentsEngine(world, count, rows, along)
 
     @property
     def positions(self) -> Array:
         """How centres change now [m], shape (k, n, 3). A copy."""
-        return self._engine.motion()[0].reshape(self._shape)
+        return self._engine.motion()[0].reshape(self._count, -1, 3)
 
     @property
     def velocities(self) -> Array:
         """How velocities change now [m/s], shape (k, n, 3). A copy."""
-        return self._engine.motion()[1].reshape(self._shape)
+        return self._engine.motion()[1].reshape(self._count, -1, 3)
 
     @property
     def angular_velocities(self) -> Array:
         """How angular velocities change now [rad/s], shape (k, n, 3). A copy."""
-        return self._engine.motion()[2].reshape(self._shape)
+        return self._engine.motion()[2].reshape(self._count, -1, 3)
 
     def orthonormalize(self, *, length: float = 1.0, speed: float = 1.0) -> Array:
         """Makes the directions orthogonal, one after the other, and each of length 1.

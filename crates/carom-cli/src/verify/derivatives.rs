@@ -6,6 +6,7 @@ use carom::{
 };
 
 use super::claim::{Claim, Expected, Fault, Measured, Outcome, Tolerance};
+use super::lyapunov;
 use super::runs::exact;
 use super::setup::{G, half_space, world, world_with_floor};
 use super::two_balls;
@@ -50,7 +51,8 @@ pub fn claims() -> Vec<Claim> {
             spectrum,
         ),
     ];
-    claims.into_iter().map(|claim| claim.about(exact())).collect()
+    let of_gases = lyapunov::claims();
+    claims.into_iter().chain(of_gases).map(|claim| claim.about(exact())).collect()
 }
 
 /// Derivatives of a number that is the place, or the velocity, along an axis.

@@ -21,6 +21,7 @@ mod forces;
 mod friction;
 mod grains;
 mod granular;
+mod lyapunov;
 mod motion;
 mod mutual_gravity;
 mod packing;

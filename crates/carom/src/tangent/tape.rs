@@ -14,7 +14,7 @@ use crate::world::World;
 /// Record of the flights and impacts of a run. It gives the gradient of a number with respect to the whole initial
 /// state at once.
 ///
-/// Available for the same worlds as [`Tangents`](crate::Tangents). It holds some 500 bytes for an impact, 24 for a
+/// Available for the same worlds as [`Tangents`](crate::Tangents). It holds some 660 bytes for an impact, 24 for a
 /// flight between two, some 350 for a stretch of sliding, rolling or rest, and some 2,600 for each step of a sphere on a
 /// curve.
 ///
