@@ -125,6 +125,44 @@ pub(crate) struct Propagator {
     pub fall: f64,
 }
 
+/// Derivatives of a [`Propagator`] by the drag rate.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct DragSlopes {
+    /// -t e^-γt \[s\].
+    pub decay: f64,
+    /// t² f1'(γt) \[s²\].
+    pub drift: f64,
+    /// t³ f2'(γt) \[s³\].
+    pub fall: f64,
+}
+
+impl DragSlopes {
+    /// Over a time t \[s\] with the drag rate γ \[1/s\], both >= 0.
+    pub fn over(t: f64, drag_rate: f64) -> Self {
+        let z = drag_rate * t;
+        let decay = libm::exp(-z);
+        let [drift, fall] = if z <= 1.0 {
+            [slope_series(z, 1), slope_series(z, 2)]
+        } else {
+            let left = (1.0 + z) * decay - 1.0;
+            [left / (z * z), (2.0 - z - (2.0 + z) * decay) / (z * z * z)]
+        };
+        Self { decay: -t * decay, drift: t * t * drift, fall: t * t * t * fall }
+    }
+}
+
+/// Derivative of f1 or f2, by its `number`: the sum of `(-1)^k k z^(k-1) / (k + number)!` from k = 1 on, for z <= 1.
+fn slope_series(z: f64, number: u32) -> f64 {
+    let mut term = if number == 1 { -1.0 / 2.0 } else { -1.0 / 6.0 };
+    let mut sum = term;
+    for k in 1..20_u32 {
+        let [now, next] = [k, k + 1].map(f64::from);
+        term *= -z * next / (now * (next + f64::from(number)));
+        sum += term;
+    }
+    sum
+}
+
 impl Propagator {
     /// Over a time t \[s\] with the drag rate γ \[1/s\], both >= 0.
     ///

@@ -246,6 +246,8 @@ fn a_ball_that_glides_under_drag_has_the_derivatives_of_its_closed_form() {
     let decay = libm::exp(-0.3 * 2.5);
     assert!((by.sphere(ball).velocity - decay * DVec3::X).length() < 1e-13);
     assert!((by.acceleration.x - (1.0 - decay) / 0.3).abs() < 1e-13);
+    // The drag rate is k/m.
+    assert!((by.sphere(ball).mass - 2.0 * decay * 0.3 * 2.5 / 2.0).abs() < 1e-13);
     assert_eq!((by.acceleration.y, by.collider(floor).velocity.y), (0.0, 0.0));
     assert!(by.collider(floor).velocity.length() < 1e-13);
     let up = SphereTangent { position: DVec3::Y, ..SphereTangent::default() };

@@ -13,6 +13,7 @@ mod dual;
 mod edge_passage;
 mod error;
 mod followed;
+mod input_rates;
 mod known;
 mod law;
 mod linearized;
@@ -36,10 +37,10 @@ pub use state::SphereTangent;
 pub use tape::Tape;
 pub use variation::{ColliderVariation, SphereVariation, SpringVariation, Variation};
 
-use crate::forces;
 use crate::id::SphereId;
 use crate::world::World;
 use followed::Followed;
+use input_rates::InputRates;
 use replay::Piece;
 
 /// Derivatives in some directions, advanced together with a world: the change of the motion of each sphere when the
@@ -78,7 +79,7 @@ impl Tangents {
     ///
     /// # Errors
     /// [`DerivativeError::Unsupported`] if the world has something whose derivatives are not known, among them masses
-    /// and radii where forces depend on them; an error that names a sphere or collider that is not in it.
+    /// and radii where forces without `derivatives` depend on them; an error that names a sphere or collider that is not in it.
     pub fn new(world: &World, directions: Vec<Variation>) -> Result<Self, DerivativeError> {
         let followed = Followed::start(world)?;
         for direction in &directions {
@@ -208,6 +209,7 @@ fn pass(
                 spheres[place].fly(Piece::propagator(time, drag_rate), accelerations[place]);
             }
             Piece::Supported(ref flight) => flight.pass(direction, spheres),
+            Piece::InputChange(ref change) => change.pass(direction, spheres),
             Piece::Curved(ref flight) => flight.pass((direction, accelerations), spheres),
             Piece::Tightening(ref thread) => thread.pass(direction, spheres),
             Piece::Passage(ref passage) => passage.pass(direction, spheres),
@@ -226,11 +228,7 @@ fn check(world: &World, followed: &Followed, direction: &Variation) -> Result<()
         if curved[place] || change.radius == 0.0 && change.mass == 0.0 {
             continue;
         }
-        let (radius, mass) = (system.spheres.radius[place], system.spheres.mass[place]);
-        let on = |radius, mass| forces::total_linear(system.forces, radius, mass).0;
-        let here = on(radius, mass);
-        let is_same = here == on(2.0 * radius, mass) && here == on(radius, 2.0 * mass);
-        if !is_same || !system.spheres.applied_force.is_empty() {
+        if InputRates::of(&system, place).is_some_and(|rates| !rates.are_known()) {
             let what = "radii and masses where forces depend on them";
             return Err(DerivativeError::Unsupported(what));
         }

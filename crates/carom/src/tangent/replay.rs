@@ -9,6 +9,7 @@ use super::curved::CurvedFlight;
 use super::curves::Curves;
 use super::edge_passage::{Passage, Side};
 use super::error::DerivativeError;
+use super::input_rates::InputChange;
 use super::saltation::{Colliding, First, Saltation};
 use super::start::{Flying, Held, ROUNDING, Start};
 use super::supported::{Ending, Mode, Rates, SupportedFlight};
@@ -40,6 +41,7 @@ pub(super) enum Piece {
         drag_rate: f64,
     },
     Supported(Box<SupportedFlight>),
+    InputChange(Box<InputChange>),
     Curved(Box<CurvedFlight>),
     Tightening(Box<Tightening>),
     Passage(Box<Passage>),
@@ -224,6 +226,7 @@ impl Replay<'_> {
             }
             Some(held) => Some(self.fly_on_plane((place, held), over, next)?),
         };
+        self.add_input_change(place, over);
         let body = &mut self.start.bodies[place];
         let linear = body.held.map_or(body.linear, |held| held.rates(body.linear).linear);
         let (position, velocity) = body.flight(linear).after(over);
@@ -231,6 +234,24 @@ impl Replay<'_> {
         (body.position, body.velocity, body.since) = (position, velocity, time);
         body.angular_velocity = turned.unwrap_or(body.angular_velocity);
         Ok(())
+    }
+
+    /// Adds the derivative of a flight of a length \[s\] by radius and mass, where forces depend on them.
+    fn add_input_change(&mut self, place: usize, time: f64) {
+        let Some(rates) = self.start.inputs.get(&place) else { return };
+        let body = &self.start.bodies[place];
+        let by = match body.held {
+            None => rates.change(body.linear, body.velocity, time),
+            // The flight on the plane counts that of the acceleration, and without friction drag acts along the plane.
+            Some(held) => {
+                let Some(rates) = rates.of_drag() else { return };
+                let along = |it: DVec3| it - it.dot(held.normal) * held.normal;
+                let linear = held.rates(body.linear).linear;
+                rates.change(linear, body.velocity, time).map(|input| input.map(along))
+            }
+        };
+        let change = InputChange { place, id: self.start.ids[place], by };
+        self.pieces.push(Piece::InputChange(Box::new(change)));
     }
 
     /// Adds the derivative of a flight of a length \[s\] on the plane that supports a sphere. Returns the angular velocity
@@ -300,6 +321,7 @@ impl Replay<'_> {
             velocity,
             angular_velocity,
             linear,
+            by_inputs: self.start.inputs.get(&place).map_or([DVec3::ZERO; 2], |it| it.acceleration),
             sliding: sliding_of(&self.system, bodies),
             rolling: friction.rolling,
             spinning: friction.spinning,

@@ -1,10 +1,12 @@
 //! State of the spheres before a step, from which the step is reconstructed.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::DVec3;
 
 use super::error::DerivativeError;
+use super::input_rates::InputRates;
 use super::known;
 use super::supported::Rates;
 use crate::colliders::Colliders;
@@ -25,6 +27,8 @@ pub(super) const ROUNDING: f64 = 1e-9;
 pub(super) struct Start {
     pub ids: Vec<SphereId>,
     pub bodies: Vec<Flying>,
+    /// How linear forces depend on the radius and the mass, by index of the sphere, where they do.
+    pub inputs: BTreeMap<usize, InputRates>,
     pub colliders: Arc<Colliders>,
     /// Start of the step on the world's clock \[s\].
     pub time: f64,
@@ -74,10 +78,14 @@ impl Start {
             is_curved: is_curved[place],
             ..Flying::at(&system, place, [motion.position[place], motion.velocity[place]])
         };
+        let alone = (0..is_curved.len()).filter(|&place| !is_curved[place]);
+        let inputs = alone.filter_map(|place| Some((place, InputRates::of(&system, place)?)));
+        let inputs = inputs.collect();
         let bodies = (0..motion.position.len()).map(flying).collect();
         Ok(Self {
             ids: system.spheres.id.clone(),
             bodies,
+            inputs,
             colliders: world.shared_colliders(),
             time,
         })
@@ -94,6 +102,8 @@ impl Start {
             let mut body = Flying::at(system, place, [it.position, it.velocity]);
             body.angular_velocity = it.angular_velocity;
             (body.is_curved, body.since) = (is_curved[place], (it.time - self.time).max(0.0));
+            let inputs = InputRates::of(system, place).filter(|_| !body.is_curved);
+            self.inputs.extend(inputs.map(|inputs| (place, inputs)));
             self.ids.push(it.id);
             self.bodies.push(body);
         }

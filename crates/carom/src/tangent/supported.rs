@@ -6,7 +6,7 @@ use super::coefficients::Combined;
 use super::dry_motion::{DryMotion, Moved};
 use super::dual::{Dual, vector};
 use super::state::{NUMBERS, SphereTangent};
-use super::variation::Variation;
+use super::variation::{SphereVariation, Variation};
 use crate::flight::Propagator;
 use crate::forces::LinearForce;
 use crate::id::{ColliderId, SphereId};
@@ -38,6 +38,8 @@ pub(super) struct SupportedFlight {
     pub angular_velocity: DVec3,
     /// Forces other than those of the contact.
     pub linear: LinearForce,
+    /// Derivatives of their acceleration by the radius of the sphere, and by its mass.
+    pub by_inputs: [DVec3; 2],
     pub sliding: Combined,
     pub rolling: f64,
     pub spinning: f64,
@@ -231,7 +233,7 @@ impl SupportedFlight {
             sphere: spheres[self.place],
             radius: sphere.radius,
             sliding: self.sliding.change([collider.friction, sphere.friction]),
-            acceleration: direction.acceleration + sphere.acceleration,
+            acceleration: direction.acceleration + sphere.acceleration + self.by_inputs(&sphere),
             surface_position: collider.position + self.began * collider.velocity,
             surface_velocity: collider.velocity,
         };
@@ -252,6 +254,8 @@ impl SupportedFlight {
         let by_sliding = by(Change { sliding: 1.0, ..nothing });
         let sphere = gradient.sphere_mut(self.id);
         sphere.acceleration += by_acceleration;
+        sphere.mass += self.by_inputs[1].dot(by_acceleration);
+        sphere.radius += self.by_inputs[0].dot(by_acceleration);
         sphere.radius += by(Change { radius: 1.0, ..nothing });
         sphere.friction += self.sliding.by_bodies[1] * by_sliding;
         let by_place = along(&|surface_position| Change { surface_position, ..nothing });
@@ -266,6 +270,12 @@ impl SupportedFlight {
                 by(Change { sphere: SphereTangent::unit(number), ..nothing });
         }
         spheres[self.place] = before;
+    }
+
+    /// Returns the change of the acceleration by forces that depend on the radius and the mass.
+    fn by_inputs(&self, sphere: &SphereVariation) -> DVec3 {
+        let amounts = [sphere.radius, sphere.mass].into_iter().zip(self.by_inputs);
+        amounts.filter(|it| it.0 != 0.0).map(|(amount, by)| amount * by).sum()
     }
 
     /// Returns the change of the motion at the end.

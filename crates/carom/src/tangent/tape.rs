@@ -90,6 +90,8 @@ impl Tape {
                 }
                 self.last_flights[flight.place] = Some(self.pieces.len());
             }
+            // A later flight is not joined with one before the change.
+            Piece::InputChange(change) => self.last_flights[change.place] = None,
             Piece::Curved(_) | Piece::Tightening(_) | Piece::Passage(_) => {}
             Piece::Impact(saltation) => {
                 for sphere in saltation.spheres() {
@@ -123,6 +125,7 @@ impl Tape {
                     accelerations[place] += spheres[place].fly_back(over);
                 }
                 Piece::Supported(ref flight) => flight.pass_back(&mut spheres, &mut gradient),
+                Piece::InputChange(ref change) => change.pass_back(&spheres, &mut gradient),
                 Piece::Curved(ref flight) => {
                     flight.pass_back(&mut spheres, (&mut gradient, &mut accelerations));
                 }
