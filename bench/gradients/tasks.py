@@ -121,7 +121,7 @@ def push(forces: Array) -> tuple[float, Array]:
 
 
 def descend(of: Callable[[Array], tuple[float, Array]], start: Array) -> tuple[float, int]:
-    """Returns the least value of a function by L-BFGS (Nocedal 1980), and how often it was called."""
+    """Returns the least value of a function by L-BFGS (Nocedal 1980), and the number of calls."""
     here, (value, slope), calls = start, of(start), 1
     changes: list[tuple[Array, Array]] = []
     while np.abs(slope).max() > 1e-9 and calls < 400:
