@@ -1,6 +1,7 @@
 """Steady shear of a periodic box, from Python."""
 
 import numpy as np
+import pytest
 
 import carom
 
@@ -19,3 +20,23 @@ def test_a_ball_enters_where_the_sheared_box_has_slid_to() -> None:
     world.step(dt=3.0)
     np.testing.assert_array_equal(world.positions[0], [1.0, -1.0, 0.0])
     assert abs(world.kinetic_energy - before - world.energy_account.shear) < 1e-14
+
+
+def test_rough_balls_in_shear_move_under_contact_and_the_account_closes() -> None:
+    lattice = [(x, y, z) for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1)]
+    scene = carom.Scene(
+        name="sheared grains",
+        simulation=carom.Simulation(
+            rule="contact", boundary=carom.Periodic([3.1] * 3, shear_rate=1.0)
+        ),
+        spheres=[
+            carom.Sphere(position=place, radius=0.5, velocity=(place[1], 0, 0.1), friction=0.4)
+            for place in lattice
+        ],
+    )
+    world = scene.world()
+    before, total = world.kinetic_energy, 0.0
+    for _ in range(50):
+        world.step(dt=0.01)
+        total += sum(world.energy_account)
+    assert world.kinetic_energy - before == pytest.approx(total, abs=1e-11)

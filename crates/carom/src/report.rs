@@ -2,7 +2,7 @@
 
 use std::ops::AddAssign;
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use crate::detect::contact::{Bodies, Contact};
 use crate::force_work::ForceWork;
@@ -58,6 +58,9 @@ pub struct StepReport {
     pub contact_account: ContactAccount,
     /// Under the rule `exact`, the spheres that were stepped and not moved from impact to impact.
     pub zone_account: ZoneAccount,
+    /// Σ J l of all contacts \[N m s\], impacts among them, with their impulses J and the vectors l between centres;
+    /// under the rule `contact` in a box in steady shear.
+    pub(crate) virial: Option<DMat3>,
 }
 
 /// Zones of the rule `exact`: spheres were stepped whose contacts took more work than
@@ -266,6 +269,7 @@ impl StepReport {
         self.energy_account = EnergyAccount::default();
         self.contact_account = ContactAccount::default();
         self.zone_account = ZoneAccount::default();
+        self.virial = None;
     }
 }
 

@@ -41,6 +41,18 @@ impl Shear {
         (((way - rest) / self.period.x).round(), rest)
     }
 
+    /// The image of a sphere this number of boxes away, at `time` \[s\]: its offset from the sphere \[m\] and its
+    /// velocity relative to it \[m/s\].
+    pub fn image(&self, offset: [i32; 3], time: f64) -> [DVec3; 2] {
+        let rest = self.slide(time).1;
+        let beside = rest - (rest / self.period.x).round() * self.period.x;
+        let up = f64::from(offset[1]);
+        let across = if offset[2] == 0 { 0.0 } else { f64::from(offset[2]) * self.period.z };
+        let along = f64::from(offset[0]) * self.period.x + up * beside;
+        let velocity = DVec3::new(up * self.speed(), 0.0, 0.0);
+        [DVec3::new(along, up * self.period.y, across), velocity]
+    }
+
     /// The image of a state, with a place \[m\] and a velocity \[m/s\], in the box about the origin at `time` \[s\].
     pub fn wrapped(&self, [place, velocity]: [DVec3; 2], time: f64) -> [DVec3; 2] {
         let up = boxes(place.y, self.period.y);

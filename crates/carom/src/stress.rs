@@ -28,7 +28,8 @@ pub struct Stress {
     pub kinetic: DMat3,
     /// Stress of impacts, and of events at the edges of wells: Σ j l / (V t), with impulses j and the vectors l between the centres of the bodies.
     pub collisional: DMat3,
-    /// Stress of persistent contacts: Σ F l / V, with the forces F at the ends of frames.
+    /// Stress of persistent contacts: Σ F l / V, with the forces F at the ends of frames; under the rule `contact` in a
+    /// box in steady shear their mean over frames.
     pub contact: DMat3,
 }
 
@@ -234,6 +235,11 @@ fn add_impacts(world: &World, length: f64, sum: &mut Tensor) {
 /// Adds the persistent contacts at the end of a frame of a length \[s\]. Those of bodies with an impact in it count from
 /// the next one on.
 fn add_contacts(world: &World, length: f64, sum: &mut Tensor) {
+    if let Some(virial) = world.report().virial {
+        let mut of_impacts = Tensor::default();
+        add_impacts(world, length, &mut of_impacts);
+        return sum.add(virial - of_impacts.value());
+    }
     let contacts = world.contacts();
     if contacts.is_empty() {
         return;

@@ -2,7 +2,7 @@
 //! the stress times the shear, and the same motion wherever the faces of the box are.
 
 use carom::{
-    Boundary, Collider, Contact, DVec3, Error, Friction, Gravity, Pose, Settings, Shape, Sphere,
+    Boundary, Collider, DVec3, Discrete, Error, Friction, Gravity, Pose, Settings, Shape, Sphere,
     StressMeter, Thermostat, World,
 };
 
@@ -224,7 +224,7 @@ fn shear_is_refused_where_it_makes_no_sense() {
     let size = DVec3::splat(4.0);
     assert_eq!(field(Settings::default().with_shear_rate(1.0)), "shear_rate");
     assert_eq!(field(settings(size, f64::NAN)), "shear_rate");
-    assert_eq!(field(settings(size, 1.0).with_rule(Contact::default())), "shear_rate");
+    assert_eq!(field(settings(size, 1.0).with_rule(Discrete::default())), "boundary");
     assert_eq!(field(settings(vec(f64::INFINITY, 4.0, 4.0), 1.0)), "shear_rate");
     let sphere = Sphere::new(DVec3::ZERO, 0.5);
     let refused = |change: fn(&mut World)| {

@@ -13,6 +13,7 @@ mod course;
 mod curved_flights;
 mod dem;
 mod dense;
+mod dense_flow;
 mod derivatives;
 mod diffusion;
 mod equation;

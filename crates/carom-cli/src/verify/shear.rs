@@ -3,7 +3,7 @@
 use carom::{CombineRule, DVec3, Error, Exact, Rule, SphereMotion, Thermostat, World};
 
 use super::claim::{Claim, Expected, Measured, Outcome, Tolerance};
-use super::equation;
+use super::{dense_flow, equation};
 use crate::gas::{Filling, Speeds, gas};
 
 /// Dense enough for half of the stress to be that of impacts.
@@ -51,7 +51,8 @@ pub fn claims() -> Vec<Claim> {
         |_| steady_temperature(),
     );
     let claims = [viscosity_of_few.slow(), viscosity_of_million.long(), temperature.slow()];
-    claims.map(|claim| claim.about(Rule::Exact(Exact::default()))).into()
+    let of_gases = claims.map(|claim| claim.about(Rule::Exact(Exact::default())));
+    of_gases.into_iter().chain(dense_flow::claims()).collect()
 }
 
 /// Creates a gas of the temperature 1 about the mean flow of a shear.

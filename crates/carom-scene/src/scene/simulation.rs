@@ -146,7 +146,7 @@ pub enum Boundary {
         /// Edges, in m, each > 0; `inf` along an open axis.
         size: Vector,
         /// Shear rate, in 1/s: what is above, along y, moves along x with this times the distance. By default 0. Only
-        /// under the rule `exact`.
+        /// under the rules `exact` and `contact`.
         #[serde(default, skip_serializing_if = "is_default")]
         shear_rate: f64,
     },

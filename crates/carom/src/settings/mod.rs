@@ -67,7 +67,7 @@ pub struct Settings {
     pub boundary: Boundary,
     /// Shear rate of the periodic box \[1/s\]: its images above and below, along y, move along x with this times their
     /// distance, and so does the mean flow (Lees and Edwards, J. Phys. C 5, 1921 (1972)). Zero: no shear. Only under
-    /// the rule `exact`, in a box with finite edges along x and y.
+    /// the rules `exact` and `contact`, in a box with finite edges along x and y.
     pub shear_rate: f64,
     /// The thermostat, if there is one. Only under the rule `exact`.
     pub thermostat: Option<Thermostat>,
@@ -184,9 +184,9 @@ impl Settings {
     fn validate_shear(&self) -> Result<(), InvalidValue> {
         let (rate, size) = (self.shear_rate, self.boundary.period());
         validate::finite_number("shear_rate", rate)?;
-        let is_exact = matches!(self.rule, Rule::Exact(_));
-        let requirement = "zero under rules other than `exact`";
-        validate::require(rate == 0.0 || is_exact, "shear_rate", requirement, rate)?;
+        let is_known = matches!(self.rule, Rule::Exact(_) | Rule::Contact(_));
+        let requirement = "zero under rules other than `exact` and `contact`";
+        validate::require(rate == 0.0 || is_known, "shear_rate", requirement, rate)?;
         let is_closed = size.x.is_finite() && size.y.is_finite();
         let requirement = "zero without a periodic box with finite edges along x and y";
         validate::require(rate == 0.0 || is_closed, "shear_rate", requirement, rate)

@@ -4,6 +4,7 @@ use super::attempt::Attempt;
 use super::obstacle;
 use crate::error::{Error, Subject};
 use crate::report::BodyPair;
+use crate::settings::Rule;
 use crate::shear::Shear;
 use crate::state::State;
 use crate::sum::Sum;
@@ -50,5 +51,8 @@ fn obstacle(state: &State) -> Option<&'static str> {
         (state.emitters.iter().len() > 0, "zero in a world with emitters"),
         (state.colliders.list().iter().len() > 0, "zero in a world with colliders"),
     ];
-    obstacle::first(obstacle::of_forces(state).into_iter().chain(others))
+    let [forces, rotation @ ..] = obstacle::of_forces(state);
+    let is_exact = matches!(state.settings.rule, Rule::Exact(_));
+    let rotation = rotation.into_iter().filter(|_| is_exact);
+    obstacle::first(others.into_iter().chain([forces]).chain(rotation))
 }

@@ -100,7 +100,7 @@ class Periodic(Part):
     Attributes:
         size: Edges [m], each > 0; infinite along an axis that is open.
         shear_rate: Shear rate, in 1/s: what is above, along y, moves along x with this times the
-            distance. By default 0. Only under the rule ``exact``.
+            distance. By default 0. Only under the rules ``exact`` and ``contact``.
     """
 
     tag: ClassVar[str] = "periodic"

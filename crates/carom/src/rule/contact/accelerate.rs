@@ -2,10 +2,11 @@
 
 use fearless_simd::{Level, Simd, SimdMask, dispatch};
 
-use super::slots::Run;
+use super::slabs::Slabs;
 use super::slots::drift::Drift;
 use super::slots::row::{self, BOUNDLESS, Row};
 use super::slots::slab_totals::SlabTotals;
+use super::slots::{Run, Slots};
 use super::solver::Solver;
 use super::sub_step::SubStep;
 use crate::lanes::{LANES, Lanes};
@@ -38,7 +39,14 @@ pub(super) fn accelerate(
     solver.is_stale |= drift.after(h).is_beyond();
     solver.is_stale |= solver.slabs.list.iter().any(|slab| slab.totals.leaves);
     let change = solver.slabs.list.iter().map(|slab| slab.totals.change).fold(0.0, f64::max);
-    SubStep::new(time, h, solver.common_acceleration, change)
+    match solver.slots.shear {
+        // Neighbours in the flow turn about each other.
+        Some(shear) => {
+            let turning = shear.rate * shear.rate * 2.0 * solver.smallest_radius;
+            SubStep::new(time, h, None, h * turning)
+        }
+        None => SubStep::new(time, h, solver.common_acceleration, change),
+    }
 }
 
 /// Accelerates the spheres of a run; sleeping ones stay at rest. Returns their kinetic energy, the largest change
@@ -49,7 +57,8 @@ fn accelerate_run<S: Simd>(simd: S, run: &mut Run, h: f64, drift: Drift) -> Slab
     let zero = Lanes::all(simd, 0.0);
     let length = Lanes::all(simd, h);
     // Distances relative to the common motion, at the end of the sub-step.
-    let common = Vector::all(simd, drift.after(h).way);
+    let drift = drift.after(h);
+    let common = Vector::all(simd, drift.way);
     let [mut energy, mut change] = [zero; 2];
     let mut leaves = false;
     for slot in (0..run.velocity.len()).step_by(LANES) {
@@ -68,9 +77,13 @@ fn accelerate_run<S: Simd>(simd: S, run: &mut Run, h: f64, drift: Drift) -> Slab
         energy = energy + twice_energy(simd, now, inverse_mass);
         change = change.max((now - before).length_squared());
         // A flight ends between the places that its first and its last velocity lead to.
-        let (position, _) = row::columns(simd, run.position, slot);
+        let (position, radius) = row::columns(simd, run.position, slot);
         let (reference, margin) = row::columns_or(simd, run.reference, slot, BOUNDLESS);
-        let (way, reach) = (position - reference - common, margin * margin);
+        let (mut way, mut reach) = (position - reference - common, margin * margin);
+        if drift.strain != 0.0 {
+            way.x = way.x - reference.y * drift.strain;
+            reach = drift.reach_after(simd, radius, margin);
+        }
         let first = (way + before * length).length_squared();
         let last = (way + now * length).length_squared();
         leaves |= (reach.is_less(first) | reach.is_less(last)).any_true();
@@ -99,6 +112,16 @@ pub(super) fn accelerated<S: Simd>(
     }
     let slowed = Lanes::all(simd, 1.0) + drag;
     Vector { x: gained.x / slowed, y: gained.y / slowed, z: gained.z / slowed }
+}
+
+/// Kinetic energy of all spheres \[J\].
+pub(super) fn kinetic_energy_of(slots: &mut Slots, slabs: &mut Slabs) -> f64 {
+    slabs.each(slots, |run, slab| {
+        slab.totals.energy = dispatch!(Level::new(), simd => {
+            kinetic_energy(simd, run.velocity) + kinetic_energy(simd, run.spin)
+        });
+    });
+    slabs.energy()
 }
 
 /// Kinetic energy \[J\] of rows of velocities beside 1/m, or of spins beside 1/(k m).

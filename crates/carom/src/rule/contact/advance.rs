@@ -6,6 +6,7 @@ use glam::DVec3;
 use super::accelerate;
 use super::slabs::landings::Landed;
 use super::slots::Run;
+use super::slots::drift::Drift;
 use super::slots::row::{self, BOUNDLESS};
 use super::solver::{Bounce, Solver};
 use super::sub_step::SubStep;
@@ -31,7 +32,7 @@ const FASTER: f64 = 1.01;
 pub(super) fn advance(solver: &mut Solver, sub_step: &SubStep, report: &mut StepReport) {
     solver.drift = solver.drift.after(sub_step.h);
     let Solver { slots, slabs, bounces, landings, drift, .. } = solver;
-    let common = drift.way;
+    let drift = *drift;
     slabs.each(slots, |mut run, slab| {
         let from = bounces.partition_point(|bounce| (bounce.slot as usize) < slab.start);
         let to = bounces.partition_point(|bounce| (bounce.slot as usize) < slab.end);
@@ -53,7 +54,7 @@ pub(super) fn advance(solver: &mut Solver, sub_step: &SubStep, report: &mut Step
                     .is_ok_and(|place| landed[place].met_surface)
         };
         let (leaves, held_back) =
-            dispatch!(Level::new(), simd => stay_within_margin(simd, run, common, is_free));
+            dispatch!(Level::new(), simd => stay_within_margin(simd, run, drift, is_free));
         slab.totals.leaves = leaves;
         slab.totals.energy += held_back;
         for (turn, spin) in run.turn.iter_mut().zip(&*run.spin) {
@@ -61,6 +62,9 @@ pub(super) fn advance(solver: &mut Solver, sub_step: &SubStep, report: &mut Step
         }
     });
     report.energy_account.contacts += slabs.energy();
+    if slots.shear.is_some() {
+        slabs.iter_mut().for_each(|slab| slab.batches.slide_images(sub_step.h));
+    }
 }
 
 /// Advances the spheres of a run. Returns the work of contacts by the paths of spheres that they touch \[J\].
@@ -135,31 +139,38 @@ fn place_landed(run: &mut Run, start: usize, landed: &[Landed], h: f64) -> f64 {
     work
 }
 
-/// Keeps spheres that an impact made faster within their margins relative to the common motion \[m\]; spheres that
+/// Keeps spheres that an impact made faster within their margins relative to the common motion; spheres that
 /// are `free`, by slot, are exempt. Returns whether one has left its margin, and the work of holding others back \[J\].
 #[inline(always)]
 fn stay_within_margin<S: Simd>(
     simd: S,
     run: &mut Run,
-    common: DVec3,
+    drift: Drift,
     is_free: impl Fn(usize) -> bool,
 ) -> (bool, f64) {
     let (mut leaves, mut work) = (false, 0.0);
-    let commons = Vector::all(simd, common);
+    let commons = Vector::all(simd, drift.way);
     for first in (0..run.position.len()).step_by(LANES) {
-        let (position, _) = row::columns(simd, run.position, first);
+        let (position, radius) = row::columns(simd, run.position, first);
         let (reference, margin) = row::columns_or(simd, run.reference, first, BOUNDLESS);
-        let way = position - reference - commons;
-        if !(margin * margin).is_less(way.length_squared()).any_true() {
+        let (mut way, mut reach) = (position - reference - commons, margin * margin);
+        if drift.strain != 0.0 {
+            way.x = way.x - reference.y * drift.strain;
+            reach = drift.reach_after(simd, radius, margin);
+        }
+        if !reach.is_less(way.length_squared()).any_true() {
             continue;
         }
         let last = run.position.len().min(first + LANES);
         for slot in first..last {
             let (position, reference) = (run.position[slot], &run.reference[slot]);
-            let (origin, margin) = (reference.vector() + common, reference.number());
+            let origin = reference.vector() + drift.way_from(reference.vector());
+            let margin = drift.margin_after(position.number(), reference.number()).max(0.0);
             let way = position.vector() - origin;
             let length_squared = way.length_squared();
-            let [before, now] = [run.before[slot], run.velocity[slot]].map(|row| row.vector());
+            let flow = DVec3::new(drift.rate * position.vector().y, 0.0, 0.0);
+            let [before, now] =
+                [run.before[slot], run.velocity[slot]].map(|row| row.vector() - flow);
             let is_faster = now.length_squared() > FASTER * before.length_squared();
             let is_beyond = length_squared > margin * margin;
             let is_late = is_beyond && is_faster && !is_free(slot);

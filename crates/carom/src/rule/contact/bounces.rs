@@ -119,7 +119,8 @@ fn of_pairs(slots: &Slots, slab: &Slab, sub_step: &SubStep, bounces: &mut Vec<On
         let offset = slots.position[second].vector() - slots.position[first].vector();
         let offset = offset + slab.batches.shift(number, lane);
         let normal = slab.batches.normal(number, lane);
-        let velocity = slots.before[second].vector() - slots.before[first].vector();
+        let mut velocity = slots.before[second].vector() - slots.before[first].vector();
+        velocity.x += slab.batches.slide(number, lane);
         // Forces may have changed the speed of approach until then.
         let mean = 0.5 * (approach - velocity.dot(normal));
         let time = ((offset.dot(normal) - radius_sum).max(0.0) / mean).min(sub_step.h);

@@ -67,6 +67,8 @@ pub(super) fn keep(solver: &mut Solver, sub_step: &SubStep, report: &mut StepRep
     let kicks = kick_work(solver);
     report.energy_account.kicks += kicks;
     report.energy_account.contacts += change.work - kicks;
+    // Impulses act on images with the velocities of these.
+    report.energy_account.contacts += part * image_work(solver);
     if is_driven(solver) {
         let work = part * surface_work(solver);
         report.energy_account.colliders += work;
@@ -86,17 +88,32 @@ fn surface_work(solver: &Solver) -> f64 {
     surfaces.map(|contact| contact.work()).sum()
 }
 
-/// The most energy \[J\] that belts and moving surfaces may add in a sub-step of `h` \[s\].
-fn driven_work(solver: &mut Solver, h: f64) -> f64 {
-    if !is_driven(solver) {
+/// Work \[J\] of the impulses of a sub-step on sliding images beyond that on the spheres; 0 without shear.
+fn image_work(solver: &Solver) -> f64 {
+    if !solver.kinds.shear {
         return 0.0;
+    }
+    let of_slab = |slab: &Slab| {
+        let of_pair = |(number, lane, _)| {
+            slab.batches.slide(number, lane) * slab.batches.impulse(number, lane).x
+        };
+        slab.batches.contacts().map(of_pair).sum::<f64>()
+    };
+    solver.slabs.iter().map(of_slab).sum()
+}
+
+/// The most energy \[J\] that belts, moving surfaces and sliding images may add in a sub-step of `h` \[s\].
+fn driven_work(solver: &mut Solver, h: f64) -> f64 {
+    let of_images = -image_work(solver);
+    if !is_driven(solver) {
+        return of_images;
     }
     solver.slabs.each(&mut solver.slots, |run, slab| {
         let beside =
             |it: &SurfaceContact| most_beside_work(it, run.accelerated(it.slot as usize, h));
         slab.totals.energy = slab.surfaces.iter().map(beside).sum();
     });
-    surface_work(solver) + solver.slabs.energy()
+    surface_work(solver) + solver.slabs.energy() + of_images
 }
 
 /// The most energy \[J\] that a moving surface may add beside its work, for the velocity of the sphere before impulses
@@ -133,7 +150,8 @@ fn gain_by_turning(solver: &Solver, h: f64) -> f64 {
     let of_pair = |slab: &Slab, (number, lane, _): (usize, usize, f64)| {
         let batch = &slab.batches.pairs[number];
         let [first, second] = slab.slots_of(number, lane).map(|slot| slots.accelerated(slot, h));
-        let approach = (first - second).dot(slab.batches.normal(number, lane));
+        let slide = DVec3::new(slab.batches.slide(number, lane), 0.0, 0.0);
+        let approach = (first - second - slide).dot(slab.batches.normal(number, lane));
         energy_beyond(batch.effective_mass[lane], -batch.bias[lane], approach)
     };
     let of_slab = |slab: &Slab| {

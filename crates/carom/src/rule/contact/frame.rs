@@ -13,6 +13,7 @@ use crate::bodies::Motion;
 use crate::friction::Friction;
 use crate::report::StepReport;
 use crate::rotation;
+use crate::shear::Shear;
 use crate::system::System;
 
 /// Copies spheres, forces and surfaces from the world, for a frame of `h` \[s\].
@@ -49,6 +50,7 @@ pub(super) fn begin(system: &System, motion: &mut Motion, h: f64, solver: &mut S
         motion.spin.make_room(ids.len());
     }
     solver.slots.period = system.settings.boundary.period();
+    solver.slots.shear = Shear::of(system.settings);
     solver.slots.read(system, motion, kinds.friction);
     solver.smallest_radius = system.spheres.radius.iter().copied().fold(f64::INFINITY, f64::min);
     solver.has_other_forces = solver.slots.read_forces(system);
@@ -58,6 +60,7 @@ pub(super) fn begin(system: &System, motion: &mut Motion, h: f64, solver: &mut S
     let is_common = is_one && first.number() == 0.0 && !solver.has_other_forces;
     solver.common_acceleration = is_common.then(|| first.vector());
     solver.may_sleep = !solver.has_other_forces
+        && !solver.kinds.shear
         && !solver.has_moving_surfaces
         && system.spheres.applied_force.is_empty();
     // Bounds of moving surfaces are present ones.
@@ -93,6 +96,7 @@ fn kinds_of(system: &System) -> ContactKinds {
         laws: !system.spheres.restitution_law.is_empty()
             || system.material_pairs.list().iter().any(|it| it.restitution_law.is_some()),
         images: system.settings.boundary.is_periodic(),
+        shear: system.settings.shear_rate != 0.0,
     }
 }
 

@@ -30,6 +30,7 @@ mod places;
 mod proximity;
 mod report;
 mod resolution;
+mod shearing;
 mod slabs;
 mod sleep;
 mod slots;
@@ -46,7 +47,8 @@ pub(crate) use solver::{Scratch, Solver};
 
 use glam::DVec3;
 
-use self::report::{force_work, impacts};
+use self::report::{force_work, impacts, virial};
+use self::shearing::Shearing;
 use self::sleep::wake;
 
 use crate::bodies::Motion;
@@ -102,6 +104,7 @@ pub(crate) fn step(
         sub_step(system, parameters, (frame, number), (solver, scratch), report);
         tracks.note(|| solver.slots.positions());
     }
+    solver.slots.time = frame.time + frame.h;
     frame::end(system, motion, frame.h, solver, report);
     true
 }
@@ -133,6 +136,8 @@ fn sub_step(
     let h = frame.h / f64::from(parameters.sub_steps);
     wake::touched(system, solver, h);
     let start = f64::from(number) * h;
+    solver.slots.time = frame.time + start;
+    let shearing = Shearing::begin(solver, report);
     solver.places.begin_sub_step(system, [start, start + h]);
     let sub_step = accelerate::accelerate(system, frame.time, h, number, solver);
     if solver.is_stale {
@@ -151,10 +156,15 @@ fn sub_step(
     }
     cascade::land(solver);
     impacts::report(system, solver, &sub_step, first, report);
+    virial::account(solver, report);
     bounces::note(solver, bounces, &sub_step);
     force_work::account(solver, &sub_step, report);
     advance::advance(solver, &sub_step, report);
+    let shearing = shearing.map(|it| it.account(solver, report));
     solve::correct(solver, report);
+    if let Some(shearing) = shearing {
+        shearing.account_for_correction(solver, report);
+    }
     guard::hold(system, solver, &sub_step, report);
     solver.places.end_sub_step();
 }

@@ -156,8 +156,10 @@ impl Block {
                 let friction = slab.batches.frictions.get(number);
                 let of = |vectors: &[_; 3]| get(vectors, lane);
                 let slip = friction.map_or(DVec3::ZERO, |it| of(&it.slip).into());
+                // As though sphere 1 were as much slower as the image of sphere 2 is faster.
+                let slide = DVec3::new(-slab.batches.slide(number, lane), 0.0, 0.0);
                 BlockContact::new(places, of(&pairs.normal).into())
-                    .with_bound(pairs.bias[lane], DVec3::ZERO, slip)
+                    .with_bound(pairs.bias[lane], slide, slip)
                     .with_friction(friction.map_or(0.0, |it| it.sliding[lane]))
                     .with_impulses(
                         pairs.impulse[lane],

@@ -33,6 +33,10 @@ pub struct Body {
     /// Whether the sphere pressed on something in the flight before.
     pub bears: bool,
     pub met_surface: bool,
+    /// Time since the start of the sub-step \[s\].
+    pub elapsed: f64,
+    /// Rate of the shear flow about the sphere \[1/s\].
+    pub shear_rate: f64,
 }
 
 impl Body {
@@ -61,12 +65,20 @@ impl Body {
             against_drag: 0.0,
             bears: slots.bears[slot],
             met_surface: false,
+            elapsed: 0.0,
+            shear_rate: slots.shear.map_or(0.0, |shear| shear.rate),
         }
     }
 
     /// Whether impulses move the sphere.
     pub fn is_awake(&self) -> bool {
         self.inverse_mass > 0.0
+    }
+
+    /// The highest speed beside the flow about the sphere of what it may meet \[m/s\].
+    pub fn speed(&self) -> f64 {
+        let flow = DVec3::new(self.shear_rate * self.position.y, 0.0, 0.0);
+        (self.velocity - flow).length() + self.shear_rate.abs() * self.radius
     }
 
     /// Returns the velocity after a flight of `h` \[s\] without contacts.
@@ -79,6 +91,7 @@ impl Body {
     pub fn add_way(&mut self, h: f64) {
         let mean = 0.5 * (self.start[0] + self.velocity);
         self.way += h * mean;
+        self.elapsed += h;
         self.against_drag += h * self.accelerated(h).dot(mean);
     }
 

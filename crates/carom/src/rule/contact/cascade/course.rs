@@ -1,6 +1,6 @@
 //! The course of a cascade: flights, and impacts between them.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::body::Body;
 use super::island::Island;
@@ -10,6 +10,7 @@ use crate::contact_time;
 use crate::flight::Flight;
 use crate::rule::contact::contacts::swept::FAR;
 use crate::rule::contact::places::Places;
+use crate::rule::contact::report::virial::of_contact;
 use crate::rule::contact::sub_step::SubStep;
 
 /// Largest number of impacts per sphere of an island; later ones are answered together.
@@ -37,12 +38,20 @@ struct Accuracy {
 }
 
 /// The events of a cascade.
-#[derive(Default)]
 pub struct Course {
     /// Work of all impulses \[J\].
     pub work: f64,
+    /// Σ J l of all impulses \[N m s\].
+    pub virial: DMat3,
     pub impacts: Vec<Met>,
     visits: u32,
+}
+
+impl Default for Course {
+    fn default() -> Self {
+        // The default of a matrix is that of identity.
+        Self { work: 0.0, virial: DMat3::ZERO, impacts: Vec::new(), visits: 0 }
+    }
 }
 
 impl Course {
@@ -115,6 +124,10 @@ impl Course {
             body.start = [body.velocity, body.spin];
             body.bears = touched;
         }
+        if time > 0.0 {
+            self.work += image_work(&island.links);
+            self.virial += virial(&island.links);
+        }
         for link in &mut island.links {
             link.bears = link.role == Role::Bears && link.impulses.normal > 0.0;
             if link.bears && link.first.is_none() {
@@ -144,8 +157,10 @@ impl Course {
         }
         let before = kinetic_energy(bodies);
         self.solve(island, OF_IMPACTS);
-        take_gain(island, before);
+        let part = take_gain(island, before);
         let Island { bodies, links } = island;
+        self.work += part * image_work(links);
+        self.virial += part * virial(links);
         self.work += bodies.iter().map(|body| work(body, body.start[0])).sum::<f64>();
         for link in &mut *links {
             if link.approach > 0.0 && link.impulses.normal > 0.0 {
@@ -195,7 +210,8 @@ fn first_meeting(island: &mut Island, places: &Places, time: f64) -> Option<f64>
     let mut first = f64::INFINITY;
     for link in island.links.iter_mut().filter(|link| link.role == Role::Awaited) {
         let mut own = path(link.second);
-        own.position += link.shift;
+        own.position += link.shift_at(bodies[link.second].elapsed);
+        own.velocity += link.slide;
         let found = match link.first {
             Some(other) => contact_time::sphere_sphere(&path(other), &own, link.size(), time),
             None => {
@@ -276,14 +292,14 @@ fn kinetic_energy(bodies: &[Body]) -> f64 {
 }
 
 /// Reduces the impulses of an impact where they would raise the kinetic energy above that of before \[J\]:
-/// restitution in a group may.
+/// restitution in a group may. Returns the part of them that is left.
 ///
 /// With the velocities v before and v + d after, the energy of `v + s d` is a parabola in s that begins
 /// with a descent; s is the largest part that adds nothing.
-fn take_gain(island: &mut Island, before: f64) {
-    let gain = kinetic_energy(&island.bodies) - before;
+fn take_gain(island: &mut Island, before: f64) -> f64 {
+    let gain = kinetic_energy(&island.bodies) - before + image_work(&island.links);
     if gain <= ROUNDING * before {
-        return;
+        return 1.0;
     }
     let change = |body: &Body| Body {
         velocity: body.velocity - body.start[0],
@@ -297,6 +313,19 @@ fn take_gain(island: &mut Island, before: f64) {
         body.velocity = body.start[0] + part * change.velocity;
         body.spin = body.start[1] + part * change.spin;
     }
+    part
+}
+
+/// Σ J l of the impulses of links between spheres \[N m s\].
+fn virial(links: &[Link]) -> DMat3 {
+    let pressing = |link: &&Link| link.first.is_some() && link.impulses.normal > 0.0;
+    let of_link = |link: &Link| of_contact(link.impulse(), link.size() * link.normal);
+    links.iter().filter(pressing).map(of_link).sum()
+}
+
+/// Work of impulses on sliding images beyond that on the spheres \[J\].
+fn image_work(links: &[Link]) -> f64 {
+    links.iter().filter(|link| link.slide != DVec3::ZERO).map(Link::image_work).sum()
 }
 
 /// The impact of a link.

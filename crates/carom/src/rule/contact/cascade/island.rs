@@ -39,7 +39,7 @@ impl Island {
 
     /// Largest speed of a body \[m/s\].
     pub fn top_speed(&self) -> f64 {
-        self.bodies.iter().map(|body| body.velocity.length()).fold(0.0, f64::max)
+        self.bodies.iter().map(Body::speed).fold(0.0, f64::max)
     }
 }
 
@@ -182,7 +182,7 @@ impl Growing {
         let place = &mut places[slot];
         if *place == NOWHERE {
             let body = Body::of(slots, slot);
-            self.speed = self.speed.max(body.velocity.length());
+            self.speed = self.speed.max(body.speed());
             *place = self.island.bodies.len() as u32;
             self.island.bodies.push(body);
         }
@@ -211,8 +211,7 @@ impl Growing {
                 let own_slot = body.slot as usize;
                 let place = places[other] as usize;
                 let is_known = place < own && self.island.bodies[place].is_awake();
-                let reach =
-                    REACH * sub_step.h * self.speed.max(slots.before[other].vector().length());
+                let reach = REACH * sub_step.h * self.speed.max(Body::of(slots, other).speed());
                 let is_near = link.bears || link.gap_between(slots) <= reach;
                 if is_known || other == own_slot || !is_near {
                     return;

@@ -37,6 +37,8 @@ pub struct Link {
     pub surface: u32,
     /// Offset from body 2 to its image that body 1 touches \[m\].
     pub shift: DVec3,
+    /// Velocity of that image relative to body 2 \[m/s\].
+    pub slide: DVec3,
     radius_sum: f64,
     restitution: ContactRestitution,
     friction: ContactFriction,
@@ -73,6 +75,7 @@ impl Link {
             second: 0,
             surface: 0,
             shift: DVec3::ZERO,
+            slide: DVec3::ZERO,
             radius_sum: 0.0,
             restitution: ContactRestitution::default(),
             friction: ContactFriction::default(),
@@ -100,6 +103,7 @@ impl Link {
                 Self {
                     slots: slab.slots_of(batch, lane).map(|slot| slot as u32),
                     shift: batches.shift(batch, lane),
+                    slide: DVec3::new(batches.slide(batch, lane), 0.0, 0.0),
                     radius_sum: batches.approaches[batch].radius_sum[lane],
                     restitution: batches.restitution(batch, lane),
                     friction: ContactFriction {
@@ -169,7 +173,7 @@ impl Link {
             return separation.is_some();
         };
         let first = &bodies[first];
-        let offset = second.position - first.position + self.shift;
+        let offset = second.position - first.position + self.shift_at(second.elapsed);
         let length = offset.length();
         if length > 0.0 {
             self.normal = offset / length;
@@ -179,6 +183,21 @@ impl Link {
         true
     }
 
+    /// Offset from body 2 to its image that body 1 touches, after a time of the sub-step \[s\] \[m\].
+    pub fn shift_at(&self, elapsed: f64) -> DVec3 {
+        self.shift + elapsed * self.slide
+    }
+
+    /// The impulse on body 2, normal and tangential \[N s\].
+    pub fn impulse(&self) -> DVec3 {
+        self.impulses.normal * self.normal + DVec3::from_array(self.impulses.tangential)
+    }
+
+    /// Work of the impulses on the image beyond that on body 2 \[J\].
+    pub fn image_work(&self) -> f64 {
+        self.slide.dot(self.impulse())
+    }
+
     /// The relative vector of body 2 to body 1, where `of` returns that of one body.
     fn relative(&self, bodies: &[Body], of: impl Fn(&Body) -> DVec3) -> DVec3 {
         of(&bodies[self.second]) - self.first.map_or(DVec3::ZERO, |first| of(&bodies[first]))
@@ -186,12 +205,12 @@ impl Link {
 
     /// The speed of approach along the normal \[m/s\].
     pub fn closing(&self, bodies: &[Body]) -> f64 {
-        -self.relative(bodies, |body| body.velocity).dot(self.normal)
+        -self.velocity(bodies).dot(self.normal)
     }
 
     /// The relative velocity \[m/s\].
     pub fn velocity(&self, bodies: &[Body]) -> DVec3 {
-        self.relative(bodies, |body| body.velocity)
+        self.relative(bodies, |body| body.velocity) + self.slide
     }
 
     /// Acceleration of approach along the normal by forces \[m/s²\].
@@ -247,7 +266,7 @@ impl Link {
     }
 
     fn slip_of(&self, bodies: &[Body]) -> DVec3 {
-        let velocity = self.relative(bodies, |body| body.velocity);
+        let velocity = self.velocity(bodies);
         let spin = bodies[self.second].spin + self.first.map_or(DVec3::ZERO, |it| bodies[it].spin);
         slip(velocity, self.normal, spin)
     }

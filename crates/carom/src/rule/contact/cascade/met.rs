@@ -5,7 +5,6 @@ use glam::DVec3;
 use crate::report::{BodyPair, Impact};
 use crate::rule::contact::solver::Solver;
 use crate::rule::contact::sub_step::SubStep;
-use crate::rule::periodic;
 use crate::system::System;
 
 /// An impact of a cascade.
@@ -68,7 +67,7 @@ impl Met {
         Impact {
             time: sub_step.time,
             between,
-            point: periodic::wrapped(point, slots.period),
+            point: slots.wrapped_place(point),
             normal,
             approach_speed,
             separation_speed,

@@ -12,6 +12,8 @@ mod link;
 mod met;
 mod pieces;
 
+use glam::DMat3;
+
 use super::contacts::batch::Impulses;
 use super::contacts::swept::FREE;
 use super::solver::Solver;
@@ -43,6 +45,9 @@ pub(super) fn follow(
             continue;
         };
         report.energy_account.contacts += course.work;
+        if solver.kinds.shear {
+            *report.virial.get_or_insert(DMat3::ZERO) += course.virial;
+        }
         let impacts = course.impacts.iter().map(|it| it.report(system, solver, sub_step));
         report.impacts.extend(impacts);
         withdraw(solver, &island, sub_step);

@@ -8,8 +8,8 @@ use super::batch::{
     ApproachBatch, Batches, FrictionBatch, Hit, LawBatch, PairBatch, Quad, RollingBatch, get,
 };
 use super::gather::{
-    TINY, apply, apply_spin, arrays, difference, gathered, is_any, offset, slip, smaller, sum,
-    turn, vector, xyz,
+    TINY, apply, apply_spin, arrays, gathered, is_any, offset, relative_velocity, slip, smaller,
+    sum, turn, vector, xyz,
 };
 use super::swept::{self, Traits};
 use crate::lanes::{LANES, Lanes};
@@ -37,23 +37,32 @@ fn prepare_all<S: Simd, const FRICTION: bool>(
     sub_step: &SubStep,
 ) {
     let Batches {
-        pairs, approaches, restitutions, laws, hits, frictions, rollings, shifts, ..
+        pairs,
+        approaches,
+        restitutions,
+        laws,
+        hits,
+        frictions,
+        rollings,
+        shifts,
+        slides,
+        ..
     } = batches;
     hits.clear();
     for (number, (batch, approach)) in pairs.iter_mut().zip(approaches).enumerate() {
         let (restitution, law) = (&mut restitutions[number], laws.get(number));
-        let shift = shifts.get(number);
+        let (shift, slide) = (shifts.get(number), slides.get(number));
         if let Some(law) = law {
             law.set(restitution, [0.0; LANES]);
         }
-        let given = Given { restitution, law, shift };
+        let given = Given { restitution, law, shift, slide };
         let aimed = aim(simd, run, (batch, approach), given, sub_step);
         if let Some(law) = law {
             law.set(restitution, aimed.impact.to_array());
         }
         let mut speed = [0.0; LANES];
         if aimed.is_any() {
-            let given = Given { restitution, law, shift };
+            let given = Given { restitution, law, shift, slide };
             speed = aimed.meet(simd, run, batch, (approach, given), sub_step);
             if let Some(law) = law {
                 law.set(restitution, speed);
@@ -64,7 +73,7 @@ fn prepare_all<S: Simd, const FRICTION: bool>(
         }
         if FRICTION {
             let friction = &mut frictions[number];
-            friction.aim(simd, run, batch, speed);
+            friction.aim(simd, run, (batch, slide), speed);
             start_friction(simd, run, batch, friction, rollings.get_mut(number));
         } else {
             let impulse = Lanes::each(simd, batch.impulse);
@@ -84,6 +93,8 @@ struct Given<'a> {
     law: Option<&'a LawBatch>,
     /// Offsets from spheres 2 to their images \[m\], where space is periodic.
     shift: Option<&'a [Quad; 3]>,
+    /// Velocities of those images relative to spheres 2, along x \[m/s\], in a box in steady shear.
+    slide: Option<&'a Quad>,
 }
 
 /// The approach of the pairs of a batch in a sub-step.
@@ -104,7 +115,7 @@ fn aim<S: Simd>(
     simd: S,
     run: &Run,
     (batch, approach): (&mut PairBatch, &mut ApproachBatch),
-    Given { restitution, shift, .. }: Given,
+    Given { restitution, shift, slide, .. }: Given,
     sub_step: &SubStep,
 ) -> Aimed<S> {
     let all = |number| Lanes::all(simd, number);
@@ -119,7 +130,7 @@ fn aim<S: Simd>(
     let radius_sum = Lanes::each(simd, approach.radius_sum);
     let gap = length - radius_sum;
 
-    let [vx, vy, vz, bear] = difference(simd, run.before, batch);
+    let [vx, vy, vz, bear] = relative_velocity(simd, run.before, batch, slide);
     let velocity = Vector { x: vx, y: vy, z: vz };
     let speed = velocity.dot(normal);
 
@@ -182,7 +193,7 @@ impl<S: Simd> Aimed<S> {
         simd: S,
         run: &Run,
         batch: &mut PairBatch,
-        (approach, Given { restitution, law, shift }): (&ApproachBatch, Given),
+        (approach, Given { restitution, law, shift, slide }): (&ApproachBatch, Given),
         sub_step: &SubStep,
     ) -> Quad {
         let zero = Lanes::all(simd, 0.0);
@@ -203,6 +214,7 @@ impl<S: Simd> Aimed<S> {
                     .and_then(|law| law.0[lane])
                     .unwrap_or(ContactRestitution::Constant(restitution[lane])),
                 shift,
+                slide: slide.map_or(0.0, |it| it[lane]),
             };
             if let Some(found) = swept::aim_pair(run, batch, (lane, traits), sub_step) {
                 speed[lane] = found;
@@ -255,7 +267,13 @@ fn pressing<S: Simd>(
 impl FrictionBatch {
     /// Computes the slip after impacts.
     #[inline(always)]
-    fn aim<S: Simd>(&mut self, simd: S, run: &Run, batch: &PairBatch, speed: Quad) {
+    fn aim<S: Simd>(
+        &mut self,
+        simd: S,
+        run: &Run,
+        (batch, slide): (&PairBatch, Option<&Quad>),
+        speed: Quad,
+    ) {
         let restitution = Lanes::each(simd, self.tangential_restitution);
         let impact = Lanes::each(simd, speed);
         if !is_any(simd, impact * restitution) {
@@ -263,7 +281,7 @@ impl FrictionBatch {
             return;
         }
         let normal = vector(simd, &batch.normal);
-        let velocity = xyz(difference(simd, run.before, batch));
+        let velocity = xyz(relative_velocity(simd, run.before, batch, slide));
         let slip = slip(velocity, normal, xyz(sum(simd, run.spin_before, batch)));
         let is_impact = Lanes::all(simd, 0.0).is_less(impact);
         let part = (Lanes::all(simd, 0.0) - restitution).select(is_impact, Lanes::all(simd, 0.0));

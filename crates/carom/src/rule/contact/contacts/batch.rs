@@ -143,6 +143,8 @@ pub(crate) struct Pair {
     pub impulses: Impulses,
     /// Offset from sphere 2 to its image that sphere 1 touches \[m\].
     pub shift: DVec3,
+    /// Velocity of that image relative to sphere 2, along x \[m/s\].
+    pub slide: f64,
 }
 
 /// The pairs of a run of slots, in batches.
@@ -166,6 +168,8 @@ pub(crate) struct Batches {
     /// Offsets from spheres 2 to their images that spheres 1 touch \[m\]; one per pair, or none where space is not
     /// periodic.
     pub shifts: Vec<[Quad; 3]>,
+    /// Velocities of those images relative to spheres 2, along x \[m/s\]; one per pair, or none without shear.
+    pub slides: Vec<Quad>,
     /// Pairs in each batch.
     counts: Vec<u8>,
     /// A batch with room, not before each one; the batch itself while it has room.
@@ -185,6 +189,7 @@ impl Batches {
         self.frictions.clear();
         self.rollings.clear();
         self.shifts.clear();
+        self.slides.clear();
         self.counts.clear();
         self.with_room.clear();
         self.last.clear();
@@ -228,6 +233,9 @@ impl Batches {
         if kinds.images {
             self.shifts.push([[0.0; LANES]; 3]);
         }
+        if kinds.shear {
+            self.slides.push([0.0; LANES]);
+        }
     }
 
     /// The first batch with room from this one on, which may be one that does not exist yet.
@@ -267,6 +275,9 @@ impl Batches {
         if let Some(shifts) = self.shifts.get_mut(number) {
             set(shifts, lane, pair.shift.to_array());
         }
+        if let Some(slides) = self.slides.get_mut(number) {
+            slides[lane] = pair.slide;
+        }
         let inverse_inertia = pair.inverse_inertias[0] + pair.inverse_inertias[1];
         if let Some(friction) = self.frictions.get_mut(number) {
             set(&mut friction.tangential, lane, pair.impulses.tangential);
@@ -304,6 +315,18 @@ impl Batches {
     /// Offset from sphere 2 of a contact to its image that sphere 1 touches \[m\].
     pub fn shift(&self, number: usize, lane: usize) -> DVec3 {
         self.shifts.get(number).map_or(DVec3::ZERO, |it| DVec3::from_array(get(it, lane)))
+    }
+
+    /// Velocity of that image relative to sphere 2, along x \[m/s\].
+    pub fn slide(&self, number: usize, lane: usize) -> f64 {
+        self.slides.get(number).map_or(0.0, |it| it[lane])
+    }
+
+    /// Moves the images by their way in a time of `h` \[s\].
+    pub fn slide_images(&mut self, h: f64) {
+        for (shifts, slides) in self.shifts.iter_mut().zip(&self.slides) {
+            shifts[0].iter_mut().zip(slides).for_each(|(shift, slide)| *shift += h * slide);
+        }
     }
 
     /// The contacts with an impact that press, and their speeds of approach \[m/s\].
@@ -384,6 +407,8 @@ pub(crate) struct ContactKinds {
     pub laws: bool,
     /// Space is periodic: spheres may touch images of others.
     pub images: bool,
+    /// The periodic box is in steady shear: images slide.
+    pub shear: bool,
 }
 
 /// A component of each vector of a batch.

@@ -42,6 +42,21 @@ pub(crate) fn difference<S: Simd>(simd: S, all: &[Row], batch: &PairBatch) -> [L
     Lanes::transposed([e - a, f - b, g - c, h - d])
 }
 
+/// Velocities of spheres 2, or of their images that slide along x \[m/s\], relative to spheres 1.
+#[inline(always)]
+pub(crate) fn relative_velocity<S: Simd>(
+    simd: S,
+    velocities: &[Row],
+    batch: &PairBatch,
+    slide: Option<&Quad>,
+) -> [Lanes<S>; LANES] {
+    let [x, y, z, number] = difference(simd, velocities, batch);
+    match slide {
+        Some(slide) => [x + Lanes::each(simd, *slide), y, z, number],
+        None => [x, y, z, number],
+    }
+}
+
 /// Offsets from spheres 1 to spheres 2, or to their images at these shifts \[m\].
 #[inline(always)]
 pub(crate) fn offset<S: Simd>(

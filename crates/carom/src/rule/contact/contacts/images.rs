@@ -7,13 +7,48 @@ use crate::rule::contact::places::offsets;
 use crate::rule::contact::slots::Slots;
 use crate::rule::periodic::image_shift;
 
-/// A pair of slots, the smaller one first, with the offset from the second sphere to its image that the first may
-/// touch \[m\].
+/// An image of a sphere.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct Image {
+    /// Offset from the sphere \[m\].
+    pub shift: DVec3,
+    /// Velocity relative to the sphere, along x \[m/s\].
+    pub slide: f64,
+}
+
+impl Image {
+    /// The sphere itself.
+    pub const OWN: Self = Self { shift: DVec3::ZERO, slide: 0.0 };
+
+    /// One of each two images that are opposite to each other and may be near the box.
+    fn forward(slots: &Slots) -> Vec<Self> {
+        let period = slots.period;
+        // The box above is up to half an edge beside this one.
+        let beside = if slots.shear.is_some() { 2 } else { 1 };
+        let is_forward = |offset: &[i8; 3]| offset.iter().find(|it| **it != 0) > Some(&0);
+        let image = |offset: [i8; 3]| match slots.shear {
+            Some(shear) => {
+                let [shift, velocity] = shear.image(offset.map(i32::from), slots.time);
+                Self { shift, slide: velocity.x }
+            }
+            None => Self { shift: image_shift(offset.map(i32::from), period), slide: 0.0 },
+        };
+        offsets(period, beside).filter(is_forward).map(image).collect()
+    }
+
+    /// The image of the first of two spheres as seen from the image of the second.
+    fn reversed(self) -> Self {
+        Self { shift: -self.shift, slide: -self.slide }
+    }
+}
+
+/// A pair of slots, the smaller one first, with the image of the second sphere that the first may touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct ImagePair {
     pub slots: [u32; 2],
-    pub shift: DVec3,
+    pub image: Image,
 }
 
 /// Working memory of the search for such pairs.
@@ -32,8 +67,7 @@ pub(crate) struct ImageSearch {
 struct Place {
     slot: u32,
     center: DVec3,
-    /// Shift from the sphere to its image \[m\].
-    shift: DVec3,
+    image: Image,
 }
 
 impl ImageSearch {
@@ -78,21 +112,18 @@ impl ImageSearch {
         let count = slots.len() as u32;
         let most = (0..count).map(&reach).fold(0.0, f64::max);
         let half = 0.5 * period;
-        let forward: Vec<DVec3> = offsets(period)
-            .filter(|offset| offset.iter().find(|it| **it != 0) == Some(&1))
-            .map(|offset| image_shift(offset.map(i32::from), period))
-            .collect();
+        let forward = Image::forward(slots);
         for slot in 0..count {
             let center = slots.position[slot as usize].vector();
             let reach = reach(slot) + most;
             if !(center.abs() + reach).cmpgt(half).any() {
                 continue;
             }
-            own.push(Place { slot, center, shift: DVec3::ZERO });
-            for &shift in &forward {
-                let image = center + shift;
-                if (image.abs() - reach).cmple(half).all() {
-                    images.push(Place { slot, center: image, shift });
+            own.push(Place { slot, center, image: Image::OWN });
+            for &image in &forward {
+                let center = center + image.shift;
+                if (center.abs() - reach).cmple(half).all() {
+                    images.push(Place { slot, center, image });
                 }
             }
         }
@@ -103,9 +134,9 @@ impl ImagePair {
     /// The pair of a sphere and the image of another one.
     fn of(first: Place, second: Place) -> Self {
         if first.slot < second.slot {
-            Self { slots: [first.slot, second.slot], shift: second.shift }
+            Self { slots: [first.slot, second.slot], image: second.image }
         } else {
-            Self { slots: [second.slot, first.slot], shift: -second.shift }
+            Self { slots: [second.slot, first.slot], image: second.image.reversed() }
         }
     }
 }

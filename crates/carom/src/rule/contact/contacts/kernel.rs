@@ -2,10 +2,10 @@
 
 use fearless_simd::{Level, Simd, dispatch};
 
-use super::batch::{Batches, FrictionBatch, PairBatch, RollingBatch};
+use super::batch::{Batches, FrictionBatch, PairBatch, Quad, RollingBatch};
 use super::gather::{
-    TINY, apply, apply_spin, arrays, difference, gathered, is_any, limited, offset, rows_of, shift,
-    slip, smaller, sum, turn, vector, xyz,
+    TINY, apply, apply_spin, arrays, gathered, is_any, limited, offset, relative_velocity, rows_of,
+    shift, slip, smaller, sum, turn, vector, xyz,
 };
 use crate::lanes::Lanes;
 use crate::real::Real;
@@ -45,19 +45,21 @@ fn sweep_all<S: Simd, const FRICTION: bool, const ROLLING: bool>(
     batches: &mut Batches,
     backwards: bool,
 ) -> SlabTotals {
-    let Batches { pairs, frictions, rollings, .. } = batches;
+    let Batches { pairs, frictions, rollings, slides, .. } = batches;
     let [mut largest_change, mut largest_impulse, mut least_room] = [Lanes::all(simd, 0.0); 3];
     let count = pairs.len();
     for step in 0..count {
         let number = if backwards { count - 1 - step } else { step };
         let batch = &mut pairs[number];
         let before = Lanes::each(simd, batch.impulse);
+        let moving = Moving { batch, slide: slides.get(number) };
         let Solved { change, room } = if FRICTION {
             let rolling = if ROLLING { rollings.get_mut(number) } else { None };
-            solve_with_friction(simd, run, batch, &mut frictions[number], rolling)
+            solve_with_friction(simd, run, moving, &mut frictions[number], rolling)
         } else {
-            solve(simd, run, batch)
+            solve(simd, run, moving)
         };
+        let batch = &pairs[number];
         largest_change = largest_change.max(change.abs());
         largest_impulse = largest_impulse.max(before);
         largest_impulse = largest_impulse.max(Lanes::each(simd, batch.impulse));
@@ -66,6 +68,12 @@ fn sweep_all<S: Simd, const FRICTION: bool, const ROLLING: bool>(
     let excess = (Lanes::all(simd, 0.0) - least_room).largest();
     let [change, impulse] = [largest_change, largest_impulse].map(Lanes::largest);
     SlabTotals { change, excess, impulse, ..SlabTotals::default() }
+}
+
+/// The pairs of a batch, and the velocities of images relative to spheres 2, along x \[m/s\].
+struct Moving<'a> {
+    batch: &'a mut PairBatch,
+    slide: Option<&'a Quad>,
 }
 
 /// Result of solving a batch.
@@ -92,9 +100,9 @@ fn solve_along_normal<S: Simd>(
 
 /// Solves the contacts of a batch without friction: one normal impulse each.
 #[inline(always)]
-fn solve<S: Simd>(simd: S, run: &mut Run, batch: &mut PairBatch) -> Solved<S> {
+fn solve<S: Simd>(simd: S, run: &mut Run, Moving { batch, slide }: Moving) -> Solved<S> {
     let normal = vector(simd, &batch.normal);
-    let speed = xyz(difference(simd, run.velocity, batch)).dot(normal);
+    let speed = xyz(relative_velocity(simd, run.velocity, batch, slide)).dot(normal);
     let (solved, Solved { change, room }) = solve_along_normal(simd, batch, speed);
     if is_any(simd, change) {
         batch.impulse = solved.to_array();
@@ -111,12 +119,12 @@ fn solve<S: Simd>(simd: S, run: &mut Run, batch: &mut PairBatch) -> Solved<S> {
 fn solve_with_friction<S: Simd>(
     simd: S,
     run: &mut Run,
-    batch: &mut PairBatch,
+    Moving { batch, slide }: Moving,
     friction: &mut FrictionBatch,
     rolling: Option<&mut RollingBatch>,
 ) -> Solved<S> {
     let normal = vector(simd, &batch.normal);
-    let velocity = xyz(difference(simd, run.velocity, batch));
+    let velocity = xyz(relative_velocity(simd, run.velocity, batch, slide));
     let before = Lanes::each(simd, batch.impulse);
     let (solved, Solved { change, room }) = solve_along_normal(simd, batch, velocity.dot(normal));
     if !is_any(simd, solved.max(before)) {

@@ -24,6 +24,8 @@ pub(crate) struct Traits {
     pub restitution: ContactRestitution,
     /// Offset from sphere 2 to its image that sphere 1 touches \[m\].
     pub shift: DVec3,
+    /// Velocity of that image relative to sphere 2, along x \[m/s\].
+    pub slide: f64,
 }
 
 /// Computes a contact of a batch that bounces, or whose spheres have a long path, for their impact within the
@@ -35,10 +37,11 @@ pub(crate) fn aim_pair(
     (lane, traits): (usize, Traits),
     sub_step: &SubStep,
 ) -> Option<f64> {
-    let Traits { radius_sum, restitution, shift } = traits;
+    let Traits { radius_sum, restitution, shift, slide } = traits;
     let [first, second] = [batch.first[lane] as usize, batch.second[lane] as usize];
     let offset = run.position[second].vector() - run.position[first].vector() + shift;
-    let velocity = run.before[second].vector() - run.before[first].vector();
+    let mut velocity = run.before[second].vector() - run.before[first].vector();
+    velocity.x += slide;
     if first == second || offset.length_squared() <= radius_sum * radius_sum {
         return None;
     }

@@ -13,8 +13,10 @@ use crate::detect::surface_tree;
 use crate::interval::Interval;
 use crate::parallel;
 use crate::report::StepReport;
+use crate::rule::contact::accelerate;
 use crate::rule::contact::contacts::batch::{ContactKinds, Impulses, Pair};
 use crate::rule::contact::contacts::dormant;
+use crate::rule::contact::contacts::images::Image;
 use crate::rule::contact::contacts::materials::{ContactMaterial, Materials};
 use crate::rule::contact::contacts::surfaces::SurfaceContact;
 use crate::rule::contact::places::{Places, offsets};
@@ -110,6 +112,10 @@ pub(crate) fn search(
         left,
     };
     known.add_contacts(slabs);
+    if slots.shear.is_some() {
+        // Spheres that were wrapped have other velocities.
+        solver.energy_before = accelerate::kinetic_energy_of(slots, slabs);
+    }
     report.work.searches += 1;
     report.work.pair_tests += search.take_tests();
 }
@@ -199,10 +205,10 @@ impl Known<'_> {
             let next_end = ends[(number + 1).min(ends.len() - 1)];
             let Slab { start, batches, pairs, image_pairs, .. } = &mut *slab;
             let mut unloaded = Vec::new();
-            let mut is_far = |slots: [u32; 2], shift: DVec3| {
+            let mut is_far = |slots: [u32; 2], image: Image| {
                 let is_far = slots[1] as usize >= next_end;
                 if !is_far {
-                    let pair = self.pair(slots, shift, *start);
+                    let pair = self.pair(slots, image, *start);
                     if pair.impulses.is_some() {
                         batches.push(&pair, self.kinds);
                     } else {
@@ -211,23 +217,23 @@ impl Known<'_> {
                 }
                 is_far
             };
-            pairs.retain(|&slots| is_far(slots, DVec3::ZERO));
-            image_pairs.retain(|pair| is_far(pair.slots, pair.shift));
+            pairs.retain(|&slots| is_far(slots, Image::OWN));
+            image_pairs.retain(|pair| is_far(pair.slots, pair.image));
             unloaded.iter().for_each(|pair| batches.push(pair, self.kinds));
             self.add_surfaces(slab);
         });
         for slots in list.iter_mut().flat_map(|slab| slab.pairs.drain(..)) {
-            far.batches.push(&self.pair(slots, DVec3::ZERO, 0), self.kinds);
+            far.batches.push(&self.pair(slots, Image::OWN, 0), self.kinds);
         }
         for pair in list.iter_mut().flat_map(|slab| slab.image_pairs.drain(..)) {
-            far.batches.push(&self.pair(pair.slots, pair.shift, 0), self.kinds);
+            far.batches.push(&self.pair(pair.slots, pair.image, 0), self.kinds);
         }
     }
 
-    /// The pair of the spheres in two slots, counted from the start of a run, where the second one touches by its
-    /// image at this offset \[m\].
+    /// The pair of the spheres in two slots, counted from the start of a run, where the second one touches by this
+    /// image.
     #[inline(always)]
-    fn pair(&self, slots: [u32; 2], shift: DVec3, start: usize) -> Pair {
+    fn pair(&self, slots: [u32; 2], Image { shift, slide }: Image, start: usize) -> Pair {
         let at = self.slots;
         let [first, second] = slots.map(|slot| slot as usize);
         let is_nearest = !self.kinds.images || self.is_nearest([first, second], shift);
@@ -245,6 +251,7 @@ impl Known<'_> {
                 Impulses::default()
             },
             shift,
+            slide,
         }
     }
 
@@ -287,7 +294,7 @@ impl Known<'_> {
     fn add_images(&self, bounds: &Bounds, near: &mut Vec<u32>) {
         let period = self.slots.period;
         let mut others = Vec::new();
-        for offset in offsets(period) {
+        for offset in offsets(period, 1) {
             let shift = image_shift(offset.map(i32::from), period);
             let bounds = Bounds { min: bounds.min - shift, max: bounds.max - shift };
             self.system.tree.near(&bounds, &mut others);

@@ -221,7 +221,7 @@ impl Places {
         for (number, surface) in (0..).zip(surfaces) {
             let bounds = bounds(&surface.form).filter(|_| surface.motion.is_at_rest());
             let Some(Bounds { min, max }) = bounds else { continue };
-            for offset in offsets(period) {
+            for offset in offsets(period, 1) {
                 let shift = image_shift(offset.map(i32::from), period);
                 let is_near = Bounds { min: min + shift, max: max + shift }.overlap(&near);
                 if is_near && !number_of.contains_key(&(number, offset)) {
@@ -348,9 +348,9 @@ impl Places {
 }
 
 /// The image offsets beside the periodic box with these edges \[m\].
-pub(crate) fn offsets(period: DVec3) -> impl Iterator<Item = [i8; 3]> {
-    let along = |axis: usize| if period[axis].is_finite() { -1..=1 } else { 0..=0 };
-    let [x, y, z] = [0, 1, 2].map(along);
+pub(crate) fn offsets(period: DVec3, beside: i8) -> impl Iterator<Item = [i8; 3]> {
+    let along = |axis: usize, most: i8| if period[axis].is_finite() { -most..=most } else { 0..=0 };
+    let [x, y, z] = [along(0, beside), along(1, 1), along(2, 1)];
     let all = x.flat_map(move |x| {
         let z = z.clone();
         y.clone().flat_map(move |y| z.clone().map(move |z| [x, y, z]))

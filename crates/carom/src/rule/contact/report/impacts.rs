@@ -29,17 +29,19 @@ fn of_pairs(solver: &Solver, slab: &Slab, time: f64, impacts: &mut Vec<Impact>) 
         let pair = &slab.batches.pairs[number];
         let mut tangential_impulse = slab.batches.tangential_impulse(number, lane);
         let mut normal = slab.batches.normal(number, lane);
+        let mut slide = slab.batches.slide(number, lane);
         let [mut first, mut second] = slab.slots_of(number, lane);
         if solver.landings.has(first) || solver.landings.has(second) {
             continue;
         }
         if solver.slots.id[first] > solver.slots.id[second] {
-            (first, second, normal) = (second, first, -normal);
+            (first, second, normal, slide) = (second, first, -normal, -slide);
             // Subtracted from zero, so that zero does not become -0.
             tangential_impulse = DVec3::ZERO - tangential_impulse;
         }
         let at = &solver.slots;
-        let relative = at.velocity[second].vector() - at.velocity[first].vector();
+        let mut relative = at.velocity[second].vector() - at.velocity[first].vector();
+        relative.x += slide;
         let radius = at.position[first].number();
         impacts.push(Impact {
             time,

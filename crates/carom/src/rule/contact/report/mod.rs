@@ -3,3 +3,4 @@
 pub(crate) mod force_work;
 pub(crate) mod impacts;
 pub(crate) mod listing;
+pub(crate) mod virial;

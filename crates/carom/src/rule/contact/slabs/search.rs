@@ -27,6 +27,8 @@ const MEAN_MARGIN: f64 = 0.15;
 /// In a periodic box, spheres may move at most this part of its shortest edge, unless they move farther in a
 /// sub-step: so two never reach images beyond the next box.
 const MOST_OF_BOX: f64 = 0.25;
+/// Shear until the next search, at most, unless it lasts two sub-steps only.
+const MOST_STRAIN: f64 = 0.1;
 /// Least and most frames that a search is to last at the present speeds.
 const LASTING: [f64; 2] = [1.5, 16.0];
 /// Least number of sub-steps that a search is to last where many surfaces are near.
@@ -144,18 +146,20 @@ impl Search {
         near: impl Fn(&Row, f64) -> usize,
     ) -> Drift {
         let count = slots.len().max(1) as f64;
-        let velocity = slots.velocity.iter().map(|row| row.vector()).sum::<DVec3>() / count;
-        let speed = |row: &Row| (row.vector() - velocity).length();
-        let speeds = slots.velocity.iter().map(speed).sum::<f64>();
+        let own = |slot: usize| slots.beside_flow(slot);
+        let velocity = (0..slots.len()).map(own).sum::<DVec3>() / count;
+        let speed = |slot: usize| (own(slot) - velocity).length();
+        let speeds = (0..slots.len()).map(speed).sum::<f64>();
         let radii = slots.position.iter().map(|row| row.number()).sum::<f64>();
-        let [least, most] = LASTING.map(|frames| frames * frame + h);
+        let rate = slots.shear.map_or(0.0, |shear| shear.rate);
+        let strained = (MOST_STRAIN / rate.abs()).max(2.0 * h);
+        let [least, most] = LASTING.map(|frames| (frames * frame + h).min(strained));
         let mut lasting = (MEAN_MARGIN * radii / speeds.max(f64::MIN_POSITIVE)).clamp(least, most);
         // A slow sphere among fast ones may be hit and fly like them.
         let mean_speed = speeds / count;
         let farthest = MOST_OF_BOX * slots.period.min_element();
         let wanted = |slot: usize, lasting: f64| {
-            FASTER * lasting * speed(&slots.velocity[slot]).max(mean_speed)
-                / slots.position[slot].number()
+            FASTER * lasting * speed(slot).max(mean_speed) / slots.position[slot].number()
         };
         let most_for = |lasting: f64| {
             let fast = (0..slots.len()).filter(|&slot| wanted(slot, lasting) > MOST_MARGIN).count();
@@ -178,14 +182,18 @@ impl Search {
             let bounded = bounded.min(farthest);
             // Within a sub-step it may move on by half its path, or reverse at a surface.
             let row = &slots.velocity[slot];
-            let beside = 1.5 * speed(row).max(mean_speed) + slots.speed_beside_last(slot);
+            let beside = 1.5 * speed(slot).max(mean_speed) + slots.speed_beside_last(slot);
             let turned = row.vector().length() + velocity.length();
-            let Some(approaches) = approaches else { return bounded.max(FASTER * beside * h) };
+            let Some(approaches) = approaches else {
+                let margin = bounded.max(FASTER * beside * h);
+                let radius = slots.position[slot].number();
+                return margin + rate.abs() * lasting * (radius + margin);
+            };
             let fastest = beside.max(turned + hit(approaches, slot));
             bounded.max(FASTER * fastest * h)
         }));
         let within = (farthest / velocity.length().max(f64::MIN_POSITIVE)).max(FASTER * h);
-        Drift::begin(velocity, lasting.min(within))
+        Drift::begin(velocity, lasting.min(within)).with_shear(rate)
     }
 
     /// First slots of runs of whole layers with about equal numbers of spheres, and the end of the last.

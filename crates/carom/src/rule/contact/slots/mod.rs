@@ -14,6 +14,7 @@ use crate::bodies::Motion;
 use crate::id::SphereId;
 use crate::rule::periodic;
 use crate::settings::nearest_image;
+use crate::shear::Shear;
 use crate::system::System;
 
 /// Spheres by slot: neighbours in space are neighbours in memory.
@@ -67,6 +68,10 @@ pub(crate) struct Slots {
     pub applied: Vec<DVec3>,
     /// Edges of the periodic box \[m\], infinite along open axes.
     pub period: DVec3,
+    /// Shear of the periodic box.
+    pub shear: Option<Shear>,
+    /// The present time, where images slide \[s\].
+    pub time: f64,
 }
 
 /// The index of a sphere that was taken out of the world.
@@ -117,12 +122,10 @@ impl Slots {
 
     /// Copies places and motions of spheres from the world.
     pub fn read(&mut self, system: &System, motion: &Motion, with_spin: bool) {
-        self.read_places(system, motion);
-        let Self { index, velocity, spin, turn, .. } = self;
+        self.read_motion(system, motion);
+        let Self { index, spin, turn, .. } = self;
         let spheres = system.spheres;
         let indices = || index.iter().map(|&index| index as usize);
-        velocity.clear();
-        velocity.extend(indices().map(|i| Row::new(motion.velocity[i], 0.0)));
         spin.clear();
         turn.clear();
         if with_spin {
@@ -137,41 +140,99 @@ impl Slots {
         self.spin_before.clone_from(&self.spin);
     }
 
-    /// Copies places of spheres from the world. A sphere whose place is the wrapped form of its own keeps its own.
-    fn read_places(&mut self, system: &System, motion: &Motion) {
-        let Self { index, position, period, .. } = self;
+    /// Copies places and velocities of spheres from the world. A sphere whose place is the wrapped form of its own keeps
+    /// its own.
+    fn read_motion(&mut self, system: &System, motion: &Motion) {
         let radii = &system.spheres.radius;
-        let is_periodic = *period != DVec3::INFINITY;
-        position.resize(index.len(), Row::default());
-        for (row, &index) in position.iter_mut().zip(&*index) {
-            let (own, shown) = (row.vector(), motion.position[index as usize]);
-            let is_same = is_periodic && periodic::wrapped(own, *period) == shown;
-            *row = Row::new(if is_same { own } else { shown }, radii[index as usize]);
+        let is_periodic = self.period != DVec3::INFINITY;
+        self.position.resize(self.index.len(), Row::default());
+        self.velocity.resize(self.index.len(), Row::default());
+        for slot in 0..self.index.len() {
+            let index = self.index[slot] as usize;
+            let own = [self.position[slot], self.velocity[slot]].map(Row::vector);
+            let shown = [motion.position[index], motion.velocity[index]];
+            let wrapped = self.wrapped(own);
+            let is_same = is_periodic && wrapped[0] == shown[0];
+            let place = if is_same { own[0] } else { shown[0] };
+            let velocity = match self.shear {
+                Some(_) if is_same && wrapped == shown => own[1],
+                Some(_) if is_same => shown[1] + self.velocity_beyond(place),
+                _ => shown[1],
+            };
+            self.position[slot] = Row::new(place, radii[index]);
+            self.velocity[slot] = Row::new(velocity, 0.0);
+        }
+    }
+
+    /// The state of a sphere, its place \[m\] and velocity \[m/s\], wrapped into the periodic box.
+    fn wrapped(&self, [place, velocity]: [DVec3; 2]) -> [DVec3; 2] {
+        match self.shear {
+            Some(shear) => shear.wrapped([place, velocity], self.time),
+            None => [periodic::wrapped(place, self.period), velocity],
+        }
+    }
+
+    /// The velocity of a sphere at a place beyond that of its image in the box \[m/s\].
+    fn velocity_beyond(&self, place: DVec3) -> DVec3 {
+        match self.shear {
+            Some(shear) => -shear.wrapped([place, DVec3::ZERO], self.time)[1],
+            None => DVec3::ZERO,
+        }
+    }
+
+    /// The velocity of a sphere relative to the flow of a box in steady shear \[m/s\].
+    pub fn beside_flow(&self, slot: usize) -> DVec3 {
+        let velocity = self.velocity[slot].vector();
+        match self.shear {
+            Some(shear) => velocity - shear.velocity_at(self.position[slot].vector()),
+            None => velocity,
         }
     }
 
     /// Wraps all spheres into the periodic box.
     pub fn wrap(&mut self) {
-        if self.period != DVec3::INFINITY {
-            for row in &mut self.position {
-                *row = row.with_vector(periodic::wrapped(row.vector(), self.period));
+        if self.period == DVec3::INFINITY {
+            return;
+        }
+        for slot in 0..self.position.len() {
+            let place = self.position[slot].vector();
+            let change = self.velocity_beyond(place);
+            if change != DVec3::ZERO {
+                for row in [&mut self.velocity[slot], &mut self.before[slot]] {
+                    *row = row.with_vector(row.vector() - change);
+                }
             }
+            let [place, _] = self.wrapped([place, DVec3::ZERO]);
+            self.position[slot] = self.position[slot].with_vector(place);
         }
     }
 
     /// Place of a sphere, by its slot, wrapped into the periodic box \[m\].
     pub fn place(&self, slot: usize) -> DVec3 {
-        periodic::wrapped(self.position[slot].vector(), self.period)
+        self.wrapped_place(self.position[slot].vector())
+    }
+
+    /// A place wrapped into the periodic box \[m\].
+    pub fn wrapped_place(&self, place: DVec3) -> DVec3 {
+        self.wrapped([place, DVec3::ZERO])[0]
     }
 
     /// The image of a sphere that is nearest to a place \[m\].
     pub fn image_near(&self, slot: usize, place: DVec3) -> DVec3 {
-        periodic::image_near(self.position[slot].vector(), place, self.period)
+        let own = self.position[slot].vector();
+        match self.shear {
+            Some(shear) => place + shear.nearest(own - place, self.time)[0],
+            None => periodic::image_near(own, place, self.period),
+        }
     }
 
     /// Offset from one sphere to another, in a periodic box to its nearest image \[m\].
     pub fn offset(&self, [from, to]: [usize; 2]) -> DVec3 {
-        nearest_image(self.position[to].vector() - self.position[from].vector(), self.period)
+        let way = self.position[to].vector() - self.position[from].vector();
+        match self.shear {
+            Some(shear) => shear.nearest(way, self.time)[0],
+            None => nearest_image(way, self.period),
+        }
     }
 
     /// Copies masses and moments of inertia from the world; sleeping spheres are immovable.
@@ -234,8 +295,10 @@ impl Slots {
     /// Writes positions and velocities at the end of a frame into the world.
     pub fn write(&self, motion: &mut Motion) {
         for (slot, &index) in self.index.iter().enumerate() {
-            motion.position[index as usize] = self.place(slot);
-            motion.velocity[index as usize] = self.velocity[slot].vector();
+            let own = [self.position[slot], self.velocity[slot]].map(Row::vector);
+            let [place, velocity] = self.wrapped(own);
+            motion.position[index as usize] = place;
+            motion.velocity[index as usize] = velocity;
         }
         for (slot, spin) in self.spin.iter().enumerate() {
             let radius = self.position[slot].number();
