@@ -175,7 +175,7 @@ fn sensible(mut drawn: Drawn) -> Drawn {
         drawn.choices.retain(|it| !it.starts_with("thermostat"));
     }
     if drawn.around.kind == "sheared" {
-        drawn = alone_in_shear(drawn);
+        drawn = if drawn.rule == "contact" { rough_in_shear(drawn) } else { alone_in_shear(drawn) };
     }
     if drawn.choices.iter().any(|it| it.starts_with("pair_potential")) {
         drawn = elastic(unlinked(drawn));
@@ -194,7 +194,17 @@ fn sensible(mut drawn: Drawn) -> Drawn {
     drawn
 }
 
-/// Reduces a world to smooth balls without forces, which alone may be sheared.
+/// Reduces a world to balls without forces, which may be rough in shear under the rule `contact`.
+fn rough_in_shear(mut drawn: Drawn) -> Drawn {
+    drawn.choices.retain(|it| !it.starts_with("pair_potential"));
+    (drawn.springs, drawn.emitter) = (None, None);
+    drawn.forces.clear();
+    drawn.obstacles.clear();
+    drawn.has_floor = false;
+    drawn
+}
+
+/// Reduces a world to smooth balls without forces, which alone may be sheared under the rule `exact`.
 fn alone_in_shear(drawn: Drawn) -> Drawn {
     let mut drawn = unlinked(drawn);
     drawn.choices.retain(|it| !it.starts_with("pair_potential"));
