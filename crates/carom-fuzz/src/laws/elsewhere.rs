@@ -7,15 +7,19 @@ use carom_scene::scene::{Force, Motion};
 
 /// Ways as parts of the largest coordinate: numbers of many bits, and so small that no threshold
 /// that grows with coordinates changes by more.
-const WAYS: [DVec3; 2] = [
+const WAYS: [DVec3; 6] = [
     DVec3::new(0.013_719_2, -0.021_143_7, 0.017_317_3),
     DVec3::new(-0.019_731_7, 0.015_377_1, -0.012_937_9),
+    DVec3::new(0.017_913_1, 0.011_271_3, -0.020_113_7),
+    DVec3::new(-0.014_339_9, -0.018_617_3, 0.013_171_1),
+    DVec3::new(0.020_749_3, -0.012_539_1, -0.016_811_9),
+    DVec3::new(-0.011_887_7, 0.019_913_9, 0.015_731_3),
 ];
 
-/// Returns the scene moved along each of the [`WAYS`], with the ways \[m\]. `extent` is the
-/// farthest point of a sphere from the origin along an axis \[m\].
-pub fn elsewhere(scene: &Scene, extent: f64) -> [(Scene, DVec3); 2] {
-    WAYS.map(|way| (moved(scene, extent * way), extent * way))
+/// Returns the scene moved along each of some ways, with the ways \[m\]. `extent` is the farthest point of a sphere from
+/// the origin along an axis \[m\].
+pub fn elsewhere(scene: &Scene, extent: f64) -> impl Iterator<Item = (Scene, DVec3)> {
+    WAYS.into_iter().map(move |way| (moved(scene, extent * way), extent * way))
 }
 
 fn moved(scene: &Scene, by: DVec3) -> Scene {
