@@ -12,9 +12,9 @@ use crate::system::System;
 /// Derivatives of the linear forces on a sphere by its radius, and by its mass; NaN where they are not known.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct InputRates {
-    /// Of the acceleration by everything but drag.
+    /// Rates of the acceleration by everything but drag.
     pub acceleration: [DVec3; 2],
-    /// Of the drag rate.
+    /// Rates of the drag rate.
     pub drag_rate: [f64; 2],
 }
 

@@ -420,7 +420,7 @@ impl Replay<'_> {
             body.position += off;
             is_there.then(|| Colliding {
                 position: touching,
-                ..colliding_sphere(system, (place, ids[place]), body, rates)
+                ..Colliding::of(system, (place, ids[place]), body, rates)
             })
         };
         let second_place = places[1]?;
@@ -480,26 +480,6 @@ impl Piece {
 /// Returns the time of a change since the start of a step that lasts from `start` to `end` \[s\].
 fn since(change: &SupportChange, [start, end]: [f64; 2]) -> f64 {
     (change.time - start).clamp(0.0, end - start)
-}
-
-fn colliding_sphere(
-    system: &System,
-    (place, id): (usize, SphereId),
-    body: &Flying,
-    [before, after]: [Rates; 2],
-) -> Colliding {
-    Colliding {
-        place,
-        id,
-        position: body.position,
-        velocity: body.velocity,
-        angular_velocity: body.angular_velocity,
-        radius: system.spheres.radius[place],
-        mass: system.spheres.mass[place],
-        inertia_factor: system.spheres.inertia_factor(place),
-        before,
-        after,
-    }
 }
 
 fn second_of(impact: &Impact) -> SphereId {

@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::coefficients::{Combined, RestitutionRates};
 use super::dual::{Dual, vector};
 use super::law::{Coefficients, FirstBody, StruckSphere, collide};
+use super::start::Flying;
 use super::state::SphereTangent;
 use super::supported::Rates;
 use super::variation::Variation;
@@ -13,6 +14,7 @@ use crate::friction::ContactFriction;
 use crate::id::{ColliderId, SphereId};
 use crate::real::Vector;
 use crate::rule::exact::NormalCurvature;
+use crate::system::System;
 
 /// Derivative of an impact: a saltation matrix (Aizerman and Gantmakher, Q. J. Mech. Appl. Math. 11, 243 (1958);
 /// Müller, Chaos Solitons Fractals 5, 1671 (1995)). It includes the change of the time of the impact.
@@ -49,6 +51,29 @@ pub(super) struct Colliding {
     /// Accelerations before the impact, and after it.
     pub before: Rates,
     pub after: Rates,
+}
+
+impl Colliding {
+    /// The sphere at an index of the world's arrays, in this motion, with its accelerations before and after the impact.
+    pub fn of(
+        system: &System,
+        (place, id): (usize, SphereId),
+        body: &Flying,
+        [before, after]: [Rates; 2],
+    ) -> Self {
+        Self {
+            place,
+            id,
+            position: body.position,
+            velocity: body.velocity,
+            angular_velocity: body.angular_velocity,
+            radius: system.spheres.radius[place],
+            mass: system.spheres.mass[place],
+            inertia_factor: system.spheres.inertia_factor(place),
+            before,
+            after,
+        }
+    }
 }
 
 /// Body 1 of an impact.

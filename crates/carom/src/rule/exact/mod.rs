@@ -22,6 +22,7 @@ mod features;
 mod flights;
 mod frame;
 mod impact;
+mod log;
 mod moving_regions;
 mod neighbours;
 mod pair_times;

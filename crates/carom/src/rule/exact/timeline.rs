@@ -5,9 +5,7 @@ use glam::DVec3;
 
 use super::contacts::Member;
 use super::events::{Event, NextEvents, PackedTarget, Prediction, Schedule, UpcomingEvent};
-use super::flights::{
-    Arrival, Component, FlightLog, Flights, JointStep, Species, StepLimits, Support,
-};
+use super::flights::{Component, Flights, JointStep, Species, StepLimits, Support};
 use super::moving_regions::MovingRegions;
 use super::neighbours::clearance::{Clearance, Obstacle};
 use super::neighbours::{NeighbourBuffer, Neighbours};
@@ -138,21 +136,6 @@ impl Timeline {
     /// friction and that of colliders that move \[J\].
     pub fn take_contact_work(&mut self, time: f64) -> [f64; 2] {
         self.flights.take_contact_work(time)
-    }
-
-    /// Starts a log of persistent contacts and curved flights at `now` \[s\].
-    pub fn begin_log(&mut self, now: f64) {
-        self.flights.begin_log(now);
-    }
-
-    /// Continues a log after spheres were added at `now` \[s\].
-    pub fn resume_log(&mut self, before: FlightLog, arrivals: Vec<Arrival>, now: f64) {
-        self.flights.resume_log(before, arrivals, now);
-    }
-
-    /// Ends and returns the log.
-    pub fn end_log(&mut self) -> FlightLog {
-        self.flights.end_log()
     }
 
     /// The zone, for a timeline that is made again.

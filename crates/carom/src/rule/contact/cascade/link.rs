@@ -68,31 +68,7 @@ pub struct Link {
 impl Link {
     /// Creates the link of a contact of the solver, without its bodies.
     pub fn of(solver: &Solver, origin: Origin) -> Self {
-        let none = Self {
-            origin,
-            slots: [0; 2],
-            first: None,
-            second: 0,
-            surface: 0,
-            shift: DVec3::ZERO,
-            slide: DVec3::ZERO,
-            radius_sum: 0.0,
-            restitution: ContactRestitution::default(),
-            friction: ContactFriction::default(),
-            carried: 0.0,
-            bears: false,
-            is_driven: false,
-            role: Role::Off,
-            normal: DVec3::Y,
-            point: DVec3::ZERO,
-            gap: 0.0,
-            bias: 0.0,
-            slip: DVec3::ZERO,
-            time: f64::INFINITY,
-            approach: 0.0,
-            impulses: Impulses::default(),
-            last: 0.0,
-        };
+        let none = Self::unknown(origin);
         match origin {
             Origin::Pair { slab, batch, lane } => {
                 let slab = Origin::slab(&solver.slabs, slab);
@@ -142,6 +118,35 @@ impl Link {
                     ..none
                 }
             }
+        }
+    }
+
+    /// A link of which only the origin is known.
+    fn unknown(origin: Origin) -> Self {
+        Self {
+            origin,
+            slots: [0; 2],
+            first: None,
+            second: 0,
+            surface: 0,
+            shift: DVec3::ZERO,
+            slide: DVec3::ZERO,
+            radius_sum: 0.0,
+            restitution: ContactRestitution::default(),
+            friction: ContactFriction::default(),
+            carried: 0.0,
+            bears: false,
+            is_driven: false,
+            role: Role::Off,
+            normal: DVec3::Y,
+            point: DVec3::ZERO,
+            gap: 0.0,
+            bias: 0.0,
+            slip: DVec3::ZERO,
+            time: f64::INFINITY,
+            approach: 0.0,
+            impulses: Impulses::default(),
+            last: 0.0,
         }
     }
 
