@@ -1,6 +1,7 @@
 //! Colliders as the world sees them: surfaces in their places.
 
 use std::cell::Cell;
+use std::ops::Deref;
 use std::sync::Arc;
 
 use glam::{DQuat, DVec2, DVec3};
@@ -26,9 +27,18 @@ pub(crate) use crate::surface_motion::SurfaceMotion;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Surface {
     pub form: Form,
-    pub collider: ColliderId,
     /// Lowest-numbered collider of those with faces flush with each other, its own included.
     pub whole: ColliderId,
+    pub role: Role,
+    /// What the surfaces of a collider have in common; they share its memory.
+    pub common: Arc<Common>,
+}
+
+/// What the surfaces of a collider have in common.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct Common {
+    pub collider: ColliderId,
     pub restitution: BodyRestitution,
     pub friction: Friction,
     /// Frequency ratio of a compliant surface; 0 for none.
@@ -38,11 +48,18 @@ pub(crate) struct Surface {
     pub groups: Groups,
     /// 0 for none.
     pub material: u8,
-    pub role: Role,
     /// Now.
     pub motion: SurfaceMotion,
-    /// Motion from now on, if it is not steady. The surfaces of a collider share it.
+    /// Motion from now on, if it is not steady.
     pub course: Option<Arc<Course>>,
+}
+
+impl Deref for Surface {
+    type Target = Common;
+
+    fn deref(&self) -> &Common {
+        &self.common
+    }
 }
 
 impl SurfaceMotion {
@@ -70,6 +87,11 @@ impl SurfaceMotion {
 }
 
 impl Surface {
+    /// Returns the form and the motion now.
+    pub fn place(&self) -> (&Form, &SurfaceMotion) {
+        (&self.form, &self.motion)
+    }
+
     /// Geometry and motion of the surface after `h` \[s\].
     pub fn after(&self, h: f64) -> (Form, SurfaceMotion) {
         match &self.course {
@@ -145,7 +167,9 @@ impl LastCarriage {
     /// Returns a surface as it is after `h` \[s\].
     pub fn moved(&self, surface: &Surface, h: f64) -> Surface {
         let (form, motion) = self.after(surface, h);
-        Surface { form, motion, course: surface.course_after(h).map(Arc::new), ..surface.clone() }
+        let course = surface.course_after(h).map(Arc::new);
+        let common = Arc::new(Common { motion, course, ..Common::clone(surface) });
+        Surface { form, common, ..*surface }
     }
 
     /// Origin \[m\] of the collider of a surface after `h` \[s\], and its rotation since now.
@@ -366,22 +390,20 @@ pub(crate) fn place(id: ColliderId, collider: &Collider, time: f64, surfaces: &m
     };
     let (center, rotation) = (pose.position, pose.rotation.normalize());
     let axes @ [_, y, _] = rotation::axes(rotation);
+    let common = Arc::new(Common {
+        collider: id,
+        restitution,
+        friction,
+        cushion: collider.cushion.unwrap_or(0.0),
+        kick,
+        groups,
+        material,
+        motion,
+        course,
+    });
     let mut add = |form: Form, role| {
         let (form, role) = if trigger { (form.closed(), Role::Reports) } else { (form, role) };
-        surfaces.push(Surface {
-            form,
-            collider: id,
-            whole: id,
-            restitution,
-            friction,
-            cushion: collider.cushion.unwrap_or(0.0),
-            kick,
-            groups,
-            material,
-            role,
-            motion,
-            course: course.clone(),
-        });
+        surfaces.push(Surface { form, whole: id, role, common: Arc::clone(&common) });
     };
     match *shape {
         Shape::Sphere { radius } => add(Form::Sphere { center, radius }, Role::Deflects),

@@ -80,8 +80,8 @@ impl FrameStart<'_> {
 
 /// Whether a sphere that began a frame here is on its way through an open surface.
 fn began_within(surface: &Surface, center: DVec3, radius: f64) -> bool {
-    let Surface { form, motion, course, .. } = surface;
-    let is_at_rest = course.is_none() && motion.is_at_rest();
+    let form = &surface.form;
+    let is_at_rest = surface.course.is_none() && surface.motion.is_at_rest();
     let is_within = || {
         let separation = sphere_surface(form, center, radius);
         is_at_rest && separation.is_some_and(|it| is_passing(form, &it, radius))

@@ -300,8 +300,7 @@ impl Places {
     /// A surface when the surfaces changed last.
     fn begun(&self, number: u32) -> Place<'_> {
         let Some(image) = (number as usize).checked_sub(self.own) else {
-            let Surface { form, motion, .. } = &self.starts[number as usize];
-            return (form, motion);
+            return self.starts[number as usize].place();
         };
         let ((surface, _), _) = self.images[image];
         (&self.of_images[image], &self.starts[surface as usize].motion)

@@ -25,7 +25,7 @@ impl<'a> Plane<'a> {
     /// The surface with this number, if it is a plane at rest for a sphere with this centre \[m\] and velocity
     /// \[m/s\], not an edge.
     pub fn under(state: [DVec3; 2], surface: u32, surfaces: &'a [Surface]) -> Option<Self> {
-        let Surface { form, motion, .. } = &surfaces[surface as usize];
+        let (form, motion) = surfaces[surface as usize].place();
         let normal = match form {
             _ if !motion.is_at_rest() => return None,
             Form::HalfSpace { normal, .. } => *normal,

@@ -11,7 +11,6 @@ use crate::rule::exact::contacts::contact_scale::{CLOCK_ROUNDING, TOUCHING};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::features::{has, is_above, is_part};
 use crate::rule::exact::timeline::Timeline;
-use crate::surface::Surface;
 
 /// Gap \[m\] below which two bodies touch: the rounding of their coordinates \[m\], and how far they move at a
 /// relative `speed` \[m/s\] within the rounding of the clock.
@@ -86,7 +85,7 @@ pub(super) fn touching_distance(
 ) -> Option<f64> {
     let Member { position: center, velocity, species, .. } = *member;
     let radius = species.radius;
-    let Surface { form, motion, .. } = &context.system.surfaces[surface as usize];
+    let (form, motion) = context.system.surfaces[surface as usize].place();
     if motion.is_at_rest() {
         // The point of the surface is no farther from the origin than this if they touch.
         let coordinates = 2.0 * (center.norm() + shift.norm() + radius);

@@ -17,7 +17,6 @@ use crate::rule::exact::flights::{Body, Species};
 use crate::rule::exact::pair_times::{NearTest, PairSearch};
 use crate::rule::exact::timeline::Timeline;
 use crate::rule::exact::zones::frame_work::UNITS_PER_FLIGHT;
-use crate::surface::Surface;
 use crate::system::System;
 
 /// Predicts what the spheres that an answer changed meet next, as of `now` \[s\], and enters it into the schedule.
@@ -309,7 +308,7 @@ fn meet_surfaces(
     let center = body.position;
     let planes = planes_that_hold(timeline, system, slot);
     for (number, shift) in timeline.surfaces_at_rest_near(slot) {
-        let Surface { form, motion, .. } = &system.surfaces[number as usize];
+        let (form, motion) = system.surfaces[number as usize].place();
         let is_missed = |reach: Reach| reach.misses(form, shift);
         if reach.is_some_and(is_missed) {
             continue;
