@@ -309,7 +309,7 @@ fn bits_depend_on_no_thread() {
             .unwrap();
     }
     run(&mut world, 60);
-    assert_eq!(world.state_hash().to_string(), "f631f8ca2c7980c2");
+    assert_eq!(world.state_hash().to_string(), "2db4e03046804316");
 }
 
 #[test]

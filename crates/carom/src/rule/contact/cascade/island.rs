@@ -9,6 +9,9 @@ use crate::rule::contact::sub_step::SubStep;
 
 /// Largest number of spheres of a small island.
 pub const MOST_BODIES: usize = 48;
+/// Largest number of spheres of an island in which something presses. In a heap an impact is small beside what presses,
+/// and sweeps are good enough.
+const MOST_PRESSED: usize = 24;
 /// Largest number of contacts of a small island.
 const MOST_LINKS: usize = 512;
 /// Largest number of spheres and of contacts of an island in which nothing presses; larger ones, and large heaps, are
@@ -34,7 +37,8 @@ impl Island {
     /// Whether it is no longer gathered.
     fn is_too_large(&self, presses: bool) -> bool {
         let [bodies, links] = [self.bodies.len(), self.links.len()];
-        !self.is_small() && (presses || bodies.max(links) > MOST_FLYING)
+        presses && bodies > MOST_PRESSED
+            || !self.is_small() && (presses || bodies.max(links) > MOST_FLYING)
     }
 
     /// Largest speed of a body \[m/s\].
