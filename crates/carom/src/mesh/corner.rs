@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
-use super::facet::{ROUNDING, ahead};
+use super::facet::{ROUNDING, WIDER, ahead};
 use crate::axis_motion::AlongAxis;
 use crate::norm::Norm;
 
@@ -61,6 +61,12 @@ impl Corner {
     /// distance `way` \[m\].
     pub fn may_be_met(&self, center: DVec3, radius: f64, way: f64) -> bool {
         (center - self.point).norm() <= radius + way && self.distance_beside(center) <= way
+    }
+
+    /// Returns a lower bound of the way \[m\] that a centre goes before the corner is the nearest feature to it, up to
+    /// rounding.
+    pub fn clearance(&self, center: DVec3) -> f64 {
+        (self.distance_beside(center) - WIDER * self.slack(center)).max(0.0)
     }
 
     fn slack(&self, point: DVec3) -> f64 {

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::facet::{ROUNDING, ahead};
+use super::facet::{ROUNDING, WIDER, ahead};
 use crate::axis_motion::AlongAxis;
 use crate::norm::Norm;
 
@@ -99,6 +99,12 @@ impl Edge {
         let past_ends = offset.dot(self.axis).abs() - self.half;
         let beside = self.outward.iter().map(|outward| -offset.dot(*outward));
         beside.fold(past_ends, f64::max).max(0.0)
+    }
+
+    /// Returns a lower bound of the way \[m\] that a centre goes before the edge is the nearest feature to it, up to
+    /// rounding.
+    pub fn clearance(&self, center: DVec3) -> f64 {
+        (self.distance_beside(center) - WIDER * self.slack(center)).max(0.0)
     }
 
     fn slack(&self, point: DVec3) -> f64 {

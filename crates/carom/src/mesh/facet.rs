@@ -155,6 +155,17 @@ impl Facet {
         self.outline.distance(self.local(center))
     }
 
+    /// Returns a lower bound of the way \[m\] that a centre goes before it projects into the outline, up to rounding,
+    /// and is in front of the face, if none passes it from behind; where it does, minus a lower bound of the way before
+    /// it projects elsewhere.
+    pub fn clearance(&self, center: DVec3) -> f64 {
+        let beside = self.outline.signed_distance(self.local(center));
+        let slack = WIDER * self.slack(center);
+        let behind = if self.frame.is_open { 0.0 } else { -self.height_of(center) };
+        let way = beside.max(behind);
+        if way > 0.0 { (way - slack).max(0.0) } else { (beside + slack).min(0.0) }
+    }
+
     /// Returns the rounding error of the position of a point beside the face \[m\].
     fn slack(&self, point: DVec3) -> f64 {
         let Rectangle { center, half_x, half_z, .. } = self.frame;
@@ -166,6 +177,9 @@ impl Facet {
 /// contact and of the path to it.
 pub(super) const ROUNDING: f64 = 256.0 * f64::EPSILON;
 
+/// What a region is widened by where it is to hold all that may count as in it, as a multiple of the uncertainty.
+pub(super) const WIDER: f64 = 8.0;
+
 /// A direction unlikely to be along any feature. It decides which feature a sphere belongs to that moves along a
 /// border.
 const LEAD: DVec3 = DVec3::new(0.8, 0.36, 0.48);
@@ -176,4 +190,64 @@ pub(super) fn ahead([center, velocity]: [DVec3; 2], slack: f64) -> DVec3 {
     let speed = velocity.norm();
     let way = if speed > 0.0 { velocity / speed } else { DVec3::ZERO };
     center + slack * (4.0 * way + 0.25 * LEAD)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::detect::passage::is_behind;
+    use crate::detect::sphere_surface;
+    use crate::mesh::{Mesh, Placement};
+    use crate::surface::{Form, place_mesh};
+    use glam::DQuat;
+
+    /// A number from -1 to 1 of a linear congruential generator (Knuth, MMIX).
+    fn random(state: &mut u64) -> f64 {
+        *state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (*state >> 33) as f64 / f64::from(1_u32 << 30) - 1.0
+    }
+
+    #[test]
+    fn a_centre_is_as_it_was_to_a_feature_while_it_goes_less_than_the_clearance() {
+        let mut state = 1;
+        let rows: Vec<Vec<f64>> =
+            (0..6).map(|_| (0..6).map(|_| 0.4 * random(&mut state)).collect()).collect();
+        let field = Mesh::from_heights([5.0, 5.0], &rows).expect("a good field");
+        let sheet =
+            Mesh::new(field.vertices().to_vec(), field.triangles().to_vec()).expect("a good mesh");
+        let mut known = [0, 0];
+        for mesh in [&field, &sheet] {
+            let mut forms = Vec::new();
+            let placement =
+                Placement { rotation: DQuat::IDENTITY, from: DVec3::ZERO, to: DVec3::ZERO };
+            place_mesh(mesh.features(), &placement, |form| forms.push(form));
+            for form in &forms {
+                for _ in 0..200 {
+                    let mut point = || DVec3::from_array([0; 3].map(|_| random(&mut state)));
+                    let (center, way) = (3.0 * point(), point());
+                    let clearance = match form {
+                        Form::Facet(it) => it.clearance(center),
+                        Form::Edge(it) if !it.is_border => it.clearance(center),
+                        Form::Corner(it) => it.clearance(center),
+                        _ => continue,
+                    };
+                    let there = center + 0.999 * clearance.abs() * way / way.norm();
+                    let radius = 10.0;
+                    if clearance > 0.0 {
+                        assert_eq!(sphere_surface(form, there, radius), None, "{form:?} {there}");
+                        assert!(!is_behind(form, there, radius), "{form:?} {there}");
+                        known[0] += 1;
+                    }
+                    if let Form::Facet(facet) = form
+                        && clearance < 0.0
+                    {
+                        assert!(facet.is_under(there), "{form:?} {there}");
+                        known[1] += 1;
+                    }
+                }
+            }
+        }
+        assert!(known.iter().all(|it| *it > 100), "{known:?}");
+    }
 }

@@ -103,6 +103,13 @@ impl Outline {
         squares.fold(f64::INFINITY, f64::min).sqrt()
     }
 
+    /// Returns the distance of a point from the sides \[m\], negative inside.
+    pub fn signed_distance(&self, point: DVec2) -> f64 {
+        let squares = self.sides().iter().map(|side| side.distance_squared(point));
+        let distance = squares.fold(f64::INFINITY, f64::min).sqrt();
+        if self.contains(point) { -distance } else { distance }
+    }
+
     /// Returns whether a point \[m\] is inside, or at most `slack` \[m\] outside, which is more than rounding.
     pub fn is_within(&self, point: DVec2, slack: f64) -> bool {
         // A triangle is convex: clearly inside or outside, a point needs no exact test.

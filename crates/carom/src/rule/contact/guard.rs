@@ -138,10 +138,14 @@ impl Guard<'_> {
         let turn = self.turn_of(first + slot);
         let start = self.start_of(first + slot, contacts[0].start);
         let passes = |contact: &SurfaceContact| {
+            let beside = BESIDE * radius;
+            if [start, end].iter().all(|&it| contact.is_clear(run, it, beside)) {
+                return false;
+            }
             let forms =
                 [self.places.at_start(contact.surface).0, self.places.at_end(contact.surface).0];
             let way = Way { forms, centers: [start, end] };
-            !contact.passes && way.pushed(LEAST_IN_FRONT * radius, BESIDE * radius).is_some()
+            !contact.passes && way.pushed(LEAST_IN_FRONT * radius, beside).is_some()
         };
         if turn.is_none() && !contacts.iter().any(passes) {
             return None;

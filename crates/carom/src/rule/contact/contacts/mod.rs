@@ -9,5 +9,6 @@ pub(crate) mod images;
 pub(crate) mod kernel;
 pub(crate) mod materials;
 pub(crate) mod passages;
+pub(crate) mod surface_sweeps;
 pub(crate) mod surfaces;
 pub(crate) mod swept;

@@ -26,6 +26,10 @@ pub(crate) fn find(run: &Run, contacts: &mut [SurfaceContact], places: &Places) 
 fn find_of_sphere(run: &Run, own: &mut [SurfaceContact], places: &Places) {
     let mut passes_mesh = false;
     for contact in &mut *own {
+        if contact.is_clear(run, run.position[contact.slot as usize].vector(), 0.0) {
+            contact.passes = false;
+            continue;
+        }
         let (form, _) = places.at_start(contact.surface);
         contact.passes = form.is_open() && passes_by_itself(run, contact, form);
         passes_mesh |= contact.passes && form.is_feature();

@@ -3,11 +3,11 @@
 use glam::DVec3;
 
 use super::batch::Impulses;
-use super::coulomb::{limited, slip};
+use super::coulomb::slip;
 use super::materials::ContactMaterial;
 use super::swept::{FAR, FREE};
 use crate::contact_time;
-use crate::detect::{Separation, sphere_surface};
+use crate::detect::{Separation, sphere_facet_plane, sphere_surface};
 use crate::flight::Flight;
 use crate::friction::ContactFriction;
 use crate::respond;
@@ -15,8 +15,7 @@ use crate::restitution::ContactRestitution;
 use crate::rule::contact::places::flat::{is_flat, turning_plane};
 use crate::rule::contact::places::{Place, Places};
 use crate::rule::contact::slots::Run;
-use crate::rule::contact::slots::slab_totals::SlabTotals;
-use crate::rule::contact::sub_step::{GROWTH, RELAXATION, SLOP, SubStep};
+use crate::rule::contact::sub_step::{GROWTH, SubStep};
 use crate::surface::{Form, SurfaceMotion};
 
 /// A centre counts as in front of a plane, or behind it, beyond this part of the radius.
@@ -35,6 +34,10 @@ pub(crate) struct SurfaceContact {
     pub start: DVec3,
     /// Whether the path of the sphere in the sub-step is too short to pass an edge of the surface.
     is_slow: bool,
+    /// How far the sphere may go from its place at the last search before it can be in the region of the surface
+    /// \[m\]; where it is above a face, minus how far before it can be beside that; 0 where neither is known.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub clearance: f64,
     /// Whether the sphere came from behind an open surface, and is there or still overlaps it: nothing acts.
     pub passes: bool,
     /// Velocity of the surface where they touch \[m/s\].
@@ -74,6 +77,7 @@ impl SurfaceContact {
             normal: DVec3::Y,
             start: DVec3::ZERO,
             is_slow: false,
+            clearance: 0.0,
             passes: false,
             velocity: DVec3::ZERO,
             belt: DVec3::ZERO,
@@ -101,6 +105,37 @@ impl SurfaceContact {
     pub fn kept(&self) -> Impulses {
         let normal = if self.bias < 0.0 { 0.0 } else { self.impulses.normal };
         Impulses { normal, ..self.impulses }
+    }
+
+    /// Whether the region of the surface, which is at rest, is known to be farther from a centre of the sphere than a
+    /// distance \[m\].
+    pub fn is_clear(&self, run: &Run, center: DVec3, distance: f64) -> bool {
+        let left = self.clearance - distance;
+        left > 0.0 && self.is_within(run, center, left)
+    }
+
+    /// Whether a centre of the sphere is nearer than a distance to its place at the last search \[m\].
+    fn is_within(&self, run: &Run, center: DVec3, distance: f64) -> bool {
+        let from = run.reference.get(self.slot as usize);
+        from.is_some_and(|it| (center - it.vector()).length_squared() < distance * distance)
+    }
+
+    /// [`sphere_surface`] of the surface, which has this form, and the sphere.
+    pub fn separation(
+        &self,
+        run: &Run,
+        form: &Form,
+        (center, radius): (DVec3, f64),
+    ) -> Option<Separation> {
+        match form {
+            Form::Facet(facet)
+                if self.clearance < 0.0 && self.is_within(run, center, -self.clearance) =>
+            {
+                let is_in_front = facet.height_of(center) >= 0.0;
+                is_in_front.then(|| sphere_facet_plane(facet, center, radius))
+            }
+            _ => sphere_surface(form, center, radius),
+        }
     }
 
     /// Slip at which friction ends \[m/s\].
@@ -200,7 +235,6 @@ impl SurfaceContact {
     /// Computes normal, gap and target velocity.
     fn aim(&mut self, run: &Run, places: &Places, sub_step: &SubStep) {
         let slot = self.slot as usize;
-        let place @ (form, motion) = places.at_start(self.surface);
         let (center, radius) = (run.position[slot].vector(), run.position[slot].number());
         let before = run.before[slot].vector();
         if self.bias < 0.0 && (before - self.velocity).dot(self.normal) >= 0.0 {
@@ -208,11 +242,17 @@ impl SurfaceContact {
             self.impulses.normal = self.impulses.normal.min(self.impulses.previous);
         }
         self.start = center;
+        (self.approach, self.bias, self.kicked) = (0.0, FREE, 0.0);
+        if self.is_clear(run, center, 0.0) && sub_step.h * before.length() <= FAR * radius {
+            self.is_slow = true;
+            return;
+        }
+        let place @ (form, motion) = places.at_start(self.surface);
         self.angular_velocity = motion.angular_velocity;
         let turns = motion.turns_form(form);
         self.swing = if turns { motion.swing(center, before) } else { DVec3::ZERO };
-        (self.approach, self.bias, self.kicked) = (0.0, FREE, 0.0);
-        let separation = sphere_surface(form, center, radius);
+        self.is_slow = sub_step.h * (before - motion.velocity_at(center)).length() <= FAR * radius;
+        let separation = self.separation(run, form, (center, radius));
         if self.passes && separation.is_some() {
             return;
         }
@@ -225,8 +265,6 @@ impl SurfaceContact {
             self.bias = distance.max(0.0) / sub_step.h;
             self.watch_for_impact(run, distance, sub_step);
         }
-        let way = sub_step.h * (before - motion.velocity_at(center)).length();
-        self.is_slow = way <= FAR * radius;
         let is_apart = separation.is_none_or(|it| it.distance > 0.0);
         let is_curved = !matches!(form, Form::HalfSpace { .. }) || !motion.is_at_rest();
         if is_apart && is_curved && (!self.is_slow || self.approach > 0.0) {
@@ -390,89 +428,6 @@ impl SurfaceContact {
         *previous = carried;
         *normal = if self.bias == FREE { 0.0 } else { carried.min(most) };
     }
-
-    /// Solves the contact: applies the impulses that it needs.
-    fn solve(&mut self, run: &mut Run) -> SlabTotals {
-        let slot = self.slot as usize;
-        let inverse_mass = run.velocity[slot].number();
-        let velocity = run.velocity[slot].vector() - self.velocity;
-        let speed = velocity.dot(self.normal);
-        let Impulses { normal: impulse, tangential, angular, .. } = self.impulses;
-        let room = speed + self.bias;
-        let solved = (impulse - room / inverse_mass).max(0.0);
-        let change = solved - impulse;
-        let found = SlabTotals {
-            change: change.abs(),
-            excess: (-room).max(0.0),
-            impulse: solved.max(impulse),
-            ..SlabTotals::default()
-        };
-        if solved == 0.0 && impulse == 0.0 {
-            return found;
-        }
-        self.impulses.normal = solved;
-        let mut across = DVec3::ZERO;
-        if !run.spin.is_empty() && self.friction.sliding > 0.0 {
-            let spin = run.spin[slot];
-            let excess = slip(velocity, self.normal, spin.vector()) - self.slip;
-            let kept = DVec3::from_array(tangential);
-            let wanted = kept - excess / (inverse_mass + spin.number());
-            let limited = limited(wanted, self.friction.sliding * solved);
-            self.impulses.tangential = limited.to_array();
-            across = limited - kept;
-        }
-        push(run, self.slot, self.normal, [change * self.normal, across]);
-        if !run.spin.is_empty() && (self.friction.rolling > 0.0 || self.friction.spinning > 0.0) {
-            self.solve_rolling(run, DVec3::from_array(angular));
-        }
-        found
-    }
-
-    /// Applies the angular impulses against rolling and spinning on the surface.
-    fn solve_rolling(&mut self, run: &mut Run, kept: DVec3) {
-        let slot = self.slot as usize;
-        let (spin, radius) = (run.spin[slot], run.position[slot].number());
-        let relative = spin.vector() / radius - self.angular_velocity;
-        let wanted = kept - relative * (radius * radius / spin.number());
-        let along = wanted.dot(self.normal) * self.normal;
-        let arm = radius * self.impulses.normal;
-        let solved = limited(wanted - along, self.friction.rolling * arm)
-            + limited(along, self.friction.spinning * arm);
-        self.impulses.angular = solved.to_array();
-        turn(run, self.slot, solved - kept);
-    }
-}
-
-/// Sweeps over the contacts of a run: each gets the impulses that it needs with the others as they are. Returns the
-/// largest change of a normal impulse, and the other totals.
-pub(crate) fn sweep(run: &mut Run, contacts: &mut [SurfaceContact], backwards: bool) -> SlabTotals {
-    let mut found = SlabTotals::default();
-    let mut solve = |contact: &mut SurfaceContact| found = found.or_larger(contact.solve(run));
-    if backwards {
-        contacts.iter_mut().rev().for_each(&mut solve);
-    } else {
-        contacts.iter_mut().for_each(&mut solve);
-    }
-    found
-}
-
-/// Moves spheres that overlap surfaces out of them; velocities stay as they are. Returns the work
-/// against the forces that are linear \[J\], and the largest overlap as a part of the radius.
-pub(crate) fn correct(run: &mut Run, contacts: &[SurfaceContact], places: &Places) -> SlabTotals {
-    let (mut work, mut largest) = (0.0, 0.0_f64);
-    for contact in contacts {
-        let slot = contact.slot as usize;
-        let (center, radius) = (run.position[slot].vector(), run.position[slot].number());
-        let (form, _) = places.at_end(contact.surface);
-        let separation = sphere_surface(form, center, radius);
-        let overlap = separation.map_or(0.0, |it| -it.distance - SLOP * radius).max(0.0);
-        if overlap > 0.0 && !contact.passes {
-            let out = separation.map_or(DVec3::ZERO, |it| RELAXATION * overlap * it.normal);
-            work += move_by(run, slot, out);
-            largest = largest.max(overlap / radius);
-        }
-    }
-    SlabTotals { energy: work, overlap: largest, ..SlabTotals::default() }
 }
 
 /// Moves a sphere. Returns the work against conservative forces \[J\].
@@ -482,7 +437,7 @@ pub(crate) fn move_by(run: &mut Run, slot: usize, way: DVec3) -> f64 {
 }
 
 /// Applies impulses along the normal and across it to a sphere.
-fn push(run: &mut Run, slot: u32, normal: DVec3, [along, across]: [DVec3; 2]) {
+pub(super) fn push(run: &mut Run, slot: u32, normal: DVec3, [along, across]: [DVec3; 2]) {
     let velocity = &mut run.velocity[slot as usize];
     let impulse = along + across;
     *velocity = velocity.with_vector(velocity.vector() + velocity.number() * impulse);
@@ -492,7 +447,7 @@ fn push(run: &mut Run, slot: u32, normal: DVec3, [along, across]: [DVec3; 2]) {
 }
 
 /// Applies an angular impulse to a sphere.
-fn turn(run: &mut Run, slot: u32, angular: DVec3) {
+pub(super) fn turn(run: &mut Run, slot: u32, angular: DVec3) {
     let radius = run.position[slot as usize].number();
     if let Some(spin) = run.spin.get_mut(slot as usize) {
         *spin = spin.with_vector(spin.vector() + spin.number() / radius * angular);

@@ -343,6 +343,15 @@ impl Known<'_> {
             collider.is_some_and(|it| matches!(it.shape, Shape::Mesh(_)))
         };
         let way = margin + BESIDE * radius;
+        let is_far = match form {
+            Form::Facet(it) => !it.may_be_met(center, radius, way),
+            Form::Edge(it) => !it.may_be_met(center, radius, way),
+            Form::Corner(it) => !it.may_be_met(center, radius, way),
+            _ => false,
+        };
+        if is_far && is_of_mesh() {
+            return false;
+        }
         match (sphere_surface(form, center, radius), form) {
             (Some(separation), _) => separation.distance <= margin,
             // From just behind a rectangle, a sphere may come round its edge.
@@ -353,10 +362,9 @@ impl Known<'_> {
             (None, Form::Band(band)) => {
                 band.seen_from(center).front >= -margin && (!moves || are_bounds_near())
             }
-            (None, Form::Facet(it)) if is_of_mesh() => it.may_be_met(center, radius, way),
-            (None, Form::Edge(it)) if is_of_mesh() => it.may_be_met(center, radius, way),
-            (None, Form::Corner(it)) if is_of_mesh() => it.may_be_met(center, radius, way),
-            (None, Form::Facet(_) | Form::Edge(_) | Form::Corner(_)) => are_bounds_near(),
+            (None, Form::Facet(_) | Form::Edge(_) | Form::Corner(_)) => {
+                is_of_mesh() || are_bounds_near()
+            }
             (None, _) => true,
         }
     }
@@ -375,10 +383,26 @@ impl Known<'_> {
         let bodies = Bodies::Surface { sphere, surface: own };
         let material = ContactMaterial::of(bodies, self.system);
         let mut contact = SurfaceContact::new(relative, surface, material);
+        let (form, motion) = self.places.at_start(surface);
+        if self.system.surfaces[own as usize].course.is_none() && motion.is_at_rest() {
+            contact.clearance = clearance(form, self.slots.position[slot].vector());
+        }
         contact.kick = self.system.surfaces[own as usize].kick;
         contact.impulses = self.warm_start.of_surface(self.before[slot], surface);
         contact.passes = self.warm_start.passes(self.before[slot], surface)
             || (!contact.impulses.is_some() && self.is_within(slot, surface));
         contact
+    }
+}
+
+/// Returns how far a centre \[m\] may go before it can be in the region of a feature of a mesh; 0 where that is not
+/// known.
+fn clearance(form: &Form, center: DVec3) -> f64 {
+    match form {
+        Form::Facet(it) => it.clearance(center),
+        // Spheres come to a border from behind, too.
+        Form::Edge(it) if !it.is_border => it.clearance(center),
+        Form::Corner(it) => it.clearance(center),
+        _ => 0.0,
     }
 }

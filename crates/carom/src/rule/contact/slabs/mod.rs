@@ -35,6 +35,9 @@ pub(crate) struct Slab {
     pub end: usize,
     pub batches: Batches,
     pub surfaces: Vec<SurfaceContact>,
+    /// Places of the contacts with surfaces that may press in the sub-step.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub active: Vec<u32>,
     /// Pairs of slots that a search found, until contacts are made of them.
     pub pairs: Vec<[u32; 2]>,
     /// Pairs across the faces of a periodic box that a search found, until contacts are made of them.
@@ -59,6 +62,11 @@ impl Slab {
         (self.start, self.end) = (0, 0);
         (self.descent, self.totals) = (Descent::default(), SlabTotals::default());
         (self.tests, self.is_done) = (0, false);
+    }
+
+    /// The contacts with surfaces, and the places of those that may press in the sub-step.
+    pub fn active_surfaces(&mut self) -> (&mut [SurfaceContact], &[u32]) {
+        (&mut self.surfaces, &self.active)
     }
 
     /// The slots of both spheres of a contact.

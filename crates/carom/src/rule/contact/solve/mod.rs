@@ -5,7 +5,7 @@ mod conjugate;
 use crate::report::StepReport;
 use crate::rule::contact::contacts::aim;
 use crate::rule::contact::contacts::kernel;
-use crate::rule::contact::contacts::{passages, surfaces};
+use crate::rule::contact::contacts::{passages, surface_sweeps, surfaces};
 use crate::rule::contact::slabs::{Direction, Slab, Slabs};
 use crate::rule::contact::slots::slab_totals::SlabTotals;
 use crate::rule::contact::solver::Solver;
@@ -29,6 +29,7 @@ pub(crate) fn prepare(solver: &mut Solver, sub_step: &SubStep) {
         aim::prepare(run, &mut slab.batches, sub_step);
         passages::find(run, &mut slab.surfaces, places);
         surfaces::prepare(run, &mut slab.surfaces, places, sub_step);
+        surface_sweeps::find_active(&slab.surfaces, &mut slab.active);
     });
 }
 
@@ -121,11 +122,11 @@ pub(crate) fn sweep_once(
             return;
         }
         let SlabTotals { change, excess, impulse, .. } = if backwards {
-            let surfaces = surfaces::sweep(run, &mut slab.surfaces, backwards);
+            let surfaces = surface_sweeps::sweep(run, slab.active_surfaces(), backwards);
             kernel::sweep(run, &mut slab.batches, backwards).or_larger(surfaces)
         } else {
             let pairs = kernel::sweep(run, &mut slab.batches, backwards);
-            surfaces::sweep(run, &mut slab.surfaces, backwards).or_larger(pairs)
+            surface_sweeps::sweep(run, slab.active_surfaces(), backwards).or_larger(pairs)
         };
         slab.totals = SlabTotals { change, excess, impulse, ..slab.totals };
     });
@@ -151,7 +152,7 @@ pub(crate) fn correct(solver: &mut Solver, report: &mut StepReport) {
     let Solver { slots, slabs, places, .. } = solver;
     slabs.each_contact(slots, Direction::Forwards, |run, slab| {
         let of_pairs = kernel::correct(run, &slab.batches);
-        let of_surfaces = surfaces::correct(run, &slab.surfaces, places);
+        let of_surfaces = surface_sweeps::correct(run, &slab.surfaces, places);
         slab.totals.energy = of_pairs.energy + of_surfaces.energy;
         slab.totals.overlap = of_pairs.overlap.max(of_surfaces.overlap);
     });
