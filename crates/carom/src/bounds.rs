@@ -53,4 +53,10 @@ impl Bounds {
     pub fn union(self, other: Self) -> Self {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
+
+    /// Half of the area of the box \[m²\].
+    pub fn half_area(&self) -> f64 {
+        let DVec3 { x, y, z } = self.max - self.min;
+        x * y + y * z + z * x
+    }
 }

@@ -17,7 +17,10 @@ pub(crate) trait Bounded {
 /// Up to this many items are tested one by one; a tree would save nothing.
 const LEAF_SIZE: usize = 4;
 
-/// Items in a bounding volume hierarchy, split at the median centre.
+/// A split is good if the areas of both halves are at most this many times that of the whole: 4/3 for a cube of points.
+const GOOD_SPLIT: f64 = 1.5;
+
+/// Items in a bounding volume hierarchy, split at median centres.
 #[derive(Debug, Clone)]
 pub(crate) struct BoundsTree<L> {
     /// Depth first: the first child of an inner node follows it.
@@ -70,12 +73,8 @@ impl<L: Bounded> BoundsTree<L> {
             self.nodes.push(Node { bounds, below });
             return;
         }
-        let axis = (bounds.max - bounds.min).max_position();
-        let center = |leaf: &L| leaf.bounds().min[axis] + leaf.bounds().max[axis];
+        split(part, &bounds);
         let middle = part.len() / 2;
-        part.select_nth_unstable_by(middle, |a, b| {
-            center(a).total_cmp(&center(b)).then(a.order().cmp(&b.order()))
-        });
         self.nodes.push(Node { bounds, below: Below::Nodes { second: 0 } });
         self.build(first, first + middle, leaf_size);
         let second = self.nodes.len() as u32;
@@ -127,4 +126,32 @@ impl<L: Bounded> BoundsTree<L> {
             }
         }
     }
+}
+
+/// Splits items with these bounds at the median centre: along the longest axis, or along the one that leaves the smallest
+/// bounds where the longest leaves large ones, as beside long items.
+fn split<L: Bounded>(part: &mut [L], bounds: &Bounds) {
+    let size = bounds.max - bounds.min;
+    let longest = size.max_position();
+    let enough = GOOD_SPLIT * bounds.half_area();
+    if split_along(part, longest) <= enough {
+        return;
+    }
+    let areas = [0, 1, 2].map(|axis| split_along(part, axis));
+    let best = (0..3).min_by(|&a, &b| areas[a].total_cmp(&areas[b])).unwrap_or(longest);
+    if best != 2 {
+        split_along(part, best);
+    }
+}
+
+/// Splits items at the median centre along an axis. Returns the sum of the half areas of both halves \[m²\].
+fn split_along<L: Bounded>(part: &mut [L], axis: usize) -> f64 {
+    let center = |leaf: &L| leaf.bounds().min[axis] + leaf.bounds().max[axis];
+    let middle = part.len() / 2;
+    part.select_nth_unstable_by(middle, |a, b| {
+        center(a).total_cmp(&center(b)).then(a.order().cmp(&b.order()))
+    });
+    let halves = [&part[..middle], &part[middle..]];
+    let area = |half: &[L]| half.iter().map(|leaf| *leaf.bounds()).reduce(Bounds::union);
+    halves.into_iter().filter_map(area).map(|it| it.half_area()).sum()
 }
