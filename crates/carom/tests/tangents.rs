@@ -9,7 +9,9 @@ use carom::{
     LinearForce, MotionPart, Pose, Settings, Shape, Sides, Sphere, SphereId, SphereState,
     SphereTangent, SphereVariation, Spring, Tangents, Tape, Variation, ViscousDrag, World,
 };
-use common::derivatives::{assert_backwards_equals_forwards, off_differences, varied};
+use common::derivatives::{
+    Followed, after, assert_backwards_equals_forwards, follow, off_differences, varied,
+};
 use common::{G, Numbers, vec};
 
 /// Two balls head-on along x, in a world without anything else.
@@ -191,23 +193,13 @@ fn compare(numbers_of_worlds: Range<u64>) -> (u32, usize) {
         let (world, balls) = rough_world(number);
         let mut numbers = Numbers(1000 + number);
         let direction = some_direction(&mut numbers, &world, &balls);
-        let (mut run, mut recorded) = (world.clone(), world.clone());
-        let mut tangents = Tangents::new(&world, vec![direction.clone()]).unwrap();
-        let mut tape = Tape::start(&world).unwrap();
-        for _ in 0..8 {
-            tangents.step(&mut run, 0.1).unwrap();
-            tape.step(&mut recorded, 0.1).unwrap();
-        }
+        let Followed { tangents, tape, .. } = follow(&world, &direction, 8);
         impacts += tape.impacts();
         // Backwards as forwards.
         assert_backwards_equals_forwards((&tangents, &tape), &direction, &balls, &mut numbers);
         let gravity = world.forces().next().map(|(force, _)| (force, vec(0.3, -2.0, 0.1)));
         let [off, spread] = off_differences(&tangents, &balls, |by| {
-            let mut other = varied(&world, &direction, by, gravity);
-            for _ in 0..8 {
-                other.step(0.1).unwrap();
-            }
-            other
+            after(varied(&world, &direction, by, gravity), 8)
         });
         // Beyond, differences say too little: a graze or another order of impacts is near.
         if spread < 2e-10 {

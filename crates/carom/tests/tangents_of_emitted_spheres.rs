@@ -5,9 +5,11 @@ mod common;
 
 use carom::{
     Collider, DVec3, DerivativeError, Emitter, Gravity, PointAttractor, Pose, Shape, Sides, Sphere,
-    SphereId, SphereTangent, Tangents, Tape, Variation, World,
+    SphereId, SphereTangent, Tape, Variation, World,
 };
-use common::derivatives::{assert_backwards_equals_forwards, off_differences, varied};
+use common::derivatives::{
+    Followed, after, assert_backwards_equals_forwards, follow, off_differences, varied,
+};
 use common::{G, Numbers, vec};
 
 fn along(position: DVec3) -> SphereTangent {
@@ -115,25 +117,14 @@ fn derivatives_of_emitted_balls_agree_with_differences_and_with_the_gradient() {
         let (world, balls, gravity) = some_world(number, number % 4 == 0);
         let mut numbers = Numbers(700 + number);
         let direction = some_direction(&world, &balls, &mut numbers);
-        let (mut run, mut recorded) = (world.clone(), world.clone());
-        let mut tangents = Tangents::new(&world, vec![direction.clone()]).unwrap();
-        let mut tape = Tape::start(&world).unwrap();
-        for _ in 0..9 {
-            tangents.step(&mut run, 0.1).unwrap();
-            tape.step(&mut recorded, 0.1).unwrap();
-        }
+        let Followed { end, tangents, tape } = follow(&world, &direction, 9);
         impacts += tape.impacts();
-        let all = run.spheres().ids().to_vec();
+        let all = end.spheres().ids().to_vec();
         emitted += all.len() - balls.len();
         assert_backwards_equals_forwards((&tangents, &tape), &direction, &all, &mut numbers);
         let force = world.forces().next().map(|(force, _)| (force, gravity));
-        let [off, spread] = off_differences(&tangents, &all, |by| {
-            let mut other = varied(&world, &direction, by, force);
-            for _ in 0..9 {
-                other.step(0.1).unwrap();
-            }
-            other
-        });
+        let [off, spread] =
+            off_differences(&tangents, &all, |by| after(varied(&world, &direction, by, force), 9));
         // Beyond, differences say too little: a graze or another order of impacts is near.
         if spread < 2e-10 {
             assert!(off < 1e-9, "{number}: {off:e} {spread:e}");

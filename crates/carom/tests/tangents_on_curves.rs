@@ -7,9 +7,11 @@ use std::ops::Range;
 use carom::{
     Buoyancy, Collider, DVec3, DerivativeError, Force, ForceDerivatives, ForceEdge, Gravity,
     MutualGravity, PointAttractor, Pose, QuadraticDrag, Shape, Sides, Sphere, SphereId,
-    SphereState, SphereTangent, Spring, Tangents, Tape, Variation, Vortex, World,
+    SphereState, SphereTangent, Spring, Tape, Variation, Vortex, World,
 };
-use common::derivatives::{assert_backwards_equals_forwards, off_differences, varied};
+use common::derivatives::{
+    Followed, after, assert_backwards_equals_forwards, follow, off_differences, varied,
+};
 use common::{Numbers, vec};
 
 /// Adds the forces of one kind to a world with some balls.
@@ -113,22 +115,12 @@ fn compare(numbers_of_worlds: Range<u64>) -> ([u32; 8], usize) {
         let (world, balls, gravity) = some_world(number);
         let mut numbers = Numbers(5000 + number);
         let direction = some_direction(&world, &balls, &mut numbers);
-        let (mut run, mut recorded) = (world.clone(), world.clone());
-        let mut tangents = Tangents::new(&world, vec![direction.clone()]).unwrap();
-        let mut tape = Tape::start(&world).unwrap();
-        for _ in 0..6 {
-            tangents.step(&mut run, 0.1).unwrap();
-            tape.step(&mut recorded, 0.1).unwrap();
-        }
+        let Followed { tangents, tape, .. } = follow(&world, &direction, 6);
         impacts += tape.impacts();
         assert_backwards_equals_forwards((&tangents, &tape), &direction, &balls, &mut numbers);
         let force = world.forces().next().map(|(force, _)| (force, gravity));
         let [off, spread] = off_differences(&tangents, &balls, |by| {
-            let mut other = varied(&world, &direction, by, force);
-            for _ in 0..6 {
-                other.step(0.1).unwrap();
-            }
-            other
+            after(varied(&world, &direction, by, force), 6)
         });
         // Where a ball dips into a liquid, the second derivative of the force jumps, and differences are less exact.
         let (clear, part) = if number % 8 == 6 { (1e-8, 1e-7) } else { (2e-10, 1e-9) };
@@ -299,21 +291,11 @@ fn derivatives_through_layers_agree_with_differences_and_with_the_gradient() {
             world.add_force(Layer { heights, acceleration: 3.0 * numbers.vector() }).unwrap();
         }
         let direction = some_direction(&world, &balls, &mut numbers);
-        let (mut run, mut recorded) = (world.clone(), world.clone());
-        let mut tangents = Tangents::new(&world, vec![direction.clone()]).unwrap();
-        let mut tape = Tape::start(&world).unwrap();
-        for _ in 0..6 {
-            tangents.step(&mut run, 0.1).unwrap();
-            tape.step(&mut recorded, 0.1).unwrap();
-        }
+        let Followed { tangents, tape, .. } = follow(&world, &direction, 6);
         assert_backwards_equals_forwards((&tangents, &tape), &direction, &balls, &mut numbers);
         let force = world.forces().next().map(|(force, _)| (force, gravity));
         let [off, spread] = off_differences(&tangents, &balls, |by| {
-            let mut other = varied(&world, &direction, by, force);
-            for _ in 0..6 {
-                other.step(0.1).unwrap();
-            }
-            other
+            after(varied(&world, &direction, by, force), 6)
         });
         // A jump is passed within the rounding of a coordinate, which differences multiply.
         if spread < 2e-9 {

@@ -54,6 +54,33 @@ pub fn varied(
     varied
 }
 
+/// A run, its derivatives along a direction, and its record.
+pub struct Followed {
+    pub end: World,
+    pub tangents: Tangents,
+    pub tape: Tape,
+}
+
+/// Follows a world along a direction for some frames of a tenth of a second.
+pub fn follow(world: &World, direction: &Variation, frames: usize) -> Followed {
+    let (mut end, mut recorded) = (world.clone(), world.clone());
+    let mut tangents = Tangents::new(world, vec![direction.clone()]).unwrap();
+    let mut tape = Tape::start(world).unwrap();
+    for _ in 0..frames {
+        tangents.step(&mut end, 0.1).unwrap();
+        tape.step(&mut recorded, 0.1).unwrap();
+    }
+    Followed { end, tangents, tape }
+}
+
+/// Returns a world after some frames of a tenth of a second.
+pub fn after(mut world: World, frames: usize) -> World {
+    for _ in 0..frames {
+        world.step(0.1).unwrap();
+    }
+    world
+}
+
 /// Asserts that the gradient along the direction of the tangents is their product with what the gradient is of, to
 /// rounding.
 #[track_caller]
