@@ -125,11 +125,11 @@ impl<'a> JointField<'a> {
                         let surface = &system.surfaces[surface as usize];
                         let (form, moving) = (&surface.form, MovingSurface::of(surface, known_at));
                         let shift = match moving {
-                            Some(_) => {
+                            Some(_) if self.period != DVec3::INFINITY => {
                                 let (form, _) = surface.after(time - known_at);
                                 shift_beside_surface(&form, positions[second], self.period)
                             }
-                            None => shift_beside_surface(form, positions[second], self.period),
+                            _ => shift_beside_surface(form, positions[second], self.period),
                         };
                         let sides: Vec<DVec3> = held.sides_of(bodies).collect();
                         let (is_on_ring, sphere) = (!sides.is_empty(), second);
