@@ -177,13 +177,38 @@ def test_a_ball_on_a_spring_has_the_derivatives_of_an_oscillator() -> None:
         assert getattr(gradient, name).flat[0] == pytest.approx(value, abs=2e-12)
 
 
-def test_worlds_with_emitters_are_refused_also_where_one_comes_later() -> None:
-    source = carom.Emitter(sphere=carom.Sphere(radius=0.1), period=1.0)
-    world = carom.World()
+def test_spheres_that_emitters_add_come_last_in_gradients() -> None:
+    scene = carom.Scene(
+        name="falls",
+        spheres=[carom.Sphere(position=(3, 2, 0), radius=0.1)],
+        colliders=[carom.Collider(shape=carom.HalfSpace(), restitution=1.0)],
+        emitters=[
+            carom.Emitter(
+                sphere=carom.Sphere(position=(0, 1.1, 0), radius=0.1, velocity=(1, 0, 0)),
+                period=0.25,
+                count=2,
+            )
+        ],
+        forces=[carom.Gravity(acceleration=(0, -8, 0))],
+    )
+    world = scene.world()
     tape = carom.Tape(world)
-    world.add_emitter(source)
-    for refused in (lambda: tape.step(dt=0.1), lambda: carom.Tape(world)):
-        with pytest.raises(carom.CaromError, match="emitters"):
-            refused()
-    with pytest.raises(carom.CaromError, match="emitters"):
-        carom.Tangents(world, accelerations=[(0, -1, 0)])
+    tape.step(dt=0.1, frames=10)
+    assert len(world) == 3
+    gradient = tape.gradient(positions=[(0, 0, 0), (0, 0, 0), (1, 1, 0)])
+    # The last one begins at .25 s, falls for .5 s, and flies up for .25 s at 4 m/s.
+    np.testing.assert_allclose(gradient.velocities[2], (0.75, -0.75 + 0.5, 0), atol=1e-12)
+    np.testing.assert_allclose(gradient.velocities[:2], np.zeros((2, 3)), atol=1e-12)
+
+    def height(end: carom.RunEnd) -> object:
+        return end.positions[0, 1] + end.positions[2, 1]
+
+    _, gradient = carom.value_and_grad(height, seconds=0.5, dt=0.1)(scene)
+    assert gradient.velocities.shape == (1, 3)
+    np.testing.assert_allclose(gradient.velocities[0], (0, 0.5, 0), atol=1e-12)
+
+    world = scene.world()
+    tangents = carom.Tangents(world, accelerations=[(0, -1, 0)])
+    tangents.step(dt=0.1, frames=6)
+    fallen = [-0.5 * 0.6**2, -0.5 * 0.35**2]
+    np.testing.assert_allclose(tangents.positions[0, [0, 2], 1], fallen, atol=1e-12)

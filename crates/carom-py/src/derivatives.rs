@@ -26,10 +26,16 @@ type MarginNumbers = (f64, i64, f64, f64, i64, f64);
 #[pyclass(frozen, module = "carom._carom")]
 #[derive(Debug)]
 pub struct TapeEngine {
-    tape: Mutex<carom::Tape>,
-    ids: Vec<SphereId>,
+    record: Mutex<Record>,
     colliders: Vec<ColliderId>,
     springs: Vec<SpringId>,
+}
+
+#[derive(Debug)]
+struct Record {
+    tape: carom::Tape,
+    /// The spheres now: those that emitters added come last.
+    ids: Vec<SphereId>,
 }
 
 /// Directions beside a run, behind `carom.Tangents`.
@@ -49,7 +55,7 @@ impl TapeEngine {
         let colliders = world.colliders().map(|(id, _)| id).collect();
         let springs = world.springs().map(|(id, _)| id).collect();
         drop(guard);
-        Ok(Self { tape: Mutex::new(started?), ids, colliders, springs })
+        Ok(Self { record: Mutex::new(Record { tape: started?, ids }), colliders, springs })
     }
 
     /// Advances the world, and records how.
@@ -60,21 +66,26 @@ impl TapeEngine {
         dt: Option<&Bound<'_, PyAny>>,
         frames: &Bound<'_, PyAny>,
     ) -> PyResult<()> {
-        let mut tape = lock(&self.tape)?;
-        let tape = &mut *tape;
-        world.follow(py, (dt, frames), |world, dt| tape.step(world, dt))
+        let mut record = lock(&self.record)?;
+        let Record { tape, ids } = &mut *record;
+        world.follow(py, (dt, frames), |world, dt| {
+            tape.step(world, dt)?;
+            ids.clear();
+            ids.extend(world.spheres().ids());
+            Ok::<(), carom::DerivativeError>(())
+        })
     }
 
     /// How many impacts are recorded.
     #[getter]
     fn impacts(&self) -> PyResult<usize> {
-        Ok(lock(&self.tape)?.impacts())
+        Ok(lock(&self.record)?.tape.impacts())
     }
 
     /// How near the run came to where derivatives end.
     #[getter]
     fn margin(&self) -> PyResult<MarginNumbers> {
-        Ok(numbers_of(lock(&self.tape)?.margin()))
+        Ok(numbers_of(lock(&self.record)?.tape.margin()))
     }
 
     /// Returns the gradient of a number whose derivatives by the motion of each sphere at the end are given, three
@@ -83,23 +94,23 @@ impl TapeEngine {
     fn gradient<'py>(&self, py: Python<'py>, motion: [Numbers<'py>; 3]) -> PyResult<Vec<Row<'py>>> {
         let [positions, velocities, spins] =
             [vectors(&motion[0])?, vectors(&motion[1])?, vectors(&motion[2])?];
-        let derivatives: Vec<(SphereId, SphereTangent)> = (self.ids.iter().zip(positions))
+        let record = lock(&self.record)?;
+        let Record { tape, ids } = &*record;
+        let derivatives: Vec<(SphereId, SphereTangent)> = (ids.iter().zip(positions))
             .zip(velocities.into_iter().zip(spins))
             .map(|((&id, position), (velocity, angular_velocity))| {
                 (id, SphereTangent { position, velocity, angular_velocity })
             })
             .collect();
-        let tape = lock(&self.tape)?;
-        let tape = &*tape;
         let gradient = py.detach(|| tape.gradient(&derivatives)).map_err(Failure::from)?;
-        Ok(self.rows(&gradient).into_iter().map(|row| PyArray1::from_vec(py, row)).collect())
+        Ok(self.rows(ids, &gradient).into_iter().map(|row| PyArray1::from_vec(py, row)).collect())
     }
 }
 
 impl TapeEngine {
-    fn rows(&self, gradient: &Variation) -> Vec<Vec<f64>> {
+    fn rows(&self, ids: &[SphereId], gradient: &Variation) -> Vec<Vec<f64>> {
         let sphere_rows = |part: fn(&SphereVariation) -> Vec<f64>| -> Vec<f64> {
-            self.ids.iter().flat_map(|&id| part(&gradient.sphere(id))).collect()
+            ids.iter().flat_map(|&id| part(&gradient.sphere(id))).collect()
         };
         let collider_rows = |part: fn(&ColliderVariation) -> Vec<f64>| -> Vec<f64> {
             self.colliders.iter().flat_map(|&id| part(&gradient.collider(id))).collect()

@@ -42,7 +42,7 @@ class Gradient:
     """The derivatives of a number by all that a run started with.
 
     Rows are spheres in the order of ids, or colliders and springs in the order in which they are in
-    the world.
+    the world. Spheres that emitters added come last; what they began with counts for them.
 
     Attributes:
         positions: By the centres of spheres, shape (n, 3).
@@ -100,7 +100,6 @@ class Followed(Strict):
                 frame then, and every later call raises that again.
         """
         self._world._refuse_functions(type(self).__name__)
-        _refuse_emitters(self._world)
         self._engine.step(self._world, dt, frames)
 
     @property
@@ -115,8 +114,7 @@ class Tape(Followed):
     Derivatives are known of worlds under the rule ``exact`` whose spheres fly freely or on springs,
     under the forces of this package, or slide, roll and rest on single planes, and meet each other
     and surfaces one at a time, with or without friction. What has no derivative is an error, never
-    a guess: two impacts of one sphere at one instant, or contacts with several bodies. Emitters
-    are refused here, not in Rust.
+    a guess: two impacts of one sphere at one instant, or contacts with several bodies.
 
     >>> import carom
     >>> world = carom.World()
@@ -141,7 +139,6 @@ class Tape(Followed):
             CaromError: If the world has something whose derivatives are not known.
         """
         world._refuse_functions("Tape")
-        _refuse_emitters(world)
         self._world = world
         self._engine = TapeEngine(world)
 
@@ -215,7 +212,7 @@ class Tangents(Followed):
     [[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]]
     """
 
-    __slots__ = ("_shape",)
+    __slots__ = ("_count",)
 
     _engine: TangentsEngine
 
@@ -242,7 +239,6 @@ class Tangents(Followed):
                 fit, or nothing is given.
         """
         world._refuse_functions("Tangents")
-        _refuse_emitters(world)
         motion = {
             "positions": positions,
             "velocities": velocities,
@@ -252,26 +248,26 @@ class Tangents(Followed):
         if not given:
             raise CaromError("at least one of the changes must be given", "positions")
         count = len(np.asarray(given[0]))
-        self._shape = (count, len(world), 3)
-        rows = [_numbers(name, values, self._shape) for name, values in motion.items()]
+        shape = (count, len(world), 3)
+        rows = [_numbers(name, values, shape) for name, values in motion.items()]
         along = _numbers("accelerations", accelerations, (count, 3))
-        self._world = world
+        self._world, self._count = world, count
         self._engine = TangentsEngine(world, count, rows, along)
 
     @property
     def positions(self) -> Array:
         """How centres change now [m], shape (k, n, 3). A copy."""
-        return self._engine.motion()[0].reshape(self._shape)
+        return self._engine.motion()[0].reshape(self._count, -1, 3)
 
     @property
     def velocities(self) -> Array:
         """How velocities change now [m/s], shape (k, n, 3). A copy."""
-        return self._engine.motion()[1].reshape(self._shape)
+        return self._engine.motion()[1].reshape(self._count, -1, 3)
 
     @property
     def angular_velocities(self) -> Array:
         """How angular velocities change now [rad/s], shape (k, n, 3). A copy."""
-        return self._engine.motion()[2].reshape(self._shape)
+        return self._engine.motion()[2].reshape(self._count, -1, 3)
 
     def orthonormalize(self, *, length: float = 1.0, speed: float = 1.0) -> Array:
         """Makes the directions orthogonal, one after the other, and each of length 1.
@@ -289,12 +285,6 @@ class Tangents(Followed):
             if not (np.isfinite(value) and value > 0):
                 raise CaromError(f"{name}: must be positive and finite, not {value}", name)
         return self._engine.orthonormalize(float(length), float(speed))
-
-
-def _refuse_emitters(world: World) -> None:
-    # Arrays have a row for each sphere of the start.
-    if world.emitters:
-        raise CaromError("derivatives are not known of emitters", "emitters")
 
 
 def _numbers(name: str, values: ArrayLike | None, shape: tuple[int, ...]) -> Array:

@@ -21,6 +21,10 @@ from carom.errors import CaromError
 Array = NDArray[np.float64]
 MOTION = ("positions", "velocities", "angular_velocities")
 """The motion of spheres, as a world has it."""
+NOT_OF_SPHERES = {
+    field.name for field in fields(Gradient) if field.name.startswith(("collider_", "spring_"))
+} | {"acceleration"}
+"""Fields of a gradient without a row for each sphere."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -54,7 +58,8 @@ def value_and_grad(
     The function takes a scene, or a world, which stays as it is. Arrays of shape (n, 3) named
     ``positions``, ``velocities`` or ``angular_velocities`` replace the motion at the start. Arrays
     of shape (b, n, 3) make b runs, on all cores: values have the shape (b,), and the arrays of the
-    gradient have one more axis. Derivatives are known of the same worlds as for `carom.Tape`.
+    gradient have one more axis. Derivatives are known of the same worlds as for `carom.Tape`. Rows
+    of the gradient are the spheres of the start, without those that emitters add.
 
     >>> import carom
     >>> balls = [
@@ -103,7 +108,7 @@ class TapedRuns:
         worlds: Each at its end.
     """
 
-    __slots__ = ("_tapes", "shape", "worlds")
+    __slots__ = ("_spheres", "_tapes", "shape", "worlds")
 
     def __init__(
         self,
@@ -113,6 +118,7 @@ class TapedRuns:
     ) -> None:
         """Takes the runs, of a length in frames of a length [s], on all cores."""
         world = start.world() if isinstance(start, Scene) else copy.copy(start)
+        self._spheres = len(world)
         given = _motion(motion, len(world))
         self.shape = _axes_of_runs(given)
         whole = {
@@ -146,14 +152,15 @@ class TapedRuns:
     def gradient(self, *derivatives: Array) -> Gradient:
         """Returns the gradients of a number of each run, by its derivatives by these ends."""
         count = len(self.worlds)
-        rows = [np.reshape(it, (count, -1, 3)) for it in derivatives]
+        ends = [np.reshape(it, (count, -1, 3)) for it in derivatives]
         gradients = [
             tape.gradient(positions=positions, velocities=velocities, angular_velocities=spins)
-            for tape, positions, velocities, spins in zip(self._tapes, *rows, strict=True)
+            for tape, positions, velocities, spins in zip(self._tapes, *ends, strict=True)
         ]
         whole = {}
         for field in fields(Gradient):
-            parts = [getattr(gradient, field.name) for gradient in gradients]
+            rows = None if field.name in NOT_OF_SPHERES else self._spheres
+            parts = [getattr(gradient, field.name)[:rows] for gradient in gradients]
             whole[field.name] = np.reshape(parts, (*self.shape, *parts[0].shape))
         return Gradient(**whole)
 
