@@ -35,10 +35,6 @@ use crate::system::System;
 /// before the solver knew it.
 const WITHIN: f64 = 0.1;
 
-/// Distance beside a feature of a mesh, as a part of the radius, that counts as within its region: what hits a sphere
-/// may send it farther than its own speed does.
-const BESIDE: f64 = 0.25;
-
 /// Two images are equally near whose squared distances differ by less than this part.
 const ROUNDING: f64 = 1e-9;
 
@@ -342,11 +338,10 @@ impl Known<'_> {
             let collider = self.system.colliders.list().get(collider.0);
             collider.is_some_and(|it| matches!(it.shape, Shape::Mesh(_)))
         };
-        let way = margin + BESIDE * radius;
         let is_far = match form {
-            Form::Facet(it) => !it.may_be_met(center, radius, way),
-            Form::Edge(it) => !it.may_be_met(center, radius, way),
-            Form::Corner(it) => !it.may_be_met(center, radius, way),
+            Form::Facet(it) => !it.may_be_met(center, radius, margin),
+            Form::Edge(it) => !it.may_be_met(center, radius, margin),
+            Form::Corner(it) => !it.may_be_met(center, radius, margin),
             _ => false,
         };
         if is_far && is_of_mesh() {
