@@ -42,5 +42,5 @@ pub use leaving::sphere_sphere_leaving;
 pub(crate) use reach::Reach;
 pub(crate) use sphere_sphere::Approach;
 pub use sphere_sphere::{sphere_sphere, sphere_sphere_linear};
-pub(crate) use sphere_surface::sphere_surface;
+pub(crate) use sphere_surface::{sphere_surface, sphere_surface_in_reach};
 pub(crate) use track::{PolynomialTrack, Track, track_surface, tracks};

@@ -5,12 +5,14 @@ use glam::DVec3;
 use super::feature::{sphere_feature, sphere_turning_feature};
 use super::half_space::sphere_half_space;
 use super::obstacle::Obstacle;
+use super::reach::Reach;
 use super::roundoff::Magnitudes;
 use super::search;
 use super::sphere_sphere::sphere_point;
 use super::turning::{Orbit, Turning, Turns};
 use crate::band::Band;
 use crate::flight::Flight;
+use crate::moving_bounds::MovingBounds;
 use crate::norm::Norm;
 use crate::surface::{Form, Rectangle, SurfaceMotion};
 
@@ -59,6 +61,27 @@ pub(crate) fn sphere_surface(
         Form::Facet(_) | Form::Edge(_) | Form::Corner(_) => {
             sphere_feature(flight, radius, (form, motion), size, horizon)
         }
+    }
+}
+
+/// [`sphere_surface`] where most surfaces are out of reach within the horizon, which bounds show at less cost.
+pub(crate) fn sphere_surface_in_reach(
+    flight: &Flight,
+    radius: f64,
+    form: &Form,
+    motion: &SurfaceMotion,
+    horizon: f64,
+) -> Option<f64> {
+    let mut reach = Reach::of(*flight, radius, horizon);
+    if !motion.is_at_rest() {
+        let SurfaceMotion { origin, velocity, angular_velocity, .. } = *motion;
+        let [way, angle] = [velocity, angular_velocity].map(|rate| horizon * rate.norm());
+        let moving = MovingBounds { velocity, way, beside: 0.0, angle };
+        reach = reach.seen_from_moving(0.0, origin, &moving);
+    }
+    match reach.misses(form, DVec3::ZERO) {
+        true => None,
+        false => sphere_surface(flight, radius, form, motion, horizon),
     }
 }
 

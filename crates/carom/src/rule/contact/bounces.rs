@@ -295,7 +295,7 @@ impl FinalFlight {
     fn meets(&self, slots: &Slots, place: Place) -> Option<Stop> {
         let radius = slots.position[self.slot].number();
         let (form, motion) = place.1.carry(place.0, self.start);
-        let time = contact_time::sphere_surface(
+        let time = contact_time::sphere_surface_in_reach(
             &self.flight,
             radius,
             &form.closed(),

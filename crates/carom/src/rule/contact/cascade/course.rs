@@ -216,7 +216,7 @@ fn first_meeting(island: &mut Island, places: &Places, time: f64) -> Option<f64>
             Some(other) => contact_time::sphere_sphere(&path(other), &own, link.size(), time),
             None => {
                 let (form, motion) = places.at_start(link.surface);
-                contact_time::sphere_surface(&own, link.size(), form, motion, time)
+                contact_time::sphere_surface_in_reach(&own, link.size(), form, motion, time)
             }
         };
         link.time = found.unwrap_or(f64::INFINITY);

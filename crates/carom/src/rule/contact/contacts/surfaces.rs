@@ -334,7 +334,7 @@ impl SurfaceContact {
             drag_rate: 0.0,
         };
         (self.bias, self.approach, self.kicked) = (FREE, 0.0, 0.0);
-        let time = contact_time::sphere_surface(&flight, radius, form, motion, sub_step.h);
+        let time = contact_time::sphere_surface_in_reach(&flight, radius, form, motion, sub_step.h);
         let Some(time) = time else { return self.aim_at_end(&flight, radius, place, sub_step) };
         // Relative to the present place of the surface.
         let (there, velocity) = flight.after(time);

@@ -51,6 +51,13 @@ impl NextEvents {
         (self.second.time > f64::NEG_INFINITY).then(|| Self::only(self.second))
     }
 
+    /// The time \[s\] from which on a possible event changes nothing.
+    #[inline(always)]
+    pub fn known_until(&self) -> f64 {
+        let Self { first, second } = self;
+        if second.time > f64::NEG_INFINITY { second.time } else { first.time }
+    }
+
     /// Adds a possible event.
     #[inline(always)]
     pub fn add(&mut self, event: Event) {

@@ -16,8 +16,7 @@ const MOST_FOR_EACH: u64 = 1 << 8;
 /// Allowed evaluations for each sphere with each event that begins new steps: the first may be tried some times, and the
 /// next one becomes longer again.
 const MOST_FOR_EVENT: u64 = 1 << 10;
-/// Allowed evaluations in a tick where forces act between all spheres, or friction does: close passages, and slips that
-/// end, take many short steps.
+/// Allowed evaluations in a tick where forces act between all spheres: close passages take many short steps.
 const MOST_WITH_SHORT_STEPS: u64 = 1 << 18;
 
 /// Allowed evaluations in a tick where only contacts bend the flights: such spheres can be in a zone instead.
@@ -140,10 +139,8 @@ impl Components {
         for (number, component) in (0u32..).zip(&components) {
             component.members.iter().for_each(|&index| of_spheres[index as usize] = number);
         }
-        let has_friction = system.frictions().any(|friction| friction.acts());
-        let takes_short_steps = system.moves_all_together() || has_friction;
         let most_evaluations =
-            if takes_short_steps { MOST_WITH_SHORT_STEPS } else { MOST_EVALUATIONS };
+            if system.moves_all_together() { MOST_WITH_SHORT_STEPS } else { MOST_EVALUATIONS };
         Self { of_spheres, components, due: Vec::new(), most_evaluations }
     }
 

@@ -9,6 +9,7 @@ use glam::DVec3;
 use crate::contact_time::{self, Reach};
 use crate::detect::contact::Bodies;
 use crate::detect::sphere_surface;
+use crate::norm::Norm;
 use crate::rule::exact::answer::changed::{Changed, Unresolved};
 use crate::rule::exact::contacts::{MOST_PLANES, Plane};
 use crate::rule::exact::context::StepContext;
@@ -18,6 +19,9 @@ use crate::rule::exact::pair_times::{NearTest, PairSearch};
 use crate::rule::exact::timeline::Timeline;
 use crate::rule::exact::zones::frame_work::UNITS_PER_FLIGHT;
 use crate::system::System;
+
+/// Way up to an event, as a part of the radius, below which what comes after the event is left to be found then.
+const SOON: f64 = 1.0 / 32.0;
 
 /// Predicts what the spheres that an answer changed meet next, as of `now` \[s\], and enters it into the schedule.
 #[inline]
@@ -144,19 +148,31 @@ fn prediction_from_found(
     now: f64,
 ) -> Prediction {
     let events = search.first_meetings(timeline, slot);
-    prediction_after(timeline, system, slot, events, &[], now)
+    let sought = Sought { now, ..Sought::default() };
+    prediction_after(timeline, system, slot, events, sought)
 }
 
-/// The next events of a sphere whose meetings with other spheres are known, without those that it passes over.
+/// Which meetings with surfaces are sought.
+#[derive(Debug, Clone, Copy, Default)]
+struct Sought<'a> {
+    /// From when on \[s\].
+    now: f64,
+    /// Bodies that the sphere passes over.
+    passed: &'a [Bodies],
+    /// Whether those with surfaces that move are known.
+    only_at_rest: bool,
+}
+
+/// The next events of a sphere whose meetings with other spheres are known.
 #[inline(always)]
 fn prediction_after(
     timeline: &Timeline,
     system: &System,
     slot: u32,
     mut events: NextEvents,
-    passed: &[Bodies],
-    now: f64,
+    sought: Sought,
 ) -> Prediction {
+    let now = sought.now;
     let body = &timeline.flights.bodies[slot as usize];
     let species = &timeline.flights.species[body.species as usize];
     let (neighbours, horizon) = (&timeline.neighbours, timeline.flight_end(slot, species));
@@ -169,7 +185,7 @@ fn prediction_after(
     };
     let meets_none = system.surfaces.is_empty() || species.is_stepped;
     if !(meets_none || (stays && timeline.is_clear_of_surfaces(slot))) {
-        meet_surfaces(timeline, system, slot, (body, species), passed, &mut events);
+        meet_surfaces(timeline, system, slot, (body, species), sought, &mut events);
     }
     if let Some(cluster) = species.cluster {
         let time = timeline.flights.clusters.renewal_by(cluster, slot);
@@ -264,7 +280,8 @@ fn first_but(
         other == sphere || !passed.contains(&Bodies::pair([sphere, other]))
     });
     let events = search.first_meetings(timeline, slot);
-    let prediction = prediction_after(timeline, context.system, slot, events, &passed, now);
+    let sought = Sought { now, passed: &passed, only_at_rest: false };
+    let prediction = prediction_after(timeline, context.system, slot, events, sought);
     Some(prediction.events.first)
 }
 
@@ -273,6 +290,7 @@ fn first_but(
 pub(crate) fn cross_cell(timeline: &mut Timeline, context: &mut StepContext, slot: u32, now: f64) {
     context.counts.predictions += 1;
     let state = timeline.flights.state_of(slot, now);
+    let shift = timeline.neighbours.shift_from_box(slot);
     let search = &mut context.searches[0];
     timeline.cross_cell(slot, state.into(), &mut search.near);
     if timeline.neighbours.has_left_sheared_box(slot) {
@@ -285,7 +303,10 @@ pub(crate) fn cross_cell(timeline: &mut Timeline, context: &mut StepContext, slo
     let found = search.first_meetings(timeline, slot);
     events.add(found.first);
     events.add(found.second);
-    let prediction = prediction_after(timeline, context.system, slot, events, &[], now);
+    // Those with surfaces that move are known for the whole frame, beside this image.
+    let only_at_rest = timeline.neighbours.shift_from_box(slot) == shift;
+    let sought = Sought { now, passed: &[], only_at_rest };
+    let prediction = prediction_after(timeline, context.system, slot, events, sought);
     timeline.enter(slot, prediction);
 }
 
@@ -295,22 +316,31 @@ fn meet_surfaces(
     system: &System,
     slot: u32,
     (body, species): (&Body, &Species),
-    passed: &[Bodies],
+    Sought { now, passed, only_at_rest }: Sought,
     events: &mut NextEvents,
 ) {
     let sphere = timeline.flights.index_of[slot as usize];
     let flight_end = timeline.flight_end(slot, species);
     let horizon = if species.is_curved { flight_end } else { timeline.horizon() };
-    let reach = (flight_end < f64::INFINITY).then(|| timeline.flights.reach_of(slot, flight_end));
     if timeline.flights.growth.is_some() {
         return meet_surfaces_growing(timeline, system, slot, events);
     }
     let center = body.position;
     let planes = planes_that_hold(timeline, system, slot);
+    let is_soon = comes_soon(events.first.time - body.time, (body, species));
+    let mut is_second_known = true;
+    let (mut reach, mut reach_until) = (None, f64::INFINITY);
     for (number, shift) in timeline.surfaces_at_rest_near(slot) {
+        // What is met after two known events changes nothing.
+        let known = if is_soon { events.first.time } else { events.known_until() };
+        let until = flight_end.min(known).max(body.time);
+        if until < reach_until && !(species.is_curved && reach.is_some()) {
+            (reach, reach_until) = (Some(timeline.flights.reach_of(slot, until)), until);
+        }
         let (form, motion) = system.surfaces[number as usize].place();
         let is_missed = |reach: Reach| reach.misses(form, shift);
         if reach.is_some_and(is_missed) {
+            is_second_known &= !is_soon;
             continue;
         }
         let is_passed = passed.contains(&Bodies::Surface { sphere, surface: number });
@@ -328,9 +358,20 @@ fn meet_surfaces(
             events.add(Event::at(body.time + delay, PackedTarget::surface(number)));
         }
     }
-    if !timeline.moving_surfaces.is_empty() {
-        moving::meet_near((timeline, system), slot, passed, events);
+    if !is_second_known {
+        *events = NextEvents::only(events.first);
     }
+    if !timeline.moving_surfaces.is_empty() && !only_at_rest {
+        moving::meet_near((timeline, system), (slot, now), passed, events);
+    }
+}
+
+/// Whether a sphere hardly moves up to an event after a `delay` \[s\]: hardly anything comes between, and what follows
+/// is found after it.
+fn comes_soon(delay: f64, (body, species): (&Body, &Species)) -> bool {
+    let acceleration = species.acceleration.norm() + species.drag_rate * body.velocity.norm();
+    let way = delay * (body.velocity.norm() + 0.5 * delay * acceleration);
+    !species.is_curved && way < SOON * species.radius
 }
 
 /// Adds the surfaces near it that a sphere meets as it grows to its next events.

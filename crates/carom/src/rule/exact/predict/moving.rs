@@ -96,10 +96,11 @@ fn movers<'a>(timeline: &Timeline, system: &System<'a>) -> Vec<Mover<'a>> {
     system.moving_after(0.0, &LastCarriage::default()).enumerate().map(mover).collect()
 }
 
-/// Working memory: surfaces near a sphere, and where their collider was last.
+/// Working memory: surfaces near a sphere, those near a part of its way, and where their collider was last.
 #[derive(Default)]
 struct Memory {
     near: Vec<u32>,
+    near_part: Vec<u32>,
     last: LastCarriage,
 }
 
@@ -173,15 +174,16 @@ fn clear_for_long(timeline: &Timeline, slot: u32) -> Option<f64> {
     timeline.moving_regions.are_missed_for_long(&path).then_some(until)
 }
 
-/// Adds the meetings of a sphere with the surfaces that move, within the frame and its flight, to its next events;
-/// those that it passes over do not count.
+/// Adds the meetings of a sphere with the surfaces that move, from `now` \[s\] on within the frame and its flight, to its
+/// next events; those that it passes over do not count.
 pub(crate) fn meet_near(
     (timeline, system): (&Timeline, &System),
-    slot: u32,
+    (slot, now): (u32, f64),
     passed: &[Bodies],
     events: &mut NextEvents,
 ) {
-    if let Some(way) = Way::of(timeline, slot).filter(|way| way.meets_any(timeline)) {
+    let way = Way::of(timeline, slot).map(|way| Way { from: way.from.max(now), ..way });
+    if let Some(way) = way.filter(|way| way.meets_any(timeline)) {
         let (movers, memory) = (movers(timeline, system), &mut Memory::default());
         meet((timeline, system), (slot, &way), &movers, passed, (events, memory));
     }
@@ -191,6 +193,8 @@ pub(crate) fn meet_near(
 struct Way {
     /// When it begins and ends, on the world's clock \[s\].
     times: [f64; 2],
+    /// From when on meetings are sought \[s\].
+    from: f64,
     bounds: PathBounds,
 }
 
@@ -217,7 +221,13 @@ impl Way {
         };
         let center = center - timeline.neighbours.shift_from_box(slot);
         let bounds = PathBounds { center, way, radius: species.radius };
-        Some(Self { times, bounds })
+        Some(Self { times, from: start, bounds })
+    }
+
+    /// From when on and until when meetings are sought: two events may be known before its end \[s\].
+    fn until_known(&self, events: &NextEvents) -> [f64; 2] {
+        let [_, until] = self.times;
+        [self.from, until.min(events.known_until()).max(self.from)]
     }
 
     /// Whether it may meet any collider that moves.
@@ -237,15 +247,16 @@ fn meet(
     (events, memory): (&mut NextEvents, &mut Memory),
 ) {
     let shift = timeline.neighbours.shift_from_box(slot);
-    let (reach, begun) = timeline.flights.reach_within(slot, way.times);
-    let (reach, since) = (reach.shifted(-shift), begun - timeline.frame[0]);
     let sphere = timeline.flights.index_of[slot as usize];
-    let Memory { near, last } = memory;
     for (number, mover) in movers.iter().enumerate() {
         if way.bounds.misses(&mover.region) {
             continue;
         }
+        let [start, until] = way.until_known(events);
+        let (reach, begun) = timeline.flights.reach_within(slot, [start, until]);
+        let (reach, since) = (reach.shifted(-shift), begun - timeline.frame[0]);
         let reach = reach.seen_from_moving(since, mover.tree.origin, &mover.moving);
+        let Memory { near, last, .. } = &mut *memory;
         near.clear();
         mover.tree.add_near(reach.center(), reach.farthest(), near);
         near.retain(|&it| {
@@ -255,11 +266,11 @@ fn meet(
                 && timeline.neighbours.meets_surface(slot, it)
                 && !timeline.flights.is_held_by(slot, it)
         });
-        if near.len() > MANY_SURFACES {
-            let in_parts = near_in_parts((timeline, system), (slot, way), number, &reach, last);
-            near.retain(|surface| in_parts.binary_search(surface).is_ok());
-        }
         near.sort_unstable();
+        if near.len() > MANY_SURFACES {
+            meet_in_parts((timeline, system), (slot, way), (number, &reach), (events, memory));
+            continue;
+        }
         for &surface in near.iter() {
             let time = meeting(timeline, system, (slot, surface), way.times, last);
             if let Some(time) = time {
@@ -269,33 +280,46 @@ fn meet(
     }
 }
 
-/// The surfaces of a mover, by its number, that the way of a sphere comes near, ascending: in each part of the way, in
-/// which surfaces and sphere move by about its radius. `whole` is the reach over all of the way.
-fn near_in_parts(
+/// Adds the meetings of a sphere on its way with those surfaces of a mover, by its number, that are near in memory:
+/// only with those that it comes near in a part of the way, in which surfaces and sphere move by about its radius, and
+/// only up to the part at whose start two events are known. `whole` is the reach over all of the way.
+fn meet_in_parts(
     (timeline, system): (&Timeline, &System),
     (slot, way): (u32, &Way),
-    number: usize,
-    whole: &Reach,
-    last: &LastCarriage,
-) -> Vec<u32> {
+    (number, whole): (usize, &Reach),
+    (events, memory): (&mut NextEvents, &mut Memory),
+) {
+    let Memory { near, near_part, last } = memory;
     let shift = timeline.neighbours.shift_from_box(slot);
     let parts = (whole.farthest() / way.bounds.radius).clamp(1.0, MOST_PARTS) as u32;
-    let [start, until] = way.times;
+    let [start, until] = way.until_known(events);
     let length = (until - start) / f64::from(parts);
-    let mut near = Vec::new();
     for part in 0..parts {
         let from = start + f64::from(part) * length;
+        if from > events.known_until() || near.is_empty() {
+            break;
+        }
         let since = from - timeline.frame[0];
         let Some(tree) = system.moving_after(since, last).nth(number) else { continue };
-        let [way, spin] = tree.farthest([since, length]);
-        let moving = MovingBounds { way, angle: spin * length, ..MovingBounds::UNKNOWN };
+        let [way_of_mover, spin] = tree.farthest([since, length]);
+        let angle = spin * length;
+        let moving = MovingBounds { way: way_of_mover, angle, ..MovingBounds::UNKNOWN };
         let reach = timeline.flights.reach_between(slot, [from, from + length]);
         let reach = reach.shifted(-shift).seen_from_moving(0.0, tree.origin, &moving);
-        tree.add_near(reach.center(), reach.farthest(), &mut near);
+        near_part.clear();
+        tree.add_near(reach.center(), reach.farthest(), near_part);
+        near_part.sort_unstable();
+        near.retain(|surface| {
+            let is_here = near_part.binary_search(surface).is_ok();
+            if is_here {
+                let time = meeting(timeline, system, (slot, *surface), way.times, last);
+                if let Some(time) = time {
+                    events.add(Event::at(time, PackedTarget::surface(*surface)));
+                }
+            }
+            !is_here
+        });
     }
-    near.sort_unstable();
-    near.dedup();
-    near
 }
 
 /// Returns when a sphere meets a surface that moves, between two times of the frame \[s\].
