@@ -93,13 +93,16 @@ fn impacts_of_one_ball_at_one_instant_are_refused() {
         assert!(sphere == ball && (found - time).abs() < 1e-15 * time, "{case}: {found} {time}");
         assert_eq!(tape.gradient(&[]).unwrap_err(), error);
     }
-    // One ball meets two or more that touch.
+    // Two balls meet one, or the ends of a row, from both sides.
     for case in 0..20 {
         let mut world = World::default();
         let speed = numbers.between(0.5, 2.0);
-        let flying = Sphere::new(vec(-3.0, 0.0, 0.0), 0.5).with_velocity(vec(speed, 0.0, 0.0));
-        world.add_sphere(flying).unwrap();
-        for number in 0..2 + case % 4 {
+        let row = f64::from(case % 4);
+        for (x, vx) in [(-3.0, speed), (3.0 + row, -speed)] {
+            let flying = Sphere::new(vec(x, 0.0, 0.0), 0.5).with_velocity(vec(vx, 0.0, 0.0));
+            world.add_sphere(flying).unwrap();
+        }
+        for number in 0..=case % 4 {
             world.add_sphere(Sphere::new(vec(f64::from(number), 0.0, 0.0), 0.5)).unwrap();
         }
         let mut tape = Tape::start(&world).unwrap();

@@ -45,11 +45,13 @@ pub(super) fn resolve(group: &Group, start: &[DVec3], projector: &mut Projector)
     for level in levels(&group.restitutions) {
         let part_of = |e: &f64| ((e - below) / (level - below)).clamp(0.0, 1.0);
         let parts: Vec<f64> = group.restitutions.iter().map(part_of).collect();
+        projector.begin_layer();
         let answer = reflect(group, &parts, start, projector);
         layers.push(Layer { weight: level - below, answer });
         below = level;
     }
     if below < 1.0 {
+        projector.begin_layer();
         let answer = plastic::answer(group, start, projector);
         layers.push(Layer { weight: 1.0 - below, answer });
     }
@@ -59,7 +61,7 @@ pub(super) fn resolve(group: &Group, start: &[DVec3], projector: &mut Projector)
 /// Values of e above zero, ascending, thinned out to the bound of layers; the largest is kept.
 ///
 /// Where values are left out, contacts between two levels give back a part in that layer.
-fn levels(restitutions: &[f64]) -> Vec<f64> {
+pub(crate) fn levels(restitutions: &[f64]) -> Vec<f64> {
     let mut levels: Vec<f64> = restitutions.iter().copied().filter(|e| *e > 0.0).collect();
     levels.sort_by(f64::total_cmp);
     levels.dedup();

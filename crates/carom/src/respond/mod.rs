@@ -26,14 +26,16 @@ pub(crate) use contact_force::contact_forces_within;
 pub use contact_force::{ContactForces, contact_forces};
 pub use cue::Strike;
 pub(crate) use friction::{FrictionContact, SpinningSphere, apply_friction};
+pub(crate) use generalized_reflection::levels;
 pub(crate) use group::rounding_of;
 pub(crate) use kick::kick;
 pub(crate) use least_change::least_change;
 pub use line_of_centres::line_of_centres;
 pub(crate) use line_of_centres::reduced_mass;
+pub(crate) use project::Projection;
 pub use reflection::reflection;
 pub use resolve::resolve;
-pub(crate) use resolve::resolve_within;
+pub(crate) use resolve::{projections, resolve_within};
 pub use touching::{GroupResponse, TouchingContact};
 
 use glam::DVec3;

@@ -32,12 +32,47 @@ pub(super) struct Projector {
     impulses: Vec<f64>,
     /// The coarsest tolerance of rates that was used.
     resolution: f64,
+    /// The projections so far, where they are recorded.
+    record: Option<Record>,
+}
+
+/// Projections in the order in which they were made.
+#[derive(Debug, Clone, Default)]
+struct Record {
+    layers: usize,
+    projections: Vec<Projection>,
+}
+
+/// A projection of the motion of a group.
+#[derive(Debug, Clone)]
+pub(crate) struct Projection {
+    /// Number of the layer of restitution, from 0.
+    pub layer: usize,
+    /// One per contact \[N s\], up to a common factor.
+    pub impulses: Vec<f64>,
 }
 
 impl Projector {
     /// Impulses of the last projection, one per contact of the group.
     pub fn impulses(&self) -> &[f64] {
         &self.impulses
+    }
+
+    /// Returns a projector that records what it does.
+    pub fn recording() -> Self {
+        Self { record: Some(Record::default()), ..Self::default() }
+    }
+
+    /// Begins the next layer of restitution in the record.
+    pub fn begin_layer(&mut self) {
+        if let Some(record) = &mut self.record {
+            record.layers += 1;
+        }
+    }
+
+    /// Returns the projections that were recorded.
+    pub fn into_projections(self) -> Vec<Projection> {
+        self.record.map_or(Vec::new(), |record| record.projections)
     }
 
     /// The coarsest tolerance of rates that any projection used.
@@ -73,6 +108,10 @@ impl Projector {
             }
         }
         self.members = members;
+        if let Some(record) = &mut self.record {
+            let (layer, impulses) = (record.layers.saturating_sub(1), self.impulses.clone());
+            record.projections.push(Projection { layer, impulses });
+        }
         worst
     }
 

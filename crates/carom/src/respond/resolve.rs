@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::group::{Answer, Group, speed_scale, tolerance};
-use super::project::Projector;
+use super::project::{Projection, Projector};
 use super::touching::{GroupResponse, TouchingContact};
 use super::{generalized_reflection, order_free, sequential, simultaneous};
 use crate::settings::ImpactLaw;
@@ -70,6 +70,23 @@ pub(crate) fn resolve_within(
         cut_short: !complete,
         impulses,
     }
+}
+
+/// Returns the projections of which the law `Reflection` makes its answer; `None` if it has none of its own.
+pub(crate) fn projections(
+    contacts: &[TouchingContact],
+    masses: &[f64],
+    velocities: &[DVec3],
+) -> Option<Vec<Projection>> {
+    let surfaces = contacts.iter().filter(|contact| contact.first.is_none());
+    let speeds = velocities.iter().copied().chain(surfaces.map(|it| it.surface_velocity));
+    let unit = unit_of(speeds)?;
+    let work = Work::unlimited();
+    let group = Group::new(contacts, masses, unit, &work);
+    let start: Vec<DVec3> = velocities.iter().map(|velocity| *velocity / unit).collect();
+    let mut projector = Projector::recording();
+    let answer = answer(ImpactLaw::Reflection, &group, &start, &mut projector);
+    (answer.complete && contacts.len() > 1).then(|| projector.into_projections())
 }
 
 fn answer(law: ImpactLaw, group: &Group, start: &[DVec3], projector: &mut Projector) -> Answer {

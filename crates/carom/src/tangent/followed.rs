@@ -13,7 +13,7 @@ pub(super) struct Followed {
     pub ids: Vec<SphereId>,
     pub margin: Margin,
     /// Start of the derivatives on the world's clock \[s\].
-    began: f64,
+    pub began: f64,
     /// Time since the start of the derivatives \[s\].
     elapsed: f64,
     /// Time of the last impact of each sphere since the start of the derivatives \[s\]; minus infinity if it had
@@ -48,6 +48,9 @@ impl Followed {
                 Piece::Impact(it) => {
                     self.margin.look_at(it, self.began, &mut self.last_impacts);
                 }
+                Piece::Group(it) => {
+                    self.margin.look_at_group(it, self.began, &mut self.last_impacts);
+                }
                 Piece::Passage(it) => {
                     self.margin.look_at_directness(it.directness(), (it.id, self.began + it.time));
                 }
@@ -59,6 +62,11 @@ impl Followed {
         self.ids.clear();
         self.ids.extend(world.spheres().ids());
         Ok(pieces)
+    }
+
+    /// Ends the derivatives with an error.
+    pub fn lose(&mut self, error: DerivativeError) {
+        self.lost = Some(error);
     }
 
     /// Returns the error that an earlier step ended with, if any.

@@ -1,5 +1,6 @@
 //! Distance of a run from where derivatives end.
 
+use super::group::GroupSaltation;
 use super::saltation::Saltation;
 use crate::id::SphereId;
 
@@ -16,11 +17,23 @@ pub struct Margin {
     pub interval: f64,
     /// The sphere of these two impacts, and the time of the second on the world's clock \[s\].
     pub closest: Option<(SphereId, f64)>,
+    /// How near the impact law of a group of touching bodies was to taking other contacts: the smallest impulse or rate
+    /// of opening as a part of the largest. 1 if there was no group.
+    pub activity: f64,
+    /// One of the spheres of that group, and its time on the world's clock \[s\].
+    pub least_active: Option<(SphereId, f64)>,
 }
 
 impl Default for Margin {
     fn default() -> Self {
-        Self { directness: 1.0, most_grazing: None, interval: f64::INFINITY, closest: None }
+        Self {
+            directness: 1.0,
+            most_grazing: None,
+            interval: f64::INFINITY,
+            closest: None,
+            activity: 1.0,
+            least_active: None,
+        }
     }
 }
 
@@ -37,6 +50,29 @@ impl Margin {
                 self.closest = Some((sphere.id, began + time));
             }
             last_impacts[sphere.place] = time;
+        }
+    }
+
+    /// Adds the impact of a group, as [`Self::look_at`] does. Where bodies touch that nothing presses together, other changes
+    /// than those that keep them in touch make several impacts of one: the interval is 0.
+    pub(super) fn look_at_group(
+        &mut self,
+        group: &GroupSaltation,
+        began: f64,
+        last_impacts: &mut [f64],
+    ) {
+        let (time, at) = (group.time, (group.second, began + group.time));
+        self.look_at_directness(group.directness, at);
+        if group.margin < self.activity {
+            (self.activity, self.least_active) = (group.margin, Some(at));
+        }
+        for (&place, &id) in group.places.iter().zip(group.ids()) {
+            let interval = time - last_impacts[place];
+            let interval = if group.has_loose_touches { 0.0 } else { interval };
+            if interval < self.interval {
+                (self.interval, self.closest) = (interval, Some((id, began + time)));
+            }
+            last_impacts[place] = time;
         }
     }
 

@@ -13,6 +13,9 @@ mod dual;
 mod edge_passage;
 mod error;
 mod followed;
+mod group;
+mod groups;
+mod holding;
 mod input_rates;
 mod known;
 mod law;
@@ -48,7 +51,8 @@ use replay::Piece;
 ///
 /// Available for worlds under the rule `exact` whose spheres fly freely, on springs or under forces with
 /// [`Force::derivatives`](crate::Force::derivatives), or slide, roll and rest on single planes, and meet each other and
-/// surfaces one at a time, with or without friction. Anything without a derivative is an error. The formulas are in `docs/physics/derivatives.md`.
+/// surfaces one at a time, with or without friction. A ball may meet a group of bodies that touch, as in a cradle or a rack of
+/// billiards, along directions that keep these in touch. Anything without a derivative is an error. The formulas are in `docs/physics/derivatives.md`.
 ///
 /// ```
 /// use carom::{Collider, DVec3, Pose, Shape, Sphere, Tangents, Variation, World};
@@ -118,7 +122,10 @@ impl Tangents {
         let accelerations = self.accelerations.iter().map(Vec::as_slice);
         let directions = self.directions.iter().zip(accelerations);
         for (direction, spheres) in directions.zip(&mut self.spheres) {
-            pass(&pieces, direction, spheres);
+            if let Err(error) = pass(&pieces, direction, spheres, self.followed.began) {
+                self.followed.lose(error.clone());
+                return Err(error);
+            }
         }
         Ok(())
     }
@@ -197,12 +204,17 @@ impl Tangents {
     }
 }
 
-/// Applies the linear maps of a step to the derivatives in one direction.
+/// Applies the linear maps of a step to the derivatives in one direction. `began` is the start of the derivatives on the
+/// world's clock \[s\].
+///
+/// # Errors
+/// [`DerivativeError::Simultaneous`] where the direction parts bodies that touch.
 fn pass(
     pieces: &[Piece],
     (direction, accelerations): (&Variation, &[DVec3]),
     spheres: &mut [SphereTangent],
-) {
+    began: f64,
+) -> Result<(), DerivativeError> {
     for piece in pieces {
         match *piece {
             Piece::Flight { place, time, drag_rate } => {
@@ -214,8 +226,21 @@ fn pass(
             Piece::Tightening(ref thread) => thread.pass(direction, spheres),
             Piece::Passage(ref passage) => passage.pass(direction, spheres),
             Piece::Impact(ref saltation) => saltation.pass(direction, spheres),
+            Piece::Loose(ref contact) => {
+                if !contact.stays(direction, spheres) {
+                    let (sphere, time) = (contact.second.1, began + contact.time);
+                    return Err(DerivativeError::Simultaneous { sphere, time });
+                }
+            }
+            Piece::Group(ref group) => {
+                if !group.pass(direction, spheres) {
+                    let (sphere, time) = (group.second, began + group.time);
+                    return Err(DerivativeError::Simultaneous { sphere, time });
+                }
+            }
         }
     }
+    Ok(())
 }
 
 /// Returns an error if a direction changes something that is not in the world, or a quantity that its forces depend

@@ -9,6 +9,7 @@ use super::curved::CurvedFlight;
 use super::curves::Curves;
 use super::edge_passage::{Passage, Side};
 use super::error::DerivativeError;
+use super::group::{GroupSaltation, LooseContact};
 use super::input_rates::InputChange;
 use super::saltation::{Colliding, First, Saltation};
 use super::start::{Flying, Held, ROUNDING, Start};
@@ -17,12 +18,11 @@ use super::tightening::Tightening;
 use super::touched::touched;
 use crate::detect::contact::Bodies;
 use crate::detect::instant::Instant;
-use crate::detect::sphere_surface;
 use crate::flight::Propagator;
 use crate::id::SphereId;
 use crate::report::{BodyPair, Impact};
 use crate::respond;
-use crate::rule::exact::{FlightLog, HeldMotion, NormalCurvature, SupportChange, curvature_of};
+use crate::rule::exact::{FlightLog, GroupImpact, HeldMotion, SupportChange};
 use crate::rule::periodic;
 use crate::system::System;
 use crate::world::World;
@@ -46,6 +46,8 @@ pub(super) enum Piece {
     Tightening(Box<Tightening>),
     Passage(Box<Passage>),
     Impact(Box<Saltation>),
+    Group(Box<GroupSaltation>),
+    Loose(Box<LooseContact>),
 }
 
 /// Reconstruction of a step from its report.
@@ -55,13 +57,15 @@ pub(super) struct Replay<'a> {
     /// Time from the start of the derivatives to the start of the step \[s\].
     pub elapsed: f64,
     /// Changes of persistent contact during the step, by index of the sphere.
-    changes: BTreeMap<usize, VecDeque<SupportChange>>,
+    pub changes: BTreeMap<usize, VecDeque<SupportChange>>,
     pub curves: Curves,
+    /// Impacts of groups that are still to come, in order of time.
+    pub groups: VecDeque<GroupImpact>,
     /// For each sphere on a curve, by index, the side of each edge of forces on which it flew last.
     pub sides: BTreeMap<usize, Vec<Side>>,
     pub pieces: Vec<Piece>,
     /// End of the step on the world's clock \[s\].
-    end: f64,
+    pub end: f64,
 }
 
 impl Start {
@@ -91,12 +95,17 @@ impl Start {
             elapsed,
             changes,
             curves,
+            groups: log.groups.into(),
             sides: BTreeMap::new(),
             pieces: Vec::new(),
             end,
         };
         for group in &report.groups {
             let impact = &report.impacts[group.first];
+            if let Some(it) = replay.group_of(report, group) {
+                replay.collide_group(&it, group.law)?;
+                continue;
+            }
             if group.count > 1 {
                 let time = replay.start.time + impact.time;
                 return Err(DerivativeError::Simultaneous { sphere: second_of(impact), time });
@@ -113,6 +122,7 @@ impl Start {
                 return Err(replay.lost(place));
             }
         }
+        replay.add_loose_contacts(world);
         Ok(replay.pieces)
     }
 }
@@ -125,7 +135,7 @@ impl Replay<'_> {
     }
 
     /// Advances a sphere through its changes of persistent contact before a time since the start of the step \[s\].
-    fn advance(&mut self, place: usize, time: f64) -> Result<(), DerivativeError> {
+    pub fn advance(&mut self, place: usize, time: f64) -> Result<(), DerivativeError> {
         while let Some(change) = self.next_change(place, |at| at < time) {
             let at = self.since_start(&change);
             let next = match change.held {
@@ -148,66 +158,9 @@ impl Replay<'_> {
         Ok(())
     }
 
-    /// Removes and returns the next change of a sphere's persistent contact if `at` accepts its time since the
-    /// start of the step \[s\]. Of several changes at one time it is the last.
-    fn next_change(&mut self, place: usize, at: impl Fn(f64) -> bool) -> Option<SupportChange> {
-        let times = [self.start.time, self.end];
-        let changes = self.changes.get_mut(&place)?;
-        let mut next = *changes.front().filter(|it| at(since(it, times)))?;
-        let time = since(&next, times);
-        while let Some(change) = changes.front().filter(|it| since(it, times) == time) {
-            next = *change;
-            changes.pop_front();
-        }
-        Some(next)
-    }
-
-    fn since_start(&self, change: &SupportChange) -> f64 {
-        since(change, [self.start.time, self.end])
-    }
-
-    /// Returns the plane that holds a sphere; `None` if something else holds it.
-    fn held(&self, place: usize, motion: &HeldMotion) -> Option<Held> {
-        let Some(Bodies::Surface { surface, .. }) = motion.contact else { return None };
-        if self.start.bodies[place].is_curved {
-            return None;
-        }
-        let it = &self.start.colliders.surfaces()[surface as usize];
-        if !it.motion.is_at_rest() || it.motion.belt != DVec3::ZERO {
-            return None;
-        }
-        let separation =
-            sphere_surface(&it.form, motion.position, self.system.spheres.radius[place])?;
-        let curvature = curvature_of(&it.form, [motion.position, motion.velocity], &separation);
-        (curvature == NormalCurvature::Flat).then_some(Held {
-            surface,
-            collider: it.collider,
-            normal: separation.normal,
-            acceleration: motion.acceleration,
-            angular_acceleration: motion.angular_acceleration,
-        })
-    }
-
-    /// Sets the motion of a sphere that a plane supports from now on.
-    fn hold(
-        &mut self,
-        place: usize,
-        motion: &HeldMotion,
-        held: Held,
-    ) -> Result<(), DerivativeError> {
-        let period = self.system.settings.boundary.period();
-        let body = &mut self.start.bodies[place];
-        let off = periodic::wrapped(motion.position - body.position, period);
-        body.position += off;
-        body.velocity = motion.velocity;
-        body.angular_velocity = motion.angular_velocity;
-        body.held = Some(held);
-        if off.length() > body.tolerance { Err(self.lost(place)) } else { Ok(()) }
-    }
-
     /// Advances a sphere to a time since the start of the step \[s\]. `next` is its persistent contact from then
     /// on, if it changes.
-    fn fly(
+    pub fn fly(
         &mut self,
         place: usize,
         time: f64,
@@ -269,7 +222,9 @@ impl Replay<'_> {
         if over > 0.0 {
             let flight = self.supported(place, held, over, next);
             let flight = flight.ok_or_else(|| self.lost(place))?;
-            if !flight.is_that(linear.acceleration, [velocity, angular_velocity]) {
+            if held.has_others && !flight.is_alone(linear.acceleration)
+                || !flight.is_that(linear.acceleration, [velocity, angular_velocity])
+            {
                 return Err(self.lost(place));
             }
             self.pieces.push(Piece::Supported(Box::new(flight)));
@@ -334,7 +289,7 @@ impl Replay<'_> {
     }
 
     /// Returns the accelerations of a sphere with these velocities, in free flight or on a plane.
-    fn rates_in(
+    pub fn rates_in(
         &self,
         place: usize,
         held: Option<(Held, [DVec3; 2])>,
@@ -385,18 +340,6 @@ impl Replay<'_> {
             }
         }
         Ok(())
-    }
-
-    /// Returns the persistent contact of a sphere after an impact at a time since the start of the step \[s\], if any.
-    fn held_after(
-        &mut self,
-        place: usize,
-        time: f64,
-    ) -> Result<Option<(HeldMotion, Held)>, DerivativeError> {
-        let motion = self.next_change(place, |at| at == time).and_then(|it| it.held);
-        let Some(motion) = motion else { return Ok(None) };
-        let held = self.held(place, &motion).ok_or_else(|| self.lost(place))?;
-        Ok(Some((motion, held)))
     }
 
     /// Returns the derivative of an impact, with the accelerations of its spheres before and after; `None` if the
@@ -475,11 +418,6 @@ impl Piece {
     pub fn propagator(time: f64, drag_rate: f64) -> Propagator {
         Propagator::over(time, drag_rate)
     }
-}
-
-/// Returns the time of a change since the start of a step that lasts from `start` to `end` \[s\].
-fn since(change: &SupportChange, [start, end]: [f64; 2]) -> f64 {
-    (change.time - start).clamp(0.0, end - start)
 }
 
 fn second_of(impact: &Impact) -> SphereId {

@@ -134,7 +134,7 @@ impl Colliding {
     }
 
     /// Returns the centre, motion, radius and mass of a sphere at an impact that comes `later` \[s\].
-    fn at_impact(
+    pub fn at_impact(
         &self,
         change: &SphereTangent,
         [radius, mass]: [f64; 2],

@@ -61,6 +61,8 @@ pub(super) struct Held {
     pub normal: DVec3,
     pub acceleration: DVec3,
     pub angular_acceleration: DVec3,
+    /// Whether the sphere, or one that it touches, has other contacts.
+    pub has_others: bool,
 }
 
 impl Start {

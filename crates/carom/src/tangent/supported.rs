@@ -194,6 +194,12 @@ impl SupportedFlight {
         }
     }
 
+    /// Returns whether an acceleration \[m/s²\] is that on the plane without other contacts.
+    pub fn is_alone(&self, acceleration: DVec3) -> bool {
+        let alone = self.rates().map(|it| it.linear.acceleration - acceleration);
+        alone.is_some_and(|it| it.length() <= MORE * self.linear.acceleration.length())
+    }
+
     /// Returns whether acceleration \[m/s²\] and final velocities agree with the flight of the world.
     pub fn is_that(&self, acceleration: DVec3, [velocity, angular_velocity]: [DVec3; 2]) -> bool {
         let end = self.end(&Change::default());

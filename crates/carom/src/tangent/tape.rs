@@ -93,10 +93,15 @@ impl Tape {
             // A later flight is not joined with one before the change.
             Piece::InputChange(change) => self.last_flights[change.place] = None,
             Piece::Curved(_) | Piece::Tightening(_) | Piece::Passage(_) => {}
+            // Directions are checked, gradients are of those that pass.
+            Piece::Loose(_) => return,
             Piece::Impact(saltation) => {
                 for sphere in saltation.spheres() {
                     self.last_flights[sphere.place] = None;
                 }
+            }
+            Piece::Group(group) => {
+                group.places.iter().for_each(|&place| self.last_flights[place] = None);
             }
         }
         self.pieces.push(piece);
@@ -104,6 +109,9 @@ impl Tape {
 
     /// Returns the gradient of a number with respect to the initial state. `derivatives` are those of the number
     /// with respect to the final motion of spheres; spheres that are missing there count as zero.
+    ///
+    /// Where a ball met bodies that touch without being pressed together, [`Margin::interval`] is 0 and the gradient is
+    /// the derivative along changes that keep them in touch; no other changes have one.
     ///
     /// # Errors
     /// [`DerivativeError::UnknownSphere`] if one of the spheres is not in the record; the error that ended the record.
@@ -132,6 +140,8 @@ impl Tape {
                 Piece::Tightening(ref thread) => thread.pass_back(&mut spheres, &mut gradient),
                 Piece::Passage(ref passage) => passage.pass_back(&mut spheres, &mut gradient),
                 Piece::Impact(ref saltation) => saltation.pass_back(&mut spheres, &mut gradient),
+                Piece::Loose(_) => {}
+                Piece::Group(ref group) => group.pass_back(&mut spheres, &mut gradient),
             }
         }
         for ((&id, by), acceleration) in self.followed.ids.iter().zip(&spheres).zip(accelerations) {
@@ -147,7 +157,10 @@ impl Tape {
 
     /// Returns the number of recorded impacts.
     pub fn impacts(&self) -> usize {
-        self.pieces.iter().filter(|piece| matches!(piece, Piece::Impact(_))).count()
+        self.pieces
+            .iter()
+            .filter(|piece| matches!(piece, Piece::Impact(_) | Piece::Group(_)))
+            .count()
     }
 
     /// Returns how near the run came to where derivatives end.

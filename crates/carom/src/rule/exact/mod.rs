@@ -38,7 +38,9 @@ mod zones;
 pub(crate) use answer::unfinished::Unfinished;
 pub(crate) use course::{Course, follow};
 pub(crate) use features::{NormalCurvature, curvature_of};
-pub(crate) use flights::{Arrival, FlightLog, HeldMotion, JointFlight, SupportChange};
+pub(crate) use flights::{
+    Arrival, FlightLog, GroupImpact, HeldMotion, JointFlight, StruckTouch, SupportChange,
+};
 pub(crate) use frame::{
     Arrivals, HoldError, adopt, begin, deflect, end, persistent_contacts, restart, start,
     tick_for_springs, work_written,

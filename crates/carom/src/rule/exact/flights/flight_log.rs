@@ -3,8 +3,10 @@
 use glam::DVec3;
 
 use super::support_change::SupportChange;
+use crate::detect::contact::Bodies;
 use crate::id::SphereId;
 use crate::polynomial_flight::PolynomialFlight;
+use crate::rule::exact::features::NormalCurvature;
 
 /// Persistent contacts and curved flights of spheres during a step.
 #[derive(Debug, Clone, Default)]
@@ -15,6 +17,46 @@ pub(crate) struct FlightLog {
     pub curves: Vec<JointFlight>,
     /// Spheres that were added within the step, in order of time.
     pub arrivals: Vec<Arrival>,
+    /// Impacts of groups of touching bodies, in order of time.
+    pub groups: Vec<GroupImpact>,
+}
+
+/// Impact of a group of touching bodies.
+#[derive(Debug, Clone)]
+pub(crate) struct GroupImpact {
+    /// On the world's clock \[s\].
+    pub time: f64,
+    pub members: Vec<StruckMember>,
+    pub touches: Vec<StruckTouch>,
+    /// Whether the impact law and friction alone answered it.
+    pub is_plain: bool,
+}
+
+/// A sphere in the impact of a group.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct StruckMember {
+    /// Index in the arrays of the world.
+    pub index: u32,
+    pub position: DVec3,
+    /// Velocity \[m/s\] and angular velocity \[rad/s\] before the impact, and after it.
+    pub before: [DVec3; 2],
+    pub after: [DVec3; 2],
+}
+
+/// Two touching bodies in the impact of a group.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct StruckTouch {
+    pub bodies: Bodies,
+    /// Places of the spheres among the members; the first body may be a surface.
+    pub first: Option<usize>,
+    pub second: usize,
+    /// Unit vector from body 1 to body 2.
+    pub normal: DVec3,
+    pub curvature: NormalCurvature,
+    /// Coefficient of restitution in this impact.
+    pub restitution: f64,
+    /// Impulse along the normal \[N s\].
+    pub impulse: f64,
 }
 
 /// A sphere that is added within a step, as it begins.

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::flight_log::{Arrival, FlightLog, JointFlight};
+use super::flight_log::{Arrival, FlightLog, GroupImpact, JointFlight};
 use super::state::Flights;
 use super::support_change::{HeldMotion, SupportChange};
 use crate::polynomial_flight::PolynomialFlight;
@@ -28,9 +28,10 @@ impl Flights {
     pub fn resume_log(&mut self, before: FlightLog, arrivals: Vec<Arrival>, now: f64) {
         self.begin_log(now);
         let log = self.log.get_or_insert_default();
-        let FlightLog { supports, curves, .. } = std::mem::replace(log, before);
+        let FlightLog { supports, curves, groups, .. } = std::mem::replace(log, before);
         log.supports.extend(supports);
         log.curves.extend(curves);
+        log.groups.extend(groups);
         log.arrivals.extend(arrivals);
     }
 
@@ -59,6 +60,13 @@ impl Flights {
         self.log.get_or_insert_default().curves.push(joint);
     }
 
+    /// Adds the impact of a group to the log, if there is one.
+    pub fn note_group(&mut self, group: impl FnOnce() -> GroupImpact) {
+        if let Some(log) = &mut self.log {
+            log.groups.push(group());
+        }
+    }
+
     /// Adds the present contact of a sphere to the log, if there is one.
     #[inline]
     pub(super) fn note_support(&mut self, slot: u32, now: f64, is_old: bool) {
@@ -82,10 +90,11 @@ impl Flights {
                 angular_velocity: self.angular_velocity_of(slot, now),
                 acceleration: species.acceleration,
                 angular_acceleration: rotation.map_or(DVec3::ZERO, |it| it.angular_acceleration()),
-                contact: match cluster.contacts[..] {
-                    [contact] => Some(contact),
-                    _ => None,
+                surfaces: {
+                    let mut surfaces = cluster.surfaces_of(index);
+                    [(); 3].map(|()| surfaces.next())
                 },
+                has_others: cluster.contacts.len() > 1,
                 is_old,
             }
         });

@@ -40,7 +40,9 @@ pub(super) use curve_contacts::{
     ContactSphere, CurveBody, CurveContact, CurveContacts, MOST_CONTACTS, Moving,
 };
 pub(super) use curves::{JointStep, StepLimits};
-pub(crate) use flight_log::{Arrival, FlightLog, JointFlight};
+pub(crate) use flight_log::{
+    Arrival, FlightLog, GroupImpact, JointFlight, StruckMember, StruckTouch,
+};
 pub(super) use growth::Growth;
 pub(super) use lanes::FlightLanes;
 pub(super) use moving_surface::MovingSurface;

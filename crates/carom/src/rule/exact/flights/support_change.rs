@@ -2,8 +2,6 @@
 
 use glam::DVec3;
 
-use crate::detect::contact::Bodies;
-
 /// Change of the persistent contacts of a sphere.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SupportChange {
@@ -24,8 +22,10 @@ pub(crate) struct HeldMotion {
     /// Acceleration by everything but drag \[m/s²\].
     pub acceleration: DVec3,
     pub angular_acceleration: DVec3,
-    /// The contact, if it is the only one.
-    pub contact: Option<Bodies>,
+    /// Surfaces that the sphere touches, the first ones.
+    pub surfaces: [Option<u32>; 3],
+    /// Whether these and other spheres that these touch have more than one contact.
+    pub has_others: bool,
     /// Whether it held before the step, too.
     pub is_old: bool,
 }

@@ -8,6 +8,7 @@ use glam::DVec3;
 use super::account::account_of;
 use super::follow_up;
 use super::friction::{self, FrictionImpulses};
+use super::group_log;
 use super::kick::{Kicks, is_same, kick_in_group};
 use crate::detect::contact::Bodies;
 use crate::norm::Norm;
@@ -95,6 +96,13 @@ pub(super) fn answer(
     let held: Vec<Bodies> =
         supports.iter().flat_map(|support| &support.contacts).copied().collect();
     begin_flights(timeline, &group, &struck, supports);
+    if !struck.is_empty() {
+        let has_kicks = answer.kicks.iter().any(|&kick| kick > 0.0);
+        let is_plain = merged.is_empty() && !answer.cut_short && !has_kicks;
+        let numbers = [&answer.restitutions[..], &answer.impulses];
+        let note = || group_log::impact_of(&group, &answer.before, numbers, is_plain);
+        timeline.flights.note_group(note);
+    }
     // All flights before any prediction.
     group.members.iter().for_each(|member| timeline.find_curve(context.system, member.slot));
     let slots = group.members.iter().map(|member| member.slot);
@@ -252,6 +260,10 @@ fn met(timeline: &Timeline, seeds: &[u32], surface: Option<u32>) -> Option<Bodie
 /// The effect of impacts on a group.
 #[derive(Default)]
 struct Answer {
+    /// The members before all impacts.
+    before: Vec<Member>,
+    /// One per touch: coefficient of restitution.
+    restitutions: Vec<f64>,
     /// One per touch: speed of approach before all impacts \[m/s\].
     approach_speeds: Vec<f64>,
     /// One per touch \[N s\].
@@ -291,7 +303,7 @@ fn respond_on_rings(
         contacts::add_sides(context, group, &closing);
         answer = respond_to_impacts(timeline, context, group, merged);
     }
-    answer
+    Answer { before, ..answer }
 }
 
 /// Applies the impact law to every closing contact. If one of the `merged` contacts still closes
@@ -362,7 +374,10 @@ fn respond_to_impacts(
     let account = account_of([&before, &velocities_of(group)], &masses);
     let kick_work = kicks.work;
     let account = friction.add_to(ImpactGroup { energy_demanded, kick_work, ..account });
-    Answer { approach_speeds, impulses, friction, kicks: kicks.speeds, account, cut_short }
+    let restitutions = contacts.iter().map(|contact| contact.restitution).collect();
+    let kicks = kicks.speeds;
+    let before = Vec::new();
+    Answer { before, restitutions, approach_speeds, impulses, friction, kicks, account, cut_short }
 }
 
 fn velocities_of(group: &Group) -> Vec<DVec3> {

@@ -4,6 +4,7 @@ mod account;
 mod follow_up;
 mod friction;
 mod group;
+mod group_log;
 mod growing;
 mod kick;
 mod meeting;
