@@ -144,7 +144,7 @@ fn derivatives_along_curves_agree_with_differences_and_with_the_gradient() {
 fn derivatives_of_a_thousand_worlds_along_curves_agree_with_differences() {
     let (compared, impacts) = compare(0..1000);
     println!("{compared:?} worlds, {impacts} impacts");
-    assert!(compared.iter().all(|&it| it > 10), "{compared:?} {impacts}");
+    assert!(compared == [125; 8] && impacts > 1000, "{compared:?} {impacts}");
 }
 
 #[test]

@@ -313,7 +313,7 @@ impl SupportedFlight {
             _ => (false, given),
         };
         let [way, velocity, turning] = match self.mode {
-            Mode::Gliding => self.glided(&sphere),
+            Mode::Gliding => self.glided(&sphere, time.change),
             Mode::Sliding => self.slid(&sphere, time, dry),
             Mode::Rolling => self.rolled(&sphere, time, dry),
             Mode::Resting => [vector(DVec3::ZERO, DVec3::ZERO); 3],
@@ -388,13 +388,17 @@ impl SupportedFlight {
         pushed(motion, loss * sphere.parting)
     }
 
-    /// Returns displacement, velocity and angular velocity across the normal after a motion without friction.
-    fn glided(&self, sphere: &Pressed) -> [Vector<Dual>; 3] {
+    /// Returns displacement, velocity and angular velocity across the normal after a motion without friction that ends
+    /// later by this \[s\].
+    fn glided(&self, sphere: &Pressed, later: f64) -> [Vector<Dual>; 3] {
         let over = Propagator::over(self.time, self.linear.drag_rate);
         let [decay, drift, fall] = [over.decay, over.drift, over.fall].map(Dual::constant);
         let Pressed { velocity, pull, .. } = *sphere;
-        let way = velocity * drift + pull * fall;
-        [way, velocity * decay + pull * drift, self.turning(sphere)]
+        let later = Dual::new(0.0, later);
+        let faster = velocity * decay + pull * drift;
+        let gained = pull - faster * Dual::constant(self.linear.drag_rate);
+        let way = velocity * drift + pull * fall + faster * later;
+        [way, faster + gained * later, self.turning(sphere)]
     }
 
     /// Returns displacement, velocity and angular velocity after sliding: `v' = (1 - h) p + h s'` with the slip s,

@@ -169,7 +169,7 @@ pub fn off_differences(
     balls: &[SphereId],
     end: impl Fn(f64) -> World,
 ) -> [f64; 2] {
-    let steps = [4e-3, 1.6e-3, 6e-4, 2.4e-4, 1e-4, 4e-5];
+    let steps = [4e-3, 1.6e-3, 6e-4, 2.4e-4, 1e-4, 4e-5, 1.6e-5, 6e-6, 2.4e-6, 1e-6];
     let found: Vec<SphereTangent> =
         balls.iter().map(|&ball| tangents.sphere(0, ball).unwrap()).collect();
     let mut before = differences(balls, steps[0], &end);
