@@ -42,7 +42,7 @@ fn shot(number: u64) -> (World, Vec<SphereId>, Variation) {
         let ball = Sphere::new(vec(x, RADIUS, z), RADIUS).with_restitution(0.97);
         ball.with_mass(0.17).with_friction(friction)
     };
-    let (angle, speed) = (numbers.between(-0.2, 0.2), numbers.between(1.0, 5.0));
+    let (angle, speed) = (numbers.between(-0.04, 0.04), numbers.between(2.0, 5.0));
     let velocity = speed * vec(libm::cos(angle), 0.0, libm::sin(angle));
     let rolling = vec(velocity.z, 0.0, -velocity.x) / RADIUS;
     let spin = numbers.between(0.0, 1.5) * rolling + vec(0.0, numbers.between(-20.0, 20.0), 0.0);
@@ -65,16 +65,22 @@ fn shot(number: u64) -> (World, Vec<SphereId>, Variation) {
 
 #[test]
 fn shots_on_tables_have_the_derivatives_of_differences() {
-    let mut impacts = 0;
+    let (mut impacts, mut breaks) = (0, 0);
     for number in 0..24 {
         let (world, balls, direction) = shot(number);
         let Followed { tangents, tape, .. } = follow(&world, &direction, 12);
         impacts += tape.impacts();
-        // Bounces after rough impacts end up to a contact duration early: 5e-8 in 60 such shots.
+        // Only the balls of a rack could part before they are struck: cloth and cushion have one order.
+        let is_at_once = tangents.margin().interval == 0.0;
+        assert!(balls.len() > 2 || !is_at_once, "{number}");
+        breaks += u32::from(is_at_once);
+        // Rounding over the step. Rough impacts make balls hop, and the world ends their bounces up to a contact
+        // duration early, which later impacts make larger.
+        let part = if number.is_multiple_of(3) { 2e-5 } else { 1e-7 };
         let end = |by| after(varied(&world, &direction, by, None), 12);
-        assert_agree_with_differences(&tangents, &balls, [1e-6, 1e-6], end);
+        assert_agree_with_differences(&tangents, &balls, [1e-6, part], end);
     }
-    assert!(impacts > 500, "{impacts}");
+    assert!(impacts > 500 && breaks > 3, "{impacts} {breaks}");
 }
 
 #[test]

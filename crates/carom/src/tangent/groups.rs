@@ -164,6 +164,12 @@ impl Replay<'_> {
                     }))
                 }
             };
+            let is_pressed = self.is_pressed(group, it);
+            let pushes = |other: &StruckTouch| {
+                let has = other.first == Some(it.second) || other.second == it.second;
+                let is_across = other.normal.dot(it.normal).abs() <= ACROSS;
+                other.bodies != it.bodies && has && !is_across
+            };
             contacts.push(Contact {
                 first: it.first,
                 second: it.second,
@@ -174,24 +180,20 @@ impl Replay<'_> {
                 law: respond::restitution_of(it.bodies, &self.system),
                 sliding: sliding_of(&self.system, it.bodies),
                 friction: respond::friction_of(it.bodies, &self.system),
-                is_held: self.is_held(group, it),
+                is_pressed,
+                is_held: is_pressed && !group.touches.iter().any(pushes),
             });
         }
         Some((contacts, colliders))
     }
 
-    /// Returns whether a plane bears a sphere, and no other contact of the sphere pushes it onto the plane or off it.
-    fn is_held(&self, group: &GroupImpact, touch: &StruckTouch) -> bool {
+    /// Returns whether forces press a sphere onto a plane.
+    fn is_pressed(&self, group: &GroupImpact, touch: &StruckTouch) -> bool {
         let Bodies::Surface { surface, .. } = touch.bodies else { return false };
         let held = self.start.bodies[group.members[touch.second].index as usize].held;
         let collider = self.start.colliders.surfaces()[surface as usize].collider;
         let is_plane = |it: Held| it.collider == collider && it.normal.dot(touch.normal) > 0.5;
-        let pushes = |other: &StruckTouch| {
-            let is_other = other.bodies != touch.bodies;
-            let has = other.first == Some(touch.second) || other.second == touch.second;
-            is_other && has && other.normal.dot(touch.normal).abs() > ACROSS
-        };
-        held.is_some_and(is_plane) && !group.touches.iter().any(pushes)
+        held.is_some_and(is_plane)
     }
 
     /// Sets the restitutions, as the impact took them.

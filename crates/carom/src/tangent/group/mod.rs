@@ -94,7 +94,8 @@ impl GroupSaltation {
         kinks.dedup();
         let meeting = &model.contacts[model.meeting];
         let relative = model.relative_velocity(meeting);
-        let is_loose = |number: usize| number != model.meeting && !model.contacts[number].is_held;
+        let is_loose =
+            |number: usize| number != model.meeting && !model.contacts[number].is_pressed;
         (!is_ambiguous).then(|| Self {
             places: model.members.iter().map(|it| it.place).collect(),
             ids: model.members.iter().map(|it| it.id).collect(),

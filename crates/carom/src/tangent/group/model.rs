@@ -40,7 +40,9 @@ pub(in crate::tangent) struct Contact {
     pub law: ContactRestitution,
     pub sliding: Combined,
     pub friction: ContactFriction,
-    /// Whether forces press the bodies together, and no other contact of body 2 pushes them.
+    /// Whether forces press the sphere onto a plane.
+    pub is_pressed: bool,
+    /// Whether they do, and no other contact of the sphere pushes it onto the plane or off it.
     pub is_held: bool,
 }
 
