@@ -113,8 +113,10 @@ class Tape(Followed):
 
     Derivatives are known of worlds under the rule ``exact`` whose spheres fly freely or on springs,
     under the forces of this package, or slide, roll and rest on single planes, and meet each other
-    and surfaces one at a time, with or without friction. What has no derivative is an error, never
-    a guess: two impacts of one sphere at one instant, or contacts with several bodies.
+    and surfaces one at a time, with or without friction. A ball may meet several that touch, as in
+    a cradle or a rack: the gradient is then that along changes that keep these in touch, and the
+    interval of the margin is 0. What has no derivative is an error, never a guess: several bodies
+    that meet at one instant, or spheres pressed against several bodies.
 
     >>> import carom
     >>> world = carom.World()
