@@ -46,6 +46,9 @@ use followed::Followed;
 use input_rates::InputRates;
 use replay::Piece;
 
+/// What is refused of rotations.
+const TURNED: &str = "rotations of colliders that move, bear spheres, or are met by groups";
+
 /// Derivatives in some directions, advanced together with a world: the change of the motion of each sphere when the
 /// initial state changes in a direction.
 ///
@@ -220,7 +223,12 @@ fn pass(
             Piece::Flight { place, time, drag_rate } => {
                 spheres[place].fly(Piece::propagator(time, drag_rate), accelerations[place]);
             }
-            Piece::Supported(ref flight) => flight.pass(direction, spheres),
+            Piece::Supported(ref flight) => {
+                if direction.collider(flight.collider).rotation != DVec3::ZERO {
+                    return Err(DerivativeError::Unsupported(TURNED));
+                }
+                flight.pass(direction, spheres);
+            }
             Piece::InputChange(ref change) => change.pass(direction, spheres),
             Piece::Curved(ref flight) => flight.pass((direction, accelerations), spheres),
             Piece::Tightening(ref thread) => thread.pass(direction, spheres),
@@ -233,6 +241,9 @@ fn pass(
                 }
             }
             Piece::Group(ref group) => {
+                if group.turns(direction) {
+                    return Err(DerivativeError::Unsupported(TURNED));
+                }
                 if !group.pass(direction, spheres) {
                     let (sphere, time) = (group.second, began + group.time);
                     return Err(DerivativeError::Simultaneous { sphere, time });
@@ -259,7 +270,16 @@ fn check(world: &World, followed: &Followed, direction: &Variation) -> Result<()
         }
     }
     let is_known = |id| world.collider(id).map_err(|_| DerivativeError::UnknownCollider(id));
-    direction.colliders().try_for_each(|(id, _)| is_known(id).map(|_| ()))?;
+    for (id, change) in direction.colliders() {
+        let collider = is_known(id)?;
+        let moves = collider.velocity != DVec3::ZERO
+            || collider.angular_velocity != DVec3::ZERO
+            || collider.surface_velocity != DVec3::ZERO
+            || !collider.motion.is_empty();
+        if moves && change.rotation != DVec3::ZERO {
+            return Err(DerivativeError::Unsupported(TURNED));
+        }
+    }
     let is_there = |id| world.spring(id).map_err(|_| DerivativeError::UnknownSpring(id));
     direction.springs().try_for_each(|(id, _)| is_there(id).map(|_| ()))
 }

@@ -96,6 +96,8 @@ pub(super) struct TouchedSurface {
     pub angular_acceleration: DVec3,
     /// Velocity of the material relative to the place of the surface \[m/s\].
     pub belt: DVec3,
+    /// Position of the collider, if it is at rest \[m\].
+    pub pivot: Option<DVec3>,
     pub curvature: NormalCurvature,
 }
 
@@ -109,6 +111,7 @@ pub(super) struct Change {
     pub sliding: f64,
     pub surface_position: DVec3,
     pub surface_velocity: DVec3,
+    pub surface_rotation: DVec3,
 }
 
 /// Two bodies after an impact.
@@ -185,17 +188,24 @@ impl TouchedSurface {
         self.velocity + self.angular_velocity.cross(point - self.origin)
     }
 
+    /// Returns the displacement of a point of the surface if the collider turns by an angle \[rad\].
+    fn turned(&self, rotation: DVec3, point: DVec3) -> DVec3 {
+        self.pivot.map_or(DVec3::ZERO, |pivot| rotation.cross(point - pivot))
+    }
+
     /// Returns the normal at the contact with a sphere whose centre has moved by this \[m\], if the surface is
-    /// shifted \[m\] and the impact comes later by this \[s\].
+    /// shifted \[m\], turned \[rad\], and the impact comes later by this \[s\].
     fn normal(
         &self,
         (normal, centre): (DVec3, DVec3),
         moved: DVec3,
         (shift, later): (DVec3, f64),
+        rotation: DVec3,
     ) -> Vector<Dual> {
+        let shift = shift + self.turned(rotation, centre);
         let along = moved - shift - later * self.velocity_at(centre);
         let across = along - along.dot(normal) * normal;
-        let turned = later * self.angular_velocity.cross(normal);
+        let turned = (later * self.angular_velocity + rotation).cross(normal);
         vector(normal, self.curvature.rate(across) + turned)
     }
 }
@@ -312,6 +322,7 @@ impl Saltation {
                 let surface = direction.collider(surface.collider);
                 change.surface_position = surface.position + self.time * surface.velocity;
                 change.surface_velocity = surface.velocity;
+                change.surface_rotation = surface.rotation;
                 (surface.restitution, surface.friction)
             }
         };
@@ -340,7 +351,10 @@ impl Saltation {
             First::Sphere(_) => {
                 (second.position - first.position).dot(self.normal) - change.radii[0]
             }
-            First::Surface(_) => (second.position - change.surface_position).dot(self.normal),
+            First::Surface(surface) => {
+                let turned = surface.turned(change.surface_rotation, self.point());
+                (second.position - change.surface_position - turned).dot(self.normal)
+            }
         };
         let closing = self.relative_velocity().dot(self.normal);
         -(opened - change.radii[1]) / closing
@@ -361,7 +375,8 @@ impl Saltation {
             First::Surface(surface) => {
                 let shift = (change.surface_position, later);
                 let at = (self.normal, self.second.position);
-                let normal = surface.normal(at, place.change(), shift);
+                let rotation = change.surface_rotation;
+                let normal = surface.normal(at, place.change(), shift, rotation);
                 let origin_moved = change.surface_position + later * surface.velocity;
                 let arm = place - normal * second.radius - vector(surface.origin, origin_moved);
                 let faster = (change.surface_velocity, later);

@@ -15,6 +15,8 @@ struct Inputs {
     sliding: f64,
     /// Derivatives by the position and the velocity of body 1 if it is a surface.
     surface: [DVec3; 2],
+    /// Derivatives by the rotation of the surface; NaN if these are not known.
+    rotation: DVec3,
 }
 
 impl Saltation {
@@ -73,6 +75,7 @@ impl Saltation {
             restitution: by(&Change { restitution: 1.0, ..Change::default() }),
             sliding: 0.0,
             surface: [DVec3::ZERO; 2],
+            rotation: DVec3::NAN,
         };
         if is_rough {
             inputs.sliding = by(&Change { sliding: 1.0, ..Change::default() });
@@ -91,7 +94,14 @@ impl Saltation {
                 let mass = by(&Change { masses: [0.0, 1.0], ..Change::default() });
                 inputs.masses = [-self.second.mass / first.mass * mass, mass];
             }
-            First::Surface(_) => inputs.surface = [place, velocity],
+            First::Surface(surface) => {
+                inputs.surface = [place, velocity];
+                let by_rotation =
+                    |surface_rotation| by(&Change { surface_rotation, ..Change::default() });
+                if surface.pivot.is_some() {
+                    inputs.rotation = DVec3::from_array(DVec3::AXES.map(by_rotation));
+                }
+            }
         }
         inputs
     }
@@ -115,6 +125,7 @@ impl Saltation {
                 let collider = gradient.collider_mut(surface.collider);
                 collider.position += place;
                 collider.velocity += velocity + self.time * place;
+                collider.rotation += inputs.rotation;
                 collider.restitution += restitution[0];
                 collider.friction += friction[0];
             }

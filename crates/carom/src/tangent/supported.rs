@@ -268,6 +268,7 @@ impl SupportedFlight {
         let by_velocity = along(&|surface_velocity| Change { surface_velocity, ..nothing });
         let collider = gradient.collider_mut(self.collider);
         collider.position += by_place;
+        collider.rotation = DVec3::NAN;
         collider.velocity += by_velocity + self.began * by_place;
         collider.friction += self.sliding.by_bodies[0] * by_sliding;
         let mut before = SphereTangent::default();

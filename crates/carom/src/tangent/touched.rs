@@ -37,6 +37,8 @@ pub(super) fn touched(
     let [acceleration, angular_acceleration] = motion
         .drive
         .map_or([DVec3::ZERO; 2], |drive| [drive.acceleration, drive.angular_acceleration]);
+    let is_still = motion.is_at_rest() && motion.belt == DVec3::ZERO;
+    let pose = colliders.list().get(collider.0).filter(|_| is_still).map(|it| it.pose.position);
     let touched = TouchedSurface {
         collider,
         origin: motion.origin,
@@ -45,6 +47,7 @@ pub(super) fn touched(
         acceleration,
         angular_acceleration,
         belt: motion.belt,
+        pivot: pose,
         curvature,
     };
     Some((number as u32, touched))

@@ -59,6 +59,9 @@ pub struct ColliderVariation {
     pub position: DVec3,
     /// Change of the velocity \[m/s\].
     pub velocity: DVec3,
+    /// Change of the rotation about the position: an angle along its axis \[rad\]. A gradient has it for colliders at
+    /// rest that meet one sphere at a time; else it is NaN.
+    pub rotation: DVec3,
     /// Change of the coefficient of restitution.
     pub restitution: f64,
     /// Change of the coefficient of sliding friction.
@@ -190,6 +193,7 @@ impl ColliderVariation {
     fn dot(&self, other: &Self) -> f64 {
         self.position.dot(other.position)
             + self.velocity.dot(other.velocity)
+            + if other.rotation == DVec3::ZERO { 0.0 } else { self.rotation.dot(other.rotation) }
             + self.restitution * other.restitution
             + self.friction * other.friction
     }

@@ -1,7 +1,8 @@
 //! Derivatives of runs against themselves and against differences of runs.
 
 use carom::{
-    DVec3, ForceId, Gravity, Sphere, SphereId, SphereTangent, Tangents, Tape, Variation, World,
+    DQuat, DVec3, ForceId, Gravity, Sphere, SphereId, SphereTangent, Tangents, Tape, Variation,
+    World,
 };
 
 use super::Numbers;
@@ -39,6 +40,8 @@ pub fn varied(
     for (id, change) in direction.colliders() {
         let mut collider = world.collider(id).unwrap();
         collider.pose.position += by * change.position;
+        let turned = DQuat::from_scaled_axis(by * change.rotation);
+        collider.pose.rotation = (turned * collider.pose.rotation).normalize();
         collider.velocity += by * change.velocity;
         collider.restitution += by * change.restitution;
         collider.friction.sliding = collider.friction.sliding.map(|it| it + by * change.friction);

@@ -116,6 +116,11 @@ impl GroupSaltation {
         &self.ids
     }
 
+    /// Returns whether a direction turns a collider of the group, of which derivatives are not known.
+    pub fn turns(&self, direction: &Variation) -> bool {
+        self.colliders.iter().any(|&id| direction.collider(id).rotation != DVec3::ZERO)
+    }
+
     /// Applies the derivative to the derivatives of the spheres in one direction. Returns whether the direction keeps
     /// bodies in touch that touch.
     pub fn pass(&self, direction: &Variation, spheres: &mut [SphereTangent]) -> bool {
@@ -155,6 +160,7 @@ impl GroupSaltation {
         }
         for (&id, by) in self.colliders.iter().zip(of_colliders.chunks(OF_COLLIDER)) {
             let collider = gradient.collider_mut(id);
+            collider.rotation = DVec3::NAN;
             for (number, &by) in by.iter().enumerate() {
                 *collider_number(collider, number) += by;
                 if number < 3 {
