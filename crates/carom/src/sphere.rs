@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use glam::{DQuat, DVec3};
 
 use crate::error::InvalidValue;
+use crate::forces::SphereState;
 use crate::friction::Friction;
 use crate::groups::Groups;
 use crate::id::SphereId;
@@ -183,6 +184,16 @@ impl Sphere {
         match self.mass {
             Mass::Kilograms(kilograms) => kilograms,
             Mass::Density(density) => density * volume(self.radius),
+        }
+    }
+
+    /// The state on which forces depend.
+    pub(crate) fn state(&self) -> SphereState {
+        SphereState {
+            position: self.position,
+            velocity: self.velocity,
+            radius: self.radius,
+            mass: self.kilograms(),
         }
     }
 

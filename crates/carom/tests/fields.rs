@@ -9,8 +9,9 @@ mod common;
 use std::f64::consts::{PI, TAU};
 
 use carom::{
-    Buoyancy, Collider, DQuat, DVec3, Exact, Force, ForceId, Gravity, Integrator, PointAttractor,
-    Pose, QuadraticDrag, Rule, Shape, Sphere, SphereState, Vortex, Wind, World,
+    Buoyancy, Collider, Contact, DQuat, DVec3, Discrete, Exact, Force, ForceId, Gravity,
+    Integrator, PointAttractor, Pose, QuadraticDrag, Rule, Shape, Sphere, SphereState, Vortex,
+    Wind, World,
 };
 use common::{G, Numbers, assert_close, vec, world, world_with};
 
@@ -185,6 +186,35 @@ fn a_kepler_ellipse_closes_to_the_order_of_each_scheme() {
     for (world, order) in schemes() {
         let [coarse, fine] = [1000, 2000].map(|frames| orbit_error(world, frames));
         assert_close((coarse / fine).log2(), order, 0.15);
+    }
+}
+
+#[test]
+fn a_sphere_at_the_point_of_an_attractor_is_refused_unless_the_force_is_softened() {
+    let point = vec(0.1, -0.2, 0.3);
+    for rule in
+        [Rule::from(Exact::default()), Contact::default().into(), Discrete::default().into()]
+    {
+        for softening in [0.0, 0.2] {
+            let mut world = world(rule);
+            world.add_force(Gravity::new(vec(0.0, -G, 0.0))).unwrap();
+            world.add_force(PointAttractor::new(point, 3.0).with_softening(softening)).unwrap();
+            world.add_sphere(Sphere::new(DVec3::ZERO, 0.1)).unwrap();
+            let id = world.add_sphere(Sphere::new(point, 0.1)).unwrap();
+            let (checked, stepped) = (world.check_step(0.01), world.step(0.01).map(drop));
+            if softening > 0.0 {
+                checked.unwrap();
+                stepped.unwrap();
+                assert!(world.total_energy().is_finite());
+                continue;
+            }
+            let error = stepped.unwrap_err();
+            assert_eq!(checked.unwrap_err(), error);
+            assert!(error.to_string().starts_with("sphere 1: `position` must be where"), "{error}");
+            assert_eq!(world.time(), 0.0);
+            world.remove_sphere(id).unwrap();
+            world.step(0.01).unwrap();
+        }
     }
 }
 

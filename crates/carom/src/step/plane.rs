@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::collider::{Collider, Shape};
 use crate::emitter::EmitterState;
 use crate::error::{Error, InvalidValue, Subject};
-use crate::forces::{SphereState, Spring, SpringEnd};
+use crate::forces::{Spring, SpringEnd};
 use crate::id::{ColliderId, EmitterId, ForceId, SpringId};
 use crate::rotation;
 use crate::sphere::Sphere;
@@ -50,13 +50,7 @@ fn check_sphere(state: &State, sphere: &Sphere, subject: Subject) -> Result<(), 
         .and_then(|()| check_plane("velocity", sphere.velocity))
         .and_then(|()| check_spin("angular_velocity", sphere.angular_velocity));
     own.map_err(|invalid| invalid.about(subject))?;
-    let present = SphereState {
-        position: sphere.position,
-        velocity: sphere.velocity,
-        radius: sphere.radius,
-        mass: sphere.kilograms(),
-    };
-    let time = state.clock.seconds();
+    let (present, time) = (sphere.state(), state.clock.seconds());
     for (number, force) in state.forces.iter() {
         let on_sphere = force.on(&present, time);
         check_plane("force", on_sphere).map_err(|it| it.about(Subject::Force(ForceId(number))))?;
