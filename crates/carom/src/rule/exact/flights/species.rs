@@ -8,10 +8,13 @@ use super::contact_work::ContactWork;
 use crate::forces::{self, Spring};
 use crate::system::System;
 
-/// Radii within this factor share a level.
-const LEVEL_RATIO: f64 = 4.0;
-/// Smaller spheres than `LEVEL_RATIO` to the minus this share the last level.
-const MAX_LEVELS: usize = 24;
+/// Radii within this factor are one size class; a level holds one class or two.
+const CLASS_RATIO: f64 = 2.0;
+/// Smaller spheres than `CLASS_RATIO` to the minus this share the last class.
+const MAX_CLASSES: usize = 48;
+/// A class has a level of its own if there are so many more of the next smaller one: in cells of the larger ones, these
+/// would have too many neighbours.
+const MANY_SMALLER: usize = 20;
 
 /// Constants of the flight and of the impacts of equal spheres.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -134,16 +137,34 @@ fn coupled(system: &System) -> Vec<bool> {
 /// Level of each radius, from 0 for the largest, with no empty level between.
 fn levels_of(radii: &[f64]) -> Vec<u32> {
     let largest = radii.iter().copied().fold(0.0, f64::max);
-    let size_class = |radius: f64| {
+    let class_of = |radius: f64| {
         let mut class = 0;
-        let mut bound = largest / LEVEL_RATIO;
-        while radius <= bound && class + 1 < MAX_LEVELS {
-            (class, bound) = (class + 1, bound / LEVEL_RATIO);
+        let mut bound = largest / CLASS_RATIO;
+        while radius <= bound && class + 1 < MAX_CLASSES {
+            (class, bound) = (class + 1, bound / CLASS_RATIO);
         }
         class
     };
-    let mut in_use = [false; MAX_LEVELS];
-    radii.iter().for_each(|&radius| in_use[size_class(radius)] = true);
-    let level = |radius: f64| in_use[..size_class(radius)].iter().filter(|used| **used).count();
-    radii.iter().map(|&radius| level(radius) as u32).collect()
+    let mut counts = [0; MAX_CLASSES];
+    radii.iter().for_each(|&radius| counts[class_of(radius)] += 1);
+    let levels = levels_of_classes(&counts);
+    radii.iter().map(|&radius| levels[class_of(radius)]).collect()
+}
+
+/// Level of each size class, from the numbers of spheres in them.
+fn levels_of_classes(counts: &[usize; MAX_CLASSES]) -> [u32; MAX_CLASSES] {
+    let mut levels = [0; MAX_CLASSES];
+    let (mut class, mut level) = (0, 0);
+    while class < MAX_CLASSES {
+        let smaller = counts.get(class + 1).copied().unwrap_or_default();
+        let is_shared = smaller <= MANY_SMALLER * counts[class];
+        let end = (class + if is_shared { 2 } else { 1 }).min(MAX_CLASSES);
+        if counts[class] > 0 {
+            levels[class..end].fill(level);
+            (class, level) = (end, level + 1);
+        } else {
+            class += 1;
+        }
+    }
+    levels
 }
